@@ -1,0 +1,1 @@
+//! Target curvature and the discrete Ricci flow.

@@ -1,0 +1,1 @@
+//! Edge-length geometry on a Delta-complex: flips, tracing, correspondence.

@@ -1,0 +1,19 @@
+//! Bijective, low-distortion maps between two closed triangle meshes of genus 0 from corresponding landmarks.
+//!
+//! Data goes one way: mesh files -> polygon soup -> surface mesh -> landmarks -> base domain -> cone metric ->
+//! layout -> surface map -> outputs. A stage takes the previous stage's result by reference with its options and
+//! returns an owned result or its own error; only [`pipeline`] knows the order. The core knows no browser, no GPU,
+//! no clock and no printing.
+
+pub mod base_domain;
+pub mod cone_metric;
+pub mod intrinsic;
+pub mod io;
+pub mod landmarks;
+pub mod layout;
+pub mod math;
+pub mod mesh;
+pub mod monitor;
+pub mod numerics;
+pub mod pipeline;
+pub mod surface_map;

@@ -1,0 +1,5 @@
+//! Formulas on numbers. Knows no mesh.
+
+pub mod rigid2;
+pub mod scalar;
+pub mod triangle;

@@ -1,0 +1,68 @@
+//! Triangles from edge lengths or corner positions.
+
+use super::scalar::atan2;
+use glam::{DVec2, DVec3};
+
+/// Area of a triangle from its edge lengths by Kahan's stable form of Heron's formula.
+///
+/// Returns 0 where the triangle inequality fails.
+pub fn area_from_lengths(a: f64, b: f64, c: f64) -> f64 {
+    let (a, b) = if a < b { (b, a) } else { (a, b) };
+    let (a, c) = if a < c { (c, a) } else { (a, c) };
+    let (b, c) = if b < c { (c, b) } else { (b, c) };
+    let product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
+    0.25 * product.max(0.0).sqrt()
+}
+
+/// Interior angle, in radians, opposite edge `opposite`; `adjacent` are the two edges at the corner.
+pub fn angle_from_lengths(opposite: f64, adjacent: [f64; 2]) -> f64 {
+    let [b, c] = adjacent;
+    let area = area_from_lengths(opposite, b, c);
+    atan2(2.0 * area, 0.5 * ((b - opposite) * (b + opposite) + c * c))
+}
+
+/// Interior angle, in radians, at `p` of the triangle p, q, r.
+pub fn angle_at(p: DVec3, q: DVec3, r: DVec3) -> f64 {
+    let (u, v) = (q - p, r - p);
+    atan2(u.cross(v).length(), u.dot(v))
+}
+
+/// Area of the triangle p, q, r in space.
+pub fn area(p: DVec3, q: DVec3, r: DVec3) -> f64 {
+    0.5 * (q - p).cross(r - p).length()
+}
+
+/// Twice the signed area of the triangle p, q, r in the plane; positive when counter-clockwise.
+pub fn signed_double_area(p: DVec2, q: DVec2, r: DVec2) -> f64 {
+    (q - p).perp_dot(r - p)
+}
+
+/// Corner positions in the plane of a triangle with edge lengths |01|, |12|, |20|: corner 0 at the origin, corner 1
+/// on the positive x axis, corner 2 above it.
+pub fn lay_out([l01, l12, l20]: [f64; 3]) -> [DVec2; 3] {
+    let area = area_from_lengths(l01, l12, l20);
+    let x = (l01 * l01 + (l20 - l12) * (l20 + l12)) / (2.0 * l01);
+    [DVec2::ZERO, DVec2::new(l01, 0.0), DVec2::new(x, 2.0 * area / l01)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_layout_has_the_lengths() {
+        let [p, q, r] = lay_out([3.0, 2.5, 1.2]);
+        assert!((p.distance(q) - 3.0).abs() < 1e-14);
+        assert!((q.distance(r) - 2.5).abs() < 1e-14);
+        assert!((r.distance(p) - 1.2).abs() < 1e-14);
+        assert!(signed_double_area(p, q, r) > 0.0);
+    }
+
+    #[test]
+    fn angles_of_a_needle_sum_to_pi() {
+        let (a, b, c) = (1.0, 1.0, 1e-9);
+        let sum =
+            angle_from_lengths(a, [b, c]) + angle_from_lengths(b, [a, c]) + angle_from_lengths(c, [a, b]);
+        assert!((sum - std::f64::consts::PI).abs() < 1e-12);
+    }
+}

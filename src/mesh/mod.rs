@@ -1,0 +1,12 @@
+//! Typed elements, halfedge connectivity, polygon soup, checks and points on the surface.
+
+pub mod generators;
+mod ids;
+pub mod soup;
+mod surface_mesh;
+mod surface_point;
+
+pub(crate) use ids::id as ids_id;
+pub use ids::{FaceId, HalfedgeId, VertexId};
+pub use surface_mesh::{MeshError, SurfaceMesh};
+pub use surface_point::SurfacePoint;

@@ -1,0 +1,12 @@
+//! Polygons as files hold them: nothing is checked yet.
+
+use glam::DVec3;
+
+/// Positions and polygons as read from a file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PolygonSoup {
+    /// Vertex positions in file order.
+    pub positions: Vec<DVec3>,
+    /// Polygons as vertex numbers into `positions`, in file order and orientation.
+    pub polygons: Vec<Vec<u32>>,
+}

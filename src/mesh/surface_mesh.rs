@@ -1,0 +1,296 @@
+//! A closed, oriented, manifold triangle mesh with positions.
+
+use super::{FaceId, HalfedgeId, VertexId};
+use crate::math::triangle;
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
+
+/// A closed, oriented, manifold triangle mesh: every halfedge has a twin and every vertex one fan of triangles.
+///
+/// It may have any genus and number of components; [`crate::mesh::check`] asks for one component of genus 0.
+/// Immutable: algorithms that refine build a new one.
+#[derive(Clone, Debug)]
+pub struct SurfaceMesh {
+    positions: TiVec<VertexId, DVec3>,
+    faces: TiVec<FaceId, [VertexId; 3]>,
+    twins: TiVec<HalfedgeId, HalfedgeId>,
+    outgoing: TiVec<VertexId, HalfedgeId>,
+}
+
+/// Why triangles do not make a closed manifold mesh.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MeshError {
+    /// A face names a vertex that does not exist.
+    #[error("face {face} names vertex {vertex}, but there are {vertices} vertices")]
+    MissingVertex {
+        /// The face, 0-based.
+        face: usize,
+        /// The vertex number it names.
+        vertex: usize,
+        /// Number of vertices.
+        vertices: usize,
+    },
+    /// A halfedge occurs twice or has no twin.
+    #[error("edge {}-{} does not have exactly two oppositely oriented faces", edge[0], edge[1])]
+    Edge {
+        /// The vertex numbers of its ends.
+        edge: [usize; 2],
+    },
+    /// A vertex has no face or more than one fan of faces.
+    #[error("vertex {vertex} does not have exactly one fan of faces")]
+    Vertex {
+        /// The vertex, 0-based.
+        vertex: usize,
+    },
+}
+
+impl SurfaceMesh {
+    /// Builds the connectivity of triangles given as counter-clockwise vertex triples.
+    ///
+    /// # Errors
+    /// [`MeshError`] with the first element that is not manifold, closed or consistently oriented.
+    pub fn from_triangles(
+        positions: TiVec<VertexId, DVec3>,
+        faces: TiVec<FaceId, [VertexId; 3]>,
+    ) -> Result<Self, MeshError> {
+        check_vertex_numbers(positions.len(), &faces)?;
+        let twins = twins(&faces)?;
+        let outgoing = outgoing(positions.len(), &faces, &twins)?;
+        Ok(Self { positions, faces, twins, outgoing })
+    }
+
+    /// Number of vertices.
+    pub fn vertex_count(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Number of triangles.
+    pub fn face_count(&self) -> usize {
+        self.faces.len()
+    }
+
+    /// Number of edges, 3/2 of the number of triangles.
+    pub fn edge_count(&self) -> usize {
+        self.faces.len() * 3 / 2
+    }
+
+    /// V - E + F; 2 for one component of genus 0.
+    pub fn euler_characteristic(&self) -> i64 {
+        self.vertex_count() as i64 - self.edge_count() as i64 + self.face_count() as i64
+    }
+
+    /// All vertex numbers.
+    pub fn vertices(&self) -> impl ExactSizeIterator<Item = VertexId> + use<> {
+        (0..self.vertex_count()).map(VertexId::from)
+    }
+
+    /// All face numbers.
+    pub fn faces(&self) -> impl ExactSizeIterator<Item = FaceId> + use<> {
+        (0..self.face_count()).map(FaceId::from)
+    }
+
+    /// All halfedge numbers.
+    pub fn halfedges(&self) -> impl ExactSizeIterator<Item = HalfedgeId> + use<> {
+        (0..self.face_count() * 3).map(HalfedgeId::from)
+    }
+
+    /// The halfedges `h < twin(h)`: each edge once.
+    pub fn edges(&self) -> impl Iterator<Item = HalfedgeId> + '_ {
+        self.halfedges().filter(|&h| h < self.twins[h])
+    }
+
+    /// Corner positions by vertex.
+    pub fn positions(&self) -> &TiSlice<VertexId, DVec3> {
+        &self.positions
+    }
+
+    /// Vertex triples by face, counter-clockwise seen from outside.
+    pub fn triangles(&self) -> &TiSlice<FaceId, [VertexId; 3]> {
+        &self.faces
+    }
+
+    /// The opposite halfedge of the neighbouring face.
+    #[inline]
+    pub fn twin(&self, h: HalfedgeId) -> HalfedgeId {
+        self.twins[h]
+    }
+
+    /// Start vertex of a halfedge.
+    #[inline]
+    pub fn tail(&self, h: HalfedgeId) -> VertexId {
+        self.faces[h.face()][h.corner()]
+    }
+
+    /// End vertex of a halfedge.
+    #[inline]
+    pub fn head(&self, h: HalfedgeId) -> VertexId {
+        self.tail(h.next())
+    }
+
+    /// One halfedge that starts at the vertex.
+    #[inline]
+    pub fn outgoing(&self, v: VertexId) -> HalfedgeId {
+        self.outgoing[v]
+    }
+
+    /// The halfedges that start at the vertex, counter-clockwise.
+    pub fn star(&self, v: VertexId) -> impl Iterator<Item = HalfedgeId> + '_ {
+        let first = self.outgoing[v];
+        let mut next = Some(first);
+        std::iter::from_fn(move || {
+            let h = next?;
+            let following = self.twins[h.prev()];
+            next = (following != first).then_some(following);
+            Some(h)
+        })
+    }
+
+    /// The halfedge from one vertex to another, if they are neighbours.
+    pub fn halfedge_between(&self, tail: VertexId, head: VertexId) -> Option<HalfedgeId> {
+        self.star(tail).find(|&h| self.head(h) == head)
+    }
+
+    /// Corner positions of a face.
+    #[inline]
+    pub fn corners(&self, f: FaceId) -> [DVec3; 3] {
+        self.faces[f].map(|v| self.positions[v])
+    }
+
+    /// Length of an edge.
+    pub fn length(&self, h: HalfedgeId) -> f64 {
+        self.positions[self.tail(h)].distance(self.positions[self.head(h)])
+    }
+
+    /// Area of a face.
+    pub fn face_area(&self, f: FaceId) -> f64 {
+        let [p, q, r] = self.corners(f);
+        triangle::area(p, q, r)
+    }
+
+    /// Area of the whole surface.
+    pub fn area(&self) -> f64 {
+        self.faces().map(|f| self.face_area(f)).sum()
+    }
+
+    /// The same connectivity with other positions.
+    ///
+    /// # Panics
+    /// When the number of positions differs.
+    pub fn with_positions(&self, positions: TiVec<VertexId, DVec3>) -> Self {
+        assert_eq!(positions.len(), self.positions.len());
+        Self { positions, ..self.clone() }
+    }
+}
+
+fn check_vertex_numbers(vertices: usize, faces: &TiSlice<FaceId, [VertexId; 3]>) -> Result<(), MeshError> {
+    for (f, corners) in faces.iter_enumerated() {
+        if let Some(v) = corners.iter().find(|v| v.index() >= vertices) {
+            return Err(MeshError::MissingVertex { face: f.index(), vertex: v.index(), vertices });
+        }
+    }
+    Ok(())
+}
+
+fn twins(faces: &TiSlice<FaceId, [VertexId; 3]>) -> Result<TiVec<HalfedgeId, HalfedgeId>, MeshError> {
+    let edge_error = |a: VertexId, b: VertexId| MeshError::Edge { edge: [a.index(), b.index()] };
+    let mut by_ends = FxHashMap::default();
+    by_ends.reserve(faces.len() * 3);
+    for (f, corners) in faces.iter_enumerated() {
+        for k in 0..3 {
+            let (a, b) = (corners[k], corners[(k + 1) % 3]);
+            if a == b || by_ends.insert((a, b), HalfedgeId::of(f, k)).is_some() {
+                return Err(edge_error(a, b));
+            }
+        }
+    }
+    let mut twins = ti_vec![HalfedgeId(0); faces.len() * 3];
+    for (f, corners) in faces.iter_enumerated() {
+        for k in 0..3 {
+            let (a, b) = (corners[k], corners[(k + 1) % 3]);
+            twins[HalfedgeId::of(f, k)] = *by_ends.get(&(b, a)).ok_or_else(|| edge_error(a, b))?;
+        }
+    }
+    Ok(twins)
+}
+
+fn outgoing(
+    vertices: usize,
+    faces: &TiSlice<FaceId, [VertexId; 3]>,
+    twins: &TiSlice<HalfedgeId, HalfedgeId>,
+) -> Result<TiVec<VertexId, HalfedgeId>, MeshError> {
+    const NONE: HalfedgeId = HalfedgeId(u32::MAX);
+    let mut outgoing = ti_vec![NONE; vertices];
+    let mut visited = 0;
+    for h in (0..faces.len() * 3).map(HalfedgeId::from) {
+        let v = faces[h.face()][h.corner()];
+        if outgoing[v] != NONE {
+            continue;
+        }
+        outgoing[v] = h;
+        let mut around = h;
+        loop {
+            visited += 1;
+            around = twins[around.prev()];
+            if around == h {
+                break;
+            }
+        }
+    }
+    if let Some(v) = outgoing.iter().position(|&h| h == NONE) {
+        return Err(MeshError::Vertex { vertex: v });
+    }
+    if visited != faces.len() * 3 {
+        return Err(MeshError::Vertex { vertex: pinched_vertex(faces, twins, &outgoing) });
+    }
+    Ok(outgoing)
+}
+
+/// The first vertex whose fan from its outgoing halfedge misses one of its corners.
+fn pinched_vertex(
+    faces: &TiSlice<FaceId, [VertexId; 3]>,
+    twins: &TiSlice<HalfedgeId, HalfedgeId>,
+    outgoing: &TiSlice<VertexId, HalfedgeId>,
+) -> usize {
+    let mut corners = vec![0_usize; outgoing.len()];
+    faces.iter().flatten().for_each(|v| corners[v.index()] += 1);
+    for (v, &first) in outgoing.iter_enumerated() {
+        let mut fan = 0;
+        let mut h = first;
+        loop {
+            fan += 1;
+            h = twins[h.prev()];
+            if h == first {
+                break;
+            }
+        }
+        if fan != corners[v.index()] {
+            return v.index();
+        }
+    }
+    unreachable!("a pinched vertex was counted before")
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::mesh::generators::{icosphere, tetrahedron, torus};
+
+    #[test]
+    fn euler_characteristics() {
+        assert_eq!(tetrahedron().euler_characteristic(), 2);
+        assert_eq!(icosphere(3).euler_characteristic(), 2);
+        assert_eq!(torus(7, 5).euler_characteristic(), 0);
+    }
+
+    #[test]
+    fn twins_and_stars_agree() {
+        let mesh = icosphere(2);
+        for h in mesh.halfedges() {
+            assert_eq!(mesh.twin(mesh.twin(h)), h);
+            assert_eq!(mesh.tail(mesh.twin(h)), mesh.head(h));
+        }
+        let corners: usize = mesh.vertices().map(|v| mesh.star(v).count()).sum();
+        assert_eq!(corners, mesh.face_count() * 3);
+    }
+}

@@ -1,0 +1,29 @@
+//! Points on a surface mesh.
+
+use super::{FaceId, SurfaceMesh, VertexId};
+use glam::DVec3;
+
+/// A point of a triangle by its barycentric coordinates (non-negative, sum 1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// The triangle.
+    pub face: FaceId,
+    /// Weights of the triangle's corners 0, 1 and 2.
+    pub barycentric: [f64; 3],
+}
+
+impl SurfacePoint {
+    /// A vertex as a corner of one of its faces.
+    pub fn at_vertex(mesh: &SurfaceMesh, v: VertexId) -> Self {
+        let h = mesh.outgoing(v);
+        let mut barycentric = [0.0; 3];
+        barycentric[h.corner()] = 1.0;
+        Self { face: h.face(), barycentric }
+    }
+
+    /// Position in space.
+    pub fn position(&self, mesh: &SurfaceMesh) -> DVec3 {
+        let [p, q, r] = mesh.corners(self.face);
+        p * self.barycentric[0] + q * self.barycentric[1] + r * self.barycentric[2]
+    }
+}

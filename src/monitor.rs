@@ -1,0 +1,71 @@
+//! Progress and cancellation: the only upward call of the core.
+
+use std::fmt;
+
+/// The stages a user waits for, in the order of the pipeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Stage {
+    /// Landmarks are inserted and checked.
+    Landmarks,
+    /// The base domain and its embedding on both meshes.
+    BaseDomain,
+    /// The discrete Ricci flow of the source.
+    SourceConeMetric,
+    /// The discrete Ricci flow of the target.
+    TargetConeMetric,
+    /// Both surfaces onto the flat cone surface.
+    InitialMap,
+    /// Both parametrisations to least distortion.
+    Relaxation,
+    /// Source vertices located in the target's triangles.
+    Composition,
+    /// The independent check of bijectivity.
+    Certificate,
+    /// Textures, attributes and measures.
+    Transfer,
+}
+
+/// One report of an algorithm's progress.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Step {
+    /// Estimated share of the stage that is done, 0 to 1.
+    pub fraction: f64,
+    /// The quantity that the stage brings down (curvature error in radians, energy, ...), where there is one.
+    pub residual: Option<f64>,
+}
+
+/// The user asked to stop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cancelled;
+
+impl fmt::Display for Cancelled {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("stopped on request")
+    }
+}
+
+impl std::error::Error for Cancelled {}
+
+/// Receives progress and may ask to stop.
+///
+/// Algorithms call [`Monitor::step`] between iterations, never inside an inner loop, and return the error at once.
+pub trait Monitor {
+    /// A stage begins.
+    fn enter(&mut self, _stage: Stage) {}
+    /// The current stage went on; an error asks it to stop.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when the user asked to stop.
+    fn step(&mut self, step: Step) -> Result<(), Cancelled>;
+}
+
+/// A monitor that never stops anything.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Silent;
+
+impl Monitor for Silent {
+    fn step(&mut self, _step: Step) -> Result<(), Cancelled> {
+        Ok(())
+    }
+}

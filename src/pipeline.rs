@@ -1,0 +1,1 @@
+//! Options, order of the stages, report.

@@ -1,0 +1,56 @@
+//! Real meshes and landmark pairs that live beside the project, for tests and benchmarks.
+//!
+//! They are read from `../shared/data`. In continuous integration (`CI` is set) or where `../shared` exists, a missing file
+//! is a failure; a plain checkout has no such folder and skips these tests by name.
+#![allow(dead_code, reason = "every test binary uses another part")]
+
+use conemap::io::{landmark_file::LandmarkFile, off};
+use conemap::mesh::{SurfaceMesh, VertexId};
+use std::path::{Path, PathBuf};
+
+/// The data folder, or `None` (said on standard error) in a plain checkout.
+pub fn data_folder(test: &str) -> Option<PathBuf> {
+    let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared");
+    if !shared.exists() && std::env::var_os("CI").is_none() {
+        eprintln!("skipped {test}: the real meshes (../shared/data) are not part of a plain checkout");
+        return None;
+    }
+    let data = shared.join("data");
+    assert!(data.join("README.md").exists(), "{test} needs the real meshes in {}", data.display());
+    Some(data)
+}
+
+/// Reads a mesh of the data folder.
+pub fn read_mesh(path: &Path) -> SurfaceMesh {
+    let bytes = std::fs::read(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let soup = off::read(&bytes).unwrap_or_else(|| panic!("{}: not an OFF file", path.display()));
+    let faces = soup.polygons.iter().map(|p| [VertexId(p[0]), VertexId(p[1]), VertexId(p[2])]).collect();
+    SurfaceMesh::from_triangles(soup.positions.into(), faces).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// A landmark file with both its meshes.
+pub struct Pair {
+    pub name: String,
+    pub source: SurfaceMesh,
+    pub target: SurfaceMesh,
+    pub file: LandmarkFile,
+}
+
+/// Reads `pairs/NAME.json` and its meshes.
+pub fn read_pair(data: &Path, name: &str) -> Pair {
+    let path = data.join("pairs").join(format!("{name}.json"));
+    let text = std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let file: LandmarkFile = serde_json::from_slice(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let mesh = |p: &Option<String>| read_mesh(&data.join(p.as_ref().expect("pair files name their meshes")));
+    Pair { name: name.into(), source: mesh(&file.source), target: mesh(&file.target), file }
+}
+
+/// The names of all pair files, sorted.
+pub fn pair_names(data: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(data.join("pairs")).expect("the data folder has pairs");
+    let mut names: Vec<String> = entries
+        .filter_map(|e| Some(e.ok()?.path().file_stem()?.to_str()?.to_owned()))
+        .collect();
+    names.sort();
+    names
+}

@@ -1,0 +1,2 @@
+//! Build helper of the project.
+fn main() {}
