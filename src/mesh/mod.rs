@@ -5,8 +5,10 @@ mod ids;
 pub mod soup;
 mod surface_mesh;
 mod surface_point;
+mod textured;
 
 pub(crate) use ids::id as ids_id;
 pub use ids::{FaceId, HalfedgeId, VertexId};
 pub use surface_mesh::{MeshError, SurfaceMesh};
 pub use surface_point::SurfacePoint;
+pub use textured::TexturedMesh;

@@ -1,1 +1,0 @@
-//! Options, order of the stages, report.

@@ -1,0 +1,112 @@
+//! The numbers of a run, stable as JSON.
+
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// The numbers of a run. Fields that a method does not have are `null`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Report {
+    /// Size of the base domain.
+    pub base_domain: BaseDomainReport,
+    /// Both flows.
+    pub cone_metric: ConeMetricsReport,
+    /// The independent check of bijectivity; `null` for the thesis' method, which is not bijective.
+    pub certificate: Option<CertificateReport>,
+    /// Distortion of the map.
+    pub distortion: DistortionReport,
+    /// Share of the source's vertices without an image; 0 for the relaxed map.
+    pub unmapped_share: f64,
+    /// Distance to the true images in units of sqrt(target area), where the truth is known.
+    pub ground_truth: Option<GroundTruthReport>,
+    /// Triangles of the two input meshes.
+    pub faces: FacesReport,
+    /// What the user should know about the quality of the result, as sentences.
+    pub warnings: Vec<String>,
+    /// Wall-clock seconds by stage, and `total`; filled by whoever holds a clock.
+    pub seconds: BTreeMap<String, f64>,
+}
+
+/// Size of the base domain.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct BaseDomainReport {
+    /// One vertex per landmark.
+    pub vertices: usize,
+    /// 2 vertices - 4.
+    pub faces: usize,
+}
+
+/// Both flows.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ConeMetricsReport {
+    /// The source's flow.
+    pub source: ConeMetricReport,
+    /// The target's flow.
+    pub target: ConeMetricReport,
+}
+
+/// One flow.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ConeMetricReport {
+    /// Accepted Newton steps.
+    pub newton_steps: usize,
+    /// Conjugate gradient iterations of all steps.
+    pub cg_iterations: usize,
+    /// Edge flips of all steps.
+    pub edge_flips: usize,
+    /// Largest |target - curvature| at the end, in radians.
+    pub max_curvature_error: f64,
+    /// The same before the first and after each step.
+    pub residuals: Vec<f64>,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+}
+
+/// The independent check of bijectivity.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct CertificateReport {
+    /// Whether both parametrisations are homeomorphisms.
+    pub bijective: bool,
+    /// Triangles of both refined meshes that are not positively oriented.
+    pub flipped_triangles: usize,
+    /// Largest difference of an angle sum from 2 pi (or the cone angle), in radians.
+    pub max_angle_sum_error: f64,
+    /// Largest distance of a landmark's image from its landmark, in units of sqrt(area).
+    pub max_landmark_error: f64,
+}
+
+/// Distortion of the map, both areas scaled to 1.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct DistortionReport {
+    /// Integral of |J|^2 over the source plus |J^-1|^2 over the target; 4 for an isometry.
+    pub energy: f64,
+    /// Area-weighted mean over the source of (s1^2 + s2^2 + s1^-2 + s2^-2) / 4; 1 for an isometry.
+    pub mean: f64,
+    /// Its area-weighted median.
+    pub median: f64,
+    /// Its area-weighted 95 % quantile.
+    pub p95: f64,
+    /// Its maximum.
+    pub max: f64,
+    /// L2 stretch of the target's texture coordinates (Sander et al. 2001); 1 for an isometry.
+    pub l2_stretch: f64,
+}
+
+/// Distance to the true images, in units of sqrt(target area).
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct GroundTruthReport {
+    /// Mean over the source's vertices.
+    pub mean: f64,
+    /// 95 % quantile.
+    pub p95: f64,
+    /// Maximum.
+    pub max: f64,
+}
+
+/// Triangles of the two input meshes.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct FacesReport {
+    /// Of the source.
+    pub source: usize,
+    /// Of the target.
+    pub target: usize,
+}
