@@ -1,2 +1,33 @@
-//! The command line.
-fn main() {}
+//! The command line: `conemap map` and `conemap flow`.
+//!
+//! Progress and errors go to standard error; the exit code is 0 only for a converged, certified result.
+#![allow(clippy::print_stderr, reason = "a command line prints")]
+
+#[path = "conemap/arguments.rs"]
+mod arguments;
+#[path = "conemap/clock.rs"]
+mod clock;
+#[path = "conemap/flow.rs"]
+mod flow;
+#[path = "conemap/input.rs"]
+mod input;
+#[path = "conemap/map.rs"]
+mod map;
+
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments = arguments::Arguments::parse();
+    let outcome = match &arguments.command {
+        arguments::Command::Map(options) => map::run(options),
+        arguments::Command::Flow(options) => flow::run(options),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("conemap: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}

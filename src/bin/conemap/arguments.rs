@@ -1,0 +1,103 @@
+//! What the user types.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Bijective, low-distortion maps between closed triangle meshes of genus 0.
+#[derive(Debug, Parser)]
+#[command(name = "conemap", version, about)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Map a source mesh onto a target mesh from corresponding landmarks.
+    Map(MapArguments),
+    /// Deform one mesh conformally to a flat metric with prescribed cones.
+    Flow(FlowArguments),
+}
+
+/// `conemap map`.
+#[derive(Debug, Args)]
+pub struct MapArguments {
+    /// Source mesh: OBJ, OFF, PLY, STL, GLB or glTF; closed, genus 0.
+    pub source: PathBuf,
+    /// Target mesh, likewise.
+    pub target: PathBuf,
+    /// Landmark file: JSON with `pairs: [[source, target], ...]`, each side a 0-based vertex or `{"face", "barycentric"}`.
+    #[arg(long)]
+    pub landmarks: PathBuf,
+    /// How the map is made.
+    #[arg(long, value_enum, default_value_t = MethodArgument::Relaxed)]
+    pub method: MethodArgument,
+    /// Where the base domain comes from.
+    #[arg(long, value_enum, default_value_t = BaseArgument::Joint)]
+    pub base: BaseArgument,
+    /// Curvature at the landmarks.
+    #[arg(long, value_enum, default_value_t = ConesArgument::BaseDomain)]
+    pub cones: ConesArgument,
+    /// Folder for the textured source (GLB), the vertex images (CSV) and the base domain (OBJ).
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+    /// File for the report (JSON).
+    #[arg(long)]
+    pub report: Option<PathBuf>,
+}
+
+/// `conemap flow`.
+#[derive(Debug, Args)]
+pub struct FlowArguments {
+    /// Mesh: OBJ, OFF, PLY, STL, GLB or glTF; closed, genus 0.
+    pub mesh: PathBuf,
+    /// Text file of lines `vertex angle_defect` (0-based, radians); all other vertices become flat. The sum must be 4 pi.
+    #[arg(long)]
+    pub cones: PathBuf,
+    /// The discrete conformal structure.
+    #[arg(long, value_enum, default_value_t = SchemeArgument::Inversive)]
+    pub scheme: SchemeArgument,
+    /// File for the report (JSON).
+    #[arg(long)]
+    pub report: Option<PathBuf>,
+}
+
+/// How the map is made.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum MethodArgument {
+    /// Two seamless parametrisations onto one flat cone surface, relaxed: bijective.
+    Relaxed,
+    /// The thesis' patchwise map, with its unmapped share.
+    Thesis,
+}
+
+/// Where the base domain comes from.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum BaseArgument {
+    /// Planned on both meshes at once.
+    Joint,
+    /// Quadric error simplification of the target.
+    Qem,
+}
+
+/// Curvature at the landmarks.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum ConesArgument {
+    /// The base domain's angle defects.
+    BaseDomain,
+    /// 4 pi divided by the number of landmarks.
+    Uniform,
+}
+
+/// The discrete conformal structure of the flow.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum SchemeArgument {
+    /// Inversive distances, weighted Delaunay flips.
+    Inversive,
+    /// Vertex scaling, Delaunay flips.
+    VertexScaling,
+    /// Inversive distances without flips, as in the thesis.
+    FixedTriangulation,
+}
