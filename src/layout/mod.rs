@@ -2,11 +2,27 @@
 //!
 //! The edges of the base domain become paths of mesh edges on refined copies of both meshes (edges and faces that a
 //! path crosses are split), non-crossing, with the same cyclic order at every landmark on both sides. The patches
-//! between them are discs, one per base face (Kraevoy & Sheffer 2004).
+//! between them are discs, one per base face (Kraevoy & Sheffer 2004). A spanning tree is drawn first, because a tree
+//! never separates; then the shortest and straightest of the pairs not yet adjacent. Several orders are tried and the
+//! one with the least detours is kept.
+
+mod drawing;
+mod geodesics;
+mod joint;
+mod patches;
+mod refinable;
+mod search;
 
 use crate::base_domain::BaseDomain;
+use crate::landmarks::Landmarks;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
+use crate::monitor::{Cancelled, Monitor};
+use drawing::{Drawing, Planner};
+use geodesics::LandmarkDistances;
+use joint::{Geodesics, Ground, Variant};
 use typed_index_collections::TiVec;
+
+pub use patches::PatchFault;
 
 /// The base domain and its drawing on both meshes.
 #[derive(Clone, Debug)]
@@ -17,6 +33,8 @@ pub struct BaseLayout {
     pub source: PatchedMesh,
     /// The drawing on the target.
     pub target: PatchedMesh,
+    /// How straight the paths are.
+    pub report: LayoutReport,
 }
 
 /// A mesh refined along the paths of the base domain and cut into its patches.
@@ -35,4 +53,149 @@ pub struct PatchedMesh {
     /// For each base halfedge the refined vertices of its path, both landmarks included; a twin's path is the reverse.
     /// Consecutive vertices are joined by mesh edges, and the patch of the halfedge's face lies on the left.
     pub paths: TiVec<HalfedgeId, Vec<VertexId>>,
+}
+
+/// How straight the paths of a layout are.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LayoutReport {
+    /// Sum over all paths of both meshes of max(0, length / shortest length - 1.1): 0 for straight layouts.
+    pub detour: f64,
+    /// The largest length / shortest length.
+    pub worst_stretch: f64,
+    /// Attempts made.
+    pub attempts: usize,
+}
+
+/// In which order the spanning tree is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TreeOrder {
+    /// Longest edge first.
+    LongestFirst,
+    /// Layer by layer from the leaves.
+    LeavesFirst,
+    /// Shortest edge first.
+    ShortestFirst,
+}
+
+/// How a layout is searched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LayoutOptions {
+    /// Orders of drawing that are tried at most, 1 to 6.
+    pub attempts: usize,
+    /// A layout with at most this detour ([`LayoutReport::detour`]) is taken at once.
+    pub good_detour: f64,
+}
+
+impl Default for LayoutOptions {
+    fn default() -> Self {
+        Self { attempts: 6, good_detour: 0.5 }
+    }
+}
+
+/// Why no layout was found.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LayoutError {
+    /// The user asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// No path inside the sectors.
+    #[error("no path was found between landmarks {} and {}", landmarks[0], landmarks[1])]
+    NoPath {
+        /// The landmarks, 0-based.
+        landmarks: [usize; 2],
+    },
+    /// Every pair was tried.
+    #[error("the layout stopped at {paths} of {wanted} paths")]
+    Stuck {
+        /// Paths drawn.
+        paths: usize,
+        /// Paths of a triangulation.
+        wanted: usize,
+    },
+    /// The paths do not bound discs.
+    #[error("the patches are not valid: {0}")]
+    Patches(#[from] PatchFault),
+}
+
+const VARIANTS: [Variant; 6] = [
+    Variant { order: TreeOrder::LongestFirst, midpoint_penalty: 1.0 },
+    Variant { order: TreeOrder::LeavesFirst, midpoint_penalty: 1.0 },
+    Variant { order: TreeOrder::LongestFirst, midpoint_penalty: 1.3 },
+    Variant { order: TreeOrder::LeavesFirst, midpoint_penalty: 1.3 },
+    Variant { order: TreeOrder::ShortestFirst, midpoint_penalty: 1.0 },
+    Variant { order: TreeOrder::ShortestFirst, midpoint_penalty: 1.3 },
+];
+
+/// Plans the base domain on both meshes at once and draws it.
+///
+/// # Errors
+/// [`LayoutError`] when no order of drawing ends in a triangulation.
+pub fn joint(
+    meshes: [&SurfaceMesh; 2],
+    landmarks: &Landmarks,
+    options: &LayoutOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<BaseLayout, LayoutError> {
+    let empty = Drawing::new(meshes[0], meshes[1], landmarks);
+    let distances = LandmarkDistances::new(meshes, [&landmarks.source, &landmarks.target]);
+    let ground = Ground { empty: &empty, distances: &distances };
+    let mut geodesics = Geodesics::new(landmarks.len());
+    let mut best: Option<(Drawing, LayoutReport)> = None;
+    let mut failure = LayoutError::Stuck { paths: 0, wanted: 3 * landmarks.len() - 6 };
+    let mut attempts = 0;
+    for &variant in VARIANTS.iter().take(options.attempts.max(1)) {
+        attempts += 1;
+        let drawing = match joint::draw(&ground, variant, &mut geodesics, monitor) {
+            Ok(drawing) => drawing,
+            Err(LayoutError::Cancelled(stop)) => return Err(stop.into()),
+            Err(error) => {
+                failure = error;
+                continue;
+            }
+        };
+        let report = report(&drawing, &empty, &mut geodesics);
+        let good = report.detour <= options.good_detour;
+        if best.as_ref().is_none_or(|(_, b)| report.detour < b.detour) {
+            best = Some((drawing, report));
+        }
+        if good {
+            break;
+        }
+    }
+    let (drawing, mut report) = best.ok_or(failure)?;
+    report.attempts = attempts;
+    let base = patches::base_of(&drawing, meshes[1], landmarks)?;
+    Ok(patches::finish(drawing, base, meshes, report)?)
+}
+
+/// Draws a given base domain (its vertex k is landmark k) on both meshes.
+///
+/// # Errors
+/// [`LayoutError`] when one of its edges finds no path.
+pub fn from_base(
+    meshes: [&SurfaceMesh; 2],
+    landmarks: &Landmarks,
+    base: &BaseDomain,
+    monitor: &mut dyn Monitor,
+) -> Result<BaseLayout, LayoutError> {
+    let empty = Drawing::new(meshes[0], meshes[1], landmarks);
+    let distances = LandmarkDistances::new(meshes, [&landmarks.source, &landmarks.target]);
+    let drawing = joint::draw_base(&Ground { empty: &empty, distances: &distances }, base, monitor)?;
+    let report = report(&drawing, &empty, &mut Geodesics::new(landmarks.len()));
+    Ok(patches::finish(drawing, base.clone(), meshes, report)?)
+}
+
+fn report(drawing: &Drawing, empty: &Drawing, geodesics: &mut Geodesics) -> LayoutReport {
+    let mut planner = Planner::new(1.0);
+    let mut report = LayoutReport { attempts: 1, ..LayoutReport::default() };
+    for (path, &ends) in drawing.ends.iter().enumerate() {
+        let shortest = geodesics.between(empty, &mut planner, ends);
+        for (side, geodesic) in drawing.sides.iter().zip(shortest) {
+            let stretch = side.lengths[path] / geodesic;
+            report.detour += (stretch - 1.1).max(0.0);
+            report.worst_stretch = report.worst_stretch.max(stretch);
+        }
+    }
+    report
 }

@@ -25,7 +25,8 @@ pub fn read_mesh(path: &Path) -> SurfaceMesh {
     let bytes = std::fs::read(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     let soup = off::read(&bytes).unwrap_or_else(|| panic!("{}: not an OFF file", path.display()));
     let faces = soup.polygons.iter().map(|p| [VertexId(p[0]), VertexId(p[1]), VertexId(p[2])]).collect();
-    SurfaceMesh::from_triangles(soup.positions.into(), faces).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+    SurfaceMesh::from_triangles(soup.positions.into(), faces)
+        .unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
 /// A landmark file with both its meshes.
@@ -40,7 +41,8 @@ pub struct Pair {
 pub fn read_pair(data: &Path, name: &str) -> Pair {
     let path = data.join("pairs").join(format!("{name}.json"));
     let text = std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    let file: LandmarkFile = serde_json::from_slice(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let file: LandmarkFile =
+        serde_json::from_slice(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     let mesh = |p: &Option<String>| read_mesh(&data.join(p.as_ref().expect("pair files name their meshes")));
     Pair { name: name.into(), source: mesh(&file.source), target: mesh(&file.target), file }
 }
@@ -48,9 +50,8 @@ pub fn read_pair(data: &Path, name: &str) -> Pair {
 /// The names of all pair files, sorted.
 pub fn pair_names(data: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(data.join("pairs")).expect("the data folder has pairs");
-    let mut names: Vec<String> = entries
-        .filter_map(|e| Some(e.ok()?.path().file_stem()?.to_str()?.to_owned()))
-        .collect();
+    let mut names: Vec<String> =
+        entries.filter_map(|e| Some(e.ok()?.path().file_stem()?.to_str()?.to_owned())).collect();
     names.sort();
     names
 }

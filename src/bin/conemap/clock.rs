@@ -50,7 +50,9 @@ impl Monitor for Clock {
     }
 
     fn step(&mut self, step: Step) -> Result<(), Cancelled> {
-        if self.terminal && let Some((stage, _)) = self.stage {
+        if self.terminal
+            && let Some((stage, _)) = self.stage
+        {
             let residual = step.residual.map_or_else(String::new, |r| format!("  {r:.3e}"));
             self.line(&format!("{:<20} {:5.1} %{residual}", name(stage), 100.0 * step.fraction));
         }

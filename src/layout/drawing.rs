@@ -1,0 +1,259 @@
+//! The growing drawing of one graph on two meshes: the same rotation system at every landmark.
+
+use super::refinable::RefinableMesh;
+use super::search::{Bounded, EndStep, FoundPath, Node, PathSearch, Sector};
+use crate::landmarks::Landmarks;
+use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
+
+/// One of the two meshes with the paths drawn so far.
+#[derive(Clone, Debug)]
+pub(super) struct Side {
+    pub mesh: RefinableMesh,
+    /// Vertex of each landmark.
+    pub landmarks: Vec<VertexId>,
+    /// Vertices of each path, from its smaller landmark to its larger.
+    pub paths: Vec<Vec<VertexId>>,
+    /// Length of each path.
+    pub lengths: Vec<f64>,
+}
+
+/// A path between two landmarks planned on both meshes.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    /// The landmarks, smaller first.
+    pub ends: [usize; 2],
+    /// On the source and on the target.
+    pub found: [FoundPath; 2],
+    /// Sector at each end: the path goes in after the path at this place of the rotation.
+    slots: [usize; 2],
+}
+
+/// The drawing on both meshes.
+#[derive(Clone, Debug)]
+pub(super) struct Drawing {
+    pub sides: [Side; 2],
+    /// Landmarks of each path, smaller first.
+    pub ends: Vec<[usize; 2]>,
+    /// Paths around each landmark, counter-clockwise.
+    pub rotation: Vec<Vec<usize>>,
+}
+
+/// Search memory of both sides, and the cost of midpoints.
+pub(super) struct Planner {
+    searches: [PathSearch; 2],
+    pub midpoint_penalty: f64,
+}
+
+impl Planner {
+    pub fn new(midpoint_penalty: f64) -> Self {
+        Self { searches: [PathSearch::default(), PathSearch::default()], midpoint_penalty }
+    }
+}
+
+impl Drawing {
+    /// Nothing drawn yet.
+    pub fn new(source: &SurfaceMesh, target: &SurfaceMesh, landmarks: &Landmarks) -> Self {
+        let side = |mesh: &SurfaceMesh, vertices: &[VertexId]| Side {
+            mesh: RefinableMesh::new(mesh, vertices),
+            landmarks: vertices.to_vec(),
+            paths: Vec::new(),
+            lengths: Vec::new(),
+        };
+        Self {
+            sides: [side(source, &landmarks.source), side(target, &landmarks.target)],
+            ends: Vec::new(),
+            rotation: vec![Vec::new(); landmarks.len()],
+        }
+    }
+
+    /// Plans a path: searched freely on one mesh, its sectors imposed on the other; both ways round, the shorter kept.
+    pub fn plan(&self, planner: &mut Planner, ends: [usize; 2]) -> Option<Plan> {
+        let mut best: Option<Plan> = None;
+        let mut tried: Option<[usize; 2]> = None;
+        for free in 0..2 {
+            let all = ends.map(|i| self.sectors(free, i));
+            let Some(first) = self.search(planner, free, ends, [&all[0], &all[1]]) else { continue };
+            let slots = self.slots(free, ends, &first)?;
+            if tried == Some(slots) {
+                continue;
+            }
+            tried = Some(slots);
+            let other = 1 - free;
+            let Some(second) = self.search_in_slots(planner, other, ends, slots) else { continue };
+            let found = if free == 0 { [first, second] } else { [second, first] };
+            let plan = Plan { ends, found, slots };
+            if best.as_ref().is_none_or(|b| plan.length() < b.length()) {
+                best = Some(plan);
+            }
+        }
+        best
+    }
+
+    /// Plans a path with its sectors given: it goes in after place `slots[e]` of the rotation at end `e`.
+    pub fn plan_in_slots(&self, planner: &mut Planner, ends: [usize; 2], slots: [usize; 2]) -> Option<Plan> {
+        let source = self.search_in_slots(planner, 0, ends, slots)?;
+        let target = self.search_in_slots(planner, 1, ends, slots)?;
+        Some(Plan { ends, found: [source, target], slots })
+    }
+
+    fn search_in_slots(
+        &self,
+        planner: &mut Planner,
+        side: usize,
+        ends: [usize; 2],
+        slots: [usize; 2],
+    ) -> Option<FoundPath> {
+        let [a, b] = [0, 1].map(|e| self.sectors(side, ends[e]).swap_remove(slots[e]));
+        self.search(planner, side, ends, [&[a], &[b]])
+    }
+
+    fn search(
+        &self,
+        planner: &mut Planner,
+        side: usize,
+        ends: [usize; 2],
+        sectors: [&[Sector]; 2],
+    ) -> Option<FoundPath> {
+        let Side { mesh, landmarks, .. } = &self.sides[side];
+        let vertices = ends.map(|i| landmarks[i]);
+        planner.searches[side].shortest(mesh, vertices, sectors, planner.midpoint_penalty)
+    }
+
+    /// Whether a plan made earlier can still be drawn as it is: more paths only lengthen, so it is then still the best.
+    pub fn still_valid(&self, plan: &Plan) -> bool {
+        (0..2).all(|s| {
+            let nodes = &plan.found[s].nodes;
+            let inner = &nodes[1..nodes.len() - 1];
+            inner.iter().all(|&node| self.sides[s].is_free(node))
+                && nodes.windows(2).all(|link| self.sides[s].is_linked(link[0], link[1]))
+        }) && {
+            let slots = [0, 1].map(|s| self.slots(s, plan.ends, &plan.found[s]));
+            slots[0].is_some() && slots[0] == slots[1]
+        }
+    }
+
+    /// Draws a plan. Returns `None`, leaving the drawing unusable, where a node is not free any more.
+    pub fn draw(&mut self, plan: &Plan) -> Option<()> {
+        let slots = self.slots(0, plan.ends, &plan.found[0])?;
+        for (side, found) in self.sides.iter_mut().zip(&plan.found) {
+            side.realise(&found.nodes)?;
+        }
+        let path = self.ends.len();
+        self.ends.push(plan.ends);
+        for (end, slot) in plan.ends.into_iter().zip(slots) {
+            let around = &mut self.rotation[end];
+            around.insert((slot + 1).min(around.len()), path);
+        }
+        Some(())
+    }
+
+    /// The outgoing halfedge of a path at one of its landmarks.
+    pub fn path_halfedge(&self, side: usize, landmark: usize, path: usize) -> Option<HalfedgeId> {
+        let vertices = &self.sides[side].paths[path];
+        let n = vertices.len();
+        let at_start = self.ends[path][0] == landmark;
+        let (from, to) =
+            if at_start { (vertices[0], vertices[1]) } else { (vertices[n - 1], vertices[n - 2]) };
+        self.sides[side].mesh.halfedge_between(from, to)
+    }
+
+    fn sectors(&self, side: usize, landmark: usize) -> Vec<Sector> {
+        let around = &self.rotation[landmark];
+        let halfedges: Vec<_> =
+            around.iter().filter_map(|&p| self.path_halfedge(side, landmark, p)).collect();
+        if halfedges.is_empty() {
+            let any = self.sides[side].mesh.outgoing[self.sides[side].landmarks[landmark]];
+            return vec![Sector { first: any, last: any, bounded: Bounded::WholeStar }];
+        }
+        let next = |k: usize| halfedges[(k + 1) % halfedges.len()];
+        (0..halfedges.len())
+            .map(|k| Sector { first: halfedges[k], last: next(k), bounded: Bounded::ByPaths })
+            .collect()
+    }
+
+    fn slots(&self, side: usize, ends: [usize; 2], found: &FoundPath) -> Option<[usize; 2]> {
+        Some([self.slot(side, ends[0], found.start_step)?, self.slot(side, ends[1], found.end_step)?])
+    }
+
+    /// The place of the rotation after which a path with this end step goes in.
+    fn slot(&self, side: usize, landmark: usize, step: EndStep) -> Option<usize> {
+        let around = &self.rotation[landmark];
+        if around.is_empty() {
+            return Some(0);
+        }
+        let Side { mesh, landmarks, .. } = &self.sides[side];
+        let (EndStep::Along(neighbour) | EndStep::After(neighbour)) = step;
+        let start = mesh.halfedge_between(landmarks[landmark], neighbour)?;
+        let mut h = start;
+        while !mesh.on_path[h] {
+            h = mesh.twins[h].next();
+            if h == start {
+                return None;
+            }
+        }
+        if h == start && matches!(step, EndStep::Along(_)) {
+            return None;
+        }
+        around.iter().position(|&p| self.path_halfedge(side, landmark, p) == Some(h))
+    }
+}
+
+impl Plan {
+    /// Sum of both lengths.
+    pub fn length(&self) -> f64 {
+        self.found[0].length + self.found[1].length
+    }
+}
+
+impl Side {
+    fn is_free(&self, node: Node) -> bool {
+        match node {
+            Node::Vertex(v) => !self.mesh.used[v],
+            Node::Midpoint(a, b) => self.mesh.halfedge_between(a, b).is_some_and(|h| !self.mesh.on_path[h]),
+        }
+    }
+
+    /// Whether two nodes still share a triangle that nothing cuts between them.
+    fn is_linked(&self, from: Node, to: Node) -> bool {
+        let mesh = &self.mesh;
+        match (from, to) {
+            (Node::Vertex(v), Node::Vertex(w)) => {
+                mesh.halfedge_between(v, w).is_some_and(|h| !mesh.on_path[h])
+            }
+            (Node::Vertex(v), Node::Midpoint(a, b)) | (Node::Midpoint(a, b), Node::Vertex(v)) => mesh
+                .halfedge_between(a, b)
+                .is_some_and(|h| mesh.apex(h) == v || mesh.apex(mesh.twins[h]) == v),
+            (Node::Midpoint(a, b), Node::Midpoint(c, d)) => mesh.halfedge_between(a, b).is_some_and(|h| {
+                mesh.halfedge_between(c, d).is_some_and(|g| {
+                    [h, mesh.twins[h]]
+                        .iter()
+                        .any(|x| x.face() == g.face() || x.face() == mesh.twins[g].face())
+                })
+            }),
+        }
+    }
+
+    /// Splits the edges of the path's midpoints and marks its edges.
+    fn realise(&mut self, nodes: &[Node]) -> Option<()> {
+        let mut vertices = Vec::with_capacity(nodes.len());
+        for &node in nodes {
+            vertices.push(match node {
+                Node::Vertex(v) => v,
+                Node::Midpoint(a, b) => {
+                    let h = self.mesh.halfedge_between(a, b)?;
+                    self.mesh.split_edge(h)
+                }
+            });
+        }
+        let mut length = 0.0;
+        for pair in vertices.windows(2) {
+            let h = self.mesh.halfedge_between(pair[0], pair[1])?;
+            self.mesh.mark_path(h);
+            length += self.mesh.positions[pair[0]].distance(self.mesh.positions[pair[1]]);
+        }
+        vertices.iter().for_each(|&v| self.mesh.used[v] = true);
+        self.paths.push(vertices);
+        self.lengths.push(length);
+        Some(())
+    }
+}
