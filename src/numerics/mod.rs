@@ -1,1 +1,3 @@
 //! Sparse matrices and solvers. Knows no mesh.
+
+pub mod block_csr;

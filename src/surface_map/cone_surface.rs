@@ -1,6 +1,8 @@
 //! The flat cone surface M: the base domain's triangles made flat.
 
+use super::MapError;
 use crate::base_domain::BaseDomain;
+use crate::layout::{BaseLayout, PatchedMesh};
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
@@ -52,5 +54,30 @@ impl ConeSurface {
         };
         let cone_angles = mesh.vertices().map(|v| mesh.star(v).map(angle).sum()).collect();
         Self { base, lengths, charts, transitions, cone_angles }
+    }
+}
+
+impl ConeSurface {
+    /// The cone surface of a layout: lengths are the means of the landmarks' chord lengths on source and target.
+    ///
+    /// # Errors
+    /// [`MapError::DegenerateBase`] where three landmarks are in line on both meshes.
+    pub fn of_layout(layout: &BaseLayout) -> Result<Self, MapError> {
+        let mesh = &layout.base.mesh;
+        let chord = |side: &PatchedMesh, h: HalfedgeId| {
+            let [p, q] =
+                [mesh.tail(h), mesh.head(h)].map(|l| side.mesh.positions()[side.landmark_vertices[l]]);
+            p.distance(q)
+        };
+        let mean = |h| 0.5 * (chord(&layout.source, h) + chord(&layout.target, h));
+        let lengths: TiVec<HalfedgeId, f64> = mesh.halfedges().map(mean).collect();
+        for f in mesh.faces() {
+            let [a, b, c] = [0, 1, 2].map(|k| lengths[HalfedgeId::of(f, k)]);
+            let longest = a.max(b).max(c);
+            if triangle::area_from_lengths(a, b, c) < 1e-7 * longest * longest {
+                return Err(MapError::DegenerateBase { landmarks: mesh.triangles()[f].map(usize::from) });
+            }
+        }
+        Ok(Self::from_lengths(layout.base.clone(), lengths))
     }
 }

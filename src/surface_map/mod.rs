@@ -3,8 +3,45 @@
 //! Source -> M and target -> M are homeomorphisms that keep the landmarks at the cones; the map is one after the
 //! inverse of the other.
 
+pub mod certificate;
+mod charted;
 pub mod cone_surface;
 pub mod embedding;
+pub mod energy;
+pub mod flat_problem;
+pub mod initial;
+mod placement;
+mod progressive;
 
+pub use certificate::{Certificate, certify};
 pub use cone_surface::ConeSurface;
 pub use embedding::Embedding;
+
+use crate::monitor::Cancelled;
+
+/// Why there is no map.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MapError {
+    /// The user asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// Landmarks so placed that a base triangle is degenerate.
+    #[error("landmarks {}, {} and {} lie on one line on both meshes: move one of them", landmarks[0], landmarks[1], landmarks[2])]
+    DegenerateBase {
+        /// The landmarks, 0-based.
+        landmarks: [usize; 3],
+    },
+    /// Vertices that could not be collapsed.
+    #[error("{left} vertices could not be simplified away")]
+    NotCoarsened {
+        /// How many.
+        left: usize,
+    },
+    /// A vertex that found no place.
+    #[error("no valid start: the parametrisation got stuck at {vertices} vertices")]
+    NoStart {
+        /// Vertices of the level.
+        vertices: usize,
+    },
+}

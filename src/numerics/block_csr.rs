@@ -1,0 +1,248 @@
+//! Symmetric sparse matrices of 2 x 2 blocks, solved by conjugate gradients.
+//!
+//! The preconditioner is symmetric block Gauss-Seidel: one forward and one backward sweep, exact on the diagonal blocks.
+
+use glam::{DMat2, DVec2};
+
+/// A symmetric matrix of 2 x 2 blocks with a fixed pattern; both triangles are stored.
+#[derive(Clone, Debug)]
+pub struct BlockCsr {
+    /// Start of each row in `columns`, and one past the end.
+    starts: Vec<u32>,
+    /// Block columns, ascending in each row; the diagonal is always there.
+    columns: Vec<u32>,
+    /// Place of the diagonal block of each row.
+    diagonal: Vec<u32>,
+    blocks: Vec<DMat2>,
+    inverse_diagonal: Vec<DMat2>,
+}
+
+impl BlockCsr {
+    /// The pattern of all pairs `(row, column)`; the diagonal is added, duplicates are merged, all blocks zero.
+    pub fn with_pattern(rows: usize, pairs: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
+        let mut counts = vec![1_u32; rows + 1];
+        counts[rows] = 0;
+        pairs.clone().filter(|(i, j)| i != j).for_each(|(i, _)| counts[i as usize] += 1);
+        let mut starts = vec![0_u32; rows + 1];
+        for i in 0..rows {
+            starts[i + 1] = starts[i] + counts[i];
+        }
+        let mut fill = starts.clone();
+        let mut columns = vec![0_u32; starts[rows] as usize];
+        let mut put = |i: u32, j: u32| {
+            columns[fill[i as usize] as usize] = j;
+            fill[i as usize] += 1;
+        };
+        (0..rows as u32).for_each(|i| put(i, i));
+        pairs.filter(|(i, j)| i != j).for_each(|(i, j)| put(i, j));
+        Self::merge_duplicates(rows, &starts, columns)
+    }
+
+    fn merge_duplicates(rows: usize, loose: &[u32], mut columns: Vec<u32>) -> Self {
+        let mut starts = Vec::with_capacity(rows + 1);
+        let mut diagonal = Vec::with_capacity(rows);
+        let mut end = 0;
+        starts.push(0);
+        for i in 0..rows {
+            let (from, to) = (loose[i] as usize, loose[i + 1] as usize);
+            columns[from..to].sort_unstable();
+            let row_start = end;
+            for k in from..to {
+                let column = columns[k];
+                if end == row_start || columns[end - 1] != column {
+                    if column == i as u32 {
+                        diagonal.push(end as u32);
+                    }
+                    columns[end] = column;
+                    end += 1;
+                }
+            }
+            starts.push(end as u32);
+        }
+        columns.truncate(end);
+        let blocks = vec![DMat2::ZERO; end];
+        Self { starts, columns, diagonal, blocks, inverse_diagonal: vec![DMat2::ZERO; rows] }
+    }
+
+    /// Number of block rows.
+    pub fn rows(&self) -> usize {
+        self.diagonal.len()
+    }
+
+    /// The place of a block of the pattern, for [`BlockCsr::add_at`].
+    ///
+    /// # Panics
+    /// When the pattern has no such block.
+    pub fn place(&self, row: u32, column: u32) -> u32 {
+        let start = self.starts[row as usize];
+        let columns = &self.columns[start as usize..self.starts[row as usize + 1] as usize];
+        start + columns.binary_search(&column).expect("a block of the pattern") as u32
+    }
+
+    /// Sets all blocks to zero.
+    pub fn clear(&mut self) {
+        self.blocks.fill(DMat2::ZERO);
+    }
+
+    /// Adds to the block at a place.
+    #[inline]
+    pub fn add_at(&mut self, place: u32, block: DMat2) {
+        self.blocks[place as usize] += block;
+    }
+
+    /// Adds `shift` to every diagonal entry, relative to the mean of its own block.
+    pub fn regularise(&mut self, shift: f64) {
+        for &d in &self.diagonal {
+            let block = &mut self.blocks[d as usize];
+            let mean = 0.5 * (block.x_axis.x + block.y_axis.y);
+            *block += DMat2::from_diagonal(DVec2::splat(shift * mean.max(f64::MIN_POSITIVE)));
+        }
+    }
+
+    /// y = A x.
+    pub fn multiply(&self, x: &[DVec2], y: &mut [DVec2]) {
+        for (i, out) in y.iter_mut().enumerate() {
+            let mut sum = DVec2::ZERO;
+            for k in self.starts[i] as usize..self.starts[i + 1] as usize {
+                sum += self.blocks[k] * x[self.columns[k] as usize];
+            }
+            *out = sum;
+        }
+    }
+
+    fn invert_diagonal(&mut self) {
+        for (inverse, &d) in self.inverse_diagonal.iter_mut().zip(&self.diagonal) {
+            let block = self.blocks[d as usize];
+            *inverse = if block.determinant() > 0.0 { block.inverse() } else { DMat2::IDENTITY };
+        }
+    }
+
+    /// y = (L + D)^-T D (L + D)^-1 x: one symmetric Gauss-Seidel sweep from zero.
+    fn precondition(&self, x: &[DVec2], y: &mut [DVec2]) {
+        for i in 0..x.len() {
+            let mut sum = x[i];
+            for k in self.starts[i] as usize..self.diagonal[i] as usize {
+                sum -= self.blocks[k] * y[self.columns[k] as usize];
+            }
+            y[i] = self.inverse_diagonal[i] * sum;
+        }
+        for i in (0..x.len()).rev() {
+            let mut sum = DVec2::ZERO;
+            for k in self.diagonal[i] as usize + 1..self.starts[i + 1] as usize {
+                sum += self.blocks[k] * y[self.columns[k] as usize];
+            }
+            y[i] -= self.inverse_diagonal[i] * sum;
+        }
+    }
+}
+
+/// Reusable memory of [`solve`].
+#[derive(Clone, Debug, Default)]
+pub struct BlockCg {
+    residual: Vec<DVec2>,
+    direction: Vec<DVec2>,
+    image: Vec<DVec2>,
+    preconditioned: Vec<DVec2>,
+}
+
+impl BlockCg {
+    /// Solves A x = b from x = 0 until |b - A x| <= `tolerance` |b| or `limit` iterations; returns the iterations.
+    ///
+    /// `matrix` must be symmetric positive definite. Stops early where rounding makes a curvature non-positive.
+    pub fn solve(
+        &mut self,
+        matrix: &mut BlockCsr,
+        b: &[DVec2],
+        x: &mut [DVec2],
+        (tolerance, limit): (f64, usize),
+    ) -> usize {
+        let n = b.len();
+        for memory in [&mut self.residual, &mut self.direction, &mut self.image, &mut self.preconditioned] {
+            memory.resize(n, DVec2::ZERO);
+        }
+        matrix.invert_diagonal();
+        x.fill(DVec2::ZERO);
+        self.residual.copy_from_slice(b);
+        matrix.precondition(&self.residual, &mut self.preconditioned);
+        self.direction.copy_from_slice(&self.preconditioned);
+        let mut rho = dot(&self.residual, &self.preconditioned);
+        let goal = tolerance * tolerance * dot(b, b);
+        for iteration in 0..limit {
+            matrix.multiply(&self.direction, &mut self.image);
+            let curvature = dot(&self.direction, &self.image);
+            if curvature.is_nan() || curvature <= 0.0 {
+                return iteration;
+            }
+            let step = rho / curvature;
+            for i in 0..n {
+                x[i] += step * self.direction[i];
+                self.residual[i] -= step * self.image[i];
+            }
+            if dot(&self.residual, &self.residual) <= goal {
+                return iteration + 1;
+            }
+            matrix.precondition(&self.residual, &mut self.preconditioned);
+            let next = dot(&self.residual, &self.preconditioned);
+            let ratio = next / rho;
+            rho = next;
+            for i in 0..n {
+                self.direction[i] = self.preconditioned[i] + ratio * self.direction[i];
+            }
+        }
+        limit
+    }
+}
+
+fn dot(a: &[DVec2], b: &[DVec2]) -> f64 {
+    a.iter().zip(b).map(|(p, q)| p.dot(*q)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The Laplacian of a path with unit springs to the ground at both ends, coupled between the coordinates.
+    fn chain(n: u32) -> BlockCsr {
+        let pairs: Vec<_> = (1..n).flat_map(|i| [(i, i - 1), (i - 1, i)]).collect();
+        let mut matrix = BlockCsr::with_pattern(n as usize, pairs.iter().copied());
+        let spring = DMat2::from_cols_array(&[2.0, 0.5, 0.5, 1.0]);
+        for i in 0..n {
+            matrix.add_at(matrix.place(i, i), spring * 2.0);
+        }
+        for &(i, j) in &pairs {
+            matrix.add_at(matrix.place(i, j), -spring);
+        }
+        matrix
+    }
+
+    #[test]
+    fn the_solution_satisfies_the_system() {
+        let mut matrix = chain(100);
+        let b: Vec<_> = (0..100).map(|i| DVec2::new(f64::from(i % 7) - 3.0, f64::from(i % 5))).collect();
+        let (mut x, mut ax) = (vec![DVec2::ZERO; 100], vec![DVec2::ZERO; 100]);
+        let iterations = BlockCg::default().solve(&mut matrix, &b, &mut x, (1e-12, 300));
+        assert!(iterations < 120, "{iterations}");
+        matrix.multiply(&x, &mut ax);
+        let error = ax.iter().zip(&b).map(|(p, q)| (*p - *q).length()).fold(0.0, f64::max);
+        assert!(error < 1e-9, "{error}");
+    }
+
+    #[test]
+    fn the_preconditioner_is_symmetric() {
+        let mut matrix = chain(10);
+        matrix.invert_diagonal();
+        let unit = |k: usize| {
+            let mut e = vec![DVec2::ZERO; 10];
+            e[k] = DVec2::new(0.3, 1.0);
+            e
+        };
+        let mut image = vec![DVec2::ZERO; 10];
+        for (i, j) in [(0, 9), (3, 4), (2, 7)] {
+            matrix.precondition(&unit(j), &mut image);
+            let forth = dot(&unit(i), &image);
+            matrix.precondition(&unit(i), &mut image);
+            let back = dot(&unit(j), &image);
+            assert!((forth - back).abs() < 1e-14);
+        }
+    }
+}

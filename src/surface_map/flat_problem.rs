@@ -1,0 +1,354 @@
+//! The flat relaxation: least symmetric Dirichlet energy of a parametrisation onto the cone surface.
+//!
+//! Unknown is one point z per free vertex in a reference chart; every corner sees it through a fixed rigid motion.
+//! Newton with the projected Hessian of [`super::energy`], conjugate gradients, a step that keeps every triangle positive
+//! (Smith & Schaefer 2015) and an Armijo line search.
+
+use super::energy;
+use crate::math::rigid2::Rigid2;
+use crate::math::triangle;
+use crate::monitor::{Cancelled, Monitor, Step};
+use crate::numerics::block_csr::{BlockCg, BlockCsr};
+use glam::{DMat2, DVec2, DVec3};
+
+/// The corner of a triangle: a free vertex seen through a rigid motion, or a fixed point.
+#[derive(Clone, Copy, Debug)]
+pub enum Corner {
+    /// The image of free vertex `.0` under motion `.1`.
+    Free(u32, Rigid2),
+    /// A cone: stays where it is.
+    Fixed(DVec2),
+}
+
+/// One triangle with its rest shape.
+#[derive(Clone, Copy, Debug)]
+pub struct FlatTriangle {
+    /// Corners, counter-clockwise, in the plane of the triangle's chart.
+    pub corners: [Corner; 3],
+    /// Rest area.
+    pub area: f64,
+    /// Gradients of the corners' hat functions in the rest plane.
+    pub hats: [DVec2; 3],
+}
+
+impl FlatTriangle {
+    /// The triangle with rest positions in space.
+    ///
+    /// A rest triangle thinner than 1e-10 of its longest edge is widened, so that its energy stays finite.
+    pub fn with_rest(corners: [Corner; 3], rest: [DVec3; 3]) -> Self {
+        let lengths = [0, 1, 2].map(|k| rest[k].distance(rest[(k + 1) % 3]));
+        let mut flat = triangle::lay_out(lengths);
+        let longest = lengths[0].max(lengths[1]).max(lengths[2]).max(1e-150);
+        if lengths[0] < 1e-10 * longest {
+            flat = [DVec2::ZERO, DVec2::new(1e-10 * longest, 0.0), DVec2::new(0.0, longest)];
+        } else if flat[2].y < 1e-10 * longest {
+            flat[2].y = 1e-10 * longest;
+        }
+        let double_area = triangle::signed_double_area(flat[0], flat[1], flat[2]);
+        let hat = |k: usize| (flat[(k + 2) % 3] - flat[(k + 1) % 3]).perp() / double_area;
+        Self { corners, area: 0.5 * double_area, hats: [hat(0), hat(1), hat(2)] }
+    }
+
+    /// The Jacobian when corner 0 is at `z` and the other corners are fixed.
+    pub fn jacobian_at(&self, z: DVec2) -> DMat2 {
+        self.jacobian(&self.positions(&[z]))
+    }
+
+    #[inline]
+    fn positions(&self, z: &[DVec2]) -> [DVec2; 3] {
+        self.corners.map(|corner| match corner {
+            Corner::Free(v, motion) => motion.apply(z[v as usize]),
+            Corner::Fixed(p) => p,
+        })
+    }
+
+    #[inline]
+    fn displacements(&self, dz: &[DVec2]) -> [DVec2; 3] {
+        self.corners.map(|corner| match corner {
+            Corner::Free(v, motion) => motion.rotate(dz[v as usize]),
+            Corner::Fixed(_) => DVec2::ZERO,
+        })
+    }
+
+    /// The Jacobian from the rest plane to the chart.
+    #[inline]
+    fn jacobian(&self, p: &[DVec2; 3]) -> DMat2 {
+        let column =
+            |c: fn(DVec2) -> f64| p[0] * c(self.hats[0]) + p[1] * c(self.hats[1]) + p[2] * c(self.hats[2]);
+        DMat2::from_cols(column(|g| g.x), column(|g| g.y))
+    }
+}
+
+/// How far a relaxation goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RelaxOptions {
+    /// Stops when a step lowers the energy by less than this share.
+    pub relative_decrease: f64,
+    /// Newton steps at most.
+    pub max_steps: usize,
+    /// Relative residual of the linear solves.
+    pub linear_tolerance: f64,
+}
+
+impl Default for RelaxOptions {
+    fn default() -> Self {
+        Self { relative_decrease: 1e-4, max_steps: 100, linear_tolerance: 0.03 }
+    }
+}
+
+/// What a relaxation did.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RelaxReport {
+    /// Energy before the first and after each step; area-weighted mean, 1 for an isometry.
+    pub energies: Vec<f64>,
+    /// Conjugate gradient iterations of all steps.
+    pub cg_iterations: usize,
+}
+
+/// Triangles, unknowns and the matrix of one relaxation.
+pub struct FlatProblem {
+    triangles: Vec<FlatTriangle>,
+    /// Place in the matrix of block (corner i, corner j) at `9 t + 3 i + j`; unused where a corner is fixed.
+    places: Vec<u32>,
+    matrix: BlockCsr,
+    total_area: f64,
+}
+
+impl FlatProblem {
+    /// A problem of `free` unknown vertices.
+    pub fn new(triangles: Vec<FlatTriangle>, free: usize) -> Self {
+        let free_corner = |t: &FlatTriangle, k: usize| match t.corners[k] {
+            Corner::Free(v, _) => Some(v),
+            Corner::Fixed(_) => None,
+        };
+        let pairs = triangles.iter().flat_map(move |t| {
+            (0..9).filter_map(move |k| Some((free_corner(t, k / 3)?, free_corner(t, k % 3)?)))
+        });
+        let matrix = BlockCsr::with_pattern(free, pairs);
+        let mut places = vec![u32::MAX; triangles.len() * 9];
+        for (t, triangle) in triangles.iter().enumerate() {
+            for k in 0..9 {
+                if let (Some(i), Some(j)) = (free_corner(triangle, k / 3), free_corner(triangle, k % 3)) {
+                    places[9 * t + k] = matrix.place(i, j);
+                }
+            }
+        }
+        let total_area = triangles.iter().map(|t| t.area).sum();
+        Self { triangles, places, matrix, total_area }
+    }
+
+    /// Area-weighted mean energy; `None` where a triangle is not positive.
+    pub fn energy(&self, z: &[DVec2]) -> Option<f64> {
+        let mut sum = 0.0;
+        for t in &self.triangles {
+            sum += t.area * energy::density(&t.jacobian(&t.positions(z)))?;
+        }
+        Some(sum / self.total_area)
+    }
+
+    /// Gradient of [`FlatProblem::energy`] with respect to z.
+    pub fn gradient(&self, z: &[DVec2], gradient: &mut [DVec2]) {
+        gradient.fill(DVec2::ZERO);
+        for t in &self.triangles {
+            let slope = energy::gradient(&t.jacobian(&t.positions(z)));
+            for (corner, hat) in t.corners.iter().zip(&t.hats) {
+                if let Corner::Free(v, motion) = corner {
+                    let pull = slope * *hat * (t.area / self.total_area);
+                    gradient[*v as usize] += unrotate(motion, pull);
+                }
+            }
+        }
+    }
+
+    fn assemble(&mut self, z: &[DVec2]) {
+        self.matrix.clear();
+        for (t, triangle) in self.triangles.iter().enumerate() {
+            let weight = triangle.area / self.total_area;
+            for term in energy::hessian(&triangle.jacobian(&triangle.positions(z))) {
+                let pulls = [0, 1, 2].map(|k| match triangle.corners[k] {
+                    Corner::Free(_, motion) => unrotate(&motion, term.apply(triangle.hats[k])),
+                    Corner::Fixed(_) => DVec2::ZERO,
+                });
+                let scale = weight * term.weight;
+                for k in 0..9 {
+                    let place = self.places[9 * t + k];
+                    if place != u32::MAX {
+                        let (p, q) = (pulls[k / 3] * scale, pulls[k % 3]);
+                        self.matrix.add_at(place, DMat2::from_cols(p * q.x, p * q.y));
+                    }
+                }
+            }
+        }
+        self.matrix.regularise(1e-10);
+    }
+
+    /// Lowers the energy from a valid z (every triangle positive) until a step gains too little.
+    ///
+    /// # Errors
+    /// [`Cancelled`]; z is valid then too.
+    pub fn relax(
+        &mut self,
+        z: &mut [DVec2],
+        options: &RelaxOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<RelaxReport, Cancelled> {
+        let mut report = RelaxReport::default();
+        let Some(mut energy) = self.energy(z) else { return Ok(report) };
+        report.energies.push(energy);
+        let n = z.len();
+        let (mut slope, mut step, mut trial) =
+            (vec![DVec2::ZERO; n], vec![DVec2::ZERO; n], vec![DVec2::ZERO; n]);
+        let mut cg = BlockCg::default();
+        for k in 0..options.max_steps {
+            monitor.step(Step { fraction: k as f64 / (k as f64 + 8.0), residual: Some(energy) })?;
+            self.gradient(z, &mut slope);
+            self.assemble(z);
+            slope.iter_mut().for_each(|g| *g = -*g);
+            report.cg_iterations +=
+                cg.solve(&mut self.matrix, &slope, &mut step, (options.linear_tolerance, 500));
+            let descent: f64 = slope.iter().zip(&step).map(|(g, d)| g.dot(*d)).sum();
+            let Some(next) = self.line_search(z, &step, &mut trial, (energy, descent)) else { break };
+            z.copy_from_slice(&trial);
+            let gained = energy - next;
+            energy = next;
+            report.energies.push(energy);
+            if gained < options.relative_decrease * energy {
+                break;
+            }
+        }
+        Ok(report)
+    }
+
+    /// The energy after an Armijo step, written to `trial`; `None` where no step lowers it.
+    fn line_search(
+        &self,
+        z: &[DVec2],
+        step: &[DVec2],
+        trial: &mut [DVec2],
+        (energy, descent): (f64, f64),
+    ) -> Option<f64> {
+        let mut t = (0.9 * self.first_degenerate(z, step)).min(1.0);
+        for _ in 0..40 {
+            for i in 0..z.len() {
+                trial[i] = z[i] + t * step[i];
+            }
+            if let Some(next) = self.energy(trial)
+                && next <= energy - 1e-4 * t * descent
+            {
+                return Some(next);
+            }
+            t *= 0.5;
+        }
+        None
+    }
+
+    /// The smallest positive t at which a triangle of z + t step degenerates.
+    fn first_degenerate(&self, z: &[DVec2], step: &[DVec2]) -> f64 {
+        let root = |t: &FlatTriangle| {
+            let (p, d) = (t.positions(z), t.displacements(step));
+            let (e1, e2, d1, d2) = (p[1] - p[0], p[2] - p[0], d[1] - d[0], d[2] - d[0]);
+            smallest_positive_root(d1.perp_dot(d2), e1.perp_dot(d2) + d1.perp_dot(e2), e1.perp_dot(e2))
+        };
+        self.triangles.iter().map(root).fold(f64::INFINITY, f64::min)
+    }
+}
+
+fn unrotate(motion: &Rigid2, d: DVec2) -> DVec2 {
+    crate::math::rigid2::conj_mul(motion.rotation, d)
+}
+
+/// The smallest positive root of a t^2 + b t + c, where c > 0; infinite where there is none.
+fn smallest_positive_root(a: f64, b: f64, c: f64) -> f64 {
+    let discriminant = b * b - 4.0 * a * c;
+    if discriminant < 0.0 {
+        return f64::INFINITY;
+    }
+    let q = -0.5 * (b + discriminant.sqrt().copysign(b));
+    let roots = [q / a, c / q];
+    roots.into_iter().filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::monitor::Silent;
+
+    /// A fan of six triangles around a free centre and a ring of six free vertices inside a fixed hexagon.
+    fn problem() -> (FlatProblem, Vec<DVec2>) {
+        let ring = |r: f64, k: usize| {
+            let angle = std::f64::consts::TAU * k as f64 / 6.0;
+            DVec2::new(r * crate::math::scalar::cos(angle), r * crate::math::scalar::sin(angle))
+        };
+        let turn = Rigid2 { rotation: DVec2::new(0.6, 0.8), translation: DVec2::new(0.4, -2.0) };
+        let mut z = vec![DVec2::new(0.1, -0.05)];
+        z.extend((0..6).map(|k| turn.inverse().apply(ring(1.0, k) + DVec2::new(0.03 * k as f64, 0.1))));
+        let free = |k: usize| Corner::Free(1 + (k % 6) as u32, turn);
+        let fixed = |k: usize| Corner::Fixed(ring(2.0, k % 6));
+        let lift = |p: DVec2| DVec3::new(p.x, p.y, 0.2 * p.x * p.y);
+        let mut triangles = Vec::new();
+        for k in 0..6 {
+            let (inner, next) = (ring(1.0, k), ring(1.0, k + 1));
+            let (outer, outer_next) = (ring(2.0, k), ring(2.0, k + 1));
+            let centre = Corner::Free(0, Rigid2::IDENTITY);
+            let mut add =
+                |c: [Corner; 3], p: [DVec2; 3]| triangles.push(FlatTriangle::with_rest(c, p.map(lift)));
+            add([centre, free(k), free(k + 1)], [DVec2::ZERO, inner, next]);
+            add([free(k), fixed(k), fixed(k + 1)], [inner, outer, outer_next]);
+            add([free(k), fixed(k + 1), free(k + 1)], [inner, outer_next, next]);
+        }
+        (FlatProblem::new(triangles, 7), z)
+    }
+
+    #[test]
+    fn gradient_and_hessian_are_difference_quotients() {
+        let (mut problem, z) = problem();
+        let n = z.len();
+        let mut slope = vec![DVec2::ZERO; n];
+        problem.gradient(&z, &mut slope);
+        for v in 0..n {
+            for axis in [DVec2::X, DVec2::Y] {
+                let moved = |h: f64| {
+                    let mut y = z.clone();
+                    y[v] += axis * h;
+                    problem.energy(&y).unwrap()
+                };
+                let quotient = (moved(1e-6) - moved(-1e-6)) / 2e-6;
+                assert!((quotient - slope[v].dot(axis)).abs() < 1e-8, "{quotient} {}", slope[v].dot(axis));
+            }
+        }
+        problem.assemble(&z);
+        let direction: Vec<_> =
+            (0..n).map(|i| DVec2::new(0.3 - 0.1 * i as f64, 0.2 * i as f64 - 0.5)).collect();
+        let mut image = vec![DVec2::ZERO; n];
+        problem.matrix.multiply(&direction, &mut image);
+        let model: f64 = image.iter().zip(&direction).map(|(a, b)| a.dot(*b)).sum();
+        let at = |h: f64| {
+            let y: Vec<_> = z.iter().zip(&direction).map(|(p, d)| *p + *d * h).collect();
+            problem.energy(&y).unwrap()
+        };
+        let truth = (at(1e-4) - 2.0 * at(0.0) + at(-1e-4)) / 1e-8;
+        // The projected Hessian is at least the true one, and near it where few terms are projected.
+        assert!(model > truth - 1e-4 && model < 1.5 * truth, "{model} {truth}");
+    }
+
+    #[test]
+    fn newton_ends_where_the_gradient_vanishes() {
+        let (mut problem, mut z) = problem();
+        let options =
+            RelaxOptions { relative_decrease: 1e-14, linear_tolerance: 1e-8, ..RelaxOptions::default() };
+        let report = problem.relax(&mut z, &options, &mut Silent).unwrap();
+        assert!(report.energies.windows(2).all(|e| e[1] <= e[0]));
+        let mut slope = vec![DVec2::ZERO; z.len()];
+        problem.gradient(&z, &mut slope);
+        assert!(slope.iter().all(|g| g.length() < 1e-6), "{slope:?}");
+        assert!(report.energies.len() < 15, "{:?}", report.energies);
+    }
+
+    #[test]
+    fn roots() {
+        assert_eq!(smallest_positive_root(1.0, -3.0, 2.0), 1.0);
+        assert_eq!(smallest_positive_root(0.0, -2.0, 1.0), 0.5);
+        assert_eq!(smallest_positive_root(1.0, 1.0, 1.0), f64::INFINITY);
+        assert_eq!(smallest_positive_root(0.0, 0.0, 1.0), f64::INFINITY);
+    }
+}
