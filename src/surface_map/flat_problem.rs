@@ -4,9 +4,12 @@
 //! Newton with the projected Hessian of [`super::energy`], conjugate gradients, a step that keeps every triangle positive
 //! (Smith & Schaefer 2015) and an Armijo line search.
 
+use super::embedding::Embedding;
 use super::energy;
+use crate::layout::PatchedMesh;
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle;
+use crate::mesh::{FaceId, HalfedgeId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use crate::numerics::block_csr::{BlockCg, BlockCsr};
 use glam::{DMat2, DVec2, DVec3};
@@ -77,6 +80,12 @@ impl FlatTriangle {
             |c: fn(DVec2) -> f64| p[0] * c(self.hats[0]) + p[1] * c(self.hats[1]) + p[2] * c(self.hats[2]);
         DMat2::from_cols(column(|g| g.x), column(|g| g.y))
     }
+}
+
+/// The Jacobian of a parametrisation on one face, from the plane of its rest triangle to its chart.
+pub fn rest_jacobian(patched: &PatchedMesh, embedding: &Embedding, f: FaceId) -> DMat2 {
+    let corners = [0, 1, 2].map(|k| embedding.corners[HalfedgeId::of(f, k)]);
+    FlatTriangle::with_rest(corners.map(Corner::Fixed), patched.mesh.corners(f)).jacobian(&corners)
 }
 
 /// How far a relaxation goes.

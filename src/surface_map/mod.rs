@@ -5,11 +5,14 @@
 
 pub mod certificate;
 mod charted;
+pub mod compose;
 pub mod cone_surface;
+pub mod distortion;
 pub mod embedding;
 pub mod energy;
 pub mod flat_problem;
 pub mod initial;
+pub mod overlay;
 mod placement;
 mod progressive;
 

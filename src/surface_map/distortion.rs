@@ -1,0 +1,93 @@
+//! How far the map is from an isometry.
+//!
+//! On each piece of the overlay the map is affine with singular values s1, s2 (both surfaces scaled to area 1).
+
+use super::compose::Parametrised;
+use super::flat_problem::rest_jacobian;
+use super::overlay::Overlay;
+use crate::mesh::{FaceId, VertexId};
+use glam::DMat2;
+use typed_index_collections::{TiVec, ti_vec};
+
+/// Distortion of the map source -> target, both areas 1.
+#[derive(Clone, Debug, Default)]
+pub struct Distortion {
+    /// Integral of |J|^2 over the source plus |J^-1|^2 over the target; 4 for an isometry.
+    pub energy: f64,
+    /// Area-weighted mean over the source of (s1^2 + s2^2 + s1^-2 + s2^-2) / 4; 1 for an isometry.
+    pub mean: f64,
+    /// Its area-weighted median over the source.
+    pub median: f64,
+    /// Its area-weighted 95 % quantile over the source.
+    pub p95: f64,
+    /// Its maximum.
+    pub max: f64,
+    /// Sum of the pieces' areas on the source (1 up to rounding).
+    pub source_area: f64,
+    /// Sum of the pieces' areas on the target (1 up to rounding).
+    pub target_area: f64,
+    /// The density averaged around each vertex of the refined source.
+    pub by_vertex: TiVec<VertexId, f64>,
+}
+
+/// Measures the map on its overlay.
+pub fn distortion(source: Parametrised<'_>, target: Parametrised<'_>, overlay: &Overlay) -> Distortion {
+    let to_source = |f: FaceId| rest_jacobian(source.patched, source.embedding, f);
+    let to_target = |f: FaceId| rest_jacobian(target.patched, target.embedding, f);
+    let source_maps: TiVec<FaceId, DMat2> = source.patched.mesh.faces().map(to_source).collect();
+    let target_inverses: TiVec<FaceId, DMat2> =
+        target.patched.mesh.faces().map(|f| to_target(f).inverse()).collect();
+    let mut result = Distortion::default();
+    let mut densities = Vec::with_capacity(overlay.pieces.len());
+    let mut face_sums: TiVec<FaceId, [f64; 2]> = ti_vec![[0.0; 2]; source.patched.mesh.face_count()];
+    for piece in &overlay.pieces {
+        let (a, b) = (&source_maps[piece.source_face], &target_inverses[piece.target_face]);
+        let rotation = DMat2::from_cols(piece.motion.rotation, piece.motion.rotation.perp());
+        let j = *b * rotation * *a;
+        let det = j.determinant();
+        let squares = j.x_axis.length_squared() + j.y_axis.length_squared();
+        let source_area = piece.area / a.determinant();
+        let target_area = piece.area * b.determinant();
+        let inverse_squares = squares / (det * det);
+        let density = 0.25 * (squares + inverse_squares);
+        result.energy += squares * source_area + inverse_squares * target_area;
+        result.source_area += source_area;
+        result.target_area += target_area;
+        densities.push((density, source_area));
+        face_sums[piece.source_face][0] += density * source_area;
+        face_sums[piece.source_face][1] += source_area;
+    }
+    result.mean = densities.iter().map(|(d, a)| d * a).sum::<f64>() / result.source_area;
+    densities.sort_by(|a, b| a.0.total_cmp(&b.0));
+    result.median = quantile(&densities, 0.5);
+    result.p95 = quantile(&densities, 0.95);
+    result.max = densities.last().map_or(1.0, |d| d.0);
+    result.by_vertex = vertex_averages(source, &face_sums);
+    result
+}
+
+/// The weighted quantile of sorted (value, weight) pairs.
+pub fn quantile(sorted: &[(f64, f64)], share: f64) -> f64 {
+    let total: f64 = sorted.iter().map(|p| p.1).sum();
+    let mut sum = 0.0;
+    for (value, weight) in sorted {
+        sum += weight;
+        if sum >= share * total {
+            return *value;
+        }
+    }
+    sorted.last().map_or(f64::NAN, |p| p.0)
+}
+
+fn vertex_averages(source: Parametrised<'_>, faces: &TiVec<FaceId, [f64; 2]>) -> TiVec<VertexId, f64> {
+    let mesh = &source.patched.mesh;
+    let mut sums = ti_vec![[0.0_f64; 2]; mesh.vertex_count()];
+    for (f, corners) in mesh.triangles().iter_enumerated() {
+        for &v in corners {
+            let sum: &mut [f64; 2] = &mut sums[v];
+            sum[0] += faces[f][0];
+            sum[1] += faces[f][1];
+        }
+    }
+    sums.into_iter().map(|[d, a]| d / a).collect()
+}
