@@ -2,6 +2,10 @@
 //!
 //! Quadric error simplification (Garland & Heckbert 1997; thesis section 3.2) down to exactly the landmarks.
 
+mod simplify;
+
+pub use simplify::{SimplifyError, simplify};
+
 use crate::landmarks::LandmarkId;
 use crate::mesh::SurfaceMesh;
 use typed_index_collections::TiVec;

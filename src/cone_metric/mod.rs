@@ -1,1 +1,13 @@
-//! Target curvature and the discrete Ricci flow.
+//! Flat metrics with prescribed cones, conformal to a mesh: target curvature and the discrete Ricci flow.
+//!
+//! One formula serves a family of discrete conformal structures ([`crate::math::decorated`]). The main method keeps the
+//! triangulation weighted Delaunay while the radii change: then the energy is convex on all of R^V and Newton converges
+//! (Bobenko & Lutz 2023; for vertex scaling Gillespie, Springborn & Crane 2021).
+
+mod flow;
+mod metric;
+pub mod target;
+
+pub use flow::{FlowError, FlowOptions, FlowReport, Scheme, flow};
+pub use metric::ConeMetric;
+pub use target::{TargetError, base_domain_curvature, listed_curvature, uniform_curvature};

@@ -1,5 +1,7 @@
 //! Formulas on numbers. Knows no mesh.
 
+pub mod decorated;
+pub mod quadric;
 pub mod rigid2;
 pub mod scalar;
 pub mod triangle;

@@ -1,5 +1,6 @@
 //! Typed elements, halfedge connectivity, polygon soup, checks and points on the surface.
 
+pub mod collapsible;
 pub mod generators;
 mod ids;
 pub mod soup;

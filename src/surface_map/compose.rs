@@ -36,12 +36,12 @@ pub struct Location {
     pub motion: Rigid2,
 }
 
-/// All source vertices, and one corner of every source face, among the target's triangles.
+/// All source vertices and the centroids of all source faces among the target's triangles.
 #[derive(Clone, Debug)]
 pub struct Locations {
     /// By source vertex.
     pub by_vertex: TiVec<VertexId, Location>,
-    /// By source face: one of its corners.
+    /// By source face: the target face that contains its centroid, with the motion of its plane.
     pub by_face: TiVec<FaceId, Location>,
 }
 
@@ -93,13 +93,19 @@ pub fn locate(
         queue.extend(turn_around(source, arrived));
     }
     let complete = |l: Option<Location>, vertex: usize| l.ok_or(LocateError { vertex });
-    let tail = |f: usize| mesh.triangles()[FaceId::from(f)][0].index();
+    let inside = |f: usize, corner: Option<Location>| {
+        let face = FaceId::from(f);
+        let [p, q, r] = [0, 1, 2].map(|k| source.embedding.corners[HalfedgeId::of(face, k)]);
+        let centroid = (p + q + r) / 3.0;
+        let arrived = corner.and_then(|corner| walk_to(source, target, corner, centroid));
+        complete(arrived, mesh.triangles()[face][0].index())
+    };
     Ok(Locations {
         by_vertex: found.into_iter().enumerate().map(|(v, l)| complete(l, v)).collect::<Result<_, _>>()?,
         by_face: by_face
             .into_iter()
             .enumerate()
-            .map(|(f, l)| complete(l, tail(f)))
+            .map(|(f, l)| inside(f, l))
             .collect::<Result<_, _>>()?,
     })
 }
@@ -120,15 +126,26 @@ fn turn_around(source: Parametrised<'_>, at: Location) -> impl Iterator<Item = L
 
 /// Walks along the edge of the location's corner to its end.
 fn walk(source: Parametrised<'_>, target: Parametrised<'_>, from: Location) -> Option<Location> {
-    let h = from.corner;
-    let (start, end) = (source.embedding.corners[h], source.embedding.corners[h.next()]);
+    let end = source.embedding.corners[from.corner.next()];
+    let arrived = walk_to(source, target, from, end)?;
+    Some(Location { corner: from.corner.next(), ..arrived })
+}
+
+/// Walks straight from the location to a point in the plane of its source face.
+fn walk_to(
+    source: Parametrised<'_>,
+    target: Parametrised<'_>,
+    from: Location,
+    end: DVec2,
+) -> Option<Location> {
+    let start = source.embedding.corners[from.corner];
     let mesh = &target.patched.mesh;
     let (mut face, mut motion) = (from.face, from.motion);
     let mut entered = None;
     for _ in 0..mesh.face_count() + 1000 {
         let (p, q) = (motion.apply(start), motion.apply(end));
         let Some(exit) = exit_edge(target.embedding, face, [p, q], entered) else {
-            return Some(Location { corner: h.next(), face, motion });
+            return Some(Location { corner: from.corner, face, motion });
         };
         motion = target.embedding.transitions[exit].after(&motion);
         let twin = mesh.twin(exit);

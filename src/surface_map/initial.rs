@@ -64,13 +64,13 @@ pub fn embed(
     let total = patched.mesh.vertex_count();
     let mut refinement = Refinement::new(mesh, surface, total);
     let mut report = InitialReport::default();
-    let mut relaxed_at = refinement.mesh.live_vertices();
+    let mut relaxed_at = refinement.mesh.mesh().live_vertices();
     while let Some(vertex) = refinement.restore() {
         if !refinement.place(vertex) {
             refinement.rescue(vertex, options, monitor)?;
             report.rescued_vertices += 1;
         }
-        let live = refinement.mesh.live_vertices();
+        let live = refinement.mesh.mesh().live_vertices();
         if live as f64 >= options.growth * relaxed_at as f64 && live < total {
             monitor.step(Step { fraction: live as f64 / total as f64, residual: None })?;
             refinement.relax(&options.level, monitor)?;
@@ -158,7 +158,7 @@ impl<'a> Refinement<'a> {
     }
 
     fn restore(&mut self) -> Option<VertexId> {
-        self.mesh.restore().map(|collapse| collapse.removed)
+        self.mesh.restore()
     }
 
     /// Puts a restored vertex into the kernel of its star; `false` where there is none.
@@ -168,13 +168,13 @@ impl<'a> Refinement<'a> {
         self.star_triangles.clear();
         let mesh = &self.mesh;
         let at = mesh.position(v);
-        for h in mesh.star(v) {
+        for h in mesh.mesh().star(v) {
             let here = mesh.patch(h.face());
             let back = match sight(self.surface, mesh.hold(v), here) {
                 Sight::Moved(motion) if here != chart => motion.inverse(),
                 _ => Rigid2::IDENTITY,
             };
-            let [p, q] = [mesh.tail(h.next()), mesh.tail(h.prev())];
+            let [p, q] = [mesh.mesh().tail(h.next()), mesh.mesh().tail(h.prev())];
             let [here_p, here_q] =
                 [p, q].map(|w| back.apply(seen(self.surface, mesh.hold(w), self.z[w], here)));
             self.star.push(here_p);
@@ -250,26 +250,26 @@ impl<'a> Refinement<'a> {
         options: &InitialOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<(), MapError> {
-        let collapse = self.mesh.collapse_again();
+        self.mesh.collapse_again();
         self.relax(&options.level, monitor)?;
-        debug_assert_eq!(collapse, Some(v));
         self.restore();
         if self.place(v) {
             return Ok(());
         }
-        Err(MapError::NoStart { vertices: self.mesh.live_vertices() })
+        Err(MapError::NoStart { vertices: self.mesh.mesh().live_vertices() })
     }
 
     /// Relaxes the present level.
     fn relax(&mut self, options: &RelaxOptions, monitor: &mut dyn Monitor) -> Result<RelaxReport, Cancelled> {
         let mut free = Vec::new();
-        for v in self.mesh.vertices() {
+        for v in self.mesh.mesh().vertices() {
             if own_chart(self.mesh.hold(v)).is_some() {
                 self.unknown[v] = free.len() as u32;
                 free.push(v);
             }
         }
-        let mut problem = FlatProblem::new(self.mesh.faces().map(|f| self.triangle(f)).collect(), free.len());
+        let mut problem =
+            FlatProblem::new(self.mesh.mesh().faces().map(|f| self.triangle(f)).collect(), free.len());
         let mut z: Vec<DVec2> = free.iter().map(|&v| self.z[v]).collect();
         let report = problem.relax(&mut z, options, monitor)?;
         free.iter().zip(z).for_each(|(&v, p)| self.z[v] = p);
@@ -278,7 +278,7 @@ impl<'a> Refinement<'a> {
 
     fn triangle(&self, f: FaceId) -> FlatTriangle {
         let chart = self.mesh.patch(f);
-        let vertices = self.mesh.corners(f);
+        let vertices = self.mesh.mesh().corners(f);
         let corners = vertices.map(|v| corner(self.surface, self.mesh.hold(v), self.unknown[v], chart));
         FlatTriangle::with_rest(corners, vertices.map(|v| self.mesh.position(v)))
     }

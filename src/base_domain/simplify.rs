@@ -1,0 +1,213 @@
+//! Quadric error simplification down to exactly the protected vertices.
+
+use super::BaseDomain;
+use crate::math::quadric::Quadric;
+use crate::mesh::collapsible::{CollapsibleMesh, ShapeLimits};
+use crate::mesh::{HalfedgeId, MeshError, SurfaceMesh, VertexId};
+use crate::monitor::{Cancelled, Monitor, Step};
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+use typed_index_collections::{TiVec, ti_vec};
+
+/// Why there is no base domain.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SimplifyError {
+    /// The user asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// Fewer than four landmarks make no closed triangulation.
+    #[error("{count} landmarks are too few for a base domain: pick at least 4")]
+    TooFew {
+        /// Number of landmarks.
+        count: usize,
+    },
+    /// The result is not a closed triangulation.
+    #[error("the simplified mesh is not a closed triangulation: {0}")]
+    NotManifold(#[from] MeshError),
+}
+
+/// First refuse collapses that turn a normal by more than 80 degrees.
+const STRICT: ShapeLimits = ShapeLimits { normal_cosine: 0.17, double_area: 0.01 };
+
+/// Collapses a mesh to its landmarks (Garland & Heckbert 1997; thesis section 3.2).
+///
+/// A vertex disappears into a neighbour, so landmarks stay where they are. When the link condition blocks every collapse of a
+/// vertex, edges around it are flipped until it has three neighbours and can go: the result always has exactly the landmarks.
+/// Vertex k of the result is landmark k.
+///
+/// # Errors
+/// [`SimplifyError`].
+pub fn simplify(
+    mesh: &SurfaceMesh,
+    landmarks: &[VertexId],
+    monitor: &mut dyn Monitor,
+) -> Result<BaseDomain, SimplifyError> {
+    if landmarks.len() < 4 {
+        return Err(SimplifyError::TooFew { count: landmarks.len() });
+    }
+    let mut simplification = Simplification::new(mesh, landmarks);
+    simplification.round(Some(&STRICT), monitor)?;
+    simplification.round(None, monitor)?;
+    simplification.remove_blocked();
+    simplification.base(landmarks)
+}
+
+struct Simplification<'a> {
+    input: &'a SurfaceMesh,
+    mesh: CollapsibleMesh,
+    protected: TiVec<VertexId, bool>,
+    quadrics: TiVec<VertexId, Quadric>,
+}
+
+impl<'a> Simplification<'a> {
+    fn new(input: &'a SurfaceMesh, landmarks: &[VertexId]) -> Self {
+        let mut quadrics = ti_vec![Quadric::ZERO; input.vertex_count()];
+        for f in input.faces() {
+            let plane = Quadric::of_triangle(input.corners(f));
+            input.triangles()[f].iter().for_each(|&v| quadrics[v].add(&plane));
+        }
+        let mut protected = ti_vec![false; input.vertex_count()];
+        landmarks.iter().for_each(|&v| protected[v] = true);
+        Self { input, mesh: CollapsibleMesh::new(input), protected, quadrics }
+    }
+
+    fn round(&mut self, limits: Option<&ShapeLimits>, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
+        let mut queue = BinaryHeap::new();
+        let mut version: TiVec<VertexId, u32> = ti_vec![0; self.input.vertex_count()];
+        let vertices: Vec<_> = self.mesh.vertices().collect();
+        vertices.into_iter().for_each(|v| queue.extend(self.best(v, limits, version[v])));
+        let (begin, mut touched) = (self.mesh.live_vertices(), Vec::new());
+        while let Some(entry) = queue.pop() {
+            if !self.mesh.is_alive(entry.vertex) || version[entry.vertex] != entry.version {
+                continue;
+            }
+            if self.mesh.live_vertices().is_multiple_of(4096) {
+                let fraction = 1.0 - self.mesh.live_vertices() as f64 / begin as f64;
+                monitor.step(Step { fraction, residual: None })?;
+            }
+            let kept = self.mesh.head(entry.halfedge);
+            let absorbed = self.quadrics[entry.vertex];
+            self.quadrics[kept].add(&absorbed);
+            self.mesh.collapse(entry.halfedge);
+            touched.clear();
+            touched.push(kept);
+            touched.extend(self.mesh.star(kept).map(|h| self.mesh.head(h)));
+            for &v in &touched {
+                version[v] += 1;
+                queue.extend(self.best(v, limits, version[v]));
+            }
+        }
+        Ok(())
+    }
+
+    /// The cheapest allowed collapse of a vertex.
+    fn best(&self, v: VertexId, limits: Option<&ShapeLimits>, version: u32) -> Option<Entry> {
+        if self.protected[v] {
+            return None;
+        }
+        let positions = self.input.positions();
+        let mut best: Option<Entry> = None;
+        for halfedge in self.mesh.star(v) {
+            let cost = self.quadrics[v].at(positions[self.mesh.head(halfedge)]);
+            let better = best.as_ref().is_none_or(|b| cost < b.cost);
+            if better
+                && self.mesh.link_condition(halfedge)
+                && limits.is_none_or(|l| self.mesh.keeps_shape(halfedge, positions, l))
+            {
+                best = Some(Entry { cost, vertex: v, version, halfedge });
+            }
+        }
+        best
+    }
+
+    /// Flips edges around each vertex left over until it has three neighbours, then collapses it.
+    fn remove_blocked(&mut self) {
+        let left: Vec<_> = self.mesh.vertices().filter(|&v| !self.protected[v]).collect();
+        for v in left {
+            // At degree 4 and more some edge of a vertex of a simple triangulation can always be flipped away from it: if all
+            // opposite diagonals existed, two of them would cross.
+            while self.mesh.star(v).count() > 3 {
+                let spokes: Vec<_> = self.mesh.star(v).collect();
+                if !spokes.into_iter().any(|h| self.mesh.flip(h)) {
+                    break;
+                }
+            }
+            let collapse = self.mesh.star(v).find(|&h| self.mesh.link_condition(h));
+            if let Some(h) = collapse {
+                self.mesh.collapse(h);
+            }
+        }
+    }
+
+    fn base(&self, landmarks: &[VertexId]) -> Result<BaseDomain, SimplifyError> {
+        let mut number = ti_vec![VertexId(u32::MAX); self.input.vertex_count()];
+        landmarks.iter().enumerate().for_each(|(k, &v)| number[v] = VertexId::from(k));
+        let positions = landmarks.iter().map(|&v| self.input.positions()[v]).collect();
+        let faces = self.mesh.faces().map(|f| self.mesh.corners(f).map(|v| number[v])).collect();
+        Ok(BaseDomain { mesh: SurfaceMesh::from_triangles(positions, faces)? })
+    }
+}
+
+struct Entry {
+    cost: f64,
+    vertex: VertexId,
+    version: u32,
+    halfedge: HalfedgeId,
+}
+
+impl PartialEq for Entry {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Entry {}
+
+impl Ord for Entry {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other
+            .cost
+            .total_cmp(&self.cost)
+            .then(other.vertex.cmp(&self.vertex))
+            .then(other.version.cmp(&self.version))
+    }
+}
+
+impl PartialOrd for Entry {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::generators::{icosphere, octahedron};
+    use crate::monitor::Silent;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn a_sphere_goes_down_to_any_set_of_landmarks() {
+        let sphere = icosphere(3);
+        for count in [4, 5, 6, 12, 33, 128] {
+            let landmarks: Vec<_> = (0..count).map(|k| VertexId(k * 97 % 642)).collect();
+            let base = simplify(&sphere, &landmarks, &mut Silent).unwrap();
+            assert_eq!(base.mesh.vertex_count(), count as usize);
+            assert_eq!(base.mesh.face_count(), 2 * count as usize - 4);
+            assert_eq!(base.mesh.euler_characteristic(), 2);
+            let defects: f64 = base.cone_angles().iter().map(|angle| 2.0 * PI - angle).sum();
+            assert!((defects - 4.0 * PI).abs() < 1e-10, "Gauss-Bonnet");
+        }
+    }
+
+    #[test]
+    fn the_octahedron_comes_out_of_its_subdivision() {
+        let fine = crate::mesh::generators::midpoint_subdivision(&octahedron());
+        let corners: Vec<_> = (0..6).map(VertexId).collect();
+        let base = simplify(&fine, &corners, &mut Silent).unwrap();
+        for angle in base.cone_angles() {
+            assert!((angle - 4.0 * PI / 3.0).abs() < 1e-12, "{angle}");
+        }
+    }
+}

@@ -1,0 +1,319 @@
+//! The discrete Ricci flow, solved by Newton with conjugate gradients.
+
+use super::metric::{ConeMetric, FlipQueue, FlowState};
+use super::target::{self, TargetError};
+use crate::mesh::{SurfaceMesh, VertexId};
+use crate::monitor::{Cancelled, Monitor, Step};
+use crate::numerics::approximate_cholesky::ApproximateCholesky;
+use crate::numerics::laplacian::{Graph, LaplacianCg};
+use typed_index_collections::TiVec;
+
+/// The discrete conformal structure.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scheme {
+    /// Inversive distances, kept weighted Delaunay by flips: always converges.
+    #[default]
+    InversiveDistance,
+    /// Vertex scaling, kept Delaunay by flips: always converges.
+    VertexScaling,
+    /// Inversive distances on the mesh's own triangles (the thesis; Yang et al. 2009): breaks down on limbs.
+    FixedTriangulation,
+}
+
+/// How the flow runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlowOptions {
+    /// The discrete conformal structure.
+    pub scheme: Scheme,
+    /// Stops when max |target - curvature| is below this, in radians.
+    pub tolerance: f64,
+    /// Factor on the initial radii, in (0, 1): below 1 no two circles touch.
+    pub radii_scale: f64,
+    /// Newton steps at most.
+    pub max_steps: usize,
+}
+
+impl Default for FlowOptions {
+    fn default() -> Self {
+        Self { scheme: Scheme::default(), tolerance: 1e-8, radii_scale: 0.9, max_steps: 100 }
+    }
+}
+
+/// What the flow did.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FlowReport {
+    /// Accepted Newton steps.
+    pub newton_steps: usize,
+    /// Conjugate gradient iterations of all steps.
+    pub cg_iterations: usize,
+    /// Edge flips, those of rejected trial steps included.
+    pub edge_flips: usize,
+    /// max |target - curvature| at the end, in radians.
+    pub max_curvature_error: f64,
+    /// The same before the first and after each step.
+    pub residuals: Vec<f64>,
+}
+
+/// Why there is no cone metric.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FlowError {
+    /// The user asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// No metric has these curvatures.
+    #[error(transparent)]
+    Target(#[from] TargetError),
+    /// The tolerance was not reached.
+    #[error(
+        "the flow did not converge: largest curvature error {:.3e} rad after {} steps, best {best:.3e} rad",
+        report.max_curvature_error,
+        report.newton_steps
+    )]
+    NotConverged {
+        /// The smallest residual on the way.
+        best: f64,
+        /// Everything up to there.
+        report: Box<FlowReport>,
+    },
+}
+
+/// Deforms a mesh's metric conformally to the target curvatures (angle defects in radians, sum 4 pi, each below 2 pi).
+///
+/// # Errors
+/// [`FlowError::Target`] before anything is computed; [`FlowError::NotConverged`], which the fixed triangulation ends in
+/// where triangles degenerate.
+pub fn flow(
+    mesh: &SurfaceMesh,
+    target_curvature: &TiVec<VertexId, f64>,
+    options: &FlowOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<(ConeMetric, FlowReport), FlowError> {
+    target::check(target_curvature)?;
+    let metric = ConeMetric::of_mesh(mesh, options.scheme, options.radii_scale);
+    Newton::new(metric, target_curvature, options).run(monitor)
+}
+
+struct Newton<'a> {
+    metric: ConeMetric,
+    target: &'a TiVec<VertexId, f64>,
+    options: &'a FlowOptions,
+    state: FlowState,
+    queue: FlipQueue,
+    report: FlowReport,
+}
+
+impl<'a> Newton<'a> {
+    fn new(metric: ConeMetric, target: &'a TiVec<VertexId, f64>, options: &'a FlowOptions) -> Self {
+        Self {
+            metric,
+            target,
+            options,
+            state: FlowState::default(),
+            queue: FlipQueue::default(),
+            report: FlowReport::default(),
+        }
+    }
+
+    fn run(mut self, monitor: &mut dyn Monitor) -> Result<(ConeMetric, FlowReport), FlowError> {
+        let n = self.target.len();
+        let (mut residual, mut step, mut start) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+        let (mut graph, mut cg) = (Graph::default(), LaplacianCg::default());
+        self.update();
+        let first = self.residual(&mut residual);
+        self.report.residuals.push(first);
+        let mut error = first;
+        while error >= self.options.tolerance && self.report.newton_steps < self.options.max_steps {
+            monitor.step(Step { fraction: self.fraction(first, error), residual: Some(error) })?;
+            self.metric.hessian(&self.state, &mut graph);
+            let preconditioner = ApproximateCholesky::new(&graph);
+            let tolerance = (0.1 * error).clamp(1e-8, 0.1);
+            self.report.cg_iterations +=
+                cg.solve(&graph, &preconditioner, (&residual, &mut step), (tolerance, 1000));
+            start.copy_from_slice(self.metric.log_radii.as_ref());
+            if !self.line_search(&start, &step, &mut residual) {
+                break;
+            }
+            error = self.residual(&mut residual);
+            self.report.newton_steps += 1;
+            self.report.residuals.push(error);
+        }
+        self.report.max_curvature_error = error;
+        if error < self.options.tolerance {
+            return Ok((self.metric, self.report));
+        }
+        let best = self.report.residuals.iter().copied().fold(f64::INFINITY, f64::min);
+        Err(FlowError::NotConverged { best, report: Box::new(self.report) })
+    }
+
+    /// Progress on a logarithmic scale of the residual.
+    fn fraction(&self, first: f64, error: f64) -> f64 {
+        let scale = |x: f64| crate::math::scalar::ln((x / self.options.tolerance).max(1.0));
+        let whole = scale(first);
+        if whole > 0.0 { (1.0 - scale(error) / whole).clamp(0.0, 1.0) } else { 1.0 }
+    }
+
+    /// Restores weighted Delaunay and evaluates curvatures; `false` where a triangle is degenerate.
+    fn update(&mut self) -> bool {
+        if self.options.scheme != Scheme::FixedTriangulation {
+            self.report.edge_flips += self.metric.restore_delaunay(&mut self.queue);
+        }
+        self.metric.curvature(&mut self.state)
+    }
+
+    /// target - curvature, and its largest absolute value.
+    fn residual(&self, residual: &mut [f64]) -> f64 {
+        let mut worst = 0.0_f64;
+        for ((r, k), goal) in residual.iter_mut().zip(&self.state.curvature).zip(self.target.iter()) {
+            *r = goal - k;
+            worst = worst.max(r.abs());
+        }
+        worst
+    }
+
+    /// Moves along the step by the largest power of 1/2 at which the energy still falls, or nearly so.
+    fn line_search(&mut self, start: &[f64], step: &[f64], residual: &mut [f64]) -> bool {
+        let slope = |r: &[f64]| r.iter().zip(step).map(|(a, b)| a * b).sum::<f64>();
+        let first = slope(residual);
+        let mut t = 1.0;
+        for _ in 0..30 {
+            for ((u, s), d) in self.metric.log_radii.iter_mut().zip(start).zip(step) {
+                *u = s + t * d;
+            }
+            let valid = self.update();
+            let error = self.residual(residual);
+            if valid && error.is_finite() && slope(residual) >= -0.1 * first {
+                return true;
+            }
+            t *= 0.5;
+        }
+        self.metric.log_radii.iter_mut().zip(start).for_each(|(u, s)| *u = *s);
+        self.update();
+        self.residual(residual);
+        false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cone_metric::uniform_curvature;
+    use crate::mesh::generators::{icosphere, tetrahedron};
+    use crate::monitor::Silent;
+    use std::f64::consts::PI;
+
+    /// Radii away from the start, so that the state is not special.
+    fn moved(scheme: Scheme) -> ConeMetric {
+        let mesh = icosphere(2);
+        let mut metric = ConeMetric::of_mesh(&mesh, scheme, 0.9);
+        for (k, u) in metric.log_radii.iter_mut().enumerate() {
+            *u += 1.5 * crate::math::scalar::sin(1.7 * k as f64);
+        }
+        metric.restore_delaunay(&mut FlipQueue::default());
+        metric
+    }
+
+    fn curvature(metric: &ConeMetric) -> Vec<f64> {
+        let mut state = FlowState::default();
+        assert!(metric.curvature(&mut state));
+        state.curvature
+    }
+
+    #[test]
+    fn gauss_bonnet_holds_at_every_state() {
+        for scheme in [Scheme::InversiveDistance, Scheme::VertexScaling] {
+            let metric = moved(scheme);
+            assert!(!metric.triangulation.flips().is_empty());
+            assert!(metric.triangulation.is_consistent());
+            assert!((curvature(&metric).iter().sum::<f64>() - 4.0 * PI).abs() < 1e-10);
+        }
+    }
+
+    #[test]
+    fn the_hessian_is_the_derivative_of_curvature() {
+        for scheme in [Scheme::InversiveDistance, Scheme::VertexScaling] {
+            let metric = moved(scheme);
+            let mut state = FlowState::default();
+            metric.curvature(&mut state);
+            let mut graph = Graph::default();
+            metric.hessian(&state, &mut graph);
+            let n = metric.log_radii.len();
+            let mut exact = vec![0.0; n];
+            let direction: Vec<f64> = (0..n).map(|k| crate::math::scalar::cos(0.9 * k as f64)).collect();
+            graph.multiply(&direction, &mut exact);
+            let at = |h: f64| {
+                let mut near = metric.clone();
+                near.log_radii.iter_mut().zip(&direction).for_each(|(u, d)| *u += h * d);
+                near.restore_delaunay(&mut FlipQueue::default());
+                curvature(&near)
+            };
+            let (plus, minus) = (at(1e-6), at(-1e-6));
+            for k in 0..n {
+                let quotient = (plus[k] - minus[k]) / 2e-6;
+                assert!((quotient - exact[k]).abs() < 1e-5, "{scheme:?} {k}: {quotient} {}", exact[k]);
+            }
+        }
+    }
+
+    #[test]
+    fn the_residual_is_the_gradient_of_a_convex_energy() {
+        // The line integral of target - K around a closed curve vanishes: a gradient.
+        let metric = moved(Scheme::InversiveDistance);
+        let n = metric.log_radii.len();
+        let direction =
+            |a: f64| -> Vec<f64> { (0..n).map(|k| 0.05 * crate::math::scalar::sin(a * k as f64)).collect() };
+        let (p, q) = (direction(1.3), direction(2.9));
+        let at = |s: f64, t: f64| {
+            let mut near = metric.clone();
+            near.log_radii.iter_mut().enumerate().for_each(|(k, u)| *u += s * p[k] + t * q[k]);
+            near.restore_delaunay(&mut FlipQueue::default());
+            curvature(&near)
+        };
+        let dot = |k: &[f64], d: &[f64]| k.iter().zip(d).map(|(a, b)| a * b).sum::<f64>();
+        let steps = 40;
+        let mut integral = 0.0;
+        for i in 0..steps {
+            let m = (i as f64 + 0.5) / f64::from(steps);
+            let h = 1.0 / f64::from(steps);
+            integral += h
+                * (dot(&at(m, 0.0), &p) + dot(&at(1.0, m), &q) - dot(&at(m, 1.0), &p) - dot(&at(0.0, m), &q));
+        }
+        assert!(integral.abs() < 1e-4, "{integral}");
+    }
+
+    /// Four vertices of a sphere in tetrahedral position flow to a regular tetrahedron: by symmetry all its edges agree.
+    #[test]
+    fn the_unit_sphere_becomes_the_regular_tetrahedron() {
+        let sphere = icosphere(3);
+        let corners = tetrahedron();
+        let nearest = |p: glam::DVec3| {
+            let distance = |v: &VertexId| sphere.positions()[*v].distance(p);
+            sphere.vertices().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
+        };
+        let landmarks: Vec<_> = corners.positions().iter().map(|&p| nearest(p)).collect();
+        let target = uniform_curvature(sphere.vertex_count(), &landmarks);
+        for scheme in [Scheme::InversiveDistance, Scheme::VertexScaling] {
+            let options = FlowOptions { scheme, tolerance: 1e-10, ..FlowOptions::default() };
+            let (metric, report) = flow(&sphere, &target, &options, &mut Silent).unwrap();
+            assert!(report.max_curvature_error < 1e-10);
+            // A flat surface with four cones of angle pi is a tetrahedron whose opposite edges agree; a regular one has
+            // area sqrt(3) d^2 for the cone distance d. Radii at the four cones agree by symmetry.
+            let radii: Vec<f64> = landmarks.iter().map(|&v| metric.log_radii[v]).collect();
+            for r in &radii {
+                assert!((r - radii[0]).abs() < 1e-3, "{radii:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn wrong_targets_are_refused_with_their_numbers() {
+        let mesh = icosphere(1);
+        let flat = typed_index_collections::ti_vec![0.0; mesh.vertex_count()];
+        let error = flow(&mesh, &flat, &FlowOptions::default(), &mut Silent).unwrap_err();
+        assert_eq!(error, FlowError::Target(TargetError::WrongSum { sum: 0.0 }));
+        let mut spike = flat.clone();
+        spike[VertexId(3)] = 7.0;
+        let error = flow(&mesh, &spike, &FlowOptions::default(), &mut Silent).unwrap_err();
+        assert_eq!(error, FlowError::Target(TargetError::TooLarge { vertex: 3, defect: 7.0 }));
+    }
+}

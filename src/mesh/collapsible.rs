@@ -1,0 +1,277 @@
+//! A closed triangle mesh under half-edge collapses that can be undone, and edge flips.
+//!
+//! Element numbers never change: a collapse moves corners from the vertex that vanishes to the one that is kept, and
+//! undoing collapses in reverse order restores every intermediate mesh exactly. The mesh stays simple: the link condition
+//! is the caller's to ask for.
+
+use super::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
+use glam::DVec3;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
+
+/// One collapse.
+#[derive(Clone, Copy, Debug)]
+pub struct Collapse {
+    /// The vertex that vanished.
+    pub removed: VertexId,
+    /// The halfedge from it to the vertex it went into, in a face that vanished.
+    pub halfedge: HalfedgeId,
+}
+
+/// What a collapse may do to the triangles that it moves.
+#[derive(Clone, Copy, Debug)]
+pub struct ShapeLimits {
+    /// Least cosine between a triangle's normals before and after.
+    pub normal_cosine: f64,
+    /// Least double area in units of the longest edge squared.
+    pub double_area: f64,
+}
+
+/// The mesh at some level of coarseness.
+#[derive(Clone, Debug)]
+pub struct CollapsibleMesh {
+    tails: TiVec<HalfedgeId, VertexId>,
+    twins: TiVec<HalfedgeId, HalfedgeId>,
+    outgoing: TiVec<VertexId, HalfedgeId>,
+    face_alive: TiVec<FaceId, bool>,
+    vertex_alive: TiVec<VertexId, bool>,
+    live_vertices: usize,
+    collapses: Vec<Collapse>,
+}
+
+impl CollapsibleMesh {
+    /// The full resolution.
+    pub fn new(mesh: &SurfaceMesh) -> Self {
+        Self {
+            tails: mesh.halfedges().map(|h| mesh.tail(h)).collect(),
+            twins: mesh.halfedges().map(|h| mesh.twin(h)).collect(),
+            outgoing: mesh.vertices().map(|v| mesh.outgoing(v)).collect(),
+            face_alive: ti_vec![true; mesh.face_count()],
+            vertex_alive: ti_vec![true; mesh.vertex_count()],
+            live_vertices: mesh.vertex_count(),
+            collapses: Vec::new(),
+        }
+    }
+
+    /// Number of vertices of the present level.
+    pub fn live_vertices(&self) -> usize {
+        self.live_vertices
+    }
+
+    /// Whether a vertex is in the present level.
+    pub fn is_alive(&self, v: VertexId) -> bool {
+        self.vertex_alive[v]
+    }
+
+    /// The vertices of the present level.
+    pub fn vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
+        self.vertex_alive.iter_enumerated().filter(|(_, alive)| **alive).map(|(v, _)| v)
+    }
+
+    /// The faces of the present level.
+    pub fn faces(&self) -> impl Iterator<Item = FaceId> + '_ {
+        self.face_alive.iter_enumerated().filter(|(_, alive)| **alive).map(|(f, _)| f)
+    }
+
+    /// Corners of a face.
+    pub fn corners(&self, f: FaceId) -> [VertexId; 3] {
+        [0, 1, 2].map(|k| self.tails[HalfedgeId::of(f, k)])
+    }
+
+    /// Start vertex of a halfedge.
+    #[inline]
+    pub fn tail(&self, h: HalfedgeId) -> VertexId {
+        self.tails[h]
+    }
+
+    /// End vertex of a halfedge.
+    #[inline]
+    pub fn head(&self, h: HalfedgeId) -> VertexId {
+        self.tails[h.next()]
+    }
+
+    /// The opposite halfedge.
+    #[inline]
+    pub fn twin(&self, h: HalfedgeId) -> HalfedgeId {
+        self.twins[h]
+    }
+
+    /// The outgoing halfedges of a vertex, counter-clockwise.
+    pub fn star(&self, v: VertexId) -> impl Iterator<Item = HalfedgeId> + '_ {
+        let first = self.outgoing[v];
+        let mut next = Some(first);
+        std::iter::from_fn(move || {
+            let h = next?;
+            let following = self.twins[h.prev()];
+            next = (following != first).then_some(following);
+            Some(h)
+        })
+    }
+
+    /// Whether the ends of `h` have exactly two common neighbours, and more than four vertices are left.
+    pub fn link_condition(&self, h: HalfedgeId) -> bool {
+        let (a, b) = (self.tails[h], self.head(h));
+        let common = self.star(a).filter(|&g| self.star(b).any(|k| self.head(k) == self.head(g))).count();
+        common == 2 && self.live_vertices > 4
+    }
+
+    /// Whether the triangles that move when the start of `h` goes into its end stay within the limits.
+    pub fn keeps_shape(
+        &self,
+        h: HalfedgeId,
+        positions: &TiSlice<VertexId, DVec3>,
+        limits: &ShapeLimits,
+    ) -> bool {
+        let (a, b) = (self.tails[h], self.head(h));
+        let (at_a, at_b) = (positions[a], positions[b]);
+        self.star(a).all(|g| {
+            let (p, q) = (self.head(g), self.tails[g.prev()]);
+            if p == b || q == b {
+                return true;
+            }
+            let (p, q) = (positions[p], positions[q]);
+            let (before, after) = ((p - at_a).cross(q - at_a), (p - at_b).cross(q - at_b));
+            let longest =
+                (p - at_b).length_squared().max((q - at_b).length_squared()).max((p - q).length_squared());
+            let double_area = after.length();
+            before.dot(after) > limits.normal_cosine * before.length() * double_area
+                && double_area > limits.double_area * longest
+        })
+    }
+
+    /// Moves the start of `h` into its end; the two faces beside `h` vanish.
+    pub fn collapse(&mut self, h: HalfedgeId) {
+        let t = self.twins[h];
+        let (a, b) = (self.tails[h], self.head(h));
+        let first = self.outgoing[a];
+        let mut g = first;
+        loop {
+            self.tails[g] = b;
+            g = self.twins[g.prev()];
+            if g == first {
+                break;
+            }
+        }
+        // The vanished faces keep their twins, so that `restore` can glue them back in.
+        let (c, d) = (self.tails[h.prev()], self.tails[t.prev()]);
+        let (left_out, left_in) = (self.twins[h.next()], self.twins[h.prev()]);
+        let (right_out, right_in) = (self.twins[t.next()], self.twins[t.prev()]);
+        self.link(left_out, left_in);
+        self.link(right_out, right_in);
+        // left_out runs c -> b and right_out d -> b now; right_in runs b -> d.
+        self.outgoing[c] = left_out;
+        self.outgoing[d] = right_out;
+        self.outgoing[b] = right_in;
+        self.face_alive[h.face()] = false;
+        self.face_alive[t.face()] = false;
+        self.vertex_alive[a] = false;
+        self.live_vertices -= 1;
+        self.collapses.push(Collapse { removed: a, halfedge: h });
+    }
+
+    fn link(&mut self, h: HalfedgeId, t: HalfedgeId) {
+        self.twins[h] = t;
+        self.twins[t] = h;
+    }
+
+    /// Undoes the last collapse; `None` when the mesh has its full resolution again. Not after [`Self::flip`].
+    pub fn restore(&mut self) -> Option<Collapse> {
+        let collapse = self.collapses.pop()?;
+        let (a, h) = (collapse.removed, collapse.halfedge);
+        let t = self.twins[h];
+        for far in [h.next(), h.prev(), t.next(), t.prev()] {
+            let twin = self.twins[far];
+            self.twins[twin] = far;
+        }
+        self.face_alive[h.face()] = true;
+        self.face_alive[t.face()] = true;
+        self.vertex_alive[a] = true;
+        self.live_vertices += 1;
+        let mut g = h;
+        loop {
+            self.tails[g] = a;
+            g = self.twins[g.prev()];
+            if g == h {
+                break;
+            }
+        }
+        self.outgoing[a] = h;
+        let (b, c, d) = (self.tails[h.next()], self.tails[h.prev()], self.tails[t.prev()]);
+        self.outgoing[b] = t;
+        self.outgoing[c] = h.prev();
+        self.outgoing[d] = t.prev();
+        Some(collapse)
+    }
+
+    /// Replaces the edge of `h` by the other diagonal of its two faces; `false`, unchanged, where that edge exists already.
+    pub fn flip(&mut self, h: HalfedgeId) -> bool {
+        let t = self.twins[h];
+        let (hn, hp, tn, tp) = (h.next(), h.prev(), t.next(), t.prev());
+        let (i, j, k, l) = (self.tails[h], self.tails[t], self.tails[hp], self.tails[tp]);
+        if self.star(k).any(|g| self.head(g) == l) {
+            return false;
+        }
+        // ijk and jil become lki in the face of h and klj in that of t.
+        let outer = [hp, tn, tp, hn].map(|g| self.twins[g]);
+        for (slot, (twin, tail)) in [hn, hp, tn, tp].into_iter().zip(outer.into_iter().zip([k, i, l, j])) {
+            self.link(slot, twin);
+            self.tails[slot] = tail;
+            self.outgoing[tail] = slot;
+        }
+        self.tails[h] = l;
+        self.tails[t] = k;
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::generators::icosphere;
+
+    fn triangles(mesh: &CollapsibleMesh) -> Vec<[VertexId; 3]> {
+        mesh.faces().map(|f| mesh.corners(f)).collect()
+    }
+
+    fn is_closed_manifold(mesh: &CollapsibleMesh) -> bool {
+        mesh.faces().all(|f| {
+            (0..3).all(|k| {
+                let h = HalfedgeId::of(f, k);
+                let t = mesh.twin(h);
+                mesh.twin(t) == h && mesh.tail(t) == mesh.head(h) && mesh.face_alive[t.face()]
+            })
+        }) && mesh.vertices().map(|v| mesh.star(v).count()).sum::<usize>() == 3 * mesh.faces().count()
+            && mesh.faces().count() == 2 * mesh.live_vertices() - 4
+    }
+
+    #[test]
+    fn collapses_keep_a_sphere_and_undo_exactly() {
+        let sphere = icosphere(2);
+        let mut mesh = CollapsibleMesh::new(&sphere);
+        let mut levels = vec![triangles(&mesh)];
+        for k in (0..sphere.face_count() * 3).map(HalfedgeId::from) {
+            if mesh.face_alive[k.face()] && mesh.link_condition(k) {
+                mesh.collapse(k);
+                assert!(is_closed_manifold(&mesh));
+                levels.push(triangles(&mesh));
+            }
+        }
+        assert!(mesh.live_vertices() < 20);
+        while let Some(level) = levels.pop() {
+            assert_eq!(triangles(&mesh), level);
+            assert!(is_closed_manifold(&mesh));
+            mesh.restore();
+        }
+    }
+
+    #[test]
+    fn flips_keep_a_sphere() {
+        let sphere = icosphere(1);
+        let mut mesh = CollapsibleMesh::new(&sphere);
+        let mut flipped = 0;
+        for k in 0..200_u32 {
+            flipped += usize::from(mesh.flip(HalfedgeId(k * 7919 % 240)));
+            assert!(is_closed_manifold(&mesh), "after flip {k}");
+        }
+        assert!(flipped > 50);
+    }
+}

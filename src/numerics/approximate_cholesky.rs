@@ -1,0 +1,214 @@
+//! Randomised approximate Cholesky factorisation of graph Laplacians.
+//!
+//! Vertices are eliminated in approximate minimum-degree order; the clique that an elimination makes is replaced by a
+//! random tree with the same mean (Kyng & Sachdeva 2016; Gao, Kyng & Spielman 2023), so that the factor stays sparse. The
+//! seed is fixed: the same graph has the same factor.
+
+use super::laplacian::Graph;
+
+const NONE: u32 = u32::MAX;
+const BUCKETS: usize = 256;
+
+/// An approximate factor of a connected graph's Laplacian.
+#[derive(Clone, Debug)]
+pub struct ApproximateCholesky {
+    /// Vertices in elimination order.
+    order: Vec<u32>,
+    /// Start of each column in `rows`, and one past the end.
+    starts: Vec<u32>,
+    rows: Vec<u32>,
+    /// Share of the pivot that goes to each row.
+    shares: Vec<f64>,
+    /// Sum of the weights of the eliminated vertex; 0 for the last.
+    pivots: Vec<f64>,
+}
+
+impl ApproximateCholesky {
+    /// Factorises.
+    pub fn new(graph: &Graph) -> Self {
+        let n = graph.vertices;
+        let mut lists = Lists::new(graph);
+        let mut queue = DegreeQueue::new(&lists.degrees);
+        let mut random = SplitMix(0x9e37_79b9_7f4a_7c15);
+        let mut factor = Self {
+            order: Vec::with_capacity(n),
+            starts: vec![0],
+            rows: Vec::with_capacity(graph.edges.len() * 2),
+            shares: Vec::with_capacity(graph.edges.len() * 2),
+            pivots: Vec::with_capacity(n),
+        };
+        let mut neighbours = Vec::new();
+        while let Some(v) = queue.pop(&lists) {
+            lists.gather(v, &mut neighbours);
+            lists.eliminated[v as usize] = true;
+            factor.push_column(v, &neighbours);
+            lists.replace_clique(&neighbours, &mut random, &mut queue);
+        }
+        factor
+    }
+
+    fn push_column(&mut self, v: u32, neighbours: &[(u32, f64)]) {
+        let pivot: f64 = neighbours.iter().map(|n| n.1).sum();
+        self.order.push(v);
+        self.pivots.push(pivot);
+        for &(row, weight) in neighbours {
+            self.rows.push(row);
+            self.shares.push(weight / pivot);
+        }
+        self.starts.push(self.rows.len() as u32);
+    }
+
+    /// y = (factor)^-1 x.
+    pub fn apply(&self, x: &[f64], y: &mut [f64]) {
+        y.copy_from_slice(x);
+        for (k, &v) in self.order.iter().enumerate() {
+            let value = y[v as usize];
+            for e in self.starts[k] as usize..self.starts[k + 1] as usize {
+                y[self.rows[e] as usize] += self.shares[e] * value;
+            }
+        }
+        for (k, &v) in self.order.iter().enumerate().rev() {
+            let pivot = self.pivots[k];
+            let mut value = if pivot > 0.0 { y[v as usize] / pivot } else { 0.0 };
+            for e in self.starts[k] as usize..self.starts[k + 1] as usize {
+                value += self.shares[e] * y[self.rows[e] as usize];
+            }
+            y[v as usize] = value;
+        }
+    }
+}
+
+/// Adjacency as linked lists in one arena; edges to eliminated vertices are skipped when met.
+struct Lists {
+    heads: Vec<u32>,
+    next: Vec<u32>,
+    ends: Vec<u32>,
+    weights: Vec<f64>,
+    /// Upper bounds of the degrees.
+    degrees: Vec<u32>,
+    eliminated: Vec<bool>,
+}
+
+impl Lists {
+    fn new(graph: &Graph) -> Self {
+        let n = graph.vertices;
+        let capacity = graph.edges.len() * 5;
+        let mut lists = Self {
+            heads: vec![NONE; n],
+            next: Vec::with_capacity(capacity),
+            ends: Vec::with_capacity(capacity),
+            weights: Vec::with_capacity(capacity),
+            degrees: vec![0; n],
+            eliminated: vec![false; n],
+        };
+        for &(i, j, w) in graph.edges.iter().filter(|e| e.2 > 0.0) {
+            lists.add(i, j, w);
+        }
+        lists
+    }
+
+    fn add(&mut self, i: u32, j: u32, weight: f64) {
+        for (a, b) in [(i, j), (j, i)] {
+            self.next.push(self.heads[a as usize]);
+            self.heads[a as usize] = self.ends.len() as u32;
+            self.ends.push(b);
+            self.weights.push(weight);
+            self.degrees[a as usize] += 1;
+        }
+    }
+
+    /// The neighbours left, parallel edges summed, by ascending weight.
+    fn gather(&self, v: u32, neighbours: &mut Vec<(u32, f64)>) {
+        neighbours.clear();
+        let mut e = self.heads[v as usize];
+        while e != NONE {
+            let end = self.ends[e as usize];
+            if !self.eliminated[end as usize] {
+                neighbours.push((end, self.weights[e as usize]));
+            }
+            e = self.next[e as usize];
+        }
+        neighbours.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        neighbours.dedup_by(|b, a| {
+            let same = a.0 == b.0;
+            if same {
+                a.1 += b.1;
+            }
+            same
+        });
+        neighbours.sort_unstable_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+    }
+
+    /// Joins the neighbours of an eliminated vertex by a random tree.
+    fn replace_clique(&mut self, neighbours: &[(u32, f64)], random: &mut SplitMix, queue: &mut DegreeQueue) {
+        let total: f64 = neighbours.iter().map(|n| n.1).sum();
+        let mut rest = total;
+        for (k, &(i, weight)) in neighbours.iter().enumerate() {
+            self.degrees[i as usize] = self.degrees[i as usize].saturating_sub(1);
+            rest -= weight;
+            if k + 1 < neighbours.len() && rest > 0.0 {
+                let later = &neighbours[k + 1..];
+                let mut mark = random.unit() * later.iter().map(|n| n.1).sum::<f64>();
+                let chosen = later.iter().find(|n| {
+                    mark -= n.1;
+                    mark <= 0.0
+                });
+                let j = chosen.unwrap_or(&later[later.len() - 1]).0;
+                self.add(i, j, weight * rest / total);
+            }
+        }
+        for &(i, _) in neighbours {
+            queue.push(i, self.degrees[i as usize]);
+        }
+    }
+}
+
+/// Vertices by degree, in buckets; entries go stale and are checked when they come up.
+struct DegreeQueue {
+    buckets: Vec<Vec<u32>>,
+    least: usize,
+}
+
+impl DegreeQueue {
+    fn new(degrees: &[u32]) -> Self {
+        let mut queue = Self { buckets: vec![Vec::new(); BUCKETS], least: 0 };
+        for (v, &degree) in degrees.iter().enumerate().rev() {
+            queue.push(v as u32, degree);
+        }
+        queue.least = 0;
+        queue
+    }
+
+    fn push(&mut self, v: u32, degree: u32) {
+        let bucket = (degree as usize).min(BUCKETS - 1);
+        self.buckets[bucket].push(v);
+        self.least = self.least.min(bucket);
+    }
+
+    fn pop(&mut self, lists: &Lists) -> Option<u32> {
+        while self.least < BUCKETS {
+            while let Some(v) = self.buckets[self.least].pop() {
+                let degree = (lists.degrees[v as usize] as usize).min(BUCKETS - 1);
+                if !lists.eliminated[v as usize] && degree == self.least {
+                    return Some(v);
+                }
+            }
+            self.least += 1;
+        }
+        None
+    }
+}
+
+/// The SplitMix64 generator (Steele, Lea & Flood 2014).
+struct SplitMix(u64);
+
+impl SplitMix {
+    /// Uniform in [0, 1).
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
