@@ -11,7 +11,8 @@ fn every_pair_has_a_valid_layout() {
     let Some(data) = common::data_folder("every_pair_has_a_valid_layout") else { return };
     for name in common::pair_names(&data) {
         let pair = common::read_pair(&data, &name);
-        let landmarks = Landmarks::from_vertices(&pair.source, &pair.target, &pair.file.pairs).unwrap();
+        let landmarks =
+            Landmarks::from_vertices(&pair.source, &pair.target, &common::vertex_pairs(&pair.file)).unwrap();
         let options = LayoutOptions { attempts: 1, ..LayoutOptions::default() };
         let begun = std::time::Instant::now();
         let layout = layout::joint([&pair.source, &pair.target], &landmarks, &options, &mut Silent)

@@ -17,7 +17,8 @@ fn pairs_are_certified() {
     for name in common::pair_names(&data).into_iter().filter(|n| only.as_ref().is_none_or(|o| n.contains(o)))
     {
         let pair = common::read_pair(&data, &name);
-        let landmarks = Landmarks::from_vertices(&pair.source, &pair.target, &pair.file.pairs).unwrap();
+        let landmarks =
+            Landmarks::from_vertices(&pair.source, &pair.target, &common::vertex_pairs(&pair.file)).unwrap();
         let options = LayoutOptions { attempts: 1, ..LayoutOptions::default() };
         let layout = layout::joint([&pair.source, &pair.target], &landmarks, &options, &mut Silent).unwrap();
         let surface = ConeSurface::of_layout(&layout).unwrap();

@@ -4,6 +4,7 @@
 //! triangulation weighted Delaunay while the radii change: then the energy is convex on all of R^V and Newton converges
 //! (Bobenko & Lutz 2023; for vertex scaling Gillespie, Springborn & Crane 2021).
 
+pub mod atlas;
 mod flow;
 mod metric;
 pub mod target;

@@ -2,7 +2,25 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A landmark file: `{"source", "target", "pairs": [[s, t], ...], "labels"?, "ground_truth"?}`.
+/// More pairs than this are refused.
+pub const MAX_PAIRS: usize = 10_000;
+
+/// One side of a pair.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum LandmarkPoint {
+    /// A vertex, 0-based.
+    Vertex(u32),
+    /// A point of a face.
+    OnFace {
+        /// The face, 0-based.
+        face: u32,
+        /// Weights of its corners: not negative, sum 1.
+        barycentric: [f64; 3],
+    },
+}
+
+/// A landmark file: `{"source"?, "target"?, "pairs": [[s, t], ...], "labels"?, "ground_truth"?}`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LandmarkFile {
     /// Path of the source mesh.
@@ -11,12 +29,50 @@ pub struct LandmarkFile {
     /// Path of the target mesh.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub target: Option<String>,
-    /// Corresponding source and target vertices, 0-based.
-    pub pairs: Vec<[u32; 2]>,
+    /// Corresponding points of source and target.
+    pub pairs: Vec<[LandmarkPoint; 2]>,
     /// One name per pair.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub labels: Option<Vec<String>>,
     /// Present when vertex i of the source truly corresponds to vertex i of the target.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ground_truth: Option<String>,
+}
+
+/// Why a landmark file cannot be used.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LandmarkFileError {
+    /// Not the JSON that was expected.
+    #[error("the landmark file, line {line}: {problem}")]
+    Json {
+        /// 1-based.
+        line: usize,
+        /// What the JSON reader says.
+        problem: String,
+    },
+    /// Too many pairs.
+    #[error("the landmark file has {count} pairs; the limit is {MAX_PAIRS}")]
+    TooMany {
+        /// How many.
+        count: usize,
+    },
+}
+
+/// Reads a landmark file.
+///
+/// # Errors
+/// [`LandmarkFileError`] with the line.
+pub fn read(bytes: &[u8]) -> Result<LandmarkFile, LandmarkFileError> {
+    let json = |e: serde_json::Error| LandmarkFileError::Json { line: e.line(), problem: e.to_string() };
+    let file: LandmarkFile = serde_json::from_slice(bytes).map_err(json)?;
+    if file.pairs.len() > MAX_PAIRS {
+        return Err(LandmarkFileError::TooMany { count: file.pairs.len() });
+    }
+    Ok(file)
+}
+
+/// Writes a landmark file.
+pub fn write(file: &LandmarkFile) -> Vec<u8> {
+    serde_json::to_vec_pretty(file).unwrap_or_default()
 }

@@ -1,4 +1,214 @@
-//! Bytes to polygon soups and back. One file per format.
+//! Bytes to polygon soups and landmark files. One file per format; formats are told by content, not by name.
+//!
+//! Everything is hostile until checked: sizes are compared with the file before anything is allocated.
 
+mod gltf_file;
 pub mod landmark_file;
-pub mod off;
+mod obj;
+mod off;
+mod ply;
+mod stl;
+
+use crate::mesh::soup::PolygonSoup;
+use std::fmt;
+
+/// Files larger than this are refused.
+pub const MAX_BYTES: usize = 1 << 30;
+
+/// Mesh file formats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Wavefront OBJ.
+    Obj,
+    /// Object File Format.
+    Off,
+    /// Stanford PLY, text or binary.
+    Ply,
+    /// Stereolithography, text or binary.
+    Stl,
+    /// glTF 2.0, binary or text with embedded buffers.
+    Gltf,
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Obj => "OBJ",
+            Self::Off => "OFF",
+            Self::Ply => "PLY",
+            Self::Stl => "STL",
+            Self::Gltf => "glTF",
+        })
+    }
+}
+
+/// Where in a file something is wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A line, 1-based.
+    Line(usize),
+    /// A vertex, 0-based.
+    Vertex(usize),
+    /// A face, 0-based.
+    Face(usize),
+    /// The file as a whole or its header.
+    Header,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Line(n) => write!(f, "line {n}"),
+            Self::Vertex(n) => write!(f, "vertex {n}"),
+            Self::Face(n) => write!(f, "face {n}"),
+            Self::Header => f.write_str("header"),
+        }
+    }
+}
+
+/// Why a file cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// No known format.
+    #[error("this is not a mesh file that can be read: use OBJ, OFF, PLY, STL, GLB or glTF")]
+    UnknownFormat,
+    /// Too large.
+    #[error("the file has {bytes} bytes; the limit is {MAX_BYTES}")]
+    TooLarge {
+        /// Its size.
+        bytes: usize,
+    },
+    /// Something in the file is wrong.
+    #[error("{format} file, {place}: {problem}")]
+    Malformed {
+        /// The format.
+        format: Format,
+        /// Where.
+        place: Place,
+        /// What is wrong and what to do.
+        problem: String,
+    },
+}
+
+/// Reads a mesh file of any known format.
+///
+/// # Errors
+/// [`ReadError`] that names the line, vertex or face.
+pub fn read_mesh(bytes: &[u8]) -> Result<PolygonSoup, ReadError> {
+    if bytes.len() > MAX_BYTES {
+        return Err(ReadError::TooLarge { bytes: bytes.len() });
+    }
+    let format = detect(bytes).ok_or(ReadError::UnknownFormat)?;
+    let soup = match format {
+        Format::Obj => obj::read(bytes),
+        Format::Off => off::read(bytes),
+        Format::Ply => ply::read(bytes),
+        Format::Stl => stl::read(bytes),
+        Format::Gltf => gltf_file::read(bytes),
+    };
+    let malformed = |(place, problem)| ReadError::Malformed { format, place, problem };
+    let soup = soup.map_err(malformed)?;
+    check_numbers(&soup).map_err(malformed)?;
+    Ok(soup)
+}
+
+/// What a reader says is wrong.
+type Problem = (Place, String);
+
+/// Tells the format by content.
+pub fn detect(bytes: &[u8]) -> Option<Format> {
+    if bytes.starts_with(b"glTF") {
+        return Some(Format::Gltf);
+    }
+    if bytes.starts_with(b"ply") {
+        return Some(Format::Ply);
+    }
+    if stl::is_binary(bytes) {
+        return Some(Format::Stl);
+    }
+    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
+    let head = head.trim_start_matches('\u{feff}');
+    let mut lines = head.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with('#'));
+    let first = lines.next()?;
+    if matches!(first.split_whitespace().next(), Some("OFF" | "COFF" | "NOFF" | "CNOFF" | "STOFF")) {
+        return Some(Format::Off);
+    }
+    if first.starts_with("solid") {
+        return Some(Format::Stl);
+    }
+    if first.starts_with('{') && head.contains("\"asset\"")
+        || first.starts_with('{') && bytes.windows(7).any(|w| w == b"\"asset\"")
+    {
+        return Some(Format::Gltf);
+    }
+    let is_obj = |l: &str| {
+        let word = l.split_whitespace().next().unwrap_or_default();
+        matches!(word, "v" | "vn" | "vt" | "f" | "o" | "g" | "s" | "mtllib" | "usemtl")
+    };
+    (is_obj(first) && lines.take(5).all(is_obj)).then_some(Format::Obj)
+}
+
+/// Every coordinate finite and of sane size, every polygon with at least three existing vertices.
+fn check_numbers(soup: &PolygonSoup) -> Result<(), Problem> {
+    let sane = |p: &glam::DVec3| p.is_finite() && p.abs().max_element() < 1e100;
+    if let Some(v) = soup.positions.iter().position(|p| !sane(p)) {
+        return Err((
+            Place::Vertex(v),
+            format!("the coordinates {} are not usable numbers", soup.positions[v]),
+        ));
+    }
+    for (f, polygon) in soup.polygons.iter().enumerate() {
+        if polygon.len() < 3 {
+            return Err((
+                Place::Face(f),
+                format!("it has {} corners; a face needs at least 3", polygon.len()),
+            ));
+        }
+        if let Some(v) = polygon.iter().find(|v| **v as usize >= soup.positions.len()) {
+            let count = soup.positions.len();
+            return Err((Place::Face(f), format!("it names vertex {v}, but the file has {count} vertices")));
+        }
+    }
+    Ok(())
+}
+
+/// The text of a file.
+fn text(bytes: &[u8]) -> Result<&str, Problem> {
+    let text = std::str::from_utf8(bytes).map_err(|e| {
+        let line = 1 + bytes[..e.valid_up_to()].iter().filter(|b| **b == b'\n').count();
+        (Place::Line(line), "it holds bytes that are not text: the file may be damaged".to_owned())
+    })?;
+    Ok(text.trim_start_matches('\u{feff}'))
+}
+
+/// A number of a text file.
+fn number<T: std::str::FromStr>(token: Option<&str>, line: usize, what: &str) -> Result<T, Problem> {
+    let token =
+        token.ok_or_else(|| (Place::Line(line), format!("{what} is missing: the file may be cut off")))?;
+    let short: String = token.chars().take(20).collect();
+    token.parse().map_err(|_| (Place::Line(line), format!("\"{short}\" should be {what}")))
+}
+
+/// Vertices with exactly equal coordinates become one; formats without shared vertices need it.
+fn weld(soup: PolygonSoup) -> PolygonSoup {
+    let mut numbers = rustc_hash::FxHashMap::default();
+    let mut welded = PolygonSoup::default();
+    let mut new_number = Vec::with_capacity(soup.positions.len());
+    for p in soup.positions {
+        // Adding 0 makes -0 and 0 the same bits.
+        let key = (p + glam::DVec3::ZERO).to_array().map(f64::to_bits);
+        let next = welded.positions.len() as u32;
+        let number = *numbers.entry(key).or_insert(next);
+        if number == next {
+            welded.positions.push(p);
+        }
+        new_number.push(number);
+    }
+    let old = |v: &u32| new_number.get(*v as usize).copied().unwrap_or(u32::MAX);
+    welded.polygons = soup.polygons.iter().map(|polygon| polygon.iter().map(old).collect()).collect();
+    welded
+}
+
+#[cfg(test)]
+mod tests;

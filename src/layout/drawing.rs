@@ -24,8 +24,6 @@ pub(super) struct Plan {
     pub ends: [usize; 2],
     /// On the source and on the target.
     pub found: [FoundPath; 2],
-    /// Sector at each end: the path goes in after the path at this place of the rotation.
-    slots: [usize; 2],
 }
 
 /// The drawing on both meshes.
@@ -81,7 +79,7 @@ impl Drawing {
             let other = 1 - free;
             let Some(second) = self.search_in_slots(planner, other, ends, slots) else { continue };
             let found = if free == 0 { [first, second] } else { [second, first] };
-            let plan = Plan { ends, found, slots };
+            let plan = Plan { ends, found };
             if best.as_ref().is_none_or(|b| plan.length() < b.length()) {
                 best = Some(plan);
             }
@@ -93,7 +91,7 @@ impl Drawing {
     pub fn plan_in_slots(&self, planner: &mut Planner, ends: [usize; 2], slots: [usize; 2]) -> Option<Plan> {
         let source = self.search_in_slots(planner, 0, ends, slots)?;
         let target = self.search_in_slots(planner, 1, ends, slots)?;
-        Some(Plan { ends, found: [source, target], slots })
+        Some(Plan { ends, found: [source, target] })
     }
 
     fn search_in_slots(

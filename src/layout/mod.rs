@@ -84,11 +84,13 @@ pub struct LayoutOptions {
     pub attempts: usize,
     /// A layout with at most this detour ([`LayoutReport::detour`]) is taken at once.
     pub good_detour: f64,
+    /// Which of the attempts is returned: 0 the one with the least detour, 1 the next, and so on.
+    pub rank: usize,
 }
 
 impl Default for LayoutOptions {
     fn default() -> Self {
-        Self { attempts: 6, good_detour: 0.5 }
+        Self { attempts: 6, good_detour: 0.5, rank: 0 }
     }
 }
 
@@ -141,7 +143,7 @@ pub fn joint(
     let distances = LandmarkDistances::new(meshes, [&landmarks.source, &landmarks.target]);
     let ground = Ground { empty: &empty, distances: &distances };
     let mut geodesics = Geodesics::new(landmarks.len());
-    let mut best: Option<(Drawing, LayoutReport)> = None;
+    let mut found: Vec<(Drawing, LayoutReport)> = Vec::new();
     let mut failure = LayoutError::Stuck { paths: 0, wanted: 3 * landmarks.len() - 6 };
     let mut attempts = 0;
     for &variant in VARIANTS.iter().take(options.attempts.max(1)) {
@@ -156,14 +158,13 @@ pub fn joint(
         };
         let report = report(&drawing, &empty, &mut geodesics);
         let good = report.detour <= options.good_detour;
-        if best.as_ref().is_none_or(|(_, b)| report.detour < b.detour) {
-            best = Some((drawing, report));
-        }
-        if good {
+        found.push((drawing, report));
+        if good && options.rank == 0 {
             break;
         }
     }
-    let (drawing, mut report) = best.ok_or(failure)?;
+    found.sort_by(|a, b| a.1.detour.total_cmp(&b.1.detour));
+    let (drawing, mut report) = found.into_iter().nth(options.rank).ok_or(failure)?;
     report.attempts = attempts;
     let base = patches::base_of(&drawing, meshes[1], landmarks)?;
     Ok(patches::finish(drawing, base, meshes, report)?)

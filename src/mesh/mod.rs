@@ -1,8 +1,10 @@
 //! Typed elements, halfedge connectivity, polygon soup, checks and points on the surface.
 
+pub mod check;
 pub mod collapsible;
 pub mod generators;
 mod ids;
+pub mod insertion;
 pub mod soup;
 mod surface_mesh;
 mod surface_point;

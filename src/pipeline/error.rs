@@ -1,6 +1,11 @@
 //! Which stage failed, and why.
 
+use crate::base_domain::SimplifyError;
+use crate::cone_metric::FlowError;
+use crate::layout::LayoutError;
 use crate::monitor::Cancelled;
+use crate::surface_map::compose::LocateError;
+use crate::surface_map::{Certificate, MapError};
 
 /// Why there is no map.
 #[derive(Clone, Debug, thiserror::Error)]
@@ -8,7 +13,61 @@ use crate::monitor::Cancelled;
 pub enum PipelineError {
     /// The user asked to stop.
     #[error(transparent)]
-    Cancelled(#[from] Cancelled),
+    Cancelled(Cancelled),
+    /// No base domain.
+    #[error("base domain: {0}")]
+    BaseDomain(SimplifyError),
+    /// The base domain could not be drawn on both meshes.
+    #[error("layout: {0}")]
+    Layout(LayoutError),
+    /// The source's flow failed.
+    #[error("cone metric of the source: {0}")]
+    SourceFlow(FlowError),
+    /// The target's flow failed.
+    #[error("cone metric of the target: {0}")]
+    TargetFlow(FlowError),
+    /// No parametrisation.
+    #[error("map: {0}")]
+    Map(MapError),
+    /// A point was lost between the two parametrisations.
+    #[error("composition: {0}")]
+    Locate(LocateError),
+    /// The result is not a bijection; it is not returned as a map.
+    #[error(
+        "the map is not certified: {} flipped triangles, largest angle sum error {:.3e} rad",
+        .0.flipped_triangles,
+        .0.max_angle_sum_error
+    )]
+    NotCertified(Certificate),
+}
+
+macro_rules! from_stage {
+    ($error:ident, $variant:ident) => {
+        impl From<$error> for PipelineError {
+            fn from(error: $error) -> Self {
+                match error {
+                    $error::Cancelled(stop) => Self::Cancelled(stop),
+                    other => Self::$variant(other),
+                }
+            }
+        }
+    };
+}
+
+from_stage!(SimplifyError, BaseDomain);
+from_stage!(LayoutError, Layout);
+from_stage!(MapError, Map);
+
+impl From<Cancelled> for PipelineError {
+    fn from(stop: Cancelled) -> Self {
+        Self::Cancelled(stop)
+    }
+}
+
+impl From<LocateError> for PipelineError {
+    fn from(error: LocateError) -> Self {
+        Self::Locate(error)
+    }
 }
 
 impl PipelineError {
@@ -16,6 +75,12 @@ impl PipelineError {
     pub fn code(&self) -> &'static str {
         match self {
             Self::Cancelled(_) => "cancelled",
+            Self::BaseDomain(_) => "base-domain",
+            Self::Layout(_) => "layout",
+            Self::SourceFlow(_) | Self::TargetFlow(_) => "cone-metric",
+            Self::Map(_) => "map",
+            Self::Locate(_) => "composition",
+            Self::NotCertified(_) => "not-certified",
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod error;
 mod options;
+mod relaxed;
 mod report;
 mod result;
 
@@ -11,11 +12,16 @@ pub use report::{
     BaseDomainReport, CertificateReport, ConeMetricReport, ConeMetricsReport, DistortionReport, FacesReport,
     GroundTruthReport, Report,
 };
-pub use result::{MapResult, Side};
+pub use result::MapResult;
 
+use crate::base_domain::{self, BaseDomain};
+use crate::cone_metric::atlas::{FlatAtlas, flat_atlas};
+use crate::cone_metric::{ConeMetric, FlowReport, base_domain_curvature, flow, uniform_curvature};
 use crate::landmarks::Landmarks;
-use crate::mesh::SurfaceMesh;
-use crate::monitor::Monitor;
+use crate::layout::{self, BaseLayout, LayoutOptions};
+use crate::mesh::{SurfaceMesh, VertexId};
+use crate::monitor::{Monitor, Stage};
+use typed_index_collections::TiVec;
 
 /// What the pipeline starts from: two checked meshes and landmarks that are vertices of both.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +32,7 @@ pub struct MapInput<'a> {
     pub target: &'a SurfaceMesh,
     /// At least four corresponding vertices.
     pub landmarks: &'a Landmarks,
-    /// Whether vertex i of the source truly corresponds to vertex i of the target, so that errors can be measured.
+    /// What is known of the true map.
     pub ground_truth: GroundTruth,
 }
 
@@ -50,6 +56,72 @@ pub fn run(
     options: &PipelineOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<MapResult, PipelineError> {
-    let _ = (input, options, monitor);
-    Err(PipelineError::Cancelled(crate::monitor::Cancelled))
+    monitor.enter(Stage::BaseDomain);
+    let first = draw(input, options, 0, monitor)?;
+    let metrics = Metrics::new(input, &first.base, options, monitor)?;
+    match options.method {
+        Method::Relaxed => relaxed::run(input, options, (first, &metrics), monitor),
+        Method::Thesis => Err(PipelineError::Cancelled(crate::monitor::Cancelled)),
+    }
+}
+
+/// Draws the base domain on both meshes; `rank` 0 is the best layout found.
+fn draw(
+    input: MapInput<'_>,
+    options: &PipelineOptions,
+    rank: usize,
+    monitor: &mut dyn Monitor,
+) -> Result<BaseLayout, PipelineError> {
+    let meshes = [input.source, input.target];
+    Ok(match options.base {
+        Base::Joint => {
+            let options = LayoutOptions { rank, ..options.layout };
+            layout::joint(meshes, input.landmarks, &options, monitor)?
+        }
+        Base::Qem => {
+            let base = base_domain::simplify(input.target, &input.landmarks.target, monitor)?;
+            layout::from_base(meshes, input.landmarks, &base, monitor)?
+        }
+    })
+}
+
+/// The flat cone metrics of both meshes and the target's texture coordinates.
+struct Metrics {
+    source: (ConeMetric, FlowReport),
+    target: (ConeMetric, FlowReport),
+    /// Target curvature of each landmark.
+    cones: Vec<f64>,
+    target_atlas: FlatAtlas,
+}
+
+impl Metrics {
+    fn new(
+        input: MapInput<'_>,
+        base: &BaseDomain,
+        options: &PipelineOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self, PipelineError> {
+        let curvature = |mesh: &SurfaceMesh, landmarks: &[VertexId]| -> TiVec<VertexId, f64> {
+            match options.cones {
+                Cones::BaseDomain => base_domain_curvature(mesh.vertex_count(), landmarks, base),
+                Cones::Uniform => uniform_curvature(mesh.vertex_count(), landmarks),
+            }
+        };
+        let failed = |error, wrap: fn(_) -> PipelineError| match error {
+            crate::cone_metric::FlowError::Cancelled(stop) => PipelineError::Cancelled(stop),
+            error => wrap(error),
+        };
+        let Landmarks { source, target } = input.landmarks;
+        monitor.enter(Stage::SourceConeMetric);
+        let goal = curvature(input.source, source);
+        let source_metric = flow(input.source, &goal, &options.flow, monitor)
+            .map_err(|e| failed(e, PipelineError::SourceFlow))?;
+        monitor.enter(Stage::TargetConeMetric);
+        let goal = curvature(input.target, target);
+        let target_metric = flow(input.target, &goal, &options.flow, monitor)
+            .map_err(|e| failed(e, PipelineError::TargetFlow))?;
+        let target_atlas = flat_atlas(input.target, &target_metric.0, target);
+        let cones = target.iter().map(|&v| goal[v]).collect();
+        Ok(Self { source: source_metric, target: target_metric, cones, target_atlas })
+    }
 }

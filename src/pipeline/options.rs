@@ -1,5 +1,10 @@
 //! What a user may choose.
 
+use crate::cone_metric::FlowOptions;
+use crate::layout::LayoutOptions;
+use crate::surface_map::flat_problem::RelaxOptions;
+use crate::surface_map::initial::InitialOptions;
+
 /// How the map is made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
@@ -39,4 +44,12 @@ pub struct PipelineOptions {
     pub base: Base,
     /// Curvature at the landmarks.
     pub cones: Cones,
+    /// Both flows.
+    pub flow: FlowOptions,
+    /// The search for the layout.
+    pub layout: LayoutOptions,
+    /// The first parametrisations.
+    pub initial: InitialOptions,
+    /// Their relaxation.
+    pub relax: RelaxOptions,
 }

@@ -1,5 +1,8 @@
 //! The numbers of a run, stable as JSON.
 
+use super::{MapInput, Metrics};
+use crate::base_domain::BaseDomain;
+use crate::cone_metric::FlowReport;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -109,4 +112,35 @@ pub struct FacesReport {
     pub source: usize,
     /// Of the target.
     pub target: usize,
+}
+
+impl Report {
+    /// What is known before the map.
+    pub(super) fn of_inputs(input: MapInput<'_>, base: &BaseDomain, metrics: &Metrics) -> Self {
+        Self {
+            base_domain: BaseDomainReport {
+                vertices: base.mesh.vertex_count(),
+                faces: base.mesh.face_count(),
+            },
+            cone_metric: ConeMetricsReport {
+                source: ConeMetricReport::from(&metrics.source.1),
+                target: ConeMetricReport::from(&metrics.target.1),
+            },
+            faces: FacesReport { source: input.source.face_count(), target: input.target.face_count() },
+            ..Self::default()
+        }
+    }
+}
+
+impl From<&FlowReport> for ConeMetricReport {
+    fn from(report: &FlowReport) -> Self {
+        Self {
+            newton_steps: report.newton_steps,
+            cg_iterations: report.cg_iterations,
+            edge_flips: report.edge_flips,
+            max_curvature_error: report.max_curvature_error,
+            residuals: report.residuals.clone(),
+            seconds: 0.0,
+        }
+    }
 }

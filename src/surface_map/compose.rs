@@ -102,11 +102,7 @@ pub fn locate(
     };
     Ok(Locations {
         by_vertex: found.into_iter().enumerate().map(|(v, l)| complete(l, v)).collect::<Result<_, _>>()?,
-        by_face: by_face
-            .into_iter()
-            .enumerate()
-            .map(|(f, l)| inside(f, l))
-            .collect::<Result<_, _>>()?,
+        by_face: by_face.into_iter().enumerate().map(|(f, l)| inside(f, l)).collect::<Result<_, _>>()?,
     })
 }
 

@@ -11,10 +11,12 @@ pub mod distortion;
 pub mod embedding;
 pub mod energy;
 pub mod flat_problem;
+pub mod ground_truth;
 pub mod initial;
 pub mod overlay;
 mod placement;
 mod progressive;
+pub mod transfer;
 
 pub use certificate::{Certificate, certify};
 pub use cone_surface::ConeSurface;

@@ -91,7 +91,8 @@ impl Clipper {
             let developed = below.map(|p| back.apply(p));
             self.clip(&triangle, &developed);
             let area = polygon_area(&self.polygon);
-            if area > 1e-14 * whole {
+            let below_area = 0.5 * signed_double_area(below[0], below[1], below[2]);
+            if area > 1e-12 * whole.min(below_area) {
                 covered += area;
                 let begin = overlay.points.len();
                 overlay.points.extend(self.polygon.iter().map(|&p| OverlayPoint {

@@ -2,10 +2,12 @@
 //!
 //! They are read from `../shared/data`. In continuous integration (`CI` is set) or where `../shared` exists, a missing file
 //! is a failure; a plain checkout has no such folder and skips these tests by name.
+#![allow(clippy::print_stderr, reason = "tests say why they are skipped")]
 #![allow(dead_code, reason = "every test binary uses another part")]
 
-use conemap::io::{landmark_file::LandmarkFile, off};
-use conemap::mesh::{SurfaceMesh, VertexId};
+use conemap::io;
+use conemap::io::landmark_file::{LandmarkFile, LandmarkPoint};
+use conemap::mesh::{SurfaceMesh, check};
 use std::path::{Path, PathBuf};
 
 /// The data folder, or `None` (said on standard error) in a plain checkout.
@@ -23,10 +25,8 @@ pub fn data_folder(test: &str) -> Option<PathBuf> {
 /// Reads a mesh of the data folder.
 pub fn read_mesh(path: &Path) -> SurfaceMesh {
     let bytes = std::fs::read(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    let soup = off::read(&bytes).unwrap_or_else(|| panic!("{}: not an OFF file", path.display()));
-    let faces = soup.polygons.iter().map(|p| [VertexId(p[0]), VertexId(p[1]), VertexId(p[2])]).collect();
-    SurfaceMesh::from_triangles(soup.positions.into(), faces)
-        .unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+    let soup = io::read_mesh(&bytes).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    check::closed_genus_zero(&soup).unwrap_or_else(|e| panic!("{}: {e}", path.display())).mesh
 }
 
 /// A landmark file with both its meshes.
@@ -54,4 +54,13 @@ pub fn pair_names(data: &Path) -> Vec<String> {
         entries.filter_map(|e| Some(e.ok()?.path().file_stem()?.to_str()?.to_owned())).collect();
     names.sort();
     names
+}
+
+/// The pairs of a file whose landmarks are all vertices.
+pub fn vertex_pairs(file: &LandmarkFile) -> Vec<[u32; 2]> {
+    let vertex = |p: LandmarkPoint| match p {
+        LandmarkPoint::Vertex(v) => v,
+        LandmarkPoint::OnFace { .. } => panic!("the data has vertices only"),
+    };
+    file.pairs.iter().map(|pair| pair.map(vertex)).collect()
 }

@@ -1,4 +1,74 @@
 //! `conemap flow`.
-pub fn run(_options: &crate::arguments::FlowArguments) -> Result<(), String> {
-    Ok(())
+
+use crate::arguments::{FlowArguments, SchemeArgument};
+use crate::clock::Clock;
+use crate::input::{self, Failure};
+use conemap::cone_metric::{FlowError, FlowOptions, Scheme, flow, listed_curvature};
+use conemap::monitor::{Monitor, Stage};
+use conemap::pipeline::ConeMetricReport;
+use serde_json::json;
+
+/// Runs one flow and writes its report; an error where it did not converge.
+pub fn run(arguments: &FlowArguments) -> Result<(), Failure> {
+    let checked = input::mesh(&arguments.mesh)?;
+    let mesh = &checked.mesh;
+    let cones = cones(arguments, &checked.vertex_from_file)?;
+    let curvature = listed_curvature(mesh.vertex_count(), &cones)?;
+    let options = FlowOptions { scheme: scheme(arguments.scheme), ..FlowOptions::default() };
+    let mut clock = Clock::start();
+    clock.enter(Stage::SourceConeMetric);
+    let outcome = flow(mesh, &curvature, &options, &mut clock);
+    let seconds = clock.stop();
+    let (report, failure) = match outcome {
+        Ok((_, report)) => (report, None),
+        Err(FlowError::NotConverged { best, report }) => {
+            let failure = FlowError::NotConverged { best, report: report.clone() };
+            (*report, Some(failure))
+        }
+        Err(error) => return Err(error.into()),
+    };
+    if let Some(path) = &arguments.report {
+        let total = seconds.get("total").copied().unwrap_or_default();
+        let flow = ConeMetricReport { seconds: total, ..ConeMetricReport::from(&report) };
+        let value =
+            json!({ "converged": failure.is_none(), "cone_metric": flow, "faces": mesh.face_count() });
+        input::write(path, &serde_json::to_vec_pretty(&value)?)?;
+    }
+    failure.map_or(Ok(()), |error| Err(error.into()))
+}
+
+fn scheme(argument: SchemeArgument) -> Scheme {
+    match argument {
+        SchemeArgument::Inversive => Scheme::InversiveDistance,
+        SchemeArgument::VertexScaling => Scheme::VertexScaling,
+        SchemeArgument::FixedTriangulation => Scheme::FixedTriangulation,
+    }
+}
+
+/// Reads lines `vertex angle_defect`.
+fn cones(
+    arguments: &FlowArguments,
+    vertex_from_file: &[Option<conemap::mesh::VertexId>],
+) -> Result<Vec<(usize, f64)>, Failure> {
+    let path = arguments.cones.display();
+    let text =
+        String::from_utf8(input::bytes(&arguments.cones)?).map_err(|_| format!("{path}: it is not text"))?;
+    let mut cones = Vec::new();
+    for (line, content) in
+        text.lines().enumerate().map(|(i, l)| (i + 1, l.split('#').next().unwrap_or_default()))
+    {
+        let words: Vec<_> = content.split_whitespace().collect();
+        let parsed = match words[..] {
+            [] => continue,
+            [vertex, defect] => vertex.parse::<usize>().ok().zip(defect.parse::<f64>().ok()),
+            _ => None,
+        };
+        let (vertex, defect) = parsed.ok_or_else(|| {
+            format!("{path}, line {line}: expected `vertex angle_defect`, found \"{content}\"")
+        })?;
+        let known = vertex_from_file.get(vertex).copied().flatten();
+        let v = known.ok_or_else(|| format!("{path}, line {line}: the mesh has no vertex {vertex}"))?;
+        cones.push((v.index(), defect));
+    }
+    Ok(cones)
 }

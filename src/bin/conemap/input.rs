@@ -1,1 +1,33 @@
-//! Placeholder.
+//! Meshes and landmarks from files, with errors that name the file.
+
+use conemap::io::{self, landmark_file};
+use conemap::mesh::check::{CheckedMesh, closed_genus_zero};
+use std::error::Error;
+use std::path::Path;
+
+/// What the command line fails with: a sentence.
+pub type Failure = Box<dyn Error>;
+
+/// Reads a file.
+pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    std::fs::read(path).map_err(|e| format!("{}: {e}", path.display()).into())
+}
+
+/// Reads and checks a mesh.
+pub fn mesh(path: &Path) -> Result<CheckedMesh, Failure> {
+    let soup = io::read_mesh(&bytes(path)?).map_err(|e| format!("{}: {e}", path.display()))?;
+    closed_genus_zero(&soup).map_err(|e| format!("{}: {e}", path.display()).into())
+}
+
+/// Reads a landmark file.
+pub fn landmarks(path: &Path) -> Result<landmark_file::LandmarkFile, Failure> {
+    landmark_file::read(&bytes(path)?).map_err(|e| format!("{}: {e}", path.display()).into())
+}
+
+/// Writes a file, with the folder above it.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    if let Some(folder) = path.parent().filter(|f| !f.as_os_str().is_empty()) {
+        std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    }
+    std::fs::write(path, bytes).map_err(|e| format!("{}: {e}", path.display()).into())
+}

@@ -1,4 +1,92 @@
 //! `conemap map`.
-pub fn run(_options: &crate::arguments::MapArguments) -> Result<(), String> {
+
+use crate::arguments::{BaseArgument, ConesArgument, MapArguments, MethodArgument};
+use crate::clock::Clock;
+use crate::input::{self, Failure};
+use conemap::export;
+use conemap::landmarks::{PlacedLandmarks, place};
+use conemap::mesh::check::CheckedMesh;
+use conemap::monitor::{Monitor, Stage};
+use conemap::pipeline::{
+    Base, Cones, GroundTruth, MapInput, MapResult, Method, PipelineOptions, run as run_pipeline,
+};
+use std::collections::BTreeMap;
+
+/// Maps, writes what was asked for, and tells the certificate; an error where there is no certified map.
+pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
+    let mut clock = Clock::start();
+    clock.enter(Stage::Landmarks);
+    let source = input::mesh(&arguments.source)?;
+    let target = input::mesh(&arguments.target)?;
+    let file = input::landmarks(&arguments.landmarks)?;
+    let placed = place([&source, &target], &file.pairs)
+        .map_err(|e| format!("{}: {e}", arguments.landmarks.display()))?;
+    let ground_truth = match file.ground_truth {
+        Some(_) if same_connectivity(&source, &target) => GroundTruth::SameConnectivity,
+        _ => GroundTruth::Unknown,
+    };
+    let source_vertices = source.mesh.vertex_count();
+    let PlacedLandmarks { source, target, landmarks } = placed;
+    let map_input =
+        MapInput { source: &source.mesh, target: &target.mesh, landmarks: &landmarks, ground_truth };
+    let mut result = run_pipeline(map_input, &options(arguments), &mut clock)?;
+    add_seconds(&mut result, clock.stop());
+    tell(&result);
+    if let Some(folder) = &arguments.out {
+        let images = result.target_from_source.iter().map(|image| image.map(|p| target.on_original(p)));
+        let images: Vec<_> = images.take(source_vertices).collect();
+        input::write(
+            &folder.join("source-with-target-texture.glb"),
+            &export::glb::textured_source(&result.common)?,
+        )?;
+        input::write(&folder.join("vertex-images.csv"), &export::csv::vertex_images(&images))?;
+        input::write(&folder.join("base-domain.obj"), &export::obj::mesh(&result.base.mesh))?;
+    }
+    if let Some(path) = &arguments.report {
+        input::write(path, &serde_json::to_vec_pretty(&result.report)?)?;
+    }
     Ok(())
+}
+
+fn same_connectivity(source: &CheckedMesh, target: &CheckedMesh) -> bool {
+    source.mesh.triangles() == target.mesh.triangles()
+}
+
+fn options(arguments: &MapArguments) -> PipelineOptions {
+    PipelineOptions {
+        method: match arguments.method {
+            MethodArgument::Relaxed => Method::Relaxed,
+            MethodArgument::Thesis => Method::Thesis,
+        },
+        base: match arguments.base {
+            BaseArgument::Joint => Base::Joint,
+            BaseArgument::Qem => Base::Qem,
+        },
+        cones: match arguments.cones {
+            ConesArgument::BaseDomain => Cones::BaseDomain,
+            ConesArgument::Uniform => Cones::Uniform,
+        },
+        ..PipelineOptions::default()
+    }
+}
+
+fn add_seconds(result: &mut MapResult, seconds: BTreeMap<String, f64>) {
+    let of = |stage: &str| seconds.get(stage).copied().unwrap_or_default();
+    result.report.cone_metric.source.seconds = of("source_cone_metric");
+    result.report.cone_metric.target.seconds = of("target_cone_metric");
+    result.report.seconds = seconds;
+}
+
+fn tell(result: &MapResult) {
+    let report = &result.report;
+    match &report.certificate {
+        Some(c) => eprintln!("certified bijective: {} flipped triangles", c.flipped_triangles),
+        None => eprintln!(
+            "not bijective by construction: {:.1} % of the vertices are unmapped",
+            100.0 * report.unmapped_share
+        ),
+    }
+    let d = &report.distortion;
+    eprintln!("energy {:.3} (4 is an isometry), mean distortion {:.3} (1 is an isometry)", d.energy, d.mean);
+    report.warnings.iter().for_each(|w| eprintln!("warning: {w}"));
 }

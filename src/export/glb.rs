@@ -1,0 +1,157 @@
+//! Textured meshes as binary glTF 2.0, with a checkerboard inside.
+
+use crate::surface_map::transfer::CommonMesh;
+use glam::{DVec2, DVec3};
+use serde_json::json;
+
+/// Squares of the checkerboard along one unit of texture coordinates (the whole surface has area 1 there).
+const SQUARES: f64 = 24.0;
+
+/// Why a file cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum GlbError {
+    /// The texture could not be encoded.
+    #[error("the texture could not be written: {0}")]
+    Texture(#[from] png::EncodingError),
+}
+
+/// The source's surface with the target's texture.
+///
+/// # Errors
+/// [`GlbError`].
+pub fn textured_source(common: &CommonMesh) -> Result<Vec<u8>, GlbError> {
+    let positions: Vec<f32> = flat(&common.source_positions);
+    let normals: Vec<f32> = flat(&common.source_normals);
+    let uvs: Vec<f32> = common.uvs.iter().flat_map(|uv| square_uvs(*uv)).collect();
+    let indices: Vec<u8> = common.triangles.iter().flatten().flat_map(|i| i.to_le_bytes()).collect();
+    let image = checkerboard()?;
+    let (low, high) = bounds(&positions);
+    let vertices = common.source_positions.len();
+    let mut body = Body::default();
+    let views = [
+        body.push(&floats(&positions), Some(34962)),
+        body.push(&floats(&normals), Some(34962)),
+        body.push(&floats(&uvs), Some(34962)),
+        body.push(&indices, Some(34963)),
+        body.push(&image, None),
+    ];
+    let accessor = |view: usize, kind: &str| json!({ "bufferView": view, "componentType": 5126, "count": vertices, "type": kind });
+    let mut first = accessor(0, "VEC3");
+    first["min"] = json!(low);
+    first["max"] = json!(high);
+    let indices = json!({ "bufferView": 3, "componentType": 5125, "count": common.triangles.len() * 3, "type": "SCALAR" });
+    let document = json!({
+        "asset": { "version": "2.0", "generator": "Conemap" },
+        "scene": 0,
+        "scenes": [{ "nodes": [0] }],
+        "nodes": [{ "mesh": 0, "name": "source" }],
+        "meshes": [{ "primitives": [{
+            "attributes": { "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 }, "indices": 3, "material": 0
+        }] }],
+        "materials": [{ "pbrMetallicRoughness": {
+            "baseColorTexture": { "index": 0 }, "metallicFactor": 0.0, "roughnessFactor": 0.8
+        } }],
+        "textures": [{ "source": 0, "sampler": 0 }],
+        "samplers": [{ "wrapS": 10497, "wrapT": 10497, "magFilter": 9729, "minFilter": 9987 }],
+        "images": [{ "bufferView": 4, "mimeType": "image/png" }],
+        "accessors": [first, accessor(1, "VEC3"), accessor(2, "VEC2"), indices],
+        "bufferViews": views,
+        "buffers": [{ "byteLength": body.bytes.len() }],
+    });
+    Ok(assemble(document.to_string().into_bytes(), body.bytes))
+}
+
+/// Two squares of the board make one period of the texture.
+fn square_uvs(uv: DVec2) -> [f32; 2] {
+    (uv * (0.5 * SQUARES)).to_array().map(|x| x as f32)
+}
+
+fn flat(points: &[DVec3]) -> Vec<f32> {
+    points.iter().flat_map(|p| p.to_array().map(|x| x as f32)).collect()
+}
+
+fn floats(values: &[f32]) -> Vec<u8> {
+    values.iter().flat_map(|x| x.to_le_bytes()).collect()
+}
+
+fn bounds(positions: &[f32]) -> ([f32; 3], [f32; 3]) {
+    let fold = |start: f32, pick: fn(f32, f32) -> f32| {
+        positions
+            .chunks_exact(3)
+            .fold([start; 3], |m, p| [pick(m[0], p[0]), pick(m[1], p[1]), pick(m[2], p[2])])
+    };
+    (fold(f32::INFINITY, f32::min), fold(f32::NEG_INFINITY, f32::max))
+}
+
+#[derive(Default)]
+struct Body {
+    bytes: Vec<u8>,
+}
+
+impl Body {
+    /// Appends a view, aligned to 4 bytes.
+    fn push(&mut self, data: &[u8], target: Option<u32>) -> serde_json::Value {
+        let offset = self.bytes.len();
+        self.bytes.extend_from_slice(data);
+        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
+        let mut view = json!({ "buffer": 0, "byteOffset": offset, "byteLength": data.len() });
+        if let Some(target) = target {
+            view["target"] = json!(target);
+        }
+        view
+    }
+}
+
+fn assemble(mut document: Vec<u8>, body: Vec<u8>) -> Vec<u8> {
+    document.resize(document.len().next_multiple_of(4), b' ');
+    let total = 12 + 8 + document.len() + 8 + body.len();
+    let mut bytes = Vec::with_capacity(total);
+    bytes.extend(b"glTF");
+    bytes.extend(2_u32.to_le_bytes());
+    bytes.extend((total as u32).to_le_bytes());
+    for (kind, chunk) in [(b"JSON", document), (b"BIN\0", body)] {
+        bytes.extend((chunk.len() as u32).to_le_bytes());
+        bytes.extend(kind);
+        bytes.extend(chunk);
+    }
+    bytes
+}
+
+/// Two by two squares, 64 pixels each.
+fn checkerboard() -> Result<Vec<u8>, png::EncodingError> {
+    const SIZE: u32 = 128;
+    let shade =
+        |x: u32, y: u32| if (x < SIZE / 2) == (y < SIZE / 2) { [240, 240, 235] } else { [52, 98, 140] };
+    let pixels: Vec<u8> = (0..SIZE * SIZE).flat_map(|k| shade(k % SIZE, k / SIZE)).collect();
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, SIZE, SIZE);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&pixels)?;
+    writer.finish()?;
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::io::read_mesh;
+    use crate::mesh::generators::octahedron;
+
+    #[test]
+    fn the_reader_reads_it_back() {
+        let mesh = octahedron();
+        let positions: Vec<_> = mesh.positions().iter().copied().collect();
+        let common = CommonMesh {
+            source_normals: positions.clone(),
+            target_positions: positions.clone(),
+            target_normals: positions.clone(),
+            uvs: vec![DVec2::ZERO; 6],
+            triangles: mesh.triangles().iter().map(|t| t.map(|v| v.0)).collect(),
+            source_positions: positions,
+        };
+        let soup = read_mesh(&textured_source(&common).unwrap()).unwrap();
+        assert_eq!((soup.positions.len(), soup.polygons.len()), (6, 8));
+    }
+}

@@ -1,0 +1,5 @@
+//! Results to bytes.
+
+pub mod csv;
+pub mod glb;
+pub mod obj;

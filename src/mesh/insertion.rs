@@ -1,0 +1,162 @@
+//! Points of a surface inserted as vertices.
+
+use super::{FaceId, MeshError, SurfaceMesh, SurfacePoint, VertexId};
+use glam::{DMat3, DVec3};
+use typed_index_collections::TiVec;
+
+/// Nearer than this (in barycentric coordinates) to a corner or an edge, a point is taken to lie on it.
+const SNAP: f64 = 1e-9;
+
+/// A mesh with points inserted; its first vertices are those of the original.
+#[derive(Clone, Debug)]
+pub struct Insertion {
+    /// The mesh with the points.
+    pub mesh: SurfaceMesh,
+    /// The original face that contains each face.
+    pub face_origin: TiVec<FaceId, FaceId>,
+    /// Barycentric coordinates of each face's corners in its original face.
+    corner_origins: TiVec<FaceId, [DVec3; 3]>,
+    /// The vertex of each point, in the order given.
+    pub vertices: Vec<VertexId>,
+}
+
+impl Insertion {
+    /// A point of the mesh as a point of the original mesh.
+    pub fn on_original(&self, point: SurfacePoint) -> SurfacePoint {
+        let [p, q, r] = self.corner_origins[point.face];
+        let [a, b, c] = point.barycentric;
+        SurfacePoint { face: self.face_origin[point.face], barycentric: (p * a + q * b + r * c).to_array() }
+    }
+}
+
+/// Inserts points as vertices: inside a face it is split in three, on an edge both its faces in two; near a corner the corner
+/// itself is taken.
+///
+/// # Errors
+/// [`MeshError`], which points of the mesh rule out.
+pub fn insert(mesh: &SurfaceMesh, points: &[SurfacePoint]) -> Result<Insertion, MeshError> {
+    let mut refinement = Refinement {
+        positions: mesh.positions().iter().copied().collect(),
+        faces: mesh.triangles().iter().copied().collect(),
+        face_origin: mesh.faces().collect(),
+        corner_origins: mesh.faces().map(|_| [DVec3::X, DVec3::Y, DVec3::Z]).collect(),
+    };
+    let vertices = points.iter().map(|p| refinement.insert(p)).collect();
+    let Refinement { positions, faces, face_origin, corner_origins } = refinement;
+    Ok(Insertion {
+        mesh: SurfaceMesh::from_triangles(positions, faces)?,
+        face_origin,
+        corner_origins,
+        vertices,
+    })
+}
+
+struct Refinement {
+    positions: TiVec<VertexId, DVec3>,
+    faces: TiVec<FaceId, [VertexId; 3]>,
+    face_origin: TiVec<FaceId, FaceId>,
+    corner_origins: TiVec<FaceId, [DVec3; 3]>,
+}
+
+impl Refinement {
+    fn insert(&mut self, point: &SurfacePoint) -> VertexId {
+        let (face, weights) = self.child(point);
+        if let Some(k) = (0..3).find(|&k| weights[k] > 1.0 - SNAP) {
+            return self.faces[face][k];
+        }
+        let corners = self.faces[face].map(|v| self.positions[v]);
+        if let Some(k) = (0..3).find(|&k| weights[k] < SNAP) {
+            let (a, b) = ((k + 1) % 3, (k + 2) % 3);
+            let share = weights[b] / (weights[a] + weights[b]);
+            return self.split_edge([self.faces[face][a], self.faces[face][b]], share);
+        }
+        let position = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
+        let v = self.positions.push_and_get_key(position);
+        let origins = self.corner_origins[face];
+        let here = origins[0] * weights[0] + origins[1] * weights[1] + origins[2] * weights[2];
+        for k in 1..3 {
+            self.replace_corner(face, k, (v, here));
+        }
+        self.set_corner(face, 2, (v, here));
+        v
+    }
+
+    /// The face among those of an original face that contains the point, with its coordinates there.
+    fn child(&self, point: &SurfacePoint) -> (FaceId, DVec3) {
+        let goal = DVec3::from_array(point.barycentric);
+        let coordinates = |f: FaceId| {
+            let [p, q, r] = self.corner_origins[f];
+            DMat3::from_cols(p, q, r).inverse() * goal
+        };
+        // Children of a face come after it: most faces are their own only child.
+        let added = (0..self.faces.len()).map(FaceId::from).filter(|&f| self.face_origin[f] == point.face);
+        let all = added.map(|f| (f, coordinates(f)));
+        let best = all.max_by(|a, b| a.1.min_element().total_cmp(&b.1.min_element()));
+        best.unwrap_or((point.face, goal))
+    }
+
+    /// Adds a copy of a face with corner `k - 1` replaced: the child opposite that corner.
+    fn replace_corner(&mut self, face: FaceId, k: usize, (v, origin): (VertexId, DVec3)) {
+        let (mut corners, mut origins) = (self.faces[face], self.corner_origins[face]);
+        corners[k - 1] = v;
+        origins[k - 1] = origin;
+        self.faces.push(corners);
+        self.corner_origins.push(origins);
+        self.face_origin.push(self.face_origin[face]);
+    }
+
+    fn set_corner(&mut self, face: FaceId, k: usize, (v, origin): (VertexId, DVec3)) {
+        self.faces[face][k] = v;
+        self.corner_origins[face][k] = origin;
+    }
+
+    /// Splits the edge ab at the given share of the way to b, in both its faces.
+    fn split_edge(&mut self, [a, b]: [VertexId; 2], share: f64) -> VertexId {
+        let v = self.positions.push_and_get_key(self.positions[a].lerp(self.positions[b], share));
+        let beside = |f: &[VertexId; 3]| f.contains(&a) && f.contains(&b);
+        let found: Vec<FaceId> =
+            self.faces.iter_enumerated().filter(|(_, f)| beside(f)).map(|(f, _)| f).collect();
+        for face in found {
+            let place = |w: VertexId| self.faces[face].iter().position(|&x| x == w).unwrap_or(0);
+            let (ka, kb) = (place(a), place(b));
+            let origins = self.corner_origins[face];
+            let here = origins[ka].lerp(origins[kb], share);
+            self.replace_corner(face, ka + 1, (v, here));
+            self.set_corner(face, kb, (v, here));
+        }
+        v
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::generators::icosphere;
+
+    #[test]
+    fn points_become_vertices_where_they_are() {
+        let mesh = icosphere(1);
+        let at = |face, barycentric| SurfacePoint { face: FaceId(face), barycentric };
+        let points = [
+            at(7, [0.2, 0.3, 0.5]),
+            at(7, [0.6, 0.3, 0.1]),
+            at(7, [0.0, 0.25, 0.75]),
+            at(7, [0.0, 0.5, 0.5]),
+            at(9, [0.0, 1.0, 0.0]),
+            at(3, [0.5, 0.5, 0.0]),
+        ];
+        let inserted = insert(&mesh, &points).unwrap();
+        assert_eq!(inserted.mesh.euler_characteristic(), 2);
+        assert_eq!(inserted.mesh.vertex_count(), mesh.vertex_count() + 5);
+        assert!((inserted.mesh.area() - mesh.area()).abs() < 1e-12);
+        for (point, &v) in points.iter().zip(&inserted.vertices) {
+            let there = inserted.mesh.positions()[v];
+            assert!(point.position(&mesh).distance(there) < 1e-12);
+            let back = inserted.on_original(SurfacePoint::at_vertex(&inserted.mesh, v));
+            assert!(back.position(&mesh).distance(there) < 1e-12);
+        }
+        for f in inserted.mesh.faces() {
+            assert!(inserted.mesh.face_area(f) > 0.0);
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! Distance to the true images, where the truth is known.
+
+use super::distortion::quantile;
+use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+
+/// Distances between images and true images, in units of sqrt(target area).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GroundTruthError {
+    /// Mean over the source's vertices.
+    pub mean: f64,
+    /// 95 % quantile.
+    pub p95: f64,
+    /// Maximum.
+    pub max: f64,
+}
+
+/// Euclidean distances where vertex i truly corresponds to vertex i; vertices without an image are left out.
+pub fn same_connectivity_error(
+    target: &SurfaceMesh,
+    images: impl Iterator<Item = (VertexId, SurfacePoint)>,
+) -> GroundTruthError {
+    let scale = 1.0 / target.area().sqrt();
+    let distance = |(v, image): (VertexId, SurfacePoint)| {
+        (image.position(target).distance(target.positions()[v]) * scale, 1.0)
+    };
+    let mut distances: Vec<_> = images.map(distance).collect();
+    distances.sort_by(|a, b| a.0.total_cmp(&b.0));
+    GroundTruthError {
+        mean: distances.iter().map(|d| d.0).sum::<f64>() / distances.len() as f64,
+        p95: quantile(&distances, 0.95),
+        max: distances.last().map_or(f64::NAN, |d| d.0),
+    }
+}

@@ -1,0 +1,162 @@
+//! What the map carries over: the common subdivision as one mesh with positions on both surfaces, and images of vertices.
+
+use super::compose::{Locations, Parametrised, barycentric};
+use super::overlay::Overlay;
+use crate::layout::PatchedMesh;
+use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
+use glam::{DVec2, DVec3};
+use rustc_hash::FxHashMap;
+use typed_index_collections::TiVec;
+
+/// The common subdivision: one triangulation drawn on both surfaces, with the target's texture.
+#[derive(Clone, Debug, Default)]
+pub struct CommonMesh {
+    /// Position on the source, in its input coordinates.
+    pub source_positions: Vec<DVec3>,
+    /// Position on the target, in its input coordinates.
+    pub target_positions: Vec<DVec3>,
+    /// Smooth unit normal of the source.
+    pub source_normals: Vec<DVec3>,
+    /// Smooth unit normal of the target.
+    pub target_normals: Vec<DVec3>,
+    /// The target's texture coordinates; a point on a seam occurs once per side.
+    pub uvs: Vec<DVec2>,
+    /// Counter-clockwise triples.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// One of the two surfaces with its input mesh.
+#[derive(Clone, Copy, Debug)]
+pub struct Surface<'a> {
+    /// The mesh that the user gave.
+    pub input: &'a SurfaceMesh,
+    /// Its refinement.
+    pub patched: &'a PatchedMesh,
+}
+
+/// Barycentric coordinates, in the input face of a refined face, of its three corners.
+fn origins_in_face(surface: Surface<'_>, face: FaceId) -> [[f64; 3]; 3] {
+    let input_face = surface.patched.face_origin[face];
+    let corners = surface.input.triangles()[input_face];
+    surface.patched.mesh.triangles()[face].map(|v| {
+        let origin = surface.patched.vertex_origin[v];
+        let named = surface.input.triangles()[origin.face];
+        corners.map(|c| (0..3).filter(|&k| named[k] == c).map(|k| origin.barycentric[k]).sum())
+    })
+}
+
+fn blend3<T: Copy + std::ops::Mul<f64, Output = T> + std::ops::Add<Output = T>>(
+    values: [T; 3],
+    w: [f64; 3],
+) -> T {
+    values[0] * w[0] + values[1] * w[1] + values[2] * w[2]
+}
+
+/// A point of a refined face as a point of its input face.
+pub fn on_input(surface: Surface<'_>, point: SurfacePoint) -> SurfacePoint {
+    let rows = origins_in_face(surface, point.face);
+    let weight = |c: usize| blend3([rows[0][c], rows[1][c], rows[2][c]], point.barycentric);
+    SurfacePoint {
+        face: surface.patched.face_origin[point.face],
+        barycentric: [weight(0), weight(1), weight(2)],
+    }
+}
+
+/// The image of every source input vertex as a point of the target's input mesh.
+pub fn vertex_images(
+    [source, target]: [Parametrised<'_>; 2],
+    target_surface: Surface<'_>,
+    locations: &Locations,
+    vertices: usize,
+) -> TiVec<VertexId, SurfacePoint> {
+    let image = |v: usize| {
+        on_input(target_surface, barycentric(source, target, &locations.by_vertex[VertexId::from(v)]))
+    };
+    (0..vertices).map(image).collect()
+}
+
+/// Smooth unit normals, weighted by area.
+pub fn vertex_normals(mesh: &SurfaceMesh) -> TiVec<VertexId, DVec3> {
+    let mut normals: TiVec<VertexId, DVec3> = mesh.vertices().map(|_| DVec3::ZERO).collect();
+    for (f, corners) in mesh.triangles().iter_enumerated() {
+        let [p, q, r] = mesh.corners(f);
+        let normal = (q - p).cross(r - p);
+        corners.iter().for_each(|&v| normals[v] += normal);
+    }
+    normals.iter().map(|n| n.normalize_or(DVec3::Z)).collect()
+}
+
+/// What a refined face carries at its corners.
+struct FaceValues {
+    positions: [DVec3; 3],
+    normals: [DVec3; 3],
+    uvs: [DVec2; 3],
+}
+
+fn face_values(
+    surface: Surface<'_>,
+    normals: &TiVec<VertexId, DVec3>,
+    uvs: Option<&TiVec<HalfedgeId, DVec2>>,
+    face: FaceId,
+) -> FaceValues {
+    let rows = origins_in_face(surface, face);
+    let input_face = surface.patched.face_origin[face];
+    let corner_normals = surface.input.triangles()[input_face].map(|v| normals[v]);
+    let corners = surface.input.corners(input_face);
+    let corner_uvs =
+        uvs.map_or([DVec2::ZERO; 3], |uvs| [0, 1, 2].map(|k| uvs[HalfedgeId::of(input_face, k)]));
+    FaceValues {
+        positions: rows.map(|w| blend3(corners, w)),
+        normals: rows.map(|w| blend3(corner_normals, w)),
+        uvs: rows.map(|w| blend3(corner_uvs, w)),
+    }
+}
+
+/// The overlay as one mesh; corners with equal positions and texture coordinates are shared.
+///
+/// `target_uvs` are texture coordinates by corner of the target's input mesh.
+pub fn common_mesh(
+    source: Surface<'_>,
+    target: Surface<'_>,
+    overlay: &Overlay,
+    target_uvs: &TiVec<HalfedgeId, DVec2>,
+) -> CommonMesh {
+    let normals = [vertex_normals(source.input), vertex_normals(target.input)];
+    let values = |s: Surface<'_>, n, uvs| s.patched.mesh.faces().map(|f| face_values(s, n, uvs, f)).collect();
+    let source_values: TiVec<FaceId, FaceValues> = values(source, &normals[0], None);
+    let target_values: TiVec<FaceId, FaceValues> = values(target, &normals[1], Some(target_uvs));
+    let grain = 1e-8 * source.input.area().sqrt();
+    let mut shared = FxHashMap::default();
+    let mut mesh = CommonMesh::default();
+    let mut ring = Vec::new();
+    for piece in &overlay.pieces {
+        let (s, t) = (&source_values[piece.source_face], &target_values[piece.target_face]);
+        ring.clear();
+        for point in &overlay.points[piece.points.clone()] {
+            let position = blend3(s.positions, point.source);
+            let uv = blend3(t.uvs, point.target);
+            let key = (quantised(position / grain), (uv * 1e8).round().to_array().map(|x| x as i64));
+            let next = mesh.uvs.len() as u32;
+            let index = *shared.entry(key).or_insert(next);
+            if index == next {
+                mesh.source_positions.push(position);
+                mesh.target_positions.push(blend3(t.positions, point.target));
+                mesh.source_normals.push(blend3(s.normals, point.source).normalize_or(DVec3::Z));
+                mesh.target_normals.push(blend3(t.normals, point.target).normalize_or(DVec3::Z));
+                mesh.uvs.push(uv);
+            }
+            ring.push(index);
+        }
+        for k in 2..ring.len() {
+            let triangle = [ring[0], ring[k - 1], ring[k]];
+            if triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0] {
+                mesh.triangles.push(triangle);
+            }
+        }
+    }
+    mesh
+}
+
+fn quantised(p: DVec3) -> [i64; 3] {
+    p.round().to_array().map(|x| x as i64)
+}
