@@ -7,6 +7,7 @@
 
 pub mod base_domain;
 pub mod cone_metric;
+pub mod demo;
 pub mod export;
 pub mod intrinsic;
 pub mod io;
