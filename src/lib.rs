@@ -18,4 +18,10 @@ pub mod mesh;
 pub mod monitor;
 pub mod numerics;
 pub mod pipeline;
+pub mod scene;
 pub mod surface_map;
+
+#[cfg(all(feature = "gpu", target_arch = "wasm32"))]
+pub mod gpu;
+#[cfg(all(feature = "web", target_arch = "wasm32"))]
+pub mod web;

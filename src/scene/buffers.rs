@@ -1,0 +1,133 @@
+//! Vertex data, centred and scaled to radius 1.
+
+use crate::mesh::SurfaceMesh;
+use crate::surface_map::transfer::vertex_normals;
+use glam::{DVec3, Vec3};
+
+/// A vertex of a surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct SurfaceVertex {
+    /// In scene coordinates.
+    pub position: [f32; 3],
+    /// Unit.
+    pub normal: [f32; 3],
+    /// Texture coordinates.
+    pub uv: [f32; 2],
+}
+
+/// A corner of the ribbon that draws a line segment.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct LineVertex {
+    /// This end of the segment.
+    pub position: [f32; 3],
+    /// The other end.
+    pub other: [f32; 3],
+    /// Which side of the line: +1 or -1.
+    pub side: f32,
+}
+
+/// A ball.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct MarkerInstance {
+    /// In scene coordinates.
+    pub centre: [f32; 3],
+    /// In scene units.
+    pub radius: f32,
+    /// Linear red, green, blue.
+    pub colour: [f32; 3],
+}
+
+/// From input coordinates to scene coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    centre: DVec3,
+    scale: f64,
+}
+
+impl Frame {
+    /// Centres the bounding box and scales the farthest vertex to distance 1.
+    pub fn of(mesh: &SurfaceMesh) -> Self {
+        let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let (low, high) = mesh.positions().iter().fold(start, |(l, h), p| (l.min(*p), h.max(*p)));
+        let centre = 0.5 * (low + high);
+        let radius = mesh.positions().iter().map(|p| p.distance(centre)).fold(0.0, f64::max);
+        Self { centre, scale: 1.0 / radius.max(f64::MIN_POSITIVE) }
+    }
+
+    /// A point in scene coordinates.
+    pub fn place(&self, p: DVec3) -> Vec3 {
+        ((p - self.centre) * self.scale).as_vec3()
+    }
+
+    /// A scene point in input coordinates.
+    pub fn unplace(&self, p: Vec3) -> DVec3 {
+        p.as_dvec3() / self.scale + self.centre
+    }
+}
+
+/// Vertices and indices of a plain mesh with smooth normals.
+pub fn surface(mesh: &SurfaceMesh, frame: &Frame) -> (Vec<SurfaceVertex>, Vec<u32>) {
+    let normals = vertex_normals(mesh);
+    let vertex = |(p, n): (&DVec3, &DVec3)| SurfaceVertex {
+        position: frame.place(*p).to_array(),
+        normal: n.as_vec3().to_array(),
+        uv: [0.0; 2],
+    };
+    let vertices = mesh.positions().iter().zip(&normals).map(vertex).collect();
+    (vertices, mesh.triangles().iter().flatten().map(|v| v.0).collect())
+}
+
+/// Ribbons along line strips: four vertices and six indices a segment.
+pub fn ribbons(strips: &[Vec<Vec3>]) -> (Vec<LineVertex>, Vec<u32>) {
+    let (mut vertices, mut indices) = (Vec::new(), Vec::new());
+    for segment in strips.iter().flat_map(|strip| strip.windows(2)) {
+        let [a, b] = [segment[0].to_array(), segment[1].to_array()];
+        let first = vertices.len() as u32;
+        // The side is relative to the direction to the other end, so it changes sign there.
+        for (position, other, side) in [(a, b, 1.0), (a, b, -1.0), (b, a, -1.0), (b, a, 1.0)] {
+            vertices.push(LineVertex { position, other, side });
+        }
+        indices.extend([0, 1, 2, 2, 1, 3].map(|k| first + k));
+    }
+    (vertices, indices)
+}
+
+/// A distinct colour for each landmark: hues by the golden angle, linear RGB.
+pub fn landmark_colour(k: usize) -> [f32; 3] {
+    let hue = (k as f32 * 0.618_034).fract() * 6.0;
+    let channel = |shift: f32| {
+        let x = (hue + shift).rem_euclid(6.0);
+        let level = (x - 3.0).abs() - 1.0;
+        0.08 + 0.82 * level.clamp(0.0, 1.0)
+    };
+    [channel(0.0), channel(4.0), channel(2.0)].map(|c| c * c)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::generators::icosphere;
+
+    #[test]
+    fn the_frame_is_invertible_and_bounds_the_mesh() {
+        let sphere = icosphere(2);
+        let moved = sphere.with_positions(sphere.positions().iter().map(|p| *p * 40.0 + DVec3::splat(7.0)).collect());
+        let frame = Frame::of(&moved);
+        for p in moved.positions() {
+            let placed = frame.place(*p);
+            assert!(placed.length() <= 1.0 + 1e-6);
+            assert!(frame.unplace(placed).distance(*p) < 1e-4);
+        }
+        let (vertices, indices) = surface(&moved, &frame);
+        assert_eq!((vertices.len(), indices.len()), (162, 960));
+    }
+
+    #[test]
+    fn a_strip_of_three_points_has_two_ribbons() {
+        let (vertices, indices) = ribbons(&[vec![Vec3::ZERO, Vec3::X, Vec3::ONE]]);
+        assert_eq!((vertices.len(), indices.len()), (8, 12));
+    }
+}

@@ -1,0 +1,98 @@
+//! An orbiting camera over a surface that is centred at the origin and scaled to radius 1.
+
+use glam::{Mat4, Vec2, Vec3, Vec4};
+
+const FIELD_OF_VIEW: f32 = 0.6;
+
+/// Looks at a target from a direction given by two angles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Angle around the vertical, in radians.
+    pub yaw: f32,
+    /// Angle above the horizon, in radians, within +-1.5.
+    pub pitch: f32,
+    /// Distance from the target.
+    pub distance: f32,
+    /// The point looked at.
+    pub target: Vec3,
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self { yaw: 0.6, pitch: 0.25, distance: 4.0, target: Vec3::ZERO }
+    }
+}
+
+impl Camera {
+    /// Where the camera is.
+    pub fn eye(&self) -> Vec3 {
+        let (sin_yaw, cos_yaw) = self.yaw.sin_cos();
+        let (sin_pitch, cos_pitch) = self.pitch.sin_cos();
+        self.target + self.distance * Vec3::new(sin_yaw * cos_pitch, sin_pitch, cos_yaw * cos_pitch)
+    }
+
+    /// World to clip space; depth 0 to 1.
+    pub fn view_projection(&self, aspect: f32) -> Mat4 {
+        // A tall view must still hold the whole surface.
+        let field = 2.0 * ((0.5 * FIELD_OF_VIEW).tan() / aspect.min(1.0)).atan();
+        let near = 0.02 * self.distance;
+        let projection = Mat4::perspective_rh(field, aspect, near, self.distance + 10.0);
+        projection * Mat4::look_at_rh(self.eye(), self.target, Vec3::Y)
+    }
+
+    /// Turns by a drag in units of the view's height.
+    pub fn orbit(&mut self, drag: Vec2) {
+        self.yaw -= 4.0 * drag.x;
+        self.pitch = (self.pitch + 4.0 * drag.y).clamp(-1.5, 1.5);
+    }
+
+    /// Moves sideways so that the surface follows a drag in units of the view's height.
+    pub fn pan(&mut self, drag: Vec2) {
+        let back = (self.eye() - self.target).normalize();
+        let right = Vec3::Y.cross(back).normalize();
+        let up = back.cross(right);
+        let scale = 2.0 * self.distance * (0.5 * FIELD_OF_VIEW).tan();
+        self.target += (up * drag.y - right * drag.x) * scale;
+        self.target = self.target.clamp_length_max(3.0);
+    }
+
+    /// Multiplies the distance.
+    pub fn zoom(&mut self, factor: f32) {
+        self.distance = (self.distance * factor).clamp(0.15, 20.0);
+    }
+
+    /// The ray through a point of the view: origin and direction. `at` runs from (-1, -1) bottom left to (1, 1).
+    pub fn ray(&self, at: Vec2, aspect: f32) -> (Vec3, Vec3) {
+        let inverse = self.view_projection(aspect).inverse();
+        let unproject = |depth: f32| {
+            let p = inverse * Vec4::new(at.x, at.y, depth, 1.0);
+            p.truncate() / p.w
+        };
+        let near = unproject(0.0);
+        (near, (unproject(1.0) - near).normalize())
+    }
+
+    /// Where a point is seen, from (-1, -1) to (1, 1), with its depth; `None` behind the camera.
+    pub fn project(&self, p: Vec3, aspect: f32) -> Option<Vec3> {
+        let clip = self.view_projection(aspect) * p.extend(1.0);
+        (clip.w > 0.0).then(|| clip.truncate() / clip.w)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ray_through_a_projected_point_meets_it() {
+        let mut camera = Camera::default();
+        camera.orbit(Vec2::new(0.3, -0.1));
+        camera.pan(Vec2::new(0.1, 0.2));
+        let p = Vec3::new(0.3, -0.4, 0.5);
+        for aspect in [0.5, 1.7] {
+            let seen = camera.project(p, aspect).unwrap();
+            let (origin, direction) = camera.ray(seen.truncate(), aspect);
+            assert!((p - origin).cross(direction).length() < 1e-3);
+        }
+    }
+}

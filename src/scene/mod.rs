@@ -1,0 +1,9 @@
+//! Results to what a renderer draws: buffers, camera, picking. f32 starts here; no GPU type.
+
+pub mod buffers;
+pub mod camera;
+pub mod picking;
+
+pub use buffers::{LineVertex, MarkerInstance, SurfaceVertex};
+pub use camera::Camera;
+pub use picking::Picker;
