@@ -116,7 +116,7 @@ fn point(checked: &CheckedMesh, pair: usize, point: LandmarkPoint) -> Result<Sur
                 return Err(LandmarkError::MissingFace { pair, face: face as usize, faces });
             }
             let sum: f64 = barycentric.iter().sum();
-            if !barycentric.iter().all(|w| *w >= -1e-6) || !((sum - 1.0).abs() < 1e-4) {
+            if !barycentric.iter().all(|w| *w >= -1e-6) || sum.is_nan() || (sum - 1.0).abs() >= 1e-4 {
                 return Err(LandmarkError::Barycentric { pair, weights: barycentric });
             }
             let clamped = barycentric.map(|w| w.max(0.0));

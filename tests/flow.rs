@@ -15,7 +15,7 @@ fn farthest_points(mesh: &SurfaceMesh, count: usize) -> Vec<VertexId> {
         for (d, p) in nearest.iter_mut().zip(mesh.positions()) {
             *d = d.min(p.distance(last));
         }
-        let far = (0..nearest.len()).max_by(|&a, &b| nearest[a].total_cmp(&nearest[b])).unwrap();
+        let far = (0..nearest.len()).max_by(|&a, &b| nearest[a].total_cmp(&nearest[b])).expect("vertices");
         chosen.push(far.into());
     }
     chosen

@@ -88,7 +88,7 @@ impl ConeMetric {
         let sum = self.tilt_at(h, inverse) + self.tilt_at(t, inverse);
         let ends = inverse[self.triangulation.tail(h)] + inverse[self.triangulation.tail(t)];
         // NaN counts as Delaunay: a flip could not mend it.
-        !(sum < -1e-11 * ends)
+        sum.is_nan() || sum >= -1e-11 * ends
     }
 
     fn tilt_at(&self, h: HalfedgeId, inverse: &TiVec<VertexId, f64>) -> f64 {

@@ -114,7 +114,8 @@ mod tests {
     #[test]
     fn the_frame_is_invertible_and_bounds_the_mesh() {
         let sphere = icosphere(2);
-        let moved = sphere.with_positions(sphere.positions().iter().map(|p| *p * 40.0 + DVec3::splat(7.0)).collect());
+        let moved =
+            sphere.with_positions(sphere.positions().iter().map(|p| *p * 40.0 + DVec3::splat(7.0)).collect());
         let frame = Frame::of(&moved);
         for p in moved.positions() {
             let placed = frame.place(*p);

@@ -36,8 +36,9 @@ impl Camera {
         // A tall view must still hold the whole surface.
         let field = 2.0 * ((0.5 * FIELD_OF_VIEW).tan() / aspect.min(1.0)).atan();
         let near = 0.02 * self.distance;
-        let projection = Mat4::perspective_rh(field, aspect, near, self.distance + 10.0);
-        projection * Mat4::look_at_rh(self.eye(), self.target, Vec3::Y)
+        let projection =
+            glam::camera::rh::proj::directx::perspective(field, aspect, near, self.distance + 10.0);
+        projection * glam::camera::rh::view::look_at_mat4(self.eye(), self.target, Vec3::Y)
     }
 
     /// Turns by a drag in units of the view's height.

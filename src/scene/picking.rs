@@ -22,7 +22,7 @@ impl Picker {
     pub fn pick(&self, mesh: &SurfaceMesh, origin: DVec3, direction: DVec3) -> Option<SurfacePoint> {
         let ray = Ray::new(origin.to_array().into(), direction.to_array().into());
         let hit = self.shape.cast_local_ray_and_get_normal(&ray, f64::MAX, false)?;
-        let id = hit.feature.unwrap_face() as usize % mesh.face_count();
+        let id = hit.subshape as usize;
         let point = origin + direction * hit.time_of_impact;
         let face = FaceId::from(id);
         Some(SurfacePoint { face, barycentric: barycentric(mesh.corners(face), point) })
@@ -48,7 +48,9 @@ mod tests {
         let sphere = icosphere(3);
         let picker = Picker::new(&sphere).unwrap();
         for k in 0..100 {
-            let direction = DVec3::new(f64::from(k % 7) - 3.1, f64::from(k % 11) - 5.2, f64::from(k % 5) - 2.3).normalize();
+            let direction =
+                DVec3::new(f64::from(k % 7) - 3.1, f64::from(k % 11) - 5.2, f64::from(k % 5) - 2.3)
+                    .normalize();
             let hit = picker.pick(&sphere, direction * 3.0, -direction).unwrap();
             assert!(hit.position(&sphere).normalize().distance(direction) < 1e-9);
         }

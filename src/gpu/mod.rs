@@ -1,0 +1,6 @@
+//! wgpu on WebGL2: one device, one canvas, two views.
+
+mod pipelines;
+mod renderer;
+
+pub use renderer::{Clear, GpuError, Mesh, Renderer, ViewDraw};

@@ -1,0 +1,196 @@
+//! The pipeline in the worker.
+
+use super::failure;
+use super::files::checked;
+use crate::export;
+use crate::io::landmark_file;
+use crate::landmarks::{PlacedLandmarks, place};
+use crate::monitor::{Cancelled, Monitor, Stage, Step};
+use crate::pipeline::{Base, Cones, GroundTruth, MapInput, MapResult, Method, PipelineOptions, run};
+use glam::{DVec2, DVec3};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use wasm_bindgen::prelude::*;
+
+/// Options as the page sends them.
+#[derive(Deserialize)]
+struct Options {
+    #[serde(default)]
+    method: String,
+    #[serde(default)]
+    base: String,
+    #[serde(default)]
+    cones: String,
+}
+
+impl From<Options> for PipelineOptions {
+    fn from(options: Options) -> Self {
+        Self {
+            method: if options.method == "thesis" { Method::Thesis } else { Method::Relaxed },
+            base: if options.base == "qem" { Base::Qem } else { Base::Joint },
+            cones: if options.cones == "uniform" { Cones::Uniform } else { Cones::BaseDomain },
+            ..Self::default()
+        }
+    }
+}
+
+/// Tells the page of every step and takes the time of each stage.
+struct Messenger<'a> {
+    progress: &'a js_sys::Function,
+    stage: Option<(Stage, f64)>,
+    seconds: BTreeMap<String, f64>,
+}
+
+impl Messenger<'_> {
+    fn leave(&mut self) {
+        if let Some((stage, begun)) = self.stage.take() {
+            *self.seconds.entry(name(stage)).or_default() += (js_sys::Date::now() - begun) / 1000.0;
+        }
+    }
+
+    fn tell(&self, stage: Stage, step: Step) {
+        let residual = step.residual.unwrap_or(f64::NAN);
+        // A page that does not listen is not a reason to stop.
+        let _ =
+            self.progress.call3(&JsValue::NULL, &name(stage).into(), &step.fraction.into(), &residual.into());
+    }
+}
+
+fn name(stage: Stage) -> String {
+    serde_json::to_value(stage).ok().and_then(|v| v.as_str().map(str::to_owned)).unwrap_or_default()
+}
+
+impl Monitor for Messenger<'_> {
+    fn enter(&mut self, stage: Stage) {
+        self.leave();
+        self.stage = Some((stage, js_sys::Date::now()));
+        self.tell(stage, Step::default());
+    }
+
+    fn step(&mut self, step: Step) -> Result<(), Cancelled> {
+        if let Some((stage, _)) = self.stage {
+            self.tell(stage, step);
+        }
+        Ok(())
+    }
+}
+
+/// A finished map.
+#[wasm_bindgen]
+pub struct MapOutput {
+    result: MapResult,
+    csv: Vec<u8>,
+}
+
+/// Runs the pipeline; `progress(stage, fraction, residual)` hears of every step.
+///
+/// # Errors
+/// `{"code", "message"}` with the stage's code.
+#[wasm_bindgen(js_name = runMap)]
+pub fn run_map(
+    source: &[u8],
+    target: &[u8],
+    landmarks: &str,
+    options: &str,
+    progress: &js_sys::Function,
+) -> Result<MapOutput, JsValue> {
+    let mut messenger = Messenger { progress, stage: None, seconds: BTreeMap::new() };
+    let begun = js_sys::Date::now();
+    messenger.enter(Stage::Landmarks);
+    let options: Options = serde_json::from_str(options).map_err(|e| failure("options", e))?;
+    let (source, target) = (checked(source)?, checked(target)?);
+    let file = landmark_file::read(landmarks.as_bytes()).map_err(|e| failure("landmarks", e))?;
+    let vertices = source.mesh.vertex_count();
+    let same = source.mesh.triangles() == target.mesh.triangles() && file.ground_truth.is_some();
+    let ground_truth = if same { GroundTruth::SameConnectivity } else { GroundTruth::Unknown };
+    let placed = place([&source, &target], &file.pairs).map_err(|e| failure("landmarks", e))?;
+    let PlacedLandmarks { source, target, landmarks } = placed;
+    let input = MapInput { source: &source.mesh, target: &target.mesh, landmarks: &landmarks, ground_truth };
+    let mut result = run(input, &options.into(), &mut messenger).map_err(|e| failure(e.code(), e))?;
+    messenger.leave();
+    let mut seconds = messenger.seconds;
+    seconds.insert("total".into(), (js_sys::Date::now() - begun) / 1000.0);
+    let of = |stage: &str| seconds.get(stage).copied().unwrap_or_default();
+    result.report.cone_metric.source.seconds = of("source_cone_metric");
+    result.report.cone_metric.target.seconds = of("target_cone_metric");
+    result.report.seconds = seconds;
+    let images: Vec<_> =
+        result.target_from_source.iter().take(vertices).map(|p| p.map(|p| target.on_original(p))).collect();
+    Ok(MapOutput { csv: export::csv::vertex_images(&images), result })
+}
+
+fn flat3(points: &[DVec3]) -> Vec<f32> {
+    points.iter().flat_map(|p| p.as_vec3().to_array()).collect()
+}
+
+#[wasm_bindgen]
+impl MapOutput {
+    /// Positions of the common subdivision on the source (0) or the target (1), three numbers a point.
+    pub fn positions(&self, side: usize) -> Vec<f32> {
+        let common = &self.result.common;
+        flat3(if side == 0 { &common.source_positions } else { &common.target_positions })
+    }
+
+    /// Unit normals on the source (0) or the target (1).
+    pub fn normals(&self, side: usize) -> Vec<f32> {
+        let common = &self.result.common;
+        flat3(if side == 0 { &common.source_normals } else { &common.target_normals })
+    }
+
+    /// Texture coordinates, two numbers a point.
+    pub fn uvs(&self) -> Vec<f32> {
+        self.result.common.uvs.iter().flat_map(|uv: &DVec2| [uv.x as f32, uv.y as f32]).collect()
+    }
+
+    /// Triangles of the common subdivision.
+    pub fn triangles(&self) -> Vec<u32> {
+        self.result.common.triangles.iter().flatten().copied().collect()
+    }
+
+    /// Points of all patch lines on one side.
+    #[wasm_bindgen(js_name = linePoints)]
+    pub fn line_points(&self, side: usize) -> Vec<f32> {
+        self.result.patch_lines[side.min(1)].iter().flat_map(|line| flat3(line)).collect()
+    }
+
+    /// Where each patch line starts among the points, and one past the end.
+    #[wasm_bindgen(js_name = lineStarts)]
+    pub fn line_starts(&self, side: usize) -> Vec<u32> {
+        let mut starts = vec![0];
+        let mut end = 0;
+        for line in &self.result.patch_lines[side.min(1)] {
+            end += line.len() as u32;
+            starts.push(end);
+        }
+        starts
+    }
+
+    /// Curvature of each landmark's cone, in radians.
+    pub fn cones(&self) -> Vec<f64> {
+        self.result.cone_curvatures.clone()
+    }
+
+    /// The report as JSON.
+    pub fn report(&self) -> String {
+        serde_json::to_string_pretty(&self.result.report).unwrap_or_default()
+    }
+
+    /// The source with the target's texture.
+    ///
+    /// # Errors
+    /// `{"code": "export", "message"}`.
+    pub fn glb(&self) -> Result<Vec<u8>, JsValue> {
+        export::glb::textured_source(&self.result.common).map_err(|e| failure("export", e))
+    }
+
+    /// The vertex images.
+    pub fn csv(&self) -> Vec<u8> {
+        self.csv.clone()
+    }
+
+    /// The base domain.
+    #[wasm_bindgen(js_name = baseObj)]
+    pub fn base_obj(&self) -> Vec<u8> {
+        export::obj::mesh(&self.result.base.mesh)
+    }
+}

@@ -1,0 +1,108 @@
+//! Mesh files, landmark files and demos.
+
+use super::failure;
+use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
+use crate::mesh::check::{CheckedMesh, closed_genus_zero};
+use crate::{demo, export, io};
+use serde_json::json;
+use wasm_bindgen::prelude::*;
+
+/// A mesh that was read and checked.
+#[wasm_bindgen]
+pub struct LoadedMesh {
+    pub(super) checked: CheckedMesh,
+}
+
+#[wasm_bindgen]
+impl LoadedMesh {
+    /// Number of vertices.
+    #[wasm_bindgen(getter, js_name = vertexCount)]
+    pub fn vertex_count(&self) -> usize {
+        self.checked.mesh.vertex_count()
+    }
+
+    /// Number of triangles.
+    #[wasm_bindgen(getter, js_name = faceCount)]
+    pub fn face_count(&self) -> usize {
+        self.checked.mesh.face_count()
+    }
+
+    /// Faces whose orientation was turned.
+    #[wasm_bindgen(getter, js_name = turnedFaces)]
+    pub fn turned_faces(&self) -> usize {
+        self.checked.turned_faces
+    }
+}
+
+pub(super) fn checked(bytes: &[u8]) -> Result<CheckedMesh, JsValue> {
+    let soup = io::read_mesh(bytes).map_err(|e| failure("file", e))?;
+    closed_genus_zero(&soup).map_err(|e| failure("mesh", e))
+}
+
+/// Reads and checks a mesh file of any known format.
+///
+/// # Errors
+/// `{"code": "file" | "mesh", "message"}`.
+#[wasm_bindgen(js_name = readMesh)]
+pub fn read_mesh(bytes: &[u8]) -> Result<LoadedMesh, JsValue> {
+    Ok(LoadedMesh { checked: checked(bytes)? })
+}
+
+/// Reads a landmark file and gives it back as normalised JSON.
+///
+/// # Errors
+/// `{"code": "landmarks", "message"}`.
+#[wasm_bindgen(js_name = readLandmarks)]
+pub fn read_landmarks(bytes: &[u8]) -> Result<String, JsValue> {
+    let file = landmark_file::read(bytes).map_err(|e| failure("landmarks", e))?;
+    serde_json::to_string(&file).map_err(|e| failure("landmarks", e))
+}
+
+/// All demos as JSON `[{id, title, sentence}]`.
+#[wasm_bindgen(js_name = demoList)]
+pub fn demo_list() -> String {
+    let entry = |d: &demo::DemoInfo| json!({ "id": d.id, "title": d.title, "sentence": d.sentence });
+    serde_json::Value::from(demo::list().iter().map(entry).collect::<Vec<_>>()).to_string()
+}
+
+/// A demo as files.
+#[wasm_bindgen]
+pub struct DemoFiles {
+    source: Vec<u8>,
+    target: Vec<u8>,
+    landmarks: Vec<u8>,
+}
+
+#[wasm_bindgen]
+impl DemoFiles {
+    /// The source as OBJ.
+    pub fn source(&self) -> Vec<u8> {
+        self.source.clone()
+    }
+
+    /// The target as OBJ.
+    pub fn target(&self) -> Vec<u8> {
+        self.target.clone()
+    }
+
+    /// The landmark file.
+    pub fn landmarks(&self) -> Vec<u8> {
+        self.landmarks.clone()
+    }
+}
+
+/// Builds a demo; `undefined` for an unknown id.
+#[wasm_bindgen(js_name = buildDemo)]
+pub fn build_demo(id: &str) -> Option<DemoFiles> {
+    let demo = demo::build(id)?;
+    let file = LandmarkFile {
+        pairs: demo.landmarks.iter().map(|pair| pair.map(LandmarkPoint::Vertex)).collect(),
+        labels: Some(demo.labels),
+        ..LandmarkFile::default()
+    };
+    Some(DemoFiles {
+        source: export::obj::mesh(&demo.source),
+        target: export::obj::mesh(&demo.target),
+        landmarks: landmark_file::write(&file),
+    })
+}

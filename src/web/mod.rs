@@ -1,0 +1,19 @@
+//! The wasm boundary: typed arrays in and out, errors as JSON with a stable code and a sentence.
+
+mod compute;
+mod files;
+mod viewer;
+
+use serde_json::json;
+use wasm_bindgen::prelude::*;
+
+/// Runs once when the module is loaded.
+#[wasm_bindgen(start)]
+pub fn start() {
+    console_error_panic_hook::set_once();
+}
+
+/// An error as the page takes it: a string of JSON `{"code", "message"}`.
+fn failure(code: &str, message: impl std::fmt::Display) -> JsValue {
+    JsValue::from_str(&json!({ "code": code, "message": message.to_string() }).to_string())
+}
