@@ -44,7 +44,7 @@ pub fn flat_atlas(mesh: &SurfaceMesh, metric: &ConeMetric, landmarks: &[VertexId
 }
 
 /// The displacement along each halfedge of the original triangulation, in the frame of its face.
-fn mesh_displacements(metric: &ConeMetric) -> TiVec<HalfedgeId, DVec2> {
+pub(crate) fn mesh_displacements(metric: &ConeMetric) -> TiVec<HalfedgeId, DVec2> {
     let lengths = metric.lengths();
     let mut triangulation = metric.triangulation.clone();
     let mut along = ti_vec![DVec2::ZERO; lengths.len()];

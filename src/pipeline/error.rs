@@ -71,6 +71,22 @@ impl From<LocateError> for PipelineError {
 }
 
 impl PipelineError {
+    /// The source's flow failed, or was stopped.
+    pub(super) fn source_flow(error: FlowError) -> Self {
+        match error {
+            FlowError::Cancelled(stop) => Self::Cancelled(stop),
+            other => Self::SourceFlow(other),
+        }
+    }
+
+    /// The target's flow failed, or was stopped.
+    pub(super) fn target_flow(error: FlowError) -> Self {
+        match error {
+            FlowError::Cancelled(stop) => Self::Cancelled(stop),
+            other => Self::TargetFlow(other),
+        }
+    }
+
     /// A stable code for programs and for the page's sentences.
     pub fn code(&self) -> &'static str {
         match self {

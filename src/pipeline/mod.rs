@@ -5,6 +5,7 @@ mod options;
 mod relaxed;
 mod report;
 mod result;
+mod thesis;
 
 pub use error::PipelineError;
 pub use options::{Base, Cones, Method, PipelineOptions};
@@ -16,7 +17,7 @@ pub use result::MapResult;
 
 use crate::base_domain::{self, BaseDomain};
 use crate::cone_metric::atlas::{FlatAtlas, flat_atlas};
-use crate::cone_metric::{ConeMetric, FlowReport, base_domain_curvature, flow, uniform_curvature};
+use crate::cone_metric::{ConeMetric, FlowError, FlowReport, base_domain_curvature, flow, uniform_curvature};
 use crate::landmarks::Landmarks;
 use crate::layout::{self, BaseLayout, LayoutOptions};
 use crate::mesh::{SurfaceMesh, VertexId};
@@ -61,7 +62,7 @@ pub fn run(
     let metrics = Metrics::new(input, &first.base, options, monitor)?;
     match options.method {
         Method::Relaxed => relaxed::run(input, options, (first, &metrics), monitor),
-        Method::Thesis => Err(PipelineError::Cancelled(crate::monitor::Cancelled)),
+        Method::Thesis => thesis::run(input, options, (first, &metrics), monitor),
     }
 }
 
@@ -101,27 +102,38 @@ impl Metrics {
         options: &PipelineOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<Self, PipelineError> {
-        let curvature = |mesh: &SurfaceMesh, landmarks: &[VertexId]| -> TiVec<VertexId, f64> {
-            match options.cones {
-                Cones::BaseDomain => base_domain_curvature(mesh.vertex_count(), landmarks, base),
-                Cones::Uniform => uniform_curvature(mesh.vertex_count(), landmarks),
-            }
-        };
-        let failed = |error, wrap: fn(_) -> PipelineError| match error {
-            crate::cone_metric::FlowError::Cancelled(stop) => PipelineError::Cancelled(stop),
-            error => wrap(error),
-        };
         let Landmarks { source, target } = input.landmarks;
         monitor.enter(Stage::SourceConeMetric);
-        let goal = curvature(input.source, source);
-        let source_metric = flow(input.source, &goal, &options.flow, monitor)
-            .map_err(|e| failed(e, PipelineError::SourceFlow))?;
+        let source_metric = cone_metric((input.source, source), base, options, monitor)
+            .map_err(PipelineError::source_flow)?;
         monitor.enter(Stage::TargetConeMetric);
-        let goal = curvature(input.target, target);
-        let target_metric = flow(input.target, &goal, &options.flow, monitor)
-            .map_err(|e| failed(e, PipelineError::TargetFlow))?;
+        let target_metric = cone_metric((input.target, target), base, options, monitor)
+            .map_err(PipelineError::target_flow)?;
         let target_atlas = flat_atlas(input.target, &target_metric.0, target);
+        let goal = curvature((input.target, target), base, options.cones);
         let cones = target.iter().map(|&v| goal[v]).collect();
         Ok(Self { source: source_metric, target: target_metric, cones, target_atlas })
     }
+}
+
+/// Target curvature of each vertex.
+fn curvature(
+    (mesh, landmarks): (&SurfaceMesh, &[VertexId]),
+    base: &BaseDomain,
+    cones: Cones,
+) -> TiVec<VertexId, f64> {
+    match cones {
+        Cones::BaseDomain => base_domain_curvature(mesh.vertex_count(), landmarks, base),
+        Cones::Uniform => uniform_curvature(mesh.vertex_count(), landmarks),
+    }
+}
+
+/// The flat cone metric of a mesh with its landmarks.
+fn cone_metric(
+    side: (&SurfaceMesh, &[VertexId]),
+    base: &BaseDomain,
+    options: &PipelineOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<(ConeMetric, FlowReport), FlowError> {
+    flow(side.0, &curvature(side, base, options.cones), &options.flow, monitor)
 }

@@ -5,8 +5,9 @@
 use super::compose::Parametrised;
 use super::flat_problem::rest_jacobian;
 use super::overlay::Overlay;
-use crate::mesh::{FaceId, VertexId};
-use glam::DMat2;
+use crate::math::triangle::lay_out;
+use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
+use glam::{DMat2, DVec3};
 use typed_index_collections::{TiVec, ti_vec};
 
 /// Distortion of the map source -> target, both areas 1.
@@ -57,13 +58,64 @@ pub fn distortion(source: Parametrised<'_>, target: Parametrised<'_>, overlay: &
         face_sums[piece.source_face][0] += density * source_area;
         face_sums[piece.source_face][1] += source_area;
     }
-    result.mean = densities.iter().map(|(d, a)| d * a).sum::<f64>() / result.source_area;
-    densities.sort_by(|a, b| a.0.total_cmp(&b.0));
-    result.median = quantile(&densities, 0.5);
-    result.p95 = quantile(&densities, 0.95);
-    result.max = densities.last().map_or(1.0, |d| d.0);
+    result.summarise(densities);
     result.by_vertex = vertex_averages(source, &face_sums);
     result
+}
+
+/// Measures a map given by the images of vertices on the source's faces with three images, each mapped affinely onto the
+/// triangle of its images in space. Images flatter than 1e-7 of the root of the target's area are left out: their shape is
+/// rounding, but the least of them would decide the mean.
+///
+/// Integrals run over the mapped part only: `source_area` and `target_area` tell how much that is. No values by vertex.
+pub fn image_distortion(
+    source: &SurfaceMesh,
+    target: &SurfaceMesh,
+    images: &TiVec<VertexId, Option<SurfacePoint>>,
+) -> Distortion {
+    let scales = [source, target].map(|mesh| 1.0 / mesh.area().sqrt());
+    let mut result = Distortion::default();
+    let mut densities = Vec::new();
+    for (f, corners) in source.triangles().iter_enumerated() {
+        let [Some(a), Some(b), Some(c)] = corners.map(|v| images[v]) else { continue };
+        let from = in_plane(source.corners(f), scales[0]);
+        let onto = in_plane([a, b, c].map(|p| p.position(target)), scales[1]);
+        let j = onto * from.inverse();
+        let det = j.determinant();
+        let longest =
+            onto.x_axis.length().max(onto.y_axis.length()).max((onto.x_axis - onto.y_axis).length());
+        let flat = onto.determinant() <= 1e-7 * longest;
+        if flat || det.is_nan() {
+            continue;
+        }
+        let squares = j.x_axis.length_squared() + j.y_axis.length_squared();
+        let inverse_squares = squares / (det * det);
+        let areas = [0.5 * from.determinant(), 0.5 * onto.determinant()];
+        let density = 0.25 * (squares + inverse_squares);
+        result.energy += squares * areas[0] + inverse_squares * areas[1];
+        result.source_area += areas[0];
+        result.target_area += areas[1];
+        densities.push((density, areas[0]));
+    }
+    result.summarise(densities);
+    result
+}
+
+/// The edge vectors from corner 0 of a triangle in its own plane.
+fn in_plane([p, q, r]: [DVec3; 3], scale: f64) -> DMat2 {
+    let [_, q, r] = lay_out([p.distance(q), q.distance(r), r.distance(p)].map(|length| length * scale));
+    DMat2::from_cols(q, r)
+}
+
+impl Distortion {
+    /// Mean, quantiles and maximum of (density, source area) pairs.
+    fn summarise(&mut self, mut densities: Vec<(f64, f64)>) {
+        self.mean = densities.iter().map(|(d, a)| d * a).sum::<f64>() / self.source_area;
+        densities.sort_by(|a, b| a.0.total_cmp(&b.0));
+        self.median = quantile(&densities, 0.5);
+        self.p95 = quantile(&densities, 0.95);
+        self.max = densities.last().map_or(1.0, |d| d.0);
+    }
 }
 
 /// The weighted quantile of sorted (value, weight) pairs.

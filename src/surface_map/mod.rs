@@ -16,6 +16,7 @@ pub mod initial;
 pub mod overlay;
 mod placement;
 mod progressive;
+pub mod thesis;
 pub mod transfer;
 
 pub use certificate::{Certificate, certify};

@@ -157,6 +157,38 @@ pub fn common_mesh(
     mesh
 }
 
+/// The source's triangles whose corners all have images, with the target's texture at the images.
+///
+/// A vertex has one texture coordinate, that of its image's face, so that the texture is smeared over triangles whose images
+/// lie on both sides of a seam.
+pub fn mapped_mesh(
+    source: &SurfaceMesh,
+    target: &SurfaceMesh,
+    images: &TiVec<VertexId, Option<SurfacePoint>>,
+    target_uvs: &TiVec<HalfedgeId, DVec2>,
+) -> CommonMesh {
+    let normals = [vertex_normals(source), vertex_normals(target)];
+    let mut number: TiVec<VertexId, Option<u32>> = images.iter().map(|_| None).collect();
+    let mut mesh = CommonMesh::default();
+    for (v, image) in images.iter_enumerated() {
+        let Some(SurfacePoint { face, barycentric }) = *image else { continue };
+        number[v] = Some(mesh.uvs.len() as u32);
+        mesh.source_positions.push(source.positions()[v]);
+        mesh.target_positions.push(blend3(target.corners(face), barycentric));
+        mesh.source_normals.push(normals[0][v]);
+        let corners = target.triangles()[face].map(|c| normals[1][c]);
+        mesh.target_normals.push(blend3(corners, barycentric).normalize_or(DVec3::Z));
+        let corners = [0, 1, 2].map(|k| target_uvs[HalfedgeId::of(face, k)]);
+        mesh.uvs.push(blend3(corners, barycentric));
+    }
+    for corners in source.triangles() {
+        if let [Some(a), Some(b), Some(c)] = corners.map(|v| number[v]) {
+            mesh.triangles.push([a, b, c]);
+        }
+    }
+    mesh
+}
+
 fn quantised(p: DVec3) -> [i64; 3] {
     p.round().to_array().map(|x| x as i64)
 }

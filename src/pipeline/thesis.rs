@@ -1,0 +1,88 @@
+//! The thesis' map: from a layout to the images of the vertices, with what is missing told.
+
+use super::relaxed::patch_lines;
+use super::report::{DistortionReport, GroundTruthReport};
+use super::{GroundTruth, MapInput, MapResult, Metrics, PipelineError, PipelineOptions, Report, cone_metric};
+use crate::layout::{BaseLayout, PatchedMesh};
+use crate::monitor::{Monitor, Stage};
+use crate::surface_map::distortion::image_distortion;
+use crate::surface_map::ground_truth::same_connectivity_error;
+use crate::surface_map::thesis::{ThesisMap, thesis_map};
+use crate::surface_map::transfer::{Surface, mapped_mesh};
+use typed_index_collections::TiVec;
+
+/// The flows run again on the refined meshes, where the paths between landmarks are chains of edges.
+pub(super) fn run(
+    input: MapInput<'_>,
+    options: &PipelineOptions,
+    (layout, metrics): (BaseLayout, &Metrics),
+    monitor: &mut dyn Monitor,
+) -> Result<MapResult, PipelineError> {
+    let refined = |side: &PatchedMesh, monitor: &mut dyn Monitor| {
+        cone_metric((&side.mesh, &side.landmark_vertices.raw), &layout.base, options, monitor)
+    };
+    monitor.enter(Stage::SourceConeMetric);
+    let source = refined(&layout.source, monitor).map_err(PipelineError::source_flow)?;
+    monitor.enter(Stage::TargetConeMetric);
+    let target = refined(&layout.target, monitor).map_err(PipelineError::target_flow)?;
+    monitor.enter(Stage::Composition);
+    let map = thesis_map(&layout, [input.source, input.target], [&source.0, &target.0], monitor)?;
+    monitor.enter(Stage::Transfer);
+    Ok(result(input, layout, metrics, map))
+}
+
+fn result(input: MapInput<'_>, layout: BaseLayout, metrics: &Metrics, map: ThesisMap) -> MapResult {
+    let images = &map.target_from_source;
+    let mapped = || images.iter_enumerated().filter_map(|(v, image)| Some((v, (*image)?)));
+    let ground_truth = (input.ground_truth == GroundTruth::SameConnectivity).then(|| {
+        let error = same_connectivity_error(input.target, mapped());
+        GroundTruthReport { mean: error.mean, p95: error.p95, max: error.max }
+    });
+    let measured = image_distortion(input.source, input.target, images);
+    let report = Report {
+        certificate: None,
+        unmapped_share: map.unmapped_share,
+        distortion: DistortionReport {
+            energy: measured.energy,
+            mean: measured.mean,
+            median: measured.median,
+            p95: measured.p95,
+            max: measured.max,
+            l2_stretch: metrics.target_atlas.l2_stretch,
+        },
+        ground_truth,
+        warnings: warnings(&map),
+        ..Report::of_inputs(input, &layout.base, metrics)
+    };
+    let surfaces = [
+        Surface { input: input.source, patched: &layout.source },
+        Surface { input: input.target, patched: &layout.target },
+    ];
+    MapResult {
+        cone_curvatures: metrics.cones.clone(),
+        common: mapped_mesh(input.source, input.target, images, &metrics.target_atlas.corner_uvs),
+        patch_lines: surfaces.map(patch_lines),
+        vertex_distortion: TiVec::new(),
+        report,
+        base: layout.base,
+        target_from_source: map.target_from_source,
+    }
+}
+
+fn warnings(map: &ThesisMap) -> Vec<String> {
+    let mut warnings = vec!["This method does not guarantee a bijection; the relaxed map does.".to_owned()];
+    let [source, target] = map.inverted_patches;
+    if source + target > 0 {
+        warnings.push(format!(
+            "Triangles of the base domain that come out inverted in the flat metrics: {source} on the source, {target} on \
+             the target."
+        ));
+    }
+    if map.unmapped_share > 0.0 {
+        warnings.push(format!(
+            "{:.2} % of the source's vertices have no image: no straight triangle with a counterpart lies over them.",
+            100.0 * map.unmapped_share
+        ));
+    }
+    warnings
+}
