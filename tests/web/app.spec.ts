@@ -1,0 +1,192 @@
+import { existsSync, readFileSync } from 'node:fs';
+import { basename } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import type { Page } from '@playwright/test';
+import { expect, test } from '@playwright/test';
+
+const ROOT = fileURLToPath(new URL('../../', import.meta.url));
+const SHARED = `${ROOT}../shared`;
+const DATA = `${SHARED}/data`;
+const RUN_TIMEOUT = 200_000;
+
+function needsSharedData(): void {
+  test.skip(
+    !existsSync(SHARED) && !process.env['CI'],
+    'the real meshes (../shared/data: cat.off, lion.off, cat-lion.json, open-teapot.off) are not here',
+  );
+}
+
+function fail(message: string): never {
+  throw new Error(message);
+}
+
+async function open(page: Page, hash = ''): Promise<void> {
+  await page.goto(`/${hash}`);
+  await expect(page.locator('body')).toHaveAttribute('data-ready', 'true', { timeout: 120_000 });
+}
+
+/** Drops files on the page as a user does. */
+async function drop(page: Page, paths: readonly string[]): Promise<void> {
+  const files = paths.map((path) => ({ name: basename(path), base64: readFileSync(path).toString('base64') }));
+  const transfer = await page.evaluateHandle((given) => {
+    const data = new DataTransfer();
+    for (const { name, base64 } of given) {
+      const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+      data.items.add(new File([bytes], name));
+    }
+    return data;
+  }, files);
+  await page.dispatchEvent('body', 'dragover', { dataTransfer: transfer });
+  await page.dispatchEvent('body', 'drop', { dataTransfer: transfer });
+}
+
+async function runMap(page: Page): Promise<void> {
+  await page.locator('#run').click();
+  await expect(page.locator('body')).toHaveAttribute('data-state', /done|error/, { timeout: RUN_TIMEOUT });
+  await expect(page.locator('#error')).toBeHidden();
+  await expect(page.locator('#result')).toContainText('Certified bijective: 0 of');
+}
+
+interface Half {
+  readonly colours: number;
+  /** Share of the pixels that differ from the half's corner. */
+  readonly covered: number;
+}
+
+/** Reads both halves of the canvas right after a frame that a small turn asks for. */
+async function readHalves(page: Page): Promise<Half[]> {
+  return page.evaluate(
+    () =>
+      new Promise<Half[]>((resolve) => {
+        document.querySelector('#view-source')?.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft' }));
+        document.querySelector('#view-target')?.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft' }));
+        requestAnimationFrame(() => {
+          const canvas = document.querySelector<HTMLCanvasElement>('#canvas');
+          if (canvas === null) {
+            throw new Error('no canvas');
+          }
+          const { width, height } = canvas;
+          const context = new OffscreenCanvas(width, height).getContext('2d');
+          if (context === null) {
+            throw new Error('no 2D context');
+          }
+          context.drawImage(canvas, 0, 0);
+          const half = Math.floor(width / 2);
+          resolve(
+            [0, half].map((left) => {
+              const { data } = context.getImageData(left + 2, 2, half - 4, height - 4);
+              const pixels = new Uint32Array(data.buffer);
+              const corner = pixels[0];
+              const others = pixels.filter((pixel) => pixel !== corner);
+              return { colours: new Set(others).size, covered: others.length / pixels.length };
+            }),
+          );
+        });
+      }),
+  );
+}
+
+/** Looks for the body in a view from its middle outwards, and clicks until the list or the hint changes. */
+async function pickOn(page: Page, view: string, picked: () => Promise<boolean>): Promise<void> {
+  const box = (await page.locator(view).boundingBox()) ?? fail(`${view} has no box`);
+  for (const [dx, dy] of [
+    [0, 0],
+    [0.06, 0.02],
+    [-0.08, 0.03],
+    [0.03, -0.08],
+    [-0.04, 0.1],
+    [0.15, 0],
+    [-0.15, 0],
+  ] as const) {
+    await page.mouse.click(box.x + box.width * (0.5 + dx), box.y + box.height * (0.5 + dy));
+    await page.waitForTimeout(400);
+    if (await picked()) {
+      return;
+    }
+  }
+  fail(`no click on ${view} met the mesh`);
+}
+
+test.beforeEach(({ page }) => {
+  page.on('pageerror', (error) => {
+    console.log(`page error: ${error.message}`);
+  });
+  page.on('console', (message) => {
+    if (message.type() === 'error') {
+      console.log(`console: ${message.text()}`);
+    }
+  });
+});
+
+test('two real meshes and their landmarks give a certified map', async ({ page }) => {
+  needsSharedData();
+  await open(page);
+  await drop(page, [`${DATA}/sumner/lion.off`, `${DATA}/sumner/cat.off`, `${DATA}/pairs/cat-lion.json`]);
+  await expect(page.locator('#view-source')).toContainText('cat.off');
+  await expect(page.locator('#view-target')).toContainText('lion.off');
+  const rows = page.locator('#landmark-list li');
+  await expect(rows.nth(10)).toBeVisible();
+  const pairs = await rows.count();
+
+  await runMap(page);
+  await page.waitForTimeout(1500);
+  await page.screenshot({ path: `${ROOT}test-results/cat-lion.png` });
+  for (const half of await readHalves(page)) {
+    expect(half.covered).toBeGreaterThan(0.03);
+    expect(half.colours).toBeGreaterThan(20);
+  }
+
+  const download = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'GLB' }).click();
+  expect((await download).suggestedFilename()).toBe('conemap.glb');
+
+  await pickOn(page, '#view-source', async () => (await page.locator('#landmark-list .pending').count()) === 1);
+  await pickOn(page, '#view-target', async () => (await page.locator('#landmark-list [data-pair]').count()) === pairs + 1);
+  await expect(rows).toHaveCount(pairs + 1);
+  await expect(page.locator('#result')).toContainText('before your latest changes');
+  await page.getByRole('button', { name: `Delete pair ${pairs + 1}`, exact: true }).click();
+  await expect(rows).toHaveCount(pairs);
+
+  await drop(page, [`${DATA}/bad/open-teapot.off`]);
+  await expect(page.locator('#error')).toBeVisible();
+  await expect(page.locator('#error')).toContainText('open-teapot.off');
+  await expect(page.locator('#error')).toContainText(/surface is open/i);
+  await expect(rows).toHaveCount(pairs);
+  await expect(page.locator('#result')).toContainText('Certified');
+  await page.getByRole('button', { name: 'Close the message' }).click();
+  await expect(page.locator('#error')).toBeHidden();
+});
+
+test('a run can be cancelled and nothing is lost', async ({ page }) => {
+  await open(page);
+  await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
+  const pairs = await page.locator('#landmark-list li').count();
+  await page.evaluate(() => {
+    document.querySelector<HTMLButtonElement>('#run')?.click();
+    document.querySelector<HTMLButtonElement>('#cancel')?.click();
+  });
+  await expect(page.locator('body')).toHaveAttribute('data-state', 'idle');
+  await expect(page.locator('#run')).toBeEnabled();
+  await expect(page.locator('#landmark-list li')).toHaveCount(pairs);
+});
+
+test('each demo opens by its link and maps', async ({ page }) => {
+  test.setTimeout(900_000);
+  await open(page);
+  const ids = await page
+    .locator('#demo-select option')
+    .evaluateAll((options) => options.map((option) => (option as HTMLOptionElement).value).filter((id) => id !== ''));
+  expect(ids.length).toBeGreaterThanOrEqual(3);
+  for (const id of ids) {
+    await page.goto('about:blank');
+    await open(page, `#demo=${encodeURIComponent(id)}`);
+    await expect(page.locator('body')).toHaveAttribute('data-demo', id, { timeout: 60_000 });
+    await runMap(page);
+    await page.waitForTimeout(1500);
+    await page.screenshot({ path: `${ROOT}test-results/demo-${id}.png` });
+    for (const half of await readHalves(page)) {
+      expect(half.covered, id).toBeGreaterThan(0.03);
+      expect(half.colours, id).toBeGreaterThan(20);
+    }
+  }
+});

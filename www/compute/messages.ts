@@ -1,0 +1,79 @@
+/** What the page and the worker say to each other. */
+
+/** The choices of a run. */
+export interface RunOptions {
+  readonly method: 'relaxed' | 'thesis';
+  readonly base: 'joint' | 'qem';
+  readonly cones: 'base-domain' | 'uniform';
+}
+
+/** Everything one run needs. */
+export interface RunRequest {
+  readonly module: WebAssembly.Module;
+  readonly source: Uint8Array;
+  readonly target: Uint8Array;
+  readonly landmarks: string;
+  readonly options: RunOptions;
+}
+
+/** One view's share of the result. */
+export interface SideOutput {
+  readonly positions: Float32Array;
+  readonly normals: Float32Array;
+  readonly linePoints: Float32Array;
+  readonly lineStarts: Uint32Array;
+}
+
+/** A finished map. */
+export interface RunOutput {
+  readonly sides: readonly [SideOutput, SideOutput];
+  readonly uvs: Float32Array;
+  readonly triangles: Uint32Array;
+  readonly cones: Float64Array;
+  /** JSON. */
+  readonly report: string;
+  readonly glb: Uint8Array<ArrayBuffer>;
+  readonly csv: Uint8Array<ArrayBuffer>;
+  readonly baseObj: Uint8Array<ArrayBuffer>;
+}
+
+/** Where a run is; the residual is `null` where a stage has none. */
+export interface Progress {
+  readonly stage: string;
+  readonly fraction: number;
+  readonly residual: number | null;
+}
+
+/** A failure: a stable code and the core's own words. */
+export interface Failure {
+  readonly code: string;
+  readonly message: string;
+}
+
+/** From the worker. */
+export type WorkerMessage =
+  | ({ readonly kind: 'progress' } & Progress)
+  | { readonly kind: 'done'; readonly output: RunOutput }
+  | { readonly kind: 'failed'; readonly failure: Failure };
+
+/** Reads what the core throws: a string that holds `{code, message}`, or a trap. */
+export function failureOf(thrown: unknown): Failure {
+  if (typeof thrown === 'string') {
+    try {
+      const value: unknown = JSON.parse(thrown);
+      if (typeof value === 'object' && value !== null && 'code' in value && 'message' in value) {
+        return { code: String(value.code), message: String(value.message) };
+      }
+    } catch {
+      // Not JSON: the string is the message.
+    }
+    return { code: 'unknown', message: thrown };
+  }
+  if (thrown instanceof WebAssembly.RuntimeError) {
+    return { code: 'trap', message: thrown.message };
+  }
+  if (thrown instanceof Error) {
+    return { code: 'unknown', message: thrown.message };
+  }
+  return { code: 'unknown', message: String(thrown) };
+}

@@ -1,0 +1,70 @@
+/** One run of the pipeline: answers one request, then is thrown away. */
+import init, { runMap } from '../wasm/conemap.js';
+import type { MapOutput } from '../wasm/conemap.js';
+import { failureOf } from './messages.ts';
+import type { RunOutput, RunRequest, SideOutput, WorkerMessage } from './messages.ts';
+
+declare const self: DedicatedWorkerGlobalScope;
+
+function post(message: WorkerMessage, transfer: Transferable[] = []): void {
+  self.postMessage(message, transfer);
+}
+
+function sideOf(output: MapOutput, side: number): SideOutput {
+  return {
+    positions: output.positions(side),
+    normals: output.normals(side),
+    linePoints: output.linePoints(side),
+    lineStarts: output.lineStarts(side),
+  };
+}
+
+function read(output: MapOutput): RunOutput {
+  return {
+    sides: [sideOf(output, 0), sideOf(output, 1)],
+    uvs: output.uvs(),
+    triangles: output.triangles(),
+    cones: output.cones(),
+    report: output.report(),
+    glb: output.glb().slice(),
+    csv: output.csv().slice(),
+    baseObj: output.baseObj().slice(),
+  };
+}
+
+function buffersOf(output: RunOutput): Transferable[] {
+  const arrays = [
+    ...output.sides.flatMap((side) => [side.positions, side.normals, side.linePoints, side.lineStarts]),
+    output.uvs,
+    output.triangles,
+    output.cones,
+    output.glb,
+    output.csv,
+    output.baseObj,
+  ];
+  return [...new Set(arrays.map((array) => array.buffer))].filter((buffer) => buffer instanceof ArrayBuffer);
+}
+
+async function run(request: RunRequest): Promise<void> {
+  try {
+    await init({ module_or_path: request.module });
+    const output = runMap(
+      request.source,
+      request.target,
+      request.landmarks,
+      JSON.stringify(request.options),
+      (stage, fraction, residual) => {
+        post({ kind: 'progress', stage, fraction, residual: Number.isFinite(residual) ? residual : null });
+      },
+    );
+    const copy = read(output);
+    output.free();
+    post({ kind: 'done', output: copy }, buffersOf(copy));
+  } catch (thrown) {
+    post({ kind: 'failed', failure: failureOf(thrown) });
+  }
+}
+
+self.addEventListener('message', (event: MessageEvent<RunRequest>) => {
+  void run(event.data);
+});

@@ -1,0 +1,123 @@
+/** Tells meshes from landmark files and finds each mesh's side. */
+import { failureOf } from './compute/messages.ts';
+import { fileSentence, SENTENCES } from './messages.ts';
+import type { Event, LandmarkFile, MeshFile, Side, State } from './state.ts';
+import { baseName } from './state.ts';
+import { readLandmarks, readMesh } from './wasm/conemap.js';
+
+/** Some named bytes. */
+export interface NamedBytes {
+  readonly name: string;
+  readonly bytes: Uint8Array;
+}
+
+/** A reason to refuse files, as a sentence. */
+export class FileRefused extends Error {}
+
+function jsonOf(bytes: Uint8Array): unknown {
+  const start = bytes.findIndex((byte) => byte > 0x20 && byte !== 0xef && byte !== 0xbb && byte !== 0xbf);
+  if (bytes[start] !== 0x7b) {
+    return undefined;
+  }
+  try {
+    return JSON.parse(new TextDecoder().decode(bytes)) as unknown;
+  } catch {
+    return undefined;
+  }
+}
+
+function isLandmarkFile(file: NamedBytes): boolean {
+  const value = jsonOf(file.bytes);
+  const isObject = typeof value === 'object' && value !== null;
+  if (isObject && 'pairs' in value) {
+    return true;
+  }
+  if (!file.name.toLowerCase().endsWith('.json')) {
+    return false;
+  }
+  if (isObject && !('asset' in value)) {
+    throw new FileRefused(`${file.name}: ${SENTENCES.notLandmarks}`);
+  }
+  return !isObject;
+}
+
+/** Reads and checks a mesh. */
+export function meshFile(file: NamedBytes): MeshFile {
+  try {
+    const mesh = readMesh(file.bytes);
+    return {
+      name: file.name,
+      bytes: file.bytes,
+      mesh,
+      vertexCount: mesh.vertexCount,
+      faceCount: mesh.faceCount,
+      turnedFaces: mesh.turnedFaces,
+    };
+  } catch (thrown) {
+    throw new FileRefused(fileSentence(file.name, failureOf(thrown)));
+  }
+}
+
+/** Reads a landmark file. */
+export function landmarkFile(file: NamedBytes): LandmarkFile {
+  try {
+    return JSON.parse(readLandmarks(file.bytes)) as LandmarkFile;
+  } catch (thrown) {
+    throw new FileRefused(fileSentence(file.name, failureOf(thrown)));
+  }
+}
+
+function sideByName(name: string, file: LandmarkFile | null, state: State): Side | null {
+  const names = file === null ? state.named : [file.source, file.target].map((path) => (path === undefined ? null : baseName(path)));
+  const isSource = names[0] === name;
+  const isTarget = names[1] === name;
+  return isSource === isTarget ? null : isSource ? 0 : 1;
+}
+
+/** Sides of one or two meshes by the names of the landmark file, the place of the drop, and the order given. */
+function sidesOf(meshes: readonly NamedBytes[], landmarks: LandmarkFile | null, over: Side | null, state: State): Side[] {
+  const [first, second] = meshes;
+  if (first === undefined) {
+    return [];
+  }
+  if (second !== undefined) {
+    const swapped =
+      sideByName(first.name, landmarks, state) === 1 || sideByName(second.name, landmarks, state) === 0;
+    return swapped ? [1, 0] : [0, 1];
+  }
+  if (over !== null) {
+    return [over];
+  }
+  const named = sideByName(first.name, landmarks, state);
+  return [named ?? (state.meshes[0] !== null && state.meshes[1] === null ? 1 : 0)];
+}
+
+/** The events that these files mean; all or none. Throws {@link FileRefused}. */
+export function eventsOf(files: readonly NamedBytes[], over: Side | null, state: State): Event[] {
+  const landmarkFiles = files.filter(isLandmarkFile);
+  const meshFiles = files.filter((file) => !landmarkFiles.includes(file));
+  if (landmarkFiles.length > 1) {
+    throw new FileRefused(SENTENCES.twoLandmarkFiles);
+  }
+  if (meshFiles.length > 2) {
+    throw new FileRefused(SENTENCES.tooManyMeshes);
+  }
+  const landmarks = landmarkFiles[0] === undefined ? null : landmarkFile(landmarkFiles[0]);
+  const sides = sidesOf(meshFiles, landmarks, over, state);
+  const loaded: MeshFile[] = [];
+  try {
+    for (const file of meshFiles) {
+      loaded.push(meshFile(file));
+    }
+  } catch (thrown) {
+    loaded.forEach((file) => {
+      file.mesh.free();
+    });
+    throw thrown;
+  }
+  const events: Event[] = loaded.map((file, index) => ({ kind: 'mesh', side: sides[index] ?? 0, file }));
+  if (landmarks !== null) {
+    events.push({ kind: 'landmarks', file: landmarks });
+  }
+  return events;
+}

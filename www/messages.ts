@@ -1,0 +1,114 @@
+/** The only place that turns codes into sentences. */
+import type { Failure, Progress } from './compute/messages.ts';
+
+const STAGES: readonly (readonly [string, string, number])[] = [
+  ['landmarks', 'Placing the landmarks', 0.02],
+  ['base_domain', 'Drawing the base domain on both meshes', 0.13],
+  ['source_cone_metric', 'Flattening the source to its cones', 0.12],
+  ['target_cone_metric', 'Flattening the target to its cones', 0.12],
+  ['initial_map', 'Laying both out on the flat cone surface', 0.16],
+  ['relaxation', 'Relaxing the map', 0.25],
+  ['certificate', 'Checking that the map is bijective', 0.04],
+  ['composition', 'Carrying points from source to target', 0.08],
+  ['transfer', 'Carrying the texture over', 0.08],
+];
+
+/** The stage in words. */
+export function stageSentence(stage: string): string {
+  return STAGES.find(([name]) => name === stage)?.[1] ?? stage.replaceAll('_', ' ');
+}
+
+/** Share of the whole run that is done, 0 to 1, by the usual times of the stages. */
+export function overallShare(progress: Progress): number {
+  let before = 0;
+  for (const [name, , weight] of STAGES) {
+    if (name === progress.stage) {
+      return before + weight * Math.min(1, Math.max(0, progress.fraction));
+    }
+    before += weight;
+  }
+  return 0;
+}
+
+/** A name for each stage of the report's seconds. */
+export function stageName(stage: string): string {
+  const words = stage.replaceAll('_', ' ');
+  return words.charAt(0).toUpperCase() + words.slice(1);
+}
+
+const KEPT = 'Your meshes and landmarks are kept.';
+
+const ABOUT: Readonly<Record<string, string>> = {
+  'base-domain': `No base domain was found for these landmarks. Spread them over the whole surface, or move pairs that lie close together. ${KEPT}`,
+  layout: `The base domain could not be drawn on both meshes. Look for a pair whose two points are not the same place, or left and right swapped. ${KEPT}`,
+  'cone-metric': `The cone metric did not converge. Very thin triangles are a common cause. ${KEPT}`,
+  map: `No map was found between the two flat surfaces. Look for a pair whose two points are not the same place. ${KEPT}`,
+  composition: `A point was lost between the two flat surfaces, so there is no map to trust. ${KEPT}`,
+  'not-certified': `The map that was found is not bijective, so it is not shown. More landmarks where the shapes differ most usually help. ${KEPT}`,
+};
+
+const INSTEAD: Readonly<Record<string, string>> = {
+  trap: `The computation stopped unexpectedly, perhaps for want of memory. ${KEPT}`,
+  worker: `The computation could not be started or broke off. ${KEPT} Try again, or reload the page.`,
+};
+
+function asSentence(text: string): string {
+  const trimmed = text.trim();
+  const start = trimmed.charAt(0).toUpperCase() + trimmed.slice(1);
+  return /[.!?]$/.test(start) ? start : `${start}.`;
+}
+
+/** A failure in words; without words for its code, the core's own. */
+export function failureSentence(failure: Failure): string {
+  const instead = INSTEAD[failure.code];
+  if (instead !== undefined) {
+    return instead;
+  }
+  const about = ABOUT[failure.code];
+  const message = asSentence(failure.message);
+  return about === undefined ? message : `${about} (${message.slice(0, -1)})`;
+}
+
+/** A failure of one file. */
+export function fileSentence(file: string, failure: Failure): string {
+  return `${file}: ${failureSentence(failure)}`;
+}
+
+export const SENTENCES = {
+  noWebGl:
+    'This browser gives no WebGL 2, which the views need. Turn on hardware acceleration or use a current browser.',
+  noCore: 'The program could not be loaded. Reload the page; if that does not help, use a current browser.',
+  contextLost: 'The graphics card took the views away. They come back as soon as it answers.',
+  contextGone: 'The views could not be rebuilt after the graphics card was lost. Reload the page.',
+  tooManyMeshes: 'Drop at most two meshes at once: a source and a target.',
+  twoLandmarkFiles: 'Drop one landmark file at a time.',
+  noDemo: 'There is no demo of that name. Choose one from the menu.',
+  whileRunning: 'A map is being computed. Cancel it first, then change the meshes.',
+  unreadable: 'could not be read from the disk.',
+  notLandmarks: 'this is JSON, but it has no "pairs" and is no mesh.',
+  unexpected: 'Something unexpected went wrong in the page. Your files are untouched; reload if the page no longer answers.',
+  badPoint: 'Some landmarks do not belong to these meshes. Load the meshes that the landmark file was made for.',
+} as const;
+
+/** What to do next. */
+export function hint(options: {
+  readonly hasSource: boolean;
+  readonly hasTarget: boolean;
+  readonly pendingSide: 0 | 1 | null;
+  readonly pairs: number;
+}): string {
+  if (!options.hasSource || !options.hasTarget) {
+    return 'Drop two closed meshes here, or choose a demo.';
+  }
+  if (options.pendingSide === 0) {
+    return `Now click the same place on the target to finish pair ${options.pairs + 1}.`;
+  }
+  if (options.pendingSide === 1) {
+    return `Now click the same place on the source to finish pair ${options.pairs + 1}.`;
+  }
+  if (options.pairs < 4) {
+    const missing = 4 - options.pairs;
+    return `Click a place on the source to begin a pair. ${missing} more ${missing === 1 ? 'pair is' : 'pairs are'} needed.`;
+  }
+  return 'Click the source to add a pair, or compute the map.';
+}

@@ -1,0 +1,63 @@
+/** What the views show. */
+import type { State, Style } from '../state.ts';
+import { byId, button, make } from './dom.ts';
+import type { Actions, Panel } from './panel.ts';
+
+const SURFACES: readonly (readonly [Style['surface'], string])[] = [
+  ['shaded', 'Shaded'],
+  ['checkerboard', 'Checkerboard'],
+  ['colours', 'Colours'],
+];
+const TOGGLES = [
+  ['markers', 'Landmarks'],
+  ['cones', 'Cones'],
+  ['patchLines', 'Patch lines'],
+] as const;
+
+/** Makes the panel. */
+export function displayPanel(actions: Actions, resetViews: () => void): Panel {
+  const root = byId('display');
+  const radios = SURFACES.map(([value, text]) => {
+    const input = make('input', { type: 'radio', name: 'surface', value });
+    input.addEventListener('change', () => {
+      actions.dispatch({ kind: 'style', style: { surface: value } });
+    });
+    return { value, input, label: make('label', { class: 'choice' }, input, make('span', {}, text)) };
+  });
+  const toggles = TOGGLES.map(([key, text]) => {
+    const input = make('input', { type: 'checkbox', name: key });
+    input.addEventListener('change', () => {
+      actions.dispatch({ kind: 'style', style: { [key]: input.checked } });
+    });
+    return { key, input, label: make('label', { class: 'choice' }, input, make('span', {}, text)) };
+  });
+  const legend = make(
+    'p',
+    { class: 'quiet legend' },
+    make('span', { class: 'dot positive', 'aria-hidden': 'true' }),
+    'positive and ',
+    make('span', { class: 'dot negative', 'aria-hidden': 'true' }),
+    'negative cone curvature',
+  );
+  root.append(
+    make('h2', {}, 'Display'),
+    make('div', { class: 'segments', role: 'radiogroup', 'aria-label': 'Surface' }, ...radios.map((radio) => radio.label)),
+    make('div', { class: 'row checks' }, ...toggles.map((toggle) => toggle.label)),
+    legend,
+    button('Reset views', resetViews, { class: 'plain' }),
+  );
+  return {
+    render(state: State): void {
+      const hasResult = state.result !== null;
+      for (const { value, input } of radios) {
+        input.checked = state.style.surface === value;
+        input.disabled = value !== 'shaded' && !hasResult;
+      }
+      for (const { key, input } of toggles) {
+        input.checked = state.style[key];
+        input.disabled = key !== 'markers' && !hasResult;
+      }
+      legend.hidden = !hasResult || !state.style.cones;
+    },
+  };
+}

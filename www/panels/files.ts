@@ -1,0 +1,131 @@
+/** Files and demos: buttons, the menu, and dropping anywhere on the page. */
+import type { Side, State } from '../state.ts';
+import { SIDES } from '../state.ts';
+import { byId, button, integer, make } from './dom.ts';
+import type { Actions, Panel } from './panel.ts';
+
+const MESH_TYPES = '.obj,.off,.ply,.stl,.glb,.gltf';
+const NAMES = ['Source', 'Target'] as const;
+
+function chooser(accept: string, onFiles: (files: File[]) => void): HTMLInputElement {
+  const input = make('input', { type: 'file', accept, hidden: true, tabindex: -1 });
+  input.addEventListener('change', () => {
+    const files = [...(input.files ?? [])];
+    input.value = '';
+    if (files.length > 0) {
+      onFiles(files);
+    }
+  });
+  return input;
+}
+
+/** Which view lies under a point of the window. */
+function sideAt(x: number, y: number): Side | null {
+  for (const side of SIDES) {
+    const box = byId(side === 0 ? 'view-source' : 'view-target').getBoundingClientRect();
+    if (x >= box.left && x < box.right && y >= box.top && y < box.bottom) {
+      return side;
+    }
+  }
+  return null;
+}
+
+function acceptDrops(actions: Actions): void {
+  const veil = byId('drop-veil');
+  const sentence = make('p', {}, 'Drop one or two meshes and a landmark file');
+  const halves = SIDES.map((side) => make('div', { class: 'half' }, NAMES[side]));
+  veil.append(...halves, sentence);
+  const hide = (): void => {
+    veil.hidden = true;
+  };
+  window.addEventListener('dragover', (event) => {
+    event.preventDefault();
+    veil.hidden = false;
+    const side = sideAt(event.clientX, event.clientY);
+    halves.forEach((half, index) => half.classList.toggle('over', index === side));
+  });
+  window.addEventListener('dragleave', (event) => {
+    if (event.relatedTarget === null) {
+      hide();
+    }
+  });
+  window.addEventListener('drop', (event) => {
+    event.preventDefault();
+    hide();
+    const files = event.dataTransfer === null ? [] : [...event.dataTransfer.files];
+    if (files.length > 0) {
+      actions.openFiles(files, sideAt(event.clientX, event.clientY));
+    }
+  });
+}
+
+/** Makes the panel in the page's header. */
+export function filesPanel(actions: Actions): Panel {
+  const root = byId('files');
+  const select = make('select', { id: 'demo-select', 'aria-label': 'Demo' }, make('option', { value: '' }, 'Demos'));
+  select.addEventListener('change', () => {
+    if (select.value !== '') {
+      actions.openDemo(select.value);
+    }
+  });
+  const meshButtons = SIDES.map((side) => {
+    const input = chooser(MESH_TYPES, (files) => {
+      actions.openFiles(files.slice(0, 1), side);
+    });
+    input.id = side === 0 ? 'source-file' : 'target-file';
+    const choose = button(`${NAMES[side]}…`, () => {
+      input.click();
+    }, { title: `Choose the ${NAMES[side].toLowerCase()} mesh: OBJ, OFF, PLY, STL, GLB or glTF` });
+    root.append(choose, input);
+    return choose;
+  });
+  const landmarkInput = chooser('.json', (files) => {
+    actions.openFiles(files.slice(0, 1), null);
+  });
+  landmarkInput.id = 'landmark-file';
+  const landmarkButton = button('Landmarks…', () => {
+    landmarkInput.click();
+  }, { title: 'Choose a landmark file (JSON)' });
+  root.append(landmarkButton, landmarkInput);
+  root.prepend(select);
+  acceptDrops(actions);
+
+  const captions = SIDES.map((side) => {
+    const caption = make('p', { class: 'caption' });
+    byId(side === 0 ? 'view-source' : 'view-target').append(caption);
+    return caption;
+  });
+
+  return {
+    render(state: State, previous: State | null): void {
+      if (previous?.demos !== state.demos) {
+        select.replaceChildren(
+          make('option', { value: '' }, 'Demos'),
+          ...state.demos.map((demo) => make('option', { value: demo.id, title: demo.sentence }, demo.title)),
+        );
+      }
+      if (previous?.demo !== state.demo || previous.demos !== state.demos) {
+        select.value = state.demo?.id ?? '';
+      }
+      const running = state.job.kind === 'running';
+      for (const element of [select, landmarkButton, ...meshButtons]) {
+        element.disabled = !state.ready || running;
+      }
+      if (previous?.meshes !== state.meshes) {
+        for (const side of SIDES) {
+          const caption = captions[side];
+          const file = state.meshes[side];
+          const facts =
+            file === null
+              ? make('span', {}, 'drop a mesh here')
+              : make('span', { title: turned(file.turnedFaces) }, `${file.name} · ${integer(file.faceCount)} triangles`);
+          caption?.replaceChildren(make('strong', {}, NAMES[side]), ' ', facts);
+        }
+      }
+    },
+  };
+}
+
+function turned(count: number): string {
+  return count === 0 ? '' : `${integer(count)} faces were turned so that all look outwards`;
+}

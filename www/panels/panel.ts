@@ -1,0 +1,16 @@
+/** What every panel is. */
+import type { Event, Side, State } from '../state.ts';
+
+/** Shows a part of the state; `previous` is `null` the first time. */
+export interface Panel {
+  render(state: State, previous: State | null): void;
+}
+
+/** What panels ask for beyond a change of state. */
+export interface Actions {
+  readonly dispatch: (event: Event) => void;
+  readonly openFiles: (files: readonly File[], side: Side | null) => void;
+  readonly openDemo: (id: string) => void;
+  readonly run: () => void;
+  readonly cancel: () => void;
+}

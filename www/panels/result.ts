@@ -1,0 +1,117 @@
+/** The result in words and its downloads. */
+import { stageName } from '../messages.ts';
+import type { Report } from '../report.ts';
+import type { Result, State } from '../state.ts';
+import { isStale } from '../state.ts';
+import { byId, button, download, figure, integer, make } from './dom.ts';
+import type { Panel } from './panel.ts';
+
+function verdict(report: Report): HTMLElement {
+  const { certificate } = report;
+  const faces = report.faces.source + report.faces.target;
+  if (certificate === null) {
+    const share = report.unmapped_share;
+    const text =
+      share > 0
+        ? `Not certified: this method left ${(100 * share).toFixed(share < 0.01 ? 2 : 1)} % of the source without an image.`
+        : 'Not certified: this method does not promise a bijection.';
+    return make('p', { class: 'verdict open' }, text);
+  }
+  const flips = `${integer(certificate.flipped_triangles)} of ${integer(faces)} triangles flipped`;
+  return certificate.bijective
+    ? make('p', { class: 'verdict good' }, `Certified bijective: ${flips}`)
+    : make('p', { class: 'verdict open' }, `Not certified: ${flips}`);
+}
+
+function facts(report: Report): (readonly [string, string, string])[] {
+  const { distortion, cone_metric: flows, certificate } = report;
+  const rows: (readonly [string, string, string])[] = [
+    ['Energy', figure(distortion.energy), 'Symmetric Dirichlet energy; 4 would be an isometry'],
+    [
+      'Distortion',
+      `mean ${figure(distortion.mean)}, median ${figure(distortion.median)}, 95 % below ${figure(distortion.p95)}`,
+      '1 would be an isometry',
+    ],
+    [
+      'Curvature error',
+      `source ${figure(flows.source.max_curvature_error)}, target ${figure(flows.target.max_curvature_error)} rad`,
+      'Largest difference from the wanted cone angles',
+    ],
+    ['Base domain', `${integer(report.base_domain.vertices)} vertices, ${integer(report.base_domain.faces)} triangles`, ''],
+  ];
+  if (certificate !== null) {
+    rows.push(['Landmarks', `met within ${figure(certificate.max_landmark_error)}`, 'In units of the square root of the area']);
+  }
+  if (report.ground_truth !== null) {
+    const truth = report.ground_truth;
+    rows.push([
+      'True images',
+      `mean ${figure(truth.mean)}, 95 % below ${figure(truth.p95)} away`,
+      'In units of the square root of the area',
+    ]);
+  }
+  return rows;
+}
+
+function times(report: Report): HTMLElement {
+  const entries = Object.entries(report.seconds);
+  const total = report.seconds['total'] ?? entries.reduce((sum, [, value]) => sum + value, 0);
+  const rows = entries
+    .filter(([stage]) => stage !== 'total')
+    .flatMap(([stage, value]) => [make('dt', {}, stageName(stage)), make('dd', {}, `${value.toFixed(2)} s`)]);
+  return make(
+    'details',
+    {},
+    make('summary', {}, `Computed in ${total.toFixed(1)} seconds`),
+    make('dl', {}, ...rows),
+  );
+}
+
+function downloads(result: Result): HTMLElement {
+  const { output } = result;
+  const file = (text: string, title: string, name: string, type: string, data: BlobPart): HTMLElement =>
+    button(text, () => {
+      download(name, type, data);
+    }, { title });
+  return make(
+    'div',
+    { class: 'row', role: 'group', 'aria-label': 'Downloads' },
+    file('GLB', 'The source with the texture of the target', 'conemap.glb', 'model/gltf-binary', output.glb),
+    file('CSV', 'The image of every vertex of the source', 'conemap.csv', 'text/csv', output.csv),
+    file('Base OBJ', 'The base domain', 'base-domain.obj', 'model/obj', output.baseObj),
+    file('Report', 'All numbers as JSON', 'report.json', 'application/json', output.report),
+  );
+}
+
+/** Makes the panel. */
+export function resultPanel(): Panel {
+  const root = byId('result');
+  const stale = make('p', { class: 'quiet' }, 'This map was made before your latest changes.');
+  return {
+    render(state: State, previous: State | null): void {
+      stale.hidden = !isStale(state);
+      if (previous?.result === state.result) {
+        return;
+      }
+      root.hidden = state.result === null;
+      if (state.result === null) {
+        root.replaceChildren();
+        return;
+      }
+      const { report } = state.result;
+      const rows = facts(report).flatMap(([name, value, note]) => [
+        make('dt', note === '' ? {} : { title: note }, name),
+        make('dd', {}, value, ...(note === '' ? [] : [make('small', {}, note)])),
+      ]);
+      root.replaceChildren(
+        make('h2', {}, 'Result'),
+        verdict(report),
+        stale,
+        ...(report.warnings ?? []).map((warning) => make('p', { class: 'warning' }, warning)),
+        make('dl', {}, ...rows),
+        times(report),
+        downloads(state.result),
+      );
+    },
+  };
+}

@@ -1,0 +1,150 @@
+/** Start, progress and cancel; the page's errors. */
+import { hint, overallShare, stageSentence } from '../messages.ts';
+import type { State } from '../state.ts';
+import { canRun, isStale, MIN_PAIRS } from '../state.ts';
+import { byId, button, figure, make } from './dom.ts';
+import type { Actions, Panel } from './panel.ts';
+
+function selectOf<T extends string>(
+  label: string,
+  choices: readonly (readonly [T, string])[],
+  onChange: (value: T) => void,
+): { readonly row: HTMLElement; readonly select: HTMLSelectElement } {
+  const select = make('select', {}, ...choices.map(([value, text]) => make('option', { value }, text)));
+  select.addEventListener('change', () => {
+    const choice = choices[select.selectedIndex];
+    if (choice !== undefined) {
+      onChange(choice[0]);
+    }
+  });
+  return { row: make('label', { class: 'field' }, make('span', {}, label), select), select };
+}
+
+/** What the run panel says when nothing runs. */
+function idleSentence(state: State): string {
+  if (state.busy !== null) {
+    return state.busy;
+  }
+  if (!state.ready) {
+    return 'Loading…';
+  }
+  if (state.meshes.includes(null)) {
+    return 'Choose a source and a target mesh.';
+  }
+  if (state.pairs.length < MIN_PAIRS) {
+    return `${state.pairs.length} of at least ${MIN_PAIRS} landmark pairs.`;
+  }
+  if (isStale(state)) {
+    return 'The landmarks or options have changed since the map shown.';
+  }
+  return state.result === null ? `Ready with ${state.pairs.length} landmark pairs.` : 'The map is done.';
+}
+
+/** Makes the panel. */
+export function runPanel(actions: Actions): Panel {
+  const root = byId('run-panel');
+  const run = button('Compute the map', actions.run, { id: 'run', class: 'primary' });
+  const cancel = button('Cancel', actions.cancel, { id: 'cancel', hidden: true });
+  const bar = make('progress', { max: 1, value: 0, 'aria-label': 'Progress of the map', hidden: true });
+  const status = make('p', { id: 'status', role: 'status' });
+  const residual = make('p', { class: 'quiet residual' });
+  const method = selectOf(
+    'Method',
+    [
+      ['relaxed', 'Relaxed, certified'],
+      ['thesis', 'Patch by patch (thesis)'],
+    ] as const,
+    (value) => {
+      actions.dispatch({ kind: 'options', options: { method: value } });
+    },
+  );
+  const base = selectOf(
+    'Base domain',
+    [
+      ['joint', 'From both meshes'],
+      ['qem', 'From the source (QEM)'],
+    ] as const,
+    (value) => {
+      actions.dispatch({ kind: 'options', options: { base: value } });
+    },
+  );
+  const cones = selectOf(
+    'Cone angles',
+    [
+      ['base-domain', 'Of the base domain'],
+      ['uniform', 'All equal'],
+    ] as const,
+    (value) => {
+      actions.dispatch({ kind: 'options', options: { cones: value } });
+    },
+  );
+  root.append(
+    make('h2', { class: 'hidden-title' }, 'Map'),
+    make('div', { class: 'row' }, run, cancel),
+    bar,
+    status,
+    residual,
+    make('details', {}, make('summary', {}, 'Advanced'), method.row, base.row, cones.row),
+  );
+
+  const error = byId('error');
+  const errorText = make('p');
+  const close = button('×', () => {
+    actions.dispatch({ kind: 'error-closed' });
+  }, { class: 'icon', 'aria-label': 'Close the message' });
+  error.append(errorText, close);
+  const hintBox = byId('hint');
+
+  return {
+    render(state: State, previous: State | null): void {
+      const running = state.job.kind === 'running';
+      run.disabled = !canRun(state);
+      run.hidden = running;
+      cancel.hidden = !running;
+      bar.hidden = !running;
+      method.select.value = state.options.method;
+      base.select.value = state.options.base;
+      cones.select.value = state.options.cones;
+      for (const select of [method.select, base.select, cones.select]) {
+        select.disabled = running;
+      }
+      let sentence = idleSentence(state);
+      let number = '';
+      if (state.job.kind === 'running') {
+        const { progress } = state.job;
+        sentence = progress === null ? 'Starting…' : `${stageSentence(progress.stage)}…`;
+        bar.value = progress === null ? 0 : overallShare(progress);
+        if (progress !== null && progress.residual !== null) {
+          number = `residual ${figure(progress.residual)}`;
+        }
+      } else if (state.job.kind === 'error') {
+        sentence = state.result === null ? 'No map was made.' : 'No new map was made; the last one is shown.';
+      }
+      if (status.textContent !== sentence) {
+        status.textContent = sentence;
+      }
+      residual.textContent = number;
+      residual.hidden = !running;
+      if (previous !== null && (previous.job.kind === 'running') !== running && document.activeElement === document.body) {
+        (running ? cancel : run).focus();
+      }
+      if (previous?.error !== state.error) {
+        error.hidden = state.error === null;
+        errorText.textContent = state.error ?? '';
+      }
+      const next =
+        running || !state.ready
+          ? ''
+          : hint({
+              hasSource: state.meshes[0] !== null,
+              hasTarget: state.meshes[1] !== null,
+              pendingSide: state.pending?.side ?? null,
+              pairs: state.pairs.length,
+            });
+      if (hintBox.textContent !== next) {
+        hintBox.textContent = next;
+      }
+      hintBox.hidden = next === '';
+    },
+  };
+}

@@ -1,0 +1,291 @@
+/** One state and one way to change it: `update(state, event)`, without side effects. */
+import type { Progress, RunOptions, RunOutput } from './compute/messages.ts';
+import type { Report } from './report.ts';
+import type { LoadedMesh } from './wasm/conemap.js';
+
+/** 0 the source, 1 the target. */
+export type Side = 0 | 1;
+export const SIDES: readonly [0, 1] = [0, 1];
+
+/** A point of a surface: a vertex of the file, or a place in a face. */
+export type SurfacePoint =
+  | number
+  | { readonly face: number; readonly barycentric: readonly [number, number, number] };
+
+export interface Pair {
+  readonly points: readonly [SurfacePoint, SurfacePoint];
+  readonly label: string;
+}
+
+/** A mesh with the bytes it came from; the bytes go to the worker. */
+export interface MeshFile {
+  readonly name: string;
+  readonly bytes: Uint8Array;
+  readonly mesh: LoadedMesh;
+  readonly vertexCount: number;
+  readonly faceCount: number;
+  readonly turnedFaces: number;
+}
+
+/** A landmark file as the core reads it. */
+export interface LandmarkFile {
+  readonly source?: string;
+  readonly target?: string;
+  readonly pairs: readonly (readonly [SurfacePoint, SurfacePoint])[];
+  readonly labels?: readonly string[];
+  readonly ground_truth?: string;
+}
+
+export interface Demo {
+  readonly id: string;
+  readonly title: string;
+  readonly sentence: string;
+}
+
+export interface Style {
+  readonly surface: 'shaded' | 'checkerboard' | 'colours';
+  readonly patchLines: boolean;
+  readonly cones: boolean;
+  readonly markers: boolean;
+}
+
+/** Where the map is. */
+export type Job =
+  | { readonly kind: 'idle' }
+  | { readonly kind: 'running'; readonly progress: Progress | null }
+  | { readonly kind: 'done' }
+  | { readonly kind: 'error' };
+
+export interface Result {
+  readonly output: RunOutput;
+  readonly report: Report;
+  /** The landmarks and options it was made from, to tell whether it is still current. */
+  readonly pairs: readonly Pair[];
+  readonly options: RunOptions;
+}
+
+export interface State {
+  readonly ready: boolean;
+  readonly demos: readonly Demo[];
+  readonly demo: Demo | null;
+  readonly meshes: readonly [MeshFile | null, MeshFile | null];
+  readonly pairs: readonly Pair[];
+  /** Names the landmark file gave to the meshes, without folders. */
+  readonly named: readonly [string | null, string | null];
+  readonly groundTruth: string | null;
+  /** A point picked on one side that waits for its partner. */
+  readonly pending: { readonly side: Side; readonly point: SurfacePoint } | null;
+  /** Earlier lists of pairs, latest last. */
+  readonly history: readonly (readonly Pair[])[];
+  readonly options: RunOptions;
+  readonly style: Style;
+  readonly job: Job;
+  readonly result: Result | null;
+  readonly error: string | null;
+  /** What the page is busy with besides a run, as a sentence. */
+  readonly busy: string | null;
+}
+
+export const INITIAL: State = {
+  ready: false,
+  demos: [],
+  demo: null,
+  meshes: [null, null],
+  pairs: [],
+  named: [null, null],
+  groundTruth: null,
+  pending: null,
+  history: [],
+  options: { method: 'relaxed', base: 'joint', cones: 'base-domain' },
+  style: { surface: 'shaded', patchLines: true, cones: true, markers: true },
+  job: { kind: 'idle' },
+  result: null,
+  error: null,
+  busy: null,
+};
+
+export type Event =
+  | { readonly kind: 'ready'; readonly demos: readonly Demo[] }
+  | { readonly kind: 'busy'; readonly sentence: string | null }
+  | { readonly kind: 'mesh'; readonly side: Side; readonly file: MeshFile }
+  | { readonly kind: 'landmarks'; readonly file: LandmarkFile }
+  | { readonly kind: 'demo'; readonly demo: Demo }
+  | { readonly kind: 'picked'; readonly side: Side; readonly point: SurfacePoint }
+  | { readonly kind: 'pick-dropped' }
+  | { readonly kind: 'pair-deleted'; readonly index: number }
+  | { readonly kind: 'pair-labelled'; readonly index: number; readonly label: string }
+  | { readonly kind: 'pairs-cleared' }
+  | { readonly kind: 'undo' }
+  | { readonly kind: 'options'; readonly options: Partial<RunOptions> }
+  | { readonly kind: 'style'; readonly style: Partial<Style> }
+  | { readonly kind: 'run-started' }
+  | { readonly kind: 'run-progress'; readonly progress: Progress }
+  | { readonly kind: 'run-done'; readonly output: RunOutput; readonly report: Report }
+  | { readonly kind: 'run-failed'; readonly sentence: string }
+  | { readonly kind: 'run-cancelled' }
+  | { readonly kind: 'error'; readonly sentence: string }
+  | { readonly kind: 'error-closed' };
+
+/** The least number of pairs that a map needs. */
+export const MIN_PAIRS = 4;
+const MAX_HISTORY = 200;
+
+/** The file's name without folders. */
+export function baseName(path: string): string {
+  return path.slice(Math.max(path.lastIndexOf('/'), path.lastIndexOf('\\')) + 1);
+}
+
+/** Whether a run can start. */
+export function canRun(state: State): boolean {
+  return (
+    state.ready &&
+    state.job.kind !== 'running' &&
+    state.meshes[0] !== null &&
+    state.meshes[1] !== null &&
+    state.pairs.length >= MIN_PAIRS
+  );
+}
+
+/** Whether the shown result was made from other landmarks or options than those on the page; labels do not matter. */
+export function isStale(state: State): boolean {
+  const { result, pairs } = state;
+  return (
+    result !== null &&
+    (result.options !== state.options ||
+      result.pairs.length !== pairs.length ||
+      result.pairs.some((pair, index) => pair.points !== pairs[index]?.points))
+  );
+}
+
+/** Points of one side in pair order; the pending pair last, `null` where it is not picked yet. */
+export function pointsOf(state: State, side: Side): (SurfacePoint | null)[] {
+  const points: (SurfacePoint | null)[] = state.pairs.map((pair) => pair.points[side]);
+  if (state.pending !== null) {
+    points.push(state.pending.side === side ? state.pending.point : null);
+  }
+  return points;
+}
+
+/** The landmark file of the state. */
+export function landmarkFileOf(state: State): LandmarkFile {
+  const [source, target] = state.meshes;
+  return {
+    ...(source === null ? {} : { source: source.name }),
+    ...(target === null ? {} : { target: target.name }),
+    pairs: state.pairs.map((pair) => pair.points),
+    ...(state.pairs.some((pair) => pair.label !== '')
+      ? { labels: state.pairs.map((pair) => pair.label) }
+      : {}),
+    ...(state.groundTruth === null ? {} : { ground_truth: state.groundTruth }),
+  };
+}
+
+function withPairs(state: State, pairs: readonly Pair[]): State {
+  return { ...state, pairs, history: [...state.history, state.pairs].slice(-MAX_HISTORY) };
+}
+
+function withMesh(state: State, side: Side, file: MeshFile): State {
+  const meshes: [MeshFile | null, MeshFile | null] = [...state.meshes];
+  const first = meshes[side] === null;
+  meshes[side] = file;
+  const keeps = first || state.named[side] === file.name;
+  return {
+    ...state,
+    meshes,
+    demo: null,
+    pairs: keeps ? state.pairs : [],
+    named: keeps ? state.named : [null, null],
+    groundTruth: keeps ? state.groundTruth : null,
+    pending: null,
+    history: [],
+    result: null,
+    job: state.job.kind === 'running' ? state.job : { kind: 'idle' },
+    style: { ...state.style, surface: 'shaded' },
+  };
+}
+
+function withLandmarks(state: State, file: LandmarkFile): State {
+  const pairs = file.pairs.map((points, index) => ({ points, label: file.labels?.[index] ?? '' }));
+  return {
+    ...withPairs(state, pairs),
+    pending: null,
+    named: [
+      file.source === undefined ? null : baseName(file.source),
+      file.target === undefined ? null : baseName(file.target),
+    ],
+    groundTruth: file.ground_truth ?? null,
+  };
+}
+
+/** The state after an event. */
+export function update(state: State, event: Event): State {
+  switch (event.kind) {
+    case 'ready':
+      return { ...state, ready: true, demos: event.demos };
+    case 'busy':
+      return { ...state, busy: event.sentence };
+    case 'mesh':
+      return withMesh(state, event.side, event.file);
+    case 'landmarks':
+      return withLandmarks(state, event.file);
+    case 'demo':
+      return { ...state, demo: event.demo, history: [], error: null };
+    case 'picked': {
+      const { pending } = state;
+      if (pending === null || pending.side === event.side) {
+        return { ...state, pending: { side: event.side, point: event.point } };
+      }
+      const points: readonly [SurfacePoint, SurfacePoint] =
+        event.side === 1 ? [pending.point, event.point] : [event.point, pending.point];
+      return { ...withPairs(state, [...state.pairs, { points, label: '' }]), pending: null };
+    }
+    case 'pick-dropped':
+      return { ...state, pending: null };
+    case 'pair-deleted':
+      return withPairs(
+        state,
+        state.pairs.filter((_, index) => index !== event.index),
+      );
+    case 'pair-labelled':
+      return {
+        ...state,
+        pairs: state.pairs.map((pair, index) =>
+          index === event.index ? { ...pair, label: event.label } : pair,
+        ),
+      };
+    case 'pairs-cleared':
+      return { ...withPairs(state, []), pending: null };
+    case 'undo': {
+      if (state.pending !== null) {
+        return { ...state, pending: null };
+      }
+      const last = state.history.at(-1);
+      return last === undefined ? state : { ...state, pairs: last, history: state.history.slice(0, -1) };
+    }
+    case 'options':
+      return { ...state, options: { ...state.options, ...event.options } };
+    case 'style':
+      return { ...state, style: { ...state.style, ...event.style } };
+    case 'run-started':
+      return { ...state, job: { kind: 'running', progress: null }, error: null, pending: null };
+    case 'run-progress':
+      return state.job.kind === 'running'
+        ? { ...state, job: { kind: 'running', progress: event.progress } }
+        : state;
+    case 'run-done':
+      return {
+        ...state,
+        job: { kind: 'done' },
+        result: { output: event.output, report: event.report, pairs: state.pairs, options: state.options },
+        style: { ...state.style, surface: 'checkerboard' },
+      };
+    case 'run-failed':
+      return { ...state, job: { kind: 'error' }, error: event.sentence };
+    case 'run-cancelled':
+      return { ...state, job: state.result === null ? { kind: 'idle' } : { kind: 'done' } };
+    case 'error':
+      return { ...state, error: event.sentence };
+    case 'error-closed':
+      return { ...state, error: null };
+  }
+}
