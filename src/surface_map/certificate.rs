@@ -128,3 +128,139 @@ fn transition_between(surface: &ConeSurface, here: FaceId, there: FaceId) -> Opt
     let sides = (0..3).map(|k| HalfedgeId::of(here, k));
     sides.into_iter().find(|&b| surface.base.mesh.twin(b).face() == there).map(|b| surface.transitions[b])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::landmarks::Landmarks;
+    use crate::layout::{self, LayoutOptions};
+    use crate::mesh::SurfaceMesh;
+    use crate::mesh::generators::{midpoint_subdivision, octahedron};
+    use crate::monitor::Silent;
+    use crate::surface_map::initial::{InitialOptions, embed};
+
+    /// A sphere of 512 triangles mapped onto the octahedron's cone surface.
+    fn example() -> (PatchedMesh, ConeSurface, Embedding) {
+        let fine = midpoint_subdivision(&midpoint_subdivision(&midpoint_subdivision(&octahedron())));
+        let on_sphere = fine.positions().iter().map(|p| p.normalize()).collect();
+        let mesh = fine.with_positions(on_sphere);
+        let pairs: Vec<_> = (0..6).map(|k| [k, k]).collect();
+        let landmarks = Landmarks::from_vertices(&mesh, &mesh, &pairs).unwrap();
+        let layout =
+            layout::joint([&mesh, &mesh], &landmarks, &LayoutOptions::default(), &mut Silent).unwrap();
+        let surface = ConeSurface::of_layout(&layout).unwrap();
+        let (embedding, _) =
+            embed(&layout.source, &surface, &InitialOptions::default(), &mut Silent).unwrap();
+        (layout.source, surface, embedding)
+    }
+
+    /// A vertex of degree 6 without landmarks around it, all its faces in one chart.
+    fn inner_vertex(patched: &PatchedMesh, embedding: &Embedding) -> VertexId {
+        let mesh = &patched.mesh;
+        let is_inner = |&v: &VertexId| {
+            let chart = embedding.face_chart[mesh.outgoing(v).face()];
+            let star: Vec<_> = mesh.star(v).collect();
+            let plain = |h: HalfedgeId| {
+                let ends = [mesh.tail(h), mesh.head(h)];
+                embedding.face_chart[h.face()] == chart
+                    && !ends.iter().any(|v| patched.landmark_vertices.contains(v))
+            };
+            star.len() == 6 && star.into_iter().all(plain)
+        };
+        mesh.vertices().find(is_inner).unwrap()
+    }
+
+    #[test]
+    fn a_valid_parametrisation_is_certified() {
+        let (patched, surface, embedding) = example();
+        let certificate = certify(&patched, &surface, &embedding);
+        assert!(certificate.bijective, "{certificate:?}");
+        assert!(certificate.max_angle_sum_error < 1e-9 && certificate.max_transition_error < 1e-9);
+    }
+
+    #[test]
+    fn a_flipped_triangle_is_refused() {
+        let (patched, surface, mut embedding) = example();
+        let v = inner_vertex(&patched, &embedding);
+        let h = patched.mesh.outgoing(v);
+        // Beyond the edge across: the triangle between turns over, all copies of the vertex agree.
+        let across = 0.5 * (embedding.corners[h.next()] + embedding.corners[h.prev()]);
+        let moved = 1.5 * across - 0.5 * embedding.corners[h];
+        patched.mesh.star(v).for_each(|h| embedding.corners[h] = moved);
+        let certificate = certify(&patched, &surface, &embedding);
+        assert!(!certificate.bijective && certificate.flipped_triangles > 0, "{certificate:?}");
+        assert!(certificate.max_transition_error < 1e-9, "{certificate:?}");
+    }
+
+    /// Two sheets, cut along the path of edges p, m, q and glued crosswise: branched over p and q.
+    ///
+    /// A vertex v of sheet s becomes 2 v + s, but p and q are shared, and on the right of the cut m changes its sheet.
+    fn double_cover(mesh: &SurfaceMesh, m: VertexId) -> SurfaceMesh {
+        let star: Vec<_> = mesh.star(m).collect();
+        let [p, q] = [star[0], star[3]].map(|h| mesh.head(h));
+        let mut left = Vec::new();
+        let mut h = star[3];
+        while mesh.head(h) != p {
+            left.push(h.face());
+            h = mesh.twin(h.prev());
+        }
+        let mut faces: TiVec<FaceId, [VertexId; 3]> = TiVec::new();
+        for sheet in 0..2 {
+            for (f, corners) in mesh.triangles().iter_enumerated() {
+                let crosses = !left.contains(&f);
+                faces.push(corners.map(|v| {
+                    let sheet = match v {
+                        v if v == p || v == q => 0,
+                        v if v == m && crosses => 1 - sheet,
+                        _ => sheet,
+                    };
+                    VertexId(2 * v.0 + sheet)
+                }));
+            }
+        }
+        // The unused second copies of p and q are left out.
+        let mut numbers: TiVec<VertexId, Option<VertexId>> = ti_vec![None; 2 * mesh.vertex_count()];
+        let mut positions = TiVec::new();
+        for v in (0..2 * mesh.vertex_count()).map(VertexId::from) {
+            let original = VertexId(v.0 / 2);
+            if v.0 % 2 == 0 || (original != p && original != q) {
+                numbers[v] = Some(positions.push_and_get_key(mesh.positions()[original]));
+            }
+        }
+        let faces = faces.into_iter().map(|f| f.map(|v| numbers[v].unwrap())).collect();
+        SurfaceMesh::from_triangles(positions, faces).unwrap()
+    }
+
+    #[test]
+    fn a_double_cover_is_refused() {
+        let (patched, surface, embedding) = example();
+        let cover = double_cover(&patched.mesh, inner_vertex(&patched, &embedding));
+        assert_eq!(cover.euler_characteristic(), 2, "the cover is a sphere again");
+        let twice = |f: FaceId| FaceId::from(f.index() % patched.mesh.face_count());
+        let first_sheet = |landmark: VertexId| {
+            let h = patched.mesh.outgoing(landmark);
+            cover.tail(h)
+        };
+        let cover_embedding = Embedding {
+            face_chart: cover.faces().map(|f| embedding.face_chart[twice(f)]).collect(),
+            corners: cover
+                .halfedges()
+                .map(|h| embedding.corners[HalfedgeId::of(twice(h.face()), h.corner())])
+                .collect(),
+            transitions: cover
+                .halfedges()
+                .map(|h| embedding.transitions[HalfedgeId::of(twice(h.face()), h.corner())])
+                .collect(),
+        };
+        let cover_patched = PatchedMesh {
+            landmark_vertices: patched.landmark_vertices.iter().map(|&v| first_sheet(v)).collect(),
+            mesh: cover,
+            ..patched
+        };
+        let certificate = certify(&cover_patched, &surface, &cover_embedding);
+        assert_eq!(certificate.flipped_triangles, 0, "every triangle is positive");
+        assert!(certificate.max_transition_error < 1e-9 && certificate.max_landmark_error < 1e-9);
+        assert!((certificate.max_angle_sum_error - TAU).abs() < 1e-6, "{certificate:?}");
+        assert!(!certificate.bijective);
+    }
+}

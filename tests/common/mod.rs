@@ -7,7 +7,8 @@
 
 use conemap::io;
 use conemap::io::landmark_file::{LandmarkFile, LandmarkPoint};
-use conemap::mesh::{SurfaceMesh, check};
+use conemap::landmarks::Landmarks;
+use conemap::mesh::{SurfaceMesh, VertexId, check};
 use std::path::{Path, PathBuf};
 
 /// The data folder, or `None` (said on standard error) in a plain checkout.
@@ -64,3 +65,76 @@ pub fn vertex_pairs(file: &LandmarkFile) -> Vec<[u32; 2]> {
     };
     file.pairs.iter().map(|pair| pair.map(vertex)).collect()
 }
+
+/// The landmarks of a pair file.
+pub fn landmarks(pair: &Pair) -> Landmarks {
+    Landmarks::from_vertices(&pair.source, &pair.target, &vertex_pairs(&pair.file))
+        .unwrap_or_else(|e| panic!("{}: {e}", pair.name))
+}
+
+/// Landmarks by farthest points in space: the first vertex, then the one farthest from all so far.
+pub fn farthest_points(mesh: &SurfaceMesh, count: usize) -> Vec<VertexId> {
+    let mut chosen = vec![VertexId(0)];
+    let mut nearest: Vec<f64> = vec![f64::INFINITY; mesh.vertex_count()];
+    while chosen.len() < count {
+        let last = mesh.positions()[chosen[chosen.len() - 1]];
+        for (d, p) in nearest.iter_mut().zip(mesh.positions()) {
+            *d = d.min(p.distance(last));
+        }
+        let far = (0..nearest.len()).max_by(|&a, &b| nearest[a].total_cmp(&nearest[b])).expect("vertices");
+        chosen.push(far.into());
+    }
+    chosen
+}
+
+/// The names of all fields of a JSON value, as sorted paths to the leaves; arrays are leaves.
+pub fn json_fields(value: &serde_json::Value) -> Vec<String> {
+    fn collect(value: &serde_json::Value, path: &str, fields: &mut Vec<String>) {
+        match value {
+            serde_json::Value::Object(map) if !map.is_empty() => {
+                for (key, inner) in map {
+                    let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+                    collect(inner, &path, fields);
+                }
+            }
+            _ => fields.push(path.to_owned()),
+        }
+    }
+    let mut fields = Vec::new();
+    collect(value, "", &mut fields);
+    fields.sort();
+    fields
+}
+
+/// The fields of the report of a map, `ground_truth` and `seconds` unopened.
+pub const REPORT_FIELDS: [&str; 29] = [
+    "base_domain.faces",
+    "base_domain.vertices",
+    "certificate.bijective",
+    "certificate.flipped_triangles",
+    "certificate.max_angle_sum_error",
+    "certificate.max_landmark_error",
+    "cone_metric.source.cg_iterations",
+    "cone_metric.source.edge_flips",
+    "cone_metric.source.max_curvature_error",
+    "cone_metric.source.newton_steps",
+    "cone_metric.source.residuals",
+    "cone_metric.source.seconds",
+    "cone_metric.target.cg_iterations",
+    "cone_metric.target.edge_flips",
+    "cone_metric.target.max_curvature_error",
+    "cone_metric.target.newton_steps",
+    "cone_metric.target.residuals",
+    "cone_metric.target.seconds",
+    "distortion.energy",
+    "distortion.l2_stretch",
+    "distortion.max",
+    "distortion.mean",
+    "distortion.median",
+    "distortion.p95",
+    "faces.source",
+    "faces.target",
+    "unmapped_share",
+    "warnings",
+    "ground_truth",
+];

@@ -1,0 +1,257 @@
+//! The command line: exit codes, reports, output files, and sentences for bad input.
+#![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
+#![cfg(feature = "cli")]
+
+mod common;
+
+use conemap::export;
+use conemap::io::{self, landmark_file};
+use conemap::mesh::check::closed_genus_zero;
+use conemap::mesh::generators::{icosphere, midpoint_subdivision, octahedron};
+use conemap::mesh::{SurfaceMesh, VertexId};
+use glam::DVec3;
+use serde_json::Value;
+use std::ffi::OsStr;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// An empty folder of this test's own.
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn conemap<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_conemap")).args(arguments).output().unwrap()
+}
+
+fn errors(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn json(path: &Path) -> Value {
+    serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap()
+}
+
+/// An octahedron subdivided onto the unit sphere.
+fn octasphere() -> SurfaceMesh {
+    let fine = midpoint_subdivision(&midpoint_subdivision(&midpoint_subdivision(&octahedron())));
+    let on_sphere = fine.positions().iter().map(|p| p.normalize()).collect();
+    fine.with_positions(on_sphere)
+}
+
+/// An icosphere stretched along an axis.
+fn egg() -> SurfaceMesh {
+    let sphere = icosphere(2);
+    let stretched = sphere.positions().iter().map(|p| *p * DVec3::new(1.0, 1.3, 0.9)).collect();
+    sphere.with_positions(stretched)
+}
+
+/// The vertex farthest along each half-axis.
+fn extreme_vertices(mesh: &SurfaceMesh) -> Vec<VertexId> {
+    let axes = [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z];
+    let along = |axis: DVec3, v: VertexId| mesh.positions()[v].dot(axis);
+    axes.iter()
+        .map(|&axis| mesh.vertices().max_by(|&v, &w| along(axis, v).total_cmp(&along(axis, w))).unwrap())
+        .collect()
+}
+
+/// Writes both bodies and their landmarks.
+fn write_bodies(folder: &Path) -> [PathBuf; 3] {
+    let [source, target, pairs] = ["source.obj", "target.obj", "pairs.json"].map(|name| folder.join(name));
+    let (a, b) = (octasphere(), egg());
+    std::fs::write(&source, export::obj::mesh(&a)).unwrap();
+    std::fs::write(&target, export::obj::mesh(&b)).unwrap();
+    let ends = extreme_vertices(&a).into_iter().zip(extreme_vertices(&b));
+    let vertex = |v: VertexId| landmark_file::LandmarkPoint::Vertex(v.0);
+    let file = landmark_file::LandmarkFile {
+        pairs: ends.map(|(s, t)| [vertex(s), vertex(t)]).collect(),
+        ..Default::default()
+    };
+    std::fs::write(&pairs, landmark_file::write(&file)).unwrap();
+    [source, target, pairs]
+}
+
+/// Lines `vertex angle_defect` with equal defects.
+fn cones(vertices: &[VertexId]) -> String {
+    let defect = 4.0 * std::f64::consts::PI / vertices.len() as f64;
+    vertices.iter().fold(String::from("# vertex angle_defect\n"), |mut text, v| {
+        writeln!(text, "{} {defect}", v.0).unwrap();
+        text
+    })
+}
+
+/// Runs `map` with all outputs and checks them.
+fn map_and_check([source, target, pairs]: [&Path; 3], folder: &Path) {
+    let (out, report_file) = (folder.join("out"), folder.join("reports/report.json"));
+    let output = conemap([
+        OsStr::new("map"),
+        source.as_os_str(),
+        target.as_os_str(),
+        OsStr::new("--landmarks"),
+        pairs.as_os_str(),
+        OsStr::new("--out"),
+        out.as_os_str(),
+        OsStr::new("--report"),
+        report_file.as_os_str(),
+    ]);
+    assert!(output.status.success(), "{}", errors(&output));
+    assert!(errors(&output).contains("certified bijective: 0 flipped triangles"), "{}", errors(&output));
+
+    let report = json(&report_file);
+    let fields = common::json_fields(&report);
+    let (seconds, fields): (Vec<_>, Vec<_>) = fields.into_iter().partition(|f| f.starts_with("seconds."));
+    let mut expected = common::REPORT_FIELDS.to_vec();
+    expected.sort_unstable();
+    assert_eq!(fields, expected);
+    for stage in ["base_domain", "source_cone_metric", "target_cone_metric", "relaxation", "total"] {
+        assert!(seconds.contains(&format!("seconds.{stage}")), "{seconds:?}");
+    }
+    assert_eq!(report["certificate"]["bijective"], true);
+    assert!(report["cone_metric"]["target"]["seconds"].as_f64().unwrap() > 0.0);
+
+    let read = |path: &Path| io::read_mesh(&std::fs::read(path).unwrap()).unwrap();
+    let source_mesh = closed_genus_zero(&read(source)).unwrap().mesh;
+    let glb = read(&out.join("source-with-target-texture.glb"));
+    assert!(glb.polygons.len() >= source_mesh.face_count());
+    let base = closed_genus_zero(&read(&out.join("base-domain.obj"))).unwrap().mesh;
+    let landmarks = landmark_file::read(&std::fs::read(pairs).unwrap()).unwrap().pairs.len();
+    assert_eq!(base.vertex_count(), landmarks);
+    let csv = std::fs::read_to_string(out.join("vertex-images.csv")).unwrap();
+    assert_eq!(csv.lines().count(), 1 + source_mesh.vertex_count());
+    assert!(csv.lines().all(|line| line.split(',').count() == 5 && !line.ends_with(',')));
+}
+
+#[test]
+fn maps_two_round_bodies() {
+    let folder = folder("maps_two_round_bodies");
+    let files = write_bodies(&folder);
+    map_and_check(files.each_ref().map(PathBuf::as_path), &folder);
+}
+
+#[test]
+fn maps_a_real_pair() {
+    let Some(data) = common::data_folder("maps_a_real_pair") else { return };
+    let pairs = data.join("pairs/shrec07-397-400.json");
+    let file = landmark_file::read(&std::fs::read(&pairs).unwrap()).unwrap();
+    let [source, target] = [file.source, file.target].map(|mesh| data.join(mesh.unwrap()));
+    map_and_check([&source, &target, &pairs], &folder("maps_a_real_pair"));
+}
+
+#[test]
+fn flows_to_the_listed_cones() {
+    let folder = folder("flows_to_the_listed_cones");
+    let [mesh, _, _] = write_bodies(&folder);
+    let (list, report_file) = (folder.join("cones.txt"), folder.join("report.json"));
+    std::fs::write(&list, cones(&extreme_vertices(&octasphere()))).unwrap();
+    for scheme in ["inversive", "vertex-scaling", "fixed-triangulation"] {
+        let output = conemap([
+            OsStr::new("flow"),
+            mesh.as_os_str(),
+            OsStr::new("--cones"),
+            list.as_os_str(),
+            OsStr::new("--scheme"),
+            OsStr::new(scheme),
+            OsStr::new("--report"),
+            report_file.as_os_str(),
+        ]);
+        assert!(output.status.success(), "{scheme}: {}", errors(&output));
+        let report = json(&report_file);
+        assert_eq!(report["converged"], true);
+        assert!(report["cone_metric"]["max_curvature_error"].as_f64().unwrap() < 1e-8);
+        assert_eq!(report["faces"], 512);
+        std::fs::remove_file(&report_file).unwrap();
+    }
+}
+
+#[test]
+fn a_flow_that_does_not_converge_fails_and_still_reports() {
+    let name = "a_flow_that_does_not_converge_fails_and_still_reports";
+    let Some(data) = common::data_folder(name) else { return };
+    let folder = folder(name);
+    let mesh = data.join("single/homer.off");
+    let (list, report_file) = (folder.join("cones.txt"), folder.join("report.json"));
+    std::fs::write(&list, cones(&common::farthest_points(&common::read_mesh(&mesh), 33))).unwrap();
+    let arguments = |scheme: &'static str| {
+        let flags = ["flow", "--scheme", scheme, "--cones"].map(OsStr::new);
+        [&flags[..], &[list.as_os_str(), OsStr::new("--report"), report_file.as_os_str(), mesh.as_os_str()]]
+            .concat()
+    };
+    let output = conemap(arguments("fixed-triangulation"));
+    assert_eq!(output.status.code(), Some(1));
+    assert!(errors(&output).contains("did not converge"), "{}", errors(&output));
+    let report = json(&report_file);
+    assert_eq!(report["converged"], false);
+    assert!(report["cone_metric"]["residuals"].as_array().unwrap().len() > 1);
+
+    let output = conemap(arguments("inversive"));
+    assert!(output.status.success(), "{}", errors(&output));
+    assert_eq!(json(&report_file)["converged"], true);
+}
+
+/// Fails with code 1 and one sentence that holds all the words.
+fn assert_refused(arguments: &[&OsStr], words: &[&str]) {
+    let output = conemap(arguments);
+    let errors = errors(&output);
+    assert_eq!(output.status.code(), Some(1), "{errors}");
+    let sentence = errors.lines().last().unwrap_or_default();
+    assert!(words.iter().all(|word| sentence.contains(word)), "{words:?} in: {sentence}");
+}
+
+#[test]
+fn bad_meshes_and_landmarks_are_refused_by_name() {
+    let folder = folder("bad_meshes_and_landmarks_are_refused_by_name");
+    let [source, target, pairs] = write_bodies(&folder);
+    let text = std::fs::read_to_string(&source).unwrap();
+    let open = folder.join("open.obj");
+    std::fs::write(&open, text.rsplit_once("f ").unwrap().0).unwrap();
+    let [noise, few, far, broken] =
+        ["noise.obj", "few.json", "far.json", "broken.json"].map(|name| folder.join(name));
+    std::fs::write(&noise, "this is not a mesh\n").unwrap();
+    std::fs::write(&few, r#"{"pairs": [[0, 0], [1, 1], [2, 2]]}"#).unwrap();
+    std::fs::write(&far, r#"{"pairs": [[0, 0], [1, 1], [2, 2], [3, 999999]]}"#).unwrap();
+    std::fs::write(&broken, "{\"pairs\":\n [[0, 0]").unwrap();
+    let missing = folder.join("missing.obj");
+    let cases: [([&Path; 3], &[&str]); 7] = [
+        ([&missing, &target, &pairs], &["missing.obj"]),
+        ([&source, &noise, &pairs], &["noise.obj", "not a mesh file"]),
+        ([&open, &target, &pairs], &["open.obj", "open"]),
+        ([&source, &target, &missing], &["missing.obj"]),
+        ([&source, &target, &broken], &["broken.json", "line 2"]),
+        ([&source, &target, &few], &["few.json", "at least 4"]),
+        ([&source, &target, &far], &["far.json", "999999"]),
+    ];
+    for ([a, b, landmarks], words) in cases {
+        let flags = ["map", "--landmarks"].map(OsStr::new);
+        assert_refused(&[flags[0], a.as_os_str(), b.as_os_str(), flags[1], landmarks.as_os_str()], words);
+    }
+}
+
+#[test]
+fn bad_cones_are_refused_by_line() {
+    let folder = folder("bad_cones_are_refused_by_line");
+    let [mesh, _, _] = write_bodies(&folder);
+    let list = folder.join("cones.txt");
+    let cases: [(&str, &[&str]); 3] = [
+        ("0 1.0\nthree 2.0\n", &["cones.txt", "line 2"]),
+        ("0 1.0\n999999 2.0\n", &["cones.txt", "line 2", "999999"]),
+        ("0 1.0\n", &["4 pi"]),
+    ];
+    for (text, words) in cases {
+        std::fs::write(&list, text).unwrap();
+        let flags = ["flow", "--cones"].map(OsStr::new);
+        assert_refused(&[flags[0], mesh.as_os_str(), flags[1], list.as_os_str()], words);
+    }
+}
+
+#[test]
+fn wrong_arguments_end_in_the_usage() {
+    let output = conemap(["map", "only-one.obj"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(errors(&output).contains("--landmarks"), "{}", errors(&output));
+}
