@@ -1,8 +1,7 @@
 //! Draws surfaces, lines and balls into the two views of one canvas.
 
 use super::pipelines::{DEPTH, Pipelines, ViewUniform};
-use crate::mesh::SurfaceMesh;
-use crate::mesh::generators::icosphere;
+use crate::scene::buffers::unit_ball;
 use crate::scene::{Camera, LineVertex, MarkerInstance, SurfaceVertex};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
@@ -258,10 +257,8 @@ fn mesh(device: &wgpu::Device, vertices: &[f32], indices: &[u32]) -> Mesh {
 }
 
 fn ball(device: &wgpu::Device) -> Mesh {
-    let sphere: SurfaceMesh = icosphere(2);
-    let vertices: Vec<f32> = sphere.positions().iter().flat_map(|p| p.as_vec3().to_array()).collect();
-    let indices: Vec<u32> = sphere.triangles().iter().flatten().map(|v| v.0).collect();
-    mesh(device, &vertices, &indices)
+    let (positions, indices) = unit_ball();
+    mesh(device, &positions, &indices)
 }
 
 fn view_uniform(device: &wgpu::Device, pipelines: &Pipelines) -> (wgpu::Buffer, wgpu::BindGroup) {

@@ -1,6 +1,7 @@
 //! Vertex data, centred and scaled to radius 1.
 
 use crate::mesh::SurfaceMesh;
+use crate::mesh::generators::icosphere;
 use crate::surface_map::transfer::vertex_normals;
 use glam::{DVec3, Vec3};
 
@@ -95,6 +96,13 @@ pub fn ribbons(strips: &[Vec<Vec3>]) -> (Vec<LineVertex>, Vec<u32>) {
     (vertices, indices)
 }
 
+/// The unit ball: coordinates, three a vertex, and triangles.
+pub fn unit_ball() -> (Vec<f32>, Vec<u32>) {
+    let sphere = icosphere(2);
+    let positions = sphere.positions().iter().flat_map(|p| p.as_vec3().to_array()).collect();
+    (positions, sphere.triangles().iter().flatten().map(|v| v.0).collect())
+}
+
 /// A distinct colour for each landmark: hues by the golden angle, linear RGB.
 pub fn landmark_colour(k: usize) -> [f32; 3] {
     let hue = (k as f32 * 0.618_034).fract() * 6.0;
@@ -109,7 +117,6 @@ pub fn landmark_colour(k: usize) -> [f32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::generators::icosphere;
 
     #[test]
     fn the_frame_is_invertible_and_bounds_the_mesh() {
