@@ -4,7 +4,8 @@ import { fileURLToPath } from 'node:url';
 import { defineConfig } from '@playwright/test';
 
 const root = fileURLToPath(new URL('../../', import.meta.url));
-const chromium = '/usr/bin/chromium';
+/** A Chromium that is there; without one, Playwright's own. */
+const chromium = process.env['CHROMIUM'] ?? '/usr/bin/chromium';
 
 /** A port that nobody listens on; the workers inherit the first choice. */
 async function freePort(): Promise<string> {

@@ -53,7 +53,7 @@ async function run(request: RunRequest): Promise<void> {
       request.target,
       request.landmarks,
       JSON.stringify(request.options),
-      (stage, fraction, residual) => {
+      (stage: string, fraction: number, residual: number) => {
         post({ kind: 'progress', stage, fraction, residual: Number.isFinite(residual) ? residual : null });
       },
     );

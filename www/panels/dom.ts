@@ -52,10 +52,15 @@ export function download(name: string, type: string, data: BlobPart): void {
   }, 60_000);
 }
 
-/** The colour of a landmark, the same as its marker's. */
+/** The colour of a landmark's marker, as the renderer makes it: hues by the golden angle. */
 export function landmarkColour(index: number): string {
-  const hue = (index * 137.507_764 + 210) % 360;
-  return `hsl(${hue.toFixed(1)} 70% 52%)`;
+  const hue = ((index * 0.618_034) % 1) * 6;
+  const channel = (shift: number): number => {
+    const level = Math.abs(((hue + shift) % 6) - 3) - 1;
+    const linear = (0.08 + 0.82 * Math.min(1, Math.max(0, level))) ** 2;
+    return Math.round(255 * (linear <= 0.003_130_8 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055));
+  };
+  return `rgb(${channel(0)} ${channel(4)} ${channel(2)})`;
 }
 
 const INTEGER = new Intl.NumberFormat('en');
