@@ -25,3 +25,8 @@ pub mod surface_map;
 pub mod gpu;
 #[cfg(all(feature = "web", target_arch = "wasm32"))]
 pub mod web;
+
+/// The examples of the README, run as documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct ReadmeExamples;

@@ -10,10 +10,8 @@ use conemap::monitor::Silent;
 #[test]
 fn every_simplified_base_domain_is_drawn_or_refused() {
     let Some(data) = common::data_folder("every_simplified_base_domain_is_drawn_or_refused") else { return };
-    let only = std::env::var("PAIR").ok();
     let (mut drawn, mut tried) = (0, 0);
-    for name in common::pair_names(&data).into_iter().filter(|n| only.as_ref().is_none_or(|o| n.contains(o)))
-    {
+    for name in common::pair_names(&data) {
         let pair = common::read_pair(&data, &name);
         let pairs = common::vertex_pairs(&pair.file);
         let swapped: Vec<_> = pairs.iter().map(|&[s, t]| [t, s]).collect();
@@ -31,16 +29,11 @@ fn every_simplified_base_domain_is_drawn_or_refused() {
                     for side in [&layout.source, &layout.target] {
                         side.validate(&layout.base).unwrap_or_else(|e| panic!("{name} {way}: {e}"));
                     }
-                    let report = &layout.report;
-                    println!("{name} {way}: detour {:.2}, worst {:.2}", report.detour, report.worst_stretch);
                 }
-                Err(error @ (LayoutError::NoPath { .. } | LayoutError::Patches(_))) => {
-                    println!("{name} {way}: refused, {error}");
-                }
+                Err(LayoutError::NoPath { .. } | LayoutError::Patches(_)) => {}
                 Err(error) => panic!("{name} {way}: {error}"),
             }
         }
     }
-    println!("{drawn} of {tried} base domains were drawn");
-    assert!(drawn > 0);
+    assert!(drawn > 0, "none of {tried} base domains was drawn");
 }

@@ -136,7 +136,7 @@ impl BlockCsr {
     }
 }
 
-/// Reusable memory of [`solve`].
+/// Reusable memory of [`BlockCg::solve`].
 #[derive(Clone, Debug, Default)]
 pub struct BlockCg {
     residual: Vec<DVec2>,
