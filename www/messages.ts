@@ -48,6 +48,7 @@ const ABOUT: Readonly<Record<string, string>> = {
 };
 
 const INSTEAD: Readonly<Record<string, string>> = {
+  cancelled: `The computation stopped before it had a map. ${KEPT}`,
   trap: `The computation stopped unexpectedly, perhaps for want of memory. ${KEPT}`,
   worker: `The computation could not be started or broke off. ${KEPT} Try again, or reload the page.`,
 };

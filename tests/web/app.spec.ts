@@ -143,7 +143,7 @@ test('two real meshes and their landmarks give a certified map', async ({ page }
   await pickOn(page, '#view-source', async () => (await page.locator('#landmark-list .pending').count()) === 1);
   await pickOn(page, '#view-target', async () => (await page.locator('#landmark-list [data-pair]').count()) === pairs + 1);
   await expect(rows).toHaveCount(pairs + 1);
-  await expect(page.locator('#result')).toContainText('before your latest changes');
+  await expect(page.getByText('before your latest changes')).toBeVisible();
   await page.getByRole('button', { name: `Delete pair ${pairs + 1}`, exact: true }).click();
   await expect(rows).toHaveCount(pairs);
 
@@ -168,6 +168,23 @@ test('a run can be cancelled and nothing is lost', async ({ page }) => {
   await expect(page.locator('body')).toHaveAttribute('data-state', 'idle');
   await expect(page.locator('#run')).toBeEnabled();
   await expect(page.locator('#landmark-list li')).toHaveCount(pairs);
+});
+
+test('the views come back after a lost graphics context', async ({ page }) => {
+  await open(page);
+  await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
+  const lose = await page.evaluateHandle(() =>
+    document.querySelector<HTMLCanvasElement>('#canvas')?.getContext('webgl2')?.getExtension('WEBGL_lose_context'),
+  );
+  await lose.evaluate((extension) => extension?.loseContext());
+  await expect(page.locator('#error')).toContainText('graphics card');
+  await page.waitForTimeout(300);
+  await lose.evaluate((extension) => extension?.restoreContext());
+  await expect(page.locator('#error')).toBeHidden();
+  for (const half of await readHalves(page)) {
+    expect(half.covered).toBeGreaterThan(0.03);
+    expect(half.colours).toBeGreaterThan(20);
+  }
 });
 
 test('each demo opens by its link and maps', async ({ page }) => {

@@ -117,9 +117,9 @@ export function filesPanel(actions: Actions): Panel {
           const file = state.meshes[side];
           const facts =
             file === null
-              ? make('span', {}, 'drop a mesh here')
-              : make('span', { title: turned(file.turnedFaces) }, `${file.name} · ${integer(file.faceCount)} triangles`);
-          caption?.replaceChildren(make('strong', {}, NAMES[side]), ' ', facts);
+              ? ['drop a mesh here']
+              : [file.name, make('small', {}, `${integer(file.faceCount)} triangles${turned(file.turnedFaces)}`)];
+          caption?.replaceChildren(make('strong', {}, NAMES[side]), ' ', ...facts);
         }
       }
     },
@@ -127,5 +127,5 @@ export function filesPanel(actions: Actions): Panel {
 }
 
 function turned(count: number): string {
-  return count === 0 ? '' : `${integer(count)} faces were turned so that all look outwards`;
+  return count === 0 ? '' : `, ${integer(count)} turned to look outwards`;
 }

@@ -47,6 +47,7 @@ export function runPanel(actions: Actions): Panel {
   const cancel = button('Cancel', actions.cancel, { id: 'cancel', hidden: true });
   const bar = make('progress', { max: 1, value: 0, 'aria-label': 'Progress of the map', hidden: true });
   const status = make('p', { id: 'status', role: 'status' });
+  const about = make('p', { class: 'quiet' });
   const residual = make('p', { class: 'quiet residual' });
   const method = selectOf(
     'Method',
@@ -80,6 +81,7 @@ export function runPanel(actions: Actions): Panel {
   );
   root.append(
     make('h2', { class: 'hidden-title' }, 'Map'),
+    about,
     make('div', { class: 'row' }, run, cancel),
     bar,
     status,
@@ -98,6 +100,8 @@ export function runPanel(actions: Actions): Panel {
   return {
     render(state: State, previous: State | null): void {
       const running = state.job.kind === 'running';
+      about.textContent = state.demo?.sentence ?? '';
+      about.hidden = state.demo === null;
       run.disabled = !canRun(state);
       run.hidden = running;
       cancel.hidden = !running;

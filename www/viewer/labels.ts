@@ -1,5 +1,5 @@
 /** The landmarks' numbers over a view. */
-import { landmarkColour, make } from '../panels/dom.ts';
+import { make } from '../panels/dom.ts';
 
 /** One view's numbers. */
 export class Labels {
@@ -14,9 +14,7 @@ export class Labels {
   place(places: Float32Array, width: number, height: number): void {
     const count = Math.floor(places.length / 3);
     while (this.#items.length < count) {
-      const index = this.#items.length;
-      const item = make('span', {}, String(index + 1));
-      item.style.setProperty('--colour', landmarkColour(index));
+      const item = make('span', {}, String(this.#items.length + 1));
       this.#layer.append(item);
       this.#items.push(item);
     }
