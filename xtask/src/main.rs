@@ -1,2 +1,36 @@
-//! Build helper of the project.
-fn main() {}
+//! Build helper of the project: `cargo xtask serve | build | test | wasm`.
+
+mod browser;
+mod page;
+mod run;
+mod suite;
+mod wasm;
+
+use std::process::ExitCode;
+
+const USAGE: &str = "cargo xtask COMMAND
+  serve   build the app, serve it and print its address
+  build   build the app into dist/, to be put on any static web server
+  test    run every test: formatting, lints, documentation, core, wasm in Node, page, browser
+  wasm    build only the wasm module, into www/wasm/";
+
+fn main() -> ExitCode {
+    let mut arguments = std::env::args().skip(1);
+    let command = arguments.next().unwrap_or_default();
+    let rest: Vec<String> = arguments.collect();
+    let outcome = match command.as_str() {
+        "serve" => page::serve(&rest),
+        "build" => page::build(),
+        "test" => suite::test(),
+        "wasm" => wasm::build(),
+        "wasm-test-runner" => return wasm::test_runner(rest),
+        _ => Err(USAGE.to_owned()),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(sentence) => {
+            eprintln!("{sentence}");
+            ExitCode::FAILURE
+        }
+    }
+}

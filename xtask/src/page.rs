@@ -1,0 +1,36 @@
+//! The page: node packages, bundling and serving by Vite.
+
+use crate::run::{output_of, root, run};
+use crate::wasm;
+
+/// Builds the app and serves it; the rest of the command line goes to the server (`--port 8080`, `--host`).
+pub fn serve(rest: &[String]) -> Result<(), String> {
+    build()?;
+    let mut arguments = vec!["vite", "preview"];
+    arguments.extend(rest.iter().map(String::as_str));
+    run("npx", &arguments)
+}
+
+/// Builds the app into `dist/`.
+pub fn build() -> Result<(), String> {
+    ensure_packages()?;
+    wasm::build()?;
+    run("npx", &["vite", "build"])
+}
+
+/// Installs the node packages of `package-lock.json` where they are missing or older than it.
+pub fn ensure_packages() -> Result<(), String> {
+    let version = output_of("node", &["--version"]);
+    let major =
+        version.as_deref().and_then(|v| v.trim_start_matches('v').split('.').next()?.parse::<u32>().ok());
+    if major.is_none_or(|major| major < 20) {
+        let found = version.unwrap_or_else(|| "none".to_owned());
+        return Err(format!(
+            "Node 20 or newer is needed (found: {found}): install it from https://nodejs.org"
+        ));
+    }
+    let changed = |path: &str| root().join(path).metadata().and_then(|data| data.modified()).ok();
+    // npm writes this copy of the lock file when it has installed everything.
+    let (wanted, installed) = (changed("package-lock.json"), changed("node_modules/.package-lock.json"));
+    if installed.is_some() && installed >= wanted { Ok(()) } else { run("npm", &["ci"]) }
+}

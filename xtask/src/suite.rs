@@ -1,0 +1,75 @@
+//! Every test of the project.
+
+use crate::run::{cargo, run, run_with};
+use crate::{browser, page, wasm};
+
+type Task = fn() -> Result<(), String>;
+
+/// In this order, the quick ones first; all are run, and the failed ones are named at the end.
+const TASKS: [(&str, Task); 7] = [
+    ("formatting", formatting),
+    ("lints", lints),
+    ("documentation", documentation),
+    ("core", core),
+    ("wasm in Node", node),
+    ("page", checks),
+    ("browser", browser_tests),
+];
+
+/// Runs every test.
+pub fn test() -> Result<(), String> {
+    wasm::ensure_target()?;
+    page::ensure_packages()?;
+    let mut failed = Vec::new();
+    for (name, task) in TASKS {
+        let begun = std::time::Instant::now();
+        let outcome = task();
+        let seconds = begun.elapsed().as_secs();
+        match outcome {
+            Ok(()) => eprintln!("== {name}: passed in {seconds} s"),
+            Err(error) => {
+                eprintln!("== {name}: {error}, after {seconds} s");
+                failed.push(name);
+            }
+        }
+    }
+    if failed.is_empty() { Ok(()) } else { Err(format!("failed: {}", failed.join(", "))) }
+}
+
+fn formatting() -> Result<(), String> {
+    run(&cargo(), &["fmt", "--all", "--check"])
+}
+
+fn lints() -> Result<(), String> {
+    run(&cargo(), &["clippy", "--all-targets", "--", "-D", "warnings"])?;
+    let wasm = ["clippy", "--lib", "--target", "wasm32-unknown-unknown", "--no-default-features"];
+    run(&cargo(), &[&wasm[..], &["--", "-D", "warnings"]].concat())?;
+    run(&cargo(), &[&wasm[..], &["--features", "web", "--", "-D", "warnings"]].concat())
+}
+
+fn documentation() -> Result<(), String> {
+    run_with(&cargo(), &["doc", "--no-deps", "--quiet"], &[("RUSTDOCFLAGS", "-D warnings")])
+}
+
+fn core() -> Result<(), String> {
+    // The library alone builds without the command line; the tests then run with it.
+    run(&cargo(), &["check", "--lib", "--no-default-features"])?;
+    run(&cargo(), &["test"])
+}
+
+fn node() -> Result<(), String> {
+    // Compares with the results that the native run of the same test has left.
+    run(&cargo(), &["test", "--test", "node"])?;
+    let target = ["--target", "wasm32-unknown-unknown"];
+    run(&cargo(), &[&["test", "--no-default-features", "--test", "node"], &target[..]].concat())
+}
+
+fn checks() -> Result<(), String> {
+    page::build()?;
+    run("npm", &["run", "--silent", "check"])?;
+    run("npm", &["run", "--silent", "lint"])
+}
+
+fn browser_tests() -> Result<(), String> {
+    browser::test()
+}
