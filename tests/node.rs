@@ -4,6 +4,8 @@
 //! them. So the native run comes first: `cargo test --test node`, then
 //! `cargo test --target wasm32-unknown-unknown --no-default-features --test node`.
 
+#![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
+
 use conemap::cone_metric::{FlowOptions, flow, uniform_curvature};
 use conemap::demo::{self, Demo};
 use conemap::landmarks::Landmarks;
