@@ -44,29 +44,95 @@ impl HessianTerm {
     }
 }
 
+/// The singular value decomposition J = s1 u1 v1^T + s2 u2 v2^T, both bases right-handed; det J must be positive.
+struct Signed {
+    u: [DVec2; 2],
+    v: [DVec2; 2],
+    s: [f64; 2],
+}
+
+impl Signed {
+    fn of(j: &DMat2) -> Self {
+        let (k1, k2) = (j.x_axis, j.y_axis);
+        // J as a complex map z -> alpha z + beta conj(z).
+        let alpha = 0.5 * DVec2::new(k1.x + k2.y, k1.y - k2.x);
+        let beta = 0.5 * DVec2::new(k1.x - k2.y, k1.y + k2.x);
+        let s1 = alpha.length() + beta.length();
+        let (arg_a, arg_b) = (atan2(alpha.y, alpha.x), atan2(beta.y, beta.x));
+        let (phi_u, phi_v) = (0.5 * (arg_a + arg_b), 0.5 * (arg_b - arg_a));
+        let u = DVec2::new(cos(phi_u), sin(phi_u));
+        let v = DVec2::new(cos(phi_v), sin(phi_v));
+        Self { u: [u, u.perp()], v: [v, v.perp()], s: [s1, j.determinant() / s1] }
+    }
+
+    /// `weight` on the matrix a u1 v1^T + b u2 v2^T.
+    fn stretch(&self, weight: f64, [a, b]: [f64; 2]) -> HessianTerm {
+        HessianTerm { weight, left: [self.u[0] * a, self.u[1] * b], right: self.v }
+    }
+
+    /// `weight` on (u1 v2^T + sign u2 v1^T) / sqrt 2.
+    fn twist(&self, weight: f64, sign: f64) -> HessianTerm {
+        let half = std::f64::consts::FRAC_1_SQRT_2;
+        HessianTerm {
+            weight,
+            left: [self.u[0] * half, self.u[1] * (sign * half)],
+            right: [self.v[1], self.v[0]],
+        }
+    }
+}
+
 /// The Hessian of e at J, projected to positive semidefinite, as four rank-one terms; det J must be positive.
 pub fn hessian(j: &DMat2) -> [HessianTerm; 4] {
-    let (k1, k2) = (j.x_axis, j.y_axis);
-    // J as a complex map z -> alpha z + beta conj(z).
-    let alpha = 0.5 * DVec2::new(k1.x + k2.y, k1.y - k2.x);
-    let beta = 0.5 * DVec2::new(k1.x - k2.y, k1.y + k2.x);
-    let (a, b) = (alpha.length(), beta.length());
-    let (s1, s2) = (a + b, j.determinant() / (a + b));
-    let (arg_a, arg_b) = (atan2(alpha.y, alpha.x), atan2(beta.y, beta.x));
-    let (phi_u, phi_v) = (0.5 * (arg_a + arg_b), 0.5 * (arg_b - arg_a));
-    let u1 = DVec2::new(cos(phi_u), sin(phi_u));
-    let v1 = DVec2::new(cos(phi_v), sin(phi_v));
-    let (u2, v2) = (u1.perp(), v1.perp());
+    let svd = Signed::of(j);
+    let [s1, s2] = svd.s;
     let q = s1 * s2;
     let cube = q * q * q;
-    let half = std::f64::consts::FRAC_1_SQRT_2;
     let stretch = |s: f64| 0.5 + 1.5 / (s * s * s * s);
     let shear = 0.5 * (1.0 + (s1 * s1 + q + s2 * s2) / cube);
     let spin = (0.5 * (1.0 - (s1 * s1 - q + s2 * s2) / cube)).max(0.0);
-    let single = |weight, u, v| HessianTerm { weight, left: [u, DVec2::ZERO], right: [v, DVec2::ZERO] };
-    let double =
-        |weight, sign: f64| HessianTerm { weight, left: [u1 * half, u2 * (sign * half)], right: [v2, v1] };
-    [single(stretch(s1), u1, v1), single(stretch(s2), u2, v2), double(shear, 1.0), double(spin, -1.0)]
+    [
+        svd.stretch(stretch(s1), [1.0, 0.0]),
+        svd.stretch(stretch(s2), [0.0, 1.0]),
+        svd.twist(shear, 1.0),
+        svd.twist(spin, -1.0),
+    ]
+}
+
+/// h(J) = |J|^2 + |J^-1|^2 det J = |J|^2 (1 + 1 / det J): the energy of a map per unit of source area, counted on both
+/// surfaces alike; 4 for an isometry. det J must be positive.
+#[inline]
+pub fn two_sided_density(j: &DMat2) -> f64 {
+    (j.x_axis.length_squared() + j.y_axis.length_squared()) * (1.0 + 1.0 / j.determinant())
+}
+
+/// dh/dJ.
+#[inline]
+pub fn two_sided_gradient(j: &DMat2) -> DMat2 {
+    let det = j.determinant();
+    let squares = j.x_axis.length_squared() + j.y_axis.length_squared();
+    let cofactor = DMat2::from_cols(DVec2::new(j.y_axis.y, -j.y_axis.x), DVec2::new(-j.x_axis.y, j.x_axis.x));
+    *j * (2.0 * (1.0 + 1.0 / det)) - cofactor * (squares / (det * det))
+}
+
+/// The Hessian of h at J, projected to positive semidefinite, as four rank-one terms.
+pub fn two_sided_hessian(j: &DMat2) -> [HessianTerm; 4] {
+    let svd = Signed::of(j);
+    let [s1, s2] = svd.s;
+    let q = s1 * s2;
+    let (h11, h22) = (2.0 + 2.0 * s2 / (s1 * s1 * s1), 2.0 + 2.0 * s1 / (s2 * s2 * s2));
+    let h12 = -1.0 / (s1 * s1) - 1.0 / (s2 * s2);
+    // Eigenvalues of the 2 x 2 block of stretches.
+    let (mean, difference) = (0.5 * (h11 + h22), 0.5 * (h11 - h22));
+    let root = (difference * difference + h12 * h12).sqrt();
+    let first = DVec2::new(h12, mean + root - h11).normalize_or(DVec2::X);
+    let shear = 2.0 + 1.0 / q + (s1 * s1 + q + s2 * s2) / (q * q);
+    let spin = 2.0 + 1.0 / q - (s1 * s1 - q + s2 * s2) / (q * q);
+    [
+        svd.stretch((mean + root).max(0.0), [first.x, first.y]),
+        svd.stretch((mean - root).max(0.0), [-first.y, first.x]),
+        svd.twist(shear.max(0.0), 1.0),
+        svd.twist(spin.max(0.0), -1.0),
+    ]
 }
 
 #[cfg(test)]
@@ -112,10 +178,45 @@ mod tests {
         }
     }
 
+    #[test]
+    fn the_two_sided_energy_is_that_of_the_inverse() {
+        for j in samples() {
+            let (det, inverse) = (j.determinant(), j.inverse());
+            assert!((two_sided_density(&j) - det * two_sided_density(&inverse)).abs() < 1e-9);
+        }
+        assert!((two_sided_density(&DMat2::IDENTITY) - 4.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn two_sided_derivatives_are_difference_quotients() {
+        for j in samples() {
+            for k in 0..4 {
+                let h = 1e-6;
+                let at = |h: f64| two_sided_density(&(j + unit(k) * h));
+                let quotient = (at(h) - at(-h)) / (2.0 * h);
+                let exact = two_sided_gradient(&j).to_cols_array()[k];
+                assert!((quotient - exact).abs() < 1e-5 * exact.abs().max(1.0), "{quotient} {exact}");
+            }
+        }
+        // Where nothing is projected.
+        for j in [[1.1, 0.1, -0.1, 0.9], [1.5, 0.2, 0.1, 1.6]].map(|c| DMat2::from_cols_array(&c)) {
+            let exact = assembled(&two_sided_hessian(&j));
+            for k in 0..4 {
+                let h = 1e-5;
+                let plus = two_sided_gradient(&(j + unit(k) * h)).to_cols_array();
+                let minus = two_sided_gradient(&(j - unit(k) * h)).to_cols_array();
+                for r in 0..4 {
+                    let quotient = (plus[r] - minus[r]) / (2.0 * h);
+                    assert!((quotient - exact[r][k]).abs() < 1e-5, "{r} {k}: {quotient} {}", exact[r][k]);
+                }
+            }
+        }
+    }
+
     /// sum weight M (x) M as a 4 x 4 matrix on column-major J.
-    fn assembled(j: &DMat2) -> [[f64; 4]; 4] {
+    fn assembled(terms: &[HessianTerm]) -> [[f64; 4]; 4] {
         let mut full = [[0.0; 4]; 4];
-        for term in hessian(j) {
+        for term in terms {
             let m = DMat2::from_cols(term.apply(DVec2::X), term.apply(DVec2::Y)).to_cols_array();
             for r in 0..4 {
                 for c in 0..4 {
@@ -132,7 +233,7 @@ mod tests {
         for j in [[2.0, 0.3, -0.4, 1.9], [1.2, 0.9, -1.0, 1.6], [3.0, 0.0, 0.0, 1.3]]
             .map(|c| DMat2::from_cols_array(&c))
         {
-            let exact = assembled(&j);
+            let exact = assembled(&hessian(&j));
             for k in 0..4 {
                 let h = 1e-5;
                 let plus = gradient(&(j + unit(k) * h)).to_cols_array();
@@ -149,7 +250,7 @@ mod tests {
     fn the_projected_hessian_dominates_the_true_one() {
         // x^T (projected - true) x >= 0 on many directions, also where the true one is indefinite.
         for j in samples() {
-            let projected = assembled(&j);
+            let projected = assembled(&hessian(&j));
             for k in 0..50_u32 {
                 let d: Vec<f64> = (0..4_u32).map(|i| f64::from((k * 37 + i * 101) % 23) - 11.0).collect();
                 let direction = DMat2::from_cols_array(&[d[0], d[1], d[2], d[3]]) * 1e-5;

@@ -5,7 +5,7 @@
 //! (Smith & Schaefer 2015) and an Armijo line search.
 
 use super::embedding::Embedding;
-use super::energy;
+use super::energy::{self, HessianTerm};
 use crate::layout::PatchedMesh;
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle;
@@ -171,24 +171,76 @@ impl FlatProblem {
 
     fn assemble(&mut self, z: &[DVec2]) {
         self.matrix.clear();
-        for (t, triangle) in self.triangles.iter().enumerate() {
-            let weight = triangle.area / self.total_area;
+        self.add_hessian(z, 1.0);
+        self.matrix.regularise(1e-10);
+    }
+
+    /// Adds the projected Hessian of [`FlatProblem::energy`], scaled.
+    fn add_hessian(&mut self, z: &[DVec2], scale: f64) {
+        for t in 0..self.triangles.len() {
+            let triangle = &self.triangles[t];
+            let weight = scale * triangle.area / self.total_area;
             for term in energy::hessian(&triangle.jacobian(&triangle.positions(z))) {
-                let pulls = [0, 1, 2].map(|k| match triangle.corners[k] {
-                    Corner::Free(_, motion) => unrotate(&motion, term.apply(triangle.hats[k])),
-                    Corner::Fixed(_) => DVec2::ZERO,
-                });
-                let scale = weight * term.weight;
-                for k in 0..9 {
-                    let place = self.places[9 * t + k];
-                    if place != u32::MAX {
-                        let (p, q) = (pulls[k / 3] * scale, pulls[k % 3]);
-                        self.matrix.add_at(place, DMat2::from_cols(p * q.x, p * q.y));
-                    }
-                }
+                self.add_term(t, weight, &term);
             }
         }
+    }
+
+    /// Adds one term of a Hessian with respect to the Jacobian of triangle `t`.
+    #[inline]
+    fn add_term(&mut self, t: usize, weight: f64, term: &HessianTerm) {
+        let triangle = &self.triangles[t];
+        let pulls = [0, 1, 2].map(|k| match triangle.corners[k] {
+            Corner::Free(_, motion) => unrotate(&motion, term.apply(triangle.hats[k])),
+            Corner::Fixed(_) => DVec2::ZERO,
+        });
+        let scale = weight * term.weight;
+        for k in 0..9 {
+            let place = self.places[9 * t + k];
+            if place != u32::MAX {
+                let (p, q) = (pulls[k / 3] * scale, pulls[k % 3]);
+                self.matrix.add_at(place, DMat2::from_cols(p * q.x, p * q.y));
+            }
+        }
+    }
+
+    /// Newton's direction for a slope, with the Hessian of this energy (scaled) and further terms by triangle.
+    pub(super) fn direction(
+        &mut self,
+        z: &[DVec2],
+        barrier: f64,
+        terms: impl Iterator<Item = (usize, f64, HessianTerm)>,
+        (slope, tolerance): (&[DVec2], f64),
+    ) -> Vec<DVec2> {
+        self.matrix.clear();
+        self.add_hessian(z, barrier);
+        for (t, weight, term) in terms {
+            self.add_term(t, weight, &term);
+        }
         self.matrix.regularise(1e-10);
+        let downhill: Vec<DVec2> = slope.iter().map(|g| -*g).collect();
+        let mut step = vec![DVec2::ZERO; z.len()];
+        BlockCg::default().solve(&mut self.matrix, &downhill, &mut step, (tolerance, 500));
+        step
+    }
+
+    /// The triangle's corners as unknowns: number and motion, `None` where fixed.
+    pub(super) fn free_corner(&self, t: usize, k: usize) -> Option<(usize, Rigid2)> {
+        match self.triangles[t].corners[k] {
+            Corner::Free(v, motion) => Some((v as usize, motion)),
+            Corner::Fixed(_) => None,
+        }
+    }
+
+    /// The triangles.
+    pub(super) fn triangles(&self) -> &[FlatTriangle] {
+        &self.triangles
+    }
+
+    /// The Jacobian of a triangle.
+    pub(super) fn jacobian(&self, t: usize, z: &[DVec2]) -> DMat2 {
+        let triangle = &self.triangles[t];
+        triangle.jacobian(&triangle.positions(z))
     }
 
     /// Lowers the energy from a valid z (every triangle positive) until a step gains too little.
@@ -252,7 +304,7 @@ impl FlatProblem {
     }
 
     /// The smallest positive t at which a triangle of z + t step degenerates.
-    fn first_degenerate(&self, z: &[DVec2], step: &[DVec2]) -> f64 {
+    pub(super) fn first_degenerate(&self, z: &[DVec2], step: &[DVec2]) -> f64 {
         let root = |t: &FlatTriangle| {
             let (p, d) = (t.positions(z), t.displacements(step));
             let (e1, e2, d1, d2) = (p[1] - p[0], p[2] - p[0], d[1] - d[0], d[2] - d[0]);
@@ -262,7 +314,7 @@ impl FlatProblem {
     }
 }
 
-fn unrotate(motion: &Rigid2, d: DVec2) -> DVec2 {
+pub(super) fn unrotate(motion: &Rigid2, d: DVec2) -> DVec2 {
     crate::math::rigid2::conj_mul(motion.rotation, d)
 }
 

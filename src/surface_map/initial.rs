@@ -9,13 +9,14 @@ use super::cone_surface::ConeSurface;
 use super::embedding::Embedding;
 use super::flat_problem::{FlatProblem, FlatTriangle, RelaxOptions, RelaxReport};
 use super::placement::Kernel;
-use super::progressive::{Hold, ProgressiveMesh, holds};
+use super::progressive::{ProgressiveMesh, holds};
+use super::unknowns::Unknowns;
 use super::{MapError, energy};
 use crate::layout::PatchedMesh;
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::atan2;
 use crate::math::triangle::signed_double_area;
-use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::mesh::{FaceId, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use glam::{DMat2, DVec2};
 use std::f64::consts::TAU;
@@ -78,7 +79,9 @@ pub fn embed(
             report.levels += 1;
         }
     }
-    Ok((embedding(patched, surface, &holds, &refinement.z), report))
+    let unknowns = Unknowns::new(patched, surface);
+    let z: Vec<DVec2> = unknowns.free().iter().map(|&v| refinement.z[v]).collect();
+    Ok((unknowns.embedding(&z), report))
 }
 
 /// Relaxes a valid parametrisation.
@@ -92,44 +95,10 @@ pub fn relax(
     options: &RelaxOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<(Embedding, RelaxReport), MapError> {
-    let holds = holds(patched, &surface.base);
-    let mut refinement =
-        Refinement::new(ProgressiveMesh::new(patched, &holds), surface, patched.mesh.vertex_count());
-    for h in patched.mesh.halfedges() {
-        let v = patched.mesh.tail(h);
-        if own_chart(holds[v]) == Some(patched.face_patch[h.face()]) {
-            refinement.z[v] = start.corners[h];
-        }
-    }
-    let report = refinement.relax(options, monitor)?;
-    Ok((embedding(patched, surface, &holds, &refinement.z), report))
-}
-
-fn embedding(
-    patched: &PatchedMesh,
-    surface: &ConeSurface,
-    holds: &TiVec<VertexId, Hold>,
-    z: &TiVec<VertexId, DVec2>,
-) -> Embedding {
-    let mesh = &patched.mesh;
-    let corner = |h: HalfedgeId| {
-        let v = mesh.tail(h);
-        seen(surface, holds[v], z[v], patched.face_patch[h.face()])
-    };
-    let transition = |h: HalfedgeId| {
-        let (here, there) = (patched.face_patch[h.face()], patched.face_patch[mesh.twin(h).face()]);
-        let border =
-            (0..3).map(|k| HalfedgeId::of(here, k)).find(|&b| surface.base.mesh.twin(b).face() == there);
-        match border {
-            Some(b) if here != there => surface.transitions[b],
-            _ => Rigid2::IDENTITY,
-        }
-    };
-    Embedding {
-        face_chart: patched.face_patch.clone(),
-        corners: mesh.halfedges().map(corner).collect(),
-        transitions: mesh.halfedges().map(transition).collect(),
-    }
+    let unknowns = Unknowns::new(patched, surface);
+    let mut z = unknowns.points(start);
+    let report = unknowns.problem().relax(&mut z, options, monitor)?;
+    Ok((unknowns.embedding(&z), report))
 }
 
 struct Refinement<'a> {

@@ -6,6 +6,7 @@
 pub mod certificate;
 mod charted;
 pub mod compose;
+pub mod composed;
 pub mod cone_surface;
 pub mod distortion;
 pub mod embedding;
@@ -18,6 +19,7 @@ mod placement;
 mod progressive;
 pub mod thesis;
 pub mod transfer;
+mod unknowns;
 
 pub use certificate::{Certificate, certify};
 pub use cone_surface::ConeSurface;
