@@ -2,6 +2,7 @@
 
 use crate::cone_metric::FlowOptions;
 use crate::layout::LayoutOptions;
+use crate::surface_map::composed::ComposedOptions;
 use crate::surface_map::flat_problem::RelaxOptions;
 use crate::surface_map::initial::InitialOptions;
 
@@ -50,6 +51,8 @@ pub struct PipelineOptions {
     pub layout: LayoutOptions,
     /// The first parametrisations.
     pub initial: InitialOptions,
-    /// Their relaxation.
+    /// Their relaxation, each on its own.
     pub relax: RelaxOptions,
+    /// The relaxation of the map itself.
+    pub composed: ComposedOptions,
 }

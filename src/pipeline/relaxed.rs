@@ -6,6 +6,7 @@ use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::VertexId;
 use crate::monitor::{Monitor, Stage};
 use crate::surface_map::compose::{Locations, Parametrised, locate};
+use crate::surface_map::composed;
 use crate::surface_map::distortion::{Distortion, distortion};
 use crate::surface_map::ground_truth::same_connectivity_error;
 use crate::surface_map::overlay::{Overlay, overlay};
@@ -81,6 +82,8 @@ fn parametrise_layout(
     monitor.enter(Stage::Relaxation);
     let (source, _) = initial::relax(&layout.source, &surface, &source, &options.relax, monitor)?;
     let (target, _) = initial::relax(&layout.target, &surface, &target, &options.relax, monitor)?;
+    let ([source, target], _) =
+        composed::relax(&layout, &surface, [source, target], &options.composed, monitor)?;
     monitor.enter(Stage::Certificate);
     let certificate =
         certify(&layout.source, &surface, &source).and(&certify(&layout.target, &surface, &target));
