@@ -31,7 +31,7 @@ pub struct ComposedOptions {
 
 impl Default for ComposedOptions {
     fn default() -> Self {
-        Self { max_rounds: 20, relative_decrease: 1e-3, barrier: 0.04 }
+        Self { max_rounds: 20, relative_decrease: 1e-3, barrier: 0.1 }
     }
 }
 

@@ -63,7 +63,8 @@ fn corners(side: Parametrised<'_>, f: FaceId) -> [DVec2; 3] {
 
 #[derive(Default)]
 struct Clipper {
-    visited: Vec<FaceId>,
+    /// Target faces met, each with its place in the source face's plane: round a cone a face can be met twice.
+    visited: Vec<(FaceId, Rigid2)>,
     stack: Vec<(FaceId, Rigid2)>,
     polygon: Vec<DVec2>,
     clipped: Vec<DVec2>,
@@ -83,7 +84,7 @@ impl Clipper {
         self.visited.clear();
         self.stack.clear();
         self.stack.push((seed.face, seed.motion));
-        self.visited.push(seed.face);
+        self.visited.push((seed.face, seed.motion));
         let mut covered = 0.0;
         while let Some((face, motion)) = self.stack.pop() {
             let below = corners(target, face);
@@ -105,11 +106,13 @@ impl Clipper {
             for k in 0..3 {
                 let h = HalfedgeId::of(face, k);
                 let twin = target.patched.mesh.twin(h);
-                if !self.visited.contains(&twin.face())
-                    && meets(&triangle, [developed[k], developed[(k + 1) % 3]])
-                {
-                    self.visited.push(twin.face());
-                    self.stack.push((twin.face(), target.embedding.transitions[h].after(&motion)));
+                if !meets(&triangle, [developed[k], developed[(k + 1) % 3]]) {
+                    continue;
+                }
+                let next = (twin.face(), target.embedding.transitions[h].after(&motion));
+                if !self.visited.iter().any(|seen| is_same(seen, &next)) {
+                    self.visited.push(next);
+                    self.stack.push(next);
                 }
             }
         }
@@ -137,6 +140,13 @@ impl Clipper {
             std::mem::swap(&mut self.polygon, &mut self.clipped);
         }
     }
+}
+
+/// Whether two places of faces are the same up to rounding.
+fn is_same(a: &(FaceId, Rigid2), b: &(FaceId, Rigid2)) -> bool {
+    a.0 == b.0
+        && a.1.rotation.distance_squared(b.1.rotation) < 1e-12
+        && a.1.translation.distance_squared(b.1.translation) < 1e-12
 }
 
 /// Whether a segment runs inside a triangle or along its border, for more than a point: touching the corner at a cone
