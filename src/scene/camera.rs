@@ -41,6 +41,22 @@ impl Camera {
         projection * glam::camera::rh::view::look_at_mat4(self.eye(), self.target, Vec3::Y)
     }
 
+    /// Moves and comes near enough that the points fill the given share of the view; the direction stays.
+    pub fn fit(&mut self, points: &[Vec3], aspect: f32, share: f32) {
+        for _ in 0..6 {
+            let seen = points.iter().filter_map(|p| self.project(*p, aspect));
+            let start = (Vec2::INFINITY, Vec2::NEG_INFINITY);
+            let (low, high) = seen.fold(start, |(l, h), p| (l.min(p.truncate()), h.max(p.truncate())));
+            if !low.is_finite() || !high.is_finite() {
+                return;
+            }
+            let middle = 0.5 * (low + high);
+            self.pan(Vec2::new(-0.5 * aspect * middle.x, 0.5 * middle.y) / aspect.min(1.0));
+            let extent = 0.5 * (high - low).max_element();
+            self.distance = (self.distance * extent / share).clamp(0.15, 20.0);
+        }
+    }
+
     /// Turns by a drag in units of the view's height.
     pub fn orbit(&mut self, drag: Vec2) {
         self.yaw -= 4.0 * drag.x;
@@ -83,6 +99,24 @@ impl Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_fitted_view_is_filled_and_centred() {
+        let points: Vec<Vec3> =
+            (0..40).map(|k| Vec3::new(0.9 * (k as f32).sin(), 0.2 * (k as f32 * 0.7).cos(), 0.3)).collect();
+        for aspect in [0.5, 1.0, 2.0] {
+            let mut camera = Camera::default();
+            camera.fit(&points, aspect, 0.8);
+            let seen: Vec<Vec3> = points.iter().map(|p| camera.project(*p, aspect).unwrap()).collect();
+            let reach = |f: fn(&Vec3) -> f32| {
+                let values = seen.iter().map(f);
+                values.fold((f32::INFINITY, f32::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)))
+            };
+            let (x, y) = (reach(|p| p.x), reach(|p| p.y));
+            assert!((x.0 + x.1).abs() < 0.05 && (y.0 + y.1).abs() < 0.05, "{x:?} {y:?}");
+            assert!((0.5 * (x.1 - x.0).max(y.1 - y.0) - 0.8).abs() < 0.05, "{x:?} {y:?}");
+        }
+    }
 
     #[test]
     fn the_ray_through_a_projected_point_meets_it() {

@@ -100,7 +100,7 @@ impl Viewer {
         side.mesh = Some(SideMesh { checked, frame, picker, surface: uploaded });
         side.result = None;
         side.landmarks.clear();
-        side.camera = Camera::default();
+        side.look_at_all();
     }
 
     /// Empties a view.
@@ -200,7 +200,7 @@ impl Viewer {
     /// Back to the first look.
     #[wasm_bindgen(js_name = resetCamera)]
     pub fn reset_camera(&mut self, side: usize) {
-        self.sides[side.min(1)].camera = Camera::default();
+        self.sides[side.min(1)].look_at_all();
     }
 
     /// The surface point at a place of a view, x and y from -1 to 1, y up: JSON `{"face", "barycentric"}`.
@@ -276,8 +276,18 @@ impl Viewer {
 }
 
 impl Side {
+    /// The first look: the whole mesh, as large as the view allows.
+    fn look_at_all(&mut self) {
+        self.camera = Camera::default();
+        let Some(mesh) = &self.mesh else { return };
+        let positions = mesh.checked.mesh.positions();
+        let stride = positions.len() / 2000 + 1;
+        let points: Vec<Vec3> = positions.iter().step_by(stride).map(|p| mesh.frame.place(*p)).collect();
+        self.camera.fit(&points, self.aspect(), 0.82);
+    }
+
     fn aspect(&self) -> f32 {
-        self.rectangle[2] / self.rectangle[3].max(1.0)
+        if self.rectangle[3] < 1.0 { 1.0 } else { (self.rectangle[2] / self.rectangle[3]).max(0.05) }
     }
 
     fn label(&self, landmark: Option<Vec3>) -> [f32; 3] {
