@@ -43,7 +43,7 @@ impl Camera {
 
     /// Moves and comes near enough that the points fill the given share of the view; the direction stays.
     pub fn fit(&mut self, points: &[Vec3], aspect: f32, share: f32) {
-        for _ in 0..6 {
+        for _ in 0..20 {
             let seen = points.iter().filter_map(|p| self.project(*p, aspect));
             let start = (Vec2::INFINITY, Vec2::NEG_INFINITY);
             let (low, high) = seen.fold(start, |(l, h), p| (l.min(p.truncate()), h.max(p.truncate())));

@@ -31,9 +31,20 @@ impl Default for Style {
     }
 }
 
+/// Who chose where a camera stands.
+#[derive(Clone, Copy, Default, PartialEq)]
+enum Look {
+    /// Nobody yet: the whole mesh stays in view, also when the window changes.
+    #[default]
+    Whole,
+    /// The user.
+    Chosen,
+}
+
 /// One view with its mesh.
 #[derive(Default)]
 struct Side {
+    look: Look,
     rectangle: [f32; 4],
     camera: Camera,
     mesh: Option<SideMesh>,
@@ -85,7 +96,14 @@ impl Viewer {
     /// Where a view is, in physical pixels from the top left.
     #[wasm_bindgen(js_name = setViewport)]
     pub fn set_viewport(&mut self, side: usize, x: f32, y: f32, width: f32, height: f32) {
-        self.sides[side.min(1)].rectangle = [x, y, width, height];
+        let side = &mut self.sides[side.min(1)];
+        let rectangle = [x, y, width, height];
+        if side.rectangle != rectangle {
+            side.rectangle = rectangle;
+            if side.look == Look::Whole {
+                side.look_at_all();
+            }
+        }
     }
 
     /// Shows a mesh; its landmarks and result go.
@@ -184,17 +202,17 @@ impl Viewer {
     /// Turns a view by a drag in units of its height.
     pub fn orbit(&mut self, side: usize, dx: f32, dy: f32) {
         // Screen y grows upwards here: dragging up looks from below.
-        self.sides[side.min(1)].camera.orbit(Vec2::new(dx, -dy));
+        self.moved(side).orbit(Vec2::new(dx, -dy));
     }
 
     /// Moves a view by a drag in units of its height, y up.
     pub fn pan(&mut self, side: usize, dx: f32, dy: f32) {
-        self.sides[side.min(1)].camera.pan(Vec2::new(dx, -dy));
+        self.moved(side).pan(Vec2::new(dx, -dy));
     }
 
     /// Multiplies a view's distance.
     pub fn zoom(&mut self, side: usize, factor: f32) {
-        self.sides[side.min(1)].camera.zoom(factor);
+        self.moved(side).zoom(factor);
     }
 
     /// Back to the first look.
@@ -254,6 +272,13 @@ impl Viewer {
 }
 
 impl Viewer {
+    /// The camera of a side that the user moves.
+    fn moved(&mut self, side: usize) -> &mut Camera {
+        let side = &mut self.sides[side.min(1)];
+        side.look = Look::Chosen;
+        &mut side.camera
+    }
+
     /// Landmarks in their colours, or cones in red (positive) and blue (negative curvature).
     fn balls(&self, side: &Side) -> Vec<MarkerInstance> {
         let cones = side.result.as_ref().filter(|_| self.style.cones).map(|r| &r.cones);
@@ -279,6 +304,7 @@ impl Side {
     /// The first look: the whole mesh, as large as the view allows.
     fn look_at_all(&mut self) {
         self.camera = Camera::default();
+        self.look = Look::Whole;
         let Some(mesh) = &self.mesh else { return };
         let positions = mesh.checked.mesh.positions();
         let stride = positions.len() / 2000 + 1;
