@@ -12,8 +12,8 @@ use super::energy::{HessianTerm, two_sided_density, two_sided_gradient, two_side
 use super::flat_problem::{FlatProblem, rest_jacobian, unrotate};
 use super::overlay::{Overlay, Piece, overlay};
 use super::unknowns::Unknowns;
-use crate::layout::BaseLayout;
-use crate::mesh::FaceId;
+use crate::layout::{BaseLayout, PatchedMesh};
+use crate::mesh::{FaceId, HalfedgeId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use glam::{DMat2, DVec2};
 use typed_index_collections::TiVec;
@@ -64,8 +64,7 @@ pub fn relax(
             let fraction = round as f64 / options.max_rounds as f64;
             monitor.step(Step { fraction, residual: report.energies.last().copied() })?;
             let fixed = Parametrised { patched: patched[1 - moving], embedding: &embeddings[1 - moving] };
-            let side =
-                Moving { unknowns: &unknowns[moving], patched: patched[moving], surface, fixed, options };
+            let side = Moving::new(&unknowns[moving], patched[moving], fixed, options);
             let start = unknowns[moving].points(&embeddings[moving]);
             let Some((z, energies)) = side.step(&mut problems[moving], start) else { continue };
             if report.energies.is_empty() {
@@ -85,9 +84,11 @@ pub fn relax(
 /// One side that moves over the other.
 struct Moving<'a> {
     unknowns: &'a Unknowns<'a>,
-    patched: &'a crate::layout::PatchedMesh,
+    patched: &'a PatchedMesh,
     surface: &'a ConeSurface,
     fixed: Parametrised<'a>,
+    /// Of each fixed face the Jacobian from its chart to its rest plane.
+    fixed_inverses: TiVec<FaceId, DMat2>,
     options: &'a ComposedOptions,
 }
 
@@ -103,21 +104,32 @@ struct State {
     total: f64,
 }
 
-impl Moving<'_> {
+impl<'a> Moving<'a> {
+    fn new(
+        unknowns: &'a Unknowns<'a>,
+        patched: &'a PatchedMesh,
+        fixed: Parametrised<'a>,
+        options: &'a ComposedOptions,
+    ) -> Self {
+        let inverse = |f: FaceId| rest_jacobian(fixed.patched, fixed.embedding, f).inverse();
+        let fixed_inverses = fixed.patched.mesh.faces().map(inverse).collect();
+        Self { unknowns, patched, surface: unknowns.surface(), fixed, fixed_inverses, options }
+    }
+
     /// One Newton step; `None` where none lowers the energy. Returns E before and after.
     fn step(&self, problem: &mut FlatProblem, z: Vec<DVec2>) -> Option<(Vec<DVec2>, [f64; 2])> {
         let state = self.state(problem, &z)?;
         let slope = self.gradient(problem, &z, &state);
+        let jacobians: TiVec<FaceId, DMat2> =
+            self.patched.mesh.faces().map(|f| problem.jacobian(f.index(), &z)).collect();
         let terms = state.overlay.pieces.iter().zip(&state.onto_rest).flat_map(|(piece, c)| {
-            let t = piece.source_face.index();
-            let j = *c * problem_jacobian(&state.embedding, self.patched, piece.source_face);
-            let area = piece.area / problem_det(&state.embedding, self.patched, piece.source_face);
-            let c = *c;
-            two_sided_hessian(&j).map(move |term| (t, area, pulled_back(&term, &c)))
+            let a = &jacobians[piece.source_face];
+            let area = piece.area / a.determinant();
+            let terms = two_sided_hessian(&(*c * *a));
+            terms.map(|term| (piece.source_face.index(), area, pulled_back(&term, c)))
         });
-        let terms: Vec<_> = terms.collect();
         let barrier = self.options.barrier;
-        let step = problem.direction(&z, barrier, terms.into_iter(), (&slope, 0.03));
+        let step = problem.direction(&z, barrier, terms, (&slope, 0.03));
         let descent: f64 = -slope.iter().zip(&step).map(|(g, d)| g.dot(*d)).sum::<f64>();
         if descent.is_nan() || descent <= 0.0 {
             return None;
@@ -145,11 +157,8 @@ impl Moving<'_> {
         if overlay.area_defect > 1e-3 {
             return None;
         }
-        let mesh = &self.fixed.patched.mesh;
-        let inverse = |f: FaceId| rest_jacobian(self.fixed.patched, self.fixed.embedding, f).inverse();
-        let inverses: TiVec<FaceId, DMat2> = mesh.faces().map(inverse).collect();
         let onto = |piece: &Piece| {
-            inverses[piece.target_face]
+            self.fixed_inverses[piece.target_face]
                 * DMat2::from_cols(piece.motion.rotation, piece.motion.rotation.perp())
         };
         let onto_rest: Vec<DMat2> = overlay.pieces.iter().map(onto).collect();
@@ -193,8 +202,7 @@ impl Moving<'_> {
     /// face's own edges.
     fn sweep(&self, state: &State, piece: &Piece) -> [DVec2; 3] {
         let points = &state.overlay.points[piece.points.clone()];
-        let corners =
-            [0, 1, 2].map(|k| state.embedding.corners[crate::mesh::HalfedgeId::of(piece.source_face, k)]);
+        let corners = [0, 1, 2].map(|k| state.embedding.corners[HalfedgeId::of(piece.source_face, k)]);
         let place = |w: &[f64; 3]| corners[0] * w[0] + corners[1] * w[1] + corners[2] * w[2];
         let mut sweep = [DVec2::ZERO; 3];
         for k in 0..points.len() {
@@ -215,14 +223,6 @@ impl Moving<'_> {
 /// A term with respect to C A as a term with respect to A.
 fn pulled_back(term: &HessianTerm, c: &DMat2) -> HessianTerm {
     HessianTerm { left: term.left.map(|u| c.transpose() * u), ..*term }
-}
-
-fn problem_jacobian(embedding: &Embedding, patched: &crate::layout::PatchedMesh, f: FaceId) -> DMat2 {
-    rest_jacobian(patched, embedding, f)
-}
-
-fn problem_det(embedding: &Embedding, patched: &crate::layout::PatchedMesh, f: FaceId) -> f64 {
-    rest_jacobian(patched, embedding, f).determinant()
 }
 
 #[cfg(test)]
@@ -266,13 +266,7 @@ mod tests {
         let unknowns = Unknowns::new(&layout.source, &surface);
         let problem = unknowns.problem();
         let fixed = Parametrised { patched: &layout.target, embedding: &embeddings[1] };
-        let side = Moving {
-            unknowns: &unknowns,
-            patched: &layout.source,
-            surface: &surface,
-            fixed,
-            options: &options,
-        };
+        let side = Moving::new(&unknowns, &layout.source, fixed, &options);
         let z = unknowns.points(&embeddings[0]);
         let slope = side.gradient(&problem, &z, &side.state(&problem, &z).unwrap());
         for seed in 1..6 {

@@ -33,6 +33,11 @@ impl<'a> Unknowns<'a> {
         Self { patched, surface, holds, numbers, free }
     }
 
+    /// The cone surface.
+    pub fn surface(&self) -> &'a ConeSurface {
+        self.surface
+    }
+
     /// The free vertices, in the order of the unknowns.
     pub fn free(&self) -> &[VertexId] {
         &self.free
