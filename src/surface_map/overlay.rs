@@ -110,13 +110,23 @@ impl Clipper {
                     continue;
                 }
                 let next = (twin.face(), target.embedding.transitions[h].after(&motion));
-                if !self.visited.iter().any(|seen| is_same(seen, &next)) {
+                if !self.knows(&next) {
                     self.visited.push(next);
                     self.stack.push(next);
                 }
             }
         }
         covered
+    }
+
+    /// Whether a place of a face was met, or the face already so often as a triangle can meet it round the sharpest cone.
+    fn knows(&self, next: &(FaceId, Rigid2)) -> bool {
+        const TURNS: usize = 8;
+        let mut turns = 0;
+        self.visited.iter().filter(|seen| seen.0 == next.0).any(|seen| {
+            turns += 1;
+            turns == TURNS || is_same(seen, next)
+        })
     }
 
     /// The polygon of one triangle inside another.
