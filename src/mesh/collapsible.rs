@@ -57,6 +57,11 @@ impl CollapsibleMesh {
         self.live_vertices
     }
 
+    /// Number of faces of the full resolution: every face number is below.
+    pub fn face_slots(&self) -> usize {
+        self.face_alive.len()
+    }
+
     /// Whether a vertex is in the present level.
     pub fn is_alive(&self, v: VertexId) -> bool {
         self.vertex_alive[v]

@@ -61,6 +61,19 @@ impl SurfaceMesh {
         Ok(Self { positions, faces, twins, outgoing })
     }
 
+    /// A mesh whose connectivity is known to be closed and manifold; every vertex has a face.
+    pub(super) fn from_parts(
+        positions: TiVec<VertexId, DVec3>,
+        faces: TiVec<FaceId, [VertexId; 3]>,
+        twins: TiVec<HalfedgeId, HalfedgeId>,
+    ) -> Self {
+        let mut outgoing = ti_vec![HalfedgeId(u32::MAX); positions.len()];
+        for (f, corners) in faces.iter_enumerated().rev() {
+            (0..3).for_each(|k| outgoing[corners[k]] = HalfedgeId::of(f, k));
+        }
+        Self { positions, faces, twins, outgoing }
+    }
+
     /// Number of vertices.
     pub fn vertex_count(&self) -> usize {
         self.positions.len()

@@ -1,0 +1,225 @@
+//! Coarsening by half-edge collapses in the order of quadric errors (Garland & Heckbert 1997), and the levels between.
+
+use super::collapsible::{CollapsibleMesh, ShapeLimits};
+use super::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
+use crate::math::quadric::Quadric;
+use glam::DVec3;
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
+
+/// Normals turn by less than 78 degrees and no new triangle is a needle.
+const SHAPE: ShapeLimits = ShapeLimits { normal_cosine: 0.2, double_area: 0.05 };
+
+/// Collapses vertices into neighbours until `goal` are left or none may go; `may` says whether the start of a halfedge may
+/// go into its end. Returns how many vertices are left.
+///
+/// Shapes are kept first; where that leaves too many vertices, only the link condition is.
+pub fn coarsen(
+    mesh: &mut CollapsibleMesh,
+    positions: &TiSlice<VertexId, DVec3>,
+    goal: usize,
+    may: impl Fn(&CollapsibleMesh, HalfedgeId) -> bool,
+) -> usize {
+    let quadrics = quadrics(mesh, positions);
+    let mut coarsening = Coarsening {
+        mesh,
+        positions,
+        may,
+        quadrics,
+        version: ti_vec![0; positions.len()],
+        queue: BinaryHeap::new(),
+        strictness: Strictness::Shape,
+    };
+    for round in 0..6 {
+        if coarsening.mesh.live_vertices() <= goal {
+            break;
+        }
+        coarsening.strictness = if round < 3 { Strictness::Shape } else { Strictness::LinkOnly };
+        coarsening.round(goal);
+    }
+    mesh.live_vertices()
+}
+
+fn quadrics(mesh: &CollapsibleMesh, positions: &TiSlice<VertexId, DVec3>) -> TiVec<VertexId, Quadric> {
+    let mut quadrics = ti_vec![Quadric::ZERO; positions.len()];
+    for f in mesh.faces() {
+        let corners = mesh.corners(f);
+        let plane = Quadric::of_triangle(corners.map(|v| positions[v]));
+        corners.iter().for_each(|&v| quadrics[v].add(&plane));
+    }
+    quadrics
+}
+
+struct Coarsening<'a, M> {
+    mesh: &'a mut CollapsibleMesh,
+    positions: &'a TiSlice<VertexId, DVec3>,
+    may: M,
+    quadrics: TiVec<VertexId, Quadric>,
+    version: TiVec<VertexId, u32>,
+    queue: BinaryHeap<Entry>,
+    strictness: Strictness,
+}
+
+impl<M: Fn(&CollapsibleMesh, HalfedgeId) -> bool> Coarsening<'_, M> {
+    fn round(&mut self, goal: usize) {
+        self.queue.clear();
+        let vertices: Vec<_> = self.mesh.vertices().collect();
+        for v in vertices {
+            self.push_best(v);
+        }
+        let mut touched = Vec::new();
+        while let Some(Entry { vertex, version, halfedge, .. }) = self.queue.pop() {
+            if !self.mesh.is_alive(vertex) || self.version[vertex] != version {
+                continue;
+            }
+            let kept = self.mesh.head(halfedge);
+            let absorbed = self.quadrics[vertex];
+            self.quadrics[kept].add(&absorbed);
+            self.mesh.collapse(halfedge);
+            if self.mesh.live_vertices() <= goal {
+                return;
+            }
+            touched.clear();
+            touched.push(kept);
+            touched.extend(self.mesh.star(kept).map(|h| self.mesh.head(h)));
+            for &v in &touched {
+                self.version[v] += 1;
+                self.push_best(v);
+            }
+        }
+    }
+
+    fn push_best(&mut self, v: VertexId) {
+        let mut best: Option<(f64, HalfedgeId)> = None;
+        for h in self.mesh.star(v) {
+            let cost = self.cost(h);
+            if best.is_none_or(|(least, _)| cost < least) && self.allowed(h) {
+                best = Some((cost, h));
+            }
+        }
+        if let Some((cost, halfedge)) = best {
+            self.queue.push(Entry { cost, vertex: v, version: self.version[v], halfedge });
+        }
+    }
+
+    fn cost(&self, h: HalfedgeId) -> f64 {
+        let quadric = &self.quadrics[self.mesh.tail(h)];
+        let (a, b) = (self.positions[self.mesh.tail(h)], self.positions[self.mesh.head(h)]);
+        quadric.at(b) + 0.01 * quadric.area * a.distance_squared(b)
+    }
+
+    fn allowed(&self, h: HalfedgeId) -> bool {
+        (self.may)(self.mesh, h)
+            && self.mesh.link_condition(h)
+            && (self.strictness == Strictness::LinkOnly || self.mesh.keeps_shape(h, self.positions, &SHAPE))
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Strictness {
+    Shape,
+    LinkOnly,
+}
+
+struct Entry {
+    cost: f64,
+    vertex: VertexId,
+    version: u32,
+    halfedge: HalfedgeId,
+}
+
+impl PartialEq for Entry {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Entry {}
+
+impl Ord for Entry {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other
+            .cost
+            .total_cmp(&self.cost)
+            .then(other.vertex.cmp(&self.vertex))
+            .then(other.version.cmp(&self.version))
+    }
+}
+
+impl PartialOrd for Entry {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// One level of a collapsible mesh as a mesh of its own.
+#[derive(Clone, Debug)]
+pub struct Level {
+    /// The level's mesh, numbered without gaps in the order of the full mesh; corners of a face keep their places.
+    pub mesh: SurfaceMesh,
+    /// The full mesh's vertex of each vertex.
+    pub vertices: TiVec<VertexId, VertexId>,
+    /// The full mesh's face number of each face.
+    pub faces: TiVec<FaceId, FaceId>,
+}
+
+impl Level {
+    /// A mesh coarsened to about `goal` vertices, those in `held` among them.
+    pub fn coarse(mesh: &SurfaceMesh, held: &[VertexId], goal: usize) -> Self {
+        let mut level = CollapsibleMesh::new(mesh);
+        let mut is_held = ti_vec![false; mesh.vertex_count()];
+        held.iter().for_each(|&v| is_held[v] = true);
+        coarsen(&mut level, mesh.positions(), goal, |mesh, h| !is_held[mesh.tail(h)]);
+        Self::of(&level, mesh.positions())
+    }
+
+    /// The present level of a collapsible mesh.
+    pub fn of(mesh: &CollapsibleMesh, positions: &TiSlice<VertexId, DVec3>) -> Self {
+        let vertices: TiVec<VertexId, VertexId> = mesh.vertices().collect();
+        let mut numbers: TiVec<VertexId, VertexId> = ti_vec![VertexId(u32::MAX); positions.len()];
+        vertices.iter_enumerated().for_each(|(number, &v)| numbers[v] = number);
+        let faces: TiVec<FaceId, FaceId> = mesh.faces().collect();
+        let triangles = faces.iter().map(|&f| mesh.corners(f).map(|v| numbers[v])).collect();
+        let places = vertices.iter().map(|&v| positions[v]).collect();
+        let mut number_of_face: TiVec<FaceId, FaceId> = ti_vec![FaceId(u32::MAX); mesh.face_slots()];
+        faces.iter_enumerated().for_each(|(number, &f)| number_of_face[f] = number);
+        let halfedge = |h: HalfedgeId| HalfedgeId::of(number_of_face[h.face()], h.corner());
+        let twins = faces
+            .iter()
+            .flat_map(|&f| [0, 1, 2].map(|k| halfedge(mesh.twin(HalfedgeId::of(f, k)))))
+            .collect();
+        Self { mesh: SurfaceMesh::from_parts(places, triangles, twins), vertices, faces }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::generators::icosphere;
+
+    #[test]
+    fn a_level_is_a_sphere_that_keeps_the_held_vertices_and_its_numbers() {
+        let sphere = icosphere(4);
+        let held: Vec<_> = [3, 500, 1000, 2000].map(VertexId).to_vec();
+        let level = Level::coarse(&sphere, &held, 200);
+        let rebuilt =
+            SurfaceMesh::from_triangles(level.mesh.positions().to_owned(), level.mesh.triangles().to_owned());
+        let rebuilt = rebuilt.unwrap();
+        assert_eq!((level.mesh.vertex_count(), level.mesh.euler_characteristic()), (200, 2));
+        assert!(held.iter().all(|v| level.vertices.contains(v)));
+        for h in level.mesh.halfedges() {
+            assert_eq!(level.mesh.twin(h), rebuilt.twin(h));
+            assert_eq!(level.mesh.tail(level.mesh.outgoing(level.mesh.tail(h))), level.mesh.tail(h));
+        }
+        // Coarse, but still nearly the unit sphere.
+        assert!(level.mesh.area() > 0.95 * sphere.area());
+    }
+
+    #[test]
+    fn the_goal_may_be_the_held_vertices_alone() {
+        let sphere = icosphere(3);
+        let held: Vec<_> = [0, 5, 100, 400, 600].map(VertexId).to_vec();
+        assert_eq!(Level::coarse(&sphere, &held, 5).mesh.vertex_count(), 5);
+    }
+}
