@@ -1,7 +1,8 @@
 //! The growing drawing of one graph on two meshes: the same rotation system at every landmark.
 
+use super::geodesics::LandmarkDistances;
+use super::path_search::{Bounded, EndStep, FoundPath, Node, PathSearch, Query, Sector};
 use super::refinable::RefinableMesh;
-use super::search::{Bounded, EndStep, FoundPath, Node, PathSearch, Sector};
 use crate::landmarks::Landmarks;
 use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
 
@@ -36,17 +37,21 @@ pub(super) struct Drawing {
     pub rotation: Vec<Vec<usize>>,
 }
 
-/// Search memory of both sides, and the cost of midpoints.
-pub(super) struct Planner {
+/// Search memory of both sides, distances, and the cost of midpoints.
+pub(super) struct Planner<'a> {
     searches: [PathSearch; 2],
+    pub distances: &'a LandmarkDistances,
     pub midpoint_penalty: f64,
 }
 
-impl Planner {
-    pub fn new(midpoint_penalty: f64) -> Self {
-        Self { searches: [PathSearch::default(), PathSearch::default()], midpoint_penalty }
+impl<'a> Planner<'a> {
+    pub fn new(distances: &'a LandmarkDistances, midpoint_penalty: f64) -> Self {
+        Self { searches: [PathSearch::default(), PathSearch::default()], distances, midpoint_penalty }
     }
 }
+
+/// Sectors at both ends of a path, named by their places in the rotation, that are joined by a face.
+pub(super) type SlotPairs = [Vec<usize>; 2];
 
 impl Drawing {
     /// Nothing drawn yet.
@@ -65,19 +70,40 @@ impl Drawing {
     }
 
     /// Plans a path: searched freely on one mesh, its sectors imposed on the other; both ways round, the shorter kept.
-    pub fn plan(&self, planner: &mut Planner, ends: [usize; 2]) -> Option<Plan> {
+    ///
+    /// `limits` are the lengths beyond which a path is not wanted, on source and target.
+    pub fn plan(&self, planner: &mut Planner<'_>, ends: [usize; 2], limits: [f64; 2]) -> Option<Plan> {
+        let allowed = ends.map(|i| (0..self.rotation[i].len().max(1)).collect());
+        self.plan_within(planner, ends, &allowed, limits)
+    }
+
+    /// Like [`Self::plan`], with the sectors restricted to those given.
+    pub fn plan_within(
+        &self,
+        planner: &mut Planner<'_>,
+        ends: [usize; 2],
+        allowed: &SlotPairs,
+        limits: [f64; 2],
+    ) -> Option<Plan> {
         let mut best: Option<Plan> = None;
         let mut tried: Option<[usize; 2]> = None;
         for free in 0..2 {
-            let all = ends.map(|i| self.sectors(free, i));
-            let Some(first) = self.search(planner, free, ends, [&all[0], &all[1]]) else { continue };
+            let sectors = [0, 1].map(|e| {
+                let mut all = self.sectors(free, ends[e]).into_iter().enumerate().collect::<Vec<_>>();
+                all.retain(|(slot, _)| allowed[e].contains(slot));
+                all.into_iter().map(|(_, sector)| sector).collect::<Vec<_>>()
+            });
+            let found = self.search(planner, (free, ends), [&sectors[0], &sectors[1]], limits[free]);
+            let first = found?;
             let slots = self.slots(free, ends, &first)?;
             if tried == Some(slots) {
                 continue;
             }
             tried = Some(slots);
             let other = 1 - free;
-            let Some(second) = self.search_in_slots(planner, other, ends, slots) else { continue };
+            let Some(second) = self.search_in_slots(planner, (other, ends), slots, limits[other]) else {
+                continue;
+            };
             let found = if free == 0 { [first, second] } else { [second, first] };
             let plan = Plan { ends, found };
             if best.as_ref().is_none_or(|b| plan.length() < b.length()) {
@@ -88,33 +114,73 @@ impl Drawing {
     }
 
     /// Plans a path with its sectors given: it goes in after place `slots[e]` of the rotation at end `e`.
-    pub fn plan_in_slots(&self, planner: &mut Planner, ends: [usize; 2], slots: [usize; 2]) -> Option<Plan> {
-        let source = self.search_in_slots(planner, 0, ends, slots)?;
-        let target = self.search_in_slots(planner, 1, ends, slots)?;
+    pub fn plan_in_slots(
+        &self,
+        planner: &mut Planner<'_>,
+        ends: [usize; 2],
+        slots: [usize; 2],
+    ) -> Option<Plan> {
+        let source = self.search_in_slots(planner, (0, ends), slots, f64::INFINITY)?;
+        let target = self.search_in_slots(planner, (1, ends), slots, f64::INFINITY)?;
         Some(Plan { ends, found: [source, target] })
     }
 
-    fn search_in_slots(
+    /// The shortest path on one mesh that goes in after place `slots[e]` of the rotation at end `e`.
+    pub fn search_in_slots(
         &self,
-        planner: &mut Planner,
-        side: usize,
-        ends: [usize; 2],
+        planner: &mut Planner<'_>,
+        (side, ends): (usize, [usize; 2]),
         slots: [usize; 2],
+        limit: f64,
     ) -> Option<FoundPath> {
         let [a, b] = [0, 1].map(|e| self.sectors(side, ends[e]).swap_remove(slots[e]));
-        self.search(planner, side, ends, [&[a], &[b]])
+        self.search(planner, (side, ends), [&[a], &[b]], limit)
     }
 
     fn search(
         &self,
-        planner: &mut Planner,
-        side: usize,
-        ends: [usize; 2],
+        planner: &mut Planner<'_>,
+        (side, ends): (usize, [usize; 2]),
         sectors: [&[Sector]; 2],
+        limit: f64,
     ) -> Option<FoundPath> {
         let Side { mesh, landmarks, .. } = &self.sides[side];
-        let vertices = ends.map(|i| landmarks[i]);
-        planner.searches[side].shortest(mesh, vertices, sectors, planner.midpoint_penalty)
+        let query = Query {
+            ends: ends.map(|i| landmarks[i]),
+            sectors,
+            midpoint_penalty: planner.midpoint_penalty,
+            to_end: planner.distances.field(side, ends[1]),
+            limit,
+        };
+        planner.searches[side].shortest(mesh, &query)
+    }
+
+    /// For every landmark and place of its rotation the face of the drawing to its counter-clockwise side.
+    ///
+    /// Faces of a connected drawing are discs: two places can be joined when their face is the same.
+    pub fn faces_by_slot(&self) -> Vec<Vec<usize>> {
+        let mut faces: Vec<Vec<usize>> = self.rotation.iter().map(|r| vec![usize::MAX; r.len()]).collect();
+        let mut count = 0;
+        for i in 0..faces.len() {
+            for k in 0..faces[i].len() {
+                let (mut at, mut slot) = (i, k);
+                if faces[at][slot] != usize::MAX {
+                    continue;
+                }
+                while faces[at][slot] == usize::MAX {
+                    faces[at][slot] = count;
+                    // Along the path whose left side is this face, then to the place before it at its other end.
+                    let path = self.rotation[at][slot];
+                    let [a, b] = self.ends[path];
+                    at = if a == at { b } else { a };
+                    let n = self.rotation[at].len();
+                    let back = self.rotation[at].iter().position(|&p| p == path).unwrap_or(0);
+                    slot = (back + n - 1) % n;
+                }
+                count += 1;
+            }
+        }
+        faces
     }
 
     /// Whether a plan made earlier can still be drawn as it is: more paths only lengthen, so it is then still the best.

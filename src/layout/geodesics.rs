@@ -1,55 +1,121 @@
-//! Distances between all landmarks along mesh edges.
+//! Distances on both meshes without paths: between all landmarks, and from every vertex to every landmark.
 
-use crate::mesh::{SurfaceMesh, VertexId};
+use super::drawing::Drawing;
+use super::path_search::{for_each_link, position};
+use super::refinable::RefinableMesh;
+use crate::mesh::VertexId;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-use typed_index_collections::{TiVec, ti_vec};
+use typed_index_collections::{TiSlice, TiVec};
 
-/// Edge-path distances between all landmarks on both meshes, both areas scaled to 1.
+/// Lengths of shortest paths over vertices and edge midpoints that pass no other landmark, both areas scaled to 1.
 #[derive(Clone, Debug)]
 pub(super) struct LandmarkDistances {
-    count: usize,
-    by_side: [Vec<f64>; 2],
+    /// By side and landmark, at every vertex.
+    fields: [Vec<TiVec<VertexId, f64>>; 2],
+    landmarks: [Vec<VertexId>; 2],
 }
 
 impl LandmarkDistances {
-    pub fn new(meshes: [&SurfaceMesh; 2], landmarks: [&[VertexId]; 2]) -> Self {
-        let count = landmarks[0].len();
-        let by_side = [0, 1].map(|s| {
-            let scale = 1.0 / meshes[s].area().sqrt();
-            landmarks[s].iter().flat_map(|&v| distances_from(meshes[s], v, landmarks[s], scale)).collect()
+    /// Measures on a drawing without paths.
+    pub fn new(empty: &Drawing) -> Self {
+        let fields = [0, 1].map(|s| {
+            let side = &empty.sides[s];
+            let links = Links::new(&side.mesh);
+            side.landmarks.iter().map(|&v| links.distances_to(&side.mesh, v)).collect()
         });
-        Self { count, by_side }
+        Self { fields, landmarks: [0, 1].map(|s| empty.sides[s].landmarks.clone()) }
     }
 
+    /// Number of landmarks.
     pub fn len(&self) -> usize {
-        self.count
+        self.landmarks[0].len()
+    }
+
+    /// Distance of every vertex to a landmark.
+    pub fn field(&self, side: usize, landmark: usize) -> &TiSlice<VertexId, f64> {
+        &self.fields[side][landmark]
+    }
+
+    /// Distances between two landmarks on source and target.
+    pub fn between(&self, [i, j]: [usize; 2]) -> [f64; 2] {
+        [0, 1].map(|s| self.fields[s][i][self.landmarks[s][j]])
     }
 
     /// Sum of the distances on both meshes.
-    pub fn sum(&self, [i, j]: [usize; 2]) -> f64 {
-        self.by_side[0][i * self.count + j] + self.by_side[1][i * self.count + j]
+    pub fn sum(&self, ends: [usize; 2]) -> f64 {
+        let [s, t] = self.between(ends);
+        s + t
     }
 }
 
-/// Positive floats order like their bits.
-fn distances_from(mesh: &SurfaceMesh, start: VertexId, goals: &[VertexId], scale: f64) -> Vec<f64> {
-    let mut distance: TiVec<VertexId, f64> = ti_vec![f64::INFINITY; mesh.vertex_count()];
-    let mut queue = BinaryHeap::new();
-    distance[start] = 0.0;
-    queue.push((Reverse(0_u64), start.0));
-    while let Some((Reverse(bits), v)) = queue.pop() {
-        let (here, v) = (f64::from_bits(bits), VertexId(v));
-        if here > distance[v] {
-            continue;
+/// The path graph of a mesh without paths as one array.
+struct Links {
+    begin: Vec<u32>,
+    /// Node and length.
+    links: Vec<(u32, f64)>,
+}
+
+impl Links {
+    fn new(mesh: &RefinableMesh) -> Self {
+        let nodes = mesh.positions.len() + mesh.twins.len();
+        let mut graph = Self { begin: vec![0], links: Vec::with_capacity(15 * nodes) };
+        for node in 0..nodes as u32 {
+            let from = position(mesh, node);
+            for_each_link(mesh, node, |next, _| {
+                graph.links.push((next, from.distance(position(mesh, next))));
+            });
+            graph.begin.push(graph.links.len() as u32);
         }
-        for h in mesh.star(v) {
-            let (next, through) = (mesh.head(h), here + mesh.length(h));
-            if through < distance[next] {
-                distance[next] = through;
-                queue.push((Reverse(through.to_bits()), next.0));
+        graph
+    }
+
+    fn of(&self, node: usize) -> &[(u32, f64)] {
+        &self.links[self.begin[node] as usize..self.begin[node + 1] as usize]
+    }
+
+    /// Dijkstra's algorithm; other landmarks end paths. Positive floats order like their bits.
+    fn distances_to(&self, mesh: &RefinableMesh, landmark: VertexId) -> TiVec<VertexId, f64> {
+        let vertices = mesh.positions.len();
+        let mut distance = vec![f64::INFINITY; self.begin.len() - 1];
+        let mut queue = BinaryHeap::new();
+        distance[landmark.index()] = 0.0;
+        queue.push((Reverse(0_u64), landmark.0));
+        while let Some((Reverse(bits), node)) = queue.pop() {
+            let (here, node) = (f64::from_bits(bits), node as usize);
+            if here > distance[node] {
+                continue;
+            }
+            for &(next, length) in self.of(node) {
+                let through = here + length;
+                if through < distance[next as usize] {
+                    distance[next as usize] = through;
+                    queue.push((Reverse(through.to_bits()), next));
+                }
             }
         }
+        let mut field: TiVec<VertexId, f64> = distance[..vertices].iter().copied().collect();
+        self.reach_landmarks(mesh, landmark, (&distance, &mut field));
+        field
     }
-    goals.iter().map(|&v| distance[v] * scale).collect()
+
+    /// Links do not lead into landmarks: their distances come from their neighbours.
+    fn reach_landmarks(
+        &self,
+        mesh: &RefinableMesh,
+        landmark: VertexId,
+        (distance, field): (&[f64], &mut TiVec<VertexId, f64>),
+    ) {
+        for v in (0..mesh.positions.len()).map(VertexId::from) {
+            if !mesh.used[v] || v == landmark {
+                continue;
+            }
+            let from = |&(node, length): &(u32, f64)| distance[node as usize] + length;
+            let free = self.of(v.index()).iter().map(from).fold(f64::INFINITY, f64::min);
+            let edge = mesh
+                .halfedge_between(v, landmark)
+                .map(|_| mesh.positions[v].distance(mesh.positions[landmark]));
+            field[v] = free.min(edge.unwrap_or(f64::INFINITY));
+        }
+    }
 }

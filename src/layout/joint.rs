@@ -1,6 +1,6 @@
 //! Which paths to draw, in which order: tree first, then the shortest and straightest.
 
-use super::drawing::{Drawing, Plan, Planner};
+use super::drawing::{Drawing, Plan, Planner, SlotPairs};
 use super::geodesics::LandmarkDistances;
 use super::{LayoutError, TreeOrder};
 use crate::base_domain::BaseDomain;
@@ -8,36 +8,27 @@ use crate::monitor::{Monitor, Step};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// Geodesic lengths that path lengths are compared with: those of the free plans.
-#[derive(Clone, Debug)]
-pub(super) struct Geodesics {
-    landmarks: usize,
-    /// NaN where not yet known.
-    lengths: Vec<[f64; 2]>,
-}
-
-impl Geodesics {
-    pub fn new(landmarks: usize) -> Self {
-        Self { landmarks, lengths: vec![[f64::NAN; 2]; landmarks * landmarks] }
-    }
-
-    /// Lengths of the shortest paths on both meshes, searched on the empty drawing the first time.
-    pub fn between(&mut self, empty: &Drawing, planner: &mut Planner, ends: [usize; 2]) -> [f64; 2] {
-        let at = ends[0] * self.landmarks + ends[1];
-        if self.lengths[at][0].is_nan()
-            && let Some(plan) = empty.plan(planner, ends)
-        {
-            self.lengths[at] = [plan.found[0].length, plan.found[1].length];
-        }
-        self.lengths[at]
-    }
-}
-
 /// How one attempt draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Variant {
     pub order: TreeOrder,
     pub midpoint_penalty: f64,
+    /// Distances and keys are multiplied by up to 1 + this, by a hash of the pair and the seed.
+    pub perturbation: f64,
+    pub seed: u64,
+}
+
+impl Variant {
+    /// The factor of a pair of landmarks, from 1 to 1 + the perturbation.
+    fn factor(&self, [i, j]: [usize; 2]) -> f64 {
+        // splitmix64 (Steele, Lea, Flood 2014) of the pair and the seed.
+        let pair = ((i as u64) << 32) | j as u64;
+        let mut x = pair.wrapping_add(self.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        for multiplier in [0xbf58_476d_1ce4_e5b9_u64, 0x94d0_49bb_1331_11eb] {
+            x = (x ^ (x >> 30)).wrapping_mul(multiplier);
+        }
+        1.0 + self.perturbation * ((x >> 11) as f64 / (1_u64 << 53) as f64)
+    }
 }
 
 /// What an attempt needs beside its variant.
@@ -49,27 +40,37 @@ pub(super) struct Ground<'a> {
 /// Draws the whole base complex: a spanning tree, then pairs not yet adjacent until every face is a triangle.
 pub(super) fn draw(
     ground: &Ground<'_>,
-    variant: Variant,
-    geodesics: &mut Geodesics,
+    variant: &Variant,
     monitor: &mut dyn Monitor,
 ) -> Result<Drawing, LayoutError> {
-    let mut planner = Planner::new(variant.midpoint_penalty);
+    let mut planner = Planner::new(ground.distances, variant.midpoint_penalty);
     let mut drawing = ground.empty.clone();
-    let landmarks = drawing.rotation.len();
-    for ends in tree_in_order(ground.distances, variant.order) {
-        let plan = drawing.plan(&mut planner, ends).ok_or(LayoutError::NoPath { landmarks: ends })?;
+    for ends in tree_in_order(ground.distances, variant) {
+        let plan = drawing.plan(&mut planner, ends, [f64::INFINITY; 2]);
+        let plan = plan.ok_or(LayoutError::NoPath { landmarks: ends })?;
         drawing.draw(&plan).ok_or(LayoutError::NoPath { landmarks: ends })?;
     }
-    let wanted = 3 * landmarks - 6;
-    let mut queue = Candidates::new(ground.distances, &drawing);
+    complete(&mut drawing, &mut planner, variant, monitor)?;
+    Ok(drawing)
+}
+
+/// Adds paths to a connected drawing until every face is a triangle.
+pub(super) fn complete(
+    drawing: &mut Drawing,
+    planner: &mut Planner<'_>,
+    variant: &Variant,
+    monitor: &mut dyn Monitor,
+) -> Result<(), LayoutError> {
+    let wanted = 3 * drawing.rotation.len() - 6;
+    let mut queue = PairQueue::new(planner.distances, drawing, variant);
     while drawing.ends.len() < wanted {
         monitor.step(Step { fraction: drawing.ends.len() as f64 / wanted as f64, residual: None })?;
-        let Some(plan) = queue.next(ground, &drawing, &mut planner, geodesics) else {
+        let Some(plan) = queue.next(drawing, planner) else {
             return Err(LayoutError::Stuck { paths: drawing.ends.len(), wanted });
         };
         drawing.draw(&plan).ok_or(LayoutError::NoPath { landmarks: plan.ends })?;
     }
-    Ok(drawing)
+    Ok(())
 }
 
 /// Draws the edges of a given base domain: its rotation system prescribes every sector.
@@ -79,7 +80,7 @@ pub(super) fn draw_base(
     monitor: &mut dyn Monitor,
 ) -> Result<Drawing, LayoutError> {
     let mesh = &base.mesh;
-    let mut planner = Planner::new(1.0);
+    let mut planner = Planner::new(ground.distances, 1.0);
     let mut drawing = ground.empty.clone();
     let mut edges: Vec<[usize; 2]> =
         mesh.edges().map(|h| sorted([mesh.tail(h).index(), mesh.head(h).index()])).collect();
@@ -146,13 +147,14 @@ impl DisjointSets {
 }
 
 /// The minimum spanning tree of the summed distances, in drawing order.
-fn tree_in_order(distances: &LandmarkDistances, order: TreeOrder) -> Vec<[usize; 2]> {
+fn tree_in_order(distances: &LandmarkDistances, variant: &Variant) -> Vec<[usize; 2]> {
     let n = distances.len();
     let mut pairs: Vec<[usize; 2]> = (0..n).flat_map(|j| (0..j).map(move |i| [i, j])).collect();
-    pairs.sort_by(|&a, &b| distances.sum(a).total_cmp(&distances.sum(b)).then(a.cmp(&b)));
+    let length = |pair| variant.factor(pair) * distances.sum(pair);
+    pairs.sort_by(|&a, &b| length(a).total_cmp(&length(b)).then(a.cmp(&b)));
     let mut sets = DisjointSets::new(n);
     let mut tree: Vec<[usize; 2]> = pairs.into_iter().filter(|&[i, j]| sets.join(i, j)).collect();
-    match order {
+    match variant.order {
         TreeOrder::ShortestFirst => {}
         TreeOrder::LongestFirst => tree.reverse(),
         TreeOrder::LeavesFirst => tree = leaves_first(tree, n),
@@ -176,74 +178,105 @@ fn leaves_first(tree: Vec<[usize; 2]>, n: usize) -> Vec<[usize; 2]> {
     ordered
 }
 
-struct Candidate {
+struct Pair {
     key: f64,
     ends: [usize; 2],
     plan: Option<Plan>,
 }
 
-impl PartialEq for Candidate {
+impl PartialEq for Pair {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Candidate {}
+impl Eq for Pair {}
 
-impl Ord for Candidate {
+impl Ord for Pair {
     fn cmp(&self, other: &Self) -> Ordering {
         other.key.total_cmp(&self.key).then(other.ends.cmp(&self.ends))
     }
 }
 
-impl PartialOrd for Candidate {
+impl PartialOrd for Pair {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
 /// Pairs not yet adjacent, smallest key first, planned when they come up.
-struct Candidates {
-    queue: BinaryHeap<Candidate>,
+struct PairQueue<'a> {
+    queue: BinaryHeap<Pair>,
+    variant: &'a Variant,
 }
 
-impl Candidates {
-    fn new(distances: &LandmarkDistances, drawing: &Drawing) -> Self {
+impl<'a> PairQueue<'a> {
+    fn new(distances: &LandmarkDistances, drawing: &Drawing, variant: &'a Variant) -> Self {
         let n = distances.len();
         let pairs = (0..n).flat_map(|j| (0..j).map(move |i| [i, j]));
         let fresh = pairs.filter(|ends| !drawing.ends.contains(ends));
-        // Edge paths are at most some 10 % longer than midpoint paths: a lower bound for a key not yet known.
-        let queue =
-            fresh.map(|ends| Candidate { key: 0.85 * distances.sum(ends), ends, plan: None }).collect();
-        Self { queue }
+        // No path is shorter than without obstacles.
+        let key = |ends| variant.factor(ends) * distances.sum(ends);
+        Self { queue: fresh.map(|ends| Pair { key: key(ends), ends, plan: None }).collect(), variant }
     }
 
-    fn next(
-        &mut self,
-        ground: &Ground<'_>,
-        drawing: &Drawing,
-        planner: &mut Planner,
-        geodesics: &mut Geodesics,
-    ) -> Option<Plan> {
-        while let Some(Candidate { ends, plan, .. }) = self.queue.pop() {
+    fn next(&mut self, drawing: &Drawing, planner: &mut Planner<'_>) -> Option<Plan> {
+        let faces = drawing.faces_by_slot();
+        while let Some(Pair { key: least, ends, plan }) = self.queue.pop() {
             if let Some(plan) = plan
                 && drawing.still_valid(&plan)
             {
                 return Some(plan);
             }
-            let Some(plan) = drawing.plan(planner, ends) else { continue };
-            let key = key(&plan, geodesics.between(ground.empty, planner, ends));
-            if self.queue.peek().is_none_or(|next| key <= next.key) {
+            // Without a common face there will never be a path.
+            let Some(slots) = common_slots(&faces, ends) else { continue };
+            let geodesics = planner.distances.between(ends);
+            let factor = self.variant.factor(ends);
+            let next_key = self.queue.peek().map_or(f64::INFINITY, |next| next.key);
+            let limit = 1.2 * next_key.max(least);
+            let limits = [0, 1].map(|s| length_limit(limit / factor, geodesics, s));
+            let Some(plan) = drawing.plan_within(planner, ends, &slots, limits) else {
+                if limit.is_finite() {
+                    self.queue.push(Pair { key: limit, ends, plan: None });
+                }
+                continue;
+            };
+            let key = factor * key(&plan, geodesics);
+            if key <= next_key {
                 return Some(plan);
             }
-            self.queue.push(Candidate { key, ends, plan: Some(plan) });
+            self.queue.push(Pair { key, ends, plan: Some(plan) });
         }
         None
     }
+}
+
+/// The places of the rotations at both landmarks that border a common face.
+fn common_slots(faces: &[Vec<usize>], [i, j]: [usize; 2]) -> Option<SlotPairs> {
+    let shared = |at: usize, other: usize| -> Vec<usize> {
+        (0..faces[at].len()).filter(|&k| faces[other].contains(&faces[at][k])).collect()
+    };
+    let slots = [shared(i, j), shared(j, i)];
+    (!slots[0].is_empty()).then_some(slots)
 }
 
 /// Total length, times the square of the worse detour.
 fn key(plan: &Plan, geodesics: [f64; 2]) -> f64 {
     let detour = (0..2).map(|s| plan.found[s].length / geodesics[s]).fold(1.0, f64::max);
     plan.length() * detour * detour
+}
+
+/// The length on one side from which on the key exceeds a limit, whatever the other side's path.
+fn length_limit(key: f64, geodesics: [f64; 2], side: usize) -> f64 {
+    if key.is_infinite() {
+        return key;
+    }
+    let (own, other) = (geodesics[side], geodesics[1 - side]);
+    let exceeds = |stretch: f64| (own * stretch + other) * stretch * stretch > key;
+    let (mut below, mut above) = (0.0, 1.0 + key / other);
+    for _ in 0..30 {
+        let middle = 0.5 * (below + above);
+        *(if exceeds(middle) { &mut above } else { &mut below }) = middle;
+    }
+    above * own
 }

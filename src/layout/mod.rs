@@ -10,16 +10,16 @@ mod drawing;
 mod geodesics;
 mod joint;
 mod patches;
+mod path_search;
 mod refinable;
-mod search;
 
 use crate::base_domain::BaseDomain;
 use crate::landmarks::Landmarks;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor};
-use drawing::{Drawing, Planner};
+use drawing::Drawing;
 use geodesics::LandmarkDistances;
-use joint::{Geodesics, Ground, Variant};
+use joint::{Ground, Variant};
 use typed_index_collections::TiVec;
 
 pub use patches::PatchFault;
@@ -80,7 +80,7 @@ pub enum TreeOrder {
 /// How a layout is searched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LayoutOptions {
-    /// Orders of drawing that are tried at most, 1 to 6.
+    /// Orders of drawing that are tried at most, 1 to 16.
     pub attempts: usize,
     /// A layout with at most this detour ([`LayoutReport::detour`]) is taken at once.
     pub good_detour: f64,
@@ -120,14 +120,34 @@ pub enum LayoutError {
     Patches(#[from] PatchFault),
 }
 
-const VARIANTS: [Variant; 6] = [
-    Variant { order: TreeOrder::LongestFirst, midpoint_penalty: 1.0 },
-    Variant { order: TreeOrder::LeavesFirst, midpoint_penalty: 1.0 },
-    Variant { order: TreeOrder::LongestFirst, midpoint_penalty: 1.3 },
-    Variant { order: TreeOrder::LeavesFirst, midpoint_penalty: 1.3 },
-    Variant { order: TreeOrder::ShortestFirst, midpoint_penalty: 1.0 },
-    Variant { order: TreeOrder::ShortestFirst, midpoint_penalty: 1.3 },
-];
+/// The orders of drawing, the best on average first.
+const VARIANTS: [Variant; 16] = {
+    use TreeOrder::{LeavesFirst, LongestFirst, ShortestFirst};
+    const fn plain(order: TreeOrder, midpoint_penalty: f64) -> Variant {
+        Variant { order, midpoint_penalty, perturbation: 0.0, seed: 0 }
+    }
+    const fn perturbed(order: TreeOrder, perturbation: f64, seed: u64) -> Variant {
+        Variant { order, midpoint_penalty: 1.0, perturbation, seed }
+    }
+    [
+        plain(LongestFirst, 1.0),
+        plain(LeavesFirst, 1.0),
+        plain(LongestFirst, 1.3),
+        plain(LeavesFirst, 1.3),
+        plain(ShortestFirst, 1.0),
+        plain(ShortestFirst, 1.3),
+        perturbed(LongestFirst, 0.3, 1),
+        perturbed(LeavesFirst, 0.3, 2),
+        perturbed(ShortestFirst, 0.3, 3),
+        perturbed(LongestFirst, 0.3, 4),
+        perturbed(LeavesFirst, 0.6, 5),
+        perturbed(LongestFirst, 0.6, 6),
+        perturbed(ShortestFirst, 0.6, 7),
+        perturbed(LeavesFirst, 0.6, 8),
+        perturbed(LongestFirst, 1.0, 9),
+        perturbed(LeavesFirst, 1.0, 10),
+    ]
+};
 
 /// Plans the base domain on both meshes at once and draws it.
 ///
@@ -140,15 +160,14 @@ pub fn joint(
     monitor: &mut dyn Monitor,
 ) -> Result<BaseLayout, LayoutError> {
     let empty = Drawing::new(meshes[0], meshes[1], landmarks);
-    let distances = LandmarkDistances::new(meshes, [&landmarks.source, &landmarks.target]);
+    let distances = LandmarkDistances::new(&empty);
     let ground = Ground { empty: &empty, distances: &distances };
-    let mut geodesics = Geodesics::new(landmarks.len());
     let mut found: Vec<(Drawing, LayoutReport)> = Vec::new();
     let mut failure = LayoutError::Stuck { paths: 0, wanted: 3 * landmarks.len() - 6 };
     let mut attempts = 0;
-    for &variant in VARIANTS.iter().take(options.attempts.max(1)) {
+    for variant in VARIANTS.iter().take(options.attempts.max(1)) {
         attempts += 1;
-        let drawing = match joint::draw(&ground, variant, &mut geodesics, monitor) {
+        let drawing = match joint::draw(&ground, variant, monitor) {
             Ok(drawing) => drawing,
             Err(LayoutError::Cancelled(stop)) => return Err(stop.into()),
             Err(error) => {
@@ -156,7 +175,7 @@ pub fn joint(
                 continue;
             }
         };
-        let report = report(&drawing, &empty, &mut geodesics);
+        let report = report(&drawing, &distances);
         let good = report.detour <= options.good_detour;
         found.push((drawing, report));
         if good && options.rank == 0 {
@@ -181,18 +200,16 @@ pub fn from_base(
     monitor: &mut dyn Monitor,
 ) -> Result<BaseLayout, LayoutError> {
     let empty = Drawing::new(meshes[0], meshes[1], landmarks);
-    let distances = LandmarkDistances::new(meshes, [&landmarks.source, &landmarks.target]);
+    let distances = LandmarkDistances::new(&empty);
     let drawing = joint::draw_base(&Ground { empty: &empty, distances: &distances }, base, monitor)?;
-    let report = report(&drawing, &empty, &mut Geodesics::new(landmarks.len()));
+    let report = report(&drawing, &distances);
     Ok(patches::finish(drawing, base.clone(), meshes, report)?)
 }
 
-fn report(drawing: &Drawing, empty: &Drawing, geodesics: &mut Geodesics) -> LayoutReport {
-    let mut planner = Planner::new(1.0);
+fn report(drawing: &Drawing, distances: &LandmarkDistances) -> LayoutReport {
     let mut report = LayoutReport { attempts: 1, ..LayoutReport::default() };
     for (path, &ends) in drawing.ends.iter().enumerate() {
-        let shortest = geodesics.between(empty, &mut planner, ends);
-        for (side, geodesic) in drawing.sides.iter().zip(shortest) {
+        for (side, geodesic) in drawing.sides.iter().zip(distances.between(ends)) {
             let stretch = side.lengths[path] / geodesic;
             report.detour += (stretch - 1.1).max(0.0);
             report.worst_stretch = report.worst_stretch.max(stretch);

@@ -1,14 +1,15 @@
 //! Shortest paths over vertices and edge midpoints, within sectors at both ends.
 //!
-//! A* with the Euclidean distance to the goal. Nodes are vertices off all paths and midpoints of edges off all paths;
-//! links run inside triangles. Midpoints cannot be blocked: a path exists whenever both ends lie on one face of the
-//! layout.
+//! A* towards the goal's distances on the mesh without paths. Nodes are vertices off all paths and midpoints of edges off
+//! all paths; links run inside triangles. Midpoints cannot be blocked: a path exists whenever both ends lie on one face of
+//! the layout.
 
 use super::refinable::RefinableMesh;
 use crate::mesh::{HalfedgeId, VertexId};
 use glam::DVec3;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
+use typed_index_collections::TiSlice;
 
 /// A node of a path, named so that it survives splits elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,9 +55,23 @@ pub(super) enum Bounded {
     WholeStar,
 }
 
+/// What path is asked for.
+pub(super) struct Query<'a> {
+    pub ends: [VertexId; 2],
+    /// Where it may leave the start and reach the end.
+    pub sectors: [&'a [Sector]; 2],
+    /// Multiplies the length of links that touch a midpoint.
+    pub midpoint_penalty: f64,
+    /// Distance of each input vertex to the end on the mesh without paths.
+    pub to_end: &'a TiSlice<VertexId, f64>,
+    /// Longer paths are not wanted.
+    pub limit: f64,
+}
+
 #[derive(PartialEq)]
 struct Entry {
     priority: f64,
+    distance: f64,
     node: u32,
 }
 
@@ -90,47 +105,33 @@ pub(super) struct PathSearch {
 }
 
 impl PathSearch {
-    /// The shortest path from `start` to `end` that leaves and arrives inside the given sectors.
-    ///
-    /// `midpoint_penalty` multiplies the length of links that touch a midpoint.
-    pub fn shortest(
-        &mut self,
-        mesh: &RefinableMesh,
-        ends: [VertexId; 2],
-        sectors: [&[Sector]; 2],
-        midpoint_penalty: f64,
-    ) -> Option<FoundPath> {
-        let [start, end] = ends;
+    /// The shortest path from start to end that leaves and arrives inside the given sectors; `None` where there is none
+    /// within the limit.
+    pub fn shortest(&mut self, mesh: &RefinableMesh, query: &Query<'_>) -> Option<FoundPath> {
         self.begin(mesh);
-        let goal = mesh.positions[end];
-        self.mark_goal(mesh, end, sectors[1], midpoint_penalty);
-        let mut best = f64::INFINITY;
+        self.mark_goal(mesh, query);
+        let mut best = direct(mesh, query).unwrap_or(f64::INFINITY);
         let mut best_last = NONE;
-        self.seed(mesh, start, sectors[0], (goal, midpoint_penalty));
-        if let Some(length) = direct(mesh, start, end, sectors) {
-            best = length;
-        }
-        while let Some(Entry { priority, node }) = self.queue.pop() {
-            if priority >= best {
+        self.seed(mesh, query);
+        while let Some(Entry { priority, distance: here, node }) = self.queue.pop() {
+            if priority >= best || priority > query.limit {
                 break;
             }
-            let here = self.distance[node as usize];
-            let place = position(mesh, node);
-            if priority > here + place.distance(goal) + 1e-15 {
+            if here > self.distance[node as usize] {
                 continue;
             }
             if self.goal_stamp[node as usize] == self.now && here + self.goal_cost[node as usize] < best {
                 best = here + self.goal_cost[node as usize];
                 best_last = node;
             }
+            let place = position(mesh, node);
             for_each_link(mesh, node, |next, touches_midpoint| {
-                let there = position(mesh, next);
-                let factor = if touches_midpoint { midpoint_penalty } else { 1.0 };
-                let through = here + factor * place.distance(there);
-                self.relax(next, node, through, there.distance(goal));
+                let factor = if touches_midpoint { query.midpoint_penalty } else { 1.0 };
+                let through = here + factor * place.distance(position(mesh, next));
+                self.relax(mesh, query, [next, node], through);
             });
         }
-        best.is_finite().then(|| self.path(mesh, ends, best_last))
+        (best <= query.limit && best.is_finite()).then(|| self.path(mesh, query.ends, best_last))
     }
 
     fn begin(&mut self, mesh: &RefinableMesh) {
@@ -145,35 +146,32 @@ impl PathSearch {
         self.queue.clear();
     }
 
-    fn relax(&mut self, node: u32, before: u32, distance: f64, to_goal: f64) {
+    fn relax(&mut self, mesh: &RefinableMesh, query: &Query<'_>, [node, before]: [u32; 2], distance: f64) {
         let i = node as usize;
         if self.stamp[i] != self.now || distance < self.distance[i] {
+            let priority = distance + estimate(mesh, query.to_end, node);
+            if priority > query.limit {
+                return;
+            }
             self.stamp[i] = self.now;
             self.distance[i] = distance;
             self.before[i] = before;
-            self.queue.push(Entry { priority: distance + to_goal, node });
+            self.queue.push(Entry { priority, distance, node });
         }
     }
 
-    fn seed(
-        &mut self,
-        mesh: &RefinableMesh,
-        start: VertexId,
-        sectors: &[Sector],
-        (goal, penalty): (DVec3, f64),
-    ) {
-        let from = mesh.positions[start];
-        for_each_end(mesh, start, sectors, |node, _, is_midpoint| {
-            let there = position(mesh, node);
-            let factor = if is_midpoint { penalty } else { 1.0 };
-            self.relax(node, NONE, factor * from.distance(there), there.distance(goal));
+    fn seed(&mut self, mesh: &RefinableMesh, query: &Query<'_>) {
+        let from = mesh.positions[query.ends[0]];
+        for_each_end(mesh, query.sectors[0], |node, _, is_midpoint| {
+            let factor = if is_midpoint { query.midpoint_penalty } else { 1.0 };
+            self.relax(mesh, query, [node, NONE], factor * from.distance(position(mesh, node)));
         });
     }
 
-    fn mark_goal(&mut self, mesh: &RefinableMesh, end: VertexId, sectors: &[Sector], penalty: f64) {
-        let to = mesh.positions[end];
-        for_each_end(mesh, end, sectors, |node, step, is_midpoint| {
-            let factor = if is_midpoint { penalty } else { 1.0 };
+    fn mark_goal(&mut self, mesh: &RefinableMesh, query: &Query<'_>) {
+        let to = mesh.positions[query.ends[1]];
+        for_each_end(mesh, query.sectors[1], |node, step, is_midpoint| {
+            let factor = if is_midpoint { query.midpoint_penalty } else { 1.0 };
             self.goal_stamp[node as usize] = self.now;
             self.goal_cost[node as usize] = factor * to.distance(position(mesh, node));
             self.goal_step[node as usize] = step;
@@ -196,6 +194,22 @@ impl PathSearch {
     }
 }
 
+/// Distance of a node to the end on the mesh without paths, interpolated from the input vertices.
+fn estimate(mesh: &RefinableMesh, to_end: &TiSlice<VertexId, f64>, node: u32) -> f64 {
+    let at = |v: VertexId| {
+        if v.index() < to_end.len() {
+            return to_end[v];
+        }
+        mesh.weights[v].iter().map(|&(input, weight)| weight * to_end[input]).sum()
+    };
+    let vertices = mesh.positions.len() as u32;
+    if node < vertices {
+        return at(VertexId(node));
+    }
+    let h = HalfedgeId(node - vertices);
+    0.5 * (at(mesh.tail(h)) + at(mesh.head(h)))
+}
+
 /// The step from a landmark to the first node of a path.
 fn first_step(mesh: &RefinableMesh, start: VertexId, node: Node) -> EndStep {
     match node {
@@ -211,21 +225,22 @@ fn first_step(mesh: &RefinableMesh, start: VertexId, node: Node) -> EndStep {
     }
 }
 
-fn direct(mesh: &RefinableMesh, start: VertexId, end: VertexId, sectors: [&[Sector]; 2]) -> Option<f64> {
+fn direct(mesh: &RefinableMesh, query: &Query<'_>) -> Option<f64> {
+    let ([start, end], sectors) = (query.ends, query.sectors);
     let h = mesh.halfedge_between(start, end)?;
-    let allowed = |v, sectors: &[Sector], h| {
+    let allowed = |sectors: &[Sector], h| {
         sectors.iter().any(|s| {
             let mut found = false;
-            for_each_halfedge(mesh, v, s, |inside, is_edge| found |= inside == h && is_edge);
+            for_each_halfedge(mesh, s, |inside, is_edge| found |= inside == h && is_edge);
             found
         })
     };
-    let free = !mesh.on_path[h] && allowed(start, sectors[0], h) && allowed(end, sectors[1], mesh.twins[h]);
+    let free = !mesh.on_path[h] && allowed(sectors[0], h) && allowed(sectors[1], mesh.twins[h]);
     free.then(|| mesh.positions[start].distance(mesh.positions[end]))
 }
 
 /// Calls back with every halfedge whose triangle is in the sector, and whether the halfedge itself is inside too.
-fn for_each_halfedge(mesh: &RefinableMesh, _v: VertexId, s: &Sector, mut call: impl FnMut(HalfedgeId, bool)) {
+fn for_each_halfedge(mesh: &RefinableMesh, s: &Sector, mut call: impl FnMut(HalfedgeId, bool)) {
     let mut h = s.first;
     loop {
         call(h, s.bounded == Bounded::WholeStar || h != s.first);
@@ -237,14 +252,9 @@ fn for_each_halfedge(mesh: &RefinableMesh, _v: VertexId, s: &Sector, mut call: i
 }
 
 /// Calls back with every free node next to a landmark inside the sectors.
-fn for_each_end(
-    mesh: &RefinableMesh,
-    v: VertexId,
-    sectors: &[Sector],
-    mut call: impl FnMut(u32, EndStep, bool),
-) {
+fn for_each_end(mesh: &RefinableMesh, sectors: &[Sector], mut call: impl FnMut(u32, EndStep, bool)) {
     for sector in sectors {
-        for_each_halfedge(mesh, v, sector, |h, edge_inside| {
+        for_each_halfedge(mesh, sector, |h, edge_inside| {
             let neighbour = mesh.head(h);
             if edge_inside && !mesh.used[neighbour] {
                 call(neighbour.0, EndStep::Along(neighbour), false);
@@ -261,7 +271,7 @@ fn midpoint_node(mesh: &RefinableMesh, h: HalfedgeId) -> u32 {
     mesh.positions.len() as u32 + h.min(mesh.twins[h]).0
 }
 
-fn position(mesh: &RefinableMesh, node: u32) -> DVec3 {
+pub(super) fn position(mesh: &RefinableMesh, node: u32) -> DVec3 {
     let vertices = mesh.positions.len() as u32;
     if node < vertices { mesh.positions[VertexId(node)] } else { mesh.midpoint(HalfedgeId(node - vertices)) }
 }
@@ -285,7 +295,7 @@ pub(super) fn place_of(mesh: &RefinableMesh, node: Node) -> DVec3 {
 
 /// Calls back with every free node linked to `node`, and whether the link touches a midpoint.
 #[inline]
-fn for_each_link(mesh: &RefinableMesh, node: u32, mut call: impl FnMut(u32, bool)) {
+pub(super) fn for_each_link(mesh: &RefinableMesh, node: u32, mut call: impl FnMut(u32, bool)) {
     let vertices = mesh.positions.len() as u32;
     if node < vertices {
         for h in mesh.star(VertexId(node)) {
