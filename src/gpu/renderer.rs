@@ -180,6 +180,8 @@ impl Renderer {
             for k in 0..2 {
                 self.draw_view(&mut pass, k, &views[k], instances[k].as_ref());
             }
+            // WebGL cuts off the resolving of the samples by the last scissor rectangle: both views must be in it.
+            pass.set_scissor_rect(0, 0, self.config.width, self.config.height);
         }
         self.queue.submit([encoder.finish()]);
         self.queue.present(frame);

@@ -62,7 +62,7 @@ fn checker(p: vec2<f32>) -> f32 {
 @fragment
 fn surface_fragment(in: SurfaceOut) -> @location(0) vec4<f32> {
     let style = view.size_and_style.z;
-    let board = checker(in.uv * 24.0);
+    let board = checker(in.uv * 36.0);
     let dark = vec3<f32>(0.035, 0.125, 0.245);
     let light = vec3<f32>(0.86, 0.85, 0.80);
     let hue = vec3<f32>(0.5) + 0.42 * cos(6.2831853 * (in.uv.x * 1.1 + vec3<f32>(0.0, 0.33, 0.67)) + in.uv.y * 4.0);
