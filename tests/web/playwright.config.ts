@@ -32,6 +32,7 @@ export default defineConfig({
   testDir: '.',
   outputDir: `${root}test-results/artifacts`,
   timeout: 300_000,
+  globalTimeout: 1_200_000,
   expect: { timeout: 30_000 },
   workers: 1,
   forbidOnly: true,
@@ -58,6 +59,7 @@ export default defineConfig({
     command: `npx vite preview --host 127.0.0.1 --port ${process.env['CONEMAP_TEST_PORT']} --strictPort`,
     cwd: root,
     url: address,
+    timeout: 60_000,
     reuseExistingServer: false,
   },
 });

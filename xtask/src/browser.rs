@@ -1,26 +1,53 @@
-//! A Chromium for the browser tests: the one that is there, else Playwright's own, else the system's package.
+//! A Chromium for the browser tests: the one that is there, else the system's package, else Playwright's own.
 
-use crate::run::{output_of, run, works};
-use std::path::Path;
+use crate::run::{output_of, run, run_with, works};
 
-/// Where the tests look before they take Playwright's own.
-const SYSTEM: &str = "/usr/bin/chromium";
+/// Names under which a Chromium may be on the PATH.
+const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
 
 /// Runs the browser tests on the built page.
 pub fn test() -> Result<(), String> {
-    ensure_chromium()?;
-    run("npm", &["test"])
+    let variables: Vec<(&str, String)> =
+        chromium()?.into_iter().map(|program| ("CHROMIUM", program)).collect();
+    let variables: Vec<(&str, &str)> =
+        variables.iter().map(|(name, value)| (*name, value.as_str())).collect();
+    run_with("npm", &["test"], &variables)
 }
 
-fn ensure_chromium() -> Result<(), String> {
-    if Path::new(SYSTEM).exists() || works("npx", &["playwright", "install", "chromium"]) {
-        return Ok(());
+/// The Chromium to use; `None` for Playwright's own.
+fn chromium() -> Result<Option<String>, String> {
+    if let Some(program) = installed() {
+        return Ok(Some(program));
     }
+    eprintln!("No Chromium was found (CHROMIUM may name one): it is installed now.");
     let is_root = output_of("id", &["-u"]).is_some_and(|id| id == "0");
     if is_root && works("apt-get", &["--version"]) {
-        run("apt-get", &["update", "-qq"])?;
-        run("apt-get", &["install", "-y", "-qq", "chromium"])?;
+        // Brings the libraries that Chromium needs; failing here is no reason to stop, Playwright may have one.
+        if let Err(sentence) = install_package() {
+            eprintln!("{sentence}");
+        }
+        if let Some(program) = installed() {
+            return Ok(Some(program));
+        }
     }
-    let sentence = || format!("the browser tests need Chromium: install it so that {SYSTEM} exists");
-    Path::new(SYSTEM).exists().then_some(()).ok_or_else(sentence)
+    run("npx", &["playwright", "install", "chromium"]).map(|()| None).map_err(|error| {
+        format!("the browser tests need Chromium: install it, so that `chromium` is on the PATH ({error})")
+    })
+}
+
+/// A Chromium that starts.
+fn installed() -> Option<String> {
+    let named = std::env::var("CHROMIUM").ok();
+    let paths = named.into_iter().chain(NAMES.iter().filter_map(|name| {
+        let path = output_of("sh", &["-c", &format!("command -v {name}")])?;
+        (!path.is_empty()).then_some(path)
+    }));
+    // On some systems the name is there, but only tells how to install it.
+    paths.into_iter().find(|path| works(path, &["--version"]))
+}
+
+fn install_package() -> Result<(), String> {
+    run("apt-get", &["update", "-qq"])?;
+    let quiet = [("DEBIAN_FRONTEND", "noninteractive")];
+    run_with("apt-get", &["install", "-y", "-qq", "chromium"], &quiet)
 }

@@ -1,6 +1,6 @@
 //! The page: node packages, bundling and serving by Vite.
 
-use crate::run::{output_of, root, run};
+use crate::run::{output_of, root, run, run_server};
 use crate::wasm;
 
 /// Builds the app and serves it; the rest of the command line goes to the server (`--port 8080`, `--host`).
@@ -8,7 +8,7 @@ pub fn serve(rest: &[String]) -> Result<(), String> {
     build()?;
     let mut arguments = vec!["vite", "preview"];
     arguments.extend(rest.iter().map(String::as_str));
-    run("npx", &arguments)
+    run_server("npx", &arguments)
 }
 
 /// Builds the app into `dist/`.

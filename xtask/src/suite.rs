@@ -2,12 +2,14 @@
 
 use crate::run::{cargo, run, run_with};
 use crate::{browser, page, wasm};
+use std::time::Instant;
 
 type Task = fn() -> Result<(), String>;
 
 /// In this order, the quick ones first; all are run, and the failed ones are named at the end.
-const TASKS: [(&str, Task); 7] = [
+const TASKS: [(&str, Task); 8] = [
     ("formatting", formatting),
+    ("build helper", helper),
     ("lints", lints),
     ("documentation", documentation),
     ("core", core),
@@ -22,7 +24,7 @@ pub fn test() -> Result<(), String> {
     page::ensure_packages()?;
     let mut failed = Vec::new();
     for (name, task) in TASKS {
-        let begun = std::time::Instant::now();
+        let begun = Instant::now();
         let outcome = task();
         let seconds = begun.elapsed().as_secs();
         match outcome {
@@ -33,11 +35,16 @@ pub fn test() -> Result<(), String> {
             }
         }
     }
+    println!("{} passed, {} failed", TASKS.len() - failed.len(), failed.len());
     if failed.is_empty() { Ok(()) } else { Err(format!("failed: {}", failed.join(", "))) }
 }
 
 fn formatting() -> Result<(), String> {
     run(&cargo(), &["fmt", "--all", "--check"])
+}
+
+fn helper() -> Result<(), String> {
+    run(&cargo(), &["test", "--package", "xtask", "--profile", "tool"])
 }
 
 fn lints() -> Result<(), String> {
@@ -48,7 +55,8 @@ fn lints() -> Result<(), String> {
 }
 
 fn documentation() -> Result<(), String> {
-    run_with(&cargo(), &["doc", "--no-deps", "--quiet"], &[("RUSTDOCFLAGS", "-D warnings")])
+    let strict = [("RUSTDOCFLAGS", "-D warnings")];
+    run_with(&cargo(), &["doc", "--no-deps", "--quiet"], &strict)
 }
 
 fn core() -> Result<(), String> {
