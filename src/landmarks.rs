@@ -21,7 +21,27 @@ pub struct Landmarks {
     pub target: Vec<VertexId>,
 }
 
-/// Why landmarks cannot be used.
+/// One of the two meshes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MeshSide {
+    /// The source.
+    Source,
+    /// The target.
+    Target,
+}
+
+const SIDES: [MeshSide; 2] = [MeshSide::Source, MeshSide::Target];
+
+impl std::fmt::Display for MeshSide {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Source => "source",
+            Self::Target => "target",
+        })
+    }
+}
+
+/// Why landmarks cannot be used. Its words count the pairs from 1, as people do; its fields from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LandmarkError {
@@ -32,8 +52,10 @@ pub enum LandmarkError {
         count: usize,
     },
     /// A vertex number out of range.
-    #[error("landmark pair {pair} names vertex {vertex}, but the mesh has {vertices} vertices")]
+    #[error("landmark pair {} (the first is 1) names vertex {vertex}, but the {side} has {vertices} vertices", pair + 1)]
     MissingVertex {
+        /// The mesh.
+        side: MeshSide,
         /// The pair, 0-based.
         pair: usize,
         /// The vertex number.
@@ -42,14 +64,18 @@ pub enum LandmarkError {
         vertices: usize,
     },
     /// Two pairs on one vertex.
-    #[error("landmark pairs {} and {} are at the same vertex", pairs[0], pairs[1])]
+    #[error("landmark pairs {} and {} (the first is 1) are at the same vertex of the {side}", pairs[0] + 1, pairs[1] + 1)]
     Coincident {
+        /// The mesh.
+        side: MeshSide,
         /// The pairs, 0-based.
         pairs: [usize; 2],
     },
     /// A face number out of range.
-    #[error("landmark pair {pair} names face {face}, but the mesh has {faces} faces")]
+    #[error("landmark pair {} (the first is 1) names face {face}, but the {side} has {faces} faces", pair + 1)]
     MissingFace {
+        /// The mesh.
+        side: MeshSide,
         /// The pair, 0-based.
         pair: usize,
         /// The face number.
@@ -59,9 +85,13 @@ pub enum LandmarkError {
     },
     /// Weights that are no barycentric coordinates.
     #[error(
-        "landmark pair {pair} has the barycentric coordinates {weights:?}: they must not be negative and sum to 1"
+        "landmark pair {} (the first is 1) has the barycentric coordinates {weights:?} on the {side}: they must not be \
+         negative and sum to 1",
+        pair + 1
     )]
     Barycentric {
+        /// The mesh.
+        side: MeshSide,
         /// The pair, 0-based.
         pair: usize,
         /// As given.
@@ -92,8 +122,7 @@ pub fn place(
     pairs: &[[LandmarkPoint; 2]],
 ) -> Result<PlacedLandmarks, LandmarkError> {
     let side = |k: usize| -> Result<Insertion, LandmarkError> {
-        let points = pairs.iter().enumerate().map(|(pair, ends)| point(meshes[k], pair, ends[k]));
-        Ok(insert(&meshes[k].mesh, &points.collect::<Result<Vec<_>, _>>()?)?)
+        Ok(insert(&meshes[k].mesh, &points(meshes[k], SIDES[k], pairs)?)?)
     };
     let (source, target) = (side(0)?, side(1)?);
     let vertices = source.vertices.iter().zip(&target.vertices).map(|(s, t)| [s.0, t.0]).collect::<Vec<_>>();
@@ -101,23 +130,44 @@ pub fn place(
     Ok(PlacedLandmarks { source, target, landmarks })
 }
 
-fn point(checked: &CheckedMesh, pair: usize, point: LandmarkPoint) -> Result<SurfacePoint, LandmarkError> {
+/// Whether all landmark points are points of the meshes; there may be fewer than a map needs.
+///
+/// # Errors
+/// [`LandmarkError`] with the number of the first pair that is not.
+pub fn exist(meshes: [&CheckedMesh; 2], pairs: &[[LandmarkPoint; 2]]) -> Result<(), LandmarkError> {
+    (0..2).try_for_each(|k| points(meshes[k], SIDES[k], pairs).map(|_| ()))
+}
+
+fn points(
+    mesh: &CheckedMesh,
+    side: MeshSide,
+    pairs: &[[LandmarkPoint; 2]],
+) -> Result<Vec<SurfacePoint>, LandmarkError> {
+    pairs.iter().enumerate().map(|(pair, ends)| point(mesh, side, pair, ends[side as usize])).collect()
+}
+
+fn point(
+    checked: &CheckedMesh,
+    side: MeshSide,
+    pair: usize,
+    point: LandmarkPoint,
+) -> Result<SurfacePoint, LandmarkError> {
     let mesh = &checked.mesh;
     match point {
         LandmarkPoint::Vertex(vertex) => {
             let known = checked.vertex_from_file.get(vertex as usize).copied().flatten();
             let vertices = checked.vertex_from_file.len();
-            let missing = LandmarkError::MissingVertex { pair, vertex: vertex as usize, vertices };
+            let missing = LandmarkError::MissingVertex { side, pair, vertex: vertex as usize, vertices };
             Ok(SurfacePoint::at_vertex(mesh, known.ok_or(missing)?))
         }
         LandmarkPoint::OnFace { face, barycentric } => {
             let faces = mesh.face_count();
             if face as usize >= faces {
-                return Err(LandmarkError::MissingFace { pair, face: face as usize, faces });
+                return Err(LandmarkError::MissingFace { side, pair, face: face as usize, faces });
             }
             let sum: f64 = barycentric.iter().sum();
             if !barycentric.iter().all(|w| *w >= -1e-6) || sum.is_nan() || (sum - 1.0).abs() >= 1e-4 {
-                return Err(LandmarkError::Barycentric { pair, weights: barycentric });
+                return Err(LandmarkError::Barycentric { side, pair, weights: barycentric });
             }
             let clamped = barycentric.map(|w| w.max(0.0));
             let sum: f64 = clamped.iter().sum();
@@ -139,8 +189,10 @@ impl Landmarks {
         if pairs.len() < 4 {
             return Err(LandmarkError::TooFew { count: pairs.len() });
         }
-        let side = |k: usize, mesh: &SurfaceMesh| checked_side(pairs, k, mesh);
-        Ok(Self { source: side(0, source)?, target: side(1, target)? })
+        Ok(Self {
+            source: checked_side(pairs, MeshSide::Source, source)?,
+            target: checked_side(pairs, MeshSide::Target, target)?,
+        })
     }
 
     /// Number of landmarks.
@@ -154,18 +206,55 @@ impl Landmarks {
     }
 }
 
-fn checked_side(pairs: &[[u32; 2]], k: usize, mesh: &SurfaceMesh) -> Result<Vec<VertexId>, LandmarkError> {
+fn checked_side(
+    pairs: &[[u32; 2]],
+    side: MeshSide,
+    mesh: &SurfaceMesh,
+) -> Result<Vec<VertexId>, LandmarkError> {
     let mut vertices = Vec::with_capacity(pairs.len());
     for (pair, ends) in pairs.iter().enumerate() {
-        let v = VertexId(ends[k]);
+        let v = VertexId(ends[side as usize]);
         if v.index() >= mesh.vertex_count() {
             let vertices = mesh.vertex_count();
-            return Err(LandmarkError::MissingVertex { pair, vertex: v.index(), vertices });
+            return Err(LandmarkError::MissingVertex { side, pair, vertex: v.index(), vertices });
         }
         if let Some(other) = vertices.iter().position(|&w| w == v) {
-            return Err(LandmarkError::Coincident { pairs: [other, pair] });
+            return Err(LandmarkError::Coincident { side, pairs: [other, pair] });
         }
         vertices.push(v);
     }
     Ok(vertices)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::generators::icosphere;
+    use crate::mesh::{check, soup};
+
+    fn ball() -> CheckedMesh {
+        let mesh = icosphere(0);
+        let polygons = mesh.triangles().iter().map(|t| t.map(|v| v.0).to_vec()).collect();
+        let soup = soup::PolygonSoup { positions: mesh.positions().iter().copied().collect(), polygons };
+        check::closed_genus_zero(&soup).unwrap()
+    }
+
+    #[test]
+    fn a_point_that_is_not_there_is_named_with_its_pair_and_mesh() {
+        let ball = ball();
+        let at = LandmarkPoint::Vertex;
+        let on = |face, barycentric| LandmarkPoint::OnFace { face, barycentric };
+        let wrong = |pair: [LandmarkPoint; 2]| exist([&ball, &ball], &[[at(0), at(0)], pair]).unwrap_err();
+        assert_eq!(
+            wrong([at(3), at(99)]).to_string(),
+            "landmark pair 2 (the first is 1) names vertex 99, but the target has 12 vertices"
+        );
+        assert_eq!(
+            wrong([on(20, [1.0, 0.0, 0.0]), at(1)]).to_string(),
+            "landmark pair 2 (the first is 1) names face 20, but the source has 20 faces"
+        );
+        let heavy = wrong([on(0, [0.5, 0.6, 0.5]), at(1)]);
+        assert!(matches!(heavy, LandmarkError::Barycentric { side: MeshSide::Source, pair: 1, .. }));
+        assert_eq!(exist([&ball, &ball], &[[at(0), on(19, [0.2, 0.3, 0.5])]]), Ok(()));
+    }
 }

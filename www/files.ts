@@ -3,7 +3,7 @@ import { failureOf } from './compute/messages.ts';
 import { fileSentence, SENTENCES } from './messages.ts';
 import type { Event, LandmarkFile, MeshFile, Side, State } from './state.ts';
 import { baseName } from './state.ts';
-import { readLandmarks, readMesh } from './wasm/conemap.js';
+import { checkLandmarks, readLandmarks, readMesh } from './wasm/conemap.js';
 
 /** Some named bytes. */
 export interface NamedBytes {
@@ -67,6 +67,25 @@ export function landmarkFile(file: NamedBytes): LandmarkFile {
   }
 }
 
+/** Refuses landmarks that are no points of the meshes they would be shown on. */
+function checkFit(file: NamedBytes, events: readonly Event[], state: State): void {
+  const meshes: [MeshFile | null, MeshFile | null] = [...state.meshes];
+  for (const event of events) {
+    if (event.kind === 'mesh') {
+      meshes[event.side] = event.file;
+    }
+  }
+  const [source, target] = meshes;
+  if (source === null || target === null) {
+    return;
+  }
+  try {
+    checkLandmarks(source.mesh, target.mesh, file.bytes);
+  } catch (thrown) {
+    throw new FileRefused(`${fileSentence(file.name, failureOf(thrown))} ${SENTENCES.otherMeshes}`);
+  }
+}
+
 function sideByName(name: string, file: LandmarkFile | null, state: State): Side | null {
   const names = file === null ? state.named : [file.source, file.target].map((path) => (path === undefined ? null : baseName(path)));
   const isSource = names[0] === name;
@@ -109,15 +128,16 @@ export function eventsOf(files: readonly NamedBytes[], over: Side | null, state:
     for (const file of meshFiles) {
       loaded.push(meshFile(file));
     }
+    const events: Event[] = loaded.map((file, index) => ({ kind: 'mesh', side: sides[index] ?? 0, file }));
+    if (landmarks !== null && landmarkFiles[0] !== undefined) {
+      checkFit(landmarkFiles[0], events, state);
+      events.push({ kind: 'landmarks', file: landmarks });
+    }
+    return events;
   } catch (thrown) {
     loaded.forEach((file) => {
       file.mesh.free();
     });
     throw thrown;
   }
-  const events: Event[] = loaded.map((file, index) => ({ kind: 'mesh', side: sides[index] ?? 0, file }));
-  if (landmarks !== null) {
-    events.push({ kind: 'landmarks', file: landmarks });
-  }
-  return events;
 }

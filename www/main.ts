@@ -68,7 +68,15 @@ function painted(): Promise<void> {
   });
 }
 
+const LARGEST_FILE = 2 ** 30;
+
 async function bytesOf(file: File): Promise<NamedBytes> {
+  if (file.size > LARGEST_FILE) {
+    throw new FileRefused(`${file.name} ${SENTENCES.tooLarge}`);
+  }
+  if (file.size === 0) {
+    throw new FileRefused(`${file.name} ${SENTENCES.empty}`);
+  }
   try {
     return { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) };
   } catch {

@@ -88,6 +88,9 @@ export const SENTENCES = {
   unreadable: 'could not be read from the disk.',
   notLandmarks: 'this is JSON, but it has no "pairs" and is no mesh.',
   unexpected: 'Something unexpected went wrong in the page. Your files are untouched; reload if the page no longer answers.',
+  otherMeshes: 'Load the meshes of these landmarks first, or together with them.',
+  empty: 'is empty.',
+  tooLarge: 'is larger than 1 GiB, more than the page can take.',
   badPoint: 'Some landmarks do not belong to these meshes. Load the meshes that the landmark file was made for.',
 } as const;
 

@@ -151,7 +151,9 @@ export function isStale(state: State): boolean {
   const { result, pairs } = state;
   return (
     result !== null &&
-    (result.options !== state.options ||
+    (result.options.method !== state.options.method ||
+      result.options.base !== state.options.base ||
+      result.options.cones !== state.options.cones ||
       result.pairs.length !== pairs.length ||
       result.pairs.some((pair, index) => pair.points !== pairs[index]?.points))
   );

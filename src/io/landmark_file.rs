@@ -7,7 +7,10 @@ pub const MAX_PAIRS: usize = 10_000;
 
 /// One side of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "a point must be a vertex number (0 or more) or {\"face\": number, \"barycentric\": [three weights]}"
+)]
 pub enum LandmarkPoint {
     /// A vertex, 0-based.
     Vertex(u32),
@@ -44,7 +47,10 @@ pub struct LandmarkFile {
 #[non_exhaustive]
 pub enum LandmarkFileError {
     /// Not the JSON that was expected.
-    #[error("the landmark file, line {line}: {problem}")]
+    #[error(
+        "the landmark file, line {line}: {problem}; it should look like \
+         {{\"pairs\": [[source vertex, target vertex], ...]}}"
+    )]
     Json {
         /// 1-based.
         line: usize,
@@ -64,7 +70,11 @@ pub enum LandmarkFileError {
 /// # Errors
 /// [`LandmarkFileError`] with the line.
 pub fn read(bytes: &[u8]) -> Result<LandmarkFile, LandmarkFileError> {
-    let json = |e: serde_json::Error| LandmarkFileError::Json { line: e.line(), problem: e.to_string() };
+    let json = |e: serde_json::Error| {
+        let words = e.to_string();
+        let problem = words.split(" at line ").next().unwrap_or_default().to_owned();
+        LandmarkFileError::Json { line: e.line(), problem }
+    };
     let file: LandmarkFile = serde_json::from_slice(bytes).map_err(json)?;
     if file.pairs.len() > MAX_PAIRS {
         return Err(LandmarkFileError::TooMany { count: file.pairs.len() });

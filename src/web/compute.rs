@@ -34,10 +34,15 @@ impl From<Options> for PipelineOptions {
     }
 }
 
-/// Tells the page of every step and takes the time of each stage.
+/// The least time between two messages of one stage, in milliseconds: more often nobody can see.
+const MESSAGE_INTERVAL: f64 = 33.0;
+
+/// Tells the page how the run goes on and takes the time of each stage.
 struct Messenger<'a> {
     progress: &'a js_sys::Function,
     stage: Option<(Stage, f64)>,
+    /// When the page was last told.
+    told: f64,
     seconds: BTreeMap<String, f64>,
 }
 
@@ -48,7 +53,8 @@ impl Messenger<'_> {
         }
     }
 
-    fn tell(&self, stage: Stage, step: Step) {
+    fn tell(&mut self, stage: Stage, step: Step) {
+        self.told = js_sys::Date::now();
         let residual = step.residual.unwrap_or(f64::NAN);
         // A page that does not listen is not a reason to stop.
         let _ =
@@ -68,7 +74,9 @@ impl Monitor for Messenger<'_> {
     }
 
     fn step(&mut self, step: Step) -> Result<(), Cancelled> {
-        if let Some((stage, _)) = self.stage {
+        if let Some((stage, _)) = self.stage
+            && js_sys::Date::now() - self.told >= MESSAGE_INTERVAL
+        {
             self.tell(stage, step);
         }
         Ok(())
@@ -82,7 +90,7 @@ pub struct MapOutput {
     csv: Vec<u8>,
 }
 
-/// Runs the pipeline; `progress(stage, fraction, residual)` hears of every step.
+/// Runs the pipeline; `progress(stage, fraction, residual)` hears of each stage and of its steps, at most 30 a second.
 ///
 /// # Errors
 /// `{"code", "message"}` with the stage's code.
@@ -94,7 +102,7 @@ pub fn run_map(
     options: &str,
     progress: &js_sys::Function,
 ) -> Result<MapOutput, JsValue> {
-    let mut messenger = Messenger { progress, stage: None, seconds: BTreeMap::new() };
+    let mut messenger = Messenger { progress, stage: None, told: 0.0, seconds: BTreeMap::new() };
     let begun = js_sys::Date::now();
     messenger.enter(Stage::Landmarks);
     let options: Options = serde_json::from_str(options).map_err(|e| failure("options", e))?;

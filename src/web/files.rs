@@ -3,7 +3,7 @@
 use super::failure;
 use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 use crate::mesh::check::{CheckedMesh, closed_genus_zero};
-use crate::{demo, export, io};
+use crate::{demo, export, io, landmarks};
 use serde_json::json;
 use wasm_bindgen::prelude::*;
 
@@ -56,6 +56,17 @@ pub fn read_mesh(bytes: &[u8]) -> Result<LoadedMesh, JsValue> {
 pub fn read_landmarks(bytes: &[u8]) -> Result<String, JsValue> {
     let file = landmark_file::read(bytes).map_err(|e| failure("landmarks", e))?;
     serde_json::to_string(&file).map_err(|e| failure("landmarks", e))
+}
+
+/// Checks that the points of a landmark file are points of these meshes.
+///
+/// # Errors
+/// `{"code": "landmarks", "message"}`.
+#[wasm_bindgen(js_name = checkLandmarks)]
+pub fn check_landmarks(source: &LoadedMesh, target: &LoadedMesh, bytes: &[u8]) -> Result<(), JsValue> {
+    let file = landmark_file::read(bytes).map_err(|e| failure("landmarks", e))?;
+    let meshes = [&source.checked, &target.checked];
+    landmarks::exist(meshes, &file.pairs).map_err(|e| failure("landmarks", e))
 }
 
 /// All demos as JSON `[{id, title, sentence}]`.

@@ -221,6 +221,24 @@ impl Viewer {
         self.sides[side.min(1)].look_at_all();
     }
 
+    /// Where a camera stands, for [`Viewer::set_camera`]; empty before the user has moved it.
+    pub fn camera(&self, side: usize) -> Vec<f32> {
+        let side = &self.sides[side.min(1)];
+        let Camera { yaw, pitch, distance, target } = side.camera;
+        match side.look {
+            Look::Whole => Vec::new(),
+            Look::Chosen => vec![yaw, pitch, distance, target.x, target.y, target.z],
+        }
+    }
+
+    /// Puts a camera where another viewer's stood.
+    #[wasm_bindgen(js_name = setCamera)]
+    pub fn set_camera(&mut self, side: usize, place: &[f32]) {
+        if let [yaw, pitch, distance, x, y, z] = *place {
+            *self.moved(side) = Camera { yaw, pitch, distance, target: Vec3::new(x, y, z) };
+        }
+    }
+
     /// The surface point at a place of a view, x and y from -1 to 1, y up: JSON `{"face", "barycentric"}`.
     pub fn pick(&self, side: usize, x: f32, y: f32) -> Option<String> {
         let side = &self.sides[side.min(1)];

@@ -40,6 +40,9 @@ function acceptDrops(actions: Actions): void {
   };
   window.addEventListener('dragover', (event) => {
     event.preventDefault();
+    if (event.dataTransfer?.types.includes('Files') !== true) {
+      return;
+    }
     veil.hidden = false;
     const side = sideAt(event.clientX, event.clientY);
     halves.forEach((half, index) => half.classList.toggle('over', index === side));

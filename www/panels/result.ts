@@ -8,7 +8,6 @@ import type { Panel } from './panel.ts';
 
 function verdict(report: Report): HTMLElement {
   const { certificate } = report;
-  const faces = report.faces.source + report.faces.target;
   if (certificate === null) {
     const share = report.unmapped_share;
     const text =
@@ -17,7 +16,7 @@ function verdict(report: Report): HTMLElement {
         : 'Not certified: this method does not promise a bijection.';
     return make('p', { class: 'verdict open' }, text);
   }
-  const flips = `${integer(certificate.flipped_triangles)} of ${integer(faces)} triangles flipped`;
+  const flips = `${integer(certificate.flipped_triangles)} flipped ${certificate.flipped_triangles === 1 ? 'triangle' : 'triangles'}`;
   return certificate.bijective
     ? make('p', { class: 'verdict good' }, `Certified bijective: ${flips}`)
     : make('p', { class: 'verdict open' }, `Not certified: ${flips}`);
@@ -40,7 +39,12 @@ function facts(report: Report): (readonly [string, string, string])[] {
     ['Base domain', `${integer(report.base_domain.vertices)} vertices, ${integer(report.base_domain.faces)} triangles`, ''],
   ];
   if (certificate !== null) {
-    rows.push(['Landmarks', `met within ${figure(certificate.max_landmark_error)}`, 'In units of the square root of the area']);
+    const error = certificate.max_landmark_error;
+    rows.push(
+      error === 0
+        ? ['Landmarks', 'met exactly', '']
+        : ['Landmarks', `met within ${figure(error)}`, 'In units of the square root of the area'],
+    );
   }
   if (report.ground_truth !== null) {
     const truth = report.ground_truth;

@@ -63,7 +63,7 @@ export function runPanel(actions: Actions): Panel {
     'Base domain',
     [
       ['joint', 'From both meshes'],
-      ['qem', 'From the source (QEM)'],
+      ['qem', 'From the target (QEM)'],
     ] as const,
     (value) => {
       actions.dispatch({ kind: 'options', options: { base: value } });

@@ -342,7 +342,9 @@ export class Views {
   async #rebuild(): Promise<void> {
     const old = this.#viewer;
     this.#viewer = null;
+    let cameras: readonly Float32Array[] = [];
     try {
+      cameras = SIDES.map((side) => old?.camera(side) ?? new Float32Array());
       old?.free();
     } catch (thrown) {
       console.warn(thrown);
@@ -351,9 +353,13 @@ export class Views {
       return;
     }
     try {
-      this.#viewer = await Viewer.create(this.#canvas, samplesOf());
+      const viewer = await Viewer.create(this.#canvas, samplesOf());
+      this.#viewer = viewer;
       this.#resized = true;
       this.#sync(null);
+      cameras.forEach((camera, side) => {
+        viewer.setCamera(side, camera);
+      });
       this.#listener.failed('');
     } catch (thrown) {
       console.error(thrown);
