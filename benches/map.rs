@@ -56,7 +56,7 @@ fn cat_to_lion(criterion: &mut Criterion, data: &Path) {
     criterion.bench_function("cat-lion/composition and overlay", |bencher| {
         bencher.iter(|| {
             let locations = locate(source, target, &surface).expect("every vertex is found");
-            overlay::overlay(source, target, &locations)
+            overlay::overlay(source, target, &locations).expect("an overlay")
         });
     });
 }

@@ -5,6 +5,7 @@ use crate::cone_metric::FlowError;
 use crate::layout::LayoutError;
 use crate::monitor::Cancelled;
 use crate::surface_map::compose::LocateError;
+use crate::surface_map::overlay::OverlayError;
 use crate::surface_map::{Certificate, MapError};
 
 /// Why there is no map.
@@ -32,6 +33,9 @@ pub enum PipelineError {
     /// A point was lost between the two parametrisations.
     #[error("composition: {0}")]
     Locate(LocateError),
+    /// The common subdivision of source and target does not close.
+    #[error("overlay: {0}")]
+    Overlay(#[from] OverlayError),
     /// The result is not a bijection; it is not returned as a map.
     #[error(
         "the map is not certified: {} flipped triangles, largest angle sum error {:.3e} rad",
@@ -95,7 +99,7 @@ impl PipelineError {
             Self::Layout(_) => "layout",
             Self::SourceFlow(_) | Self::TargetFlow(_) => "cone-metric",
             Self::Map(_) => "map",
-            Self::Locate(_) => "composition",
+            Self::Locate(_) | Self::Overlay(_) => "composition",
             Self::NotCertified(_) => "not-certified",
         }
     }

@@ -45,7 +45,7 @@ pub(super) fn run(
     monitor.enter(Stage::Composition);
     let [source, target] = map.sides();
     let locations = locate(source, target, &map.surface)?;
-    let overlay = overlay(source, target, &locations);
+    let overlay = overlay(source, target, &locations)?;
     monitor.enter(Stage::Transfer);
     let measured = distortion(source, target, &overlay);
     Ok(result(input, &map, metrics, (&locations, &overlay, measured)))

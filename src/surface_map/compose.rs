@@ -36,13 +36,13 @@ pub struct Location {
     pub motion: Rigid2,
 }
 
-/// All source vertices and the centroids of all source faces among the target's triangles.
+/// All source vertices among the target's triangles.
 #[derive(Clone, Debug)]
 pub struct Locations {
     /// By source vertex.
     pub by_vertex: TiVec<VertexId, Location>,
-    /// By source face: the target face that contains its centroid, with the motion of its plane.
-    pub by_face: TiVec<FaceId, Location>,
+    /// Every source corner at a landmark: the target face is that into which the corner's halfedge points.
+    pub at_landmarks: Vec<Location>,
 }
 
 /// A walk that did not arrive.
@@ -64,46 +64,104 @@ pub fn locate(
     target: Parametrised<'_>,
     surface: &ConeSurface,
 ) -> Result<Locations, LocateError> {
-    let mesh = &source.patched.mesh;
-    let mut by_face: TiVec<FaceId, Option<Location>> = ti_vec![None; mesh.face_count()];
-    let mut found: TiVec<VertexId, Option<Location>> = ti_vec![None; mesh.vertex_count()];
-    let mut queue = VecDeque::new();
-    for (landmark, &v) in source.patched.landmark_vertices.iter_enumerated() {
-        let fan = Fan::new(surface, landmark);
-        let wedges = fan.wedges(surface, target, target.patched.landmark_vertices[landmark]);
-        for corner in mesh.star(v) {
-            let location = fan.anchor(surface, source, corner, &wedges);
-            if corner == mesh.outgoing(v) {
-                found[v] = Some(location);
-            }
-            queue.push_back(location);
+    let mut result = Err(LocateError { vertex: 0 });
+    for seed in surface.base.mesh.vertices() {
+        result = locate_from(source, target, (surface, seed));
+        if result.is_ok() {
+            break;
         }
     }
+    result
+}
+
+/// Locates everything from one landmark.
+///
+/// The angle of an edge around a cone is known up to whole turns of its plane only. Where the turn of the first landmark
+/// is mistaken, the others are not met and the next one is tried; the turns at all others follow.
+fn locate_from(
+    source: Parametrised<'_>,
+    target: Parametrised<'_>,
+    (surface, seed): (&ConeSurface, VertexId),
+) -> Result<Locations, LocateError> {
+    let mesh = &source.patched.mesh;
+    let mut found: TiVec<VertexId, Option<Location>> = ti_vec![None; mesh.vertex_count()];
+    let mut apexes: TiVec<VertexId, Option<VertexId>> = ti_vec![None; mesh.vertex_count()];
+    for (&v, &w) in source.patched.landmark_vertices.iter().zip(&target.patched.landmark_vertices) {
+        apexes[v] = Some(w);
+    }
+    let fan = Fan::new(surface, seed);
+    let wedges = fan.wedges(surface, target, target.patched.landmark_vertices[seed]);
+    let v = source.patched.landmark_vertices[seed];
+    let first = fan.anchor(surface, source, mesh.outgoing(v), &wedges);
+    let mut at_landmarks = Vec::new();
+    turn_around_cone(source, target, (first, target.patched.landmark_vertices[seed]), &mut at_landmarks)
+        .ok_or(LocateError { vertex: v.index() })?;
+    found[v] = Some(first);
+    let mut queue: VecDeque<Location> = at_landmarks.iter().copied().collect();
     while let Some(location) = queue.pop_front() {
-        let h = location.corner;
-        by_face[h.face()].get_or_insert(location);
-        let next = mesh.head(h);
+        let next = mesh.head(location.corner);
         if found[next].is_some() {
             continue;
         }
-        let Some(arrived) = walk(source, target, location) else {
-            return Err(LocateError { vertex: next.index() });
-        };
+        let lost = LocateError { vertex: next.index() };
+        let arrived = walk(source, target, location).ok_or(lost)?;
+        if let Some(apex) = apexes[next] {
+            let begin = at_landmarks.len();
+            turn_around_cone(source, target, (arrived, apex), &mut at_landmarks).ok_or(lost)?;
+            queue.extend(&at_landmarks[begin..]);
+        } else {
+            queue.extend(turn_around(source, arrived));
+        }
         found[next] = Some(arrived);
-        queue.extend(turn_around(source, arrived));
     }
-    let complete = |l: Option<Location>, vertex: usize| l.ok_or(LocateError { vertex });
-    let inside = |f: usize, corner: Option<Location>| {
-        let face = FaceId::from(f);
-        let [p, q, r] = [0, 1, 2].map(|k| source.embedding.corners[HalfedgeId::of(face, k)]);
-        let centroid = (p + q + r) / 3.0;
-        let arrived = corner.and_then(|corner| walk_to(source, target, corner, centroid));
-        complete(arrived, mesh.triangles()[face][0].index())
+    let complete = |(v, l): (usize, Option<Location>)| l.ok_or(LocateError { vertex: v });
+    let by_vertex = found.into_iter().enumerate().map(complete).collect::<Result<_, _>>()?;
+    Ok(Locations { by_vertex, at_landmarks })
+}
+
+/// The locations of all corners of a landmark, given one of them in any target face around the landmark's image `apex`.
+///
+/// `None` where that face is not at the apex, or the apex is not met after a turn.
+fn turn_around_cone(
+    source: Parametrised<'_>,
+    target: Parametrised<'_>,
+    (at, apex): (Location, VertexId),
+    all: &mut Vec<Location>,
+) -> Option<()> {
+    const MOST: usize = 1000;
+    let [mesh, below] = [&source.patched.mesh, &target.patched.mesh];
+    let corner = |x: HalfedgeId| target.embedding.corners[x];
+    let mut wedge = (0..3).map(|k| HalfedgeId::of(at.face, k)).find(|&x| below.tail(x) == apex)?;
+    let image = at.motion.apply(source.embedding.corners[at.corner]);
+    if image.distance(corner(wedge)) > 1e-9 {
+        return None;
+    }
+    let mut here = at;
+    let mut hops = 0..MOST;
+    let edge = |x: HalfedgeId| source.embedding.corners[x.next()] - source.embedding.corners[x];
+    let mut cross = |here: &mut Location, across: HalfedgeId| {
+        here.motion = target.embedding.transitions[across].after(&here.motion);
+        here.face = below.twin(across).face();
+        hops.next()
     };
-    Ok(Locations {
-        by_vertex: found.into_iter().enumerate().map(|(v, l)| complete(l, v)).collect::<Result<_, _>>()?,
-        by_face: by_face.into_iter().enumerate().map(|(f, l)| inside(f, l)).collect::<Result<_, _>>()?,
-    })
+    // The edge points less than half a turn away from where the walk came from: first clockwise, then, from edge to edge,
+    // counter-clockwise.
+    while (corner(wedge.next()) - corner(wedge)).perp_dot(here.motion.rotate(edge(here.corner))) < 0.0 {
+        cross(&mut here, wedge)?;
+        wedge = below.twin(wedge).next();
+    }
+    loop {
+        while here.motion.rotate(edge(here.corner)).perp_dot(corner(wedge.prev()) - corner(wedge)) <= 0.0 {
+            cross(&mut here, wedge.prev())?;
+            wedge = below.twin(wedge.prev());
+        }
+        all.push(here);
+        here.corner = mesh.twin(here.corner.prev());
+        here.motion = here.motion.after(&source.embedding.transitions[here.corner]);
+        if here.corner == at.corner {
+            return Some(());
+        }
+    }
 }
 
 /// The same location as seen from every face around the vertex (not a cone: the motions agree all around).

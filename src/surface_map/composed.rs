@@ -10,7 +10,7 @@ use super::cone_surface::ConeSurface;
 use super::embedding::Embedding;
 use super::energy::{HessianTerm, two_sided_density, two_sided_gradient, two_sided_hessian};
 use super::flat_problem::{FlatProblem, rest_jacobian, unrotate};
-use super::overlay::{Overlay, Piece, overlay};
+use super::overlay::{Overlay, Piece, SideOf, overlay};
 use super::unknowns::Unknowns;
 use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::{FaceId, HalfedgeId};
@@ -153,10 +153,7 @@ impl<'a> Moving<'a> {
         let embedding = self.unknowns.embedding(z);
         let moving = Parametrised { patched: self.patched, embedding: &embedding };
         let locations = locate(moving, self.fixed, self.surface).ok()?;
-        let overlay = overlay(moving, self.fixed, &locations);
-        if overlay.area_defect > 1e-3 {
-            return None;
-        }
+        let overlay = overlay(moving, self.fixed, &locations).ok()?;
         let onto = |piece: &Piece| {
             self.fixed_inverses[piece.target_face]
                 * DMat2::from_cols(piece.motion.rotation, piece.motion.rotation.perp())
@@ -207,8 +204,7 @@ impl<'a> Moving<'a> {
         let mut sweep = [DVec2::ZERO; 3];
         for k in 0..points.len() {
             let (p, q) = (&points[k].source, &points[(k + 1) % points.len()].source);
-            let on_edge = (0..3).any(|c| p[c] < 1e-12 && q[c] < 1e-12);
-            if on_edge {
+            if points[k].side == SideOf::Source {
                 let along = place(q) - place(p);
                 let outwards = DVec2::new(along.y, -along.x);
                 for c in 0..3 {

@@ -1,0 +1,174 @@
+//! Where every source corner sits: the target face of the vertex and the motion from the corner's own source face.
+
+use super::OverlayError;
+use crate::math::rigid2::Rigid2;
+use crate::math::scalar::{cos, sin};
+use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::surface_map::compose::{Location, Locations, Parametrised};
+use glam::DVec2;
+use robust::{Coord, orient2d};
+use typed_index_collections::TiVec;
+
+/// Size of the shift of a source vertex that ends coincidences, in units of its shortest edge on the cone surface.
+const SHIFT: f64 = 1e-10;
+/// Faces that a point is passed on to, at most, until it lies in one by the exact predicate.
+const HOPS: usize = 64;
+
+/// A place among the target's faces.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seat {
+    /// The target face. At a landmark: the face into which the source halfedge points.
+    pub face: FaceId,
+    /// From the plane of the halfedge's source face to that of the target face.
+    pub motion: Rigid2,
+}
+
+/// Positions of the source's corners and their seats.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Seats {
+    /// Corner positions, in the plane of each face, shifted where coincidences had to be ended.
+    pub corners: TiVec<HalfedgeId, DVec2>,
+    /// By source halfedge, for its start.
+    pub seats: TiVec<HalfedgeId, Seat>,
+    /// Of source halfedges that start at a landmark, the target halfedge that begins the wedge they point into.
+    pub wedges: TiVec<HalfedgeId, Option<HalfedgeId>>,
+}
+
+impl Seats {
+    /// Fills the seats; `attempt` 0 leaves the source where it is, every other one shifts its free vertices another way.
+    pub fn fill(
+        &mut self,
+        source: Parametrised<'_>,
+        target: Parametrised<'_>,
+        locations: &Locations,
+        attempt: usize,
+    ) -> Result<(), OverlayError> {
+        let mesh = &source.patched.mesh;
+        self.corners.clear();
+        self.corners.extend(source.embedding.corners.iter().copied());
+        self.wedges.clear();
+        self.wedges.resize(mesh.face_count() * 3, None);
+        self.seats.clear();
+        self.seats.resize(mesh.face_count() * 3, Seat { face: FaceId(0), motion: Rigid2::IDENTITY });
+        for location in &locations.at_landmarks {
+            self.wedges[location.corner] = Some(location.corner);
+        }
+        if attempt > 0 {
+            self.shift(source, attempt);
+        }
+        for location in &locations.at_landmarks {
+            self.sit_at_landmark(source, target, location)?;
+        }
+        for (v, location) in locations.by_vertex.iter_enumerated() {
+            if self.wedges[mesh.outgoing(v)].is_none() {
+                self.sit(source, target, location);
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a source halfedge starts at a landmark.
+    pub fn at_landmark(&self, h: HalfedgeId) -> bool {
+        self.wedges[h].is_some()
+    }
+
+    fn shift(&mut self, source: Parametrised<'_>, attempt: usize) {
+        let mesh = &source.patched.mesh;
+        for v in mesh.vertices().filter(|&v| self.wedges[mesh.outgoing(v)].is_none()) {
+            let first = mesh.outgoing(v);
+            let unshifted = &source.embedding.corners;
+            let length = |h: HalfedgeId| unshifted[h].distance(unshifted[h.next()]);
+            let shortest = mesh.star(v).map(length).fold(f64::INFINITY, f64::min);
+            let angle = direction(v, attempt);
+            let mut shift = DVec2::new(cos(angle), sin(angle)) * (SHIFT * shortest);
+            let mut h = first;
+            loop {
+                self.corners[h] += shift;
+                let across = h.prev();
+                shift = source.embedding.transitions[across].rotate(shift);
+                h = mesh.twin(across);
+                if h == first {
+                    break;
+                }
+            }
+        }
+    }
+
+    /// Seats of all corners of an ordinary vertex.
+    fn sit(&mut self, source: Parametrised<'_>, target: Parametrised<'_>, at: &Location) {
+        let mesh = &source.patched.mesh;
+        let mut seat = Seat { face: at.face, motion: at.motion };
+        let point = self.corners[at.corner];
+        for _ in 0..HOPS {
+            let Some(h) = outside_of(target, seat.face, seat.motion.apply(point)) else { break };
+            seat.motion = target.embedding.transitions[h].after(&seat.motion);
+            seat.face = target.patched.mesh.twin(h).face();
+        }
+        let mut h = at.corner;
+        loop {
+            self.seats[h] = seat;
+            let next = mesh.twin(h.prev());
+            seat.motion = seat.motion.after(&source.embedding.transitions[next]);
+            h = next;
+            if h == at.corner {
+                break;
+            }
+        }
+    }
+
+    /// The seat of one corner of a landmark: in the wedge of target faces that its halfedge points into.
+    fn sit_at_landmark(
+        &mut self,
+        source: Parametrised<'_>,
+        target: Parametrised<'_>,
+        at: &Location,
+    ) -> Result<(), OverlayError> {
+        let mesh = &target.patched.mesh;
+        let v = source.patched.mesh.tail(at.corner);
+        let lost = OverlayError::Landmark { vertex: v.index() };
+        let landmark = source.patched.landmark_vertices.iter().position(|&l| l == v).ok_or(lost)?;
+        let apex = target.patched.landmark_vertices[VertexId::from(landmark)];
+        let mut seat = Seat { face: at.face, motion: at.motion };
+        let start = (0..3).map(|k| HalfedgeId::of(at.face, k)).find(|&x| mesh.tail(x) == apex);
+        let mut wedge = start.ok_or(lost)?;
+        let along = self.corners[at.corner.next()] - self.corners[at.corner];
+        for _ in 0..HOPS {
+            let direction = seat.motion.rotate(along);
+            let corner = |x: HalfedgeId| target.embedding.corners[x];
+            let [begin, end] = [wedge.next(), wedge.prev()].map(|x| corner(x) - corner(wedge));
+            let across = if begin.perp_dot(direction) < 0.0 {
+                wedge
+            } else if direction.perp_dot(end) <= 0.0 {
+                wedge.prev()
+            } else {
+                self.seats[at.corner] = seat;
+                self.wedges[at.corner] = Some(wedge);
+                return Ok(());
+            };
+            let twin = mesh.twin(across);
+            wedge = if across == wedge { twin.next() } else { twin };
+            seat.motion = target.embedding.transitions[across].after(&seat.motion);
+            seat.face = twin.face();
+        }
+        Err(lost)
+    }
+}
+
+/// An angle that scatters with the vertex: multiples of the golden angle, other ones for each attempt.
+fn direction(v: VertexId, attempt: usize) -> f64 {
+    const GOLDEN: f64 = 2.399_963_229_728_653;
+    let step = (v.index() + 1) * attempt;
+    GOLDEN * (step % 1_000_003) as f64
+}
+
+/// An edge of a target face that has the point on its right, by the exact predicate.
+fn outside_of(target: Parametrised<'_>, face: FaceId, point: DVec2) -> Option<HalfedgeId> {
+    let corners = &target.embedding.corners;
+    (0..3).map(|k| HalfedgeId::of(face, k)).find(|&h| side(corners[h], corners[h.next()], point) < 0.0)
+}
+
+/// Positive where r lies to the left of p q (exact).
+pub(super) fn side(p: DVec2, q: DVec2, r: DVec2) -> f64 {
+    let [p, q, r] = [p, q, r].map(|c| Coord { x: c.x, y: c.y });
+    orient2d(p, q, r)
+}

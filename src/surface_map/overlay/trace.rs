@@ -1,0 +1,203 @@
+//! Every source edge traced once, straight through the target's triangles.
+//!
+//! A trace goes from the seat of its tail to the seat of its head. Between them each step takes one exact predicate: on
+//! which side of the source edge lies the corner opposite the edge that was entered.
+
+use super::OverlayError;
+use super::seats::{Seat, Seats, side};
+use crate::math::rigid2::Rigid2;
+use crate::math::triangle::signed_double_area;
+use crate::mesh::{FaceId, HalfedgeId};
+use crate::surface_map::compose::Parametrised;
+use glam::DVec2;
+use typed_index_collections::TiVec;
+
+/// A source edge crosses a target edge.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Crossing {
+    /// The source edge, as the smaller of its halfedges; the trace follows its direction.
+    pub edge: HalfedgeId,
+    /// The target halfedge of the face that the trace leaves here.
+    pub exit: HalfedgeId,
+    /// Where on the source edge: 0 at its start, 1 at its end; never falls along a trace.
+    pub along_source: f64,
+    /// Where on the target halfedge `exit`: 0 at its start, 1 at its end.
+    pub along_target: f64,
+    /// From the plane of the source face of `edge` to that of the target face entered.
+    pub motion: Rigid2,
+}
+
+/// The crossings of all source edges.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Traces {
+    /// Edge by edge, in the order of each trace.
+    pub crossings: Vec<Crossing>,
+    /// By the smaller source halfedge of an edge: its range of `crossings`; the other halfedge has the same.
+    pub ranges: TiVec<HalfedgeId, [u32; 2]>,
+}
+
+impl Traces {
+    /// Traces all source edges.
+    pub fn fill(
+        &mut self,
+        source: Parametrised<'_>,
+        target: Parametrised<'_>,
+        seats: &Seats,
+    ) -> Result<(), OverlayError> {
+        let mesh = &source.patched.mesh;
+        self.crossings.clear();
+        self.ranges.clear();
+        self.ranges.resize(mesh.face_count() * 3, [0; 2]);
+        let tracer = Tracer { source, target, seats, most: target.patched.mesh.face_count() + 1000 };
+        for h in mesh.edges() {
+            let begin = self.crossings.len() as u32;
+            tracer.trace(h, &mut self.crossings)?;
+            let range = [begin, self.crossings.len() as u32];
+            self.ranges[h] = range;
+            self.ranges[mesh.twin(h)] = range;
+        }
+        Ok(())
+    }
+}
+
+struct Tracer<'a> {
+    source: Parametrised<'a>,
+    target: Parametrised<'a>,
+    seats: &'a Seats,
+    /// Crossings of one edge, at most.
+    most: usize,
+}
+
+/// A trace on its way.
+struct Walk {
+    edge: HalfedgeId,
+    ends: [DVec2; 2],
+    seat: Seat,
+    /// The ends in the plane of the target face.
+    line: [DVec2; 2],
+    along: f64,
+}
+
+impl Walk {
+    /// Goes on through a halfedge of the present face.
+    fn cross(
+        &mut self,
+        target: Parametrised<'_>,
+        exit: HalfedgeId,
+        (along_source, along_target): (f64, f64),
+    ) -> Crossing {
+        let transition = &target.embedding.transitions[exit];
+        self.along = along_source.clamp(self.along, 1.0);
+        if *transition != Rigid2::IDENTITY {
+            self.seat.motion = transition.after(&self.seat.motion);
+            self.line = self.ends.map(|p| self.seat.motion.apply(p));
+        }
+        self.seat.face = target.patched.mesh.twin(exit).face();
+        Crossing {
+            edge: self.edge,
+            exit,
+            along_source: self.along,
+            along_target: along_target.clamp(0.0, 1.0),
+            motion: self.seat.motion,
+        }
+    }
+}
+
+impl Tracer<'_> {
+    fn trace(&self, h: HalfedgeId, crossings: &mut Vec<Crossing>) -> Result<(), OverlayError> {
+        let ends = [self.seats.corners[h], self.seats.corners[h.next()]];
+        let seat = self.seats.seats[h];
+        let line = ends.map(|p| seat.motion.apply(p));
+        let mut walk = Walk { edge: h, ends, seat, line, along: 0.0 };
+        let end = self.end(h);
+        let goal = end.motion.apply(ends[1]);
+        let mut entered = None;
+        for _ in 0..self.most {
+            if is_there(&walk.seat, &end, walk.line[1].distance_squared(goal)) {
+                return Ok(());
+            }
+            let Some(exit) = self.exit(&walk, entered) else { break };
+            let [a, b] = [exit, exit.next()].map(|x| self.target.embedding.corners[x]);
+            let [p, q] = walk.line;
+            let (from, to) = (signed_double_area(a, b, p), signed_double_area(a, b, q));
+            if to >= 0.0 {
+                break;
+            }
+            let (right, left) = (signed_double_area(p, q, a), signed_double_area(p, q, b));
+            let along = (from / (from - to), right / (right - left));
+            crossings.push(walk.cross(self.target, exit, along));
+            entered = Some(self.target.patched.mesh.twin(exit));
+        }
+        self.step_over(walk, &end, crossings)
+    }
+
+    /// The seat of the head, as seen from the face of the halfedge. At a landmark it lies in the wedge from which the edge
+    /// comes.
+    fn end(&self, h: HalfedgeId) -> Seat {
+        let twin = self.source.patched.mesh.twin(h);
+        let seat = self.seats.seats[twin];
+        if self.seats.at_landmark(twin) {
+            Seat { motion: seat.motion.after(&self.source.embedding.transitions[h]), ..seat }
+        } else {
+            self.seats.seats[h.next()]
+        }
+    }
+
+    /// The halfedge through which the line leaves the present face. Points on the line count as right of it.
+    fn exit(&self, walk: &Walk, entered: Option<HalfedgeId>) -> Option<HalfedgeId> {
+        let [p, q] = walk.line;
+        let is_left = |x: HalfedgeId| side(p, q, self.target.embedding.corners[x]) > 0.0;
+        if let Some(y) = entered {
+            return Some(if is_left(y.prev()) { y.next() } else { y.prev() });
+        }
+        if let Some(wedge) = self.seats.wedges[walk.edge] {
+            return Some(wedge.next());
+        }
+        let corners = [0, 1, 2].map(|k| HalfedgeId::of(walk.seat.face, k));
+        let left = corners.map(is_left);
+        (0..3).find(|&k| !left[k] && left[(k + 1) % 3]).map(|k| corners[k])
+    }
+
+    /// The head lies, up to rounding, on the border of the present face: goes over to the face of its seat, through one
+    /// edge or around one corner.
+    fn step_over(
+        &self,
+        mut walk: Walk,
+        end: &Seat,
+        crossings: &mut Vec<Crossing>,
+    ) -> Result<(), OverlayError> {
+        let halfedges = |face: FaceId| (0..3).map(move |k| HalfedgeId::of(face, k));
+        let mesh = &self.target.patched.mesh;
+        let goal = end.motion.apply(walk.ends[1]);
+        let after = |seat: &Seat, x: HalfedgeId| Seat {
+            face: mesh.twin(x).face(),
+            motion: self.target.embedding.transitions[x].after(&seat.motion),
+        };
+        let arrives =
+            |seat: &Seat| is_there(seat, end, seat.motion.apply(walk.ends[1]).distance_squared(goal));
+        let once = halfedges(walk.seat.face).find(|&x| arrives(&after(&walk.seat, x)));
+        let twice = || {
+            let pairs = halfedges(walk.seat.face).flat_map(|x| {
+                let entered = mesh.twin(x);
+                [[x, entered.next()], [x, entered.prev()]]
+            });
+            pairs.into_iter().find(|&[x, y]| arrives(&after(&after(&walk.seat, x), y)))
+        };
+        let way = once.map(|x| [Some(x), None]).or_else(|| twice().map(|pair| pair.map(Some)));
+        let ends = [walk.edge, walk.edge.next()].map(|h| self.source.patched.mesh.tail(h).index());
+        for x in way.ok_or(OverlayError::Lost { edge: ends })?.into_iter().flatten() {
+            let [a, b] = [x, x.next()].map(|x| self.target.embedding.corners[x]);
+            let along = (walk.line[1] - a).dot(b - a) / (b - a).length_squared();
+            crossings.push(walk.cross(self.target, x, (1.0, along)));
+        }
+        Ok(())
+    }
+}
+
+/// Whether a walk is in the face of its goal, on the same way around the cones: `distance` is the square of the distance
+/// between the goal's two images in the face's plane.
+fn is_there(here: &Seat, end: &Seat, distance: f64) -> bool {
+    here.face == end.face
+        && distance < 1e-18
+        && here.motion.rotation.distance_squared(end.motion.rotation) < 1e-12
+}
