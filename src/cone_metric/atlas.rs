@@ -186,7 +186,10 @@ mod tests {
         }
         // The signed corner angles sum to the cone angles, inverted faces included.
         for v in mesh.vertices() {
-            let angle = |h: HalfedgeId| edge(h).angle_to(-edge(h.prev()));
+            let angle = |h: HalfedgeId| {
+                let (from, to) = (edge(h), -edge(h.prev()));
+                crate::math::scalar::atan2(from.perp_dot(to), from.dot(to))
+            };
             let sum: f64 = mesh.star(v).map(angle).sum();
             assert!((sum - (2.0 * PI - target[v])).abs() < 1e-6, "{v:?} {sum}");
         }

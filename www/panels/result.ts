@@ -13,7 +13,7 @@ function verdict(report: Report): HTMLElement {
     const text =
       share > 0
         ? `Not certified: this method left ${(100 * share).toFixed(share < 0.01 ? 2 : 1)} % of the source without an image.`
-        : 'Not certified: this method does not promise a bijection.';
+        : 'Not certified: every vertex of the source has an image, but the map need not be one-to-one.';
     return make('p', { class: 'verdict open' }, text);
   }
   const flips = `${integer(certificate.flipped_triangles)} flipped ${certificate.flipped_triangles === 1 ? 'triangle' : 'triangles'}`;

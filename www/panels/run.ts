@@ -53,7 +53,7 @@ export function runPanel(actions: Actions): Panel {
     'Method',
     [
       ['relaxed', 'Relaxed, certified'],
-      ['thesis', 'Patch by patch (thesis)'],
+      ['thesis', 'Patch by patch'],
     ] as const,
     (value) => {
       actions.dispatch({ kind: 'options', options: { method: value } });
@@ -135,6 +135,9 @@ export function runPanel(actions: Actions): Panel {
       if (previous?.error !== state.error) {
         error.hidden = state.error === null;
         errorText.textContent = state.error ?? '';
+        if (state.error !== null) {
+          error.scrollIntoView({ block: 'nearest' });
+        }
       }
       const next =
         running || !state.ready
