@@ -10,7 +10,7 @@ use super::cone_surface::ConeSurface;
 use super::embedding::Embedding;
 use super::energy::{HessianTerm, two_sided_density, two_sided_gradient, two_sided_hessian};
 use super::flat_problem::{FlatProblem, rest_jacobian, unrotate};
-use super::overlay::{Overlay, Piece, SideOf, overlay};
+use super::overlay::{Overlay, Overlayer, Piece, SideOf};
 use super::unknowns::Unknowns;
 use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::{FaceId, HalfedgeId};
@@ -58,6 +58,7 @@ pub fn relax(
     let mut problems = [unknowns[0].problem(), unknowns[1].problem()];
     let mut embeddings = [source, target];
     let mut report = ComposedReport::default();
+    let mut overlayer = Overlayer::default();
     for round in 0..options.max_rounds {
         let before = report.energies.last().copied().unwrap_or(f64::INFINITY);
         for moving in 0..2 {
@@ -66,7 +67,9 @@ pub fn relax(
             let fixed = Parametrised { patched: patched[1 - moving], embedding: &embeddings[1 - moving] };
             let side = Moving::new(&unknowns[moving], patched[moving], fixed, options);
             let start = unknowns[moving].points(&embeddings[moving]);
-            let Some((z, energies)) = side.step(&mut problems[moving], start) else { continue };
+            let Some((z, energies)) = side.step(&mut problems[moving], &mut overlayer, start) else {
+                continue;
+            };
             if report.energies.is_empty() {
                 report.energies.push(energies[0]);
             }
@@ -117,8 +120,13 @@ impl<'a> Moving<'a> {
     }
 
     /// One Newton step; `None` where none lowers the energy. Returns E before and after.
-    fn step(&self, problem: &mut FlatProblem, z: Vec<DVec2>) -> Option<(Vec<DVec2>, [f64; 2])> {
-        let state = self.state(problem, &z)?;
+    fn step(
+        &self,
+        problem: &mut FlatProblem,
+        overlayer: &mut Overlayer,
+        z: Vec<DVec2>,
+    ) -> Option<(Vec<DVec2>, [f64; 2])> {
+        let state = self.state(problem, overlayer, &z)?;
         let slope = self.gradient(problem, &z, &state);
         let jacobians: TiVec<FaceId, DMat2> =
             self.patched.mesh.faces().map(|f| problem.jacobian(f.index(), &z)).collect();
@@ -137,7 +145,7 @@ impl<'a> Moving<'a> {
         let mut t = (0.9 * problem.first_degenerate(&z, &step)).min(1.0);
         for _ in 0..8 {
             let trial: Vec<DVec2> = z.iter().zip(&step).map(|(p, d)| *p + *d * t).collect();
-            if let Some(next) = self.state(problem, &trial)
+            if let Some(next) = self.state(problem, overlayer, &trial)
                 && next.total <= state.total - 1e-4 * t * descent
             {
                 return Some((trial, [state.energy, next.energy]));
@@ -147,13 +155,14 @@ impl<'a> Moving<'a> {
         None
     }
 
-    /// The overlay and energy at z; `None` where a triangle is not positive or the overlay does not cover the surface.
-    fn state(&self, problem: &FlatProblem, z: &[DVec2]) -> Option<State> {
+    /// The overlay and energy at z; `None` where a triangle is not positive or there is no overlay.
+    fn state(&self, problem: &FlatProblem, overlayer: &mut Overlayer, z: &[DVec2]) -> Option<State> {
         let flat = problem.energy(z)?;
         let embedding = self.unknowns.embedding(z);
         let moving = Parametrised { patched: self.patched, embedding: &embedding };
         let locations = locate(moving, self.fixed, self.surface).ok()?;
-        let overlay = overlay(moving, self.fixed, &locations).ok()?;
+        let mut overlay = Overlay::default();
+        overlayer.fill([moving, self.fixed], &locations, &mut overlay).ok()?;
         let onto = |piece: &Piece| {
             self.fixed_inverses[piece.target_face]
                 * DMat2::from_cols(piece.motion.rotation, piece.motion.rotation.perp())
@@ -264,13 +273,14 @@ mod tests {
         let fixed = Parametrised { patched: &layout.target, embedding: &embeddings[1] };
         let side = Moving::new(&unknowns, &layout.source, fixed, &options);
         let z = unknowns.points(&embeddings[0]);
-        let slope = side.gradient(&problem, &z, &side.state(&problem, &z).unwrap());
+        let mut overlayer = Overlayer::default();
+        let slope = side.gradient(&problem, &z, &side.state(&problem, &mut overlayer, &z).unwrap());
         for seed in 1..6 {
             let wave = |k: usize, phase: f64| 0.02 * sin(f64::from(seed) * 1.7 * k as f64 + phase);
             let direction: Vec<_> = (0..z.len()).map(|k| DVec2::new(wave(k, 0.0), wave(k, 1.0))).collect();
-            let at = |h: f64| {
+            let mut at = |h: f64| {
                 let moved: Vec<_> = z.iter().zip(&direction).map(|(p, d)| *p + *d * h).collect();
-                side.state(&problem, &moved).unwrap().total
+                side.state(&problem, &mut overlayer, &moved).unwrap().total
             };
             let quotient = (at(1e-4) - at(-1e-4)) / 2e-4;
             let exact: f64 = slope.iter().zip(&direction).map(|(g, d)| g.dot(*d)).sum();

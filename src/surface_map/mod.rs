@@ -17,6 +17,7 @@ pub mod initial;
 pub mod overlay;
 mod placement;
 mod progressive;
+pub mod queries;
 pub mod thesis;
 pub mod transfer;
 mod unknowns;

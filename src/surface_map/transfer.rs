@@ -112,7 +112,7 @@ fn face_values(
     }
 }
 
-/// The overlay as one mesh; corners with equal positions and texture coordinates are shared.
+/// The overlay as one mesh; a corner is shared by the pieces around it, once per side of a texture seam.
 ///
 /// `target_uvs` are texture coordinates by corner of the target's input mesh.
 pub fn common_mesh(
@@ -125,7 +125,6 @@ pub fn common_mesh(
     let values = |s: Surface<'_>, n, uvs| s.patched.mesh.faces().map(|f| face_values(s, n, uvs, f)).collect();
     let source_values: TiVec<FaceId, FaceValues> = values(source, &normals[0], None);
     let target_values: TiVec<FaceId, FaceValues> = values(target, &normals[1], Some(target_uvs));
-    let grain = 1e-8 * source.input.area().sqrt();
     let mut shared = FxHashMap::default();
     let mut mesh = CommonMesh::default();
     let mut ring = Vec::new();
@@ -135,7 +134,7 @@ pub fn common_mesh(
         for point in &overlay.points[piece.points.clone()] {
             let position = blend3(s.positions, point.source);
             let uv = blend3(t.uvs, point.target);
-            let key = (quantised(position / grain), (uv * 1e8).round().to_array().map(|x| x as i64));
+            let key = (point.vertex, (uv * 1e8).round().to_array().map(|x| x as i64));
             let next = mesh.uvs.len() as u32;
             let index = *shared.entry(key).or_insert(next);
             if index == next {
@@ -187,8 +186,4 @@ pub fn mapped_mesh(
         }
     }
     mesh
-}
-
-fn quantised(p: DVec3) -> [i64; 3] {
-    p.round().to_array().map(|x| x as i64)
 }

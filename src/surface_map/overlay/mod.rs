@@ -12,6 +12,8 @@
 mod arrangement;
 mod cells;
 mod seats;
+#[cfg(test)]
+mod tests;
 mod trace;
 
 use super::compose::{Locations, Parametrised};

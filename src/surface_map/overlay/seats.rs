@@ -132,25 +132,25 @@ impl Seats {
         let start = (0..3).map(|k| HalfedgeId::of(at.face, k)).find(|&x| mesh.tail(x) == apex);
         let mut wedge = start.ok_or(lost)?;
         let along = self.corners[at.corner.next()] - self.corners[at.corner];
-        for _ in 0..HOPS {
-            let direction = seat.motion.rotate(along);
-            let corner = |x: HalfedgeId| target.embedding.corners[x];
-            let [begin, end] = [wedge.next(), wedge.prev()].map(|x| corner(x) - corner(wedge));
-            let across = if begin.perp_dot(direction) < 0.0 {
-                wedge
-            } else if direction.perp_dot(end) <= 0.0 {
-                wedge.prev()
-            } else {
-                self.seats[at.corner] = seat;
-                self.wedges[at.corner] = Some(wedge);
-                return Ok(());
-            };
-            let twin = mesh.twin(across);
-            wedge = if across == wedge { twin.next() } else { twin };
+        let corner = |x: HalfedgeId| target.embedding.corners[x];
+        let mut hops = 0..HOPS;
+        let mut cross = |seat: &mut Seat, across: HalfedgeId| {
             seat.motion = target.embedding.transitions[across].after(&seat.motion);
-            seat.face = twin.face();
+            seat.face = mesh.twin(across).face();
+            hops.next().ok_or(lost)
+        };
+        // Clockwise, then counter-clockwise: asked of each border once, so that rounding cannot send it to and fro.
+        while (corner(wedge.next()) - corner(wedge)).perp_dot(seat.motion.rotate(along)) < 0.0 {
+            cross(&mut seat, wedge)?;
+            wedge = mesh.twin(wedge).next();
         }
-        Err(lost)
+        while seat.motion.rotate(along).perp_dot(corner(wedge.prev()) - corner(wedge)) <= 0.0 {
+            cross(&mut seat, wedge.prev())?;
+            wedge = mesh.twin(wedge.prev());
+        }
+        self.seats[at.corner] = seat;
+        self.wedges[at.corner] = Some(wedge);
+        Ok(())
     }
 }
 
