@@ -11,6 +11,7 @@ pub mod demo;
 pub mod export;
 pub mod intrinsic;
 pub mod io;
+pub mod landmark_fit;
 pub mod landmarks;
 pub mod layout;
 pub mod math;

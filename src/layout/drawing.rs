@@ -211,6 +211,33 @@ impl Drawing {
         Some(())
     }
 
+    /// Takes a path away; the last path gets its number. The vertices that it made stay.
+    pub fn erase(&mut self, path: usize) {
+        for side in &mut self.sides {
+            side.unmark(path);
+            side.paths.swap_remove(path);
+            side.lengths.swap_remove(path);
+        }
+        let ends = self.ends.swap_remove(path);
+        ends.iter().for_each(|&i| self.rotation[i].retain(|&p| p != path));
+        let last = self.ends.len();
+        if path < last {
+            for i in self.ends[path] {
+                self.rotation[i].iter_mut().filter(|p| **p == last).for_each(|p| *p = path);
+            }
+        }
+    }
+
+    /// Replaces a path on one mesh by another in the sector beside it.
+    pub fn exchange(&mut self, side: usize, path: usize, found: &FoundPath) -> Option<()> {
+        let side = &mut self.sides[side];
+        side.realise(&found.nodes)?;
+        side.unmark(path);
+        side.paths.swap_remove(path);
+        side.lengths.swap_remove(path);
+        Some(())
+    }
+
     /// The outgoing halfedge of a path at one of its landmarks.
     pub fn path_halfedge(&self, side: usize, landmark: usize, path: usize) -> Option<HalfedgeId> {
         let vertices = &self.sides[side].paths[path];
@@ -295,6 +322,17 @@ impl Side {
                 })
             }),
         }
+    }
+
+    /// Makes the vertices and edges of a path free again.
+    fn unmark(&mut self, path: usize) {
+        let vertices = &self.paths[path];
+        for pair in vertices.windows(2) {
+            if let Some(h) = self.mesh.halfedge_between(pair[0], pair[1]) {
+                self.mesh.unmark_path(h);
+            }
+        }
+        vertices[1..vertices.len() - 1].iter().for_each(|&v| self.mesh.used[v] = false);
     }
 
     /// Splits the edges of the path's midpoints and marks its edges.

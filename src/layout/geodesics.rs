@@ -3,22 +3,28 @@
 use super::drawing::Drawing;
 use super::path_search::{for_each_link, position};
 use super::refinable::RefinableMesh;
-use crate::mesh::VertexId;
+use crate::landmarks::Landmarks;
+use crate::mesh::{SurfaceMesh, VertexId};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use typed_index_collections::{TiSlice, TiVec};
 
 /// Lengths of shortest paths over vertices and edge midpoints that pass no other landmark, both areas scaled to 1.
 #[derive(Clone, Debug)]
-pub(super) struct LandmarkDistances {
+pub struct LandmarkDistances {
     /// By side and landmark, at every vertex.
     fields: [Vec<TiVec<VertexId, f64>>; 2],
     landmarks: [Vec<VertexId>; 2],
 }
 
 impl LandmarkDistances {
+    /// Measures both meshes.
+    pub fn new(meshes: [&SurfaceMesh; 2], landmarks: &Landmarks) -> Self {
+        Self::of_drawing(&Drawing::new(meshes[0], meshes[1], landmarks))
+    }
+
     /// Measures on a drawing without paths.
-    pub fn new(empty: &Drawing) -> Self {
+    pub(super) fn of_drawing(empty: &Drawing) -> Self {
         let fields = [0, 1].map(|s| {
             let side = &empty.sides[s];
             let links = Links::new(&side.mesh);
@@ -28,11 +34,11 @@ impl LandmarkDistances {
     }
 
     /// Number of landmarks.
-    pub fn len(&self) -> usize {
+    pub fn landmark_count(&self) -> usize {
         self.landmarks[0].len()
     }
 
-    /// Distance of every vertex to a landmark.
+    /// Distance of every vertex of the source (side 0) or the target (1) to a landmark.
     pub fn field(&self, side: usize, landmark: usize) -> &TiSlice<VertexId, f64> {
         &self.fields[side][landmark]
     }

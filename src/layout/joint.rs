@@ -121,16 +121,16 @@ fn sorted([i, j]: [usize; 2]) -> [usize; 2] {
     [i.min(j), i.max(j)]
 }
 
-struct DisjointSets {
+pub(super) struct DisjointSets {
     parent: Vec<usize>,
 }
 
 impl DisjointSets {
-    fn new(n: usize) -> Self {
+    pub fn new(n: usize) -> Self {
         Self { parent: (0..n).collect() }
     }
 
-    fn root(&mut self, mut i: usize) -> usize {
+    pub fn root(&mut self, mut i: usize) -> usize {
         while self.parent[i] != i {
             self.parent[i] = self.parent[self.parent[i]];
             i = self.parent[i];
@@ -139,7 +139,7 @@ impl DisjointSets {
     }
 
     /// Joins two sets; `false` when they were one already.
-    fn join(&mut self, i: usize, j: usize) -> bool {
+    pub fn join(&mut self, i: usize, j: usize) -> bool {
         let (a, b) = (self.root(i), self.root(j));
         self.parent[a] = b;
         a != b
@@ -148,7 +148,7 @@ impl DisjointSets {
 
 /// The minimum spanning tree of the summed distances, in drawing order.
 fn tree_in_order(distances: &LandmarkDistances, variant: &Variant) -> Vec<[usize; 2]> {
-    let n = distances.len();
+    let n = distances.landmark_count();
     let mut pairs: Vec<[usize; 2]> = (0..n).flat_map(|j| (0..j).map(move |i| [i, j])).collect();
     let length = |pair| variant.factor(pair) * distances.sum(pair);
     pairs.sort_by(|&a, &b| length(a).total_cmp(&length(b)).then(a.cmp(&b)));
@@ -212,7 +212,7 @@ struct PairQueue<'a> {
 
 impl<'a> PairQueue<'a> {
     fn new(distances: &LandmarkDistances, drawing: &Drawing, variant: &'a Variant) -> Self {
-        let n = distances.len();
+        let n = distances.landmark_count();
         let pairs = (0..n).flat_map(|j| (0..j).map(move |i| [i, j]));
         let fresh = pairs.filter(|ends| !drawing.ends.contains(ends));
         // No path is shorter than without obstacles.

@@ -6,23 +6,30 @@
 //! never separates; then the shortest and straightest of the pairs not yet adjacent. Several orders are tried and the
 //! one with the least detours is kept.
 
+mod candidates;
 mod drawing;
 mod geodesics;
+mod isotopy;
 mod joint;
 mod patches;
 mod path_search;
 mod refinable;
+mod search;
+mod twists;
 
 use crate::base_domain::BaseDomain;
 use crate::landmarks::Landmarks;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor};
 use drawing::Drawing;
-use geodesics::LandmarkDistances;
 use joint::{Ground, Variant};
 use typed_index_collections::TiVec;
 
+pub use candidates::{Candidate, Candidates};
+pub use geodesics::LandmarkDistances;
+pub use isotopy::same_class;
 pub use patches::PatchFault;
+pub use search::{Judge, Judged, Origin, SearchOptions, SearchReport, search, untwist};
 
 /// The base domain and its drawing on both meshes.
 #[derive(Clone, Debug)]
@@ -115,6 +122,12 @@ pub enum LayoutError {
         /// Paths of a triangulation.
         wanted: usize,
     },
+    /// No layout has a map.
+    #[error("no map was found for any of {layouts} layouts")]
+    NoMap {
+        /// Layouts judged.
+        layouts: usize,
+    },
     /// The paths do not bound discs.
     #[error("the patches are not valid: {0}")]
     Patches(#[from] PatchFault),
@@ -160,7 +173,7 @@ pub fn joint(
     monitor: &mut dyn Monitor,
 ) -> Result<BaseLayout, LayoutError> {
     let empty = Drawing::new(meshes[0], meshes[1], landmarks);
-    let distances = LandmarkDistances::new(&empty);
+    let distances = LandmarkDistances::of_drawing(&empty);
     let ground = Ground { empty: &empty, distances: &distances };
     let mut found: Vec<(Drawing, LayoutReport)> = Vec::new();
     let mut failure = LayoutError::Stuck { paths: 0, wanted: 3 * landmarks.len() - 6 };
@@ -200,7 +213,7 @@ pub fn from_base(
     monitor: &mut dyn Monitor,
 ) -> Result<BaseLayout, LayoutError> {
     let empty = Drawing::new(meshes[0], meshes[1], landmarks);
-    let distances = LandmarkDistances::new(&empty);
+    let distances = LandmarkDistances::of_drawing(&empty);
     let drawing = joint::draw_base(&Ground { empty: &empty, distances: &distances }, base, monitor)?;
     let report = report(&drawing, &distances);
     Ok(patches::finish(drawing, base.clone(), meshes, report)?)

@@ -158,6 +158,13 @@ impl RefinableMesh {
         self.on_path[t] = true;
     }
 
+    /// Takes the mark of [`Self::mark_path`] away.
+    pub fn unmark_path(&mut self, h: HalfedgeId) {
+        let t = self.twins[h];
+        self.on_path[h] = false;
+        self.on_path[t] = false;
+    }
+
     /// Splits every edge off the paths whose two ends lie on paths, so that no patch is bridged by one edge.
     pub fn split_bridges(&mut self) {
         let mut h = HalfedgeId(0);

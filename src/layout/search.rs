@@ -1,0 +1,230 @@
+//! The search for the isotopy class: candidates judged by a map's energy, then twists of the best.
+
+use super::candidates::{Candidate, Candidates};
+use super::{BaseLayout, LayoutError};
+use crate::monitor::{Cancelled, Monitor, Step};
+
+/// How long the class of the map is searched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SearchOptions {
+    /// Layouts from different orders of drawing that are judged at most.
+    pub candidates: usize,
+    /// A layout with at most this detour ([`super::LayoutReport::detour`]) and at most `clear_energy` is clear: no other order
+    /// is judged, and of its twists only the ambiguous ones.
+    pub clear_detour: f64,
+    /// See `clear_detour`.
+    pub clear_energy: f64,
+    /// Stops either part of the search after this many layouts without a gain.
+    pub patience: usize,
+    /// Twisted layouts that are judged at most.
+    pub twists: usize,
+    /// A twist is considered when the path that goes round is at most this many times the one that it replaces.
+    pub twist_ratio: f64,
+    /// The same for clear layouts: near 1 the path might as well go the other way.
+    pub ambiguous_ratio: f64,
+    /// The least relative decrease of the energy for which a layout is changed.
+    pub least_gain: f64,
+}
+
+impl Default for SearchOptions {
+    fn default() -> Self {
+        Self {
+            candidates: 8,
+            clear_detour: 0.5,
+            clear_energy: 4.6,
+            patience: 4,
+            twists: 12,
+            twist_ratio: 2.5,
+            ambiguous_ratio: 1.2,
+            least_gain: 0.01,
+        }
+    }
+}
+
+/// Where a judged layout comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// Another order of drawing.
+    Order,
+    /// A twist of the best layout so far.
+    Twist,
+}
+
+/// A layout that was judged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Judged {
+    /// Where it comes from.
+    pub origin: Origin,
+    /// Its detour.
+    pub detour: f64,
+    /// Its worst path, relative to the shortest.
+    pub worst_stretch: f64,
+    /// The energy of its map, 4 for an isometry; `None` where no map was found.
+    pub energy: Option<f64>,
+}
+
+/// What the search saw.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SearchReport {
+    /// All judged layouts in their order; each is of another isotopy class.
+    pub judged: Vec<Judged>,
+    /// Which of them is returned.
+    pub best: usize,
+    /// Twists that were made one after the other.
+    pub twists_made: usize,
+}
+
+impl SearchReport {
+    /// The energy of the layout returned.
+    pub fn energy(&self) -> Option<f64> {
+        self.judged.get(self.best)?.energy
+    }
+
+    /// The least energy of the other classes.
+    pub fn runner_up(&self) -> Option<f64> {
+        let others = self.judged.iter().enumerate().filter(|(k, _)| *k != self.best);
+        others.filter_map(|(_, judged)| judged.energy).min_by(f64::total_cmp)
+    }
+}
+
+/// Finds the layout whose map has the least energy.
+///
+/// `judge` answers with the energy of a (coarse) map of a layout, 4 for an isometry, or `None` where it finds no map. The
+/// candidates are judged in their order until the answer is clear or nothing is gained; then twists of the best, as long as
+/// they lower the energy.
+///
+/// # Errors
+/// [`LayoutError::Cancelled`]; the last error of drawing when nothing could be drawn; [`LayoutError::NoMap`] when no layout
+/// has a map.
+pub fn search(
+    candidates: &mut Candidates<'_>,
+    judge: &mut Judge<'_>,
+    options: &SearchOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<(BaseLayout, SearchReport), LayoutError> {
+    let mut search = Search { judge, options, monitor, best: None, report: SearchReport::default() };
+    search.orders(candidates)?;
+    search.twists(candidates)?;
+    let Search { best, report, .. } = search;
+    match best {
+        Some((_, candidate)) => Ok((candidate.layout, report)),
+        None if report.judged.is_empty() => Err(candidates.failure().cloned().unwrap_or(NOTHING)),
+        None => Err(LayoutError::NoMap { layouts: report.judged.len() }),
+    }
+}
+
+/// Lowers the energy of a given layout's map by twists alone; the layout itself need not have a map.
+///
+/// `candidates` must be of the meshes and landmarks of `start`.
+///
+/// # Errors
+/// As [`search()`].
+pub fn untwist(
+    (candidates, start): (&mut Candidates<'_>, Candidate),
+    judge: &mut Judge<'_>,
+    options: &SearchOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<(BaseLayout, SearchReport), LayoutError> {
+    let mut search = Search { judge, options, monitor, best: None, report: SearchReport::default() };
+    // A start without a map has neighbours all the same.
+    search.best = Some((f64::INFINITY, start.clone()));
+    search.judge(start, Origin::Order)?;
+    search.twists(candidates)?;
+    let Search { best, report, .. } = search;
+    match best {
+        Some((energy, candidate)) if energy.is_finite() => Ok((candidate.layout, report)),
+        _ => Err(LayoutError::NoMap { layouts: report.judged.len() }),
+    }
+}
+
+/// The energy of a layout's map; `None` where there is no map.
+pub type Judge<'a> = dyn FnMut(&BaseLayout, &mut dyn Monitor) -> Result<Option<f64>, Cancelled> + 'a;
+
+/// A layout whose detour is larger than the best one's by this is not judged.
+const HOPELESS: f64 = 4.0;
+
+const NOTHING: LayoutError = LayoutError::NoMap { layouts: 0 };
+
+struct Search<'a, 'j> {
+    judge: &'a mut Judge<'j>,
+    options: &'a SearchOptions,
+    monitor: &'a mut dyn Monitor,
+    best: Option<(f64, Candidate)>,
+    report: SearchReport,
+}
+
+impl Search<'_, '_> {
+    fn orders(&mut self, candidates: &mut Candidates<'_>) -> Result<(), LayoutError> {
+        let mut without_gain = 0;
+        while self.report.judged.len() < self.options.candidates && without_gain < self.options.patience {
+            let Some(candidate) = candidates.next(self.monitor)? else { break };
+            let detour = candidate.layout.report.detour;
+            if self.best.as_ref().is_some_and(|(_, best)| detour > best.layout.report.detour + HOPELESS) {
+                break;
+            }
+            let found_before = self.best.is_some();
+            let better = self.judge(candidate, Origin::Order)?;
+            without_gain = if better || !found_before { 0 } else { without_gain + 1 };
+            if self.is_clear() {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn twists(&mut self, candidates: &mut Candidates<'_>) -> Result<(), LayoutError> {
+        let mut left = self.options.twists;
+        let mut without_gain = 0;
+        while left > 0 {
+            let Some((_, best)) = &self.best else { return Ok(()) };
+            let SearchOptions { twist_ratio, ambiguous_ratio, .. } = *self.options;
+            let ratio = if self.is_clear() { ambiguous_ratio } else { twist_ratio };
+            let around = candidates.twists(best, (left, ratio), self.monitor)?;
+            let mut better = false;
+            for candidate in around {
+                left -= 1;
+                if self.judge(candidate, Origin::Twist)? {
+                    self.report.twists_made += 1;
+                    better = true;
+                    without_gain = 0;
+                    break;
+                }
+                without_gain += 1;
+                if without_gain >= self.options.patience {
+                    break;
+                }
+            }
+            if !better {
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+
+    /// Judges a candidate and keeps it where it is better; says whether it is.
+    fn judge(&mut self, candidate: Candidate, origin: Origin) -> Result<bool, LayoutError> {
+        let most = (self.options.candidates + self.options.twists) as f64;
+        let residual = self.best.as_ref().map(|best| best.0);
+        self.monitor.step(Step { fraction: self.report.judged.len() as f64 / most, residual })?;
+        let energy = (self.judge)(&candidate.layout, self.monitor)?;
+        let super::LayoutReport { detour, worst_stretch, .. } = candidate.layout.report;
+        self.report.judged.push(Judged { origin, detour, worst_stretch, energy });
+        let least = self.best.as_ref().map_or(f64::INFINITY, |best| best.0);
+        let needed = match origin {
+            Origin::Order => least,
+            Origin::Twist => least * (1.0 - self.options.least_gain),
+        };
+        let Some(energy) = energy.filter(|energy| *energy < needed) else { return Ok(false) };
+        let gain = energy <= least * (1.0 - self.options.least_gain);
+        self.report.best = self.report.judged.len() - 1;
+        self.best = Some((energy, candidate));
+        Ok(gain)
+    }
+
+    fn is_clear(&self) -> bool {
+        self.best.as_ref().is_some_and(|(energy, candidate)| {
+            *energy <= self.options.clear_energy
+                && candidate.layout.report.detour <= self.options.clear_detour
+        })
+    }
+}

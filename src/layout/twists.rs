@@ -1,0 +1,261 @@
+//! Neighbouring isotopy classes: one whole turn of the target about a curve between two groups of landmarks.
+//!
+//! A spanning tree with a single edge e between the groups determines the class. The complement of the tree without e is an
+//! annulus between the groups, and the path from one end of e to the other that begins and ends just after (or just before)
+//! e goes round it once more than e: exchanging e for it on one mesh alone is a Dehn twist. Both ends must have other
+//! tree edges, or the turn is about a single landmark and changes nothing.
+
+use super::drawing::{Drawing, Planner};
+use super::joint::{DisjointSets, Variant, complete};
+use super::path_search::FoundPath;
+use super::{LayoutError, TreeOrder};
+use crate::monitor::Monitor;
+
+/// A way to turn one group of landmarks against the other.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Twist {
+    /// Which landmarks are in the first group.
+    pub inside: Vec<bool>,
+    pub turn: Turn,
+    /// How much longer the path between the groups becomes, on the mesh where that is least: near 1 the layout might as
+    /// well have gone the other way.
+    pub ratio: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Turn {
+    CounterClockwise,
+    Clockwise,
+}
+
+const PLAIN: Variant =
+    Variant { order: TreeOrder::LongestFirst, midpoint_penalty: 1.0, perturbation: 0.0, seed: 0 };
+
+/// All twists about the curves that a layout suggests, the most plausible first: between the two parts of its shortest tree
+/// without an edge, and round two landmarks joined by a path.
+pub(super) fn plausible(drawing: &Drawing, planner: &mut Planner<'_>, largest_ratio: f64) -> Vec<Twist> {
+    let mut twists = Vec::new();
+    for inside in groups(drawing) {
+        let Some(tree) = Tree::new(drawing, &inside) else { continue };
+        for turn in [Turn::CounterClockwise, Turn::Clockwise] {
+            if let Some((_, _, ratio)) = tree.turned_path(planner, turn)
+                && ratio <= largest_ratio
+            {
+                twists.push(Twist { inside: inside.clone(), turn, ratio });
+            }
+        }
+    }
+    twists.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
+    twists
+}
+
+/// The drawing of the neighbouring class: the tree with the turned path, completed anew.
+pub(super) fn twisted(
+    drawing: &Drawing,
+    planner: &mut Planner<'_>,
+    twist: &Twist,
+    monitor: &mut dyn Monitor,
+) -> Result<Option<Drawing>, LayoutError> {
+    let tree = Tree::new(drawing, &twist.inside).and_then(|tree| tree.turned(planner, twist.turn));
+    let Some(Tree { mut drawing, .. }) = tree else { return Ok(None) };
+    complete(&mut drawing, planner, &PLAIN, monitor)?;
+    Ok(Some(drawing))
+}
+
+/// Groups of landmarks on one side of a curve that crosses each path at most once.
+fn groups(drawing: &Drawing) -> Vec<Vec<bool>> {
+    let n = drawing.rotation.len();
+    let order = shortest_first(drawing);
+    let mut sets = DisjointSets::new(n);
+    let tree: Vec<[usize; 2]> =
+        order.iter().map(|&p| drawing.ends[p]).filter(|&[i, j]| sets.join(i, j)).collect();
+    let mut groups: Vec<Vec<bool>> = Vec::new();
+    for cut in 0..tree.len() {
+        let mut parts = DisjointSets::new(n);
+        for (k, &[i, j]) in tree.iter().enumerate() {
+            if k != cut {
+                parts.join(i, j);
+            }
+        }
+        let root = parts.root(tree[cut][0]);
+        groups.push((0..n).map(|i| parts.root(i) == root).collect());
+    }
+    // Two landmarks at a short path, such as a knee and a foot.
+    for &p in order.iter().take(n) {
+        groups.push((0..n).map(|i| drawing.ends[p].contains(&i)).collect());
+    }
+    for group in &mut groups {
+        if !group[0] {
+            group.iter_mut().for_each(|inside| *inside = !*inside);
+        }
+    }
+    let mut distinct: Vec<Vec<bool>> = Vec::new();
+    for group in groups {
+        let inside = group.iter().filter(|g| **g).count();
+        if inside >= 2 && n - inside >= 2 && !distinct.contains(&group) {
+            distinct.push(group);
+        }
+    }
+    distinct
+}
+
+fn shortest_first(drawing: &Drawing) -> Vec<usize> {
+    let length = |p: usize| drawing.sides[0].lengths[p] + drawing.sides[1].lengths[p];
+    let mut order: Vec<usize> = (0..drawing.ends.len()).collect();
+    order.sort_by(|&p, &q| length(p).total_cmp(&length(q)).then(p.cmp(&q)));
+    order
+}
+
+/// A drawing reduced to a spanning tree with one path between the groups.
+struct Tree {
+    drawing: Drawing,
+    between: usize,
+}
+
+impl Tree {
+    /// `None` where a group is not connected by paths inside it.
+    fn new(complete: &Drawing, inside: &[bool]) -> Option<Self> {
+        let mut sets = DisjointSets::new(inside.len());
+        let order = shortest_first(complete);
+        let within = |p: &usize| {
+            complete.ends[*p].map(|i| inside[i]) != [true, false]
+                && complete.ends[*p].map(|i| inside[i]) != [false, true]
+        };
+        let (within, across): (Vec<usize>, Vec<usize>) = order.into_iter().partition(within);
+        let mut kept: Vec<[usize; 2]> = Vec::new();
+        for p in within {
+            let [i, j] = complete.ends[p];
+            if sets.join(i, j) {
+                kept.push([i, j]);
+            }
+        }
+        if kept.len() + 2 != inside.len() {
+            return None;
+        }
+        let bridge = complete.ends[*across.first()?];
+        kept.push(bridge);
+        let mut drawing = complete.clone();
+        while let Some(p) = drawing.ends.iter().rposition(|ends| !kept.contains(ends)) {
+            drawing.erase(p);
+        }
+        let between = drawing.ends.iter().position(|&ends| ends == bridge)?;
+        Some(Self { drawing, between })
+    }
+
+    /// The tree of the neighbouring class.
+    fn turned(mut self, planner: &mut Planner<'_>, turn: Turn) -> Option<Self> {
+        let (side, found, _) = self.turned_path(planner, turn)?;
+        self.drawing.exchange(side, self.between, &found)?;
+        Some(self)
+    }
+
+    /// The path that goes round once more, on the mesh where it is the shorter relative to the path that it replaces, and
+    /// that ratio.
+    fn turned_path(&self, planner: &mut Planner<'_>, turn: Turn) -> Option<(usize, FoundPath, f64)> {
+        let drawing = &self.drawing;
+        let ends = drawing.ends[self.between];
+        let mut best: Option<(usize, FoundPath, f64)> = None;
+        for side in 0..2 {
+            // A turn of one mesh is the opposite turn of the other.
+            let after = (turn == Turn::CounterClockwise) == (side == 1);
+            let slots = ends.map(|i| {
+                let around = &drawing.rotation[i];
+                let own = around.iter().position(|&p| p == self.between).unwrap_or(0);
+                if after { own } else { (own + around.len() - 1) % around.len() }
+            });
+            let found = drawing.search_in_slots(planner, (side, ends), slots, f64::INFINITY);
+            let Some(found) = found else { continue };
+            let ratio = found.length / drawing.sides[side].lengths[self.between];
+            if best.as_ref().is_none_or(|b| ratio < b.2) {
+                best = Some((side, found, ratio));
+            }
+        }
+        best
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::candidates::Candidates;
+    use super::super::same_class;
+    use super::*;
+    use crate::landmarks::Landmarks;
+    use crate::mesh::VertexId;
+    use crate::mesh::coarsening::Level;
+    use crate::monitor::Silent;
+
+    /// A figure in two poses, coarse.
+    fn figures() -> ([Level; 2], Landmarks) {
+        let demo = crate::demo::build("poses").unwrap();
+        let held = [0, 1].map(|s| demo.landmarks.iter().map(|p| VertexId(p[s])).collect::<Vec<_>>());
+        let levels = [Level::coarse(&demo.source, &held[0], 500), Level::coarse(&demo.target, &held[1], 500)];
+        let [source, target] = [0, 1].map(|s| {
+            let number = |v: &VertexId| levels[s].vertices.iter().position(|w| w == v).unwrap().into();
+            held[s].iter().map(number).collect()
+        });
+        (levels, Landmarks { source, target })
+    }
+
+    #[test]
+    fn a_turn_leaves_the_class_and_the_turn_back_returns_to_it() {
+        let (levels, landmarks) = figures();
+        let mut candidates = Candidates::new([&levels[0].mesh, &levels[1].mesh], &landmarks);
+        let first = candidates.next(&mut Silent).unwrap().unwrap();
+        let distances = candidates.distances().clone();
+        let mut planner = Planner::new(&distances, 1.0);
+        let twists = plausible(first.drawing(), &mut planner, 3.0);
+        assert!(twists.len() >= 6, "{}", twists.len());
+        for twist in twists.iter().take(6) {
+            let back = match twist.turn {
+                Turn::CounterClockwise => Turn::Clockwise,
+                Turn::Clockwise => Turn::CounterClockwise,
+            };
+            let tree = Tree::new(first.drawing(), &twist.inside).unwrap();
+            let once = tree.turned(&mut planner, twist.turn).unwrap();
+            let mut completed = once.drawing.clone();
+            complete(&mut completed, &mut planner, &PLAIN, &mut Silent).unwrap();
+            let turned = candidates.candidate(completed).unwrap();
+            assert!(!same_class(&first.layout, &turned.layout));
+            assert!(!same_class(&turned.layout, &first.layout));
+            let mut returned = once.turned(&mut planner, back).unwrap().drawing;
+            complete(&mut returned, &mut planner, &PLAIN, &mut Silent).unwrap();
+            let returned = candidates.candidate(returned).unwrap();
+            assert!(same_class(&first.layout, &returned.layout));
+            assert!(same_class(&returned.layout, &first.layout));
+            assert!(!same_class(&turned.layout, &returned.layout));
+        }
+    }
+
+    #[test]
+    fn candidates_are_of_different_classes() {
+        let (levels, landmarks) = figures();
+        let mut candidates = Candidates::new([&levels[0].mesh, &levels[1].mesh], &landmarks);
+        let mut all = Vec::new();
+        while let Some(candidate) = candidates.next(&mut Silent).unwrap() {
+            assert!(same_class(&candidate.layout, &candidate.layout));
+            all.push(candidate);
+        }
+        let first = all[0].clone();
+        all.extend(candidates.twists(&first, (4, 3.0), &mut Silent).unwrap());
+        assert!(all.len() >= 5);
+        for (k, a) in all.iter().enumerate() {
+            assert!(all[..k].iter().all(|b| !same_class(&a.layout, &b.layout)));
+        }
+    }
+
+    #[test]
+    fn erased_paths_leave_a_drawing_that_completes() {
+        let (levels, landmarks) = figures();
+        let mut candidates = Candidates::new([&levels[0].mesh, &levels[1].mesh], &landmarks);
+        let first = candidates.next(&mut Silent).unwrap().unwrap();
+        let distances = candidates.distances().clone();
+        let mut planner = Planner::new(&distances, 1.0);
+        let inside: Vec<bool> = groups(first.drawing())[0].clone();
+        let mut tree = Tree::new(first.drawing(), &inside).unwrap().drawing;
+        assert_eq!(tree.ends.len(), landmarks.len() - 1);
+        assert_eq!(tree.rotation.iter().map(Vec::len).sum::<usize>(), 2 * tree.ends.len());
+        complete(&mut tree, &mut planner, &PLAIN, &mut Silent).unwrap();
+        let again = candidates.candidate(tree).unwrap();
+        assert!(same_class(&first.layout, &again.layout));
+    }
+}
