@@ -6,27 +6,22 @@
 use super::OverlayError;
 use super::seats::Seats;
 use super::trace::Traces;
-use crate::mesh::{HalfedgeId, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::surface_map::compose::Parametrised;
 use glam::DVec2;
 use typed_index_collections::TiVec;
 
-/// Part `.1` (0 is the first) of a halfedge.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Dart {
-    Source(HalfedgeId, u32),
-    Target(HalfedgeId, u32),
-}
-
-/// Where a dart starts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Origin {
-    /// A source vertex; landmarks are source vertices.
-    Source(VertexId),
-    /// A target vertex that is no landmark.
-    Target(VertexId),
-    /// A crossing, by its number.
-    Crossing(u32),
+/// A part of a halfedge between two neighbouring crossings or ends.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Dart {
+    /// The next dart around the cell on the left.
+    pub next: u32,
+    /// The overlay vertex where it starts.
+    pub origin: u32,
+    /// Its halfedge: of the source, or, increased by the number of source halfedges, of the target.
+    halfedge: u32,
+    /// Of a source dart the target face below it.
+    pub below: FaceId,
 }
 
 /// The darts and how they follow each other.
@@ -43,14 +38,18 @@ pub(super) struct Arrangement {
     /// Number of the first dart of each target halfedge.
     target_darts: TiVec<HalfedgeId, u32>,
     /// At landmarks, by outgoing source halfedge: the next outgoing dart clockwise.
-    source_turns: TiVec<HalfedgeId, Option<Dart>>,
+    source_turns: TiVec<HalfedgeId, Option<u32>>,
     /// At landmarks, by outgoing target halfedge: the next outgoing dart clockwise.
-    target_turns: TiVec<HalfedgeId, Option<Dart>>,
+    target_turns: TiVec<HalfedgeId, Option<u32>>,
     /// At landmarks, by target halfedge: the last source halfedge in the wedge that it begins.
     last_in_wedge: TiVec<HalfedgeId, Option<HalfedgeId>>,
-    /// By target vertex: its landmark as a source vertex.
-    shared: TiVec<VertexId, Option<VertexId>>,
-    darts: usize,
+    /// Overlay vertex of each target vertex; source vertices keep their numbers, so that landmarks have them.
+    target_numbers: TiVec<VertexId, u32>,
+    /// Overlay vertex of the first crossing.
+    pub first_crossing: u32,
+    source_halfedges: u32,
+    /// All darts: those of each source halfedge in order, then those of each target halfedge.
+    pub darts: Vec<Dart>,
 }
 
 impl Arrangement {
@@ -63,38 +62,34 @@ impl Arrangement {
     ) -> Result<(), OverlayError> {
         self.sort(target, traces);
         self.number(source, target, traces);
-        self.shared.clear();
-        self.shared.resize(target.patched.mesh.vertex_count(), None);
-        let landmarks = source.patched.landmark_vertices.iter().zip(&target.patched.landmark_vertices);
-        for (&v, &w) in landmarks {
-            self.shared[w] = Some(v);
-        }
-        self.merge_stars(source, target, seats)
+        self.merge_stars(source, target, seats)?;
+        self.link_ends(source, target, seats);
+        self.link_crossings(traces);
+        Ok(())
     }
 
-    /// Number of darts.
-    pub fn dart_count(&self) -> usize {
-        self.darts
-    }
-
-    /// The number of a dart.
-    pub fn number_of(&self, dart: Dart) -> usize {
-        match dart {
-            Dart::Source(h, i) => self.source_darts[h] as usize + i as usize,
-            Dart::Target(x, i) => self.target_darts[x] as usize + i as usize,
+    /// The source halfedge of a dart, or its target halfedge.
+    pub fn halfedge(&self, dart: &Dart) -> Side {
+        match dart.halfedge.checked_sub(self.source_halfedges) {
+            None => Side::Source(HalfedgeId(dart.halfedge)),
+            Some(x) => Side::Target(HalfedgeId(x)),
         }
     }
 
-    /// Number of darts of a target halfedge.
-    pub fn target_parts(&self, x: HalfedgeId) -> u32 {
-        let [begin, end] = self.ranges[x];
-        end - begin + 1
+    /// Which part of its source halfedge a dart is.
+    pub fn source_part(&self, h: HalfedgeId, number: u32) -> u32 {
+        number - self.source_darts[h]
+    }
+
+    /// The first dart of a target halfedge.
+    pub fn target_dart(&self, x: HalfedgeId) -> u32 {
+        self.target_darts[x]
     }
 
     /// Counting sort by target edge, then by place on the edge; equal places by number.
     fn sort(&mut self, target: Parametrised<'_>, traces: &Traces) {
         let mesh = &target.patched.mesh;
-        let edge = |x: HalfedgeId| x.min(mesh.twin(x));
+        let edge = |[exit, entered]: [HalfedgeId; 2]| exit.min(entered);
         self.ranges.clear();
         self.ranges.resize(mesh.face_count() * 3, [0; 2]);
         for crossing in &traces.crossings {
@@ -121,7 +116,7 @@ impl Arrangement {
             self.ranges[mesh.twin(x)] = [begin, end];
             let place = |c: u32| {
                 let crossing = &traces.crossings[c as usize];
-                if crossing.exit == x { crossing.along_target } else { 1.0 - crossing.along_target }
+                if crossing.exit[0] == x { crossing.along_target } else { 1.0 - crossing.along_target }
             };
             let along = &mut self.order[begin as usize..end as usize];
             along.sort_unstable_by(|&a, &b| place(a).total_cmp(&place(b)).then(a.cmp(&b)));
@@ -132,20 +127,34 @@ impl Arrangement {
     }
 
     fn number(&mut self, source: Parametrised<'_>, target: Parametrised<'_>, traces: &Traces) {
-        let mut next = 0;
+        let [mesh, below] = [&source.patched.mesh, &target.patched.mesh];
+        self.target_numbers.clear();
+        self.target_numbers.resize(below.vertex_count(), u32::MAX);
+        let landmarks = source.patched.landmark_vertices.iter().zip(&target.patched.landmark_vertices);
+        landmarks.for_each(|(&v, &w)| self.target_numbers[w] = v.0);
+        let mut vertex = mesh.vertex_count() as u32;
+        for number in self.target_numbers.iter_mut().filter(|n| **n == u32::MAX) {
+            *number = vertex;
+            vertex += 1;
+        }
+        self.first_crossing = vertex;
+        self.source_halfedges = mesh.face_count() as u32 * 3;
+        self.darts.clear();
         self.source_darts.clear();
-        for h in source.patched.mesh.halfedges() {
-            self.source_darts.push(next);
-            let [begin, end] = traces.ranges[h];
-            next += end - begin + 1;
-        }
         self.target_darts.clear();
-        for x in target.patched.mesh.halfedges() {
-            self.target_darts.push(next);
-            let [begin, end] = self.ranges[x];
-            next += end - begin + 1;
+        let mut put = |[begin, end]: [u32; 2], halfedge: u32, origin: u32| {
+            let first = self.darts.len() as u32;
+            let dart = Dart { next: 0, origin, halfedge, below: FaceId(0) };
+            self.darts.extend(std::iter::repeat_n(dart, (end - begin + 1) as usize));
+            first
+        };
+        for h in mesh.halfedges() {
+            self.source_darts.push(put(traces.ranges[h], h.0, mesh.tail(h).0));
         }
-        self.darts = next as usize;
+        for x in below.halfedges() {
+            let origin = self.target_numbers[below.tail(x)];
+            self.target_darts.push(put(self.ranges[x], x.0 + self.source_halfedges, origin));
+        }
     }
 
     fn merge_stars(
@@ -171,9 +180,9 @@ impl Arrangement {
                 };
                 let [along, turned] = [h, following].map(|g| heading(seats, g));
                 if wedge == next && along.perp_dot(turned) >= 0.0 {
-                    self.source_turns[following] = Some(Dart::Source(h, 0));
+                    self.source_turns[following] = Some(self.source_darts[h]);
                 } else {
-                    self.source_turns[following] = Some(Dart::Target(next, 0));
+                    self.source_turns[following] = Some(self.target_darts[next]);
                     if self.last_in_wedge[wedge].replace(h).is_some() {
                         return Err(lost);
                     }
@@ -182,84 +191,70 @@ impl Arrangement {
             for x in below.star(w) {
                 let before = below.twin(x).next();
                 let last = self.last_in_wedge[before];
-                let turn = last.map_or(Dart::Target(before, 0), |h| Dart::Source(h, 0));
+                let turn = last.map_or(self.target_darts[before], |h| self.source_darts[h]);
                 self.target_turns[x] = Some(turn);
             }
         }
         Ok(())
     }
 
-    /// The dart that follows around the cell on the left of a dart.
-    pub fn next(
-        &self,
-        source: Parametrised<'_>,
-        target: Parametrised<'_>,
-        (traces, dart): (&Traces, Dart),
-    ) -> Dart {
-        match dart {
-            Dart::Source(h, i) => {
-                let twin = source.patched.mesh.twin(h);
-                let [begin, end] = traces.ranges[h];
-                if i == end - begin {
-                    return self.source_turns[twin].unwrap_or(Dart::Source(h.next(), 0));
-                }
-                // A turn to the left onto the target edge: along `exit` for the trace's own direction, against it else.
-                let c = if h < twin { begin + i } else { end - 1 - i };
-                let exit = traces.crossings[c as usize].exit;
-                let x = if h < twin { exit } else { target.patched.mesh.twin(exit) };
-                Dart::Target(x, self.place(target, x, c) + 1)
-            }
-            Dart::Target(x, i) => {
-                let twin = target.patched.mesh.twin(x);
-                let [begin, end] = self.ranges[x];
-                if i == end - begin {
-                    return self.target_turns[twin].unwrap_or(Dart::Target(x.next(), 0));
-                }
-                let c = self.order[if x < twin { begin + i } else { end - 1 - i } as usize];
-                let crossing = &traces.crossings[c as usize];
-                let [first, last] = traces.ranges[crossing.edge];
-                // Left of a walk along `exit` the trace comes from; left of a walk against it the trace goes on.
-                if x == crossing.exit {
-                    Dart::Source(source.patched.mesh.twin(crossing.edge), last - c)
-                } else {
-                    Dart::Source(crossing.edge, c - first + 1)
-                }
-            }
+    /// What follows the last part of each halfedge, and the target faces below both ends of source edges.
+    fn link_ends(&mut self, source: Parametrised<'_>, target: Parametrised<'_>, seats: &Seats) {
+        let [mesh, below] = [&source.patched.mesh, &target.patched.mesh];
+        let end = |darts: &TiVec<HalfedgeId, u32>, h: usize, after: usize| {
+            darts.get(HalfedgeId::from(h + 1)).map_or(after, |&d| d as usize) - 1
+        };
+        let between = self.target_darts.first().map_or(0, |&d| d as usize);
+        for h in mesh.halfedges() {
+            let twin = mesh.twin(h);
+            let last = end(&self.source_darts, h.index(), between);
+            self.darts[last].next = self.source_turns[twin].unwrap_or(self.source_darts[h.next()]);
+            // The trace begins at the smaller halfedge's seat: its first part and the other's last part lie there.
+            let part = if h < twin { self.source_darts[h] as usize } else { last };
+            self.darts[part].below = seats.seats[h.min(twin)].face;
+        }
+        let all = self.darts.len();
+        for x in below.halfedges() {
+            let last = end(&self.target_darts, x.index(), all);
+            let turn = self.target_turns[below.twin(x)];
+            self.darts[last].next = turn.unwrap_or(self.target_darts[x.next()]);
         }
     }
 
-    /// Which crossing of a target halfedge c is, counted in the halfedge's direction.
-    fn place(&self, target: Parametrised<'_>, x: HalfedgeId, c: u32) -> u32 {
-        let rank = self.ranks[c as usize];
-        let [begin, end] = self.ranges[x];
-        if x < target.patched.mesh.twin(x) { rank } else { end - begin - 1 - rank }
-    }
-
-    /// Where a dart starts.
-    pub fn origin(
-        &self,
-        source: Parametrised<'_>,
-        target: Parametrised<'_>,
-        (traces, dart): (&Traces, Dart),
-    ) -> Origin {
-        match dart {
-            Dart::Source(h, 0) => Origin::Source(source.patched.mesh.tail(h)),
-            Dart::Source(h, i) => {
-                let [begin, end] = traces.ranges[h];
-                let is_forward = h < source.patched.mesh.twin(h);
-                Origin::Crossing(if is_forward { begin + i - 1 } else { end - i })
+    /// The four darts that end and the four that start at each crossing. The trace, seen going east, crosses `exit` going
+    /// north; each dart turns to its left.
+    fn link_crossings(&mut self, traces: &Traces) {
+        for (c, crossing) in traces.crossings.iter().enumerate() {
+            let ([e, back], [x, down]) = (crossing.edge, crossing.exit);
+            let [begin, end] = traces.ranges[e];
+            // How many crossings lie behind and before on either edge.
+            let (west, east) = (c as u32 - begin, end - 1 - c as u32);
+            let [begin, end] = self.ranges[x];
+            let (rank, others) = (self.ranks[c], end - begin - 1);
+            let (south, north) = if x < down { (rank, others - rank) } else { (others - rank, rank) };
+            let arriving = [
+                self.source_darts[e] + west,
+                self.target_darts[x] + south,
+                self.source_darts[back] + east,
+                self.target_darts[down] + north,
+            ];
+            for k in 0..4 {
+                let leaving = arriving[(k + 1) % 4] + 1;
+                self.darts[arriving[k] as usize].next = leaving;
+                self.darts[leaving as usize].origin = self.first_crossing + c as u32;
             }
-            Dart::Target(x, 0) => {
-                let w = target.patched.mesh.tail(x);
-                self.shared[w].map_or(Origin::Target(w), Origin::Source)
-            }
-            Dart::Target(x, i) => {
-                let [begin, end] = self.ranges[x];
-                let is_forward = x < target.patched.mesh.twin(x);
-                Origin::Crossing(self.order[if is_forward { begin + i - 1 } else { end - i } as usize])
-            }
+            let entered = down.face();
+            self.darts[arriving[0] as usize + 1].below = entered;
+            self.darts[arriving[2] as usize].below = entered;
         }
     }
+}
+
+/// A halfedge of one of the meshes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    Source(HalfedgeId),
+    Target(HalfedgeId),
 }
 
 /// Direction of a source halfedge at a landmark, in the plane of the target face that it points into.

@@ -1,8 +1,8 @@
 //! The cells of the arrangement as pieces: walked, given coordinates on both meshes, and checked.
 
-use super::arrangement::{Arrangement, Dart, Origin};
+use super::arrangement::{Arrangement, Side};
 use super::seats::Seats;
-use super::trace::Traces;
+use super::trace::{Crossing, Traces};
 use super::{Overlay, OverlayError, OverlayPoint, Piece, SideOf, corners_of, face_area};
 use crate::math::rigid2::Rigid2;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
@@ -32,14 +32,10 @@ pub(super) struct Cells {
     source_inside: TiVec<VertexId, Option<Inside>>,
     /// By target vertex, its place on the source.
     target_inside: TiVec<VertexId, Option<Inside>>,
-    /// Overlay vertex of each target vertex that is no landmark.
-    target_numbers: TiVec<VertexId, u32>,
-    /// Overlay vertex of the first crossing.
-    first_crossing: u32,
     areas: [TiVec<FaceId, f64>; 2],
     covered: [TiVec<FaceId, f64>; 2],
     /// Darts of all cells, cell by cell, in the order of the pieces' points.
-    darts: Vec<Dart>,
+    darts: Vec<u32>,
 }
 
 /// Source and target with the parts of their arrangement.
@@ -62,19 +58,13 @@ impl Cells {
     ) -> Result<(), OverlayError> {
         let view = View { source, target, seats, traces, arrangement };
         self.reset(view, overlay);
-        for h in source.patched.mesh.halfedges() {
-            let [begin, end] = traces.ranges[h];
-            for i in 0..=end - begin {
-                self.walk(view, Dart::Source(h, i), overlay)?;
-            }
-        }
-        for x in target.patched.mesh.halfedges() {
-            for i in 0..arrangement.target_parts(x) {
-                self.walk(view, Dart::Target(x, i), overlay)?;
+        for dart in 0..arrangement.darts.len() as u32 {
+            if self.cell_of_dart[dart as usize] == NONE {
+                self.walk(view, dart, overlay)?;
             }
         }
         self.spread(view, overlay)?;
-        let edges = arrangement.dart_count() / 2;
+        let edges = arrangement.darts.len() / 2;
         let euler = overlay.vertex_count as i64 - edges as i64 + overlay.pieces.len() as i64;
         if euler != 2 {
             return Err(OverlayError::NotASphere { euler });
@@ -85,25 +75,14 @@ impl Cells {
     fn reset(&mut self, view: View<'_>, overlay: &mut Overlay) {
         let [source, target] = [view.source, view.target].map(|side| &side.patched.mesh);
         self.cell_of_dart.clear();
-        self.cell_of_dart.resize(view.arrangement.dart_count(), NONE);
+        self.cell_of_dart.resize(view.arrangement.darts.len(), NONE);
         self.whole.clear();
         self.darts.clear();
         self.source_inside.clear();
         self.source_inside.resize(source.vertex_count(), None);
         self.target_inside.clear();
         self.target_inside.resize(target.vertex_count(), None);
-        self.target_numbers.clear();
-        self.target_numbers.resize(target.vertex_count(), 0);
-        for &w in &view.target.patched.landmark_vertices {
-            self.target_numbers[w] = NONE;
-        }
-        let mut next = source.vertex_count() as u32;
-        for number in self.target_numbers.iter_mut().filter(|n| **n != NONE) {
-            *number = next;
-            next += 1;
-        }
-        self.first_crossing = next;
-        overlay.vertex_count = next as usize + view.traces.crossings.len();
+        overlay.vertex_count = view.arrangement.first_crossing as usize + view.traces.crossings.len();
         overlay.pieces.clear();
         overlay.points.clear();
         overlay.degenerate = 0;
@@ -116,34 +95,31 @@ impl Cells {
         }
     }
 
-    /// Walks the cell on the left of a dart, unless it was walked before.
-    fn walk(&mut self, view: View<'_>, first: Dart, overlay: &mut Overlay) -> Result<(), OverlayError> {
-        if self.cell_of_dart[view.arrangement.number_of(first)] != NONE {
-            return Ok(());
-        }
+    /// Walks the cell on the left of a dart.
+    fn walk(&mut self, view: View<'_>, first: u32, overlay: &mut Overlay) -> Result<(), OverlayError> {
         let cell = overlay.pieces.len() as u32;
         let begin = self.darts.len();
         let (mut source_face, mut target_face, mut motion) = (None, None, None);
-        let mut dart = first;
+        let mut number = first;
         loop {
-            let slot = &mut self.cell_of_dart[view.arrangement.number_of(dart)];
+            let slot = &mut self.cell_of_dart[number as usize];
             let mut is_mixed = *slot != NONE;
             *slot = cell;
-            self.darts.push(dart);
-            match dart {
-                Dart::Source(h, i) => {
-                    let (below, onto) = view.below(h, i);
+            self.darts.push(number);
+            let dart = &view.arrangement.darts[number as usize];
+            match view.arrangement.halfedge(dart) {
+                Side::Source(h) => {
                     is_mixed |= *source_face.get_or_insert(h.face()) != h.face();
-                    is_mixed |= *target_face.get_or_insert(below) != below;
-                    motion.get_or_insert(onto);
+                    is_mixed |= *target_face.get_or_insert(dart.below) != dart.below;
+                    motion.get_or_insert_with(|| view.motion(h, view.arrangement.source_part(h, number)));
                 }
-                Dart::Target(x, _) => is_mixed |= *target_face.get_or_insert(x.face()) != x.face(),
+                Side::Target(x) => is_mixed |= *target_face.get_or_insert(x.face()) != x.face(),
             }
             if is_mixed {
                 return Err(mixed(source_face, target_face));
             }
-            dart = view.arrangement.next(view.source, view.target, (view.traces, dart));
-            if dart == first {
+            number = dart.next;
+            if number == first {
                 break;
             }
         }
@@ -172,14 +148,14 @@ impl Cells {
                     continue;
                 }
                 let darts = &self.darts[piece.points.clone()];
-                let across = |dart: &Dart| match *dart {
-                    Dart::Target(x, 0) => {
-                        let twin = mesh.twin(x);
-                        let other = self.cell_of_dart[view.arrangement.number_of(Dart::Target(twin, 0))];
-                        Some((twin, other))
-                    }
-                    _ => None,
-                };
+                let across =
+                    |&dart: &u32| match view.arrangement.halfedge(&view.arrangement.darts[dart as usize]) {
+                        Side::Target(x) => {
+                            let twin = mesh.twin(x);
+                            Some((twin, self.cell_of_dart[view.arrangement.target_dart(twin) as usize]))
+                        }
+                        Side::Source(_) => None,
+                    };
                 let known = |(_, other): &(HalfedgeId, u32)| {
                     overlay.pieces[*other as usize].source_face != FaceId(NONE)
                 };
@@ -231,32 +207,26 @@ impl Cells {
         Ok(())
     }
 
-    fn point(&mut self, view: View<'_>, piece: &Piece, dart: Dart) -> Result<OverlayPoint, OverlayError> {
-        let side = if matches!(dart, Dart::Source(..)) { SideOf::Source } else { SideOf::Target };
-        let [mesh, below] = [view.source, view.target].map(|s| &s.patched.mesh);
+    fn point(&mut self, view: View<'_>, piece: &Piece, number: u32) -> Result<OverlayPoint, OverlayError> {
+        let dart = &view.arrangement.darts[number as usize];
+        let halfedge = view.arrangement.halfedge(dart);
+        let side = if matches!(halfedge, Side::Source(_)) { SideOf::Source } else { SideOf::Target };
+        let vertex = dart.origin;
         let (s, t) = (piece.source_face, piece.target_face);
-        let origin = view.arrangement.origin(view.source, view.target, (view.traces, dart));
-        let (source, target, vertex) = match origin {
-            Origin::Source(v) => {
-                let target = match dart {
-                    Dart::Target(x, _) => unit(x.corner()),
-                    Dart::Source(h, _) => match view.seats.wedges[h] {
-                        Some(wedge) => unit(corner_in(below, t, below.tail(wedge))),
-                        None => self.source_in_target(view, (v, h), t)?,
-                    },
-                };
-                (unit(corner_in(mesh, s, v)), target, v.0)
-            }
-            Origin::Target(w) => {
-                let source = self.target_in_source(view, w, piece)?;
-                (source, unit(corner_in(below, t, w)), self.target_numbers[w])
-            }
-            Origin::Crossing(c) => {
-                let crossing = &view.traces.crossings[c as usize];
-                let source = on_edge(mesh, crossing.edge, s, crossing.along_source);
-                let target = on_edge(below, crossing.exit, t, crossing.along_target);
-                (source, target, self.first_crossing + c)
-            }
+        if let Some(c) = vertex.checked_sub(view.arrangement.first_crossing) {
+            let Crossing { edge, exit, along_source, along_target } = view.traces.crossings[c as usize];
+            let (source, target) = (on_edge(edge, s, along_source), on_edge(exit, t, along_target));
+            return Ok(OverlayPoint { source, target, vertex, side });
+        }
+        let [mesh, below] = [view.source, view.target].map(|s| &s.patched.mesh);
+        let is_source = (vertex as usize) < mesh.vertex_count();
+        let (source, target) = match halfedge {
+            Side::Source(h) => match view.seats.wedges[h] {
+                Some(wedge) => (unit(h.corner()), unit(corner_in(below, t, below.tail(wedge)))),
+                None => (unit(h.corner()), self.source_in_target(view, (VertexId(vertex), h), t)?),
+            },
+            Side::Target(x) if is_source => (unit(corner_in(mesh, s, VertexId(vertex))), unit(x.corner())),
+            Side::Target(x) => (self.target_in_source(view, x, piece)?, unit(x.corner())),
         };
         Ok(OverlayPoint { source, target, vertex, side })
     }
@@ -279,14 +249,13 @@ impl Cells {
     fn target_in_source(
         &mut self,
         view: View<'_>,
-        w: VertexId,
+        x: HalfedgeId,
         piece: &Piece,
     ) -> Result<[f64; 3], OverlayError> {
         let s = piece.source_face;
+        let w = view.target.patched.mesh.tail(x);
         let inside = self.target_inside[w].get_or_insert_with(|| {
-            let x = corner_in(&view.target.patched.mesh, piece.target_face, w);
-            let at = view.target.embedding.corners[HalfedgeId::of(piece.target_face, x)];
-            let at = piece.motion.inverse().apply(at);
+            let at = piece.motion.inverse().apply(view.target.embedding.corners[x]);
             Inside { face: s, barycentric: barycentric_in(corners_of(&view.seats.corners, s), at) }
         });
         if inside.face == s { Ok(inside.barycentric) } else { Err(mixed(Some(s), Some(piece.target_face))) }
@@ -294,24 +263,16 @@ impl Cells {
 }
 
 impl View<'_> {
-    /// The target face below part i of a source halfedge, and the motion from the halfedge's source face.
-    fn below(&self, h: HalfedgeId, i: u32) -> (FaceId, Rigid2) {
-        let mesh = &self.source.patched.mesh;
-        let twin = mesh.twin(h);
+    /// Below part i of a source halfedge, the motion from its source face to the target face.
+    fn motion(&self, h: HalfedgeId, i: u32) -> Rigid2 {
+        let edge = h.min(self.source.patched.mesh.twin(h));
         let [begin, end] = self.traces.ranges[h];
         // Parts counted along the trace: part 0 begins at the seat, part k at crossing k - 1.
-        let along = if h < twin { i } else { end - begin - i };
-        let edge = h.min(twin);
-        let (face, motion) = if along == 0 {
-            let seat = &self.seats.seats[edge];
-            (seat.face, seat.motion)
-        } else {
-            let crossing = &self.traces.crossings[(begin + along - 1) as usize];
-            (self.target.patched.mesh.twin(crossing.exit).face(), crossing.motion)
-        };
+        let along = if h == edge { i } else { end - begin - i };
+        let before = along.checked_sub(1).map(|k| &self.traces.motions[(begin + k) as usize]);
+        let motion = before.unwrap_or(&self.seats.seats[edge].motion);
         let transition = &self.source.embedding.transitions[h];
-        let is_plain = h == edge || *transition == Rigid2::IDENTITY;
-        (face, if is_plain { motion } else { motion.after(transition) })
+        if h == edge || *transition == Rigid2::IDENTITY { *motion } else { motion.after(transition) }
     }
 }
 
@@ -331,9 +292,9 @@ fn corner_in(mesh: &SurfaceMesh, f: FaceId, v: VertexId) -> usize {
     mesh.triangles()[f].iter().position(|&c| c == v).unwrap_or(0)
 }
 
-/// A point of an edge as seen from one of its two faces.
-fn on_edge(mesh: &SurfaceMesh, edge: HalfedgeId, f: FaceId, along: f64) -> [f64; 3] {
-    let (h, along) = if edge.face() == f { (edge, along) } else { (mesh.twin(edge), 1.0 - along) };
+/// A point of an edge, given by both its halfedges, as seen from one of its two faces.
+fn on_edge([h, twin]: [HalfedgeId; 2], f: FaceId, along: f64) -> [f64; 3] {
+    let (h, along) = if h.face() == f { (h, along) } else { (twin, 1.0 - along) };
     let mut barycentric = [0.0; 3];
     barycentric[h.corner()] = 1.0 - along;
     barycentric[h.next().corner()] = along;

@@ -15,16 +15,14 @@ use typed_index_collections::TiVec;
 /// A source edge crosses a target edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Crossing {
-    /// The source edge, as the smaller of its halfedges; the trace follows its direction.
-    pub edge: HalfedgeId,
-    /// The target halfedge of the face that the trace leaves here.
-    pub exit: HalfedgeId,
+    /// The source edge as a halfedge whose direction the trace follows (the smaller one), and its twin.
+    pub edge: [HalfedgeId; 2],
+    /// The target halfedge of the face that the trace leaves here, and its twin in the face that it enters.
+    pub exit: [HalfedgeId; 2],
     /// Where on the source edge: 0 at its start, 1 at its end; never falls along a trace.
     pub along_source: f64,
     /// Where on the target halfedge `exit`: 0 at its start, 1 at its end.
     pub along_target: f64,
-    /// From the plane of the source face of `edge` to that of the target face entered.
-    pub motion: Rigid2,
 }
 
 /// The crossings of all source edges.
@@ -32,6 +30,8 @@ pub(super) struct Crossing {
 pub(super) struct Traces {
     /// Edge by edge, in the order of each trace.
     pub crossings: Vec<Crossing>,
+    /// After each crossing, from the plane of the source face of `edge[0]` to that of the target face entered.
+    pub motions: Vec<Rigid2>,
     /// By the smaller source halfedge of an edge: its range of `crossings`; the other halfedge has the same.
     pub ranges: TiVec<HalfedgeId, [u32; 2]>,
 }
@@ -46,12 +46,13 @@ impl Traces {
     ) -> Result<(), OverlayError> {
         let mesh = &source.patched.mesh;
         self.crossings.clear();
+        self.motions.clear();
         self.ranges.clear();
         self.ranges.resize(mesh.face_count() * 3, [0; 2]);
         let tracer = Tracer { source, target, seats, most: target.patched.mesh.face_count() + 1000 };
         for h in mesh.edges() {
             let begin = self.crossings.len() as u32;
-            tracer.trace(h, &mut self.crossings)?;
+            tracer.trace(h, (&mut self.crossings, &mut self.motions))?;
             let range = [begin, self.crossings.len() as u32];
             self.ranges[h] = range;
             self.ranges[mesh.twin(h)] = range;
@@ -68,9 +69,12 @@ struct Tracer<'a> {
     most: usize,
 }
 
+/// Where a trace writes its crossings and motions.
+type Log<'l> = (&'l mut Vec<Crossing>, &'l mut Vec<Rigid2>);
+
 /// A trace on its way.
 struct Walk {
-    edge: HalfedgeId,
+    edge: [HalfedgeId; 2],
     ends: [DVec2; 2],
     seat: Seat,
     /// The ends in the plane of the target face.
@@ -83,32 +87,34 @@ impl Walk {
     fn cross(
         &mut self,
         target: Parametrised<'_>,
-        exit: HalfedgeId,
-        (along_source, along_target): (f64, f64),
-    ) -> Crossing {
+        (exit, along_source, along_target): (HalfedgeId, f64, f64),
+        log: &mut Log<'_>,
+    ) {
         let transition = &target.embedding.transitions[exit];
+        let entered = target.patched.mesh.twin(exit);
         self.along = along_source.clamp(self.along, 1.0);
         if *transition != Rigid2::IDENTITY {
             self.seat.motion = transition.after(&self.seat.motion);
             self.line = self.ends.map(|p| self.seat.motion.apply(p));
         }
-        self.seat.face = target.patched.mesh.twin(exit).face();
-        Crossing {
+        self.seat.face = entered.face();
+        log.0.push(Crossing {
             edge: self.edge,
-            exit,
+            exit: [exit, entered],
             along_source: self.along,
             along_target: along_target.clamp(0.0, 1.0),
-            motion: self.seat.motion,
-        }
+        });
+        log.1.push(self.seat.motion);
     }
 }
 
 impl Tracer<'_> {
-    fn trace(&self, h: HalfedgeId, crossings: &mut Vec<Crossing>) -> Result<(), OverlayError> {
+    fn trace(&self, h: HalfedgeId, mut log: Log<'_>) -> Result<(), OverlayError> {
         let ends = [self.seats.corners[h], self.seats.corners[h.next()]];
         let seat = self.seats.seats[h];
         let line = ends.map(|p| seat.motion.apply(p));
-        let mut walk = Walk { edge: h, ends, seat, line, along: 0.0 };
+        let edge = [h, self.source.patched.mesh.twin(h)];
+        let mut walk = Walk { edge, ends, seat, line, along: 0.0 };
         let end = self.end(h);
         let goal = end.motion.apply(ends[1]);
         let mut entered = None;
@@ -124,11 +130,10 @@ impl Tracer<'_> {
                 break;
             }
             let (right, left) = (signed_double_area(p, q, a), signed_double_area(p, q, b));
-            let along = (from / (from - to), right / (right - left));
-            crossings.push(walk.cross(self.target, exit, along));
+            walk.cross(self.target, (exit, from / (from - to), right / (right - left)), &mut log);
             entered = Some(self.target.patched.mesh.twin(exit));
         }
-        self.step_over(walk, &end, crossings)
+        self.step_over(walk, &end, log)
     }
 
     /// The seat of the head, as seen from the face of the halfedge. At a landmark it lies in the wedge from which the edge
@@ -150,7 +155,7 @@ impl Tracer<'_> {
         if let Some(y) = entered {
             return Some(if is_left(y.prev()) { y.next() } else { y.prev() });
         }
-        if let Some(wedge) = self.seats.wedges[walk.edge] {
+        if let Some(wedge) = self.seats.wedges[walk.edge[0]] {
             return Some(wedge.next());
         }
         let corners = [0, 1, 2].map(|k| HalfedgeId::of(walk.seat.face, k));
@@ -160,12 +165,7 @@ impl Tracer<'_> {
 
     /// The head lies, up to rounding, on the border of the present face: goes over to the face of its seat, through one
     /// edge or around one corner.
-    fn step_over(
-        &self,
-        mut walk: Walk,
-        end: &Seat,
-        crossings: &mut Vec<Crossing>,
-    ) -> Result<(), OverlayError> {
+    fn step_over(&self, mut walk: Walk, end: &Seat, mut log: Log<'_>) -> Result<(), OverlayError> {
         let halfedges = |face: FaceId| (0..3).map(move |k| HalfedgeId::of(face, k));
         let mesh = &self.target.patched.mesh;
         let goal = end.motion.apply(walk.ends[1]);
@@ -184,11 +184,11 @@ impl Tracer<'_> {
             pairs.into_iter().find(|&[x, y]| arrives(&after(&after(&walk.seat, x), y)))
         };
         let way = once.map(|x| [Some(x), None]).or_else(|| twice().map(|pair| pair.map(Some)));
-        let ends = [walk.edge, walk.edge.next()].map(|h| self.source.patched.mesh.tail(h).index());
+        let ends = [walk.edge[0], walk.edge[1]].map(|h| self.source.patched.mesh.tail(h).index());
         for x in way.ok_or(OverlayError::Lost { edge: ends })?.into_iter().flatten() {
             let [a, b] = [x, x.next()].map(|x| self.target.embedding.corners[x]);
             let along = (walk.line[1] - a).dot(b - a) / (b - a).length_squared();
-            crossings.push(walk.cross(self.target, x, (1.0, along)));
+            walk.cross(self.target, (x, 1.0, along), &mut log);
         }
         Ok(())
     }
