@@ -230,7 +230,7 @@ fn there_and_back_again() {
 proptest::proptest! {
     #![proptest_config(proptest::prelude::ProptestConfig::with_cases(12))]
 
-    /// Free source vertices anywhere near where they were, also exactly on top of target vertices.
+    /// Whatever the target's shape and the source's fineness.
     #[test]
     fn any_bend_gives_a_sphere(bend in 0.0_f64..0.7, level in 1_usize..4) {
         let overlay = Pair::bent([level, 2], bend).overlay();
