@@ -13,7 +13,7 @@ use crate::monitor::Monitor;
 /// Orders of drawing tried together; the straightest of them comes first.
 const BATCH: usize = 4;
 /// With a detour above this, more orders are tried before the straightest is given: judging costs more than drawing.
-const STRAIGHT: f64 = 0.5;
+const STRAIGHT: f64 = 0.1;
 
 /// A layout that can be judged, and turned into its neighbours.
 #[derive(Clone, Debug)]
@@ -123,7 +123,7 @@ impl<'a> Candidates<'a> {
         let mut planner = Planner::new(&self.distances, 1.0);
         let plausible: Vec<Twist> = twists::plausible(&of.drawing, &mut planner, largest_ratio);
         let mut drawings = Vec::new();
-        for twist in plausible.iter().take(3 * count) {
+        for twist in plausible.iter().take(2 * count) {
             match twists::twisted(&of.drawing, &mut planner, twist, monitor) {
                 Ok(drawing) => drawings.extend(drawing),
                 Err(LayoutError::Cancelled(stop)) => return Err(stop.into()),

@@ -51,6 +51,8 @@ pub(super) fn draw(
         drawing.draw(&plan).ok_or(LayoutError::NoPath { landmarks: ends })?;
     }
     complete(&mut drawing, &mut planner, variant, monitor)?;
+    planner.midpoint_penalty = 1.0;
+    straighten(&mut drawing, &mut planner, monitor)?;
     Ok(drawing)
 }
 
@@ -69,6 +71,43 @@ pub(super) fn complete(
             return Err(LayoutError::Stuck { paths: drawing.ends.len(), wanted });
         };
         drawing.draw(&plan).ok_or(LayoutError::NoPath { landmarks: plan.ends })?;
+    }
+    Ok(())
+}
+
+/// Without perturbation; the order does not matter once a tree is drawn.
+pub(super) const PLAIN: Variant =
+    Variant { order: TreeOrder::LongestFirst, midpoint_penalty: 1.0, perturbation: 0.0, seed: 0 };
+/// Paths longer than this, relative to the shortest, are drawn anew.
+const BENT: f64 = 1.2;
+
+/// Takes bent paths away, the worst first, and puts the better diagonal of the quadrilateral in; the class stays.
+///
+/// What is drawn early is straight but may be in the way of what comes later, or may have been turned round by a twist.
+pub(super) fn straighten(
+    drawing: &mut Drawing,
+    planner: &mut Planner<'_>,
+    monitor: &mut dyn Monitor,
+) -> Result<(), LayoutError> {
+    for _ in 0..2 {
+        let stretch = |p: usize| {
+            let geodesics = planner.distances.between(drawing.ends[p]);
+            (0..2).map(|s| drawing.sides[s].lengths[p] / geodesics[s]).fold(1.0, f64::max)
+        };
+        let all = (0..drawing.ends.len()).map(|p| (stretch(p), drawing.ends[p]));
+        let mut bent: Vec<(f64, [usize; 2])> = all.filter(|(stretch, _)| *stretch > BENT).collect();
+        bent.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let mut changed = 0;
+        for (_, ends) in bent.into_iter().take(10) {
+            if let Some(path) = drawing.ends.iter().position(|&other| other == ends) {
+                drawing.erase(path);
+                complete(drawing, planner, &PLAIN, monitor)?;
+                changed += usize::from(drawing.ends.last() != Some(&ends));
+            }
+        }
+        if changed == 0 {
+            break;
+        }
     }
     Ok(())
 }

@@ -30,7 +30,7 @@ impl Default for SearchOptions {
     fn default() -> Self {
         Self {
             candidates: 8,
-            clear_detour: 0.5,
+            clear_detour: 0.1,
             clear_energy: 4.6,
             patience: 4,
             twists: 12,

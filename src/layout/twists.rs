@@ -5,10 +5,10 @@
 //! e goes round it once more than e: exchanging e for it on one mesh alone is a Dehn twist. Both ends must have other
 //! tree edges, or the turn is about a single landmark and changes nothing.
 
+use super::LayoutError;
 use super::drawing::{Drawing, Planner};
-use super::joint::{DisjointSets, Variant, complete};
+use super::joint::{DisjointSets, PLAIN, complete, straighten};
 use super::path_search::FoundPath;
-use super::{LayoutError, TreeOrder};
 use crate::monitor::Monitor;
 
 /// A way to turn one group of landmarks against the other.
@@ -27,9 +27,6 @@ pub(super) enum Turn {
     CounterClockwise,
     Clockwise,
 }
-
-const PLAIN: Variant =
-    Variant { order: TreeOrder::LongestFirst, midpoint_penalty: 1.0, perturbation: 0.0, seed: 0 };
 
 /// All twists about the curves that a layout suggests, the most plausible first: between the two parts of its shortest tree
 /// without an edge, and round two landmarks joined by a path.
@@ -59,6 +56,7 @@ pub(super) fn twisted(
     let tree = Tree::new(drawing, &twist.inside).and_then(|tree| tree.turned(planner, twist.turn));
     let Some(Tree { mut drawing, .. }) = tree else { return Ok(None) };
     complete(&mut drawing, planner, &PLAIN, monitor)?;
+    straighten(&mut drawing, planner, monitor)?;
     Ok(Some(drawing))
 }
 
@@ -241,6 +239,24 @@ mod tests {
         for (k, a) in all.iter().enumerate() {
             assert!(all[..k].iter().all(|b| !same_class(&a.layout, &b.layout)));
         }
+    }
+
+    #[test]
+    fn straightening_keeps_the_class() {
+        let (levels, landmarks) = figures();
+        let mut candidates = Candidates::new([&levels[0].mesh, &levels[1].mesh], &landmarks);
+        let first = candidates.next(&mut Silent).unwrap().unwrap();
+        let distances = candidates.distances().clone();
+        let mut planner = Planner::new(&distances, 1.0);
+        let twist = plausible(first.drawing(), &mut planner, 3.0).swap_remove(0);
+        let tree = Tree::new(first.drawing(), &twist.inside).unwrap();
+        let mut bent = tree.turned(&mut planner, twist.turn).unwrap().drawing;
+        complete(&mut bent, &mut planner, &PLAIN, &mut Silent).unwrap();
+        let mut straight = bent.clone();
+        straighten(&mut straight, &mut planner, &mut Silent).unwrap();
+        let [bent, straight] = [bent, straight].map(|drawing| candidates.candidate(drawing).unwrap());
+        assert!(same_class(&bent.layout, &straight.layout));
+        assert!(straight.layout.report.detour <= bent.layout.report.detour);
     }
 
     #[test]
