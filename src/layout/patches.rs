@@ -4,7 +4,7 @@ use super::drawing::{Drawing, Side};
 use super::{BaseLayout, LayoutReport, PatchedMesh};
 use crate::base_domain::BaseDomain;
 use crate::landmarks::Landmarks;
-use crate::mesh::{FaceId, HalfedgeId, MeshError, SurfaceMesh, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, MeshError, RefinedMesh, SurfaceMesh, VertexId};
 use typed_index_collections::{TiVec, ti_vec};
 
 /// What is wrong with patches.
@@ -167,6 +167,15 @@ fn flood(
 }
 
 impl PatchedMesh {
+    /// The refinement without its patches.
+    pub fn refined(&self) -> RefinedMesh {
+        RefinedMesh {
+            mesh: self.mesh.clone(),
+            vertex_origin: self.vertex_origin.clone(),
+            face_origin: self.face_origin.clone(),
+        }
+    }
+
     /// Checks everything that the later stages rely on.
     ///
     /// # Errors

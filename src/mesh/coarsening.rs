@@ -41,6 +41,28 @@ pub fn coarsen(
     mesh.live_vertices()
 }
 
+/// Neighbours that a held vertex keeps: around a sharp cone the angle must be shared among enough triangles.
+const HELD_DEGREE: usize = 8;
+
+/// Coarsens to about `goal` vertices; the held ones stay and keep their degree, or a degree of 8 where they had more.
+pub fn coarsen_around(
+    mesh: &mut CollapsibleMesh,
+    positions: &TiSlice<VertexId, DVec3>,
+    goal: usize,
+    held: &TiSlice<VertexId, bool>,
+) {
+    let may = |mesh: &CollapsibleMesh, h: HalfedgeId| {
+        let (v, into) = (mesh.tail(h), mesh.head(h));
+        let robs = |w: VertexId| {
+            held[w]
+                && (w == into || mesh.star(w).any(|g| mesh.head(g) == into))
+                && mesh.star(w).count() <= HELD_DEGREE
+        };
+        !held[v] && !mesh.star(v).any(|g| robs(mesh.head(g)))
+    };
+    coarsen(mesh, positions, goal, may);
+}
+
 fn quadrics(mesh: &CollapsibleMesh, positions: &TiSlice<VertexId, DVec3>) -> TiVec<VertexId, Quadric> {
     let mut quadrics = ti_vec![Quadric::ZERO; positions.len()];
     for f in mesh.faces() {
@@ -170,8 +192,16 @@ impl Level {
         let mut level = CollapsibleMesh::new(mesh);
         let mut is_held = ti_vec![false; mesh.vertex_count()];
         held.iter().for_each(|&v| is_held[v] = true);
-        coarsen(&mut level, mesh.positions(), goal, |mesh, h| !is_held[mesh.tail(h)]);
+        coarsen_around(&mut level, mesh.positions(), goal, &is_held);
         Self::of(&level, mesh.positions())
+    }
+
+    /// The level's numbers of vertices of the full mesh, which must be in the level.
+    pub fn numbers<'a>(
+        &'a self,
+        full: impl IntoIterator<Item = &'a VertexId>,
+    ) -> impl Iterator<Item = VertexId> {
+        full.into_iter().map(|v| self.vertices.binary_search(v).unwrap_or(VertexId(u32::MAX)))
     }
 
     /// The present level of a collapsible mesh.
@@ -219,7 +249,19 @@ mod tests {
     #[test]
     fn the_goal_may_be_the_held_vertices_alone() {
         let sphere = icosphere(3);
-        let held: Vec<_> = [0, 5, 100, 400, 600].map(VertexId).to_vec();
-        assert_eq!(Level::coarse(&sphere, &held, 5).mesh.vertex_count(), 5);
+        let held = [0, 5, 100, 400, 600].map(VertexId);
+        let mut mesh = CollapsibleMesh::new(&sphere);
+        let left = coarsen(&mut mesh, sphere.positions(), 5, |mesh, h| !held.contains(&mesh.tail(h)));
+        assert_eq!(left, 5);
+    }
+
+    #[test]
+    fn held_vertices_keep_their_degree() {
+        let sphere = icosphere(4);
+        let held: Vec<_> = [3, 500, 1000, 2000].map(VertexId).to_vec();
+        let level = Level::coarse(&sphere, &held, 60);
+        for (v, w) in held.iter().zip(level.numbers(&held)) {
+            assert!(level.mesh.star(w).count() >= sphere.star(*v).count());
+        }
     }
 }

@@ -100,6 +100,12 @@ impl CollapsibleMesh {
         self.twins[h]
     }
 
+    /// One halfedge that starts at the vertex.
+    #[inline]
+    pub fn outgoing(&self, v: VertexId) -> HalfedgeId {
+        self.outgoing[v]
+    }
+
     /// The outgoing halfedges of a vertex, counter-clockwise.
     pub fn star(&self, v: VertexId) -> impl Iterator<Item = HalfedgeId> + '_ {
         let first = self.outgoing[v];

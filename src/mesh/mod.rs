@@ -6,6 +6,7 @@ pub mod collapsible;
 pub mod generators;
 mod ids;
 pub mod insertion;
+mod refined;
 pub mod soup;
 mod surface_mesh;
 mod surface_point;
@@ -13,6 +14,7 @@ mod textured;
 
 pub(crate) use ids::id as ids_id;
 pub use ids::{FaceId, HalfedgeId, VertexId};
+pub use refined::RefinedMesh;
 pub use surface_mesh::{MeshError, SurfaceMesh};
 pub use surface_point::SurfacePoint;
 pub use textured::TexturedMesh;

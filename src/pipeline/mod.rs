@@ -57,12 +57,9 @@ pub fn run(
     options: &PipelineOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<MapResult, PipelineError> {
-    monitor.enter(Stage::BaseDomain);
-    let first = draw(input, options, 0, monitor)?;
-    let metrics = Metrics::new(input, &first.base, options, monitor)?;
     match options.method {
-        Method::Relaxed => relaxed::run(input, options, (first, &metrics), monitor),
-        Method::Thesis => thesis::run(input, options, (first, &metrics), monitor),
+        Method::Relaxed => relaxed::run(input, options, monitor),
+        Method::Thesis => thesis::run(input, options, monitor),
     }
 }
 

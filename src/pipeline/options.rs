@@ -2,9 +2,7 @@
 
 use crate::cone_metric::FlowOptions;
 use crate::layout::LayoutOptions;
-use crate::surface_map::composed::ComposedOptions;
-use crate::surface_map::flat_problem::RelaxOptions;
-use crate::surface_map::initial::InitialOptions;
+use crate::surface_map::multilevel::MultilevelOptions;
 
 /// How the map is made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -49,10 +47,6 @@ pub struct PipelineOptions {
     pub flow: FlowOptions,
     /// The search for the layout.
     pub layout: LayoutOptions,
-    /// The first parametrisations.
-    pub initial: InitialOptions,
-    /// Their relaxation, each on its own.
-    pub relax: RelaxOptions,
-    /// The relaxation of the map itself.
-    pub composed: ComposedOptions,
+    /// From coarse to fine.
+    pub multilevel: MultilevelOptions,
 }

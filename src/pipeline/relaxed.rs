@@ -2,95 +2,133 @@
 
 use super::report::{CertificateReport, DistortionReport, GroundTruthReport};
 use super::{GroundTruth, MapInput, MapResult, Metrics, PipelineError, PipelineOptions, Report, draw};
-use crate::layout::{BaseLayout, PatchedMesh};
-use crate::mesh::VertexId;
+use crate::landmarks::Landmarks;
+use crate::layout::BaseLayout;
+use crate::mesh::{RefinedMesh, SurfaceMesh, VertexId};
 use crate::monitor::{Monitor, Stage};
-use crate::surface_map::compose::{Locations, Parametrised, locate};
-use crate::surface_map::composed;
+use crate::surface_map::base_lines::base_line;
+use crate::surface_map::compose::{Locations, locate};
 use crate::surface_map::distortion::{Distortion, distortion};
 use crate::surface_map::ground_truth::same_connectivity_error;
+use crate::surface_map::multilevel::{CoarseMap, Side, coarse_landmarks, solve_coarse, solve_fine};
 use crate::surface_map::overlay::{Overlay, overlay};
 use crate::surface_map::transfer::{Surface, common_mesh, vertex_images};
-use crate::surface_map::{Certificate, ConeSurface, Embedding, MapError, certify, initial};
+use crate::surface_map::{Certificate, ConeSurface, Embedding, MapError, Parametrised, certify};
 use glam::DVec3;
+use std::sync::Arc;
+use typed_index_collections::TiVec;
 
-/// Layouts that are tried when a parametrisation finds no start.
+/// Layouts that are tried on a level when a parametrisation finds no start.
 const LAYOUTS: usize = 4;
+
+/// One of both meshes, scaled to area 1, with its landmarks.
+struct Full {
+    refined: RefinedMesh,
+    landmarks: TiVec<VertexId, VertexId>,
+}
+
+impl Full {
+    fn new(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> Self {
+        Self { refined: RefinedMesh::unrefined(mesh), landmarks: landmarks.iter().copied().collect() }
+    }
+}
 
 /// The certified parametrisations of both sides.
 struct Parametrisation {
     layout: BaseLayout,
-    surface: ConeSurface,
-    source: Embedding,
-    target: Embedding,
+    surface: Arc<ConeSurface>,
+    sides: [Full; 2],
+    embeddings: [Embedding; 2],
     certificate: Certificate,
 }
 
 impl Parametrisation {
     fn sides(&self) -> [Parametrised<'_>; 2] {
-        [
-            Parametrised { patched: &self.layout.source, embedding: &self.source },
-            Parametrised { patched: &self.layout.target, embedding: &self.target },
-        ]
+        [0, 1].map(|k| parametrised(&self.sides[k], &self.embeddings[k]))
     }
+}
+
+fn parametrised<'a>(full: &'a Full, embedding: &'a Embedding) -> Parametrised<'a> {
+    Parametrised { mesh: &full.refined.mesh, landmark_vertices: &full.landmarks, embedding }
 }
 
 pub(super) fn run(
     input: MapInput<'_>,
     options: &PipelineOptions,
-    (layout, metrics): (BaseLayout, &Metrics),
     monitor: &mut dyn Monitor,
 ) -> Result<MapResult, PipelineError> {
-    let map = parametrise(input, options, layout, monitor)?;
+    let Landmarks { source, target } = input.landmarks;
+    let full = [Full::new(input.source, source), Full::new(input.target, target)];
+    let (map, metrics) = parametrise(input, full, (options, monitor))?;
     monitor.enter(Stage::Composition);
     let [source, target] = map.sides();
     let locations = locate(source, target, &map.surface)?;
     let overlay = overlay(source, target, &locations)?;
     monitor.enter(Stage::Transfer);
     let measured = distortion(source, target, &overlay);
-    Ok(result(input, &map, metrics, (&locations, &overlay, measured)))
+    Ok(result(input, &map, &metrics, (&locations, &overlay, measured)))
 }
 
-/// Tries the best layouts in turn until both sides have a start.
+/// Coarse map, cone metrics, fine map, certificate. Coarse levels grow until the layout's points can be taken out again.
 fn parametrise(
     input: MapInput<'_>,
-    options: &PipelineOptions,
-    first: BaseLayout,
-    monitor: &mut dyn Monitor,
-) -> Result<Parametrisation, PipelineError> {
-    let mut layout = first;
-    for rank in 1.. {
-        match parametrise_layout(layout, options, monitor) {
-            Err(PipelineError::Map(MapError::NoStart { .. })) if rank < LAYOUTS => {}
-            done => return done,
-        }
+    full: [Full; 2],
+    (options, monitor): (&PipelineOptions, &mut dyn Monitor),
+) -> Result<(Parametrisation, Metrics), PipelineError> {
+    let most = full.iter().map(|side| side.refined.mesh.vertex_count()).max().unwrap_or(0);
+    let mut vertices = options.multilevel.coarse_vertices.max(2 * input.landmarks.len());
+    let (layout, metrics, surface, embeddings) = loop {
         monitor.enter(Stage::BaseDomain);
-        layout = draw(input, options, rank, monitor)?;
-    }
-    unreachable!("the loop ends at the last layout")
-}
-
-fn parametrise_layout(
-    layout: BaseLayout,
-    options: &PipelineOptions,
-    monitor: &mut dyn Monitor,
-) -> Result<Parametrisation, PipelineError> {
-    let surface = ConeSurface::of_layout(&layout)?;
-    monitor.enter(Stage::InitialMap);
-    let (source, _) = initial::embed(&layout.source, &surface, &options.initial, monitor)?;
-    let (target, _) = initial::embed(&layout.target, &surface, &options.initial, monitor)?;
-    monitor.enter(Stage::Relaxation);
-    let (source, _) = initial::relax(&layout.source, &surface, &source, &options.relax, monitor)?;
-    let (target, _) = initial::relax(&layout.target, &surface, &target, &options.relax, monitor)?;
-    let ([source, target], _) =
-        composed::relax(&layout, &surface, [source, target], &options.composed, monitor)?;
+        let sides = [0, 1].map(|k| Side::new(&full[k].refined.mesh, &full[k].landmarks, vertices));
+        match coarse(input, &sides, (options, &mut *monitor)) {
+            Err(PipelineError::Map(MapError::NoStart { .. } | MapError::LayoutPoints { .. }))
+                if vertices < most =>
+            {
+                vertices *= 4;
+            }
+            Err(error) => return Err(error),
+            Ok((layout, map)) => {
+                let metrics = Metrics::new(input, &layout.base, options, monitor)?;
+                monitor.enter(Stage::Relaxation);
+                let surface = map.surface.clone();
+                let embeddings = solve_fine(map, &sides, (&options.multilevel, monitor))?;
+                break (layout, metrics, surface, embeddings);
+            }
+        }
+    };
     monitor.enter(Stage::Certificate);
-    let certificate =
-        certify(&layout.source, &surface, &source).and(&certify(&layout.target, &surface, &target));
+    let [source, target] = [0, 1].map(|k| certify(parametrised(&full[k], &embeddings[k]), &surface));
+    let certificate = source.and(&target);
     if !certificate.bijective {
         return Err(PipelineError::NotCertified(certificate));
     }
-    Ok(Parametrisation { layout, surface, source, target, certificate })
+    Ok((Parametrisation { layout, surface, sides: full, embeddings, certificate }, metrics))
+}
+
+/// Tries the best layouts in turn until both coarse levels have a map.
+fn coarse<'a>(
+    input: MapInput<'_>,
+    sides: &'a [Side<'a>; 2],
+    (options, monitor): (&PipelineOptions, &mut dyn Monitor),
+) -> Result<(BaseLayout, CoarseMap<'a>), PipelineError> {
+    let landmarks = coarse_landmarks(sides);
+    let level = MapInput {
+        source: &sides[0].coarse.mesh,
+        target: &sides[1].coarse.mesh,
+        landmarks: &landmarks,
+        ground_truth: GroundTruth::Unknown,
+    };
+    debug_assert_eq!(landmarks.len(), input.landmarks.len());
+    let mut rank = 0;
+    loop {
+        monitor.enter(Stage::BaseDomain);
+        let layout = draw(level, options, rank, monitor)?;
+        monitor.enter(Stage::InitialMap);
+        match solve_coarse(sides, &layout, (&options.multilevel, monitor)) {
+            Err(MapError::NoStart { .. } | MapError::LayoutPoints { .. }) if rank + 1 < LAYOUTS => rank += 1,
+            done => return Ok((layout, done?)),
+        }
+    }
 }
 
 fn result(
@@ -101,8 +139,8 @@ fn result(
 ) -> MapResult {
     let sides = map.sides();
     let surfaces = [
-        Surface { input: input.source, patched: &map.layout.source },
-        Surface { input: input.target, patched: &map.layout.target },
+        Surface { input: input.source, refined: &map.sides[0].refined },
+        Surface { input: input.target, refined: &map.sides[1].refined },
     ];
     let vertices = input.source.vertex_count();
     let images = vertex_images(sides, surfaces[1], locations, vertices);
@@ -129,7 +167,7 @@ fn result(
         base: map.layout.base.clone(),
         cone_curvatures: metrics.cones.clone(),
         common: common_mesh(surfaces[0], surfaces[1], overlay, &metrics.target_atlas.corner_uvs),
-        patch_lines: [patch_lines(surfaces[0]), patch_lines(surfaces[1])],
+        patch_lines: [patch_lines(map, 0, input.source), patch_lines(map, 1, input.target)],
         target_from_source: images.into_iter().map(Some).collect(),
         vertex_distortion: measured.by_vertex.into_iter().take(vertices).collect(),
         report,
@@ -163,10 +201,9 @@ fn warnings(layout: &BaseLayout, measured: &Distortion) -> Vec<String> {
     warnings
 }
 
-pub(super) fn patch_lines(surface: Surface<'_>) -> Vec<Vec<DVec3>> {
-    let PatchedMesh { paths, vertex_origin, .. } = surface.patched;
-    let place = |v: &VertexId| vertex_origin[*v].position(surface.input);
-    // Every path occurs in both directions; one is enough.
-    let once = paths.iter().filter(|p| p[0] < p[p.len() - 1]);
-    once.map(|path| path.iter().map(place).collect()).collect()
+/// The sides of the base faces on one of both meshes, in its input coordinates.
+fn patch_lines(map: &Parametrisation, side: usize, input: &SurfaceMesh) -> Vec<Vec<DVec3>> {
+    let base = &map.surface.base.mesh;
+    let line = |h| base_line(map.sides()[side], &map.surface, h).points;
+    base.edges().map(|h| line(h).iter().map(|p| p.position(input)).collect()).collect()
 }

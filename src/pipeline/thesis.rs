@@ -1,23 +1,28 @@
 //! The thesis' map: from a layout to the images of the vertices, with what is missing told.
 
-use super::relaxed::patch_lines;
 use super::report::{DistortionReport, GroundTruthReport};
-use super::{GroundTruth, MapInput, MapResult, Metrics, PipelineError, PipelineOptions, Report, cone_metric};
+use super::{
+    GroundTruth, MapInput, MapResult, Metrics, PipelineError, PipelineOptions, Report, cone_metric, draw,
+};
 use crate::layout::{BaseLayout, PatchedMesh};
+use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Monitor, Stage};
 use crate::surface_map::distortion::image_distortion;
 use crate::surface_map::ground_truth::same_connectivity_error;
 use crate::surface_map::thesis::{ThesisMap, thesis_map};
-use crate::surface_map::transfer::{Surface, mapped_mesh};
+use crate::surface_map::transfer::mapped_mesh;
+use glam::DVec3;
 use typed_index_collections::TiVec;
 
 /// The flows run again on the refined meshes, where the paths between landmarks are chains of edges.
 pub(super) fn run(
     input: MapInput<'_>,
     options: &PipelineOptions,
-    (layout, metrics): (BaseLayout, &Metrics),
     monitor: &mut dyn Monitor,
 ) -> Result<MapResult, PipelineError> {
+    monitor.enter(Stage::BaseDomain);
+    let layout = draw(input, options, 0, monitor)?;
+    let metrics = Metrics::new(input, &layout.base, options, monitor)?;
     let refined = |side: &PatchedMesh, monitor: &mut dyn Monitor| {
         cone_metric((&side.mesh, &side.landmark_vertices.raw), &layout.base, options, monitor)
     };
@@ -28,7 +33,7 @@ pub(super) fn run(
     monitor.enter(Stage::Composition);
     let map = thesis_map(&layout, [input.source, input.target], [&source.0, &target.0], monitor)?;
     monitor.enter(Stage::Transfer);
-    Ok(result(input, layout, metrics, map))
+    Ok(result(input, layout, &metrics, map))
 }
 
 fn result(input: MapInput<'_>, layout: BaseLayout, metrics: &Metrics, map: ThesisMap) -> MapResult {
@@ -54,19 +59,23 @@ fn result(input: MapInput<'_>, layout: BaseLayout, metrics: &Metrics, map: Thesi
         warnings: warnings(&map),
         ..Report::of_inputs(input, &layout.base, metrics)
     };
-    let surfaces = [
-        Surface { input: input.source, patched: &layout.source },
-        Surface { input: input.target, patched: &layout.target },
-    ];
     MapResult {
         cone_curvatures: metrics.cones.clone(),
         common: mapped_mesh(input.source, input.target, images, &metrics.target_atlas.corner_uvs),
-        patch_lines: surfaces.map(patch_lines),
+        patch_lines: [patch_lines(&layout.source, input.source), patch_lines(&layout.target, input.target)],
         vertex_distortion: TiVec::new(),
         report,
         base: layout.base,
         target_from_source: map.target_from_source,
     }
+}
+
+/// The paths that the base domain was drawn along.
+fn patch_lines(side: &PatchedMesh, input: &SurfaceMesh) -> Vec<Vec<DVec3>> {
+    let place = |v: &VertexId| side.vertex_origin[*v].position(input);
+    // Every path occurs in both directions; one is enough.
+    let once = side.paths.iter().filter(|p| p[0] < p[p.len() - 1]);
+    once.map(|path| path.iter().map(place).collect()).collect()
 }
 
 fn warnings(map: &ThesisMap) -> Vec<String> {

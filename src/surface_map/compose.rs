@@ -1,29 +1,20 @@
 //! Composition: source vertices located in the target's triangles on the cone surface.
 //!
-//! Every face is developed in the plane of its patch, so a point of the surface has many names. The names are matched at
+//! Every face is developed in a plane of its own, so a point of the surface has many names. The names are matched at
 //! the landmarks, where the angle around the cone is known on both sides, and carried from vertex to vertex by walking
 //! straight along source edges through target triangles: crossing an edge applies its transition.
 
 use super::cone_surface::ConeSurface;
-use super::embedding::Embedding;
-use crate::layout::PatchedMesh;
+pub use super::embedding::Parametrised;
+use super::embedding::{Anchor, Embedding};
+use super::fan::{Fan, Wedge};
 use crate::math::rigid2::Rigid2;
-use crate::math::scalar::atan2;
-use crate::math::triangle::{angle_at, angle_from_lengths, signed_double_area};
+use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, HalfedgeId, SurfacePoint, VertexId};
 use glam::DVec2;
 use robust::{Coord, orient2d};
 use std::collections::VecDeque;
 use typed_index_collections::{TiVec, ti_vec};
-
-/// A patched mesh with its parametrisation onto the common cone surface.
-#[derive(Clone, Copy, Debug)]
-pub struct Parametrised<'a> {
-    /// The refined mesh.
-    pub patched: &'a PatchedMesh,
-    /// Its certified parametrisation.
-    pub embedding: &'a Embedding,
-}
 
 /// Where a source corner lies among the target's triangles.
 #[derive(Clone, Copy, Debug)]
@@ -83,18 +74,19 @@ fn locate_from(
     target: Parametrised<'_>,
     (surface, seed): (&ConeSurface, VertexId),
 ) -> Result<Locations, LocateError> {
-    let mesh = &source.patched.mesh;
+    let mesh = source.mesh;
     let mut found: TiVec<VertexId, Option<Location>> = ti_vec![None; mesh.vertex_count()];
     let mut apexes: TiVec<VertexId, Option<VertexId>> = ti_vec![None; mesh.vertex_count()];
-    for (&v, &w) in source.patched.landmark_vertices.iter().zip(&target.patched.landmark_vertices) {
+    for (&v, &w) in source.landmark_vertices.iter().zip(target.landmark_vertices) {
         apexes[v] = Some(w);
     }
     let fan = Fan::new(surface, seed);
-    let wedges = fan.wedges(surface, target, target.patched.landmark_vertices[seed]);
-    let v = source.patched.landmark_vertices[seed];
-    let first = fan.anchor(surface, source, mesh.outgoing(v), &wedges);
+    let anchors = [source, target].map(|side| side.embedding.anchors[seed]);
+    let wedges: Vec<Wedge> = fan.wedges(target, &anchors[1]).collect();
+    let v = source.landmark_vertices[seed];
+    let first = anchored(&fan, anchors, source, &wedges);
     let mut at_landmarks = Vec::new();
-    turn_around_cone(source, target, (first, target.patched.landmark_vertices[seed]), &mut at_landmarks)
+    turn_around_cone(source, target, (first, target.landmark_vertices[seed]), &mut at_landmarks)
         .ok_or(LocateError { vertex: v.index() })?;
     found[v] = Some(first);
     let mut queue: VecDeque<Location> = at_landmarks.iter().copied().collect();
@@ -129,7 +121,7 @@ fn turn_around_cone(
     all: &mut Vec<Location>,
 ) -> Option<()> {
     const MOST: usize = 1000;
-    let [mesh, below] = [&source.patched.mesh, &target.patched.mesh];
+    let [mesh, below] = [source.mesh, target.mesh];
     let corner = |x: HalfedgeId| target.embedding.corners[x];
     let mut wedge = (0..3).map(|k| HalfedgeId::of(at.face, k)).find(|&x| below.tail(x) == apex)?;
     let image = at.motion.apply(source.embedding.corners[at.corner]);
@@ -166,7 +158,7 @@ fn turn_around_cone(
 
 /// The same location as seen from every face around the vertex (not a cone: the motions agree all around).
 fn turn_around(source: Parametrised<'_>, at: Location) -> impl Iterator<Item = Location> + '_ {
-    let mesh = &source.patched.mesh;
+    let mesh = source.mesh;
     let mut next = Some(at);
     std::iter::from_fn(move || {
         let here = next?;
@@ -193,7 +185,7 @@ fn walk_to(
     end: DVec2,
 ) -> Option<Location> {
     let start = source.embedding.corners[from.corner];
-    let mesh = &target.patched.mesh;
+    let mesh = target.mesh;
     let (mut face, mut motion) = (from.face, from.motion);
     let mut entered = None;
     for _ in 0..mesh.face_count() + 1000 {
@@ -210,7 +202,7 @@ fn walk_to(
 }
 
 /// The edge through which the segment p q leaves a triangle; `None` when it ends inside.
-fn exit_edge(
+pub(super) fn exit_edge(
     embedding: &Embedding,
     face: FaceId,
     [p, q]: [DVec2; 2],
@@ -242,94 +234,18 @@ fn side(p: DVec2, q: DVec2, r: DVec2) -> f64 {
     orient2d(p, q, r)
 }
 
-/// The base faces around a landmark with the angle at which each begins.
-struct Fan {
-    /// Base halfedges that start at the landmark, counter-clockwise, with the angle of each from the first.
-    halfedges: Vec<(HalfedgeId, f64)>,
-    total: f64,
-}
-
-/// A target face at a landmark with the interval of angles that it covers.
-struct Wedge {
-    corner: HalfedgeId,
-    begin: f64,
-    width: f64,
-    /// Place of its chart in the fan.
-    place: usize,
-}
-
-impl Fan {
-    fn new(surface: &ConeSurface, landmark: VertexId) -> Self {
-        let mut total = 0.0;
-        let mut halfedges = Vec::new();
-        for h in surface.base.mesh.star(landmark) {
-            halfedges.push((h, total));
-            let lengths = [h, h.prev()].map(|x| surface.lengths[x]);
-            total += angle_from_lengths(surface.lengths[h.next()], lengths);
-        }
-        Self { halfedges, total }
-    }
-
-    /// Place in the fan of the chart of a face at the landmark, and the angle of one of its edges there.
-    fn angle(&self, surface: &ConeSurface, side: Parametrised<'_>, corner: HalfedgeId) -> (usize, f64) {
-        let chart = side.embedding.face_chart[corner.face()];
-        let place = self.halfedges.iter().position(|(h, _)| h.face() == chart).unwrap_or(0);
-        let (base, begin) = self.halfedges[place];
-        let corners = surface.charts[chart];
-        let axis = corners[base.next().corner()] - corners[base.corner()];
-        let edge = side.embedding.corners[corner.next()] - side.embedding.corners[corner];
-        (place, begin + atan2(axis.perp_dot(edge), axis.dot(edge)))
-    }
-
-    fn wedges(&self, surface: &ConeSurface, target: Parametrised<'_>, v: VertexId) -> Vec<Wedge> {
-        let wedge = |corner: HalfedgeId| {
-            let corners = [corner, corner.next(), corner.prev()];
-            let [p, q, r] = corners.map(|c| target.embedding.corners[c].extend(0.0));
-            let (place, begin) = self.angle(surface, target, corner);
-            Wedge { corner, begin, width: angle_at(p, q, r), place }
-        };
-        target.patched.mesh.star(v).map(wedge).collect()
-    }
-
-    /// The location of the landmark as seen from a source face: the target face into which its first edge points.
-    fn anchor(
-        &self,
-        surface: &ConeSurface,
-        source: Parametrised<'_>,
-        corner: HalfedgeId,
-        wedges: &[Wedge],
-    ) -> Location {
-        let (place, angle) = self.angle(surface, source, corner);
-        let past = |w: &Wedge| (angle - w.begin).rem_euclid(self.total);
-        let inside = wedges
-            .iter()
-            .min_by(|v, w| (past(v) - v.width).max(0.0).total_cmp(&(past(w) - w.width).max(0.0)));
-        let wedge = inside.unwrap_or(&wedges[0]);
-        // Turn from the source's chart to the target's by the difference of their true angles, whole turns included.
-        let turn = wedge.begin + past(wedge) - angle;
-        let turns = (turn / self.total).round() as i64;
-        let motion = self.motion(surface, place, wedge.place as i64 - turns * self.halfedges.len() as i64);
-        Location { corner, face: wedge.corner.face(), motion }
-    }
-
-    /// The motion from the chart at `place` to the chart at place `to`, counted on and on around the cone.
-    fn motion(&self, surface: &ConeSurface, place: usize, to: i64) -> Rigid2 {
-        let n = self.halfedges.len() as i64;
-        let mut motion = Rigid2::IDENTITY;
-        let mut at = place as i64;
-        while at < to {
-            // Counter-clockwise: out through the side that ends at the landmark.
-            let h = self.halfedges[at.rem_euclid(n) as usize].0.prev();
-            motion = surface.transitions[h].after(&motion);
-            at += 1;
-        }
-        while at > to {
-            let h = self.halfedges[at.rem_euclid(n) as usize].0;
-            motion = surface.transitions[h].after(&motion);
-            at -= 1;
-        }
-        motion
-    }
+/// The location of a landmark as seen from the source's anchor: the target face into which the anchor's halfedge points.
+fn anchored(fan: &Fan<'_>, anchors: [Anchor; 2], source: Parametrised<'_>, wedges: &[Wedge]) -> Location {
+    let corner = anchors[0].corner;
+    let corners = &source.embedding.corners;
+    let angle = fan.angle(&anchors[0], corners[corner.next()] - corners[corner]);
+    let past = |w: &Wedge| (angle - w.begin).rem_euclid(fan.total);
+    let outside = |w: &Wedge| (past(w) - w.width).max(0.0);
+    let onto = wedges.iter().min_by(|v, w| outside(v).total_cmp(&outside(w))).unwrap_or(&wedges[0]);
+    // The same direction's angle on the target differs from that on the source by whole turns.
+    let turns = ((onto.begin + past(onto) - angle) / fan.total).round() as i64;
+    let motion = onto.motion.after(&fan.between(&anchors[0], &anchors[1], turns));
+    Location { corner, face: onto.corner.face(), motion }
 }
 
 /// The barycentric coordinates of the located corner in its target face, clamped to it.

@@ -12,7 +12,6 @@ use super::energy::{HessianTerm, two_sided_density, two_sided_gradient, two_side
 use super::flat_problem::{FlatProblem, rest_jacobian, unrotate};
 use super::overlay::{Overlay, Overlayer, Piece, SideOf};
 use super::unknowns::Unknowns;
-use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use glam::{DMat2, DVec2};
@@ -47,16 +46,14 @@ pub struct ComposedReport {
 /// # Errors
 /// [`Cancelled`].
 pub fn relax(
-    layout: &BaseLayout,
+    sides: [Parametrised<'_>; 2],
     surface: &ConeSurface,
-    [source, target]: [Embedding; 2],
     options: &ComposedOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<([Embedding; 2], ComposedReport), Cancelled> {
-    let patched = [&layout.source, &layout.target];
-    let unknowns = patched.map(|side| Unknowns::new(side, surface));
+    let unknowns = sides.map(Unknowns::new);
     let mut problems = [unknowns[0].problem(), unknowns[1].problem()];
-    let mut embeddings = [source, target];
+    let mut embeddings = sides.map(|side| side.embedding.clone());
     let mut report = ComposedReport::default();
     let mut overlayer = Overlayer::default();
     for round in 0..options.max_rounds {
@@ -64,8 +61,9 @@ pub fn relax(
         for moving in 0..2 {
             let fraction = round as f64 / options.max_rounds as f64;
             monitor.step(Step { fraction, residual: report.energies.last().copied() })?;
-            let fixed = Parametrised { patched: patched[1 - moving], embedding: &embeddings[1 - moving] };
-            let side = Moving::new(&unknowns[moving], patched[moving], fixed, options);
+            let fixed = Parametrised { embedding: &embeddings[1 - moving], ..sides[1 - moving] };
+            let present = Parametrised { embedding: &embeddings[moving], ..sides[moving] };
+            let side = Moving::new(&unknowns[moving], present, fixed, (surface, options));
             let start = unknowns[moving].points(&embeddings[moving]);
             let Some((z, energies)) = side.step(&mut problems[moving], &mut overlayer, start) else {
                 continue;
@@ -74,7 +72,8 @@ pub fn relax(
                 report.energies.push(energies[0]);
             }
             report.energies.push(energies[1]);
-            embeddings[moving] = unknowns[moving].embedding(&z);
+            unknowns[moving].place(&z, &mut embeddings[moving].corners);
+            embeddings[moving].normalise_anchors(surface);
         }
         let after = report.energies.last().copied().unwrap_or(before);
         if before - after < options.relative_decrease * after && round > 0 {
@@ -87,7 +86,8 @@ pub fn relax(
 /// One side that moves over the other.
 struct Moving<'a> {
     unknowns: &'a Unknowns<'a>,
-    patched: &'a PatchedMesh,
+    /// Where it started.
+    moving: Parametrised<'a>,
     surface: &'a ConeSurface,
     fixed: Parametrised<'a>,
     /// Of each fixed face the Jacobian from its chart to its rest plane.
@@ -110,13 +110,13 @@ struct State {
 impl<'a> Moving<'a> {
     fn new(
         unknowns: &'a Unknowns<'a>,
-        patched: &'a PatchedMesh,
+        moving: Parametrised<'a>,
         fixed: Parametrised<'a>,
-        options: &'a ComposedOptions,
+        (surface, options): (&'a ConeSurface, &'a ComposedOptions),
     ) -> Self {
-        let inverse = |f: FaceId| rest_jacobian(fixed.patched, fixed.embedding, f).inverse();
-        let fixed_inverses = fixed.patched.mesh.faces().map(inverse).collect();
-        Self { unknowns, patched, surface: unknowns.surface(), fixed, fixed_inverses, options }
+        let inverse = |f: FaceId| rest_jacobian(fixed, f).inverse();
+        let fixed_inverses = fixed.mesh.faces().map(inverse).collect();
+        Self { unknowns, moving, surface, fixed, fixed_inverses, options }
     }
 
     /// One Newton step; `None` where none lowers the energy. Returns E before and after.
@@ -129,7 +129,7 @@ impl<'a> Moving<'a> {
         let state = self.state(problem, overlayer, &z)?;
         let slope = self.gradient(problem, &z, &state);
         let jacobians: TiVec<FaceId, DMat2> =
-            self.patched.mesh.faces().map(|f| problem.jacobian(f.index(), &z)).collect();
+            self.moving.mesh.faces().map(|f| problem.jacobian(f.index(), &z)).collect();
         let terms = state.overlay.pieces.iter().zip(&state.onto_rest).flat_map(|(piece, c)| {
             let a = &jacobians[piece.source_face];
             let area = piece.area / a.determinant();
@@ -158,8 +158,9 @@ impl<'a> Moving<'a> {
     /// The overlay and energy at z; `None` where a triangle is not positive or there is no overlay.
     fn state(&self, problem: &FlatProblem, overlayer: &mut Overlayer, z: &[DVec2]) -> Option<State> {
         let flat = problem.energy(z)?;
-        let embedding = self.unknowns.embedding(z);
-        let moving = Parametrised { patched: self.patched, embedding: &embedding };
+        let mut embedding = self.moving.embedding.clone();
+        self.unknowns.place(z, &mut embedding.corners);
+        let moving = Parametrised { embedding: &embedding, ..self.moving };
         let locations = locate(moving, self.fixed, self.surface).ok()?;
         let mut overlay = Overlay::default();
         overlayer.fill([moving, self.fixed], &locations, &mut overlay).ok()?;

@@ -33,14 +33,13 @@ pub struct Distortion {
 
 /// Measures the map on its overlay.
 pub fn distortion(source: Parametrised<'_>, target: Parametrised<'_>, overlay: &Overlay) -> Distortion {
-    let to_source = |f: FaceId| rest_jacobian(source.patched, source.embedding, f);
-    let to_target = |f: FaceId| rest_jacobian(target.patched, target.embedding, f);
-    let source_maps: TiVec<FaceId, DMat2> = source.patched.mesh.faces().map(to_source).collect();
-    let target_inverses: TiVec<FaceId, DMat2> =
-        target.patched.mesh.faces().map(|f| to_target(f).inverse()).collect();
+    let to_source = |f: FaceId| rest_jacobian(source, f);
+    let to_target = |f: FaceId| rest_jacobian(target, f);
+    let source_maps: TiVec<FaceId, DMat2> = source.mesh.faces().map(to_source).collect();
+    let target_inverses: TiVec<FaceId, DMat2> = target.mesh.faces().map(|f| to_target(f).inverse()).collect();
     let mut result = Distortion::default();
     let mut densities = Vec::with_capacity(overlay.pieces.len());
-    let mut face_sums: TiVec<FaceId, [f64; 2]> = ti_vec![[0.0; 2]; source.patched.mesh.face_count()];
+    let mut face_sums: TiVec<FaceId, [f64; 2]> = ti_vec![[0.0; 2]; source.mesh.face_count()];
     for piece in &overlay.pieces {
         let (a, b) = (&source_maps[piece.source_face], &target_inverses[piece.target_face]);
         let rotation = DMat2::from_cols(piece.motion.rotation, piece.motion.rotation.perp());
@@ -132,7 +131,7 @@ pub fn quantile(sorted: &[(f64, f64)], share: f64) -> f64 {
 }
 
 fn vertex_averages(source: Parametrised<'_>, faces: &TiVec<FaceId, [f64; 2]>) -> TiVec<VertexId, f64> {
-    let mesh = &source.patched.mesh;
+    let mesh = source.mesh;
     let mut sums = ti_vec![[0.0_f64; 2]; mesh.vertex_count()];
     for (f, corners) in mesh.triangles().iter_enumerated() {
         for &v in corners {

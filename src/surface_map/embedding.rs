@@ -1,22 +1,44 @@
-//! A seamless parametrisation of a refined mesh onto the flat cone surface.
+//! A seamless parametrisation of a mesh onto the flat cone surface.
 
 use crate::math::rigid2::Rigid2;
-use crate::mesh::{FaceId, HalfedgeId};
+use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec2;
-use typed_index_collections::TiVec;
+use std::sync::Arc;
+use typed_index_collections::{TiSlice, TiVec};
 
-/// A piecewise linear map from a [`crate::layout::PatchedMesh`] to a [`super::ConeSurface`].
+/// A piecewise linear map from a mesh to a [`super::ConeSurface`].
 ///
-/// Every mesh face is developed into the (endless) plane of one chart: that of its patch. A vertex may leave its patch:
-/// its faces then reach over the chart's triangle in the same plane. Only transitions matter. Landmarks stay at the
-/// charts' corners.
+/// Every face is developed in a plane of its own; rigid motions join the planes of neighbours. At the landmarks, which are
+/// the cones, an anchor joins a plane to a chart of the cone surface.
 #[derive(Clone, Debug)]
 pub struct Embedding {
-    /// The base face in whose plane each mesh face is developed (its patch).
-    pub face_chart: TiVec<FaceId, FaceId>,
-    /// For each mesh halfedge the image of its start, in the chart plane of its face.
+    /// For each halfedge the image of its start, in the plane of its face.
     pub corners: TiVec<HalfedgeId, DVec2>,
-    /// For each mesh halfedge the rigid motion from the chart plane of its face to that of its twin's face: the identity
-    /// inside a patch, the base halfedge's transition on a path. Fixed for the life of the embedding.
-    pub transitions: TiVec<HalfedgeId, Rigid2>,
+    /// For each halfedge the rigid motion from the plane of its face to that of its twin's face. Fixed for the life of the
+    /// embedding; around an ordinary vertex they come back to the identity.
+    pub transitions: Arc<TiVec<HalfedgeId, Rigid2>>,
+    /// By landmark.
+    pub anchors: Arc<TiVec<VertexId, Anchor>>,
+}
+
+/// Where a plane of the parametrisation lies on the cone surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anchor {
+    /// A halfedge of the mesh that starts at the landmark.
+    pub corner: HalfedgeId,
+    /// A base face at the landmark.
+    pub chart: FaceId,
+    /// From the chart to the plane of the corner's face, without going around the cone.
+    pub motion: Rigid2,
+}
+
+/// A mesh with its parametrisation onto the common cone surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Parametrised<'a> {
+    /// The mesh, of area 1.
+    pub mesh: &'a SurfaceMesh,
+    /// The mesh's vertex of each landmark.
+    pub landmark_vertices: &'a TiSlice<VertexId, VertexId>,
+    /// Its parametrisation.
+    pub embedding: &'a Embedding,
 }

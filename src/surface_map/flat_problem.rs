@@ -4,9 +4,8 @@
 //! Newton with the projected Hessian of [`super::energy`], conjugate gradients, a step that keeps every triangle positive
 //! (Smith & Schaefer 2015) and an Armijo line search.
 
-use super::embedding::Embedding;
+use super::embedding::Parametrised;
 use super::energy::{self, HessianTerm};
-use crate::layout::PatchedMesh;
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle;
 use crate::mesh::{FaceId, HalfedgeId};
@@ -21,6 +20,17 @@ pub enum Corner {
     Free(u32, Rigid2),
     /// A cone: stays where it is.
     Fixed(DVec2),
+}
+
+impl Corner {
+    /// Where the corner is when the free vertices are at `z`.
+    #[inline]
+    pub fn position(&self, z: &[DVec2]) -> DVec2 {
+        match self {
+            Self::Free(v, motion) => motion.apply(z[*v as usize]),
+            Self::Fixed(p) => *p,
+        }
+    }
 }
 
 /// One triangle with its rest shape.
@@ -59,10 +69,7 @@ impl FlatTriangle {
 
     #[inline]
     fn positions(&self, z: &[DVec2]) -> [DVec2; 3] {
-        self.corners.map(|corner| match corner {
-            Corner::Free(v, motion) => motion.apply(z[v as usize]),
-            Corner::Fixed(p) => p,
-        })
+        self.corners.map(|corner| corner.position(z))
     }
 
     #[inline]
@@ -83,9 +90,9 @@ impl FlatTriangle {
 }
 
 /// The Jacobian of a parametrisation on one face, from the plane of its rest triangle to its chart.
-pub fn rest_jacobian(patched: &PatchedMesh, embedding: &Embedding, f: FaceId) -> DMat2 {
-    let corners = [0, 1, 2].map(|k| embedding.corners[HalfedgeId::of(f, k)]);
-    FlatTriangle::with_rest(corners.map(Corner::Fixed), patched.mesh.corners(f)).jacobian(&corners)
+pub fn rest_jacobian(side: Parametrised<'_>, f: FaceId) -> DMat2 {
+    let corners = [0, 1, 2].map(|k| side.embedding.corners[HalfedgeId::of(f, k)]);
+    FlatTriangle::with_rest(corners.map(Corner::Fixed), side.mesh.corners(f)).jacobian(&corners)
 }
 
 /// How far a relaxation goes.

@@ -3,28 +3,31 @@
 //! Source -> M and target -> M are homeomorphisms that keep the landmarks at the cones; the map is one after the
 //! inverse of the other.
 
+pub mod base_lines;
 pub mod certificate;
-mod charted;
 pub mod compose;
 pub mod composed;
 pub mod cone_surface;
 pub mod distortion;
 pub mod embedding;
 pub mod energy;
+pub mod fan;
 pub mod flat_problem;
 pub mod ground_truth;
 pub mod initial;
+pub mod multilevel;
 pub mod overlay;
 mod placement;
 mod progressive;
 pub mod queries;
+pub mod seamless;
 pub mod thesis;
 pub mod transfer;
 mod unknowns;
 
 pub use certificate::{Certificate, certify};
 pub use cone_surface::ConeSurface;
-pub use embedding::Embedding;
+pub use embedding::{Anchor, Embedding, Parametrised};
 
 use crate::monitor::Cancelled;
 
@@ -44,6 +47,12 @@ pub enum MapError {
     /// Vertices that could not be collapsed.
     #[error("{left} vertices could not be simplified away")]
     NotCoarsened {
+        /// How many.
+        left: usize,
+    },
+    /// Vertices of the layout that could not be taken out of the parametrisation of a coarse mesh.
+    #[error("{left} points of the layout could not be taken out again")]
+    LayoutPoints {
         /// How many.
         left: usize,
     },

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 /// Reusable memory for clipping.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Kernel {
     polygon: Vec<DVec2>,
     clipped: Vec<DVec2>,

@@ -8,7 +8,6 @@
 //! neither tile the source nor the target. Vertices over none, or over one that is inverted on either side, have no image;
 //! where straight triangles overlap, the first one is taken. The result is in general not bijective.
 
-use super::transfer::{Surface, on_input};
 use crate::cone_metric::ConeMetric;
 use crate::cone_metric::atlas::mesh_displacements;
 use crate::layout::{BaseLayout, PatchedMesh};
@@ -50,12 +49,12 @@ pub fn thesis_map(
 ) -> Result<ThesisMap, Cancelled> {
     let mut source = Flat::new(&layout.source, metrics[0]);
     let mut target = Flat::new(&layout.target, metrics[1]);
-    let surface = Surface { input: inputs[1], patched: &layout.target };
+    let refined = layout.target.refined();
     let vertices = inputs[0].vertex_count();
     let mut images: TiVec<VertexId, Option<SurfacePoint>> = ti_vec![None; vertices];
     let mut taken = ti_vec![false; vertices];
     for (&s, &t) in layout.source.landmark_vertices.iter().zip(&layout.target.landmark_vertices) {
-        images[s] = Some(on_input(surface, SurfacePoint::at_vertex(&layout.target.mesh, t)));
+        images[s] = Some(refined.on_input(inputs[1], SurfacePoint::at_vertex(&layout.target.mesh, t)));
         taken[s] = true;
     }
     let mut inverted_patches = [0; 2];
@@ -71,7 +70,7 @@ pub fn thesis_map(
         let faces = Bins::new(target.region(&onto), &onto.corners);
         for (v, weights) in inside {
             let q = (0..3).map(|k| onto.corners[k] * weights[k]).sum();
-            images[v] = faces.locate(q).map(|point| on_input(surface, point));
+            images[v] = faces.locate(q).map(|point| refined.on_input(inputs[1], point));
         }
     }
     let unmapped = images.iter().filter(|image| image.is_none()).count();

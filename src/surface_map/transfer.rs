@@ -2,8 +2,7 @@
 
 use super::compose::{Locations, Parametrised, barycentric};
 use super::overlay::Overlay;
-use crate::layout::PatchedMesh;
-use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 use typed_index_collections::TiVec;
@@ -31,18 +30,7 @@ pub struct Surface<'a> {
     /// The mesh that the user gave.
     pub input: &'a SurfaceMesh,
     /// Its refinement.
-    pub patched: &'a PatchedMesh,
-}
-
-/// Barycentric coordinates, in the input face of a refined face, of its three corners.
-fn origins_in_face(surface: Surface<'_>, face: FaceId) -> [[f64; 3]; 3] {
-    let input_face = surface.patched.face_origin[face];
-    let corners = surface.input.triangles()[input_face];
-    surface.patched.mesh.triangles()[face].map(|v| {
-        let origin = surface.patched.vertex_origin[v];
-        let named = surface.input.triangles()[origin.face];
-        corners.map(|c| (0..3).filter(|&k| named[k] == c).map(|k| origin.barycentric[k]).sum())
-    })
+    pub refined: &'a RefinedMesh,
 }
 
 fn blend3<T: Copy + std::ops::Mul<f64, Output = T> + std::ops::Add<Output = T>>(
@@ -50,16 +38,6 @@ fn blend3<T: Copy + std::ops::Mul<f64, Output = T> + std::ops::Add<Output = T>>(
     w: [f64; 3],
 ) -> T {
     values[0] * w[0] + values[1] * w[1] + values[2] * w[2]
-}
-
-/// A point of a refined face as a point of its input face.
-pub fn on_input(surface: Surface<'_>, point: SurfacePoint) -> SurfacePoint {
-    let rows = origins_in_face(surface, point.face);
-    let weight = |c: usize| blend3([rows[0][c], rows[1][c], rows[2][c]], point.barycentric);
-    SurfacePoint {
-        face: surface.patched.face_origin[point.face],
-        barycentric: [weight(0), weight(1), weight(2)],
-    }
 }
 
 /// The image of every source input vertex as a point of the target's input mesh.
@@ -70,7 +48,8 @@ pub fn vertex_images(
     vertices: usize,
 ) -> TiVec<VertexId, SurfacePoint> {
     let image = |v: usize| {
-        on_input(target_surface, barycentric(source, target, &locations.by_vertex[VertexId::from(v)]))
+        let point = barycentric(source, target, &locations.by_vertex[VertexId::from(v)]);
+        target_surface.refined.on_input(target_surface.input, point)
     };
     (0..vertices).map(image).collect()
 }
@@ -99,8 +78,8 @@ fn face_values(
     uvs: Option<&TiVec<HalfedgeId, DVec2>>,
     face: FaceId,
 ) -> FaceValues {
-    let rows = origins_in_face(surface, face);
-    let input_face = surface.patched.face_origin[face];
+    let rows = surface.refined.origins_in_face(surface.input, face);
+    let input_face = surface.refined.face_origin[face];
     let corner_normals = surface.input.triangles()[input_face].map(|v| normals[v]);
     let corners = surface.input.corners(input_face);
     let corner_uvs =
@@ -122,7 +101,7 @@ pub fn common_mesh(
     target_uvs: &TiVec<HalfedgeId, DVec2>,
 ) -> CommonMesh {
     let normals = [vertex_normals(source.input), vertex_normals(target.input)];
-    let values = |s: Surface<'_>, n, uvs| s.patched.mesh.faces().map(|f| face_values(s, n, uvs, f)).collect();
+    let values = |s: Surface<'_>, n, uvs| s.refined.mesh.faces().map(|f| face_values(s, n, uvs, f)).collect();
     let source_values: TiVec<FaceId, FaceValues> = values(source, &normals[0], None);
     let target_values: TiVec<FaceId, FaceValues> = values(target, &normals[1], Some(target_uvs));
     let mut shared = FxHashMap::default();

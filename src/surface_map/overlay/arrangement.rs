@@ -88,7 +88,7 @@ impl Arrangement {
 
     /// Counting sort by target edge, then by place on the edge; equal places by number.
     fn sort(&mut self, target: Parametrised<'_>, traces: &Traces) {
-        let mesh = &target.patched.mesh;
+        let mesh = target.mesh;
         let edge = |[exit, entered]: [HalfedgeId; 2]| exit.min(entered);
         self.ranges.clear();
         self.ranges.resize(mesh.face_count() * 3, [0; 2]);
@@ -127,10 +127,10 @@ impl Arrangement {
     }
 
     fn number(&mut self, source: Parametrised<'_>, target: Parametrised<'_>, traces: &Traces) {
-        let [mesh, below] = [&source.patched.mesh, &target.patched.mesh];
+        let [mesh, below] = [source.mesh, target.mesh];
         self.target_numbers.clear();
         self.target_numbers.resize(below.vertex_count(), u32::MAX);
-        let landmarks = source.patched.landmark_vertices.iter().zip(&target.patched.landmark_vertices);
+        let landmarks = source.landmark_vertices.iter().zip(target.landmark_vertices);
         landmarks.for_each(|(&v, &w)| self.target_numbers[w] = v.0);
         let mut vertex = mesh.vertex_count() as u32;
         for number in self.target_numbers.iter_mut().filter(|n| **n == u32::MAX) {
@@ -163,14 +163,14 @@ impl Arrangement {
         target: Parametrised<'_>,
         seats: &Seats,
     ) -> Result<(), OverlayError> {
-        let [mesh, below] = [&source.patched.mesh, &target.patched.mesh];
+        let [mesh, below] = [source.mesh, target.mesh];
         self.source_turns.clear();
         self.source_turns.resize(mesh.face_count() * 3, None);
         self.target_turns.clear();
         self.target_turns.resize(below.face_count() * 3, None);
         self.last_in_wedge.clear();
         self.last_in_wedge.resize(below.face_count() * 3, None);
-        let landmarks = source.patched.landmark_vertices.iter().zip(&target.patched.landmark_vertices);
+        let landmarks = source.landmark_vertices.iter().zip(target.landmark_vertices);
         for (&v, &w) in landmarks {
             let lost = OverlayError::Landmark { vertex: v.index() };
             for h in mesh.star(v) {
@@ -200,7 +200,7 @@ impl Arrangement {
 
     /// What follows the last part of each halfedge, and the target faces below both ends of source edges.
     fn link_ends(&mut self, source: Parametrised<'_>, target: Parametrised<'_>, seats: &Seats) {
-        let [mesh, below] = [&source.patched.mesh, &target.patched.mesh];
+        let [mesh, below] = [source.mesh, target.mesh];
         let end = |darts: &TiVec<HalfedgeId, u32>, h: usize, after: usize| {
             darts.get(HalfedgeId::from(h + 1)).map_or(after, |&d| d as usize) - 1
         };

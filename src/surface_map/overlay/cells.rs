@@ -73,7 +73,7 @@ impl Cells {
     }
 
     fn reset(&mut self, view: View<'_>, overlay: &mut Overlay) {
-        let [source, target] = [view.source, view.target].map(|side| &side.patched.mesh);
+        let [source, target] = [view.source, view.target].map(|side| side.mesh);
         self.cell_of_dart.clear();
         self.cell_of_dart.resize(view.arrangement.darts.len(), NONE);
         self.whole.clear();
@@ -138,7 +138,7 @@ impl Cells {
 
     /// Gives whole target triangles the source face of their neighbours.
     fn spread(&mut self, view: View<'_>, overlay: &mut Overlay) -> Result<(), OverlayError> {
-        let mesh = &view.target.patched.mesh;
+        let mesh = &view.target.mesh;
         for k in 0..self.whole.len() {
             self.stack.clear();
             self.stack.push(self.whole[k]);
@@ -218,7 +218,7 @@ impl Cells {
             let (source, target) = (on_edge(edge, s, along_source), on_edge(exit, t, along_target));
             return Ok(OverlayPoint { source, target, vertex, side });
         }
-        let [mesh, below] = [view.source, view.target].map(|s| &s.patched.mesh);
+        let [mesh, below] = [view.source, view.target].map(|s| s.mesh);
         let is_source = (vertex as usize) < mesh.vertex_count();
         let (source, target) = match halfedge {
             Side::Source(h) => match view.seats.wedges[h] {
@@ -253,7 +253,7 @@ impl Cells {
         piece: &Piece,
     ) -> Result<[f64; 3], OverlayError> {
         let s = piece.source_face;
-        let w = view.target.patched.mesh.tail(x);
+        let w = view.target.mesh.tail(x);
         let inside = self.target_inside[w].get_or_insert_with(|| {
             let at = piece.motion.inverse().apply(view.target.embedding.corners[x]);
             Inside { face: s, barycentric: barycentric_in(corners_of(&view.seats.corners, s), at) }
@@ -265,7 +265,7 @@ impl Cells {
 impl View<'_> {
     /// Below part i of a source halfedge, the motion from its source face to the target face.
     fn motion(&self, h: HalfedgeId, i: u32) -> Rigid2 {
-        let edge = h.min(self.source.patched.mesh.twin(h));
+        let edge = h.min(self.source.mesh.twin(h));
         let [begin, end] = self.traces.ranges[h];
         // Parts counted along the trace: part 0 begins at the seat, part k at crossing k - 1.
         let along = if h == edge { i } else { end - begin - i };

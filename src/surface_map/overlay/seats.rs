@@ -43,7 +43,7 @@ impl Seats {
         locations: &Locations,
         attempt: usize,
     ) -> Result<(), OverlayError> {
-        let mesh = &source.patched.mesh;
+        let mesh = source.mesh;
         self.corners.clear();
         self.corners.extend(source.embedding.corners.iter().copied());
         self.wedges.clear();
@@ -73,7 +73,7 @@ impl Seats {
     }
 
     fn shift(&mut self, source: Parametrised<'_>, attempt: usize) {
-        let mesh = &source.patched.mesh;
+        let mesh = source.mesh;
         for v in mesh.vertices().filter(|&v| self.wedges[mesh.outgoing(v)].is_none()) {
             let first = mesh.outgoing(v);
             let unshifted = &source.embedding.corners;
@@ -96,13 +96,13 @@ impl Seats {
 
     /// Seats of all corners of an ordinary vertex.
     fn sit(&mut self, source: Parametrised<'_>, target: Parametrised<'_>, at: &Location) {
-        let mesh = &source.patched.mesh;
+        let mesh = source.mesh;
         let mut seat = Seat { face: at.face, motion: at.motion };
         let point = self.corners[at.corner];
         for _ in 0..HOPS {
             let Some(h) = outside_of(target, seat.face, seat.motion.apply(point)) else { break };
             seat.motion = target.embedding.transitions[h].after(&seat.motion);
-            seat.face = target.patched.mesh.twin(h).face();
+            seat.face = target.mesh.twin(h).face();
         }
         let mut h = at.corner;
         loop {
@@ -123,11 +123,11 @@ impl Seats {
         target: Parametrised<'_>,
         at: &Location,
     ) -> Result<(), OverlayError> {
-        let mesh = &target.patched.mesh;
-        let v = source.patched.mesh.tail(at.corner);
+        let mesh = target.mesh;
+        let v = source.mesh.tail(at.corner);
         let lost = OverlayError::Landmark { vertex: v.index() };
-        let landmark = source.patched.landmark_vertices.iter().position(|&l| l == v).ok_or(lost)?;
-        let apex = target.patched.landmark_vertices[VertexId::from(landmark)];
+        let landmark = source.landmark_vertices.iter().position(|&l| l == v).ok_or(lost)?;
+        let apex = target.landmark_vertices[VertexId::from(landmark)];
         let mut seat = Seat { face: at.face, motion: at.motion };
         let start = (0..3).map(|k| HalfedgeId::of(at.face, k)).find(|&x| mesh.tail(x) == apex);
         let mut wedge = start.ok_or(lost)?;

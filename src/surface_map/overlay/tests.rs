@@ -150,7 +150,7 @@ fn a_mesh_on_itself_is_the_identity() {
         let own = overlay.pieces.iter().filter(|p| p.source_face == p.target_face);
         assert!((own.map(|p| p.area).sum::<f64>() - 1.0).abs() < 1e-8);
         let map = PointMap::new(source, source, &overlay);
-        let refined = &source.patched.mesh;
+        let refined = source.mesh;
         for face in refined.faces() {
             let point = SurfacePoint { face, barycentric: [0.2, 0.5, 0.3] };
             let image = map.target_from_source(point);
@@ -213,7 +213,7 @@ fn there_and_back_again() {
     let [source, target] = pair.sides();
     let overlay = pair.overlay();
     let map = PointMap::new(source, target, &overlay);
-    let meshes = [source, target].map(|side| &side.patched.mesh);
+    let meshes = [source, target].map(|side| side.mesh);
     for face in meshes[0].faces() {
         let point = SurfacePoint { face, barycentric: [0.1, 0.2, 0.7] };
         let back = map.source_from_target(map.target_from_source(point));

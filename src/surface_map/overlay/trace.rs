@@ -44,12 +44,12 @@ impl Traces {
         target: Parametrised<'_>,
         seats: &Seats,
     ) -> Result<(), OverlayError> {
-        let mesh = &source.patched.mesh;
+        let mesh = source.mesh;
         self.crossings.clear();
         self.motions.clear();
         self.ranges.clear();
         self.ranges.resize(mesh.face_count() * 3, [0; 2]);
-        let tracer = Tracer { source, target, seats, most: target.patched.mesh.face_count() + 1000 };
+        let tracer = Tracer { source, target, seats, most: target.mesh.face_count() + 1000 };
         for h in mesh.edges() {
             let begin = self.crossings.len() as u32;
             tracer.trace(h, (&mut self.crossings, &mut self.motions))?;
@@ -91,7 +91,7 @@ impl Walk {
         log: &mut Log<'_>,
     ) {
         let transition = &target.embedding.transitions[exit];
-        let entered = target.patched.mesh.twin(exit);
+        let entered = target.mesh.twin(exit);
         self.along = along_source.clamp(self.along, 1.0);
         if *transition != Rigid2::IDENTITY {
             self.seat.motion = transition.after(&self.seat.motion);
@@ -113,7 +113,7 @@ impl Tracer<'_> {
         let ends = [self.seats.corners[h], self.seats.corners[h.next()]];
         let seat = self.seats.seats[h];
         let line = ends.map(|p| seat.motion.apply(p));
-        let edge = [h, self.source.patched.mesh.twin(h)];
+        let edge = [h, self.source.mesh.twin(h)];
         let mut walk = Walk { edge, ends, seat, line, along: 0.0 };
         let end = self.end(h);
         let goal = end.motion.apply(ends[1]);
@@ -131,7 +131,7 @@ impl Tracer<'_> {
             }
             let (right, left) = (signed_double_area(p, q, a), signed_double_area(p, q, b));
             walk.cross(self.target, (exit, from / (from - to), right / (right - left)), &mut log);
-            entered = Some(self.target.patched.mesh.twin(exit));
+            entered = Some(self.target.mesh.twin(exit));
         }
         self.step_over(walk, &end, log)
     }
@@ -139,7 +139,7 @@ impl Tracer<'_> {
     /// The seat of the head, as seen from the face of the halfedge. At a landmark it lies in the wedge from which the edge
     /// comes.
     fn end(&self, h: HalfedgeId) -> Seat {
-        let twin = self.source.patched.mesh.twin(h);
+        let twin = self.source.mesh.twin(h);
         let seat = self.seats.seats[twin];
         if self.seats.at_landmark(twin) {
             Seat { motion: seat.motion.after(&self.source.embedding.transitions[h]), ..seat }
@@ -167,7 +167,7 @@ impl Tracer<'_> {
     /// edge or around one corner.
     fn step_over(&self, mut walk: Walk, end: &Seat, mut log: Log<'_>) -> Result<(), OverlayError> {
         let halfedges = |face: FaceId| (0..3).map(move |k| HalfedgeId::of(face, k));
-        let mesh = &self.target.patched.mesh;
+        let mesh = &self.target.mesh;
         let goal = end.motion.apply(walk.ends[1]);
         let after = |seat: &Seat, x: HalfedgeId| Seat {
             face: mesh.twin(x).face(),
@@ -184,7 +184,7 @@ impl Tracer<'_> {
             pairs.into_iter().find(|&[x, y]| arrives(&after(&after(&walk.seat, x), y)))
         };
         let way = once.map(|x| [Some(x), None]).or_else(|| twice().map(|pair| pair.map(Some)));
-        let ends = [walk.edge[0], walk.edge[1]].map(|h| self.source.patched.mesh.tail(h).index());
+        let ends = [walk.edge[0], walk.edge[1]].map(|h| self.source.mesh.tail(h).index());
         for x in way.ok_or(OverlayError::Lost { edge: ends })?.into_iter().flatten() {
             let [a, b] = [x, x.next()].map(|x| self.target.embedding.corners[x]);
             let along = (walk.line[1] - a).dot(b - a) / (b - a).length_squared();

@@ -1,0 +1,95 @@
+//! The straight sides of the base domain drawn on a parametrised mesh.
+//!
+//! On the cone surface the sides of its charts are straight lines from cone to cone. Followed on source and target they are
+//! lines that correspond under the map, and they show that a parametrisation is one onto this cone surface and no other: each
+//! line starts at its angle and must arrive at its landmark after its length.
+
+use super::compose::exit_edge;
+use super::cone_surface::ConeSurface;
+use super::embedding::Parametrised;
+use super::fan::{Fan, Wedge};
+use crate::math::rigid2::{Rigid2, complex_mul};
+use crate::math::scalar::{cos, sin};
+use crate::mesh::{HalfedgeId, SurfacePoint};
+use glam::DVec2;
+
+/// One side of a base face on a mesh.
+#[derive(Clone, Debug)]
+pub struct BaseLine {
+    /// From landmark to landmark, one point on every edge that is crossed.
+    pub points: Vec<SurfacePoint>,
+    /// Distance between the end of the line and its landmark; infinite where the line does not come near it.
+    pub end_error: f64,
+}
+
+/// Follows base halfedge `h` on a mesh.
+pub fn base_line(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -> BaseLine {
+    let base = &surface.base.mesh;
+    let length = surface.lengths[h];
+    let goal = side.landmark_vertices[base.head(h)];
+    let corners = &side.embedding.corners;
+    let start = begin(side, surface, h);
+    let mut line = BaseLine {
+        points: vec![SurfacePoint::at_vertex(side.mesh, side.landmark_vertices[base.tail(h)])],
+        end_error: f64::INFINITY,
+    };
+    let (mut face, mut motion) = (start.corner.face(), Rigid2::IDENTITY);
+    let ends = [corners[start.corner], corners[start.corner] + start.direction * length];
+    let mut entered = None;
+    for step in 0..side.mesh.face_count() + 1000 {
+        let [p, q] = ends.map(|e| motion.apply(e));
+        let arrival = [0, 1, 2].map(|k| HalfedgeId::of(face, k)).into_iter().find(|&c| {
+            side.mesh.tail(c) == goal
+                && corners[c].distance(q) < 1e-3 * length
+                && (step > 0 || c != start.corner)
+        });
+        if let Some(corner) = arrival {
+            line.end_error = corners[corner].distance(q);
+            line.points.push(SurfacePoint::at_vertex(side.mesh, goal));
+            break;
+        }
+        let exit = if step == 0 {
+            Some(start.corner.next())
+        } else {
+            exit_edge(side.embedding, face, [p, q], entered)
+        };
+        let Some(exit) = exit else { break };
+        line.points.push(crossing(exit, [corners[exit], corners[exit.next()]], [p, q]));
+        motion = side.embedding.transitions[exit].after(&motion);
+        let twin = side.mesh.twin(exit);
+        face = twin.face();
+        entered = Some(twin);
+    }
+    line
+}
+
+struct Begin {
+    corner: HalfedgeId,
+    direction: DVec2,
+}
+
+/// The face into which the line starts, with its direction there.
+fn begin(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -> Begin {
+    let landmark = surface.base.mesh.tail(h);
+    let fan = Fan::new(surface, landmark);
+    let angle = fan.halfedges().iter().find(|(b, _)| *b == h).map_or(0.0, |(_, angle)| *angle);
+    let anchor = side.embedding.anchors[landmark];
+    let past = |w: &Wedge| (angle - w.begin).rem_euclid(fan.total);
+    let outside = |w: &Wedge| (past(w) - w.width).max(0.0);
+    let wedge = fan.wedges(side, &anchor).min_by(|v, w| outside(v).total_cmp(&outside(w)));
+    let corner = wedge.map_or(anchor.corner, |w| w.corner);
+    let turn = wedge.map_or(0.0, |w| past(&w).min(w.width));
+    let corners = &side.embedding.corners;
+    let along = (corners[corner.next()] - corners[corner]).normalize_or(DVec2::X);
+    Begin { corner, direction: complex_mul(along, DVec2::new(cos(turn), sin(turn))) }
+}
+
+/// The point where the segment p q crosses the halfedge from a to b.
+fn crossing(h: HalfedgeId, [a, b]: [DVec2; 2], [p, q]: [DVec2; 2]) -> SurfacePoint {
+    let (sa, sb) = ((q - p).perp_dot(a - p), (q - p).perp_dot(b - p));
+    let share = if sa == sb { 0.5 } else { (sa / (sa - sb)).clamp(0.0, 1.0) };
+    let mut barycentric = [0.0; 3];
+    barycentric[h.corner()] = 1.0 - share;
+    barycentric[h.next().corner()] = share;
+    SurfacePoint { face: h.face(), barycentric }
+}

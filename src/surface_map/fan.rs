@@ -1,0 +1,141 @@
+//! The base faces around a landmark: which angle around the cone a direction has, and how to get from chart to chart.
+
+use super::cone_surface::ConeSurface;
+use super::embedding::{Anchor, Embedding, Parametrised};
+use crate::math::rigid2::{Rigid2, complex_mul};
+use crate::math::scalar::{atan2, cos, sin};
+use crate::math::triangle::angle_from_lengths;
+use crate::mesh::{HalfedgeId, VertexId};
+use glam::DVec2;
+use std::sync::Arc;
+
+/// The base faces around a landmark, counter-clockwise. Angles are counted from the first base halfedge, on and on around
+/// the cone.
+pub struct Fan<'a> {
+    surface: &'a ConeSurface,
+    /// Base halfedges that start at the landmark with the angle of each.
+    halfedges: Vec<(HalfedgeId, f64)>,
+    /// Angle of the whole cone.
+    pub total: f64,
+}
+
+/// A face of a mesh at a landmark with the angles that it covers.
+#[derive(Clone, Copy, Debug)]
+pub struct Wedge {
+    /// The halfedge that starts at the landmark.
+    pub corner: HalfedgeId,
+    /// Angle of that halfedge.
+    pub begin: f64,
+    /// Angle of the face.
+    pub width: f64,
+    /// From the plane of the anchor's face to that of this face.
+    pub motion: Rigid2,
+}
+
+impl<'a> Fan<'a> {
+    /// The fan of a landmark.
+    pub fn new(surface: &'a ConeSurface, landmark: VertexId) -> Self {
+        let mut total = 0.0;
+        let mut halfedges = Vec::new();
+        for h in surface.base.mesh.star(landmark) {
+            halfedges.push((h, total));
+            let lengths = [h, h.prev()].map(|x| surface.lengths[x]);
+            total += angle_from_lengths(surface.lengths[h.next()], lengths);
+        }
+        Self { surface, halfedges, total }
+    }
+
+    /// The base halfedges that start at the landmark with the angle of each.
+    pub fn halfedges(&self) -> &[(HalfedgeId, f64)] {
+        &self.halfedges
+    }
+
+    /// Place in the fan of an anchor's chart.
+    fn place(&self, anchor: &Anchor) -> usize {
+        self.halfedges.iter().position(|(h, _)| h.face() == anchor.chart).unwrap_or(0)
+    }
+
+    /// The angle of a direction given in the plane of the anchor's face; within half a turn of the middle of its chart.
+    pub fn angle(&self, anchor: &Anchor, direction: DVec2) -> f64 {
+        let place = self.place(anchor);
+        let (base, begin) = self.halfedges[place];
+        let end = self.halfedges.get(place + 1).map_or(self.total, |next| next.1);
+        let half = 0.5 * (end - begin);
+        let corners = self.surface.charts[anchor.chart];
+        let axis = anchor.motion.rotate(corners[base.next().corner()] - corners[base.corner()]);
+        let middle = complex_mul(axis, DVec2::new(cos(half), sin(half)));
+        begin + half + atan2(middle.perp_dot(direction), middle.dot(direction))
+    }
+
+    /// The faces around the landmark, counter-clockwise from the anchor.
+    pub fn wedges<'s>(
+        &self,
+        side: Parametrised<'s>,
+        anchor: &Anchor,
+    ) -> impl Iterator<Item = Wedge> + use<'s> {
+        let corners = &side.embedding.corners;
+        let first = anchor.corner;
+        let mut begin = self.angle(anchor, corners[first.next()] - corners[first]);
+        let mut motion = Rigid2::IDENTITY;
+        let mut next = Some(first);
+        std::iter::from_fn(move || {
+            let corner = next?;
+            let [p, q, r] = [corner, corner.next(), corner.prev()].map(|h| corners[h]);
+            let width = atan2((q - p).perp_dot(r - p), (q - p).dot(r - p));
+            let wedge = Wedge { corner, begin, width, motion };
+            begin += width;
+            motion = side.embedding.transitions[corner.prev()].after(&motion);
+            next = Some(side.mesh.twin(corner.prev())).filter(|&h| h != first);
+            Some(wedge)
+        })
+    }
+
+    /// The motion from the chart at `place` to the chart at `to`, counted on and on around the cone.
+    fn around(&self, place: usize, to: i64) -> Rigid2 {
+        let n = self.halfedges.len() as i64;
+        let transitions = &self.surface.transitions;
+        let mut motion = Rigid2::IDENTITY;
+        let mut at = place as i64;
+        while at < to {
+            // Counter-clockwise: out through the side that ends at the landmark.
+            motion = transitions[self.halfedges[at.rem_euclid(n) as usize].0.prev()].after(&motion);
+            at += 1;
+        }
+        while at > to {
+            motion = transitions[self.halfedges[at.rem_euclid(n) as usize].0].after(&motion);
+            at -= 1;
+        }
+        motion
+    }
+
+    /// The motion from the plane of one anchor's face to that of another's, `turns` whole turns back around the cone.
+    pub fn between(&self, from: &Anchor, to: &Anchor, turns: i64) -> Rigid2 {
+        let goal = self.place(to) as i64 - turns * self.halfedges.len() as i64;
+        let charts = self.around(self.place(from), goal);
+        to.motion.after(&charts).after(&from.motion.inverse())
+    }
+
+    /// The same anchor with the chart that contains an angle, that of its halfedge.
+    pub fn recharted(&self, anchor: &Anchor, angle: f64) -> Anchor {
+        let n = self.halfedges.len() as i64;
+        let turns = (angle / self.total).floor();
+        let rest = angle - turns * self.total;
+        let inside = self.halfedges.iter().rposition(|(_, begin)| *begin <= rest).unwrap_or(0);
+        let to = inside as i64 + turns as i64 * n;
+        let motion = anchor.motion.after(&self.around(self.place(anchor), to).inverse());
+        Anchor { corner: anchor.corner, chart: self.halfedges[inside].0.face(), motion }
+    }
+}
+
+impl Embedding {
+    /// The same embedding with every anchor's chart below its halfedge: relaxations turn the planes around the cones, and
+    /// angles are told apart only within half a turn.
+    pub fn normalise_anchors(&mut self, surface: &ConeSurface) {
+        let normalised = |(landmark, anchor): (VertexId, &Anchor)| {
+            let edge = self.corners[anchor.corner.next()] - self.corners[anchor.corner];
+            let fan = Fan::new(surface, landmark);
+            fan.recharted(anchor, fan.angle(anchor, edge))
+        };
+        self.anchors = Arc::new(self.anchors.iter_enumerated().map(normalised).collect());
+    }
+}

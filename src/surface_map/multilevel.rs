@@ -1,0 +1,301 @@
+//! Coarse first: the map of two coarse meshes, refined to the full meshes.
+//!
+//! The base domain is drawn on coarse levels of both meshes, where everything costs milliseconds. Their parametrisations are
+//! relaxed, the points that the drawing added are taken out again, and the vertices of the full meshes come back level by
+//! level, while the energy of the map itself is lowered on every level. So the full meshes start near the optimum, and are
+//! never cut along the drawing.
+
+use super::MapError;
+use super::composed::{self, ComposedOptions};
+use super::cone_surface::ConeSurface;
+use super::embedding::{Embedding, Parametrised};
+use super::flat_problem::RelaxOptions;
+use super::initial::{self, InitialOptions};
+use super::seamless::{RestTriangle, Seamless};
+use crate::landmarks::Landmarks;
+use crate::layout::{BaseLayout, PatchedMesh};
+use crate::mesh::coarsening::{Level, coarsen_around};
+use crate::mesh::collapsible::CollapsibleMesh;
+use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
+use crate::monitor::Monitor;
+use glam::DVec3;
+use std::sync::Arc;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
+
+/// How a map is solved from coarse to fine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MultilevelOptions {
+    /// Vertices of the coarse level.
+    pub coarse_vertices: usize,
+    /// Growth from level to level.
+    pub growth: f64,
+    /// The first parametrisation of a coarse level.
+    pub initial: InitialOptions,
+    /// The relaxation of each coarse side on its own.
+    pub relax: RelaxOptions,
+    /// The relaxation of the map on the coarse level.
+    pub coarse: ComposedOptions,
+    /// The relaxation of the map on every finer level.
+    pub fine: ComposedOptions,
+}
+
+impl Default for MultilevelOptions {
+    fn default() -> Self {
+        Self {
+            coarse_vertices: 1500,
+            growth: 4.0,
+            initial: InitialOptions::default(),
+            relax: RelaxOptions::default(),
+            coarse: ComposedOptions::default(),
+            fine: ComposedOptions { max_rounds: 8, ..ComposedOptions::default() },
+        }
+    }
+}
+
+/// One mesh with its coarse level.
+pub struct Side<'a> {
+    /// Area 1.
+    full: &'a SurfaceMesh,
+    landmarks: &'a TiSlice<VertexId, VertexId>,
+    mesh: CollapsibleMesh,
+    /// The coarse level.
+    pub coarse: Level,
+}
+
+impl<'a> Side<'a> {
+    /// Coarsens a mesh of area 1 to about `goal` vertices, the landmarks among them.
+    pub fn new(full: &'a SurfaceMesh, landmarks: &'a TiSlice<VertexId, VertexId>, goal: usize) -> Self {
+        let mut is_landmark = ti_vec![false; full.vertex_count()];
+        landmarks.iter().for_each(|&v| is_landmark[v] = true);
+        let mut mesh = CollapsibleMesh::new(full);
+        coarsen_around(&mut mesh, full.positions(), goal, &is_landmark);
+        let coarse = Level::of(&mesh, full.positions());
+        Self { full, landmarks, mesh, coarse }
+    }
+
+    /// The coarse level's vertex of each landmark.
+    fn coarse_landmarks(&self) -> Vec<VertexId> {
+        self.coarse.numbers(self.landmarks).collect()
+    }
+}
+
+/// The landmarks on both coarse levels.
+pub fn coarse_landmarks(sides: &[Side<'_>; 2]) -> Landmarks {
+    let [source, target] = [0, 1].map(|k| sides[k].coarse_landmarks());
+    Landmarks { source, target }
+}
+
+/// Both coarse levels with their parametrisations.
+pub struct CoarseMap<'a> {
+    /// The cone surface of its layout.
+    pub surface: Arc<ConeSurface>,
+    levels: [Seamless<'a>; 2],
+    /// Energy of the map of the coarse levels.
+    pub energy: f64,
+}
+
+fn parametrised<'a>(patched: &'a PatchedMesh, embedding: &'a Embedding) -> Parametrised<'a> {
+    Parametrised { mesh: &patched.mesh, landmark_vertices: &patched.landmark_vertices, embedding }
+}
+
+/// The relaxed map of two coarse levels, from a layout drawn on them.
+///
+/// # Errors
+/// [`MapError::NoStart`], [`MapError::LayoutPoints`]: another layout or a finer level may help.
+pub fn solve_coarse<'a>(
+    sides: &'a [Side<'a>; 2],
+    layout: &BaseLayout,
+    (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
+) -> Result<CoarseMap<'a>, MapError> {
+    let surface = Arc::new(ConeSurface::of_layout(layout)?);
+    let mut level = |side: &'a Side<'a>, patched: &PatchedMesh| {
+        let (start, _) = initial::embed(patched, &surface, &options.initial, monitor)?;
+        let (relaxed, _) = initial::relax(parametrised(patched, &start), &surface, &options.relax, monitor)?;
+        without_layout_points(side, patched, (&surface, &relaxed), (options, monitor))
+    };
+    let levels = [level(&sides[0], &layout.source)?, level(&sides[1], &layout.target)?];
+    let mut map = CoarseMap { surface, levels, energy: f64::NAN };
+    map.relax(sides, (&options.coarse, monitor))?;
+    Ok(map)
+}
+
+impl CoarseMap<'_> {
+    /// Lowers the energy of the map of the present levels.
+    fn relax(
+        &mut self,
+        sides: &[Side<'_>; 2],
+        (options, monitor): (&ComposedOptions, &mut dyn Monitor),
+    ) -> Result<[Embedding; 2], MapError> {
+        let snapshots = [0, 1].map(|k| self.levels[k].snapshot());
+        let landmarks: [TiVec<VertexId, VertexId>; 2] =
+            [0, 1].map(|k| snapshots[k].0.numbers(sides[k].landmarks).collect());
+        let present = [0, 1].map(|k| Parametrised {
+            mesh: &snapshots[k].0.mesh,
+            landmark_vertices: &landmarks[k],
+            embedding: &snapshots[k].1,
+        });
+        let (relaxed, report) = composed::relax(present, &self.surface, options, monitor)?;
+        eprintln!(
+            "DBGR {}+{} {:?}",
+            snapshots[0].0.mesh.vertex_count(),
+            snapshots[1].0.mesh.vertex_count(),
+            report.energies.iter().map(|e| (e * 1e4).round() / 1e4).collect::<Vec<_>>()
+        );
+        self.energy = report.energies.last().copied().unwrap_or(f64::NAN);
+        for k in 0..2 {
+            self.levels[k].adopt(&snapshots[k].0, &relaxed[k]);
+        }
+        Ok(relaxed)
+    }
+}
+
+/// Brings all vertices back, relaxing level by level.
+///
+/// # Errors
+/// [`MapError::NoStart`].
+pub fn solve_fine(
+    mut map: CoarseMap<'_>,
+    sides: &[Side<'_>; 2],
+    (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
+) -> Result<[Embedding; 2], MapError> {
+    loop {
+        let mut grown = false;
+        for (level, side) in map.levels.iter_mut().zip(sides) {
+            let (live, full) = (level.mesh().live_vertices(), side.full.vertex_count());
+            let next = (live as f64 * options.growth) as usize;
+            // No level that is only a little coarser than the full mesh.
+            let goal = if 2 * next > full { full } else { next };
+            grown |= goal > live;
+            let quiet = InitialOptions { growth: f64::INFINITY, ..options.initial };
+            initial::refine(level, goal, &quiet, monitor)?;
+        }
+        if !grown {
+            break;
+        }
+        map.relax(sides, (&options.fine, monitor))?;
+    }
+    Ok(map.levels.map(|level| level.snapshot().1))
+}
+
+/// A vertex of a patched mesh that the layout added: on an edge of the mesh before, or inside a face.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Added {
+    OnEdge([VertexId; 2]),
+    Inside,
+}
+
+/// The coarse level's own parametrisation: the points that the layout added are taken out.
+fn without_layout_points<'a>(
+    side: &'a Side<'a>,
+    patched: &PatchedMesh,
+    (surface, embedding): (&Arc<ConeSurface>, &Embedding),
+    (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
+) -> Result<Seamless<'a>, MapError> {
+    let coarse = &side.coarse.mesh;
+    let first = coarse.vertex_count();
+    let added: Vec<Added> =
+        (first..patched.mesh.vertex_count()).map(|v| origin(patched, coarse, v.into())).collect();
+    let mut refined = Seamless::on_level(
+        (CollapsibleMesh::new(&patched.mesh), patched.mesh.positions()),
+        &patched.landmark_vertices,
+        surface.clone(),
+        (embedding, |h| h),
+    );
+    let mut left: Vec<VertexId> = (first..patched.mesh.vertex_count()).map(VertexId::from).collect();
+    let kind = |v: VertexId| added.get(v.index().wrapping_sub(first)).copied();
+    take_out(&mut refined, &mut left, kind);
+    for pull in [0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3] {
+        if left.is_empty() {
+            break;
+        }
+        let rest = pulled_together(&refined, patched.mesh.positions(), (&left, pull), kind);
+        refined.relax_to(&rest, &options.relax, monitor)?;
+        take_out(&mut refined, &mut left, kind);
+    }
+    if !left.is_empty() {
+        return Err(MapError::LayoutPoints { left: left.len() });
+    }
+    let (level, embedding) = refined.snapshot();
+    let same = |h: HalfedgeId| {
+        let (tail, head) = (level.mesh.tail(h), level.mesh.head(h));
+        let own = coarse.halfedge_between(tail, head).unwrap_or(h);
+        HalfedgeId::of(side.coarse.faces[own.face()], own.corner())
+    };
+    Ok(Seamless::on_level(
+        (side.mesh.clone(), side.full.positions()),
+        side.landmarks,
+        surface.clone(),
+        (&embedding, same),
+    ))
+}
+
+fn origin(patched: &PatchedMesh, coarse: &SurfaceMesh, v: VertexId) -> Added {
+    let at = patched.vertex_origin[v];
+    let corners = coarse.triangles()[at.face];
+    match (0..3).find(|&k| at.barycentric[k] < 1e-12) {
+        Some(k) => {
+            let [a, b] = [corners[(k + 1) % 3], corners[(k + 2) % 3]];
+            Added::OnEdge([a.min(b), a.max(b)])
+        }
+        None => Added::Inside,
+    }
+}
+
+/// Whether an added point may go into a neighbour: along its edge, or anywhere from inside a face.
+fn is_along(v: VertexId, w: VertexId, added: impl Fn(VertexId) -> Option<Added>) -> bool {
+    match added(v) {
+        Some(Added::OnEdge(ends)) => ends.contains(&w) || added(w) == Some(Added::OnEdge(ends)),
+        _ => true,
+    }
+}
+
+/// Rest shapes in which each point that is left lies near a neighbour on its edge, at `pull` of the distance. The triangles
+/// beside count as much as others, so that they really draw the two together.
+fn pulled_together(
+    level: &Seamless<'_>,
+    positions: &TiSlice<VertexId, DVec3>,
+    (left, pull): (&[VertexId], f64),
+    added: impl Fn(VertexId) -> Option<Added>,
+) -> Vec<RestTriangle> {
+    let mesh = level.mesh();
+    let mut rest: TiVec<VertexId, DVec3> = positions.to_owned();
+    let mut is_left = ti_vec![false; positions.len()];
+    for &v in left {
+        is_left[v] = true;
+        let length = |h: &HalfedgeId| positions[v].distance(positions[mesh.head(*h)]);
+        let ways = mesh.star(v).filter(|&h| is_along(v, mesh.head(h), &added));
+        let way = ways.min_by(|a, b| {
+            let own = |h: &HalfedgeId| added(mesh.head(*h)).is_some();
+            own(a).cmp(&own(b)).then(length(a).total_cmp(&length(b)))
+        });
+        if let Some(h) = way {
+            let end = positions[mesh.head(h)];
+            rest[v] = end + (positions[v] - end) * pull;
+        }
+    }
+    let mean = 1.0 / mesh.faces().count() as f64;
+    let triangle = |f| {
+        let corners = mesh.corners(f);
+        let triangle = RestTriangle::of(corners.map(|v| rest[v]));
+        if corners.iter().any(|&v| is_left[v]) {
+            RestTriangle { weight: triangle.weight.max(mean), ..triangle }
+        } else {
+            triangle
+        }
+    };
+    mesh.faces().map(triangle).collect()
+}
+
+/// Takes out what can be taken out: a point on an edge along its edge, a point inside a face into any neighbour.
+fn take_out(level: &mut Seamless<'_>, left: &mut Vec<VertexId>, added: impl Fn(VertexId) -> Option<Added>) {
+    let mut before = usize::MAX;
+    while left.len() < before {
+        before = left.len();
+        left.retain(|&v| {
+            let along = |w: VertexId| is_along(v, w, &added);
+            let ways: Vec<HalfedgeId> =
+                level.mesh().star(v).filter(|&h| along(level.mesh().head(h))).collect();
+            !ways.into_iter().any(|h| level.mesh().link_condition(h) && level.remove(h))
+        });
+    }
+}
