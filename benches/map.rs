@@ -6,12 +6,13 @@ mod common;
 use conemap::layout::{self, LayoutOptions};
 use conemap::monitor::Silent;
 use conemap::pipeline::{self, GroundTruth, MapInput, PipelineOptions};
-use conemap::surface_map::compose::{Parametrised, locate};
+use conemap::surface_map::compose::locate;
 use conemap::surface_map::flat_problem::RelaxOptions;
 use conemap::surface_map::initial::{InitialOptions, embed, relax};
 use conemap::surface_map::{ConeSurface, overlay};
 use criterion::Criterion;
 use std::path::Path;
+use std::sync::Arc;
 
 fn main() {
     let mut criterion = Criterion::default().configure_from_args().sample_size(10);
@@ -37,7 +38,7 @@ fn cat_to_lion(criterion: &mut Criterion, data: &Path) {
     criterion.bench_function("cat-lion/layout", |bencher| bencher.iter(lay_out));
 
     let layout = lay_out();
-    let surface = ConeSurface::of_layout(&layout).expect("a cone surface");
+    let surface = Arc::new(ConeSurface::of_layout(&layout).expect("a cone surface"));
     let sides = [&layout.source, &layout.target];
     let options = InitialOptions::default();
     let start = || sides.map(|side| embed(side, &surface, &options, &mut Silent).expect("a start").0);
@@ -46,13 +47,15 @@ fn cat_to_lion(criterion: &mut Criterion, data: &Path) {
     let starts = start();
     let options = RelaxOptions::default();
     let relaxed = || {
-        let side = |k: usize| relax(sides[k], &surface, &starts[k], &options, &mut Silent).expect("runs").0;
+        let side = |k: usize| {
+            relax(sides[k].parametrised(&starts[k]), &surface, &options, &mut Silent).expect("runs").0
+        };
         [side(0), side(1)]
     };
     criterion.bench_function("cat-lion/relaxation, both sides", |bencher| bencher.iter(relaxed));
 
     let ends = relaxed();
-    let [source, target] = [0, 1].map(|k| Parametrised { patched: sides[k], embedding: &ends[k] });
+    let [source, target] = [0, 1].map(|k| sides[k].parametrised(&ends[k]));
     criterion.bench_function("cat-lion/composition and overlay", |bencher| {
         bencher.iter(|| {
             let locations = locate(source, target, &surface).expect("every vertex is found");

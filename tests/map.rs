@@ -11,6 +11,7 @@ use conemap::surface_map::flat_problem::RelaxOptions;
 use conemap::surface_map::initial::{self, InitialOptions};
 use conemap::surface_map::queries::PointMap;
 use conemap::surface_map::{ConeSurface, certify, distortion, overlay};
+use std::sync::Arc;
 
 /// Poses of one animal, cats and lions, landmarks few and many, slivers, long limbs.
 const PAIRS: [&str; 7] = [
@@ -34,21 +35,22 @@ fn is_certified(pair: &common::Pair) {
     let landmarks = common::landmarks(pair);
     let options = LayoutOptions { attempts: 1, ..LayoutOptions::default() };
     let layout = layout::joint([&pair.source, &pair.target], &landmarks, &options, &mut Silent).unwrap();
-    let surface = ConeSurface::of_layout(&layout).unwrap();
+    let surface = Arc::new(ConeSurface::of_layout(&layout).unwrap());
     let [source, target] = [&layout.source, &layout.target].map(|side| {
         let (start, _) = initial::embed(side, &surface, &InitialOptions::default(), &mut Silent)
             .unwrap_or_else(|e| panic!("{name}: {e}"));
-        let before = certify(side, &surface, &start);
+        let before = certify(side.parametrised(&start), &surface);
         assert!(before.bijective, "{name}: the start: {before:?}");
         let (end, report) =
-            initial::relax(side, &surface, &start, &RelaxOptions::default(), &mut Silent).unwrap();
-        let after = certify(side, &surface, &end);
+            initial::relax(side.parametrised(&start), &surface, &RelaxOptions::default(), &mut Silent)
+                .unwrap();
+        let after = certify(side.parametrised(&end), &surface);
         assert!(after.bijective && after.flipped_triangles == 0, "{name}: {after:?}");
         assert!(report.energies.is_sorted_by(|a, b| a >= b), "{name}: {:?}", report.energies);
         end
     });
-    let source = Parametrised { patched: &layout.source, embedding: &source };
-    let target = Parametrised { patched: &layout.target, embedding: &target };
+    let source = layout.source.parametrised(&source);
+    let target = layout.target.parametrised(&target);
     let locations = compose::locate(source, target, &surface).unwrap_or_else(|e| panic!("{name}: {e}"));
     let overlay = overlay::overlay(source, target, &locations).unwrap_or_else(|e| panic!("{name}: {e}"));
     let measured = distortion::distortion(source, target, &overlay);
@@ -69,7 +71,7 @@ fn is_certified(pair: &common::Pair) {
 /// Source -> target -> source and back: 2000 points either way, by a generator with a fixed seed.
 fn returns(name: &str, [source, target]: [Parametrised<'_>; 2], overlay: &overlay::Overlay) {
     let map = PointMap::new(source, target, overlay);
-    let [from, onto] = [source, target].map(|side| &side.patched.mesh);
+    let [from, onto] = [source, target].map(|side| side.mesh);
     let mut state = 1_u64;
     let mut random = || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

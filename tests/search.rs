@@ -4,7 +4,7 @@ mod common;
 
 use conemap::demo;
 use conemap::landmarks::Landmarks;
-use conemap::layout::{self, BaseLayout, Candidates, SearchOptions, same_class};
+use conemap::layout::{self, BaseLayout, Candidates, PatchedMesh, SearchOptions, same_class};
 use conemap::mesh::coarsening::Level;
 use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::{Cancelled, Monitor, Silent, Step};
@@ -12,18 +12,20 @@ use conemap::surface_map::composed::{self, ComposedOptions};
 use conemap::surface_map::flat_problem::RelaxOptions;
 use conemap::surface_map::initial::{InitialOptions, embed, relax};
 use conemap::surface_map::{ConeSurface, MapError};
+use std::sync::Arc;
 
 /// The energy of a layout's map after a few rounds of relaxation.
 fn energy(layout: &BaseLayout, monitor: &mut dyn Monitor) -> Result<Option<f64>, Cancelled> {
     let map = |monitor: &mut dyn Monitor| -> Result<f64, MapError> {
-        let surface = ConeSurface::of_layout(layout)?;
-        let mut side = |patched| -> Result<_, MapError> {
+        let surface = Arc::new(ConeSurface::of_layout(layout)?);
+        let mut side = |patched: &PatchedMesh| -> Result<_, MapError> {
             let (start, _) = embed(patched, &surface, &InitialOptions::default(), monitor)?;
-            Ok(relax(patched, &surface, &start, &RelaxOptions::default(), monitor)?.0)
+            Ok(relax(patched.parametrised(&start), &surface, &RelaxOptions::default(), monitor)?.0)
         };
         let embeddings = [side(&layout.source)?, side(&layout.target)?];
+        let sides = [layout.source.parametrised(&embeddings[0]), layout.target.parametrised(&embeddings[1])];
         let options = ComposedOptions { max_rounds: 3, ..ComposedOptions::default() };
-        let (_, report) = composed::relax(layout, &surface, embeddings, &options, monitor)?;
+        let (_, report) = composed::relax(sides, &surface, &options, monitor)?;
         Ok(report.energies.last().copied().unwrap_or(f64::INFINITY))
     };
     match map(monitor) {

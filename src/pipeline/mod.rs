@@ -11,7 +11,7 @@ pub use error::PipelineError;
 pub use options::{Base, Cones, Method, PipelineOptions};
 pub use report::{
     BaseDomainReport, CertificateReport, ConeMetricReport, ConeMetricsReport, DistortionReport, FacesReport,
-    GroundTruthReport, Report,
+    GroundTruthReport, LayoutSearchReport, Report,
 };
 pub use result::MapResult;
 

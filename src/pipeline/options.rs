@@ -1,7 +1,7 @@
 //! What a user may choose.
 
 use crate::cone_metric::FlowOptions;
-use crate::layout::LayoutOptions;
+use crate::layout::{LayoutOptions, SearchOptions};
 use crate::surface_map::multilevel::MultilevelOptions;
 
 /// How the map is made.
@@ -47,6 +47,8 @@ pub struct PipelineOptions {
     pub flow: FlowOptions,
     /// The search for the layout.
     pub layout: LayoutOptions,
+    /// The search for the class of the map.
+    pub search: SearchOptions,
     /// From coarse to fine.
     pub multilevel: MultilevelOptions,
 }

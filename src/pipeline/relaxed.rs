@@ -1,9 +1,10 @@
 //! The relaxed map: from a layout and both cone metrics to a certified result.
 
-use super::report::{CertificateReport, DistortionReport, GroundTruthReport};
-use super::{GroundTruth, MapInput, MapResult, Metrics, PipelineError, PipelineOptions, Report, draw};
+use super::report::{CertificateReport, DistortionReport, GroundTruthReport, LayoutSearchReport};
+use super::{Base, GroundTruth, MapInput, MapResult, Metrics, PipelineError, PipelineOptions, Report};
+use crate::base_domain::{self, BaseDomain};
 use crate::landmarks::Landmarks;
-use crate::layout::BaseLayout;
+use crate::layout::{self, BaseLayout, Candidates, LayoutError, SearchReport};
 use crate::mesh::{RefinedMesh, SurfaceMesh, VertexId};
 use crate::monitor::{Monitor, Stage};
 use crate::surface_map::base_lines::base_line;
@@ -18,9 +19,6 @@ use glam::DVec3;
 use std::sync::Arc;
 use typed_index_collections::TiVec;
 
-/// Layouts that are tried on a level when a parametrisation finds no start.
-const LAYOUTS: usize = 4;
-
 /// One of both meshes, scaled to area 1, with its landmarks.
 struct Full {
     refined: RefinedMesh,
@@ -33,9 +31,17 @@ impl Full {
     }
 }
 
+/// The layout that was chosen with its coarse map.
+struct Coarse<'a> {
+    layout: BaseLayout,
+    search: SearchReport,
+    map: CoarseMap<'a>,
+}
+
 /// The certified parametrisations of both sides.
 struct Parametrisation {
     layout: BaseLayout,
+    search: SearchReport,
     surface: Arc<ConeSurface>,
     sides: [Full; 2],
     embeddings: [Embedding; 2],
@@ -77,22 +83,18 @@ fn parametrise(
 ) -> Result<(Parametrisation, Metrics), PipelineError> {
     let most = full.iter().map(|side| side.refined.mesh.vertex_count()).max().unwrap_or(0);
     let mut vertices = options.multilevel.coarse_vertices.max(2 * input.landmarks.len());
-    let (layout, metrics, surface, embeddings) = loop {
+    let (layout, search, metrics, surface, embeddings) = loop {
         monitor.enter(Stage::BaseDomain);
         let sides = [0, 1].map(|k| Side::new(&full[k].refined.mesh, &full[k].landmarks, vertices));
         match coarse(input, &sides, (options, &mut *monitor)) {
-            Err(PipelineError::Map(MapError::NoStart { .. } | MapError::LayoutPoints { .. }))
-                if vertices < most =>
-            {
-                vertices *= 4;
-            }
+            Err(PipelineError::Layout(LayoutError::NoMap { .. })) if vertices < most => vertices *= 4,
             Err(error) => return Err(error),
-            Ok((layout, map)) => {
+            Ok(Coarse { layout, search, map }) => {
                 let metrics = Metrics::new(input, &layout.base, options, monitor)?;
                 monitor.enter(Stage::Relaxation);
                 let surface = map.surface.clone();
                 let embeddings = solve_fine(map, &sides, (&options.multilevel, monitor))?;
-                break (layout, metrics, surface, embeddings);
+                break (layout, search, metrics, surface, embeddings);
             }
         }
     };
@@ -102,33 +104,53 @@ fn parametrise(
     if !certificate.bijective {
         return Err(PipelineError::NotCertified(certificate));
     }
-    Ok((Parametrisation { layout, surface, sides: full, embeddings, certificate }, metrics))
+    Ok((Parametrisation { layout, search, surface, sides: full, embeddings, certificate }, metrics))
 }
 
-/// Tries the best layouts in turn until both coarse levels have a map.
+/// The coarse map of least energy among the classes of layouts that are tried.
 fn coarse<'a>(
     input: MapInput<'_>,
     sides: &'a [Side<'a>; 2],
     (options, monitor): (&PipelineOptions, &mut dyn Monitor),
-) -> Result<(BaseLayout, CoarseMap<'a>), PipelineError> {
+) -> Result<Coarse<'a>, PipelineError> {
     let landmarks = coarse_landmarks(sides);
-    let level = MapInput {
-        source: &sides[0].coarse.mesh,
-        target: &sides[1].coarse.mesh,
-        landmarks: &landmarks,
-        ground_truth: GroundTruth::Unknown,
-    };
-    debug_assert_eq!(landmarks.len(), input.landmarks.len());
-    let mut rank = 0;
-    loop {
-        monitor.enter(Stage::BaseDomain);
-        let layout = draw(level, options, rank, monitor)?;
-        monitor.enter(Stage::InitialMap);
-        match solve_coarse(sides, &layout, (&options.multilevel, monitor)) {
-            Err(MapError::NoStart { .. } | MapError::LayoutPoints { .. }) if rank + 1 < LAYOUTS => rank += 1,
-            done => return Ok((layout, done?)),
+    let meshes = [&sides[0].coarse.mesh, &sides[1].coarse.mesh];
+    let mut best: Option<CoarseMap<'a>> = None;
+    let mut judge = |layout: &BaseLayout, monitor: &mut dyn Monitor| match solve_coarse(
+        sides,
+        layout,
+        (&options.multilevel, monitor),
+    ) {
+        Ok(map) => {
+            let energy = map.energy;
+            if best.as_ref().is_none_or(|best| energy < best.energy) {
+                best = Some(map);
+            }
+            Ok(Some(energy))
         }
-    }
+        Err(MapError::Cancelled(stop)) => Err(stop),
+        Err(_) => Ok(None),
+    };
+    let (layout, search) = match options.base {
+        Base::Joint => {
+            let mut candidates = Candidates::new(meshes, &landmarks);
+            layout::search(&mut candidates, &mut judge, &options.search, monitor)?
+        }
+        Base::Qem => {
+            let base = base_domain::simplify(input.target, &input.landmarks.target, monitor)?;
+            let layout = layout::from_base(meshes, &landmarks, &base, monitor)?;
+            judge(&layout, monitor)?.ok_or(LayoutError::NoMap { layouts: 1 })?;
+            (layout, SearchReport::default())
+        }
+    };
+    // The search may keep an earlier layout for a gain too small to change it.
+    let kept = best.filter(|best| search.energy().is_none_or(|energy| energy == best.energy));
+    let mut map = match kept {
+        Some(map) => map,
+        None => solve_coarse(sides, &layout, (&options.multilevel, &mut *monitor))?,
+    };
+    map.finish(sides, (&options.multilevel, monitor))?;
+    Ok(Coarse { layout, search, map })
 }
 
 fn result(
@@ -150,6 +172,13 @@ fn result(
         GroundTruthReport { mean: error.mean, p95: error.p95, max: error.max }
     });
     let report = Report {
+        layout: Some(LayoutSearchReport {
+            judged: map.search.judged.len(),
+            twists: map.search.twists_made,
+            energy: map.search.energy(),
+            runner_up: map.search.runner_up(),
+            path_stretch: map.layout.report.worst_stretch,
+        }),
         certificate: Some(certificate_report(&map.certificate)),
         distortion: DistortionReport {
             energy: measured.energy,
@@ -164,7 +193,7 @@ fn result(
         ..Report::of_inputs(input, &map.layout.base, metrics)
     };
     MapResult {
-        base: map.layout.base.clone(),
+        base: in_input_coordinates(&map.layout.base, input),
         cone_curvatures: metrics.cones.clone(),
         common: common_mesh(surfaces[0], surfaces[1], overlay, &metrics.target_atlas.corner_uvs),
         patch_lines: [patch_lines(map, 0, input.source), patch_lines(map, 1, input.target)],
@@ -172,6 +201,12 @@ fn result(
         vertex_distortion: measured.by_vertex.into_iter().take(vertices).collect(),
         report,
     }
+}
+
+/// The base domain with its landmarks at the places of the target's input mesh.
+fn in_input_coordinates(base: &BaseDomain, input: MapInput<'_>) -> BaseDomain {
+    let place = |v: &VertexId| input.target.positions()[*v];
+    BaseDomain { mesh: base.mesh.with_positions(input.landmarks.target.iter().map(place).collect()) }
 }
 
 fn certificate_report(certificate: &Certificate) -> CertificateReport {

@@ -11,6 +11,8 @@ use std::collections::BTreeMap;
 pub struct Report {
     /// Size of the base domain.
     pub base_domain: BaseDomainReport,
+    /// The search for the class of the map; `null` for the thesis' method.
+    pub layout: Option<LayoutSearchReport>,
     /// Both flows.
     pub cone_metric: ConeMetricsReport,
     /// The independent check of bijectivity; `null` for the thesis' method, which is not bijective.
@@ -36,6 +38,21 @@ pub struct BaseDomainReport {
     pub vertices: usize,
     /// 2 vertices - 4.
     pub faces: usize,
+}
+
+/// The search for the class of the map among the ways to draw the base domain.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct LayoutSearchReport {
+    /// Layouts that were judged by their coarse map.
+    pub judged: usize,
+    /// Twists that were made after the best order of drawing was found.
+    pub twists: usize,
+    /// Energy of the coarse map that was chosen, 4 for an isometry.
+    pub energy: Option<f64>,
+    /// Energy of the next best class.
+    pub runner_up: Option<f64>,
+    /// The largest ratio of a path of the layout to the shortest one between its landmarks.
+    pub path_stretch: f64,
 }
 
 /// Both flows.

@@ -124,12 +124,8 @@ mod tests {
     use crate::surface_map::initial::{InitialOptions, embed};
     use std::sync::Arc;
 
-    fn parametrised<'a>(patched: &'a PatchedMesh, embedding: &'a Embedding) -> Parametrised<'a> {
-        Parametrised { mesh: &patched.mesh, landmark_vertices: &patched.landmark_vertices, embedding }
-    }
-
     /// A sphere of 512 triangles mapped onto the octahedron's cone surface.
-    fn example() -> (PatchedMesh, ConeSurface, Embedding) {
+    fn example() -> (PatchedMesh, Arc<ConeSurface>, Embedding) {
         let fine = midpoint_subdivision(&midpoint_subdivision(&midpoint_subdivision(&octahedron())));
         let on_sphere = fine.positions().iter().map(|p| p.normalize()).collect();
         let mesh = fine.with_positions(on_sphere);
@@ -137,7 +133,7 @@ mod tests {
         let landmarks = Landmarks::from_vertices(&mesh, &mesh, &pairs).unwrap();
         let layout =
             layout::joint([&mesh, &mesh], &landmarks, &LayoutOptions::default(), &mut Silent).unwrap();
-        let surface = ConeSurface::of_layout(&layout).unwrap();
+        let surface = Arc::new(ConeSurface::of_layout(&layout).unwrap());
         let (embedding, _) =
             embed(&layout.source, &surface, &InitialOptions::default(), &mut Silent).unwrap();
         (layout.source, surface, embedding)
@@ -161,7 +157,7 @@ mod tests {
     #[test]
     fn a_valid_parametrisation_is_certified() {
         let (patched, surface, embedding) = example();
-        let certificate = certify(parametrised(&patched, &embedding), &surface);
+        let certificate = certify(patched.parametrised(&embedding), &surface);
         assert!(certificate.bijective, "{certificate:?}");
         assert!(certificate.max_angle_sum_error < 1e-9 && certificate.max_transition_error < 1e-9);
     }
@@ -175,7 +171,7 @@ mod tests {
         let across = 0.5 * (embedding.corners[h.next()] + embedding.corners[h.prev()]);
         let moved = 1.5 * across - 0.5 * embedding.corners[h];
         patched.mesh.star(v).for_each(|h| embedding.corners[h] = moved);
-        let certificate = certify(parametrised(&patched, &embedding), &surface);
+        let certificate = certify(patched.parametrised(&embedding), &surface);
         assert!(!certificate.bijective && certificate.flipped_triangles > 0, "{certificate:?}");
         assert!(certificate.max_transition_error < 1e-9, "{certificate:?}");
     }
@@ -247,7 +243,7 @@ mod tests {
             mesh: cover,
             ..patched
         };
-        let certificate = certify(parametrised(&cover_patched, &cover_embedding), &surface);
+        let certificate = certify(cover_patched.parametrised(&cover_embedding), &surface);
         assert_eq!(certificate.flipped_triangles, 0, "every triangle is positive");
         assert!(certificate.max_transition_error < 1e-9);
         assert!((certificate.max_angle_sum_error - TAU).abs() < 1e-6, "{certificate:?}");

@@ -41,6 +41,9 @@ pub struct ComposedReport {
     pub energies: Vec<f64>,
 }
 
+/// Share of the diagonal that is added to the Hessian at first.
+const FIRST_DAMPING: f64 = 0.03;
+
 /// Lowers the energy of the map by moving both parametrisations in turn; both stay valid at every step.
 ///
 /// # Errors
@@ -56,6 +59,7 @@ pub fn relax(
     let mut embeddings = sides.map(|side| side.embedding.clone());
     let mut report = ComposedReport::default();
     let mut overlayer = Overlayer::default();
+    let mut damping = [FIRST_DAMPING; 2];
     for round in 0..options.max_rounds {
         let before = report.energies.last().copied().unwrap_or(f64::INFINITY);
         for moving in 0..2 {
@@ -65,7 +69,8 @@ pub fn relax(
             let present = Parametrised { embedding: &embeddings[moving], ..sides[moving] };
             let side = Moving::new(&unknowns[moving], present, fixed, (surface, options));
             let start = unknowns[moving].points(&embeddings[moving]);
-            let Some((z, energies)) = side.step(&mut problems[moving], &mut overlayer, start) else {
+            let own = (&mut problems[moving], &mut damping[moving]);
+            let Some((z, energies)) = side.step(own, &mut overlayer, start) else {
                 continue;
             };
             if report.energies.is_empty() {
@@ -122,7 +127,7 @@ impl<'a> Moving<'a> {
     /// One Newton step; `None` where none lowers the energy. Returns E before and after.
     fn step(
         &self,
-        problem: &mut FlatProblem,
+        (problem, damping): (&mut FlatProblem, &mut f64),
         overlayer: &mut Overlayer,
         z: Vec<DVec2>,
     ) -> Option<(Vec<DVec2>, [f64; 2])> {
@@ -137,17 +142,19 @@ impl<'a> Moving<'a> {
             terms.map(|term| (piece.source_face.index(), area, pulled_back(&term, c)))
         });
         let barrier = self.options.barrier;
-        let step = problem.direction(&z, barrier, terms, (&slope, 0.03));
+        let step = problem.direction(&z, (barrier, *damping), terms, (&slope, 0.03));
         let descent: f64 = -slope.iter().zip(&step).map(|(g, d)| g.dot(*d)).sum::<f64>();
         if descent.is_nan() || descent <= 0.0 {
             return None;
         }
         let mut t = (0.9 * problem.first_degenerate(&z, &step)).min(1.0);
+        let longest = t;
         for _ in 0..8 {
             let trial: Vec<DVec2> = z.iter().zip(&step).map(|(p, d)| *p + *d * t).collect();
             if let Some(next) = self.state(problem, overlayer, &trial)
                 && next.total <= state.total - 1e-4 * t * descent
             {
+                *damping = if t == longest { (*damping / 3.0).max(1e-6) } else { *damping * longest / t };
                 return Some((trial, [state.energy, next.energy]));
             }
             t *= 0.5;
@@ -235,7 +242,7 @@ fn pulled_back(term: &HessianTerm, c: &DMat2) -> HessianTerm {
 mod tests {
     use super::*;
     use crate::landmarks::Landmarks;
-    use crate::layout::{self, LayoutOptions};
+    use crate::layout::{self, BaseLayout, LayoutOptions};
     use crate::math::scalar::sin;
     use crate::mesh::SurfaceMesh;
     use crate::mesh::generators::icosphere;
@@ -243,14 +250,19 @@ mod tests {
     use crate::surface_map::certify;
     use crate::surface_map::initial::{self, InitialOptions};
     use glam::DVec3;
+    use std::sync::Arc;
 
     fn nearest(mesh: &SurfaceMesh, p: DVec3) -> u32 {
         let distance = |v: &crate::mesh::VertexId| mesh.positions()[*v].distance(p);
         mesh.vertices().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap().0
     }
 
+    fn sides<'a>(layout: &'a BaseLayout, embeddings: &'a [Embedding; 2]) -> [Parametrised<'a>; 2] {
+        [layout.source.parametrised(&embeddings[0]), layout.target.parametrised(&embeddings[1])]
+    }
+
     /// A ball onto a bent, stretched ball with other connectivity.
-    fn example() -> (BaseLayout, ConeSurface, [Embedding; 2]) {
+    fn example() -> (BaseLayout, Arc<ConeSurface>, [Embedding; 2]) {
         let (source, ball) = (icosphere(2), icosphere(3));
         let axes = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
         let pairs: Vec<_> = axes.iter().map(|&p| [nearest(&source, p), nearest(&ball, p)]).collect();
@@ -259,7 +271,7 @@ mod tests {
         let landmarks = Landmarks::from_vertices(&source, &target, &pairs).unwrap();
         let layout =
             layout::joint([&source, &target], &landmarks, &LayoutOptions::default(), &mut Silent).unwrap();
-        let surface = ConeSurface::of_layout(&layout).unwrap();
+        let surface = Arc::new(ConeSurface::of_layout(&layout).unwrap());
         let start = |side| initial::embed(side, &surface, &InitialOptions::default(), &mut Silent).unwrap().0;
         let embeddings = [start(&layout.source), start(&layout.target)];
         (layout, surface, embeddings)
@@ -269,10 +281,10 @@ mod tests {
     fn the_gradient_with_its_transport_term_is_the_difference_quotient() {
         let (layout, surface, embeddings) = example();
         let options = ComposedOptions::default();
-        let unknowns = Unknowns::new(&layout.source, &surface);
+        let [source, target] = sides(&layout, &embeddings);
+        let unknowns = Unknowns::new(source);
         let problem = unknowns.problem();
-        let fixed = Parametrised { patched: &layout.target, embedding: &embeddings[1] };
-        let side = Moving::new(&unknowns, &layout.source, fixed, &options);
+        let side = Moving::new(&unknowns, source, target, (&surface, &options));
         let z = unknowns.points(&embeddings[0]);
         let mut overlayer = Overlayer::default();
         let slope = side.gradient(&problem, &z, &side.state(&problem, &mut overlayer, &z).unwrap());
@@ -293,11 +305,10 @@ mod tests {
     fn the_energy_falls_and_the_map_stays_certified() {
         let (layout, surface, embeddings) = example();
         let options = ComposedOptions::default();
-        let (relaxed, report) = relax(&layout, &surface, embeddings, &options, &mut Silent).unwrap();
+        let (relaxed, report) = relax(sides(&layout, &embeddings), &surface, &options, &mut Silent).unwrap();
         assert!(report.energies.len() > 2, "{:?}", report.energies);
         let (first, last) = (report.energies[0], report.energies[report.energies.len() - 1]);
         assert!(last < first && last > 4.0 - 1e-9, "{:?}", report.energies);
-        assert!(certify(&layout.source, &surface, &relaxed[0]).bijective);
-        assert!(certify(&layout.target, &surface, &relaxed[1]).bijective);
+        assert!(sides(&layout, &relaxed).into_iter().all(|side| certify(side, &surface).bijective));
     }
 }

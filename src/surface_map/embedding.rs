@@ -1,5 +1,6 @@
 //! A seamless parametrisation of a mesh onto the flat cone surface.
 
+use crate::layout::PatchedMesh;
 use crate::math::rigid2::Rigid2;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec2;
@@ -41,4 +42,11 @@ pub struct Parametrised<'a> {
     pub landmark_vertices: &'a TiSlice<VertexId, VertexId>,
     /// Its parametrisation.
     pub embedding: &'a Embedding,
+}
+
+impl PatchedMesh {
+    /// The patched mesh with a parametrisation.
+    pub fn parametrised<'a>(&'a self, embedding: &'a Embedding) -> Parametrised<'a> {
+        Parametrised { mesh: &self.mesh, landmark_vertices: &self.landmark_vertices, embedding }
+    }
 }

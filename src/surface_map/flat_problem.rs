@@ -215,7 +215,7 @@ impl FlatProblem {
     pub(super) fn direction(
         &mut self,
         z: &[DVec2],
-        barrier: f64,
+        (barrier, damping): (f64, f64),
         terms: impl Iterator<Item = (usize, f64, HessianTerm)>,
         (slope, tolerance): (&[DVec2], f64),
     ) -> Vec<DVec2> {
@@ -224,7 +224,7 @@ impl FlatProblem {
         for (t, weight, term) in terms {
             self.add_term(t, weight, &term);
         }
-        self.matrix.regularise(1e-10);
+        self.matrix.regularise(damping);
         let downhill: Vec<DVec2> = slope.iter().map(|g| -*g).collect();
         let mut step = vec![DVec2::ZERO; z.len()];
         BlockCg::default().solve(&mut self.matrix, &downhill, &mut step, (tolerance, 500));

@@ -33,7 +33,9 @@ pub struct MultilevelOptions {
     pub initial: InitialOptions,
     /// The relaxation of each coarse side on its own.
     pub relax: RelaxOptions,
-    /// The relaxation of the map on the coarse level.
+    /// The relaxation of the map of the coarse level by which a layout is judged.
+    pub judge: ComposedOptions,
+    /// The relaxation of the map of the coarse level that was chosen.
     pub coarse: ComposedOptions,
     /// The relaxation of the map on every finer level.
     pub fine: ComposedOptions,
@@ -42,10 +44,11 @@ pub struct MultilevelOptions {
 impl Default for MultilevelOptions {
     fn default() -> Self {
         Self {
-            coarse_vertices: 1500,
+            coarse_vertices: std::env::var("CV").ok().and_then(|x| x.parse().ok()).unwrap_or(1500),
             growth: 4.0,
             initial: InitialOptions::default(),
             relax: RelaxOptions::default(),
+            judge: ComposedOptions { max_rounds: 3, ..ComposedOptions::default() },
             coarse: ComposedOptions::default(),
             fine: ComposedOptions { max_rounds: 8, ..ComposedOptions::default() },
         }
@@ -94,11 +97,7 @@ pub struct CoarseMap<'a> {
     pub energy: f64,
 }
 
-fn parametrised<'a>(patched: &'a PatchedMesh, embedding: &'a Embedding) -> Parametrised<'a> {
-    Parametrised { mesh: &patched.mesh, landmark_vertices: &patched.landmark_vertices, embedding }
-}
-
-/// The relaxed map of two coarse levels, from a layout drawn on them.
+/// A map of two coarse levels, from a layout drawn on them, relaxed as far as a judgement needs.
 ///
 /// # Errors
 /// [`MapError::NoStart`], [`MapError::LayoutPoints`]: another layout or a finer level may help.
@@ -110,22 +109,34 @@ pub fn solve_coarse<'a>(
     let surface = Arc::new(ConeSurface::of_layout(layout)?);
     let mut level = |side: &'a Side<'a>, patched: &PatchedMesh| {
         let (start, _) = initial::embed(patched, &surface, &options.initial, monitor)?;
-        let (relaxed, _) = initial::relax(parametrised(patched, &start), &surface, &options.relax, monitor)?;
+        let (relaxed, _) = initial::relax(patched.parametrised(&start), &surface, &options.relax, monitor)?;
         without_layout_points(side, patched, (&surface, &relaxed), (options, monitor))
     };
     let levels = [level(&sides[0], &layout.source)?, level(&sides[1], &layout.target)?];
     let mut map = CoarseMap { surface, levels, energy: f64::NAN };
-    map.relax(sides, (&options.coarse, monitor))?;
+    map.relax(sides, (&options.judge, monitor))?;
     Ok(map)
 }
 
 impl CoarseMap<'_> {
+    /// Relaxes the coarse map that was chosen.
+    ///
+    /// # Errors
+    /// [`MapError::Cancelled`].
+    pub fn finish(
+        &mut self,
+        sides: &[Side<'_>; 2],
+        (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
+    ) -> Result<(), MapError> {
+        self.relax(sides, (&options.coarse, monitor))
+    }
+
     /// Lowers the energy of the map of the present levels.
     fn relax(
         &mut self,
         sides: &[Side<'_>; 2],
         (options, monitor): (&ComposedOptions, &mut dyn Monitor),
-    ) -> Result<[Embedding; 2], MapError> {
+    ) -> Result<(), MapError> {
         let snapshots = [0, 1].map(|k| self.levels[k].snapshot());
         let landmarks: [TiVec<VertexId, VertexId>; 2] =
             [0, 1].map(|k| snapshots[k].0.numbers(sides[k].landmarks).collect());
@@ -135,17 +146,11 @@ impl CoarseMap<'_> {
             embedding: &snapshots[k].1,
         });
         let (relaxed, report) = composed::relax(present, &self.surface, options, monitor)?;
-        eprintln!(
-            "DBGR {}+{} {:?}",
-            snapshots[0].0.mesh.vertex_count(),
-            snapshots[1].0.mesh.vertex_count(),
-            report.energies.iter().map(|e| (e * 1e4).round() / 1e4).collect::<Vec<_>>()
-        );
         self.energy = report.energies.last().copied().unwrap_or(f64::NAN);
         for k in 0..2 {
             self.levels[k].adopt(&snapshots[k].0, &relaxed[k]);
         }
-        Ok(relaxed)
+        Ok(())
     }
 }
 

@@ -12,11 +12,12 @@ use crate::surface_map::queries::PointMap;
 use crate::surface_map::{ConeSurface, Embedding};
 use glam::DVec3;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Two meshes on one cone surface.
 struct Pair {
     layout: BaseLayout,
-    surface: ConeSurface,
+    surface: Arc<ConeSurface>,
     embeddings: [Embedding; 2],
 }
 
@@ -28,7 +29,7 @@ impl Pair {
         let landmarks = Landmarks::from_vertices(source, target, &pairs).unwrap();
         let options = LayoutOptions::default();
         let layout = layout::joint([source, target], &landmarks, &options, &mut Silent).unwrap();
-        let surface = ConeSurface::of_layout(&layout).unwrap();
+        let surface = Arc::new(ConeSurface::of_layout(&layout).unwrap());
         let start = |side| initial::embed(side, &surface, &InitialOptions::default(), &mut Silent).unwrap().0;
         let embeddings = [start(&layout.source), start(&layout.target)];
         Self { layout, surface, embeddings }
@@ -46,8 +47,8 @@ impl Pair {
 
     fn sides(&self) -> [Parametrised<'_>; 2] {
         [
-            Parametrised { patched: &self.layout.source, embedding: &self.embeddings[0] },
-            Parametrised { patched: &self.layout.target, embedding: &self.embeddings[1] },
+            self.layout.source.parametrised(&self.embeddings[0]),
+            self.layout.target.parametrised(&self.embeddings[1]),
         ]
     }
 
