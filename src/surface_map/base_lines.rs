@@ -6,12 +6,14 @@
 
 use super::compose::exit_edge;
 use super::cone_surface::ConeSurface;
-use super::embedding::Parametrised;
+use super::embedding::{Anchor, Embedding, Parametrised};
 use super::fan::{Fan, Wedge};
 use crate::math::rigid2::{Rigid2, complex_mul};
 use crate::math::scalar::{cos, sin};
-use crate::mesh::{HalfedgeId, SurfacePoint};
+use crate::mesh::{HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
 use glam::DVec2;
+use std::sync::Arc;
+use typed_index_collections::{TiSlice, TiVec};
 
 /// One side of a base face on a mesh.
 #[derive(Clone, Debug)]
@@ -20,7 +22,47 @@ pub struct BaseLine {
     pub points: Vec<SurfacePoint>,
     /// Distance between the end of the line and its landmark; infinite where the line does not come near it.
     pub end_error: f64,
+    /// The landmark at the end as the line finds it; `None` where the line misses it.
+    pub arrival: Option<Anchor>,
 }
+
+/// The same embedding with its anchors made to agree.
+///
+/// A plane's angle around a cone is known up to whole turns of the plane, which are not whole turns around the cone; an
+/// anchor that was turned too far in one step is mistaken. Lines that start at right anchors arrive, and tell the others.
+pub fn mend_anchors(
+    embedding: &mut Embedding,
+    (mesh, landmarks): (&SurfaceMesh, &Landmarks),
+    surface: &ConeSurface,
+) {
+    let base = &surface.base.mesh;
+    let all_arrive = |embedding: &Embedding, v: VertexId| {
+        let side = Parametrised { mesh, landmark_vertices: landmarks, embedding };
+        base.star(v).all(|h| base_line(side, surface, h).arrival.is_some())
+    };
+    let mut right: TiVec<VertexId, bool> = base.vertices().map(|v| all_arrive(embedding, v)).collect();
+    let mut queue: Vec<VertexId> = base.vertices().filter(|&v| right[v]).collect();
+    if queue.len() == base.vertex_count() {
+        return;
+    }
+    while let Some(v) = queue.pop() {
+        for h in base.star(v) {
+            let head = base.head(h);
+            let side = Parametrised { mesh, landmark_vertices: landmarks, embedding };
+            if right[head] {
+                continue;
+            }
+            if let Some(anchor) = base_line(side, surface, h).arrival {
+                Arc::make_mut(&mut embedding.anchors)[head] = anchor;
+                right[head] = true;
+                queue.push(head);
+            }
+        }
+    }
+}
+
+/// The mesh's vertex of each landmark.
+type Landmarks = TiSlice<VertexId, VertexId>;
 
 /// Follows base halfedge `h` on a mesh.
 pub fn base_line(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -> BaseLine {
@@ -32,6 +74,7 @@ pub fn base_line(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -
     let mut line = BaseLine {
         points: vec![SurfacePoint::at_vertex(side.mesh, side.landmark_vertices[base.tail(h)])],
         end_error: f64::INFINITY,
+        arrival: None,
     };
     let (mut face, mut motion) = (start.corner.face(), Rigid2::IDENTITY);
     let ends = [corners[start.corner], corners[start.corner] + start.direction * length];
@@ -45,6 +88,9 @@ pub fn base_line(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -
         });
         if let Some(corner) = arrival {
             line.end_error = corners[corner].distance(q);
+            if line.end_error < 1e-6 * length {
+                line.arrival = Some(arrived(surface, h, (corner, corners[corner]), [p, q]));
+            }
             line.points.push(SurfacePoint::at_vertex(side.mesh, goal));
             break;
         }
@@ -61,6 +107,20 @@ pub fn base_line(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -
         entered = Some(twin);
     }
     line
+}
+
+/// The anchor at the end of base halfedge `h`, which arrives at a corner along the segment p q.
+fn arrived(
+    surface: &ConeSurface,
+    h: HalfedgeId,
+    (corner, at): (HalfedgeId, DVec2),
+    [p, q]: [DVec2; 2],
+) -> Anchor {
+    let back = surface.base.mesh.twin(h);
+    let chart = surface.charts[back.face()];
+    let onto = [at, at + (p - q)];
+    let motion = Rigid2::between_segments([chart[back.corner()], chart[back.next().corner()]], onto);
+    Anchor { corner, chart: back.face(), motion }
 }
 
 struct Begin {

@@ -6,6 +6,7 @@
 //! never cut along the drawing.
 
 use super::MapError;
+use super::base_lines::mend_anchors;
 use super::composed::{self, ComposedOptions};
 use super::cone_surface::ConeSurface;
 use super::embedding::{Embedding, Parametrised};
@@ -137,9 +138,12 @@ impl CoarseMap<'_> {
         sides: &[Side<'_>; 2],
         (options, monitor): (&ComposedOptions, &mut dyn Monitor),
     ) -> Result<(), MapError> {
-        let snapshots = [0, 1].map(|k| self.levels[k].snapshot());
+        let mut snapshots = [0, 1].map(|k| self.levels[k].snapshot());
         let landmarks: [TiVec<VertexId, VertexId>; 2] =
             [0, 1].map(|k| snapshots[k].0.numbers(sides[k].landmarks).collect());
+        for ((level, embedding), landmarks) in snapshots.iter_mut().zip(&landmarks) {
+            mend_anchors(embedding, (&level.mesh, landmarks), &self.surface);
+        }
         let present = [0, 1].map(|k| Parametrised {
             mesh: &snapshots[k].0.mesh,
             landmark_vertices: &landmarks[k],

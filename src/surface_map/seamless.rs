@@ -138,7 +138,9 @@ impl<'a> Seamless<'a> {
             self.corners[HalfedgeId::of(level.faces[h.face()], h.corner())] = embedding.corners[h];
         }
         for (anchor, relaxed) in self.anchors.iter_mut().zip(embedding.anchors.iter()) {
-            *anchor = Anchor { corner: anchor.corner, ..*relaxed };
+            let corner = relaxed.corner;
+            *anchor =
+                Anchor { corner: HalfedgeId::of(level.faces[corner.face()], corner.corner()), ..*relaxed };
         }
     }
 
