@@ -45,7 +45,7 @@ pub struct MultilevelOptions {
 impl Default for MultilevelOptions {
     fn default() -> Self {
         Self {
-            coarse_vertices: std::env::var("CV").ok().and_then(|x| x.parse().ok()).unwrap_or(1500),
+            coarse_vertices: 1500,
             growth: 4.0,
             initial: InitialOptions::default(),
             relax: RelaxOptions::default(),

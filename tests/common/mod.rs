@@ -107,7 +107,7 @@ pub fn json_fields(value: &serde_json::Value) -> Vec<String> {
 }
 
 /// The fields of the report of a map, `ground_truth` and `seconds` unopened.
-pub const REPORT_FIELDS: [&str; 29] = [
+pub const REPORT_FIELDS: [&str; 34] = [
     "base_domain.faces",
     "base_domain.vertices",
     "certificate.bijective",
@@ -134,6 +134,11 @@ pub const REPORT_FIELDS: [&str; 29] = [
     "distortion.p95",
     "faces.source",
     "faces.target",
+    "layout.energy",
+    "layout.judged",
+    "layout.path_stretch",
+    "layout.runner_up",
+    "layout.twists",
     "unmapped_share",
     "warnings",
     "ground_truth",
