@@ -124,7 +124,8 @@ impl<'a> Moving<'a> {
         Self { unknowns, moving, surface, fixed, fixed_inverses, options }
     }
 
-    /// One Newton step; `None` where none lowers the energy. Returns E before and after.
+    /// One Newton step: the new state, or the old one where no step lowers the energy, with E before and after. `None` where
+    /// there is no overlay to begin with.
     fn step(
         &self,
         (problem, damping): (&mut FlatProblem, &mut f64),
@@ -145,7 +146,7 @@ impl<'a> Moving<'a> {
         let step = problem.direction(&z, (barrier, *damping), terms, (&slope, 0.03));
         let descent: f64 = -slope.iter().zip(&step).map(|(g, d)| g.dot(*d)).sum::<f64>();
         if descent.is_nan() || descent <= 0.0 {
-            return None;
+            return Some((z, [state.energy; 2]));
         }
         let mut t = (0.9 * problem.first_degenerate(&z, &step)).min(1.0);
         let longest = t;
@@ -159,7 +160,7 @@ impl<'a> Moving<'a> {
             }
             t *= 0.5;
         }
-        None
+        Some((z, [state.energy; 2]))
     }
 
     /// The overlay and energy at z; `None` where a triangle is not positive or there is no overlay.

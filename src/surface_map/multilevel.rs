@@ -114,7 +114,7 @@ pub fn solve_coarse<'a>(
         without_layout_points(side, patched, (&surface, &relaxed), (options, monitor))
     };
     let levels = [level(&sides[0], &layout.source)?, level(&sides[1], &layout.target)?];
-    let mut map = CoarseMap { surface, levels, energy: f64::NAN };
+    let mut map = CoarseMap { surface, levels, energy: f64::INFINITY };
     map.relax(sides, (&options.judge, monitor))?;
     Ok(map)
 }
@@ -150,7 +150,7 @@ impl CoarseMap<'_> {
             embedding: &snapshots[k].1,
         });
         let (relaxed, report) = composed::relax(present, &self.surface, options, monitor)?;
-        self.energy = report.energies.last().copied().unwrap_or(f64::NAN);
+        self.energy = report.energies.last().copied().unwrap_or(f64::INFINITY);
         for k in 0..2 {
             self.levels[k].adopt(&snapshots[k].0, &relaxed[k]);
         }
