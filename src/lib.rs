@@ -12,6 +12,7 @@ pub mod export;
 pub mod intrinsic;
 pub mod io;
 pub mod landmark_fit;
+pub mod landmark_suggestion;
 pub mod landmarks;
 pub mod layout;
 pub mod math;

@@ -1,6 +1,7 @@
 //! Typed elements, halfedge connectivity, polygon soup, checks and points on the surface.
 
 pub mod check;
+pub mod closest_point;
 pub mod coarsening;
 pub mod collapsible;
 pub mod generators;

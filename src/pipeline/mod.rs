@@ -2,13 +2,14 @@
 
 mod error;
 mod options;
+mod own_cones;
 mod relaxed;
 mod report;
 mod result;
 mod thesis;
 
 pub use error::PipelineError;
-pub use options::{Base, Cones, Method, PipelineOptions};
+pub use options::{Base, Cones, Method, OwnConeOptions, PipelineOptions};
 pub use report::{
     BaseDomainReport, CertificateReport, ConeMetricReport, ConeMetricsReport, DistortionReport, FacesReport,
     GroundTruthReport, LayoutSearchReport, Report,

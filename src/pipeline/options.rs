@@ -51,4 +51,28 @@ pub struct PipelineOptions {
     pub search: SearchOptions,
     /// From coarse to fine.
     pub multilevel: MultilevelOptions,
+    /// Cones of the program's own where the landmarks are few.
+    pub own_cones: OwnConeOptions,
+}
+
+/// Cones of the program's own, for [`Method::Relaxed`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OwnConeOptions {
+    /// Points that are added; 0 turns them off.
+    pub count: usize,
+    /// With more landmarks than this none are added.
+    pub most_landmarks: usize,
+    /// A coarse map of less energy needs no help; 4 for an isometry.
+    pub least_energy: f64,
+    /// Sets of points, one after the other.
+    pub rounds: usize,
+    /// The search for the layout with own points.
+    pub search: SearchOptions,
+}
+
+impl Default for OwnConeOptions {
+    fn default() -> Self {
+        let search = SearchOptions { candidates: 2, twists: 2, ..SearchOptions::default() };
+        Self { count: 20, most_landmarks: 16, least_energy: 4.01, rounds: 3, search }
+    }
 }

@@ -1,17 +1,20 @@
 //! The relaxed map: from a layout and both cone metrics to a certified result.
 
+use super::own_cones::{self, Refined};
 use super::report::{CertificateReport, DistortionReport, GroundTruthReport, LayoutSearchReport};
 use super::{Base, GroundTruth, MapInput, MapResult, Metrics, PipelineError, PipelineOptions, Report};
 use crate::base_domain::{self, BaseDomain};
 use crate::landmarks::Landmarks;
-use crate::layout::{self, BaseLayout, Candidates, LayoutError, SearchReport};
+use crate::layout::{self, BaseLayout, Candidates, LayoutError, SearchOptions, SearchReport};
 use crate::mesh::{RefinedMesh, SurfaceMesh, VertexId};
 use crate::monitor::{Monitor, Stage};
 use crate::surface_map::base_lines::base_line;
 use crate::surface_map::compose::{Locations, locate};
 use crate::surface_map::distortion::{Distortion, distortion};
 use crate::surface_map::ground_truth::same_connectivity_error;
-use crate::surface_map::multilevel::{CoarseMap, Side, coarse_landmarks, solve_coarse, solve_fine};
+use crate::surface_map::multilevel::{
+    CoarseMap, MultilevelOptions, Side, coarse_landmarks, solve_coarse, solve_fine,
+};
 use crate::surface_map::overlay::{Overlay, overlay};
 use crate::surface_map::transfer::{Surface, common_mesh, vertex_images};
 use crate::surface_map::{Certificate, ConeSurface, Embedding, MapError, Parametrised, certify};
@@ -20,9 +23,9 @@ use std::sync::Arc;
 use typed_index_collections::TiVec;
 
 /// One of both meshes, scaled to area 1, with its landmarks.
-struct Full {
-    refined: RefinedMesh,
-    landmarks: TiVec<VertexId, VertexId>,
+pub(super) struct Full {
+    pub(super) refined: RefinedMesh,
+    pub(super) landmarks: TiVec<VertexId, VertexId>,
 }
 
 impl Full {
@@ -32,10 +35,10 @@ impl Full {
 }
 
 /// The layout that was chosen with its coarse map.
-struct Coarse<'a> {
-    layout: BaseLayout,
-    search: SearchReport,
-    map: CoarseMap<'a>,
+pub(super) struct Coarse<'a> {
+    pub(super) layout: BaseLayout,
+    pub(super) search: SearchReport,
+    pub(super) map: CoarseMap<'a>,
 }
 
 /// The certified parametrisations of both sides.
@@ -54,7 +57,7 @@ impl Parametrisation {
     }
 }
 
-fn parametrised<'a>(full: &'a Full, embedding: &'a Embedding) -> Parametrised<'a> {
+pub(super) fn parametrised<'a>(full: &'a Full, embedding: &'a Embedding) -> Parametrised<'a> {
     Parametrised { mesh: &full.refined.mesh, landmark_vertices: &full.landmarks, embedding }
 }
 
@@ -83,7 +86,7 @@ fn parametrise(
 ) -> Result<(Parametrisation, Metrics), PipelineError> {
     let most = full.iter().map(|side| side.refined.mesh.vertex_count()).max().unwrap_or(0);
     let mut vertices = options.multilevel.coarse_vertices.max(2 * input.landmarks.len());
-    let (layout, search, metrics, surface, embeddings) = loop {
+    let (layout, search, metrics, (surface, embeddings, with_own)) = loop {
         monitor.enter(Stage::BaseDomain);
         let sides = [0, 1].map(|k| Side::new(&full[k].refined.mesh, &full[k].landmarks, vertices));
         match coarse(input, &sides, (options, &mut *monitor)) {
@@ -91,13 +94,21 @@ fn parametrise(
             Err(error) => return Err(error),
             Ok(Coarse { layout, search, map }) => {
                 let metrics = Metrics::new(input, &layout.base, options, monitor)?;
+                let own = own_cones::add((&full, &sides), &map, (vertices, options), monitor)?;
                 monitor.enter(Stage::Relaxation);
-                let surface = map.surface.clone();
-                let embeddings = solve_fine(map, &sides, (&options.multilevel, monitor))?;
-                break (layout, search, metrics, surface, embeddings);
+                let own = own.map_or(Ok(None), |own| own.refined((vertices, options), monitor))?;
+                let fine = match own {
+                    Some(Refined { surface, embeddings, full }) => (surface, embeddings, Some(full)),
+                    None => {
+                        let surface = map.surface.clone();
+                        (surface, solve_fine(map, &sides, (&options.multilevel, monitor))?, None)
+                    }
+                };
+                break (layout, search, metrics, fine);
             }
         }
     };
+    let full = with_own.unwrap_or(full);
     monitor.enter(Stage::Certificate);
     let [source, target] = [0, 1].map(|k| certify(parametrised(&full[k], &embeddings[k]), &surface));
     let certificate = source.and(&target);
@@ -113,13 +124,37 @@ fn coarse<'a>(
     sides: &'a [Side<'a>; 2],
     (options, monitor): (&PipelineOptions, &mut dyn Monitor),
 ) -> Result<Coarse<'a>, PipelineError> {
+    match options.base {
+        Base::Joint => searched(sides, (&options.multilevel, &options.search), monitor),
+        Base::Qem => {
+            let landmarks = coarse_landmarks(sides);
+            let meshes = [&sides[0].coarse.mesh, &sides[1].coarse.mesh];
+            let base = base_domain::simplify(input.target, &input.landmarks.target, monitor)?;
+            let layout = layout::from_base(meshes, &landmarks, &base, monitor)?;
+            let map = solve_coarse(sides, &layout, (&options.multilevel, &mut *monitor));
+            let mut map = map.map_err(|error| match error {
+                MapError::Cancelled(stop) => PipelineError::from(stop),
+                _ => LayoutError::NoMap { layouts: 1 }.into(),
+            })?;
+            map.finish(sides, (&options.multilevel, monitor))?;
+            Ok(Coarse { layout, search: SearchReport::default(), map })
+        }
+    }
+}
+
+/// The coarse map of least energy among layouts planned on both coarse levels.
+pub(super) fn searched<'a>(
+    sides: &'a [Side<'a>; 2],
+    (options, search_options): (&MultilevelOptions, &SearchOptions),
+    monitor: &mut dyn Monitor,
+) -> Result<Coarse<'a>, PipelineError> {
     let landmarks = coarse_landmarks(sides);
     let meshes = [&sides[0].coarse.mesh, &sides[1].coarse.mesh];
     let mut best: Option<CoarseMap<'a>> = None;
     let mut judge = |layout: &BaseLayout, monitor: &mut dyn Monitor| match solve_coarse(
         sides,
         layout,
-        (&options.multilevel, monitor),
+        (options, monitor),
     ) {
         Ok(map) => {
             let energy = map.energy;
@@ -131,25 +166,15 @@ fn coarse<'a>(
         Err(MapError::Cancelled(stop)) => Err(stop),
         Err(_) => Ok(None),
     };
-    let (layout, search) = match options.base {
-        Base::Joint => {
-            let mut candidates = Candidates::new(meshes, &landmarks);
-            layout::search(&mut candidates, &mut judge, &options.search, monitor)?
-        }
-        Base::Qem => {
-            let base = base_domain::simplify(input.target, &input.landmarks.target, monitor)?;
-            let layout = layout::from_base(meshes, &landmarks, &base, monitor)?;
-            judge(&layout, monitor)?.ok_or(LayoutError::NoMap { layouts: 1 })?;
-            (layout, SearchReport::default())
-        }
-    };
+    let mut candidates = Candidates::new(meshes, &landmarks);
+    let (layout, search) = layout::search(&mut candidates, &mut judge, search_options, monitor)?;
     // The search may keep an earlier layout for a gain too small to change it.
     let kept = best.filter(|best| search.energy().is_none_or(|energy| energy == best.energy));
     let mut map = match kept {
         Some(map) => map,
-        None => solve_coarse(sides, &layout, (&options.multilevel, &mut *monitor))?,
+        None => solve_coarse(sides, &layout, (options, &mut *monitor))?,
     };
-    map.finish(sides, (&options.multilevel, monitor))?;
+    map.finish(sides, (options, monitor))?;
     Ok(Coarse { layout, search, map })
 }
 
@@ -179,6 +204,7 @@ fn result(
             runner_up: map.search.runner_up(),
             path_stretch: map.layout.report.worst_stretch,
         }),
+        own_landmarks: map.sides[0].landmarks.len() - input.landmarks.len(),
         certificate: Some(certificate_report(&map.certificate)),
         distortion: DistortionReport {
             energy: measured.energy,
@@ -239,6 +265,9 @@ fn warnings(layout: &BaseLayout, measured: &Distortion) -> Vec<String> {
 /// The sides of the base faces on one of both meshes, in its input coordinates.
 fn patch_lines(map: &Parametrisation, side: usize, input: &SurfaceMesh) -> Vec<Vec<DVec3>> {
     let base = &map.surface.base.mesh;
+    let refined = &map.sides[side].refined;
     let line = |h| base_line(map.sides()[side], &map.surface, h).points;
-    base.edges().map(|h| line(h).iter().map(|p| p.position(input)).collect()).collect()
+    base.edges()
+        .map(|h| line(h).iter().map(|&p| refined.on_input(input, p).position(input)).collect())
+        .collect()
 }

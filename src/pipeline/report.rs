@@ -13,6 +13,9 @@ pub struct Report {
     pub base_domain: BaseDomainReport,
     /// The search for the class of the map; `null` for the thesis' method.
     pub layout: Option<LayoutSearchReport>,
+    /// Points that the program added as cones of its own and held on the finer levels, see
+    /// [`super::OwnConeOptions`]; not counted in `base_domain`.
+    pub own_landmarks: usize,
     /// Both flows.
     pub cone_metric: ConeMetricsReport,
     /// The independent check of bijectivity; `null` for the thesis' method, which is not bijective.

@@ -7,6 +7,7 @@
 
 use super::MapError;
 use super::base_lines::mend_anchors;
+use super::compose::{barycentric, locate};
 use super::composed::{self, ComposedOptions};
 use super::cone_surface::ConeSurface;
 use super::embedding::{Embedding, Parametrised};
@@ -17,7 +18,7 @@ use crate::landmarks::Landmarks;
 use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::coarsening::{Level, coarsen_around};
 use crate::mesh::collapsible::CollapsibleMesh;
-use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
+use crate::mesh::{HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::Monitor;
 use glam::DVec3;
 use std::sync::Arc;
@@ -132,30 +133,65 @@ impl CoarseMap<'_> {
         self.relax(sides, (&options.coarse, monitor))
     }
 
+    /// The present levels with the images of the source level's vertices; `None` where a vertex is not found on the target.
+    pub fn images(&self, sides: &[Side<'_>; 2]) -> Option<LevelImages> {
+        let present = self.present(sides);
+        let [source, target] = [0, 1].map(|k| present[k].parametrised());
+        let locations = locate(source, target, &self.surface).ok()?;
+        let target_from_source =
+            locations.by_vertex.iter().map(|at| barycentric(source, target, at)).collect();
+        Some(LevelImages { levels: present.map(|p| p.level), target_from_source })
+    }
+
+    fn present(&self, sides: &[Side<'_>; 2]) -> [Present; 2] {
+        [0, 1].map(|k| {
+            let (level, mut embedding) = self.levels[k].snapshot();
+            let landmarks: TiVec<VertexId, VertexId> = level.numbers(sides[k].landmarks).collect();
+            mend_anchors(&mut embedding, (&level.mesh, &landmarks), &self.surface);
+            Present { level, landmarks, embedding }
+        })
+    }
+
     /// Lowers the energy of the map of the present levels.
     fn relax(
         &mut self,
         sides: &[Side<'_>; 2],
         (options, monitor): (&ComposedOptions, &mut dyn Monitor),
     ) -> Result<(), MapError> {
-        let mut snapshots = [0, 1].map(|k| self.levels[k].snapshot());
-        let landmarks: [TiVec<VertexId, VertexId>; 2] =
-            [0, 1].map(|k| snapshots[k].0.numbers(sides[k].landmarks).collect());
-        for ((level, embedding), landmarks) in snapshots.iter_mut().zip(&landmarks) {
-            mend_anchors(embedding, (&level.mesh, landmarks), &self.surface);
-        }
-        let present = [0, 1].map(|k| Parametrised {
-            mesh: &snapshots[k].0.mesh,
-            landmark_vertices: &landmarks[k],
-            embedding: &snapshots[k].1,
-        });
-        let (relaxed, report) = composed::relax(present, &self.surface, options, monitor)?;
+        let present = self.present(sides);
+        let parametrised = [0, 1].map(|k| present[k].parametrised());
+        let (relaxed, report) = composed::relax(parametrised, &self.surface, options, monitor)?;
         self.energy = report.energies.last().copied().unwrap_or(f64::INFINITY);
         for k in 0..2 {
-            self.levels[k].adopt(&snapshots[k].0, &relaxed[k]);
+            self.levels[k].adopt(&present[k].level, &relaxed[k]);
         }
         Ok(())
     }
+}
+
+/// The level of one side that is present.
+struct Present {
+    level: Level,
+    landmarks: TiVec<VertexId, VertexId>,
+    embedding: Embedding,
+}
+
+impl Present {
+    fn parametrised(&self) -> Parametrised<'_> {
+        Parametrised {
+            mesh: &self.level.mesh,
+            landmark_vertices: &self.landmarks,
+            embedding: &self.embedding,
+        }
+    }
+}
+
+/// The map of two levels, read off at the source level's vertices.
+pub struct LevelImages {
+    /// Source and target level.
+    pub levels: [Level; 2],
+    /// The point of the target level that belongs to each vertex of the source level.
+    pub target_from_source: TiVec<VertexId, SurfacePoint>,
 }
 
 /// Brings all vertices back, relaxing level by level.

@@ -107,7 +107,7 @@ pub fn json_fields(value: &serde_json::Value) -> Vec<String> {
 }
 
 /// The fields of the report of a map, `ground_truth` and `seconds` unopened.
-pub const REPORT_FIELDS: [&str; 34] = [
+pub const REPORT_FIELDS: [&str; 35] = [
     "base_domain.faces",
     "base_domain.vertices",
     "certificate.bijective",
@@ -139,6 +139,7 @@ pub const REPORT_FIELDS: [&str; 34] = [
     "layout.path_stretch",
     "layout.runner_up",
     "layout.twists",
+    "own_landmarks",
     "unmapped_share",
     "warnings",
     "ground_truth",

@@ -40,6 +40,9 @@ pub struct MapArguments {
     /// Curvature at the landmarks.
     #[arg(long, value_enum, default_value_t = ConesArgument::BaseDomain)]
     pub cones: ConesArgument,
+    /// Points that are added as cones of the program's own where there are few landmarks; 0 for none.
+    #[arg(long, value_name = "N")]
+    pub own_cones: Option<usize>,
     /// Folder for the textured source (GLB), the vertex images (CSV) and the base domain (OBJ).
     #[arg(long)]
     pub out: Option<PathBuf>,

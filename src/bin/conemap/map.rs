@@ -8,7 +8,8 @@ use conemap::landmarks::{PlacedLandmarks, place};
 use conemap::mesh::check::CheckedMesh;
 use conemap::monitor::{Monitor, Stage};
 use conemap::pipeline::{
-    Base, Cones, GroundTruth, MapInput, MapResult, Method, PipelineOptions, run as run_pipeline,
+    Base, Cones, GroundTruth, MapInput, MapResult, Method, OwnConeOptions, PipelineOptions,
+    run as run_pipeline,
 };
 use std::collections::BTreeMap;
 
@@ -65,6 +66,10 @@ fn options(arguments: &MapArguments) -> PipelineOptions {
         cones: match arguments.cones {
             ConesArgument::BaseDomain => Cones::BaseDomain,
             ConesArgument::Uniform => Cones::Uniform,
+        },
+        own_cones: OwnConeOptions {
+            count: arguments.own_cones.unwrap_or(OwnConeOptions::default().count),
+            ..OwnConeOptions::default()
         },
         ..PipelineOptions::default()
     }
