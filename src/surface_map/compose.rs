@@ -13,8 +13,7 @@ use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, HalfedgeId, SurfacePoint, VertexId};
 use glam::DVec2;
 use robust::{Coord, orient2d};
-use std::collections::VecDeque;
-use typed_index_collections::{TiVec, ti_vec};
+use typed_index_collections::TiVec;
 
 /// Where a source corner lies among the target's triangles.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +27,7 @@ pub struct Location {
 }
 
 /// All source vertices among the target's triangles.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Locations {
     /// By source vertex.
     pub by_vertex: TiVec<VertexId, Location>,
@@ -44,71 +43,144 @@ pub struct LocateError {
     pub vertex: usize,
 }
 
-/// Locates every source vertex on the target.
-///
-/// Both sides must be certified parametrisations onto `surface`.
+/// Locates every source vertex on the target; see [`Locator::fill`].
 ///
 /// # Errors
-/// [`LocateError`] where a walk does not arrive, which certified input rules out but for rounding.
+/// [`LocateError`].
 pub fn locate(
     source: Parametrised<'_>,
     target: Parametrised<'_>,
     surface: &ConeSurface,
 ) -> Result<Locations, LocateError> {
-    let mut result = Err(LocateError { vertex: 0 });
-    for seed in surface.base.mesh.vertices() {
-        result = locate_from(source, target, (surface, seed));
-        if result.is_ok() {
-            break;
-        }
-    }
-    result
+    let mut locations = Locations::default();
+    Locator::default().fill([source, target], surface, &mut locations)?;
+    Ok(locations)
 }
 
-/// Locates everything from one landmark.
-///
-/// The angle of an edge around a cone is known up to whole turns of its plane only. Where the turn of the first landmark
-/// is mistaken, the others are not met and the next one is tried; the turns at all others follow.
-fn locate_from(
-    source: Parametrised<'_>,
-    target: Parametrised<'_>,
-    (surface, seed): (&ConeSurface, VertexId),
-) -> Result<Locations, LocateError> {
-    let mesh = source.mesh;
-    let mut found: TiVec<VertexId, Option<Location>> = ti_vec![None; mesh.vertex_count()];
-    let mut apexes: TiVec<VertexId, Option<VertexId>> = ti_vec![None; mesh.vertex_count()];
-    for (&v, &w) in source.landmark_vertices.iter().zip(target.landmark_vertices) {
-        apexes[v] = Some(w);
-    }
-    let fan = Fan::new(surface, seed);
-    let anchors = [source, target].map(|side| side.embedding.anchors[seed]);
-    let wedges: Vec<Wedge> = fan.wedges(target, &anchors[1]).collect();
-    let v = source.landmark_vertices[seed];
-    let first = anchored(&fan, anchors, source, &wedges);
-    let mut at_landmarks = Vec::new();
-    turn_around_cone(source, target, (first, target.landmark_vertices[seed]), &mut at_landmarks)
-        .ok_or(LocateError { vertex: v.index() })?;
-    found[v] = Some(first);
-    let mut queue: VecDeque<Location> = at_landmarks.iter().copied().collect();
-    while let Some(location) = queue.pop_front() {
-        let next = mesh.head(location.corner);
-        if found[next].is_some() {
-            continue;
+/// Locates vertices; keeps its working memory from one time to the next.
+#[derive(Clone, Debug, Default)]
+pub struct Locator {
+    /// By source vertex: of landmarks the target's vertex.
+    apexes: TiVec<VertexId, Option<VertexId>>,
+    /// Vertices in the order in which they are found; at landmarks with the range of their corners.
+    queue: Vec<(VertexId, [u32; 2])>,
+}
+
+/// Of a vertex that has not been found.
+const NOWHERE: Location =
+    Location { corner: HalfedgeId(u32::MAX), face: FaceId(u32::MAX), motion: Rigid2::IDENTITY };
+
+impl Locator {
+    /// Locates every source vertex on the target. Fills `locations`, whose memory is used again.
+    ///
+    /// Both sides must be certified parametrisations onto `surface`.
+    ///
+    /// # Errors
+    /// [`LocateError`] where a walk does not arrive, which certified input rules out but for rounding; `locations` are then
+    /// not complete.
+    pub fn fill(
+        &mut self,
+        [source, target]: [Parametrised<'_>; 2],
+        surface: &ConeSurface,
+        locations: &mut Locations,
+    ) -> Result<(), LocateError> {
+        self.apexes.clear();
+        self.apexes.resize(source.mesh.vertex_count(), None);
+        for (&v, &w) in source.landmark_vertices.iter().zip(target.landmark_vertices) {
+            self.apexes[v] = Some(w);
         }
-        let lost = LocateError { vertex: next.index() };
-        let arrived = walk(source, target, location).ok_or(lost)?;
-        if let Some(apex) = apexes[next] {
-            let begin = at_landmarks.len();
-            turn_around_cone(source, target, (arrived, apex), &mut at_landmarks).ok_or(lost)?;
-            queue.extend(&at_landmarks[begin..]);
-        } else {
-            queue.extend(turn_around(source, arrived));
+        let mut result = Err(LocateError { vertex: 0 });
+        for seed in surface.base.mesh.vertices() {
+            result = self.fill_from([source, target], (surface, seed), locations);
+            if result.is_ok() {
+                break;
+            }
         }
-        found[next] = Some(arrived);
+        result
     }
-    let complete = |(v, l): (usize, Option<Location>)| l.ok_or(LocateError { vertex: v });
-    let by_vertex = found.into_iter().enumerate().map(complete).collect::<Result<_, _>>()?;
-    Ok(Locations { by_vertex, at_landmarks })
+
+    /// Locates everything from one landmark.
+    ///
+    /// The angle of an edge around a cone is known up to whole turns of its plane only. Where the turn of the first landmark
+    /// is mistaken, the others are not met and the next one is tried; the turns at all others follow.
+    fn fill_from(
+        &mut self,
+        [source, target]: [Parametrised<'_>; 2],
+        (surface, seed): (&ConeSurface, VertexId),
+        locations: &mut Locations,
+    ) -> Result<(), LocateError> {
+        let mesh = source.mesh;
+        let Locations { by_vertex, at_landmarks } = locations;
+        by_vertex.clear();
+        by_vertex.resize(mesh.vertex_count(), NOWHERE);
+        at_landmarks.clear();
+        self.queue.clear();
+        let fan = Fan::new(surface, seed);
+        let anchors = [source, target].map(|side| side.embedding.anchors[seed]);
+        let wedges: Vec<Wedge> = fan.wedges(target, &anchors[1]).collect();
+        let first = anchored(&fan, anchors, source, &wedges);
+        let mut found = (source.landmark_vertices[seed], first);
+        let mut next = 0;
+        let mut corner = Corners::default();
+        loop {
+            let (v, at) = found;
+            let lost = LocateError { vertex: v.index() };
+            let begin = at_landmarks.len() as u32;
+            if let Some(apex) = self.apexes[v] {
+                turn_around_cone(source, target, (at, apex), at_landmarks).ok_or(lost)?;
+            }
+            by_vertex[v] = at;
+            self.queue.push((v, [begin, at_landmarks.len() as u32]));
+            let onwards = loop {
+                if let Some(from) = corner.next(source, at_landmarks) {
+                    if by_vertex[mesh.head(from.corner)].corner == NOWHERE.corner {
+                        break Some(from);
+                    }
+                } else if let Some(&(v, range)) = self.queue.get(next) {
+                    corner = Corners::new(by_vertex[v], range);
+                    next += 1;
+                } else {
+                    break None;
+                }
+            };
+            let Some(from) = onwards else { break };
+            let head = mesh.head(from.corner);
+            let arrived = walk(source, target, from).ok_or(LocateError { vertex: head.index() })?;
+            found = (head, arrived);
+        }
+        let missing = by_vertex.iter().position(|at| at.corner == NOWHERE.corner);
+        missing.map_or(Ok(()), |vertex| Err(LocateError { vertex }))
+    }
+}
+
+/// The corners of a vertex that has been found, one after the other: around an ordinary vertex the motions agree all around,
+/// at a landmark all corners are known.
+#[derive(Default)]
+struct Corners {
+    first: Option<HalfedgeId>,
+    here: Option<Location>,
+    at_landmark: std::ops::Range<u32>,
+}
+
+impl Corners {
+    fn new(at: Location, [begin, end]: [u32; 2]) -> Self {
+        let here = (begin == end).then_some(at);
+        Self { first: Some(at.corner), here, at_landmark: begin..end }
+    }
+
+    #[inline]
+    fn next(&mut self, source: Parametrised<'_>, at_landmarks: &[Location]) -> Option<Location> {
+        if let Some(k) = self.at_landmark.next() {
+            return at_landmarks.get(k as usize).copied();
+        }
+        let here = self.here?;
+        let corner = source.mesh.twin(here.corner.prev());
+        let transition = &source.embedding.transitions[corner];
+        let motion =
+            if *transition == Rigid2::IDENTITY { here.motion } else { here.motion.after(transition) };
+        self.here = (Some(corner) != self.first).then_some(Location { corner, motion, ..here });
+        Some(here)
+    }
 }
 
 /// The locations of all corners of a landmark, given one of them in any target face around the landmark's image `apex`.
@@ -156,20 +228,6 @@ fn turn_around_cone(
     }
 }
 
-/// The same location as seen from every face around the vertex (not a cone: the motions agree all around).
-fn turn_around(source: Parametrised<'_>, at: Location) -> impl Iterator<Item = Location> + '_ {
-    let mesh = source.mesh;
-    let mut next = Some(at);
-    std::iter::from_fn(move || {
-        let here = next?;
-        let across = here.corner.prev();
-        let corner = mesh.twin(across);
-        let motion = here.motion.after(&source.embedding.transitions[corner]);
-        next = (corner != at.corner).then_some(Location { corner, face: here.face, motion });
-        Some(here)
-    })
-}
-
 /// Walks along the edge of the location's corner to its end.
 fn walk(source: Parametrised<'_>, target: Parametrised<'_>, from: Location) -> Option<Location> {
     let end = source.embedding.corners[from.corner.next()];
@@ -188,12 +246,16 @@ fn walk_to(
     let mesh = target.mesh;
     let (mut face, mut motion) = (from.face, from.motion);
     let mut entered = None;
+    let mut line = [motion.apply(start), motion.apply(end)];
     for _ in 0..mesh.face_count() + 1000 {
-        let (p, q) = (motion.apply(start), motion.apply(end));
-        let Some(exit) = exit_edge(target.embedding, face, [p, q], entered) else {
+        let Some(exit) = exit_edge(target.embedding, face, line, entered) else {
             return Some(Location { corner: from.corner, face, motion });
         };
-        motion = target.embedding.transitions[exit].after(&motion);
+        let transition = &target.embedding.transitions[exit];
+        if *transition != Rigid2::IDENTITY {
+            motion = transition.after(&motion);
+            line = [motion.apply(start), motion.apply(end)];
+        }
         let twin = mesh.twin(exit);
         face = twin.face();
         entered = Some(twin);
@@ -225,7 +287,8 @@ pub(super) fn exit_edge(
 
 /// Whether q lies to the right of a b by more than rounding.
 fn clearly_outside(a: DVec2, b: DVec2, q: DVec2) -> bool {
-    side(a, b, q) < -1e-14 * (b - a).length().max(1e-3) && side(a, b, q) < 0.0
+    let beyond = side(a, b, q);
+    beyond < 0.0 && beyond < -1e-14 * (b - a).length().max(1e-3)
 }
 
 /// Positive when r lies to the left of p q (robust).

@@ -3,19 +3,19 @@
 //! A dart is a piece of a halfedge between two neighbouring crossings or ends. The next dart around the cell on its left
 //! follows from the crossing's orientation alone; at a landmark the source's star is merged into the target's wedges.
 
-use super::OverlayError;
 use super::seats::Seats;
 use super::trace::Traces;
+use super::{OverlayError, SideOf};
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::surface_map::compose::Parametrised;
 use glam::DVec2;
 use typed_index_collections::TiVec;
 
+const NONE: u32 = u32::MAX;
+
 /// A part of a halfedge between two neighbouring crossings or ends.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Dart {
-    /// The next dart around the cell on the left.
-    pub next: u32,
     /// The overlay vertex where it starts.
     pub origin: u32,
     /// Its halfedge: of the source, or, increased by the number of source halfedges, of the target.
@@ -24,36 +24,45 @@ pub(super) struct Dart {
     pub below: FaceId,
 }
 
+/// A crossing among those of its target edge.
+#[derive(Clone, Copy, Debug, Default)]
+struct OnTarget {
+    /// Where on the smaller halfedge.
+    along: f64,
+    /// Its number.
+    crossing: u32,
+    /// Whether the trace leaves a face through the smaller halfedge.
+    leaves: bool,
+}
+
 /// The darts and how they follow each other.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Arrangement {
     /// By target halfedge: the range of its edge in `order`.
     ranges: TiVec<HalfedgeId, [u32; 2]>,
     /// Crossings along each target edge, in the direction of its smaller halfedge.
-    order: Vec<u32>,
-    /// Place of each crossing on its target edge.
-    ranks: Vec<u32>,
-    /// Number of the first dart of each source halfedge.
+    order: Vec<OnTarget>,
+    /// Of each crossing the darts that arrive on the target edge: along `exit`, and along its twin.
+    arriving: Vec<[u32; 2]>,
+    /// Number of the first dart of each source halfedge. Both halfedges of an edge follow each other.
     source_darts: TiVec<HalfedgeId, u32>,
     /// Number of the first dart of each target halfedge.
     target_darts: TiVec<HalfedgeId, u32>,
-    /// At landmarks, by outgoing source halfedge: the next outgoing dart clockwise.
-    source_turns: TiVec<HalfedgeId, Option<u32>>,
-    /// At landmarks, by outgoing target halfedge: the next outgoing dart clockwise.
-    target_turns: TiVec<HalfedgeId, Option<u32>>,
-    /// At landmarks, by target halfedge: the last source halfedge in the wedge that it begins.
+    /// At the present landmark, by target halfedge: the last source halfedge in the wedge that it begins.
     last_in_wedge: TiVec<HalfedgeId, Option<HalfedgeId>>,
+    /// By dart, the next one around the cell on the left. Source darts come first.
+    pub next: Vec<u32>,
     /// Overlay vertex of each target vertex; source vertices keep their numbers, so that landmarks have them.
     target_numbers: TiVec<VertexId, u32>,
     /// Overlay vertex of the first crossing.
     pub first_crossing: u32,
     source_halfedges: u32,
-    /// All darts: those of each source halfedge in order, then those of each target halfedge.
+    /// By dart, once described.
     pub darts: Vec<Dart>,
 }
 
 impl Arrangement {
-    /// Sorts the crossings along the target edges and merges the stars of the landmarks.
+    /// Sorts the crossings along the target edges, links the darts and merges the stars of the landmarks.
     pub fn fill(
         &mut self,
         source: Parametrised<'_>,
@@ -62,10 +71,8 @@ impl Arrangement {
     ) -> Result<(), OverlayError> {
         self.sort(target, traces);
         self.number(source, target, traces);
-        self.merge_stars(source, target, seats)?;
-        self.link_ends(source, target, seats);
-        self.link_crossings(traces);
-        Ok(())
+        self.link(source, target, traces);
+        self.merge_stars(source, target, (seats, traces))
     }
 
     /// The source halfedge of a dart, or its target halfedge.
@@ -81,19 +88,36 @@ impl Arrangement {
         number - self.source_darts[h]
     }
 
+    /// The first dart of a source halfedge.
+    pub fn source_dart(&self, h: HalfedgeId) -> u32 {
+        self.source_darts[h]
+    }
+
     /// The first dart of a target halfedge.
     pub fn target_dart(&self, x: HalfedgeId) -> u32 {
         self.target_darts[x]
     }
 
+    /// Number, for [`Self::along_target`], of the first crossing of a target edge; 0 for an edge of the source.
+    pub fn crossings_on_target(&self, x: HalfedgeId, side: SideOf) -> u32 {
+        match side {
+            SideOf::Source => 0,
+            SideOf::Target => self.ranges[x][0],
+        }
+    }
+
+    /// Where on its edge's smaller halfedge a target edge is crossed; crossings are numbered along the edges.
+    pub fn along_target(&self, number: u32) -> f64 {
+        self.order[number as usize].along
+    }
+
     /// Counting sort by target edge, then by place on the edge; equal places by number.
     fn sort(&mut self, target: Parametrised<'_>, traces: &Traces) {
         let mesh = target.mesh;
-        let edge = |[exit, entered]: [HalfedgeId; 2]| exit.min(entered);
         self.ranges.clear();
         self.ranges.resize(mesh.face_count() * 3, [0; 2]);
         for crossing in &traces.crossings {
-            self.ranges[edge(crossing.exit)][1] += 1;
+            self.ranges[crossing.exit.min(crossing.entered)][1] += 1;
         }
         let mut begin = 0;
         for x in mesh.edges() {
@@ -102,151 +126,181 @@ impl Arrangement {
             self.ranges[x] = [begin, begin];
             begin += count;
         }
-        self.order.clear();
-        self.order.resize(traces.crossings.len(), 0);
+        self.order.resize(traces.crossings.len(), OnTarget::default());
         for (c, crossing) in traces.crossings.iter().enumerate() {
-            let range = &mut self.ranges[edge(crossing.exit)];
-            self.order[range[1] as usize] = c as u32;
+            let leaves = crossing.exit < crossing.entered;
+            let along = if leaves { crossing.along_target } else { 1.0 - crossing.along_target };
+            let range = &mut self.ranges[crossing.exit.min(crossing.entered)];
+            self.order[range[1] as usize] = OnTarget { along, crossing: c as u32, leaves };
             range[1] += 1;
         }
-        self.ranks.clear();
-        self.ranks.resize(traces.crossings.len(), 0);
         for x in mesh.edges() {
             let [begin, end] = self.ranges[x];
             self.ranges[mesh.twin(x)] = [begin, end];
-            let place = |c: u32| {
-                let crossing = &traces.crossings[c as usize];
-                if crossing.exit[0] == x { crossing.along_target } else { 1.0 - crossing.along_target }
-            };
-            let along = &mut self.order[begin as usize..end as usize];
-            along.sort_unstable_by(|&a, &b| place(a).total_cmp(&place(b)).then(a.cmp(&b)));
-            for (rank, &c) in along.iter().enumerate() {
-                self.ranks[c as usize] = rank as u32;
+            if end - begin > 1 {
+                self.order[begin as usize..end as usize]
+                    .sort_unstable_by(|a, b| a.along.total_cmp(&b.along).then(a.crossing.cmp(&b.crossing)));
             }
         }
     }
 
+    /// Numbers the darts, edge by edge, each in both directions: first those of the source.
     fn number(&mut self, source: Parametrised<'_>, target: Parametrised<'_>, traces: &Traces) {
+        let mut dart = 0;
+        let mut put =
+            |darts: &mut TiVec<HalfedgeId, u32>, [h, twin]: [HalfedgeId; 2], [begin, end]: [u32; 2]| {
+                let parts = end - begin + 1;
+                darts[h] = dart;
+                darts[twin] = dart + parts;
+                dart += 2 * parts;
+            };
         let [mesh, below] = [source.mesh, target.mesh];
-        self.target_numbers.clear();
-        self.target_numbers.resize(below.vertex_count(), u32::MAX);
-        let landmarks = source.landmark_vertices.iter().zip(target.landmark_vertices);
-        landmarks.for_each(|(&v, &w)| self.target_numbers[w] = v.0);
-        let mut vertex = mesh.vertex_count() as u32;
-        for number in self.target_numbers.iter_mut().filter(|n| **n == u32::MAX) {
-            *number = vertex;
-            vertex += 1;
+        self.source_darts.resize(mesh.face_count() * 3, 0);
+        for h in mesh.edges() {
+            put(&mut self.source_darts, [h, mesh.twin(h)], traces.ranges[h]);
         }
-        self.first_crossing = vertex;
-        self.source_halfedges = mesh.face_count() as u32 * 3;
-        self.darts.clear();
-        self.source_darts.clear();
-        self.target_darts.clear();
-        let mut put = |[begin, end]: [u32; 2], halfedge: u32, origin: u32| {
-            let first = self.darts.len() as u32;
-            let dart = Dart { next: 0, origin, halfedge, below: FaceId(0) };
-            self.darts.extend(std::iter::repeat_n(dart, (end - begin + 1) as usize));
-            first
-        };
-        for h in mesh.halfedges() {
-            self.source_darts.push(put(traces.ranges[h], h.0, mesh.tail(h).0));
+        self.target_darts.resize(below.face_count() * 3, 0);
+        for x in below.edges() {
+            put(&mut self.target_darts, [x, below.twin(x)], self.ranges[x]);
         }
-        for x in below.halfedges() {
-            let origin = self.target_numbers[below.tail(x)];
-            self.target_darts.push(put(self.ranges[x], x.0 + self.source_halfedges, origin));
+        self.next.resize(dart as usize, 0);
+        self.arriving.resize(traces.crossings.len(), [0; 2]);
+        for x in below.edges() {
+            let [begin, end] = self.ranges[x];
+            let (ahead, back) = (self.target_darts[x], self.target_darts[below.twin(x)]);
+            for (k, site) in self.order[begin as usize..end as usize].iter().enumerate() {
+                let (along, against) = (ahead + k as u32, back + (end - 1 - begin - k as u32));
+                self.arriving[site.crossing as usize] =
+                    if site.leaves { [along, against] } else { [against, along] };
+            }
         }
     }
 
+    /// What follows each dart: at the end of its halfedge the next halfedge of the face; at a crossing each dart turns to
+    /// its left. The trace, seen going east, crosses `exit` going north.
+    fn link(&mut self, source: Parametrised<'_>, target: Parametrised<'_>, traces: &Traces) {
+        let [mesh, below] = [source.mesh, target.mesh];
+        for h in mesh.edges() {
+            let twin = mesh.twin(h);
+            let [begin, end] = traces.ranges[h];
+            let crossings = end - begin;
+            let (ahead, back) = (self.source_darts[h], self.source_darts[twin]);
+            self.next[(ahead + crossings) as usize] = self.source_darts[h.next()];
+            self.next[(back + crossings) as usize] = self.source_darts[twin.next()];
+            for c in begin..end {
+                let [south, north] = self.arriving[c as usize];
+                let (west, east) = (ahead + (c - begin), back + (end - 1 - c));
+                self.next[west as usize] = south + 1;
+                self.next[south as usize] = east + 1;
+                self.next[east as usize] = north + 1;
+                self.next[north as usize] = west + 1;
+            }
+        }
+        for x in below.halfedges() {
+            let [begin, end] = self.ranges[x];
+            self.next[(self.target_darts[x] + (end - begin)) as usize] = self.target_darts[x.next()];
+        }
+    }
+
+    /// At landmarks both stars share a vertex: around it, the next outgoing dart clockwise may be of the other mesh.
     fn merge_stars(
         &mut self,
         source: Parametrised<'_>,
         target: Parametrised<'_>,
-        seats: &Seats,
+        (seats, traces): (&Seats, &Traces),
     ) -> Result<(), OverlayError> {
         let [mesh, below] = [source.mesh, target.mesh];
-        self.source_turns.clear();
-        self.source_turns.resize(mesh.face_count() * 3, None);
-        self.target_turns.clear();
-        self.target_turns.resize(below.face_count() * 3, None);
-        self.last_in_wedge.clear();
         self.last_in_wedge.resize(below.face_count() * 3, None);
         let landmarks = source.landmark_vertices.iter().zip(target.landmark_vertices);
         for (&v, &w) in landmarks {
             let lost = OverlayError::Landmark { vertex: v.index() };
+            below.star(w).for_each(|x| self.last_in_wedge[x] = None);
             for h in mesh.star(v) {
-                let following = mesh.twin(h.prev());
+                let before = h.prev();
+                let following = mesh.twin(before);
                 let [Some(wedge), Some(next)] = [h, following].map(|g| seats.wedges[g]) else {
                     return Err(lost);
                 };
                 let [along, turned] = [h, following].map(|g| heading(seats, g));
                 if wedge == next && along.perp_dot(turned) >= 0.0 {
-                    self.source_turns[following] = Some(self.source_darts[h]);
-                } else {
-                    self.source_turns[following] = Some(self.target_darts[next]);
-                    if self.last_in_wedge[wedge].replace(h).is_some() {
-                        return Err(lost);
-                    }
+                    continue;
+                }
+                let [begin, end] = traces.ranges[before];
+                let last = self.source_darts[before] + (end - begin);
+                self.next[last as usize] = self.target_darts[next];
+                if self.last_in_wedge[wedge].replace(h).is_some() {
+                    return Err(lost);
                 }
             }
             for x in below.star(w) {
-                let before = below.twin(x).next();
-                let last = self.last_in_wedge[before];
-                let turn = last.map_or(self.target_darts[before], |h| self.source_darts[h]);
-                self.target_turns[x] = Some(turn);
+                let arriving = below.twin(x);
+                if let Some(h) = self.last_in_wedge[arriving.next()] {
+                    let [begin, end] = self.ranges[arriving];
+                    let last = self.target_darts[arriving] + (end - begin);
+                    self.next[last as usize] = self.source_darts[h];
+                }
             }
         }
         Ok(())
     }
 
-    /// What follows the last part of each halfedge, and the target faces below both ends of source edges.
-    fn link_ends(&mut self, source: Parametrised<'_>, target: Parametrised<'_>, seats: &Seats) {
+    /// Fills `darts`.
+    pub fn describe(
+        &mut self,
+        source: Parametrised<'_>,
+        target: Parametrised<'_>,
+        (seats, traces): (&Seats, &Traces),
+    ) {
         let [mesh, below] = [source.mesh, target.mesh];
-        let end = |darts: &TiVec<HalfedgeId, u32>, h: usize, after: usize| {
-            darts.get(HalfedgeId::from(h + 1)).map_or(after, |&d| d as usize) - 1
-        };
-        let between = self.target_darts.first().map_or(0, |&d| d as usize);
-        for h in mesh.halfedges() {
+        self.number_vertices(source, target);
+        self.source_halfedges = mesh.face_count() as u32 * 3;
+        let first = self.first_crossing;
+        self.darts.clear();
+        for h in mesh.edges() {
             let twin = mesh.twin(h);
-            let last = end(&self.source_darts, h.index(), between);
-            self.darts[last].next = self.source_turns[twin].unwrap_or(self.source_darts[h.next()]);
-            // The trace begins at the smaller halfedge's seat: its first part and the other's last part lie there.
-            let part = if h < twin { self.source_darts[h] as usize } else { last };
-            self.darts[part].below = seats.seats[h.min(twin)].face;
+            let [begin, end] = traces.ranges[h];
+            let origins = |vertex: VertexId, c: Option<u32>| c.map_or(vertex.0, |c| first + c);
+            let face = |c: Option<u32>| match c {
+                Some(c) => traces.crossings[c as usize].entered.face(),
+                None => seats.seats[h].face,
+            };
+            for k in begin..=end {
+                let before = (k > begin).then(|| k - 1);
+                let origin = origins(mesh.tail(h), before);
+                self.darts.push(Dart { origin, halfedge: h.0, below: face(before) });
+            }
+            for k in (begin..=end).rev() {
+                let origin = origins(mesh.tail(twin), (k < end).then_some(k));
+                let below = face((k > begin).then(|| k - 1));
+                self.darts.push(Dart { origin, halfedge: twin.0, below });
+            }
         }
-        let all = self.darts.len();
-        for x in below.halfedges() {
-            let last = end(&self.target_darts, x.index(), all);
-            let turn = self.target_turns[below.twin(x)];
-            self.darts[last].next = turn.unwrap_or(self.target_darts[x.next()]);
+        for x in below.edges() {
+            let twin = below.twin(x);
+            let [begin, end] = self.ranges[x];
+            let crossings = &self.order[begin as usize..end as usize];
+            let mut put = |origin: u32, x: HalfedgeId| {
+                let halfedge = x.0 + self.source_halfedges;
+                self.darts.push(Dart { origin, halfedge, below: FaceId(NONE) });
+            };
+            put(self.target_numbers[below.tail(x)], x);
+            crossings.iter().for_each(|site| put(first + site.crossing, x));
+            put(self.target_numbers[below.tail(twin)], twin);
+            crossings.iter().rev().for_each(|site| put(first + site.crossing, twin));
         }
     }
 
-    /// The four darts that end and the four that start at each crossing. The trace, seen going east, crosses `exit` going
-    /// north; each dart turns to its left.
-    fn link_crossings(&mut self, traces: &Traces) {
-        for (c, crossing) in traces.crossings.iter().enumerate() {
-            let ([e, back], [x, down]) = (crossing.edge, crossing.exit);
-            let [begin, end] = traces.ranges[e];
-            // How many crossings lie behind and before on either edge.
-            let (west, east) = (c as u32 - begin, end - 1 - c as u32);
-            let [begin, end] = self.ranges[x];
-            let (rank, others) = (self.ranks[c], end - begin - 1);
-            let (south, north) = if x < down { (rank, others - rank) } else { (others - rank, rank) };
-            let arriving = [
-                self.source_darts[e] + west,
-                self.target_darts[x] + south,
-                self.source_darts[back] + east,
-                self.target_darts[down] + north,
-            ];
-            for k in 0..4 {
-                let leaving = arriving[(k + 1) % 4] + 1;
-                self.darts[arriving[k] as usize].next = leaving;
-                self.darts[leaving as usize].origin = self.first_crossing + c as u32;
-            }
-            let entered = down.face();
-            self.darts[arriving[0] as usize + 1].below = entered;
-            self.darts[arriving[2] as usize].below = entered;
+    fn number_vertices(&mut self, source: Parametrised<'_>, target: Parametrised<'_>) {
+        self.target_numbers.clear();
+        self.target_numbers.resize(target.mesh.vertex_count(), NONE);
+        let landmarks = source.landmark_vertices.iter().zip(target.landmark_vertices);
+        landmarks.for_each(|(&v, &w)| self.target_numbers[w] = v.0);
+        let mut vertex = source.mesh.vertex_count() as u32;
+        for number in self.target_numbers.iter_mut().filter(|n| **n == NONE) {
+            *number = vertex;
+            vertex += 1;
         }
+        self.first_crossing = vertex;
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::arrangement::{Arrangement, Side};
 use super::seats::Seats;
-use super::trace::{Crossing, Traces};
+use super::trace::Traces;
 use super::{Overlay, OverlayError, OverlayPoint, Piece, SideOf, corners_of, face_area};
 use crate::math::rigid2::Rigid2;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
@@ -58,13 +58,21 @@ impl Cells {
     ) -> Result<(), OverlayError> {
         let view = View { source, target, seats, traces, arrangement };
         self.reset(view, overlay);
-        for dart in 0..arrangement.darts.len() as u32 {
-            if self.cell_of_dart[dart as usize] == NONE {
-                self.walk(view, dart, overlay)?;
+        // Source darts in the order of their faces, so that neighbouring pieces have neighbouring numbers; then the rest.
+        for h in source.mesh.halfedges() {
+            let [begin, end] = traces.ranges[h];
+            for part in 0..=end - begin {
+                self.walk(view, arrangement.source_dart(h) + part, overlay)?;
             }
         }
+        for f in target.mesh.faces() {
+            self.walk(view, arrangement.target_dart(HalfedgeId::of(f, 0)), overlay)?;
+        }
+        if self.cell_of_dart.contains(&NONE) {
+            return Err(OverlayError::NotASphere { euler: 0 });
+        }
         self.spread(view, overlay)?;
-        let edges = arrangement.darts.len() / 2;
+        let edges = arrangement.next.len() / 2;
         let euler = overlay.vertex_count as i64 - edges as i64 + overlay.pieces.len() as i64;
         if euler != 2 {
             return Err(OverlayError::NotASphere { euler });
@@ -75,7 +83,7 @@ impl Cells {
     fn reset(&mut self, view: View<'_>, overlay: &mut Overlay) {
         let [source, target] = [view.source, view.target].map(|side| side.mesh);
         self.cell_of_dart.clear();
-        self.cell_of_dart.resize(view.arrangement.darts.len(), NONE);
+        self.cell_of_dart.resize(view.arrangement.next.len(), NONE);
         self.whole.clear();
         self.darts.clear();
         self.source_inside.clear();
@@ -95,8 +103,11 @@ impl Cells {
         }
     }
 
-    /// Walks the cell on the left of a dart.
+    /// Walks the cell on the left of a dart, unless that was done.
     fn walk(&mut self, view: View<'_>, first: u32, overlay: &mut Overlay) -> Result<(), OverlayError> {
+        if self.cell_of_dart[first as usize] != NONE {
+            return Ok(());
+        }
         let cell = overlay.pieces.len() as u32;
         let begin = self.darts.len();
         let (mut source_face, mut target_face, mut motion) = (None, None, None);
@@ -118,7 +129,7 @@ impl Cells {
             if is_mixed {
                 return Err(mixed(source_face, target_face));
             }
-            number = dart.next;
+            number = view.arrangement.next[number as usize];
             if number == first {
                 break;
             }
@@ -214,8 +225,11 @@ impl Cells {
         let vertex = dart.origin;
         let (s, t) = (piece.source_face, piece.target_face);
         if let Some(c) = vertex.checked_sub(view.arrangement.first_crossing) {
-            let Crossing { edge, exit, along_source, along_target } = view.traces.crossings[c as usize];
-            let (source, target) = (on_edge(edge, s, along_source), on_edge(exit, t, along_target));
+            let crossing = &view.traces.crossings[c as usize];
+            let edge = [crossing.edge, view.source.mesh.twin(crossing.edge)];
+            let exit = [crossing.exit, crossing.entered];
+            let source = on_edge(edge, s, crossing.along_source);
+            let target = on_edge(exit, t, crossing.along_target);
             return Ok(OverlayPoint { source, target, vertex, side });
         }
         let [mesh, below] = [view.source, view.target].map(|s| s.mesh);
@@ -269,8 +283,10 @@ impl View<'_> {
         let [begin, end] = self.traces.ranges[h];
         // Parts counted along the trace: part 0 begins at the seat, part k at crossing k - 1.
         let along = if h == edge { i } else { end - begin - i };
-        let before = along.checked_sub(1).map(|k| &self.traces.motions[(begin + k) as usize]);
-        let motion = before.unwrap_or(&self.seats.seats[edge].motion);
+        let motion = match along.checked_sub(1) {
+            Some(k) => self.traces.motion(self.seats, &self.traces.crossings[(begin + k) as usize]),
+            None => &self.seats.seats[edge].motion,
+        };
         let transition = &self.source.embedding.transitions[h];
         if h == edge || *transition == Rigid2::IDENTITY { *motion } else { motion.after(transition) }
     }

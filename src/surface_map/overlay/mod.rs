@@ -11,6 +11,7 @@
 
 mod arrangement;
 mod cells;
+mod measure;
 mod seats;
 #[cfg(test)]
 mod tests;
@@ -23,6 +24,7 @@ use crate::mesh::{FaceId, HalfedgeId};
 use arrangement::Arrangement;
 use cells::Cells;
 use glam::DVec2;
+pub use measure::{Measure, MeasuredPiece, Segment};
 use seats::Seats;
 use trace::Traces;
 
@@ -169,6 +171,7 @@ impl Overlayer {
         self.traces.fill(source, target, &self.seats)?;
         self.arrangement.fill(source, target, (&self.seats, &self.traces))?;
         overlay.shifts = attempt;
+        self.arrangement.describe(source, target, (&self.seats, &self.traces));
         let parts = (&self.seats, &self.traces, &self.arrangement);
         self.cells.fill([source, target], parts, overlay)
     }

@@ -48,7 +48,6 @@ impl Seats {
         self.corners.extend(source.embedding.corners.iter().copied());
         self.wedges.clear();
         self.wedges.resize(mesh.face_count() * 3, None);
-        self.seats.clear();
         self.seats.resize(mesh.face_count() * 3, Seat { face: FaceId(0), motion: Rigid2::IDENTITY });
         for location in &locations.at_landmarks {
             self.wedges[location.corner] = Some(location.corner);
@@ -108,7 +107,10 @@ impl Seats {
         loop {
             self.seats[h] = seat;
             let next = mesh.twin(h.prev());
-            seat.motion = seat.motion.after(&source.embedding.transitions[next]);
+            let transition = &source.embedding.transitions[next];
+            if *transition != Rigid2::IDENTITY {
+                seat.motion = seat.motion.after(transition);
+            }
             h = next;
             if h == at.corner {
                 break;

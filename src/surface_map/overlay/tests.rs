@@ -6,7 +6,7 @@ use crate::layout::{self, BaseLayout, LayoutOptions};
 use crate::mesh::generators::{icosphere, midpoint_subdivision, octahedron};
 use crate::mesh::{SurfaceMesh, SurfacePoint};
 use crate::monitor::Silent;
-use crate::surface_map::compose::locate;
+use crate::surface_map::compose::{Locator, locate};
 use crate::surface_map::initial::{self, InitialOptions};
 use crate::surface_map::queries::PointMap;
 use crate::surface_map::{ConeSurface, Embedding};
@@ -111,6 +111,72 @@ fn pieces_are_a_sphere_and_cover_both_meshes() {
     }
 }
 
+fn measured([source, target]: [Parametrised<'_>; 2], surface: &ConeSurface) -> Measure {
+    let mut measure = Measure::default();
+    measure.fill([source, target], &locate(source, target, surface).unwrap()).unwrap();
+    measure
+}
+
+#[test]
+fn measures_are_those_of_the_whole_overlay() {
+    for levels in [[2, 3], [3, 2], [1, 4]] {
+        let pair = Pair::bent(levels, 0.4);
+        let (overlay, measure) = (pair.overlay(), measured(pair.sides(), &pair.surface));
+        assert_eq!(overlay.pieces.len(), measure.pieces().len());
+        for (a, b) in overlay.pieces.iter().zip(measure.pieces()) {
+            assert_eq!((a.source_face, a.target_face), (b.source_face, b.target_face));
+            assert!((a.area - b.area).abs() < 1e-14, "{} {}", a.area, b.area);
+            assert!((a.motion.rotation - b.rotation).length() < 1e-13);
+        }
+    }
+}
+
+#[test]
+fn segments_cover_every_edge_and_are_the_sides_of_the_pieces() {
+    let pair = Pair::bent([2, 3], 0.4);
+    let (overlay, measure) = (pair.overlay(), measured(pair.sides(), &pair.surface));
+    for (k, side) in [SideOf::Source, SideOf::Target].into_iter().enumerate() {
+        let mesh = pair.sides()[k].mesh;
+        let face = |piece: u32| {
+            let piece = &measure.pieces()[piece as usize];
+            [piece.source_face, piece.target_face][k]
+        };
+        let mut rings: Vec<usize> = vec![0; overlay.pieces.len()];
+        let mut lengths: BTreeMap<HalfedgeId, f64> = BTreeMap::new();
+        for segment in measure.segments(mesh, side) {
+            let h = segment.halfedge;
+            assert!(h < mesh.twin(h));
+            assert_eq!([segment.left, segment.right].map(face), [h, mesh.twin(h)].map(HalfedgeId::face));
+            let along = lengths.entry(h).or_insert(0.0);
+            assert_eq!(segment.begin, *along, "each begins where the one before ends");
+            assert!(segment.end >= segment.begin);
+            *along = segment.end;
+            [segment.left, segment.right].into_iter().for_each(|piece| rings[piece as usize] += 1);
+        }
+        assert_eq!(lengths.len(), mesh.edges().count());
+        assert!(lengths.values().all(|&end| end == 1.0));
+        for (piece, &sides) in overlay.pieces.iter().zip(&rings) {
+            let ring = &overlay.points[piece.points.clone()];
+            assert_eq!(ring.iter().filter(|p| p.side == side).count(), sides);
+        }
+    }
+}
+
+#[test]
+fn memory_used_again_leaves_no_trace() {
+    let pairs = [Pair::bent([3, 2], 0.4), Pair::bent([1, 4], 0.1), Pair::bent([2, 3], 0.6)];
+    let (mut locator, mut locations) = (Locator::default(), Locations::default());
+    let (mut overlayer, mut again) = (Overlayer::default(), Overlay::default());
+    let mut measure = Measure::default();
+    for pair in &pairs {
+        locator.fill(pair.sides(), &pair.surface, &mut locations).unwrap();
+        overlayer.fill(pair.sides(), &locations, &mut again).unwrap();
+        measure.fill(pair.sides(), &locations).unwrap();
+        assert_eq!(again.points, pair.overlay().points);
+        assert_eq!(measure.pieces(), measured(pair.sides(), &pair.surface).pieces());
+    }
+}
+
 #[test]
 fn coordinates_agree_on_the_cone_surface() {
     let pair = Pair::bent([2, 3], 0.4);
@@ -206,6 +272,7 @@ fn a_parametrisation_that_is_not_one_is_refused() {
     }
     let [source, target] = pair.sides();
     assert!(overlay(source, target, &locations).is_err());
+    assert!(Measure::default().fill([source, target], &locations).is_err());
 }
 
 #[test]

@@ -15,22 +15,30 @@ use typed_index_collections::TiVec;
 /// A source edge crosses a target edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Crossing {
-    /// The source edge as a halfedge whose direction the trace follows (the smaller one), and its twin.
-    pub edge: [HalfedgeId; 2],
-    /// The target halfedge of the face that the trace leaves here, and its twin in the face that it enters.
-    pub exit: [HalfedgeId; 2],
+    /// The source edge as a halfedge whose direction the trace follows: the smaller one.
+    pub edge: HalfedgeId,
+    /// The target halfedge of the face that the trace leaves here.
+    pub exit: HalfedgeId,
+    /// Its twin, in the face that the trace enters.
+    pub entered: HalfedgeId,
+    /// Number, in [`Traces::motions`], of the motion from the plane of the source face of `edge` to that of the face
+    /// entered; [`AS_SEATED`] as long as it is that of the seat.
+    pub motion: u32,
     /// Where on the source edge: 0 at its start, 1 at its end; never falls along a trace.
     pub along_source: f64,
     /// Where on the target halfedge `exit`: 0 at its start, 1 at its end.
     pub along_target: f64,
 }
 
+/// The motion of a trace that has not left the plane of its seat.
+const AS_SEATED: u32 = u32::MAX;
+
 /// The crossings of all source edges.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Traces {
     /// Edge by edge, in the order of each trace.
     pub crossings: Vec<Crossing>,
-    /// After each crossing, from the plane of the source face of `edge[0]` to that of the target face entered.
+    /// Motions other than those of the seats.
     pub motions: Vec<Rigid2>,
     /// By the smaller source halfedge of an edge: its range of `crossings`; the other halfedge has the same.
     pub ranges: TiVec<HalfedgeId, [u32; 2]>,
@@ -47,7 +55,6 @@ impl Traces {
         let mesh = source.mesh;
         self.crossings.clear();
         self.motions.clear();
-        self.ranges.clear();
         self.ranges.resize(mesh.face_count() * 3, [0; 2]);
         let tracer = Tracer { source, target, seats, most: target.mesh.face_count() + 1000 };
         for h in mesh.edges() {
@@ -58,6 +65,11 @@ impl Traces {
             self.ranges[mesh.twin(h)] = range;
         }
         Ok(())
+    }
+
+    /// After a crossing, the motion from the plane of the source face of its edge to that of the target face entered.
+    pub fn motion<'a>(&'a self, seats: &'a Seats, crossing: &Crossing) -> &'a Rigid2 {
+        self.motions.get(crossing.motion as usize).unwrap_or(&seats.seats[crossing.edge].motion)
     }
 }
 
@@ -74,16 +86,25 @@ type Log<'l> = (&'l mut Vec<Crossing>, &'l mut Vec<Rigid2>);
 
 /// A trace on its way.
 struct Walk {
-    edge: [HalfedgeId; 2],
+    edge: HalfedgeId,
     ends: [DVec2; 2],
     seat: Seat,
+    motion: u32,
     /// The ends in the plane of the target face.
     line: [DVec2; 2],
     along: f64,
 }
 
+/// A target halfedge that a line leaves through, and twice the areas that its start and end make with the line.
+struct Exit {
+    halfedge: HalfedgeId,
+    right: f64,
+    left: f64,
+}
+
 impl Walk {
     /// Goes on through a halfedge of the present face.
+    #[inline]
     fn cross(
         &mut self,
         target: Parametrised<'_>,
@@ -96,15 +117,18 @@ impl Walk {
         if *transition != Rigid2::IDENTITY {
             self.seat.motion = transition.after(&self.seat.motion);
             self.line = self.ends.map(|p| self.seat.motion.apply(p));
+            self.motion = log.1.len() as u32;
+            log.1.push(self.seat.motion);
         }
         self.seat.face = entered.face();
         log.0.push(Crossing {
             edge: self.edge,
-            exit: [exit, entered],
+            exit,
+            entered,
+            motion: self.motion,
             along_source: self.along,
             along_target: along_target.clamp(0.0, 1.0),
         });
-        log.1.push(self.seat.motion);
     }
 }
 
@@ -113,25 +137,32 @@ impl Tracer<'_> {
         let ends = [self.seats.corners[h], self.seats.corners[h.next()]];
         let seat = self.seats.seats[h];
         let line = ends.map(|p| seat.motion.apply(p));
-        let edge = [h, self.source.mesh.twin(h)];
-        let mut walk = Walk { edge, ends, seat, line, along: 0.0 };
+        let mut walk = Walk { edge: h, ends, seat, motion: AS_SEATED, line, along: 0.0 };
         let end = self.end(h);
         let goal = end.motion.apply(ends[1]);
-        let mut entered = None;
+        let mut before = None;
         for _ in 0..self.most {
             if is_there(&walk.seat, &end, walk.line[1].distance_squared(goal)) {
                 return Ok(());
             }
-            let Some(exit) = self.exit(&walk, entered) else { break };
-            let [a, b] = [exit, exit.next()].map(|x| self.target.embedding.corners[x]);
+            let exit = match before {
+                Some(exit) => self.next_exit(&walk, exit),
+                None => match self.first_exit(&walk) {
+                    Some(exit) => exit,
+                    None => break,
+                },
+            };
+            let x = exit.halfedge;
+            let [a, b] = [x, x.next()].map(|x| self.target.embedding.corners[x]);
             let [p, q] = walk.line;
-            let (from, to) = (signed_double_area(a, b, p), signed_double_area(a, b, q));
+            let to = signed_double_area(a, b, q);
             if to >= 0.0 {
                 break;
             }
-            let (right, left) = (signed_double_area(p, q, a), signed_double_area(p, q, b));
-            walk.cross(self.target, (exit, from / (from - to), right / (right - left)), &mut log);
-            entered = Some(self.target.mesh.twin(exit));
+            let from = signed_double_area(a, b, p);
+            let along_target = exit.right / (exit.right - exit.left);
+            walk.cross(self.target, (x, from / (from - to), along_target), &mut log);
+            before = Some(exit);
         }
         self.step_over(walk, &end, log)
     }
@@ -148,19 +179,34 @@ impl Tracer<'_> {
         }
     }
 
-    /// The halfedge through which the line leaves the present face. Points on the line count as right of it.
-    fn exit(&self, walk: &Walk, entered: Option<HalfedgeId>) -> Option<HalfedgeId> {
+    /// How the line leaves a face that it entered through the twin of `before`: one predicate tells on which side the corner
+    /// opposite lies. Points on the line count as right of it.
+    #[inline]
+    fn next_exit(&self, walk: &Walk, before: Exit) -> Exit {
+        let entered = self.target.mesh.twin(before.halfedge);
         let [p, q] = walk.line;
-        let is_left = |x: HalfedgeId| side(p, q, self.target.embedding.corners[x]) > 0.0;
-        if let Some(y) = entered {
-            return Some(if is_left(y.prev()) { y.next() } else { y.prev() });
+        let apex = side(p, q, self.target.embedding.corners[entered.prev()]);
+        if apex > 0.0 {
+            Exit { halfedge: entered.next(), left: apex, ..before }
+        } else {
+            Exit { halfedge: entered.prev(), right: apex, ..before }
         }
-        if let Some(wedge) = self.seats.wedges[walk.edge[0]] {
-            return Some(wedge.next());
+    }
+
+    /// How the line leaves the face where it starts.
+    fn first_exit(&self, walk: &Walk) -> Option<Exit> {
+        let [p, q] = walk.line;
+        let corner = |x: HalfedgeId| self.target.embedding.corners[x];
+        if let Some(wedge) = self.seats.wedges[walk.edge] {
+            let halfedge = wedge.next();
+            let [right, left] = [halfedge, wedge.prev()].map(|x| signed_double_area(p, q, corner(x)));
+            return Some(Exit { halfedge, right, left });
         }
-        let corners = [0, 1, 2].map(|k| HalfedgeId::of(walk.seat.face, k));
-        let left = corners.map(is_left);
-        (0..3).find(|&k| !left[k] && left[(k + 1) % 3]).map(|k| corners[k])
+        let halfedges = [0, 1, 2].map(|k| HalfedgeId::of(walk.seat.face, k));
+        let sides = halfedges.map(|x| side(p, q, corner(x)));
+        let leaves = |&k: &usize| sides[k] <= 0.0 && sides[(k + 1) % 3] > 0.0;
+        let exit = |k: usize| Exit { halfedge: halfedges[k], right: sides[k], left: sides[(k + 1) % 3] };
+        (0..3).find(leaves).map(exit)
     }
 
     /// The head lies, up to rounding, on the border of the present face: goes over to the face of its seat, through one
@@ -184,7 +230,7 @@ impl Tracer<'_> {
             pairs.into_iter().find(|&[x, y]| arrives(&after(&after(&walk.seat, x), y)))
         };
         let way = once.map(|x| [Some(x), None]).or_else(|| twice().map(|pair| pair.map(Some)));
-        let ends = [walk.edge[0], walk.edge[1]].map(|h| self.source.mesh.tail(h).index());
+        let ends = [walk.edge, walk.edge.next()].map(|h| self.source.mesh.tail(h).index());
         for x in way.ok_or(OverlayError::Lost { edge: ends })?.into_iter().flatten() {
             let [a, b] = [x, x.next()].map(|x| self.target.embedding.corners[x]);
             let along = (walk.line[1] - a).dot(b - a) / (b - a).length_squared();
