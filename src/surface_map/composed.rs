@@ -8,9 +8,9 @@
 use super::compose::{Parametrised, locate};
 use super::cone_surface::ConeSurface;
 use super::embedding::Embedding;
-use super::energy::{HessianTerm, two_sided_density, two_sided_gradient, two_sided_hessian};
-use super::flat_problem::{FlatProblem, rest_jacobian, unrotate};
-use super::overlay::{Overlay, Overlayer, Piece, SideOf};
+use super::energy::TwoSided;
+use super::flat_problem::{FaceHessian, FlatProblem, rest_jacobian, unrotate};
+use super::overlay::{Overlay, OverlayPoint, Overlayer, SideOf};
 use super::unknowns::Unknowns;
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::monitor::{Cancelled, Monitor, Step};
@@ -26,23 +26,30 @@ pub struct ComposedOptions {
     pub relative_decrease: f64,
     /// Weight of the flat energy.
     pub barrier: f64,
+    /// Weight of the part of the energy that keeps regions from collapsing, [`TwoSided::balance`].
+    pub balance: f64,
 }
 
 impl Default for ComposedOptions {
     fn default() -> Self {
-        Self { max_rounds: 20, relative_decrease: 1e-3, barrier: 0.1 }
+        Self { max_rounds: 20, relative_decrease: 1e-3, barrier: 0.1, balance: 0.02 }
     }
 }
 
 /// What the true relaxation did.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ComposedReport {
-    /// E before the first and after each step; 4 for an isometry. Without the barrier.
+    /// What is lowered, before the first and after each step: E (4 for an isometry) with its balance, without the barrier.
     pub energies: Vec<f64>,
+    /// E at the end.
+    pub energy: f64,
 }
 
 /// Share of the diagonal that is added to the Hessian at first.
 const FIRST_DAMPING: f64 = 0.03;
+
+/// Relative residual of the linear solves.
+const LINEAR_TOLERANCE: f64 = 0.03;
 
 /// Lowers the energy of the map by moving both parametrisations in turn; both stay valid at every step.
 ///
@@ -54,158 +61,190 @@ pub fn relax(
     options: &ComposedOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<([Embedding; 2], ComposedReport), Cancelled> {
-    let unknowns = sides.map(Unknowns::new);
-    let mut problems = [unknowns[0].problem(), unknowns[1].problem()];
-    let mut embeddings = sides.map(|side| side.embedding.clone());
-    let mut report = ComposedReport::default();
-    let mut overlayer = Overlayer::default();
-    let mut damping = [FIRST_DAMPING; 2];
+    let mut relaxation = Relaxation::new(sides, surface, options);
+    let mut report = ComposedReport { energies: Vec::new(), energy: f64::INFINITY };
+    if !relaxation.begin() {
+        return Ok((relaxation.embeddings, report));
+    }
+    report.energies.push(relaxation.present.energy);
     for round in 0..options.max_rounds {
-        let before = report.energies.last().copied().unwrap_or(f64::INFINITY);
-        for moving in 0..2 {
+        let before = relaxation.present.energy;
+        for _ in 0..2 {
             let fraction = round as f64 / options.max_rounds as f64;
-            monitor.step(Step { fraction, residual: report.energies.last().copied() })?;
-            let fixed = Parametrised { embedding: &embeddings[1 - moving], ..sides[1 - moving] };
-            let present = Parametrised { embedding: &embeddings[moving], ..sides[moving] };
-            let side = Moving::new(&unknowns[moving], present, fixed, (surface, options));
-            let start = unknowns[moving].points(&embeddings[moving]);
-            let own = (&mut problems[moving], &mut damping[moving]);
-            let Some((z, energies)) = side.step(own, &mut overlayer, start) else {
-                continue;
-            };
-            if report.energies.is_empty() {
-                report.energies.push(energies[0]);
+            monitor.step(Step { fraction, residual: Some(relaxation.present.energy) })?;
+            if relaxation.step() {
+                report.energies.push(relaxation.present.energy);
             }
-            report.energies.push(energies[1]);
-            unknowns[moving].place(&z, &mut embeddings[moving].corners);
-            embeddings[moving].normalise_anchors(surface);
+            relaxation.exchange_roles();
         }
-        let after = report.energies.last().copied().unwrap_or(before);
-        if before - after < options.relative_decrease * after && round > 0 {
+        let after = relaxation.present.energy;
+        if before - after < options.relative_decrease * after {
             break;
         }
     }
-    Ok((embeddings, report))
+    report.energy = relaxation.plain_energy();
+    Ok((relaxation.embeddings, report))
 }
 
-/// One side that moves over the other.
-struct Moving<'a> {
-    unknowns: &'a Unknowns<'a>,
-    /// Where it started.
-    moving: Parametrised<'a>,
+/// Both sides; one moves over the other.
+struct Relaxation<'a> {
+    sides: [Parametrised<'a>; 2],
     surface: &'a ConeSurface,
-    fixed: Parametrised<'a>,
-    /// Of each fixed face the Jacobian from its chart to its rest plane.
-    fixed_inverses: TiVec<FaceId, DMat2>,
     options: &'a ComposedOptions,
+    two_sided: TwoSided,
+    unknowns: [Unknowns<'a>; 2],
+    problems: [FlatProblem; 2],
+    /// Where both sides are.
+    embeddings: [Embedding; 2],
+    /// Where the moving side may go.
+    trials: [Embedding; 2],
+    /// Of each face the Jacobian from its plane to its rest plane.
+    inverses: [TiVec<FaceId, DMat2>; 2],
+    damping: [f64; 2],
+    moving: usize,
+    overlayer: Overlayer,
+    present: Evaluation,
+    trial: Evaluation,
 }
 
-/// The overlay at some state with what derivatives need.
-struct State {
-    embedding: Embedding,
+/// The overlay at some state with what derivatives need, seen from the moving side, which is the overlay's source.
+#[derive(Default)]
+struct Evaluation {
     overlay: Overlay,
-    /// C of each piece: from the plane of the moving face's chart to the rest plane of the fixed face.
+    /// Jacobians of the moving faces, from their rest planes.
+    jacobians: Vec<DMat2>,
+    /// Of each piece the Jacobian from the plane of the moving face to the rest plane of the fixed face.
     onto_rest: Vec<DMat2>,
-    /// E.
+    /// E with its balance.
     energy: f64,
-    /// E and the barrier.
+    /// The energy and the barrier.
     total: f64,
 }
 
-impl<'a> Moving<'a> {
-    fn new(
-        unknowns: &'a Unknowns<'a>,
-        moving: Parametrised<'a>,
-        fixed: Parametrised<'a>,
-        (surface, options): (&'a ConeSurface, &'a ComposedOptions),
-    ) -> Self {
-        let inverse = |f: FaceId| rest_jacobian(fixed, f).inverse();
-        let fixed_inverses = fixed.mesh.faces().map(inverse).collect();
-        Self { unknowns, moving, surface, fixed, fixed_inverses, options }
+/// The derivatives of the energy by the Jacobian and the corners of one moving face.
+#[derive(Clone, Copy)]
+struct FaceDerivatives {
+    by_jacobian: DMat2,
+    by_corner: [DVec2; 3],
+}
+
+impl FaceDerivatives {
+    const ZERO: Self = Self { by_jacobian: DMat2::ZERO, by_corner: [DVec2::ZERO; 3] };
+}
+
+impl<'a> Relaxation<'a> {
+    fn new(sides: [Parametrised<'a>; 2], surface: &'a ConeSurface, options: &'a ComposedOptions) -> Self {
+        let unknowns = sides.map(Unknowns::new);
+        let problems = [unknowns[0].problem(), unknowns[1].problem()];
+        let embeddings = sides.map(|side| side.embedding.clone());
+        let inverses =
+            sides.map(|side| side.mesh.faces().map(|f| rest_jacobian(side, f).inverse()).collect());
+        Self {
+            sides,
+            surface,
+            options,
+            two_sided: TwoSided { balance: options.balance },
+            unknowns,
+            problems,
+            trials: embeddings.clone(),
+            embeddings,
+            inverses,
+            damping: [FIRST_DAMPING; 2],
+            moving: 0,
+            overlayer: Overlayer::default(),
+            present: Evaluation::default(),
+            trial: Evaluation::default(),
+        }
     }
 
-    /// One Newton step: the new state, or the old one where no step lowers the energy, with E before and after. `None` where
-    /// there is no overlay to begin with.
-    fn step(
-        &self,
-        (problem, damping): (&mut FlatProblem, &mut f64),
-        overlayer: &mut Overlayer,
-        z: Vec<DVec2>,
-    ) -> Option<(Vec<DVec2>, [f64; 2])> {
-        let state = self.state(problem, overlayer, &z)?;
-        let slope = self.gradient(problem, &z, &state);
-        let jacobians: TiVec<FaceId, DMat2> =
-            self.moving.mesh.faces().map(|f| problem.jacobian(f.index(), &z)).collect();
-        let terms = state.overlay.pieces.iter().zip(&state.onto_rest).flat_map(|(piece, c)| {
-            let a = &jacobians[piece.source_face];
-            let area = piece.area / a.determinant();
-            let terms = two_sided_hessian(&(*c * *a));
-            terms.map(|term| (piece.source_face.index(), area, pulled_back(&term, c)))
-        });
-        let barrier = self.options.barrier;
-        let step = problem.direction(&z, (barrier, *damping), terms, (&slope, 0.03));
+    /// Evaluates the start; `false` where it has no overlay.
+    fn begin(&mut self) -> bool {
+        let z = self.unknowns[self.moving].points(&self.embeddings[self.moving]);
+        let found = self.evaluate(&z);
+        std::mem::swap(&mut self.present, &mut self.trial);
+        found
+    }
+
+    /// Evaluates the moving side at z into `trial`; `false` where a triangle is not positive or there is no overlay.
+    fn evaluate(&mut self, z: &[DVec2]) -> bool {
+        let moving = self.moving;
+        let Some(flat) = self.problems[moving].energy(z) else { return false };
+        self.unknowns[moving].place(z, &mut self.trials[moving].corners);
+        let from = Parametrised { embedding: &self.trials[moving], ..self.sides[moving] };
+        let onto = Parametrised { embedding: &self.embeddings[1 - moving], ..self.sides[1 - moving] };
+        let Ok(locations) = locate(from, onto, self.surface) else { return false };
+        if self.overlayer.fill([from, onto], &locations, &mut self.trial.overlay).is_err() {
+            return false;
+        }
+        self.trial.measure((&self.problems[moving], z), &self.inverses[1 - moving], self.two_sided);
+        self.trial.total = self.trial.energy + self.options.barrier * flat;
+        true
+    }
+
+    /// One damped Newton step of the moving side; `false` where none lowers the energy.
+    fn step(&mut self) -> bool {
+        let moving = self.moving;
+        let z = self.unknowns[moving].points(&self.embeddings[moving]);
+        let slope = self.gradient(&z);
+        let hessians = self.hessians();
+        let problem = &mut self.problems[moving];
+        let weights = (self.options.barrier, self.damping[moving]);
+        let step = problem.direction(&z, weights, &hessians, (&slope, LINEAR_TOLERANCE));
         let descent: f64 = -slope.iter().zip(&step).map(|(g, d)| g.dot(*d)).sum::<f64>();
         if descent.is_nan() || descent <= 0.0 {
-            return Some((z, [state.energy; 2]));
+            return false;
         }
-        let mut t = (0.9 * problem.first_degenerate(&z, &step)).min(1.0);
-        let longest = t;
+        let longest = (0.9 * problem.first_degenerate(&z, &step)).min(1.0);
+        let mut t = longest;
         for _ in 0..8 {
             let trial: Vec<DVec2> = z.iter().zip(&step).map(|(p, d)| *p + *d * t).collect();
-            if let Some(next) = self.state(problem, overlayer, &trial)
-                && next.total <= state.total - 1e-4 * t * descent
-            {
+            if self.evaluate(&trial) && self.trial.total <= self.present.total - 1e-4 * t * descent {
+                let damping = &mut self.damping[moving];
                 *damping = if t == longest { (*damping / 3.0).max(1e-6) } else { *damping * longest / t };
-                return Some((trial, [state.energy, next.energy]));
+                self.accept();
+                return true;
             }
             t *= 0.5;
         }
-        Some((z, [state.energy; 2]))
+        false
     }
 
-    /// The overlay and energy at z; `None` where a triangle is not positive or there is no overlay.
-    fn state(&self, problem: &FlatProblem, overlayer: &mut Overlayer, z: &[DVec2]) -> Option<State> {
-        let flat = problem.energy(z)?;
-        let mut embedding = self.moving.embedding.clone();
-        self.unknowns.place(z, &mut embedding.corners);
-        let moving = Parametrised { embedding: &embedding, ..self.moving };
-        let locations = locate(moving, self.fixed, self.surface).ok()?;
-        let mut overlay = Overlay::default();
-        overlayer.fill([moving, self.fixed], &locations, &mut overlay).ok()?;
-        let onto = |piece: &Piece| {
-            self.fixed_inverses[piece.target_face]
-                * DMat2::from_cols(piece.motion.rotation, piece.motion.rotation.perp())
-        };
-        let onto_rest: Vec<DMat2> = overlay.pieces.iter().map(onto).collect();
-        let mut energy = 0.0;
-        for (piece, c) in overlay.pieces.iter().zip(&onto_rest) {
-            let t = piece.source_face.index();
-            let a = problem.jacobian(t, z);
-            energy += piece.area / a.determinant() * two_sided_density(&(*c * a));
-        }
-        Some(State { total: energy + self.options.barrier * flat, embedding, overlay, onto_rest, energy })
+    fn accept(&mut self) {
+        let moving = self.moving;
+        std::mem::swap(&mut self.present, &mut self.trial);
+        std::mem::swap(&mut self.embeddings[moving], &mut self.trials[moving]);
+        self.embeddings[moving].normalise_anchors(self.surface);
+        self.trials[moving].anchors = self.embeddings[moving].anchors.clone();
+        self.inverses[moving] = self.present.jacobians.iter().map(DMat2::inverse).collect();
     }
 
-    /// The gradient of E and the barrier.
-    fn gradient(&self, problem: &FlatProblem, z: &[DVec2], state: &State) -> Vec<DVec2> {
+    /// The other side moves now: the same overlay seen from there.
+    fn exchange_roles(&mut self) {
+        self.moving = 1 - self.moving;
+        self.present.overlay.exchange_roles();
+        let problem = &self.problems[self.moving];
+        let z = self.unknowns[self.moving].points(&self.embeddings[self.moving]);
+        self.present.measure((problem, &z), &self.inverses[1 - self.moving], self.two_sided);
+        let flat = problem.energy(&z).unwrap_or(f64::INFINITY);
+        self.present.total = self.present.energy + self.options.barrier * flat;
+    }
+
+    /// E at the present state.
+    fn plain_energy(&self) -> f64 {
+        self.present.integral(TwoSided { balance: 0.0 })
+    }
+
+    /// The gradient of the energy and the barrier.
+    fn gradient(&self, z: &[DVec2]) -> Vec<DVec2> {
+        let problem = &self.problems[self.moving];
         let mut slope = vec![DVec2::ZERO; z.len()];
         problem.gradient(z, &mut slope);
         slope.iter_mut().for_each(|g| *g *= self.options.barrier);
-        for (piece, c) in state.overlay.pieces.iter().zip(&state.onto_rest) {
-            let t = piece.source_face.index();
-            let a = problem.jacobian(t, z);
-            let det = a.determinant();
-            let density = two_sided_density(&(*c * a)) / det;
-            // d(h / det A) at fixed area on the cone surface.
-            let cofactor =
-                DMat2::from_cols(DVec2::new(a.y_axis.y, -a.y_axis.x), DVec2::new(-a.x_axis.y, a.x_axis.x));
-            let by_jacobian =
-                (c.transpose() * two_sided_gradient(&(*c * a))) * (1.0 / det) - cofactor * (density / det);
-            let sweep = self.sweep(state, piece);
+        for (t, face) in self.face_derivatives().iter().enumerate() {
+            let triangle = &problem.triangles()[t];
             for k in 0..3 {
                 if let Some((v, motion)) = problem.free_corner(t, k) {
-                    let hat = problem.triangles()[t].hats[k];
-                    let pull = by_jacobian * hat * piece.area + sweep[k] * density;
+                    let pull = face.by_jacobian * triangle.hats[k] + face.by_corner[k];
                     slope[v] += unrotate(&motion, pull);
                 }
             }
@@ -213,30 +252,83 @@ impl<'a> Moving<'a> {
         slope
     }
 
-    /// For each corner of the moving face the area that the piece gains per motion of the corner, through its sides on the
-    /// face's own edges.
-    fn sweep(&self, state: &State, piece: &Piece) -> [DVec2; 3] {
-        let points = &state.overlay.points[piece.points.clone()];
-        let corners = [0, 1, 2].map(|k| state.embedding.corners[HalfedgeId::of(piece.source_face, k)]);
-        let place = |w: &[f64; 3]| corners[0] * w[0] + corners[1] * w[1] + corners[2] * w[2];
-        let mut sweep = [DVec2::ZERO; 3];
-        for k in 0..points.len() {
-            let (p, q) = (&points[k].source, &points[(k + 1) % points.len()].source);
-            if points[k].side == SideOf::Source {
-                let along = place(q) - place(p);
-                let outwards = DVec2::new(along.y, -along.x);
-                for c in 0..3 {
-                    sweep[c] += outwards * (0.5 * (p[c] + q[c]));
-                }
+    fn face_derivatives(&self) -> Vec<FaceDerivatives> {
+        let Evaluation { overlay, jacobians, onto_rest, .. } = &self.present;
+        let corners = &self.embeddings[self.moving].corners;
+        let mut faces = vec![FaceDerivatives::ZERO; jacobians.len()];
+        for (piece, c) in overlay.pieces.iter().zip(onto_rest) {
+            let t = piece.source_face.index();
+            let a = &jacobians[t];
+            let (det, j) = (a.determinant(), *c * *a);
+            let density = self.two_sided.density(&j) / det;
+            // d(h / det A) at fixed area on the cone surface.
+            let cofactor =
+                DMat2::from_cols(DVec2::new(a.y_axis.y, -a.y_axis.x), DVec2::new(-a.x_axis.y, a.x_axis.x));
+            let own = c.transpose() * self.two_sided.gradient(&j);
+            faces[t].by_jacobian += (own - cofactor * density) * (piece.area / det);
+            let at = [0, 1, 2].map(|k| corners[HalfedgeId::of(piece.source_face, k)]);
+            sweep(&overlay.points[piece.points.clone()], at, (density, &mut faces[t].by_corner));
+        }
+        faces
+    }
+
+    fn hessians(&self) -> Vec<FaceHessian> {
+        let Evaluation { overlay, jacobians, onto_rest, .. } = &self.present;
+        let mut hessians = vec![FaceHessian::ZERO; jacobians.len()];
+        for (piece, c) in overlay.pieces.iter().zip(onto_rest) {
+            let t = piece.source_face.index();
+            let area = piece.area / jacobians[t].determinant();
+            for term in self.two_sided.hessian(&(*c * jacobians[t])) {
+                hessians[t].add(area * term.weight, &(c.transpose() * term.matrix()));
             }
         }
-        sweep
+        hessians
     }
 }
 
-/// A term with respect to C A as a term with respect to A.
-fn pulled_back(term: &HessianTerm, c: &DMat2) -> HessianTerm {
-    HessianTerm { left: term.left.map(|u| c.transpose() * u), ..*term }
+impl Evaluation {
+    /// Jacobians and energy of an overlay whose moving side is at z.
+    fn measure(
+        &mut self,
+        (problem, z): (&FlatProblem, &[DVec2]),
+        fixed_inverses: &TiVec<FaceId, DMat2>,
+        two_sided: TwoSided,
+    ) {
+        self.jacobians.clear();
+        self.jacobians.extend(problem.jacobians(z));
+        self.onto_rest.clear();
+        self.onto_rest.extend(self.overlay.pieces.iter().map(|piece| {
+            fixed_inverses[piece.target_face]
+                * DMat2::from_cols(piece.motion.rotation, piece.motion.rotation.perp())
+        }));
+        self.energy = self.integral(two_sided);
+    }
+
+    fn integral(&self, two_sided: TwoSided) -> f64 {
+        let pieces = self.overlay.pieces.iter().zip(&self.onto_rest);
+        let part = pieces.map(|(piece, c)| {
+            let a = &self.jacobians[piece.source_face.index()];
+            piece.area / a.determinant() * two_sided.density(&(*c * *a))
+        });
+        part.sum()
+    }
+}
+
+/// Adds, for each corner of a moving face, the density times the area that a piece gains per motion of the corner, through
+/// its sides on the face's own edges.
+fn sweep(points: &[OverlayPoint], corners: [DVec2; 3], (density, by_corner): (f64, &mut [DVec2; 3])) {
+    let place = |w: &[f64; 3]| corners[0] * w[0] + corners[1] * w[1] + corners[2] * w[2];
+    for k in 0..points.len() {
+        if points[k].side != SideOf::Source {
+            continue;
+        }
+        let (p, q) = (&points[k].source, &points[(k + 1) % points.len()].source);
+        let along = place(q) - place(p);
+        let outwards = DVec2::new(along.y, -along.x) * (0.5 * density);
+        for c in 0..3 {
+            by_corner[c] += outwards * (p[c] + q[c]);
+        }
+    }
 }
 
 #[cfg(test)]
@@ -281,20 +373,18 @@ mod tests {
     #[test]
     fn the_gradient_with_its_transport_term_is_the_difference_quotient() {
         let (layout, surface, embeddings) = example();
-        let options = ComposedOptions::default();
-        let [source, target] = sides(&layout, &embeddings);
-        let unknowns = Unknowns::new(source);
-        let problem = unknowns.problem();
-        let side = Moving::new(&unknowns, source, target, (&surface, &options));
-        let z = unknowns.points(&embeddings[0]);
-        let mut overlayer = Overlayer::default();
-        let slope = side.gradient(&problem, &z, &side.state(&problem, &mut overlayer, &z).unwrap());
+        let options = ComposedOptions { balance: 0.1, ..ComposedOptions::default() };
+        let mut relaxation = Relaxation::new(sides(&layout, &embeddings), &surface, &options);
+        assert!(relaxation.begin());
+        let z = relaxation.unknowns[0].points(&embeddings[0]);
+        let slope = relaxation.gradient(&z);
         for seed in 1..6 {
             let wave = |k: usize, phase: f64| 0.02 * sin(f64::from(seed) * 1.7 * k as f64 + phase);
             let direction: Vec<_> = (0..z.len()).map(|k| DVec2::new(wave(k, 0.0), wave(k, 1.0))).collect();
             let mut at = |h: f64| {
                 let moved: Vec<_> = z.iter().zip(&direction).map(|(p, d)| *p + *d * h).collect();
-                side.state(&problem, &mut overlayer, &moved).unwrap().total
+                assert!(relaxation.evaluate(&moved));
+                relaxation.trial.total
             };
             let quotient = (at(1e-4) - at(-1e-4)) / 2e-4;
             let exact: f64 = slope.iter().zip(&direction).map(|(g, d)| g.dot(*d)).sum();

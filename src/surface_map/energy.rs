@@ -42,6 +42,13 @@ impl HessianTerm {
     pub fn apply(&self, g: DVec2) -> DVec2 {
         self.left[0] * self.right[0].dot(g) + self.left[1] * self.right[1].dot(g)
     }
+
+    /// M.
+    #[inline]
+    pub fn matrix(&self) -> DMat2 {
+        let column = |c: fn(DVec2) -> f64| self.left[0] * c(self.right[0]) + self.left[1] * c(self.right[1]);
+        DMat2::from_cols(column(|g| g.x), column(|g| g.y))
+    }
 }
 
 /// The singular value decomposition J = s1 u1 v1^T + s2 u2 v2^T, both bases right-handed; det J must be positive.
@@ -98,41 +105,66 @@ pub fn hessian(j: &DMat2) -> [HessianTerm; 4] {
     ]
 }
 
-/// h(J) = |J|^2 + |J^-1|^2 det J = |J|^2 (1 + 1 / det J): the energy of a map per unit of source area, counted on both
-/// surfaces alike; 4 for an isometry. det J must be positive.
-#[inline]
-pub fn two_sided_density(j: &DMat2) -> f64 {
-    (j.x_axis.length_squared() + j.y_axis.length_squared()) * (1.0 + 1.0 / j.determinant())
+/// The energy of a map per unit of source area, counted on both surfaces alike: with S = |J|^2 and q = det J > 0
+///
+/// h(J) = S (1 + 1/q) + b S (q + 1/q^2).
+///
+/// The first part integrates to E = |J|^2 over the source and |J^-1|^2 over the target, 4 for an isometry. It counts a
+/// region by the area of its image, so that what collapses costs little; the second part, |J|^2 over the target and
+/// |J^-1|^2 over the source, counts it by what it was.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwoSided {
+    /// The weight b of the second part.
+    pub balance: f64,
 }
 
-/// dh/dJ.
-#[inline]
-pub fn two_sided_gradient(j: &DMat2) -> DMat2 {
-    let det = j.determinant();
-    let squares = j.x_axis.length_squared() + j.y_axis.length_squared();
-    let cofactor = DMat2::from_cols(DVec2::new(j.y_axis.y, -j.y_axis.x), DVec2::new(-j.x_axis.y, j.x_axis.x));
-    *j * (2.0 * (1.0 + 1.0 / det)) - cofactor * (squares / (det * det))
-}
+impl TwoSided {
+    /// h / S with its first and second derivative by q.
+    #[inline]
+    fn factor(&self, q: f64) -> [f64; 3] {
+        let (r, b) = (1.0 / q, self.balance);
+        let (r2, r3) = (r * r, r * r * r);
+        [1.0 + r + b * (q + r2), -r2 + b * (1.0 - 2.0 * r3), 2.0 * r3 + 6.0 * b * r2 * r2]
+    }
 
-/// The Hessian of h at J, projected to positive semidefinite, as four rank-one terms.
-pub fn two_sided_hessian(j: &DMat2) -> [HessianTerm; 4] {
-    let svd = Signed::of(j);
-    let [s1, s2] = svd.s;
-    let q = s1 * s2;
-    let (h11, h22) = (2.0 + 2.0 * s2 / (s1 * s1 * s1), 2.0 + 2.0 * s1 / (s2 * s2 * s2));
-    let h12 = -1.0 / (s1 * s1) - 1.0 / (s2 * s2);
-    // Eigenvalues of the 2 x 2 block of stretches.
-    let (mean, difference) = (0.5 * (h11 + h22), 0.5 * (h11 - h22));
-    let root = (difference * difference + h12 * h12).sqrt();
-    let first = DVec2::new(h12, mean + root - h11).normalize_or(DVec2::X);
-    let shear = 2.0 + 1.0 / q + (s1 * s1 + q + s2 * s2) / (q * q);
-    let spin = 2.0 + 1.0 / q - (s1 * s1 - q + s2 * s2) / (q * q);
-    [
-        svd.stretch((mean + root).max(0.0), [first.x, first.y]),
-        svd.stretch((mean - root).max(0.0), [-first.y, first.x]),
-        svd.twist(shear.max(0.0), 1.0),
-        svd.twist(spin.max(0.0), -1.0),
-    ]
+    /// h.
+    #[inline]
+    pub fn density(&self, j: &DMat2) -> f64 {
+        let squares = j.x_axis.length_squared() + j.y_axis.length_squared();
+        squares * self.factor(j.determinant())[0]
+    }
+
+    /// dh/dJ.
+    #[inline]
+    pub fn gradient(&self, j: &DMat2) -> DMat2 {
+        let squares = j.x_axis.length_squared() + j.y_axis.length_squared();
+        let [f, slope, _] = self.factor(j.determinant());
+        let cofactor =
+            DMat2::from_cols(DVec2::new(j.y_axis.y, -j.y_axis.x), DVec2::new(-j.x_axis.y, j.x_axis.x));
+        *j * (2.0 * f) + cofactor * (squares * slope)
+    }
+
+    /// The Hessian of h at J, projected to positive semidefinite, as four rank-one terms.
+    pub fn hessian(&self, j: &DMat2) -> [HessianTerm; 4] {
+        let svd = Signed::of(j);
+        let [s1, s2] = svd.s;
+        let (q, squares) = (s1 * s2, s1 * s1 + s2 * s2);
+        let [f, slope, bend] = self.factor(q);
+        let own = 2.0 * f + 4.0 * q * slope;
+        let (h11, h22) = (own + squares * bend * s2 * s2, own + squares * bend * s1 * s1);
+        let h12 = squares * (3.0 * slope + q * bend);
+        // Eigenvalues of the 2 x 2 block of stretches.
+        let (mean, difference) = (0.5 * (h11 + h22), 0.5 * (h11 - h22));
+        let root = (difference * difference + h12 * h12).sqrt();
+        let first = DVec2::new(h12, mean + root - h11).normalize_or(DVec2::X);
+        let (shear, spin) = (2.0 * f - squares * slope, 2.0 * f + squares * slope);
+        [
+            svd.stretch((mean + root).max(0.0), [first.x, first.y]),
+            svd.stretch((mean - root).max(0.0), [-first.y, first.x]),
+            svd.twist(shear.max(0.0), 1.0),
+            svd.twist(spin.max(0.0), -1.0),
+        ]
+    }
 }
 
 #[cfg(test)]
@@ -182,32 +214,39 @@ mod tests {
     fn the_two_sided_energy_is_that_of_the_inverse() {
         for j in samples() {
             let (det, inverse) = (j.determinant(), j.inverse());
-            assert!((two_sided_density(&j) - det * two_sided_density(&inverse)).abs() < 1e-9);
+            for two_sided in BALANCES.map(|balance| TwoSided { balance }) {
+                let (there, back) = (two_sided.density(&j), det * two_sided.density(&inverse));
+                assert!((there - back).abs() < 1e-9 * there.max(1.0));
+            }
         }
-        assert!((two_sided_density(&DMat2::IDENTITY) - 4.0).abs() < 1e-15);
+        assert!((TwoSided { balance: 0.0 }.density(&DMat2::IDENTITY) - 4.0).abs() < 1e-15);
     }
+
+    const BALANCES: [f64; 2] = [0.0, 0.3];
 
     #[test]
     fn two_sided_derivatives_are_difference_quotients() {
-        for j in samples() {
-            for k in 0..4 {
-                let h = 1e-6;
-                let at = |h: f64| two_sided_density(&(j + unit(k) * h));
-                let quotient = (at(h) - at(-h)) / (2.0 * h);
-                let exact = two_sided_gradient(&j).to_cols_array()[k];
-                assert!((quotient - exact).abs() < 1e-5 * exact.abs().max(1.0), "{quotient} {exact}");
+        for two_sided in BALANCES.map(|balance| TwoSided { balance }) {
+            for j in samples() {
+                for k in 0..4 {
+                    let h = 1e-6;
+                    let at = |h: f64| two_sided.density(&(j + unit(k) * h));
+                    let quotient = (at(h) - at(-h)) / (2.0 * h);
+                    let exact = two_sided.gradient(&j).to_cols_array()[k];
+                    assert!((quotient - exact).abs() < 1e-5 * exact.abs().max(1.0), "{quotient} {exact}");
+                }
             }
-        }
-        // Where nothing is projected.
-        for j in [[1.1, 0.1, -0.1, 0.9], [1.5, 0.2, 0.1, 1.6]].map(|c| DMat2::from_cols_array(&c)) {
-            let exact = assembled(&two_sided_hessian(&j));
-            for k in 0..4 {
-                let h = 1e-5;
-                let plus = two_sided_gradient(&(j + unit(k) * h)).to_cols_array();
-                let minus = two_sided_gradient(&(j - unit(k) * h)).to_cols_array();
-                for r in 0..4 {
-                    let quotient = (plus[r] - minus[r]) / (2.0 * h);
-                    assert!((quotient - exact[r][k]).abs() < 1e-5, "{r} {k}: {quotient} {}", exact[r][k]);
+            // Where nothing is projected.
+            for j in [[1.1, 0.1, -0.1, 0.9], [1.5, 0.2, 0.1, 1.6]].map(|c| DMat2::from_cols_array(&c)) {
+                let exact = assembled(&two_sided.hessian(&j));
+                for k in 0..4 {
+                    let h = 1e-5;
+                    let plus = two_sided.gradient(&(j + unit(k) * h)).to_cols_array();
+                    let minus = two_sided.gradient(&(j - unit(k) * h)).to_cols_array();
+                    for r in 0..4 {
+                        let quotient = (plus[r] - minus[r]) / (2.0 * h);
+                        assert!((quotient - exact[r][k]).abs() < 1e-5, "{r} {k}: {quotient} {}", exact[r][k]);
+                    }
                 }
             }
         }

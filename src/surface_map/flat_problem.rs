@@ -5,7 +5,7 @@
 //! (Smith & Schaefer 2015) and an Armijo line search.
 
 use super::embedding::Parametrised;
-use super::energy::{self, HessianTerm};
+use super::energy;
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle;
 use crate::mesh::{FaceId, HalfedgeId};
@@ -121,6 +121,36 @@ pub struct RelaxReport {
     pub cg_iterations: usize,
 }
 
+/// A Hessian with respect to a Jacobian, in blocks by the Jacobian's columns.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FaceHessian {
+    xx: DMat2,
+    xy: DMat2,
+    yy: DMat2,
+}
+
+impl FaceHessian {
+    pub const ZERO: Self = Self { xx: DMat2::ZERO, xy: DMat2::ZERO, yy: DMat2::ZERO };
+
+    /// Adds `weight` m (x) m.
+    #[inline]
+    pub fn add(&mut self, weight: f64, m: &DMat2) {
+        let (x, y) = (m.x_axis * weight, m.y_axis * weight);
+        self.xx += DMat2::from_cols(x * m.x_axis.x, x * m.x_axis.y);
+        self.xy += DMat2::from_cols(x * m.y_axis.x, x * m.y_axis.y);
+        self.yy += DMat2::from_cols(y * m.y_axis.x, y * m.y_axis.y);
+    }
+
+    /// The block that belongs to a hat gradient g on the left and column `k` on the right.
+    #[inline]
+    fn row(&self, g: DVec2, k: usize) -> DMat2 {
+        match k {
+            0 => self.xx * g.x + self.xy.transpose() * g.y,
+            _ => self.xy * g.x + self.yy * g.y,
+        }
+    }
+}
+
 /// Triangles, unknowns and the matrix of one relaxation.
 pub struct FlatProblem {
     triangles: Vec<FlatTriangle>,
@@ -187,42 +217,54 @@ impl FlatProblem {
         for t in 0..self.triangles.len() {
             let triangle = &self.triangles[t];
             let weight = scale * triangle.area / self.total_area;
+            let mut hessian = FaceHessian::ZERO;
             for term in energy::hessian(&triangle.jacobian(&triangle.positions(z))) {
-                self.add_term(t, weight, &term);
+                hessian.add(weight * term.weight, &term.matrix());
             }
+            self.add_face(t, &hessian);
         }
     }
 
-    /// Adds one term of a Hessian with respect to the Jacobian of triangle `t`.
+    /// Adds a Hessian with respect to the Jacobian of triangle `t`.
     #[inline]
-    fn add_term(&mut self, t: usize, weight: f64, term: &HessianTerm) {
+    fn add_face(&mut self, t: usize, hessian: &FaceHessian) {
         let triangle = &self.triangles[t];
-        let pulls = [0, 1, 2].map(|k| match triangle.corners[k] {
-            Corner::Free(_, motion) => unrotate(&motion, term.apply(triangle.hats[k])),
-            Corner::Fixed(_) => DVec2::ZERO,
+        let turns = triangle.corners.map(|corner| match corner {
+            Corner::Free(_, motion) => DMat2::from_cols(motion.rotation, motion.rotation.perp()),
+            Corner::Fixed(_) => DMat2::ZERO,
         });
-        let scale = weight * term.weight;
-        for k in 0..9 {
-            let place = self.places[9 * t + k];
-            if place != u32::MAX {
-                let (p, q) = (pulls[k / 3] * scale, pulls[k % 3]);
-                self.matrix.add_at(place, DMat2::from_cols(p * q.x, p * q.y));
+        for i in 0..3 {
+            let half = [0, 1].map(|row| hessian.row(triangle.hats[i], row));
+            let unturn = turns[i].transpose();
+            for j in i..3 {
+                let place = self.places[9 * t + 3 * i + j];
+                if place == u32::MAX {
+                    continue;
+                }
+                let g = triangle.hats[j];
+                let block = unturn * (half[0] * g.x + half[1] * g.y) * turns[j];
+                self.matrix.add_at(place, block);
+                if i != j {
+                    self.matrix.add_at(self.places[9 * t + 3 * j + i], block.transpose());
+                }
             }
         }
     }
 
-    /// Newton's direction for a slope, with the Hessian of this energy (scaled) and further terms by triangle.
+    /// Newton's direction for a slope, with the Hessian of this energy (scaled) and further Hessians by triangle.
+    ///
+    /// `damping` is added to the diagonal, relative to it.
     pub(super) fn direction(
         &mut self,
         z: &[DVec2],
         (barrier, damping): (f64, f64),
-        terms: impl Iterator<Item = (usize, f64, HessianTerm)>,
+        hessians: &[FaceHessian],
         (slope, tolerance): (&[DVec2], f64),
     ) -> Vec<DVec2> {
         self.matrix.clear();
         self.add_hessian(z, barrier);
-        for (t, weight, term) in terms {
-            self.add_term(t, weight, &term);
+        for (t, hessian) in hessians.iter().enumerate() {
+            self.add_face(t, hessian);
         }
         self.matrix.regularise(damping);
         let downhill: Vec<DVec2> = slope.iter().map(|g| -*g).collect();
@@ -244,10 +286,9 @@ impl FlatProblem {
         &self.triangles
     }
 
-    /// The Jacobian of a triangle.
-    pub(super) fn jacobian(&self, t: usize, z: &[DVec2]) -> DMat2 {
-        let triangle = &self.triangles[t];
-        triangle.jacobian(&triangle.positions(z))
+    /// The Jacobians of all triangles.
+    pub(super) fn jacobians<'s>(&'s self, z: &'s [DVec2]) -> impl Iterator<Item = DMat2> + 's {
+        self.triangles.iter().map(|t| t.jacobian(&t.positions(z)))
     }
 
     /// Lowers the energy from a valid z (every triangle positive) until a step gains too little.

@@ -50,6 +50,24 @@ pub struct Overlay {
     pub shifts: usize,
 }
 
+impl Overlay {
+    /// The same overlay with source and target exchanged.
+    pub fn exchange_roles(&mut self) {
+        for piece in &mut self.pieces {
+            std::mem::swap(&mut piece.source_face, &mut piece.target_face);
+            piece.motion = piece.motion.inverse();
+        }
+        for point in &mut self.points {
+            std::mem::swap(&mut point.source, &mut point.target);
+            point.side = match point.side {
+                SideOf::Source => SideOf::Target,
+                SideOf::Target => SideOf::Source,
+            };
+        }
+        std::mem::swap(&mut self.source_area_defect, &mut self.target_area_defect);
+    }
+}
+
 /// A convex polygon inside one source triangle and one target triangle.
 #[derive(Clone, Debug)]
 pub struct Piece {
