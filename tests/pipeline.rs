@@ -140,3 +140,21 @@ fn a_mesh_maps_identically_onto_itself() {
     let mesh = common::read_mesh(&data.join("single/spot.off"));
     identity(&mesh, &common::farthest_points(&mesh, 12));
 }
+
+#[test]
+fn exchanging_source_and_target_gives_the_inverse_map() {
+    let Some(data) = common::data_folder("exchanging_source_and_target_gives_the_inverse_map") else {
+        return;
+    };
+    let pair = common::read_pair(&data, "shrec07-397-400");
+    let there = common::landmarks(&pair);
+    let back = Landmarks { source: there.target.clone(), target: there.source.clone() };
+    let run = |source, target, landmarks| {
+        let input = MapInput { source, target, landmarks, ground_truth: GroundTruth::Unknown };
+        run(input, &PipelineOptions::default(), &mut Silent).unwrap().report
+    };
+    let forth = run(&pair.source, &pair.target, &there);
+    let inverse = run(&pair.target, &pair.source, &back);
+    assert!((forth.distortion.energy - inverse.distortion.energy).abs() < 1e-9, "{forth:?} {inverse:?}");
+    assert_eq!(forth.layout, inverse.layout);
+}

@@ -19,6 +19,7 @@ use crate::surface_map::overlay::{Overlay, overlay};
 use crate::surface_map::transfer::{Surface, common_mesh, vertex_images};
 use crate::surface_map::{Certificate, ConeSurface, Embedding, MapError, Parametrised, certify};
 use glam::DVec3;
+use std::cmp::Ordering;
 use std::sync::Arc;
 use typed_index_collections::TiVec;
 
@@ -52,6 +53,15 @@ struct Parametrisation {
 }
 
 impl Parametrisation {
+    /// The same with source and target exchanged.
+    fn exchanged(mut self) -> Self {
+        let BaseLayout { source, target, .. } = &mut self.layout;
+        std::mem::swap(source, target);
+        self.sides.reverse();
+        self.embeddings.reverse();
+        self
+    }
+
     fn sides(&self) -> [Parametrised<'_>; 2] {
         [0, 1].map(|k| parametrised(&self.sides[k], &self.embeddings[k]))
     }
@@ -66,34 +76,56 @@ pub(super) fn run(
     options: &PipelineOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<MapResult, PipelineError> {
-    let Landmarks { source, target } = input.landmarks;
-    let full = [Full::new(input.source, source), Full::new(input.target, target)];
-    let (map, metrics) = parametrise(input, full, (options, monitor))?;
+    // The same work whichever mesh is called the source, so that exchanging them gives the inverse map.
+    let exchanged = options.base == Base::Joint && precedes(input.target, input.source);
+    let map = if exchanged {
+        let Landmarks { source, target } = input.landmarks.clone();
+        let landmarks = Landmarks { source: target, target: source };
+        let inverse = MapInput { source: input.target, target: input.source, landmarks: &landmarks, ..input };
+        parametrise(inverse, (options, monitor))?.exchanged()
+    } else {
+        parametrise(input, (options, monitor))?
+    };
+    let base = in_input_coordinates(&map.layout.base, input);
+    let metrics = Metrics::new(input, &base, options, monitor)?;
     monitor.enter(Stage::Composition);
     let [source, target] = map.sides();
     let locations = locate(source, target, &map.surface)?;
     let overlay = overlay(source, target, &locations)?;
     monitor.enter(Stage::Transfer);
     let measured = distortion(source, target, &overlay);
-    Ok(result(input, &map, &metrics, (&locations, &overlay, measured)))
+    Ok(result(input, (&map, &base), &metrics, (&locations, &overlay, measured)))
 }
 
-/// Coarse map, cone metrics, fine map, certificate. Coarse levels grow until the layout's points can be taken out again.
+/// An order of meshes that does not depend on which is called the source.
+fn precedes(a: &SurfaceMesh, b: &SurfaceMesh) -> bool {
+    let coordinates =
+        |mesh: &SurfaceMesh| mesh.positions().iter().flat_map(|p| p.to_array()).collect::<Vec<_>>();
+    let by_coordinates = || {
+        let (a, b) = (coordinates(a), coordinates(b));
+        let differs = a.iter().zip(&b).map(|(x, y)| x.total_cmp(y)).find(|order| order.is_ne());
+        differs.unwrap_or(Ordering::Equal)
+    };
+    let size = |mesh: &SurfaceMesh| (mesh.vertex_count(), mesh.face_count());
+    size(a).cmp(&size(b)).then_with(by_coordinates).is_lt()
+}
+
+/// Coarse map, fine map, certificate. Coarse levels grow until the layout's points can be taken out again.
 fn parametrise(
     input: MapInput<'_>,
-    full: [Full; 2],
     (options, monitor): (&PipelineOptions, &mut dyn Monitor),
-) -> Result<(Parametrisation, Metrics), PipelineError> {
+) -> Result<Parametrisation, PipelineError> {
+    let Landmarks { source, target } = input.landmarks;
+    let full = [Full::new(input.source, source), Full::new(input.target, target)];
     let most = full.iter().map(|side| side.refined.mesh.vertex_count()).max().unwrap_or(0);
     let mut vertices = options.multilevel.coarse_vertices.max(2 * input.landmarks.len());
-    let (layout, search, metrics, (surface, embeddings, with_own)) = loop {
+    let (layout, search, (surface, embeddings, with_own)) = loop {
         monitor.enter(Stage::BaseDomain);
         let sides = [0, 1].map(|k| Side::new(&full[k].refined.mesh, &full[k].landmarks, vertices));
         match coarse(input, &sides, (options, &mut *monitor)) {
             Err(PipelineError::Layout(LayoutError::NoMap { .. })) if vertices < most => vertices *= 4,
             Err(error) => return Err(error),
             Ok(Coarse { layout, search, map }) => {
-                let metrics = Metrics::new(input, &layout.base, options, monitor)?;
                 let own = own_cones::add((&full, &sides), &map, (vertices, options), monitor)?;
                 monitor.enter(Stage::Relaxation);
                 let own = own.map_or(Ok(None), |own| own.refined((vertices, options), monitor))?;
@@ -104,7 +136,7 @@ fn parametrise(
                         (surface, solve_fine(map, &sides, (&options.multilevel, monitor))?, None)
                     }
                 };
-                break (layout, search, metrics, fine);
+                break (layout, search, fine);
             }
         }
     };
@@ -115,7 +147,7 @@ fn parametrise(
     if !certificate.bijective {
         return Err(PipelineError::NotCertified(certificate));
     }
-    Ok((Parametrisation { layout, search, surface, sides: full, embeddings, certificate }, metrics))
+    Ok(Parametrisation { layout, search, surface, sides: full, embeddings, certificate })
 }
 
 /// The coarse map of least energy among the classes of layouts that are tried.
@@ -180,7 +212,7 @@ pub(super) fn searched<'a>(
 
 fn result(
     input: MapInput<'_>,
-    map: &Parametrisation,
+    (map, base): (&Parametrisation, &BaseDomain),
     metrics: &Metrics,
     (locations, overlay, measured): (&Locations, &Overlay, Distortion),
 ) -> MapResult {
@@ -219,7 +251,7 @@ fn result(
         ..Report::of_inputs(input, &map.layout.base, metrics)
     };
     MapResult {
-        base: in_input_coordinates(&map.layout.base, input),
+        base: base.clone(),
         cone_curvatures: metrics.cones.clone(),
         common: common_mesh(surfaces[0], surfaces[1], overlay, &metrics.target_atlas.corner_uvs),
         patch_lines: [patch_lines(map, 0, input.source), patch_lines(map, 1, input.target)],

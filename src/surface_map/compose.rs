@@ -270,19 +270,24 @@ pub(super) fn exit_edge(
     [p, q]: [DVec2; 2],
     entered: Option<HalfedgeId>,
 ) -> Option<HalfedgeId> {
-    let mut fallback = None;
+    let mut nearest: Option<(f64, HalfedgeId)> = None;
     for k in 0..3 {
         let h = HalfedgeId::of(face, k);
         let (a, b) = (embedding.corners[h], embedding.corners[h.next()]);
         if Some(h) == entered || !clearly_outside(a, b, q) {
             continue;
         }
-        if side(p, q, a) <= 0.0 && side(p, q, b) >= 0.0 {
+        let (right, left) = (side(p, q, a), side(p, q, b));
+        if right <= 0.0 && left >= 0.0 {
             return Some(h);
         }
-        fallback.get_or_insert(h);
+        // Rounding at a corner: the edge that is missed by least. Any other could lead around a cone.
+        let miss = right.max(-left) / (b - a).length();
+        if nearest.is_none_or(|(least, _)| miss < least) {
+            nearest = Some((miss, h));
+        }
     }
-    fallback
+    nearest.map(|(_, h)| h)
 }
 
 /// Whether q lies to the right of a b by more than rounding.

@@ -46,11 +46,11 @@ pub struct MultilevelOptions {
 impl Default for MultilevelOptions {
     fn default() -> Self {
         Self {
-            coarse_vertices: 1500,
+            coarse_vertices: 500,
             growth: 4.0,
             initial: InitialOptions::default(),
             relax: RelaxOptions::default(),
-            judge: ComposedOptions { max_rounds: 3, ..ComposedOptions::default() },
+            judge: ComposedOptions { max_rounds: 1, ..ComposedOptions::default() },
             coarse: ComposedOptions::default(),
             fine: ComposedOptions { max_rounds: 8, ..ComposedOptions::default() },
         }

@@ -9,8 +9,10 @@ use glam::DVec2;
 use robust::{Coord, orient2d};
 use typed_index_collections::TiVec;
 
-/// Size of the shift of a source vertex that ends coincidences, in units of its shortest edge on the cone surface.
+/// Size of the first shift of a source vertex that ends coincidences, in units of its shortest edge on the cone surface.
 const SHIFT: f64 = 1e-10;
+/// Growth of the shift from attempt to attempt: beside the shortest edges the first is lost in rounding.
+const SHIFT_GROWTH: f64 = 30.0;
 /// Faces that a point is passed on to, at most, until it lies in one by the exact predicate.
 const HOPS: usize = 64;
 
@@ -72,6 +74,7 @@ impl Seats {
     }
 
     fn shift(&mut self, source: Parametrised<'_>, attempt: usize) {
+        let size = (1..attempt).fold(SHIFT, |size, _| size * SHIFT_GROWTH);
         let mesh = source.mesh;
         for v in mesh.vertices().filter(|&v| self.wedges[mesh.outgoing(v)].is_none()) {
             let first = mesh.outgoing(v);
@@ -79,7 +82,7 @@ impl Seats {
             let length = |h: HalfedgeId| unshifted[h].distance(unshifted[h.next()]);
             let shortest = mesh.star(v).map(length).fold(f64::INFINITY, f64::min);
             let angle = direction(v, attempt);
-            let mut shift = DVec2::new(cos(angle), sin(angle)) * (SHIFT * shortest);
+            let mut shift = DVec2::new(cos(angle), sin(angle)) * (size * shortest);
             let mut h = first;
             loop {
                 self.corners[h] += shift;
