@@ -91,13 +91,11 @@ pub struct LayoutOptions {
     pub attempts: usize,
     /// A layout with at most this detour ([`LayoutReport::detour`]) is taken at once.
     pub good_detour: f64,
-    /// Which of the attempts is returned: 0 the one with the least detour, 1 the next, and so on.
-    pub rank: usize,
 }
 
 impl Default for LayoutOptions {
     fn default() -> Self {
-        Self { attempts: 6, good_detour: 0.5, rank: 0 }
+        Self { attempts: 6, good_detour: 0.5 }
     }
 }
 
@@ -191,12 +189,12 @@ pub fn joint(
         let report = report(&drawing, &distances);
         let good = report.detour <= options.good_detour;
         found.push((drawing, report));
-        if good && options.rank == 0 {
+        if good {
             break;
         }
     }
     found.sort_by(|a, b| a.1.detour.total_cmp(&b.1.detour));
-    let (drawing, mut report) = found.into_iter().nth(options.rank).ok_or(failure)?;
+    let (drawing, mut report) = found.into_iter().next().ok_or(failure)?;
     report.attempts = attempts;
     let base = patches::base_of(&drawing, meshes[1], landmarks)?;
     Ok(patches::finish(drawing, base, meshes, report)?)

@@ -20,7 +20,7 @@ use crate::base_domain::{self, BaseDomain};
 use crate::cone_metric::atlas::{FlatAtlas, flat_atlas};
 use crate::cone_metric::{ConeMetric, FlowError, FlowReport, base_domain_curvature, flow, uniform_curvature};
 use crate::landmarks::Landmarks;
-use crate::layout::{self, BaseLayout, LayoutOptions};
+use crate::layout::{self, BaseLayout};
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Monitor, Stage};
 use typed_index_collections::TiVec;
@@ -64,19 +64,15 @@ pub fn run(
     }
 }
 
-/// Draws the base domain on both meshes; `rank` 0 is the best layout found.
+/// Draws the base domain on both meshes at full resolution.
 fn draw(
     input: MapInput<'_>,
     options: &PipelineOptions,
-    rank: usize,
     monitor: &mut dyn Monitor,
 ) -> Result<BaseLayout, PipelineError> {
     let meshes = [input.source, input.target];
     Ok(match options.base {
-        Base::Joint => {
-            let options = LayoutOptions { rank, ..options.layout };
-            layout::joint(meshes, input.landmarks, &options, monitor)?
-        }
+        Base::Joint => layout::joint(meshes, input.landmarks, &options.layout, monitor)?,
         Base::Qem => {
             let base = base_domain::simplify(input.target, &input.landmarks.target, monitor)?;
             layout::from_base(meshes, input.landmarks, &base, monitor)?

@@ -45,7 +45,7 @@ pub struct PipelineOptions {
     pub cones: Cones,
     /// Both flows.
     pub flow: FlowOptions,
-    /// The search for the layout.
+    /// The layout of the thesis' method, drawn at full resolution.
     pub layout: LayoutOptions,
     /// The search for the class of the map.
     pub search: SearchOptions,

@@ -21,7 +21,7 @@ pub(super) fn run(
     monitor: &mut dyn Monitor,
 ) -> Result<MapResult, PipelineError> {
     monitor.enter(Stage::BaseDomain);
-    let layout = draw(input, options, 0, monitor)?;
+    let layout = draw(input, options, monitor)?;
     let metrics = Metrics::new(input, &layout.base, options, monitor)?;
     let refined = |side: &PatchedMesh, monitor: &mut dyn Monitor| {
         cone_metric((&side.mesh, &side.landmark_vertices.raw), &layout.base, options, monitor)
