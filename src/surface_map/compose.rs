@@ -131,17 +131,14 @@ impl Locator {
             }
             by_vertex[v] = at;
             self.queue.push((v, [begin, at_landmarks.len() as u32]));
+            let is_new = |v: VertexId| by_vertex[v].corner == NOWHERE.corner;
             let onwards = loop {
-                if let Some(from) = corner.next(source, at_landmarks) {
-                    if by_vertex[mesh.head(from.corner)].corner == NOWHERE.corner {
-                        break Some(from);
-                    }
-                } else if let Some(&(v, range)) = self.queue.get(next) {
-                    corner = Corners::new(by_vertex[v], range);
-                    next += 1;
-                } else {
-                    break None;
+                if let Some(from) = corner.next(source, at_landmarks, is_new) {
+                    break Some(from);
                 }
+                let Some(&(v, range)) = self.queue.get(next) else { break None };
+                corner = Corners::new(by_vertex[v], range);
+                next += 1;
             };
             let Some(from) = onwards else { break };
             let head = mesh.head(from.corner);
@@ -157,29 +154,53 @@ impl Locator {
 /// at a landmark all corners are known.
 #[derive(Default)]
 struct Corners {
-    first: Option<HalfedgeId>,
-    here: Option<Location>,
+    /// Of an ordinary vertex: its first corner, and the next one.
+    around: Option<[HalfedgeId; 2]>,
+    /// The last corner whose motion was asked for.
+    known: Option<Location>,
     at_landmark: std::ops::Range<u32>,
 }
 
 impl Corners {
     fn new(at: Location, [begin, end]: [u32; 2]) -> Self {
-        let here = (begin == end).then_some(at);
-        Self { first: Some(at.corner), here, at_landmark: begin..end }
+        let around = (begin == end).then_some([at.corner; 2]);
+        Self { around, known: Some(at), at_landmark: begin..end }
     }
 
-    #[inline]
-    fn next(&mut self, source: Parametrised<'_>, at_landmarks: &[Location]) -> Option<Location> {
-        if let Some(k) = self.at_landmark.next() {
-            return at_landmarks.get(k as usize).copied();
+    /// The next corner whose edge leads to a vertex with `is_wanted`.
+    fn next(
+        &mut self,
+        source: Parametrised<'_>,
+        at_landmarks: &[Location],
+        is_wanted: impl Fn(VertexId) -> bool,
+    ) -> Option<Location> {
+        let mesh = source.mesh;
+        let of_landmark = |k: u32| at_landmarks.get(k as usize).copied();
+        let wanted = |at: &Location| is_wanted(mesh.head(at.corner));
+        if let Some(at) = self.at_landmark.by_ref().filter_map(of_landmark).find(wanted) {
+            return Some(at);
         }
-        let here = self.here?;
-        let corner = source.mesh.twin(here.corner.prev());
-        let transition = &source.embedding.transitions[corner];
-        let motion =
-            if *transition == Rigid2::IDENTITY { here.motion } else { here.motion.after(transition) };
-        self.here = (Some(corner) != self.first).then_some(Location { corner, motion, ..here });
-        Some(here)
+        while let Some([first, corner]) = self.around {
+            let following = mesh.twin(corner.prev());
+            self.around = (following != first).then_some([first, following]);
+            if is_wanted(mesh.head(corner)) {
+                return self.turn_to(source, corner);
+            }
+        }
+        None
+    }
+
+    /// The location of a corner after the last one that was asked for.
+    fn turn_to(&mut self, source: Parametrised<'_>, corner: HalfedgeId) -> Option<Location> {
+        let known = self.known.as_mut()?;
+        while known.corner != corner {
+            known.corner = source.mesh.twin(known.corner.prev());
+            let transition = &source.embedding.transitions[known.corner];
+            if *transition != Rigid2::IDENTITY {
+                known.motion = known.motion.after(transition);
+            }
+        }
+        Some(*known)
     }
 }
 

@@ -187,29 +187,30 @@ impl Measure {
         let mesh = source.mesh;
         for h in mesh.edges() {
             let twin = mesh.twin(h);
-            let [begin, end] = traces.ranges[h];
-            let (ahead, back) = (arrangement.source_dart(h), arrangement.source_dart(twin));
+            let [begin, end] = traces.ranges[h].map(|c| c as usize);
+            let [ahead, back] = [h, twin].map(|h| arrangement.source_dart(h) as usize);
+            let parts = end - begin + 1;
+            let (left, right) = (&cells[ahead..ahead + parts], &cells[back..back + parts]);
             let ends = [seats.corners[h], seats.corners[h.next()]];
             let across = source.embedding.transitions[twin].rotation;
             let seat = &seats.seats[h];
             let (mut face, mut motion, mut from) = (seat.face, &seat.motion, 0.0);
             let mut line = ends.map(|p| motion.apply(p));
-            for c in begin..=end {
-                let crossing = traces.crossings.get(c as usize).filter(|_| c < end);
+            let mut turned = complex_mul(motion.rotation, across);
+            for (k, (&left, &right)) in left.iter().zip(right.iter().rev()).enumerate() {
+                let crossing = traces.crossings[begin..end].get(k);
                 let to = crossing.map_or(1.0, |crossing| crossing.along_source);
                 let apex = target.embedding.corners[HalfedgeId::of(face, 0)];
                 let swept = (to - from) * (line[0] - apex).perp_dot(line[1] - apex);
-                let piece = |dart: u32| cells[dart as usize] as usize;
-                let (left, right) = (piece(ahead + (c - begin)), piece(back + (end - c)));
-                pieces[left].meet(h.face(), face, motion.rotation)?.area += swept;
-                let rotation = complex_mul(motion.rotation, across);
-                pieces[right].meet(twin.face(), face, rotation)?.area -= swept;
+                pieces[left as usize].meet(h.face(), face, motion.rotation)?.area += swept;
+                pieces[right as usize].meet(twin.face(), face, turned)?.area -= swept;
                 let Some(crossing) = crossing else { break };
                 (face, from) = (crossing.entered.face(), to);
                 let next = traces.motion(seats, crossing);
                 if !std::ptr::eq(next, motion) {
                     motion = next;
                     line = ends.map(|p| motion.apply(p));
+                    turned = complex_mul(motion.rotation, across);
                 }
             }
         }
