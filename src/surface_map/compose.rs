@@ -194,10 +194,11 @@ impl Corners {
     fn turn_to(&mut self, source: Parametrised<'_>, corner: HalfedgeId) -> Option<Location> {
         let known = self.known.as_mut()?;
         while known.corner != corner {
-            known.corner = source.mesh.twin(known.corner.prev());
-            let transition = &source.embedding.transitions[known.corner];
-            if *transition != Rigid2::IDENTITY {
-                known.motion = known.motion.after(transition);
+            let across = known.corner.prev();
+            known.corner = source.mesh.twin(across);
+            // The motion there is the inverse of the one onwards, which lies near.
+            if source.embedding.transitions[across] != Rigid2::IDENTITY {
+                known.motion = known.motion.after(&source.embedding.transitions[known.corner]);
             }
         }
         Some(*known)

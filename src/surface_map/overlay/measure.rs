@@ -192,10 +192,12 @@ impl Measure {
             let parts = end - begin + 1;
             let (left, right) = (&cells[ahead..ahead + parts], &cells[back..back + parts]);
             let ends = [seats.corners[h], seats.corners[h.next()]];
-            let across = source.embedding.transitions[twin].rotation;
+            // Of the motion from the plane of the twin's face: the inverse, whose memory is not near.
+            let onwards = source.embedding.transitions[h].rotation;
+            let across = DVec2::new(onwards.x, -onwards.y);
             let seat = &seats.seats[h];
             let (mut face, mut motion, mut from) = (seat.face, &seat.motion, 0.0);
-            let mut line = ends.map(|p| motion.apply(p));
+            let mut line = [motion.apply(ends[0]), motion.apply(ends[1])];
             let mut turned = complex_mul(motion.rotation, across);
             for (k, (&left, &right)) in left.iter().zip(right.iter().rev()).enumerate() {
                 let crossing = traces.crossings[begin..end].get(k);
@@ -209,7 +211,7 @@ impl Measure {
                 let next = traces.motion(seats, crossing);
                 if !std::ptr::eq(next, motion) {
                     motion = next;
-                    line = ends.map(|p| motion.apply(p));
+                    line = [motion.apply(ends[0]), motion.apply(ends[1])];
                     turned = complex_mul(motion.rotation, across);
                 }
             }

@@ -110,9 +110,9 @@ impl Seats {
         loop {
             self.seats[h] = seat;
             let next = mesh.twin(h.prev());
-            let transition = &source.embedding.transitions[next];
-            if *transition != Rigid2::IDENTITY {
-                seat.motion = seat.motion.after(transition);
+            // The motion there is the inverse of the one onwards, which lies near.
+            if source.embedding.transitions[h.prev()] != Rigid2::IDENTITY {
+                seat.motion = seat.motion.after(&source.embedding.transitions[next]);
             }
             h = next;
             if h == at.corner {

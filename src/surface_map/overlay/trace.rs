@@ -116,7 +116,7 @@ impl Walk {
         self.along = along_source.clamp(self.along, 1.0);
         if *transition != Rigid2::IDENTITY {
             self.seat.motion = transition.after(&self.seat.motion);
-            self.line = self.ends.map(|p| self.seat.motion.apply(p));
+            self.line = [self.seat.motion.apply(self.ends[0]), self.seat.motion.apply(self.ends[1])];
             self.motion = log.1.len() as u32;
             log.1.push(self.seat.motion);
         }
@@ -136,7 +136,7 @@ impl Tracer<'_> {
     fn trace(&self, h: HalfedgeId, mut log: Log<'_>) -> Result<(), OverlayError> {
         let ends = [self.seats.corners[h], self.seats.corners[h.next()]];
         let seat = self.seats.seats[h];
-        let line = ends.map(|p| seat.motion.apply(p));
+        let line = [seat.motion.apply(ends[0]), seat.motion.apply(ends[1])];
         let mut walk = Walk { edge: h, ends, seat, motion: AS_SEATED, line, along: 0.0 };
         let end = self.end(h);
         let goal = end.motion.apply(ends[1]);
@@ -153,7 +153,7 @@ impl Tracer<'_> {
                 },
             };
             let x = exit.halfedge;
-            let [a, b] = [x, x.next()].map(|x| self.target.embedding.corners[x]);
+            let (a, b) = (self.target.embedding.corners[x], self.target.embedding.corners[x.next()]);
             let [p, q] = walk.line;
             let to = signed_double_area(a, b, q);
             if to >= 0.0 {
@@ -170,9 +170,8 @@ impl Tracer<'_> {
     /// The seat of the head, as seen from the face of the halfedge. At a landmark it lies in the wedge from which the edge
     /// comes.
     fn end(&self, h: HalfedgeId) -> Seat {
-        let twin = self.source.mesh.twin(h);
-        let seat = self.seats.seats[twin];
-        if self.seats.at_landmark(twin) {
+        if self.seats.at_landmark(h.next()) {
+            let seat = self.seats.seats[self.source.mesh.twin(h)];
             Seat { motion: seat.motion.after(&self.source.embedding.transitions[h]), ..seat }
         } else {
             self.seats.seats[h.next()]
@@ -202,11 +201,20 @@ impl Tracer<'_> {
             let [right, left] = [halfedge, wedge.prev()].map(|x| signed_double_area(p, q, corner(x)));
             return Some(Exit { halfedge, right, left });
         }
-        let halfedges = [0, 1, 2].map(|k| HalfedgeId::of(walk.seat.face, k));
-        let sides = halfedges.map(|x| side(p, q, corner(x)));
-        let leaves = |&k: &usize| sides[k] <= 0.0 && sides[(k + 1) % 3] > 0.0;
-        let exit = |k: usize| Exit { halfedge: halfedges[k], right: sides[k], left: sides[(k + 1) % 3] };
-        (0..3).find(leaves).map(exit)
+        let x = HalfedgeId::of(walk.seat.face, 0);
+        let [y, z] = [x.next(), x.prev()];
+        let (at_x, at_y, at_z) = (side(p, q, corner(x)), side(p, q, corner(y)), side(p, q, corner(z)));
+        let leaves = |right: f64, left: f64| right <= 0.0 && left > 0.0;
+        let exit = |halfedge: HalfedgeId, right: f64, left: f64| Some(Exit { halfedge, right, left });
+        if leaves(at_x, at_y) {
+            exit(x, at_x, at_y)
+        } else if leaves(at_y, at_z) {
+            exit(y, at_y, at_z)
+        } else if leaves(at_z, at_x) {
+            exit(z, at_z, at_x)
+        } else {
+            None
+        }
     }
 
     /// The head lies, up to rounding, on the border of the present face: goes over to the face of its seat, through one
