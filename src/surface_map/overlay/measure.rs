@@ -55,6 +55,8 @@ pub struct Measure {
     /// Pieces that no source edge bounds.
     whole: Vec<u32>,
     stack: Vec<u32>,
+    /// Whether source and target were exchanged since.
+    is_exchanged: bool,
 }
 
 impl Measure {
@@ -71,6 +73,7 @@ impl Measure {
         [source, target]: [Parametrised<'_>; 2],
         locations: &Locations,
     ) -> Result<(), OverlayError> {
+        self.is_exchanged = false;
         self.seats.fill(source, target, locations, 0)?;
         self.traces.fill(source, target, &self.seats)?;
         self.arrangement.fill(source, target, (&self.seats, &self.traces))?;
@@ -92,13 +95,30 @@ impl Measure {
         &self.pieces
     }
 
+    /// The same overlay with source and target exchanged.
+    pub fn exchange_roles(&mut self) {
+        self.is_exchanged = !self.is_exchanged;
+        for piece in &mut self.pieces {
+            std::mem::swap(&mut piece.source_face, &mut piece.target_face);
+            piece.rotation.y = -piece.rotation.y;
+        }
+    }
+
     /// The parts of all edges of one mesh: edge by edge in the order of [`SurfaceMesh::edges`], each from its start to its
     /// end. `mesh` is that side's mesh.
+    ///
+    /// When an end of an edge moves, the piece on the left gains what the one on the right loses: with n the edge's part
+    /// turned clockwise by a right angle and m its middle parameter, (1 - m) n per motion of the start and m n per motion of
+    /// the end, all in the plane of the halfedge's face.
     pub fn segments<'a>(
         &'a self,
         mesh: &'a SurfaceMesh,
         side: SideOf,
     ) -> impl Iterator<Item = Segment> + use<'a> {
+        let side = match (side, self.is_exchanged) {
+            (SideOf::Source, false) | (SideOf::Target, true) => SideOf::Source,
+            (SideOf::Target, false) | (SideOf::Source, true) => SideOf::Target,
+        };
         mesh.edges().flat_map(move |h| self.segments_of(mesh, (side, h)))
     }
 

@@ -163,6 +163,22 @@ fn segments_cover_every_edge_and_are_the_sides_of_the_pieces() {
 }
 
 #[test]
+fn measures_can_be_seen_from_the_other_side() {
+    let pair = Pair::bent([2, 3], 0.4);
+    let here = measured(pair.sides(), &pair.surface);
+    let mut there = here.clone();
+    there.exchange_roles();
+    for (a, b) in here.pieces().iter().zip(there.pieces()) {
+        assert_eq!((a.source_face, a.target_face, a.area), (b.target_face, b.source_face, b.area));
+        let identity = crate::math::rigid2::complex_mul(a.rotation, b.rotation);
+        assert!((identity - DVec2::X).length() < 1e-14);
+    }
+    let [source, target] = pair.sides().map(|side| side.mesh);
+    assert!(there.segments(source, SideOf::Target).eq(here.segments(source, SideOf::Source)));
+    assert!(there.segments(target, SideOf::Source).eq(here.segments(target, SideOf::Target)));
+}
+
+#[test]
 fn memory_used_again_leaves_no_trace() {
     let pairs = [Pair::bent([3, 2], 0.4), Pair::bent([1, 4], 0.1), Pair::bent([2, 3], 0.6)];
     let (mut locator, mut locations) = (Locator::default(), Locations::default());
