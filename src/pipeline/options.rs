@@ -64,8 +64,12 @@ pub struct OwnConeOptions {
     pub most_landmarks: usize,
     /// A coarse map of less energy needs no help; 4 for an isometry.
     pub least_energy: f64,
-    /// Sets of points, one after the other.
+    /// Sets of points, one after the other, at most.
     pub rounds: usize,
+    /// Stops after this many sets without a gain.
+    pub patience: usize,
+    /// A gain lowers the energy by this share.
+    pub least_gain: f64,
     /// The search for the layout with own points.
     pub search: SearchOptions,
 }
@@ -73,6 +77,14 @@ pub struct OwnConeOptions {
 impl Default for OwnConeOptions {
     fn default() -> Self {
         let search = SearchOptions { candidates: 2, twists: 2, ..SearchOptions::default() };
-        Self { count: 20, most_landmarks: 16, least_energy: 4.01, rounds: 3, search }
+        Self {
+            count: 20,
+            most_landmarks: 16,
+            least_energy: 4.01,
+            rounds: 6,
+            patience: 2,
+            least_gain: 0.002,
+            search,
+        }
     }
 }

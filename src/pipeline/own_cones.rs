@@ -5,10 +5,10 @@
 //! so that those of the round before are free to move.
 
 use super::PipelineError;
-use super::options::{OwnConeOptions, PipelineOptions};
+use super::options::PipelineOptions;
 use super::relaxed::{Coarse, Full, parametrised, searched};
 use crate::landmark_suggestion::{distances, farthest_points};
-use crate::layout::{BaseLayout, LayoutError};
+use crate::layout::BaseLayout;
 use crate::mesh::closest_point::closest_point;
 use crate::mesh::insertion::insert;
 use crate::mesh::{RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
@@ -66,7 +66,12 @@ fn sides(full: &[Full; 2], vertices: usize) -> [Side<'_>; 2] {
     [0, 1].map(|k| Side::new(&full[k].refined.mesh, &full[k].landmarks, vertices))
 }
 
-/// Adds own landmarks round by round, as long as they lower the energy of the coarse map.
+/// Adds own landmarks round by round, as long as they lower the energy of the coarse map; `None` where they do not.
+///
+/// Every round takes fresh points at their images under the best map so far.
+///
+/// # Errors
+/// Cancellation only.
 pub(super) fn add(
     (full, user_sides): (&[Full; 2], &[Side<'_>; 2]),
     map: &CoarseMap<'_>,
@@ -80,34 +85,45 @@ pub(super) fn add(
     let Some(mut images) = map.images(user_sides) else { return Ok(None) };
     let mut best: Option<OwnCones> = None;
     let mut before: Vec<VertexId> = Vec::new();
+    let mut without_gain = 0;
     for _ in 0..own.rounds {
-        let pairs = pairs(full, &images, &before, own);
-        let Some(with_own) = with(full, &pairs) else { break };
-        before = pairs.iter().map(|p| p.0).collect();
+        let pairs = pairs(full, &images, &before, own.count);
+        let Some(with_own) = with(full, &pairs).filter(|_| without_gain < own.patience) else { break };
+        without_gain += 1;
+        before = pairs.iter().map(|pair| pair.0).collect();
         let sides = sides(&with_own, vertices);
-        match searched(&sides, (&options.multilevel, &own.search), monitor) {
-            Ok(Coarse { layout, map: next, .. }) => {
-                let energy = next.energy;
-                let Some(next) = next.images(&sides) else { break };
-                images = next;
-                if energy < best.as_ref().map_or(map.energy, |best| best.energy) {
-                    drop(sides);
-                    best = Some(OwnCones { full: with_own, layout, energy });
-                }
-            }
-            Err(PipelineError::Layout(LayoutError::NoMap { .. })) => break,
-            Err(error) => return Err(error),
+        let next = match searched(&sides, (&options.multilevel, &own.search), monitor) {
+            Ok(next) => next,
+            Err(PipelineError::Cancelled(stop)) => return Err(stop.into()),
+            // No map with these points: others may do.
+            Err(_) => continue,
+        };
+        let Coarse { layout, map: next, .. } = next;
+        let (energy, least) = (next.energy, best.as_ref().map_or(map.energy, |best| best.energy));
+        let Some(next_images) = next.images(&sides).filter(|_| energy < least) else { continue };
+        if energy < (1.0 - own.least_gain) * least {
+            without_gain = 0;
         }
+        images = next_images;
+        drop(sides);
+        best = Some(OwnCones { full: with_own, layout, energy });
     }
     Ok(best)
 }
 
-/// Fresh points of the source with their images on the target.
+/// Own points are at least this far from all others; the area is 1.
+const LEAST_DISTANCE: f64 = 0.03;
+
+/// Nearer than this (in barycentric coordinates) to a side, an own point is put onto it.
+const SNAP: f64 = 0.15;
+
+/// At most `count` points of the source, far from the landmarks and from those of the round before, with their images on the
+/// target.
 fn pairs(
     full: &[Full; 2],
     images: &LevelImages,
     before: &[VertexId],
-    options: &OwnConeOptions,
+    count: usize,
 ) -> Vec<(VertexId, SurfacePoint)> {
     let [source, target] = &images.levels;
     let mesh = &source.mesh;
@@ -119,14 +135,14 @@ fn pairs(
         .collect();
     let mut free = vec![true; mesh.vertex_count()];
     avoid.iter().for_each(|&v| free[v.index()] = false);
-    let chosen = farthest_points(mesh, distances(mesh, &avoid), (options.count, 0.03), |v| free[v.index()]);
+    let chosen = farthest_points(mesh, distances(mesh, &avoid), (count, LEAST_DISTANCE), |v| free[v.index()]);
     let mut places: Vec<DVec3> =
         full[1].landmarks.iter().map(|&v| full[1].refined.mesh.positions()[v]).collect();
     let mut pairs = Vec::new();
     for v in chosen {
         let image = images.target_from_source[v];
         let place = image.position(&target.mesh);
-        if places.iter().any(|p| p.distance(place) < 0.03) {
+        if places.iter().any(|p| p.distance(place) < LEAST_DISTANCE) {
             continue;
         }
         let [a, b, c] = target.mesh.corners(image.face);
@@ -139,7 +155,7 @@ fn pairs(
 
 /// The same point on a corner or a side that is near, so that no needles are made.
 fn snapped(point: SurfacePoint) -> SurfacePoint {
-    let kept = point.barycentric.map(|w| if w < 0.15 { 0.0 } else { w });
+    let kept = point.barycentric.map(|w| if w < SNAP { 0.0 } else { w });
     let sum: f64 = kept.iter().sum();
     SurfacePoint { barycentric: kept.map(|w| w / sum), ..point }
 }
