@@ -3,7 +3,7 @@ import { failureOf } from './compute/messages.ts';
 import { fileSentence, SENTENCES } from './messages.ts';
 import type { Event, LandmarkFile, MeshFile, Side, State } from './state.ts';
 import { baseName } from './state.ts';
-import { checkLandmarks, readLandmarks, readMesh } from './wasm/conemap.js';
+import { checkLandmarks, mirrorTarget, readLandmarks, readMesh } from './wasm/conemap.js';
 
 /** Some named bytes. */
 export interface NamedBytes {
@@ -65,6 +65,19 @@ export function landmarkFile(file: NamedBytes): LandmarkFile {
   } catch (thrown) {
     throw new FileRefused(fileSentence(file.name, failureOf(thrown)));
   }
+}
+
+/** The events that put a target's mirror image in its place, with the landmarks on it. */
+export function mirroredTarget(target: MeshFile, landmarks: LandmarkFile): Event[] {
+  const mirrored = mirrorTarget(target.mesh, new TextEncoder().encode(JSON.stringify(landmarks)));
+  const name = `${target.name.replace(/( \(mirrored\))?\.[^.]*$/, '')} (mirrored).obj`;
+  const file = meshFile({ name, bytes: mirrored.mesh() });
+  const points = landmarkFile({ name: 'landmarks', bytes: mirrored.landmarks() });
+  mirrored.free();
+  return [
+    { kind: 'mesh', side: 1, file },
+    { kind: 'landmarks', file: { ...points, target: name } },
+  ];
 }
 
 /** Refuses landmarks that are no points of the meshes they would be shown on. */

@@ -3,15 +3,16 @@ import { compileCore, startRun } from './compute/client.ts';
 import type { Run } from './compute/client.ts';
 import { failureOf } from './compute/messages.ts';
 import type { NamedBytes } from './files.ts';
-import { eventsOf, FileRefused, landmarkFile, meshFile } from './files.ts';
+import { eventsOf, FileRefused, landmarkFile, meshFile, mirroredTarget } from './files.ts';
 import { failureSentence, SENTENCES } from './messages.ts';
 import { displayPanel } from './panels/display.ts';
 import { filesPanel } from './panels/files.ts';
-import { landmarksPanel } from './panels/landmarks.ts';
+import { findingsPanel } from './panels/findings.ts';
+import { landmarksPanel, lookAtPair } from './panels/landmarks.ts';
 import type { Actions, Panel } from './panels/panel.ts';
 import { resultPanel } from './panels/result.ts';
 import { runPanel } from './panels/run.ts';
-import type { Report } from './report.ts';
+import type { Finding, Report } from './report.ts';
 import type { Demo, Event, Side, State } from './state.ts';
 import { canRun, INITIAL, landmarkFileOf, SIDES, update } from './state.ts';
 import { Views } from './viewer/viewer.ts';
@@ -173,6 +174,9 @@ function compute(): void {
       progress: (progress) => {
         dispatch({ kind: 'run-progress', progress });
       },
+      found: (findings) => {
+        dispatch({ kind: 'run-found', findings });
+      },
       done: (output) => {
         run = null;
         dispatch({ kind: 'run-done', output, report: JSON.parse(output.report) as Report });
@@ -186,6 +190,40 @@ function compute(): void {
   );
 }
 
+function cancel(): void {
+  run?.cancel();
+  run = null;
+  if (state.job.kind === 'running') {
+    dispatch({ kind: 'run-cancelled' });
+  }
+}
+
+/** Does what a finding asks for; a run with the old pairs ends. */
+function repair(finding: Finding): void {
+  try {
+    switch (finding.repair) {
+      case 'swap':
+        cancel();
+        dispatch({ kind: 'targets-exchanged', indices: finding.pairs });
+        break;
+      case 'mirror_target': {
+        const target = state.meshes[1];
+        if (target !== null) {
+          const events = mirroredTarget(target, landmarkFileOf(state));
+          cancel();
+          dispatch(...events);
+        }
+        break;
+      }
+      case 'check':
+        lookAtPair(finding.pairs[0] ?? 0);
+        break;
+    }
+  } catch (thrown) {
+    fail(thrown instanceof FileRefused ? thrown.message : failureSentence(failureOf(thrown)));
+  }
+}
+
 const actions: Actions = {
   dispatch,
   openFiles: (files, side) => {
@@ -195,11 +233,8 @@ const actions: Actions = {
     void openDemo(id);
   },
   run: compute,
-  cancel: () => {
-    run?.cancel();
-    run = null;
-    dispatch({ kind: 'run-cancelled' });
-  },
+  cancel,
+  repair,
 };
 
 const views = new Views(state, {
@@ -219,6 +254,7 @@ const views = new Views(state, {
 const panels: readonly Panel[] = [
   filesPanel(actions),
   runPanel(actions),
+  findingsPanel(actions),
   resultPanel(),
   displayPanel(actions, () => {
     views.reset();

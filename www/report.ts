@@ -2,6 +2,7 @@
 export interface Report {
   readonly base_domain: { readonly vertices: number; readonly faces: number };
   readonly cone_metric: { readonly source: FlowReport; readonly target: FlowReport };
+  readonly layout: LayoutSearch | null;
   readonly certificate: Certificate | null;
   readonly distortion: {
     readonly energy: number;
@@ -14,7 +15,8 @@ export interface Report {
   readonly unmapped_share: number;
   readonly ground_truth: { readonly mean: number; readonly p95: number; readonly max: number } | null;
   readonly faces: { readonly source: number; readonly target: number };
-  readonly warnings?: readonly string[];
+  readonly findings: readonly Finding[];
+  readonly warnings: readonly string[];
   readonly seconds: Readonly<Record<string, number>>;
 }
 
@@ -29,7 +31,25 @@ export interface FlowReport {
 /** The independent check of bijectivity. */
 export interface Certificate {
   readonly bijective: boolean;
+  readonly triangles: number;
   readonly flipped_triangles: number;
   readonly max_angle_sum_error: number;
   readonly max_landmark_error: number;
+}
+
+/** The search for the class of the map. */
+export interface LayoutSearch {
+  readonly judged: number;
+  readonly twists: number;
+  readonly energy: number | null;
+  readonly runner_up: number | null;
+  readonly path_stretch: number;
+}
+
+/** A doubt about landmark pairs, numbered from 0. */
+export interface Finding {
+  readonly kind: 'mirrored' | 'swapped' | 'misplaced';
+  readonly pairs: readonly number[];
+  readonly repair: 'mirror_target' | 'swap' | 'check';
+  readonly sentence: string;
 }

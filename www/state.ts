@@ -1,6 +1,6 @@
 /** One state and one way to change it: `update(state, event)`, without side effects. */
 import type { Progress, RunOptions, RunOutput } from './compute/messages.ts';
-import type { Report } from './report.ts';
+import type { Finding, Report } from './report.ts';
 import type { LoadedMesh } from './wasm/conemap.js';
 
 /** 0 the source, 1 the target. */
@@ -43,7 +43,7 @@ export interface Demo {
 }
 
 export interface Style {
-  readonly surface: 'shaded' | 'checkerboard' | 'colours';
+  readonly surface: 'shaded' | 'checkerboard' | 'colours' | 'distortion';
   readonly patchLines: boolean;
   readonly cones: boolean;
   readonly markers: boolean;
@@ -81,6 +81,8 @@ export interface State {
   readonly style: Style;
   readonly job: Job;
   readonly result: Result | null;
+  /** Doubts about the present pairs, from the last run. */
+  readonly findings: readonly Finding[];
   readonly error: string | null;
   /** What the page is busy with besides a run, as a sentence. */
   readonly busy: string | null;
@@ -100,6 +102,7 @@ export const INITIAL: State = {
   style: { surface: 'shaded', patchLines: true, cones: true, markers: true },
   job: { kind: 'idle' },
   result: null,
+  findings: [],
   error: null,
   busy: null,
 };
@@ -115,11 +118,13 @@ export type Event =
   | { readonly kind: 'pair-deleted'; readonly index: number }
   | { readonly kind: 'pair-labelled'; readonly index: number; readonly label: string }
   | { readonly kind: 'pairs-cleared' }
+  | { readonly kind: 'targets-exchanged'; readonly indices: readonly number[] }
   | { readonly kind: 'undo' }
   | { readonly kind: 'options'; readonly options: Partial<RunOptions> }
   | { readonly kind: 'style'; readonly style: Partial<Style> }
   | { readonly kind: 'run-started' }
   | { readonly kind: 'run-progress'; readonly progress: Progress }
+  | { readonly kind: 'run-found'; readonly findings: readonly Finding[] }
   | { readonly kind: 'run-done'; readonly output: RunOutput; readonly report: Report }
   | { readonly kind: 'run-failed'; readonly sentence: string }
   | { readonly kind: 'run-cancelled' }
@@ -183,7 +188,7 @@ export function landmarkFileOf(state: State): LandmarkFile {
 }
 
 function withPairs(state: State, pairs: readonly Pair[]): State {
-  return { ...state, pairs, history: [...state.history, state.pairs].slice(-MAX_HISTORY) };
+  return { ...state, pairs, findings: [], history: [...state.history, state.pairs].slice(-MAX_HISTORY) };
 }
 
 function withMesh(state: State, side: Side, file: MeshFile): State {
@@ -201,6 +206,7 @@ function withMesh(state: State, side: Side, file: MeshFile): State {
     pending: null,
     history: [],
     result: null,
+    findings: [],
     job: state.job.kind === 'running' ? state.job : { kind: 'idle' },
     style: { ...state.style, surface: 'shaded' },
   };
@@ -217,6 +223,19 @@ function withLandmarks(state: State, file: LandmarkFile): State {
     ],
     groundTruth: file.ground_truth ?? null,
   };
+}
+
+/** Two pairs with each other's target. */
+function withTargetsExchanged(state: State, indices: readonly number[]): State {
+  const [a, b] = indices.map((index) => state.pairs[index]);
+  if (a === undefined || b === undefined) {
+    return state;
+  }
+  const given = (pair: Pair, other: Pair): Pair => ({ ...pair, points: [pair.points[0], other.points[1]] });
+  return withPairs(
+    state,
+    state.pairs.map((pair) => (pair === a ? given(a, b) : pair === b ? given(b, a) : pair)),
+  );
 }
 
 /** The state after an event. */
@@ -257,23 +276,27 @@ export function update(state: State, event: Event): State {
       };
     case 'pairs-cleared':
       return { ...withPairs(state, []), pending: null };
+    case 'targets-exchanged':
+      return withTargetsExchanged(state, event.indices);
     case 'undo': {
       if (state.pending !== null) {
         return { ...state, pending: null };
       }
       const last = state.history.at(-1);
-      return last === undefined ? state : { ...state, pairs: last, history: state.history.slice(0, -1) };
+      return last === undefined ? state : { ...state, pairs: last, findings: [], history: state.history.slice(0, -1) };
     }
     case 'options':
       return { ...state, options: { ...state.options, ...event.options } };
     case 'style':
       return { ...state, style: { ...state.style, ...event.style } };
     case 'run-started':
-      return { ...state, job: { kind: 'running', progress: null }, error: null, pending: null };
+      return { ...state, job: { kind: 'running', progress: null }, findings: [], error: null, pending: null };
     case 'run-progress':
       return state.job.kind === 'running'
         ? { ...state, job: { kind: 'running', progress: event.progress } }
         : state;
+    case 'run-found':
+      return { ...state, findings: event.findings };
     case 'run-done':
       return {
         ...state,

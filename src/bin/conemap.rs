@@ -13,6 +13,8 @@ mod flow;
 mod input;
 #[path = "conemap/map.rs"]
 mod map;
+#[path = "conemap/outputs.rs"]
+mod outputs;
 
 use clap::Parser;
 use std::process::ExitCode;

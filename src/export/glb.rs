@@ -15,11 +15,11 @@ pub enum GlbError {
     Texture(#[from] png::EncodingError),
 }
 
-/// The source's surface with the target's texture.
+/// The source's surface with the target's texture, and a value by vertex as the attribute `_DISTORTION` where there are any.
 ///
 /// # Errors
 /// [`GlbError`].
-pub fn textured_source(common: &CommonMesh) -> Result<Vec<u8>, GlbError> {
+pub fn textured_source(common: &CommonMesh, distortion: &[f64]) -> Result<Vec<u8>, GlbError> {
     let positions: Vec<f32> = flat(&common.source_positions);
     let normals: Vec<f32> = flat(&common.source_normals);
     let uvs: Vec<f32> = common.uvs.iter().flat_map(|uv| square_uvs(*uv)).collect();
@@ -28,7 +28,7 @@ pub fn textured_source(common: &CommonMesh) -> Result<Vec<u8>, GlbError> {
     let (low, high) = bounds(&positions);
     let vertices = common.source_positions.len();
     let mut body = Body::default();
-    let views = [
+    let mut views = vec![
         body.push(&floats(&positions), Some(34962)),
         body.push(&floats(&normals), Some(34962)),
         body.push(&floats(&uvs), Some(34962)),
@@ -40,13 +40,21 @@ pub fn textured_source(common: &CommonMesh) -> Result<Vec<u8>, GlbError> {
     first["min"] = json!(low);
     first["max"] = json!(high);
     let indices = json!({ "bufferView": 3, "componentType": 5125, "count": common.triangles.len() * 3, "type": "SCALAR" });
+    let mut attributes = json!({ "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 });
+    let mut accessors = vec![first, accessor(1, "VEC3"), accessor(2, "VEC2"), indices];
+    if distortion.len() == vertices {
+        let values: Vec<f32> = distortion.iter().map(|&d| d as f32).collect();
+        views.push(body.push(&floats(&values), Some(34962)));
+        attributes["_DISTORTION"] = json!(accessors.len());
+        accessors.push(accessor(views.len() - 1, "SCALAR"));
+    }
     let document = json!({
         "asset": { "version": "2.0", "generator": "Conemap" },
         "scene": 0,
         "scenes": [{ "nodes": [0] }],
         "nodes": [{ "mesh": 0, "name": "source" }],
         "meshes": [{ "primitives": [{
-            "attributes": { "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 }, "indices": 3, "material": 0
+            "attributes": attributes, "indices": 3, "material": 0
         }] }],
         "materials": [{ "pbrMetallicRoughness": {
             "baseColorTexture": { "index": 0 }, "metallicFactor": 0.0, "roughnessFactor": 0.8
@@ -54,7 +62,7 @@ pub fn textured_source(common: &CommonMesh) -> Result<Vec<u8>, GlbError> {
         "textures": [{ "source": 0, "sampler": 0 }],
         "samplers": [{ "wrapS": 10497, "wrapT": 10497, "magFilter": 9729, "minFilter": 9987 }],
         "images": [{ "bufferView": 4, "mimeType": "image/png" }],
-        "accessors": [first, accessor(1, "VEC3"), accessor(2, "VEC2"), indices],
+        "accessors": accessors,
         "bufferViews": views,
         "buffers": [{ "byteLength": body.bytes.len() }],
     });
@@ -149,9 +157,17 @@ mod tests {
             target_normals: positions.clone(),
             uvs: vec![DVec2::ZERO; 6],
             triangles: mesh.triangles().iter().map(|t| t.map(|v| v.0)).collect(),
+            pieces: (0..8).collect(),
             source_positions: positions,
         };
-        let soup = read_mesh(&textured_source(&common).unwrap()).unwrap();
-        assert_eq!((soup.positions.len(), soup.polygons.len()), (6, 8));
+        for distortion in [&[][..], &[1.0, 1.5, 2.0, 1.0, 1.25, 3.0]] {
+            let bytes = textured_source(&common, distortion).unwrap();
+            let soup = read_mesh(&bytes).unwrap();
+            assert_eq!((soup.positions.len(), soup.polygons.len()), (6, 8));
+            let named = bytes.windows(11).any(|word| word == b"_DISTORTION");
+            assert_eq!(named, !distortion.is_empty());
+            let values: Vec<u8> = distortion.iter().flat_map(|&d| (d as f32).to_le_bytes()).collect();
+            assert!(bytes.ends_with(&values));
+        }
     }
 }

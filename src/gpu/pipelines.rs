@@ -82,7 +82,7 @@ impl Pipelines {
                 cache: None,
             })
         };
-        let surface = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x2];
+        let surface = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Float32];
         let line = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32];
         let ball = wgpu::vertex_attr_array![0 => Float32x3];
         let marker = wgpu::vertex_attr_array![1 => Float32x3, 2 => Float32, 3 => Float32x3];

@@ -32,7 +32,7 @@ pub struct ViewDraw<'a> {
     pub rectangle: [f32; 4],
     /// The camera.
     pub camera: &'a Camera,
-    /// 0 shaded, 1 checkerboard, 2 colours.
+    /// 0 shaded, 1 checkerboard, 2 colours, 3 distortion.
     pub style: f32,
     /// Colour of the plain surface, linear RGB.
     pub surface_colour: [f32; 3],
@@ -42,6 +42,10 @@ pub struct ViewDraw<'a> {
     pub line_half_width: f32,
     /// The surface.
     pub surface: Option<&'a Mesh>,
+    /// A plain surface a little behind it, seen where the surface has holes.
+    pub under: Option<&'a Mesh>,
+    /// Colour of the plain surface behind, linear RGB.
+    pub under_colour: [f32; 3],
     /// Ribbons.
     pub lines: Option<&'a Mesh>,
     /// Balls.
@@ -55,10 +59,16 @@ pub struct Renderer {
     queue: wgpu::Queue,
     config: wgpu::SurfaceConfiguration,
     pipelines: Pipelines,
-    uniforms: [(wgpu::Buffer, wgpu::BindGroup); 2],
+    uniforms: [ViewUniforms; 2],
     ball: Mesh,
     targets: Targets,
     samples: u32,
+}
+
+/// What the shaders are told of one view: for its surface, and for the plain one behind.
+struct ViewUniforms {
+    front: (wgpu::Buffer, wgpu::BindGroup),
+    under: (wgpu::Buffer, wgpu::BindGroup),
 }
 
 /// Depth and multisampled colour at the canvas's size.
@@ -102,7 +112,8 @@ impl Renderer {
         config.format = formats.iter().copied().find(wgpu::TextureFormat::is_srgb).unwrap_or(config.format);
         surface.configure(&device, &config);
         let pipelines = Pipelines::new(&device, config.format, samples);
-        let uniforms = [0, 1].map(|_| view_uniform(&device, &pipelines));
+        let uniform = || view_uniform(&device, &pipelines);
+        let uniforms = [0, 1].map(|_| ViewUniforms { front: uniform(), under: uniform() });
         let ball = ball(&device);
         let targets = Targets::new(&device, &config, samples);
         Ok(Self { surface, device, queue, config, pipelines, uniforms, ball, targets, samples })
@@ -119,8 +130,9 @@ impl Renderer {
 
     /// Uploads a surface.
     pub fn surface_mesh(&self, vertices: &[SurfaceVertex], indices: &[u32]) -> Mesh {
-        let floats =
-            |v: &SurfaceVertex| v.position.into_iter().chain(v.normal).chain(v.uv).collect::<Vec<_>>();
+        let floats = |v: &SurfaceVertex| {
+            v.position.into_iter().chain(v.normal).chain(v.uv).chain([v.distortion]).collect::<Vec<_>>()
+        };
         mesh(&self.device, &vertices.iter().flat_map(floats).collect::<Vec<f32>>(), indices)
     }
 
@@ -146,7 +158,10 @@ impl Renderer {
         let canvas = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         for (uniform, view) in self.uniforms.iter().zip(views) {
-            self.queue.write_buffer(&uniform.0, 0, &self.uniform(view).bytes());
+            self.queue.write_buffer(&uniform.front.0, 0, &self.uniform(view).bytes());
+            if view.under.is_some() {
+                self.queue.write_buffer(&uniform.under.0, 0, &self.under_uniform(view).bytes());
+            }
         }
         let instances = [0, 1].map(|k: usize| self.instances(views[k].balls));
         {
@@ -199,6 +214,14 @@ impl Renderer {
         }
     }
 
+    /// A negative style says that the surface lies behind.
+    fn under_uniform(&self, view: &ViewDraw<'_>) -> ViewUniform {
+        let mut uniform = self.uniform(view);
+        uniform.size_and_style[2] = -1.0;
+        uniform.surface = with_alpha(view.under_colour);
+        uniform
+    }
+
     fn instances(&self, balls: &[MarkerInstance]) -> Option<wgpu::Buffer> {
         let floats =
             |m: &MarkerInstance| m.centre.into_iter().chain([m.radius]).chain(m.colour).collect::<Vec<_>>();
@@ -222,9 +245,15 @@ impl Renderer {
         }
         pass.set_viewport(x, y, width, height, 0.0, 1.0);
         pass.set_scissor_rect(x as u32, y as u32, width as u32, height as u32);
-        pass.set_bind_group(0, &self.uniforms[k].1, &[]);
-        let meshes = [(view.surface, &self.pipelines.surface), (view.lines, &self.pipelines.line)];
-        for (mesh, pipeline) in meshes.into_iter().filter_map(|(m, p)| m.map(|m| (m, p))) {
+        let ViewUniforms { front, under } = &self.uniforms[k];
+        let meshes = [
+            (view.under, &self.pipelines.surface, under),
+            (view.surface, &self.pipelines.surface, front),
+            (view.lines, &self.pipelines.line, front),
+        ];
+        pass.set_bind_group(0, &front.1, &[]);
+        for (mesh, pipeline, uniform) in meshes.into_iter().filter_map(|(m, p, u)| m.map(|m| (m, p, u))) {
+            pass.set_bind_group(0, &uniform.1, &[]);
             pass.set_pipeline(pipeline);
             pass.set_vertex_buffer(0, mesh.vertices.slice(..));
             pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);

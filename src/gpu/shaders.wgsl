@@ -6,7 +6,8 @@ struct View {
     clip_from_world: mat4x4<f32>,
     // xyz: the camera's position.
     eye: vec4<f32>,
-    // xy: size of the view in pixels; z: surface style (0 shaded, 1 checkerboard, 2 colours); w: half width of lines in pixels.
+    // xy: size of the view in pixels; z: surface style (-1 plain and a little behind, 0 shaded, 1 checkerboard, 2 colours,
+    // 3 distortion); w: half width of lines in pixels.
     size_and_style: vec4<f32>,
     // rgb: colour of the plain surface.
     surface: vec4<f32>,
@@ -21,6 +22,7 @@ struct SurfaceOut {
     @location(0) world: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(2) uv: vec2<f32>,
+    @location(3) distortion: f32,
 };
 
 @vertex
@@ -28,12 +30,17 @@ fn surface_vertex(
     @location(0) position: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(2) uv: vec2<f32>,
+    @location(3) distortion: f32,
 ) -> SurfaceOut {
     var out: SurfaceOut;
     out.clip = view.clip_from_world * vec4<f32>(position, 1.0);
     out.world = position;
     out.normal = normal;
     out.uv = uv;
+    out.distortion = distortion;
+    if view.size_and_style.z < -0.5 {
+        out.clip.z += 0.004 * out.clip.w;
+    }
     return out;
 }
 
@@ -59,6 +66,23 @@ fn checker(p: vec2<f32>) -> f32 {
     return 0.5 - 0.5 * i.x * i.y;
 }
 
+// Distortion by its logarithm, from 1 (none) to 4 and more; the legend of the page has the same colours.
+fn distortion_colour(value: f32) -> vec3<f32> {
+    let stops = array<vec3<f32>, 5>(
+        vec3<f32>(0.913, 0.888, 0.791),
+        vec3<f32>(0.930, 0.624, 0.168),
+        vec3<f32>(0.871, 0.254, 0.045),
+        vec3<f32>(0.546, 0.044, 0.068),
+        vec3<f32>(0.105, 0.010, 0.112),
+    );
+    let place = clamp(2.0 * log2(max(value, 1.0)), 0.0, 4.0);
+    var colour = stops[0];
+    for (var k = 1; k < 5; k++) {
+        colour = mix(colour, stops[k], clamp(place - f32(k - 1), 0.0, 1.0));
+    }
+    return colour;
+}
+
 @fragment
 fn surface_fragment(in: SurfaceOut) -> @location(0) vec4<f32> {
     let style = view.size_and_style.z;
@@ -67,7 +91,9 @@ fn surface_fragment(in: SurfaceOut) -> @location(0) vec4<f32> {
     let light = vec3<f32>(0.86, 0.85, 0.80);
     let hue = vec3<f32>(0.5) + 0.42 * cos(6.2831853 * (in.uv.x * 1.1 + vec3<f32>(0.0, 0.33, 0.67)) + in.uv.y * 4.0);
     var colour = view.surface.rgb;
-    if style > 1.5 {
+    if style > 2.5 {
+        colour = distortion_colour(in.distortion);
+    } else if style > 1.5 {
         colour = hue * mix(0.72, 1.0, board);
     } else if style > 0.5 {
         colour = mix(dark, light, board);

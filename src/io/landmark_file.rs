@@ -1,5 +1,6 @@
 //! Landmark pairs as JSON.
 
+use crate::mesh::mirror::mirrored_weights;
 use serde::{Deserialize, Serialize};
 
 /// More pairs than this are refused.
@@ -21,6 +22,19 @@ pub enum LandmarkPoint {
         /// Weights of its corners: not negative, sum 1.
         barycentric: [f64; 3],
     },
+}
+
+impl LandmarkPoint {
+    /// The same point of the mesh's mirror image ([`crate::mesh::mirror::mirrored`]).
+    #[must_use]
+    pub fn mirrored(self) -> Self {
+        match self {
+            Self::Vertex(_) => self,
+            Self::OnFace { face, barycentric } => {
+                Self::OnFace { face, barycentric: mirrored_weights(barycentric) }
+            }
+        }
+    }
 }
 
 /// A landmark file: `{"source"?, "target"?, "pairs": [[s, t], ...], "labels"?, "ground_truth"?}`.

@@ -7,6 +7,7 @@ pub mod collapsible;
 pub mod generators;
 mod ids;
 pub mod insertion;
+pub mod mirror;
 mod refined;
 pub mod soup;
 mod surface_mesh;

@@ -1,6 +1,7 @@
 //! Options, the order of the stages, the report: the only place that knows the whole way.
 
 mod error;
+mod findings;
 mod options;
 mod own_cones;
 mod relaxed;
@@ -9,12 +10,13 @@ mod result;
 mod thesis;
 
 pub use error::PipelineError;
+pub use findings::{FindingKind, FindingReport, RepairKind, findings};
 pub use options::{Base, Cones, Method, OwnConeOptions, PipelineOptions};
 pub use report::{
     BaseDomainReport, CertificateReport, ConeMetricReport, ConeMetricsReport, DistortionReport, FacesReport,
     GroundTruthReport, LayoutSearchReport, Report,
 };
-pub use result::MapResult;
+pub use result::{MapResult, TriangleDistortion};
 
 use crate::base_domain::{self, BaseDomain};
 use crate::cone_metric::atlas::{FlatAtlas, flat_atlas};

@@ -2,7 +2,10 @@
 
 use super::own_cones::{self, Refined};
 use super::report::{CertificateReport, DistortionReport, GroundTruthReport, LayoutSearchReport};
-use super::{Base, GroundTruth, MapInput, MapResult, Metrics, PipelineError, PipelineOptions, Report};
+use super::{
+    Base, GroundTruth, MapInput, MapResult, Metrics, PipelineError, PipelineOptions, Report,
+    TriangleDistortion,
+};
 use crate::base_domain::{self, BaseDomain};
 use crate::landmarks::Landmarks;
 use crate::layout::{self, BaseLayout, Candidates, LayoutError, SearchOptions, SearchReport};
@@ -237,7 +240,7 @@ fn result(
             path_stretch: map.layout.report.worst_stretch,
         }),
         own_landmarks: map.sides[0].landmarks.len() - input.landmarks.len(),
-        certificate: Some(certificate_report(&map.certificate)),
+        certificate: Some(certificate_report(map)),
         distortion: DistortionReport {
             energy: measured.energy,
             mean: measured.mean,
@@ -250,10 +253,20 @@ fn result(
         warnings: warnings(&map.layout, &measured),
         ..Report::of_inputs(input, &map.layout.base, metrics)
     };
+    let common = common_mesh(surfaces[0], surfaces[1], overlay, &metrics.target_atlas.corner_uvs);
+    let local = |&piece: &u32| {
+        let (number, piece) = (piece as usize, &overlay.pieces[piece as usize]);
+        TriangleDistortion {
+            source_face: map.sides[0].refined.face_origin[piece.source_face],
+            target_face: map.sides[1].refined.face_origin[piece.target_face],
+            local: measured.by_piece[number],
+        }
+    };
     MapResult {
         base: base.clone(),
         cone_curvatures: metrics.cones.clone(),
-        common: common_mesh(surfaces[0], surfaces[1], overlay, &metrics.target_atlas.corner_uvs),
+        triangle_distortion: common.pieces.iter().map(local).collect(),
+        common,
         patch_lines: [patch_lines(map, 0, input.source), patch_lines(map, 1, input.target)],
         target_from_source: images.into_iter().map(Some).collect(),
         vertex_distortion: measured.by_vertex.into_iter().take(vertices).collect(),
@@ -267,9 +280,11 @@ fn in_input_coordinates(base: &BaseDomain, input: MapInput<'_>) -> BaseDomain {
     BaseDomain { mesh: base.mesh.with_positions(input.landmarks.target.iter().map(place).collect()) }
 }
 
-fn certificate_report(certificate: &Certificate) -> CertificateReport {
+fn certificate_report(map: &Parametrisation) -> CertificateReport {
+    let certificate = &map.certificate;
     CertificateReport {
         bijective: certificate.bijective,
+        triangles: map.sides.iter().map(|side| side.refined.mesh.face_count()).sum(),
         flipped_triangles: certificate.flipped_triangles,
         max_angle_sum_error: certificate.max_angle_sum_error,
         max_landmark_error: certificate.max_landmark_error,

@@ -1,6 +1,6 @@
 //! The numbers of a run, stable as JSON.
 
-use super::{MapInput, Metrics};
+use super::{FindingReport, MapInput, Metrics};
 use crate::base_domain::BaseDomain;
 use crate::cone_metric::FlowReport;
 use serde::Serialize;
@@ -28,6 +28,8 @@ pub struct Report {
     pub ground_truth: Option<GroundTruthReport>,
     /// Triangles of the two input meshes.
     pub faces: FacesReport,
+    /// Landmark pairs that do not fit, as found before the map was made; filled by whoever asks for them.
+    pub findings: Vec<FindingReport>,
     /// What the user should know about the quality of the result, as sentences.
     pub warnings: Vec<String>,
     /// Wall-clock seconds by stage, and `total`; filled by whoever holds a clock.
@@ -89,7 +91,9 @@ pub struct ConeMetricReport {
 pub struct CertificateReport {
     /// Whether both parametrisations are homeomorphisms.
     pub bijective: bool,
-    /// Triangles of both refined meshes that are not positively oriented.
+    /// Triangles of both parametrised meshes, all of them checked.
+    pub triangles: usize,
+    /// Those of them that are not positively oriented.
     pub flipped_triangles: usize,
     /// Largest difference of an angle sum from 2 pi (or the cone angle), in radians.
     pub max_angle_sum_error: f64,

@@ -2,7 +2,8 @@
 
 use super::Report;
 use crate::base_domain::BaseDomain;
-use crate::mesh::{SurfacePoint, VertexId};
+use crate::mesh::{FaceId, SurfacePoint, VertexId};
+use crate::surface_map::distortion::LocalDistortion;
 use crate::surface_map::transfer::CommonMesh;
 use glam::DVec3;
 use typed_index_collections::TiVec;
@@ -23,6 +24,30 @@ pub struct MapResult {
     pub target_from_source: TiVec<VertexId, Option<SurfacePoint>>,
     /// Distortion (s1^2 + s2^2 + s1^-2 + s2^-2) / 4 around each source vertex; empty for the thesis' method.
     pub vertex_distortion: TiVec<VertexId, f64>,
+    /// Distortion of each triangle of `common`; empty for the thesis' method.
+    pub triangle_distortion: Vec<TriangleDistortion>,
     /// The numbers.
     pub report: Report,
+}
+
+impl MapResult {
+    /// Distortion (s1^2 + s2^2 + s1^-2 + s2^-2) / 4 around each vertex of `common`; empty for the thesis' method.
+    pub fn common_vertex_distortion(&self) -> Vec<f64> {
+        if self.triangle_distortion.is_empty() {
+            return Vec::new();
+        }
+        let densities: Vec<f64> = self.triangle_distortion.iter().map(|t| t.local.density).collect();
+        self.common.vertex_averages(&densities)
+    }
+}
+
+/// Distortion on a triangle of the common subdivision.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TriangleDistortion {
+    /// The face of the source's input mesh that holds the triangle.
+    pub source_face: FaceId,
+    /// The face of the target's input mesh that holds its image.
+    pub target_face: FaceId,
+    /// The measures.
+    pub local: LocalDistortion,
 }

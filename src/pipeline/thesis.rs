@@ -64,6 +64,7 @@ fn result(input: MapInput<'_>, layout: BaseLayout, metrics: &Metrics, map: Thesi
         common: mapped_mesh(input.source, input.target, images, &metrics.target_atlas.corner_uvs),
         patch_lines: [patch_lines(&layout.source, input.source), patch_lines(&layout.target, input.target)],
         vertex_distortion: TiVec::new(),
+        triangle_distortion: Vec::new(),
         report,
         base: layout.base,
         target_from_source: map.target_from_source,

@@ -15,6 +15,8 @@ pub struct SurfaceVertex {
     pub normal: [f32; 3],
     /// Texture coordinates.
     pub uv: [f32; 2],
+    /// Distortion of the map, 1 for none.
+    pub distortion: f32,
 }
 
 /// A corner of the ribbon that draws a line segment.
@@ -76,6 +78,7 @@ pub fn surface(mesh: &SurfaceMesh, frame: &Frame) -> (Vec<SurfaceVertex>, Vec<u3
         position: frame.place(*p).to_array(),
         normal: n.as_vec3().to_array(),
         uv: [0.0; 2],
+        distortion: 1.0,
     };
     let vertices = mesh.positions().iter().zip(&normals).map(vertex).collect();
     (vertices, mesh.triangles().iter().flatten().map(|v| v.0).collect())

@@ -10,6 +10,24 @@ use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use glam::{DMat2, DVec3};
 use typed_index_collections::{TiVec, ti_vec};
 
+/// Distortion where the map is affine, with singular values s1 and s2 and both areas 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LocalDistortion {
+    /// (s1^2 + s2^2 + s1^-2 + s2^-2) / 4; 1 for an isometry, more otherwise.
+    pub density: f64,
+    /// (s1 / s2 + s2 / s1) / 2; 1 where angles are kept, more otherwise.
+    pub angle: f64,
+    /// s1 s2, the image's area over the area; 1 where areas are kept.
+    pub area: f64,
+}
+
+impl LocalDistortion {
+    /// Of a Jacobian with |J|^2 = `squares` and a positive determinant.
+    fn new(squares: f64, det: f64) -> Self {
+        Self { density: 0.25 * squares * (1.0 + 1.0 / (det * det)), angle: 0.5 * squares / det, area: det }
+    }
+}
+
 /// Distortion of the map source -> target, both areas 1.
 #[derive(Clone, Debug, Default)]
 pub struct Distortion {
@@ -29,6 +47,8 @@ pub struct Distortion {
     pub target_area: f64,
     /// The density averaged around each vertex of the refined source.
     pub by_vertex: TiVec<VertexId, f64>,
+    /// On each piece of the overlay; empty for maps given by images.
+    pub by_piece: Vec<LocalDistortion>,
 }
 
 /// Measures the map on its overlay.
@@ -50,6 +70,7 @@ pub fn distortion(source: Parametrised<'_>, target: Parametrised<'_>, overlay: &
         let target_area = piece.area * b.determinant();
         let inverse_squares = squares / (det * det);
         let density = 0.25 * (squares + inverse_squares);
+        result.by_piece.push(LocalDistortion::new(squares, det));
         result.energy += squares * source_area + inverse_squares * target_area;
         result.source_area += source_area;
         result.target_area += target_area;
@@ -141,4 +162,18 @@ fn vertex_averages(source: Parametrised<'_>, faces: &TiVec<FaceId, [f64; 2]>) ->
         }
     }
     sums.into_iter().map(|[d, a]| d / a).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::LocalDistortion;
+
+    #[test]
+    fn measures_of_a_diagonal_jacobian() {
+        let (s1, s2) = (2.0, 0.25);
+        let local = LocalDistortion::new(s1 * s1 + s2 * s2, s1 * s2);
+        assert_eq!(local.density, (4.0 + 0.0625 + 0.25 + 16.0) / 4.0);
+        assert_eq!((local.angle, local.area), ((8.0 + 0.125) / 2.0, 0.5));
+        assert_eq!(LocalDistortion::new(2.0, 1.0), LocalDistortion { density: 1.0, angle: 1.0, area: 1.0 });
+    }
 }

@@ -22,6 +22,25 @@ pub struct CommonMesh {
     pub uvs: Vec<DVec2>,
     /// Counter-clockwise triples.
     pub triangles: Vec<[u32; 3]>,
+    /// The piece of the overlay that holds each triangle; for [`mapped_mesh`] the source's face.
+    pub pieces: Vec<u32>,
+}
+
+impl CommonMesh {
+    /// Values by triangle averaged at the vertices, by area on the source.
+    pub fn vertex_averages(&self, by_triangle: &[f64]) -> Vec<f64> {
+        let mut sums = vec![[0.0_f64; 2]; self.source_positions.len()];
+        for (corners, value) in self.triangles.iter().zip(by_triangle) {
+            let [p, q, r] = corners.map(|v| self.source_positions[v as usize]);
+            let area = (q - p).cross(r - p).length();
+            for &v in corners {
+                let sum: &mut [f64; 2] = &mut sums[v as usize];
+                sum[0] += area * value;
+                sum[1] += area;
+            }
+        }
+        sums.into_iter().map(|[value, area]| if area > 0.0 { value / area } else { 1.0 }).collect()
+    }
 }
 
 /// One of the two surfaces with its input mesh.
@@ -107,7 +126,7 @@ pub fn common_mesh(
     let mut shared = FxHashMap::default();
     let mut mesh = CommonMesh::default();
     let mut ring = Vec::new();
-    for piece in &overlay.pieces {
+    for (number, piece) in overlay.pieces.iter().enumerate() {
         let (s, t) = (&source_values[piece.source_face], &target_values[piece.target_face]);
         ring.clear();
         for point in &overlay.points[piece.points.clone()] {
@@ -129,6 +148,7 @@ pub fn common_mesh(
             let triangle = [ring[0], ring[k - 1], ring[k]];
             if triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0] {
                 mesh.triangles.push(triangle);
+                mesh.pieces.push(number as u32);
             }
         }
     }
@@ -159,9 +179,10 @@ pub fn mapped_mesh(
         let corners = [0, 1, 2].map(|k| target_uvs[HalfedgeId::of(face, k)]);
         mesh.uvs.push(blend3(corners, barycentric));
     }
-    for corners in source.triangles() {
+    for (f, corners) in source.triangles().iter_enumerated() {
         if let [Some(a), Some(b), Some(c)] = corners.map(|v| number[v]) {
             mesh.triangles.push([a, b, c]);
+            mesh.pieces.push(f.0);
         }
     }
     mesh

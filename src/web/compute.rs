@@ -6,7 +6,9 @@ use crate::export;
 use crate::io::landmark_file;
 use crate::landmarks::{PlacedLandmarks, place};
 use crate::monitor::{Cancelled, Monitor, Stage, Step};
-use crate::pipeline::{Base, Cones, GroundTruth, MapInput, MapResult, Method, PipelineOptions, run};
+use crate::pipeline::{
+    Base, Cones, GroundTruth, MapInput, MapResult, Method, PipelineOptions, findings, run,
+};
 use glam::{DVec2, DVec3};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -90,7 +92,8 @@ pub struct MapOutput {
     csv: Vec<u8>,
 }
 
-/// Runs the pipeline; `progress(stage, fraction, residual)` hears of each stage and of its steps, at most 30 a second.
+/// Runs the pipeline; `progress(stage, fraction, residual)` hears of each stage and of its steps, at most 30 a second, and
+/// `found(json)` of landmark pairs that do not fit, before the map is made.
 ///
 /// # Errors
 /// `{"code", "message"}` with the stage's code.
@@ -101,6 +104,7 @@ pub fn run_map(
     landmarks: &str,
     options: &str,
     progress: &js_sys::Function,
+    found: &js_sys::Function,
 ) -> Result<MapOutput, JsValue> {
     let mut messenger = Messenger { progress, stage: None, told: 0.0, seconds: BTreeMap::new() };
     let begun = js_sys::Date::now();
@@ -114,6 +118,10 @@ pub fn run_map(
     let placed = place([&source, &target], &file.pairs).map_err(|e| failure("landmarks", e))?;
     let PlacedLandmarks { source, target, landmarks } = placed;
     let input = MapInput { source: &source.mesh, target: &target.mesh, landmarks: &landmarks, ground_truth };
+    let doubts = findings(input, &file.labels.unwrap_or_default());
+    let json = serde_json::to_string(&doubts).unwrap_or_default();
+    // A page that does not listen is not a reason to stop.
+    let _ = found.call1(&JsValue::NULL, &json.into());
     let mut result = run(input, &options.into(), &mut messenger).map_err(|e| failure(e.code(), e))?;
     messenger.leave();
     let mut seconds = messenger.seconds;
@@ -122,6 +130,7 @@ pub fn run_map(
     result.report.cone_metric.source.seconds = of("source_cone_metric");
     result.report.cone_metric.target.seconds = of("target_cone_metric");
     result.report.seconds = seconds;
+    result.report.findings = doubts;
     let images: Vec<_> =
         result.target_from_source.iter().take(vertices).map(|p| p.map(|p| target.on_original(p))).collect();
     Ok(MapOutput { csv: export::csv::vertex_images(&images), result })
@@ -148,6 +157,11 @@ impl MapOutput {
     /// Texture coordinates, two numbers a point.
     pub fn uvs(&self) -> Vec<f32> {
         self.result.common.uvs.iter().flat_map(|uv: &DVec2| [uv.x as f32, uv.y as f32]).collect()
+    }
+
+    /// Distortion around each point, 1 for none; empty for the thesis' method.
+    pub fn distortion(&self) -> Vec<f32> {
+        self.result.common_vertex_distortion().iter().map(|&d| d as f32).collect()
     }
 
     /// Triangles of the common subdivision.
@@ -188,7 +202,8 @@ impl MapOutput {
     /// # Errors
     /// `{"code": "export", "message"}`.
     pub fn glb(&self) -> Result<Vec<u8>, JsValue> {
-        export::glb::textured_source(&self.result.common).map_err(|e| failure("export", e))
+        export::glb::textured_source(&self.result.common, &self.result.common_vertex_distortion())
+            .map_err(|e| failure("export", e))
     }
 
     /// The vertex images.

@@ -3,6 +3,7 @@
 use super::failure;
 use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 use crate::mesh::check::{CheckedMesh, closed_genus_zero};
+use crate::mesh::mirror::mirrored;
 use crate::{demo, export, io, landmarks};
 use serde_json::json;
 use wasm_bindgen::prelude::*;
@@ -67,6 +68,48 @@ pub fn check_landmarks(source: &LoadedMesh, target: &LoadedMesh, bytes: &[u8]) -
     let file = landmark_file::read(bytes).map_err(|e| failure("landmarks", e))?;
     let meshes = [&source.checked, &target.checked];
     landmarks::exist(meshes, &file.pairs).map_err(|e| failure("landmarks", e))
+}
+
+/// The mirror image of a target with the landmarks carried along.
+#[wasm_bindgen]
+pub struct MirroredTarget {
+    mesh: Vec<u8>,
+    landmarks: Vec<u8>,
+}
+
+#[wasm_bindgen]
+impl MirroredTarget {
+    /// The mirror image as OBJ.
+    pub fn mesh(&self) -> Vec<u8> {
+        self.mesh.clone()
+    }
+
+    /// The landmark file; nothing is said of a true map.
+    pub fn landmarks(&self) -> Vec<u8> {
+        self.landmarks.clone()
+    }
+}
+
+/// Mirrors a target, for landmarks whose left and right are exchanged.
+///
+/// # Errors
+/// `{"code": "landmarks" | "mesh", "message"}`.
+#[wasm_bindgen(js_name = mirrorTarget)]
+pub fn mirror_target(target: &LoadedMesh, landmarks: &[u8]) -> Result<MirroredTarget, JsValue> {
+    let mut file = landmark_file::read(landmarks).map_err(|e| failure("landmarks", e))?;
+    let mesh = mirrored(&target.checked.mesh).map_err(|e| failure("mesh", e))?;
+    for [_, point] in &mut file.pairs {
+        *point = match point.mirrored() {
+            // The image's file has the checked mesh's vertices only.
+            LandmarkPoint::Vertex(v) => {
+                let known = target.checked.vertex_from_file.get(v as usize).copied().flatten();
+                LandmarkPoint::Vertex(known.map_or(v, |v| v.0))
+            }
+            on_face @ LandmarkPoint::OnFace { .. } => on_face,
+        };
+    }
+    file.ground_truth = None;
+    Ok(MirroredTarget { mesh: export::obj::mesh(&mesh), landmarks: landmark_file::write(&file) })
 }
 
 /// All demos as JSON `[{id, title, sentence}]`.

@@ -23,11 +23,21 @@ struct Style {
     markers: bool,
     #[serde(default)]
     dark: bool,
+    /// Whether parts of the surfaces may be unmapped: the plain meshes are drawn behind.
+    #[serde(default)]
+    holes: bool,
 }
 
 impl Default for Style {
     fn default() -> Self {
-        Self { surface: "checkerboard".into(), patch_lines: true, cones: true, markers: true, dark: false }
+        Self {
+            surface: "checkerboard".into(),
+            patch_lines: true,
+            cones: true,
+            markers: true,
+            dark: false,
+            holes: false,
+        }
     }
 }
 
@@ -145,7 +155,7 @@ impl Viewer {
         Ok(())
     }
 
-    /// Shows a result on one side.
+    /// Shows a result on one side. `distortion` has a number by vertex, or none.
     #[wasm_bindgen(js_name = setResult)]
     #[allow(clippy::too_many_arguments, reason = "typed arrays cannot be bundled")]
     pub fn set_result(
@@ -154,6 +164,7 @@ impl Viewer {
         positions: &[f32],
         normals: &[f32],
         uvs: &[f32],
+        distortion: &[f32],
         triangles: &[u32],
         line_points: &[f32],
         line_starts: &[u32],
@@ -164,10 +175,12 @@ impl Viewer {
         let place = |p: &[f32]| mesh.frame.place(DVec3::new(p[0].into(), p[1].into(), p[2].into()));
         let corners = positions.chunks_exact(3).zip(normals.chunks_exact(3)).zip(uvs.chunks_exact(2));
         let vertices: Vec<SurfaceVertex> = corners
-            .map(|((p, n), uv)| SurfaceVertex {
+            .enumerate()
+            .map(|(k, ((p, n), uv))| SurfaceVertex {
                 position: place(p).to_array(),
                 normal: [n[0], n[1], n[2]],
                 uv: [uv[0], uv[1]],
+                distortion: distortion.get(k).copied().unwrap_or(1.0),
             })
             .collect();
         let points: Vec<Vec3> = line_points.chunks_exact(3).map(place).collect();
@@ -189,7 +202,7 @@ impl Viewer {
         self.sides.iter_mut().for_each(|side| side.result = None);
     }
 
-    /// What to show: JSON `{"surface", "patchLines", "cones", "markers", "dark"?}`.
+    /// What to show: JSON `{"surface", "patchLines", "cones", "markers", "dark"?, "holes"?}`.
     ///
     /// # Errors
     /// `{"code": "style", "message"}`.
@@ -270,6 +283,7 @@ impl Viewer {
             let textured = match style.surface.as_str() {
                 "checkerboard" => 1.0,
                 "colours" => 2.0,
+                "distortion" => 3.0,
                 _ => 0.0,
             };
             ViewDraw {
@@ -280,6 +294,8 @@ impl Viewer {
                 line_colour: [0.95, 0.42, 0.05],
                 line_half_width: 0.9 * ratio,
                 surface: result.map(|r| &r.surface).or(plain),
+                under: plain.filter(|_| style.holes && result.is_some()),
+                under_colour: [0.26, 0.27, 0.29],
                 lines: result.map(|r| &r.lines).filter(|_| style.patch_lines),
                 balls: &balls[k],
             }

@@ -107,13 +107,14 @@ pub fn json_fields(value: &serde_json::Value) -> Vec<String> {
 }
 
 /// The fields of the report of a map, `ground_truth` and `seconds` unopened.
-pub const REPORT_FIELDS: [&str; 35] = [
+pub const REPORT_FIELDS: [&str; 37] = [
     "base_domain.faces",
     "base_domain.vertices",
     "certificate.bijective",
     "certificate.flipped_triangles",
     "certificate.max_angle_sum_error",
     "certificate.max_landmark_error",
+    "certificate.triangles",
     "cone_metric.source.cg_iterations",
     "cone_metric.source.edge_flips",
     "cone_metric.source.max_curvature_error",
@@ -140,6 +141,7 @@ pub const REPORT_FIELDS: [&str; 35] = [
     "layout.runner_up",
     "layout.twists",
     "own_landmarks",
+    "findings",
     "unmapped_share",
     "warnings",
     "ground_truth",

@@ -1,4 +1,4 @@
-import { existsSync, readFileSync } from 'node:fs';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { basename } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import type { Page } from '@playwright/test';
@@ -44,7 +44,7 @@ async function runMap(page: Page): Promise<void> {
   await page.locator('#run').click();
   await expect(page.locator('body')).toHaveAttribute('data-state', /done|error/, { timeout: RUN_TIMEOUT });
   await expect(page.locator('#error')).toBeHidden();
-  await expect(page.locator('#result')).toContainText('Certified bijective: 0 flipped triangles');
+  await expect(page.locator('#result')).toContainText(/Certified bijective: 0 of [\d,]+ triangles flipped/);
 }
 
 interface Half {
@@ -131,6 +131,11 @@ test('two real meshes and their landmarks give a certified map', async ({ page }
   await runMap(page);
   await page.waitForTimeout(1500);
   await page.screenshot({ path: `${ROOT}test-results/cat-lion.png` });
+  await expect(page.locator('#result')).toContainText(/classes? tried/);
+  await page.getByText('Distortion', { exact: true }).first().click();
+  await expect(page.locator('.scale')).toBeVisible();
+  await page.waitForTimeout(1500);
+  await page.screenshot({ path: `${ROOT}test-results/cat-lion-distortion.png` });
   for (const half of await readHalves(page)) {
     expect(half.covered).toBeGreaterThan(0.03);
     expect(half.colours).toBeGreaterThan(20);
@@ -155,6 +160,28 @@ test('two real meshes and their landmarks give a certified map', async ({ page }
   await expect(page.locator('#result')).toContainText('Certified');
   await page.getByRole('button', { name: 'Close the message' }).click();
   await expect(page.locator('#error')).toBeHidden();
+});
+
+test('pairs that do not fit are named and repaired by a click', async ({ page }) => {
+  needsSharedData();
+  await open(page);
+  const file = JSON.parse(readFileSync(`${DATA}/pairs/cat-lion.json`, 'utf8')) as { pairs: [number, number][]; labels?: string[] };
+  const last = file.pairs.length - 1;
+  const [a, b] = [file.pairs[0] ?? fail('no pairs'), file.pairs[last] ?? fail('no pairs')];
+  const exchanged = file.pairs.map((pair, k) => (k === 0 ? [a[0], b[1]] : k === last ? [b[0], a[1]] : pair));
+  const swapped = test.info().outputPath('cat-lion.json');
+  writeFileSync(swapped, JSON.stringify({ ...file, pairs: exchanged }));
+  await drop(page, [`${DATA}/sumner/lion.off`, `${DATA}/sumner/cat.off`, swapped]);
+  await expect(page.locator('#landmark-list li')).toHaveCount(file.pairs.length);
+  await page.locator('#run').click();
+  await expect(page.locator('#findings')).toContainText('look swapped', { timeout: RUN_TIMEOUT });
+  await page.getByRole('button', { name: 'Swap these two pairs' }).first().click();
+  await expect(page.locator('#findings')).toBeHidden();
+  await expect(page.locator('body')).not.toHaveAttribute('data-state', 'running');
+  const download = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Save file' }).click();
+  const saved = readFileSync(await (await download).path(), 'utf8');
+  expect((JSON.parse(saved) as { pairs: unknown }).pairs).toEqual(file.pairs);
 });
 
 test('both views are drawn with several samples a pixel', async ({ page }) => {

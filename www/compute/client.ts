@@ -1,5 +1,6 @@
 /** Starts runs in a worker and ends them. The module is compiled once and shared. */
 import { failureOf } from './messages.ts';
+import type { Finding } from '../report.ts';
 import type { Failure, Progress, RunOutput, RunRequest, WorkerMessage } from './messages.ts';
 
 /** Compiles the core; the same module serves the page and every worker. */
@@ -18,6 +19,8 @@ export async function compileCore(): Promise<WebAssembly.Module> {
 /** What a run reports while it goes and when it ends. */
 export interface RunListener {
   progress(progress: Progress): void;
+  /** Landmark pairs that do not fit, before the map is made. */
+  found(findings: readonly Finding[]): void;
   done(output: RunOutput): void;
   failed(failure: Failure): void;
 }
@@ -46,6 +49,9 @@ export function startRun(request: RunRequest, listener: RunListener): Run {
     switch (message.kind) {
       case 'progress':
         listener.progress(message);
+        break;
+      case 'found':
+        listener.found(message.findings);
         break;
       case 'done':
         end();

@@ -1,5 +1,7 @@
 /** What the page and the worker say to each other. */
 
+import type { Finding } from '../report.ts';
+
 /** The choices of a run. */
 export interface RunOptions {
   readonly method: 'relaxed' | 'thesis';
@@ -28,6 +30,8 @@ export interface SideOutput {
 export interface RunOutput {
   readonly sides: readonly [SideOutput, SideOutput];
   readonly uvs: Float32Array;
+  /** By point, 1 for none; empty where the method has none. */
+  readonly distortion: Float32Array;
   readonly triangles: Uint32Array;
   readonly cones: Float64Array;
   /** JSON. */
@@ -53,6 +57,7 @@ export interface Failure {
 /** From the worker. */
 export type WorkerMessage =
   | ({ readonly kind: 'progress' } & Progress)
+  | { readonly kind: 'found'; readonly findings: readonly Finding[] }
   | { readonly kind: 'done'; readonly output: RunOutput }
   | { readonly kind: 'failed'; readonly failure: Failure };
 

@@ -1,6 +1,7 @@
 /** One run of the pipeline: answers one request, then is thrown away. */
 import init, { runMap } from '../wasm/conemap.js';
 import type { MapOutput } from '../wasm/conemap.js';
+import type { Finding } from '../report.ts';
 import { failureOf } from './messages.ts';
 import type { RunOutput, RunRequest, SideOutput, WorkerMessage } from './messages.ts';
 
@@ -23,6 +24,7 @@ function read(output: MapOutput): RunOutput {
   return {
     sides: [sideOf(output, 0), sideOf(output, 1)],
     uvs: output.uvs(),
+    distortion: output.distortion(),
     triangles: output.triangles(),
     cones: output.cones(),
     report: output.report(),
@@ -36,6 +38,7 @@ function buffersOf(output: RunOutput): Transferable[] {
   const arrays = [
     ...output.sides.flatMap((side) => [side.positions, side.normals, side.linePoints, side.lineStarts]),
     output.uvs,
+    output.distortion,
     output.triangles,
     output.cones,
     output.glb,
@@ -55,6 +58,9 @@ async function run(request: RunRequest): Promise<void> {
       JSON.stringify(request.options),
       (stage: string, fraction: number, residual: number) => {
         post({ kind: 'progress', stage, fraction, residual: Number.isFinite(residual) ? residual : null });
+      },
+      (json: string) => {
+        post({ kind: 'found', findings: JSON.parse(json) as Finding[] });
       },
     );
     const copy = read(output);

@@ -7,6 +7,7 @@ const SURFACES: readonly (readonly [Style['surface'], string])[] = [
   ['shaded', 'Shaded'],
   ['checkerboard', 'Checkerboard'],
   ['colours', 'Colours'],
+  ['distortion', 'Distortion'],
 ];
 const TOGGLES = [
   ['markers', 'Landmarks'],
@@ -39,10 +40,17 @@ export function displayPanel(actions: Actions, resetViews: () => void): Panel {
     make('span', { class: 'dot negative', 'aria-hidden': 'true' }),
     'negative cone curvature',
   );
+  const scale = make(
+    'div',
+    { class: 'scale', role: 'img', 'aria-label': 'Colours of the distortion from 1, which is none, to 4 and more' },
+    make('div', { class: 'bar' }),
+    make('div', { class: 'ticks' }, make('span', {}, '1, none'), make('span', {}, '2'), make('span', {}, '4 and more')),
+  );
   root.append(
     make('h2', {}, 'Display'),
     make('div', { class: 'segments', role: 'radiogroup', 'aria-label': 'Surface' }, ...radios.map((radio) => radio.label)),
     make('div', { class: 'row checks' }, ...toggles.map((toggle) => toggle.label)),
+    scale,
     legend,
     button('Reset views', resetViews, { class: 'plain' }),
   );
@@ -51,12 +59,14 @@ export function displayPanel(actions: Actions, resetViews: () => void): Panel {
       const hasResult = state.result !== null;
       for (const { value, input } of radios) {
         input.checked = state.style.surface === value;
-        input.disabled = value !== 'shaded' && !hasResult;
+        input.disabled =
+          value !== 'shaded' && (!hasResult || (value === 'distortion' && state.result?.output.distortion.length === 0));
       }
       for (const { key, input } of toggles) {
         input.checked = state.style[key];
         input.disabled = key !== 'markers' && !hasResult;
       }
+      scale.hidden = !hasResult || state.style.surface !== 'distortion';
       legend.hidden = !hasResult || !state.style.cones;
     },
   };

@@ -4,6 +4,13 @@ import { landmarkFileOf } from '../state.ts';
 import { byId, button, download, landmarkColour, make } from './dom.ts';
 import type { Actions, Panel } from './panel.ts';
 
+/** Brings a pair's row into sight and its label under the cursor. */
+export function lookAtPair(index: number): void {
+  const row = byId('landmark-list').querySelector(`[data-pair="${index}"]`);
+  row?.scrollIntoView({ block: 'center' });
+  row?.querySelector('input')?.focus();
+}
+
 /** Makes the panel. */
 export function landmarksPanel(actions: Actions): Panel {
   const root = byId('landmarks');

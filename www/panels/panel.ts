@@ -1,4 +1,5 @@
 /** What every panel is. */
+import type { Finding } from '../report.ts';
 import type { Event, Side, State } from '../state.ts';
 
 /** Shows a part of the state; `previous` is `null` the first time. */
@@ -13,4 +14,5 @@ export interface Actions {
   readonly openDemo: (id: string) => void;
   readonly run: () => void;
   readonly cancel: () => void;
+  readonly repair: (finding: Finding) => void;
 }

@@ -1,6 +1,6 @@
 /** The result in words and its downloads. */
 import { stageName } from '../messages.ts';
-import type { Report } from '../report.ts';
+import type { LayoutSearch, Report } from '../report.ts';
 import type { Result, State } from '../state.ts';
 import { isStale } from '../state.ts';
 import { byId, button, download, figure, integer, make } from './dom.ts';
@@ -16,10 +16,24 @@ function verdict(report: Report): HTMLElement {
         : 'Not certified: every vertex of the source has an image, but the map need not be one-to-one.';
     return make('p', { class: 'verdict open' }, text);
   }
-  const flips = `${integer(certificate.flipped_triangles)} flipped ${certificate.flipped_triangles === 1 ? 'triangle' : 'triangles'}`;
+  const flips = `${integer(certificate.flipped_triangles)} of ${integer(certificate.triangles)} triangles flipped`;
   return certificate.bijective
     ? make('p', { class: 'verdict good' }, `Certified bijective: ${flips}`)
     : make('p', { class: 'verdict open' }, `Not certified: ${flips}`);
+}
+
+/** The search among the layouts in words. */
+function layoutSentence(layout: LayoutSearch): string {
+  const judged = layout.judged === 1 ? 'one class tried' : `best of ${integer(layout.judged)} classes tried`;
+  const words = [layout.judged === 0 ? 'drawn from the base domain' : judged];
+  if (layout.energy !== null && layout.runner_up !== null) {
+    words.push(`coarse energy ${figure(layout.energy)}, next best ${figure(layout.runner_up)}`);
+  }
+  if (layout.twists > 0) {
+    words.push(`${integer(layout.twists)} ${layout.twists === 1 ? 'twist' : 'twists'} made`);
+  }
+  words.push(`longest path ${layout.path_stretch.toFixed(2)} times its shortest`);
+  return words.join('; ');
 }
 
 function facts(report: Report): (readonly [string, string, string])[] {
@@ -38,6 +52,9 @@ function facts(report: Report): (readonly [string, string, string])[] {
     ],
     ['Base domain', `${integer(report.base_domain.vertices)} vertices, ${integer(report.base_domain.faces)} triangles`, ''],
   ];
+  if (report.layout !== null) {
+    rows.push(['Layout', layoutSentence(report.layout), 'Ways to draw the base domain, judged by the energy of coarse maps']);
+  }
   if (certificate !== null) {
     const error = certificate.max_landmark_error;
     rows.push(
@@ -111,7 +128,7 @@ export function resultPanel(): Panel {
         make('h2', {}, 'Result'),
         verdict(report),
         stale,
-        ...(report.warnings ?? []).map((warning) => make('p', { class: 'warning' }, warning)),
+        ...report.warnings.map((warning) => make('p', { class: 'warning' }, warning)),
         make('dl', {}, ...rows),
         times(report),
         downloads(state.result),

@@ -129,6 +129,7 @@ export class Views {
             part.positions,
             part.normals,
             output.uvs,
+            output.distortion,
             output.triangles,
             part.linePoints,
             part.lineStarts,
@@ -157,6 +158,7 @@ export class Views {
         surface: result === null ? 'shaded' : style.surface,
         cones: style.cones && hasItsCones(this.#state),
         dark: this.#dark.matches,
+        holes: result !== null && result.report.certificate === null,
       }),
     );
   }

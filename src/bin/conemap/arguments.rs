@@ -43,7 +43,10 @@ pub struct MapArguments {
     /// Points that are added as cones of the program's own where there are few landmarks; 0 for none.
     #[arg(long, value_name = "N")]
     pub own_cones: Option<usize>,
-    /// Folder for the textured source (GLB), the vertex images (CSV) and the base domain (OBJ).
+    /// Use the mirror image of the target: for landmarks whose left and right are exchanged.
+    #[arg(long)]
+    pub mirror_target: bool,
+    /// Folder for the textured source (GLB), the vertex images and distortions (CSV) and the base domain (OBJ).
     #[arg(long)]
     pub out: Option<PathBuf>,
     /// File for the report (JSON).

@@ -3,13 +3,14 @@
 use crate::arguments::{BaseArgument, ConesArgument, MapArguments, MethodArgument};
 use crate::clock::Clock;
 use crate::input::{self, Failure};
-use conemap::export;
+use crate::outputs;
 use conemap::landmarks::{PlacedLandmarks, place};
 use conemap::mesh::check::CheckedMesh;
+use conemap::mesh::mirror::mirrored;
 use conemap::monitor::{Monitor, Stage};
 use conemap::pipeline::{
-    Base, Cones, GroundTruth, MapInput, MapResult, Method, OwnConeOptions, PipelineOptions,
-    run as run_pipeline,
+    Base, Cones, FindingReport, GroundTruth, MapInput, MapResult, Method, OwnConeOptions, PipelineOptions,
+    RepairKind, findings, run as run_pipeline,
 };
 use std::collections::BTreeMap;
 
@@ -18,8 +19,12 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
     let mut clock = Clock::start();
     clock.enter(Stage::Landmarks);
     let source = input::mesh(&arguments.source)?;
-    let target = input::mesh(&arguments.target)?;
-    let file = input::landmarks(&arguments.landmarks)?;
+    let mut target = input::mesh(&arguments.target)?;
+    let mut file = input::landmarks(&arguments.landmarks)?;
+    if arguments.mirror_target {
+        target.mesh = mirrored(&target.mesh)?;
+        file.pairs.iter_mut().for_each(|[_, point]| *point = point.mirrored());
+    }
     let placed = place([&source, &target], &file.pairs)
         .map_err(|e| format!("{}: {e}", arguments.landmarks.display()))?;
     let ground_truth = match file.ground_truth {
@@ -30,18 +35,15 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
     let PlacedLandmarks { source, target, landmarks } = placed;
     let map_input =
         MapInput { source: &source.mesh, target: &target.mesh, landmarks: &landmarks, ground_truth };
+    let found = findings(map_input, &file.labels.unwrap_or_default());
+    found.iter().for_each(|finding| tell_finding(finding));
     let mut result = run_pipeline(map_input, &options(arguments), &mut clock)?;
     add_seconds(&mut result, clock.stop());
+    result.report.findings = found;
     tell(&result);
     if let Some(folder) = &arguments.out {
-        let images = result.target_from_source.iter().map(|image| image.map(|p| target.on_original(p)));
-        let images: Vec<_> = images.take(source_vertices).collect();
-        input::write(
-            &folder.join("source-with-target-texture.glb"),
-            &export::glb::textured_source(&result.common)?,
-        )?;
-        input::write(&folder.join("vertex-images.csv"), &export::csv::vertex_images(&images))?;
-        input::write(&folder.join("base-domain.obj"), &export::obj::mesh(&result.base.mesh))?;
+        let insertions = [&source, &target];
+        outputs::write(folder, &result, &outputs::Inputs { insertions, source_vertices, arguments })?;
     }
     if let Some(path) = &arguments.report {
         input::write(path, &serde_json::to_vec_pretty(&result.report)?)?;
@@ -82,10 +84,20 @@ fn add_seconds(result: &mut MapResult, seconds: BTreeMap<String, f64>) {
     result.report.seconds = seconds;
 }
 
+fn tell_finding(finding: &FindingReport) {
+    let repair = match finding.repair {
+        RepairKind::MirrorTarget => " (--mirror-target)",
+        RepairKind::Swap | RepairKind::Check => "",
+    };
+    eprintln!("landmarks: {}{repair}", finding.sentence);
+}
+
 fn tell(result: &MapResult) {
     let report = &result.report;
     match &report.certificate {
-        Some(c) => eprintln!("certified bijective: {} flipped triangles", c.flipped_triangles),
+        Some(c) => {
+            eprintln!("certified bijective: {} of {} triangles flipped", c.flipped_triangles, c.triangles)
+        }
         None => eprintln!(
             "not bijective by construction: {:.1} % of the vertices are unmapped",
             100.0 * report.unmapped_share

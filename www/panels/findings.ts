@@ -1,0 +1,38 @@
+/** Landmark pairs that do not fit, each with its repair. They stop nothing: the user knows the shapes. */
+import type { Finding } from '../report.ts';
+import type { State } from '../state.ts';
+import { byId, button, make } from './dom.ts';
+import type { Actions, Panel } from './panel.ts';
+
+const REPAIRS: Readonly<Record<Finding['repair'], string>> = {
+  mirror_target: 'Mirror the target',
+  swap: 'Swap these two pairs',
+  check: 'Look at this pair',
+};
+
+/** Makes the panel. */
+export function findingsPanel(actions: Actions): Panel {
+  const root = byId('findings');
+  return {
+    render(state: State, previous: State | null): void {
+      if (previous?.findings === state.findings) {
+        return;
+      }
+      root.hidden = state.findings.length === 0;
+      root.replaceChildren(
+        make('h2', {}, 'Landmarks that do not fit'),
+        ...state.findings.map((finding) =>
+          make(
+            'div',
+            { class: 'finding' },
+            make('p', {}, finding.sentence),
+            button(REPAIRS[finding.repair], () => {
+              actions.repair(finding);
+            }),
+          ),
+        ),
+        make('p', { class: 'quiet' }, 'A repair ends the run; compute the map again after it. If the pairs are right, go on.'),
+      );
+    },
+  };
+}
