@@ -36,7 +36,7 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
     let map_input =
         MapInput { source: &source.mesh, target: &target.mesh, landmarks: &landmarks, ground_truth };
     let found = findings(map_input, &file.labels.unwrap_or_default());
-    found.iter().for_each(|finding| tell_finding(finding));
+    found.iter().for_each(tell_finding);
     let mut result = run_pipeline(map_input, &options(arguments), &mut clock)?;
     add_seconds(&mut result, clock.stop());
     result.report.findings = found;
