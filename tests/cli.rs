@@ -134,7 +134,8 @@ fn map_and_check([source, target, pairs]: [&Path; 3], folder: &Path) {
     assert_eq!(report["findings"], Value::Array(Vec::new()));
     let faces = |side: &str| report["faces"][side].as_u64().unwrap();
     let checked = report["certificate"]["triangles"].as_u64().unwrap();
-    assert_eq!(checked, faces("source") + faces("target"));
+    // More where points of the program's own were inserted.
+    assert!(checked >= faces("source") + faces("target"), "{checked}");
 }
 
 /// No density and no angle distortion below 1, no turned triangle; at least as many triangles as were welded from the GLB.
