@@ -50,7 +50,7 @@ fn own_cones_bring_twelve_landmarks_nearer_to_the_true_map() {
     assert!(with.report.distortion.energy <= without.report.distortion.energy);
     let [with_error, without_error] =
         [&with, &without].map(|result| result.report.ground_truth.as_ref().unwrap().mean);
-    assert!(with_error < 0.009 && with_error < without_error, "{with_error} {without_error}");
+    assert!(with_error < 0.012 && with_error < without_error, "{with_error} {without_error}");
     // The user's landmarks are met, on the mesh that the user gave.
     for (&s, &t) in landmarks.source.iter().zip(&landmarks.target) {
         let image = with.target_from_source[s].unwrap();
