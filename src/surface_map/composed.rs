@@ -5,14 +5,14 @@
 //! moving triangle and C that of the target's inverse; when the moving side's edges sweep over the other side, the pieces'
 //! areas change too, which adds the jump of the density over each edge to the gradient (Reynolds' transport theorem).
 
-use super::compose::{Parametrised, locate};
+use super::compose::{Locations, Locator, Parametrised};
 use super::cone_surface::ConeSurface;
 use super::embedding::Embedding;
 use super::energy::TwoSided;
 use super::flat_problem::{FaceHessian, FlatProblem, rest_jacobian, unrotate};
-use super::overlay::{Overlay, OverlayPoint, Overlayer, SideOf};
+use super::overlay::{Measure, SideOf};
 use super::unknowns::Unknowns;
-use crate::mesh::{FaceId, HalfedgeId};
+use crate::mesh::FaceId;
 use crate::monitor::{Cancelled, Monitor, Step};
 use glam::{DMat2, DVec2};
 use typed_index_collections::TiVec;
@@ -47,6 +47,9 @@ pub struct ComposedReport {
 
 /// Share of the diagonal that is added to the Hessian at first.
 const FIRST_DAMPING: f64 = 0.03;
+
+/// How often a start without an overlay is nudged.
+const NUDGES: usize = 5;
 
 /// Relative residual of the linear solves.
 const LINEAR_TOLERANCE: f64 = 0.03;
@@ -102,7 +105,8 @@ struct Relaxation<'a> {
     inverses: [TiVec<FaceId, DMat2>; 2],
     damping: [f64; 2],
     moving: usize,
-    overlayer: Overlayer,
+    locator: Locator,
+    locations: Locations,
     present: Evaluation,
     trial: Evaluation,
 }
@@ -110,7 +114,7 @@ struct Relaxation<'a> {
 /// The overlay at some state with what derivatives need, seen from the moving side, which is the overlay's source.
 #[derive(Default)]
 struct Evaluation {
-    overlay: Overlay,
+    overlay: Measure,
     /// Jacobians of the moving faces, from their rest planes.
     jacobians: Vec<DMat2>,
     /// Of each piece the Jacobian from the plane of the moving face to the rest plane of the fixed face.
@@ -151,18 +155,24 @@ impl<'a> Relaxation<'a> {
             inverses,
             damping: [FIRST_DAMPING; 2],
             moving: 0,
-            overlayer: Overlayer::default(),
+            locator: Locator::default(),
+            locations: Locations::default(),
             present: Evaluation::default(),
             trial: Evaluation::default(),
         }
     }
 
-    /// Evaluates the start; `false` where it has no overlay.
+    /// Evaluates the start, nudged where source and target coincide; `false` where it has no overlay.
     fn begin(&mut self) -> bool {
-        let z = self.unknowns[self.moving].points(&self.embeddings[self.moving]);
-        let found = self.evaluate(&z);
-        std::mem::swap(&mut self.present, &mut self.trial);
-        found
+        let moving = self.moving;
+        for attempt in 0..NUDGES {
+            let z = self.unknowns[moving].nudged(&self.embeddings[moving], attempt);
+            if self.evaluate(&z) {
+                self.accept();
+                return true;
+            }
+        }
+        false
     }
 
     /// Evaluates the moving side at z into `trial`; `false` where a triangle is not positive or there is no overlay.
@@ -172,8 +182,8 @@ impl<'a> Relaxation<'a> {
         self.unknowns[moving].place(z, &mut self.trials[moving].corners);
         let from = Parametrised { embedding: &self.trials[moving], ..self.sides[moving] };
         let onto = Parametrised { embedding: &self.embeddings[1 - moving], ..self.sides[1 - moving] };
-        let Ok(locations) = locate(from, onto, self.surface) else { return false };
-        if self.overlayer.fill([from, onto], &locations, &mut self.trial.overlay).is_err() {
+        let located = self.locator.fill([from, onto], self.surface, &mut self.locations);
+        if located.is_err() || self.trial.overlay.fill([from, onto], &self.locations).is_err() {
             return false;
         }
         self.trial.measure((&self.problems[moving], z), &self.inverses[1 - moving], self.two_sided);
@@ -254,28 +264,43 @@ impl<'a> Relaxation<'a> {
 
     fn face_derivatives(&self) -> Vec<FaceDerivatives> {
         let Evaluation { overlay, jacobians, onto_rest, .. } = &self.present;
-        let corners = &self.embeddings[self.moving].corners;
         let mut faces = vec![FaceDerivatives::ZERO; jacobians.len()];
-        for (piece, c) in overlay.pieces.iter().zip(onto_rest) {
+        let mut densities = Vec::with_capacity(onto_rest.len());
+        for (piece, c) in overlay.pieces().iter().zip(onto_rest) {
             let t = piece.source_face.index();
             let a = &jacobians[t];
             let (det, j) = (a.determinant(), *c * *a);
             let density = self.two_sided.density(&j) / det;
+            densities.push(density);
             // d(h / det A) at fixed area on the cone surface.
             let cofactor =
                 DMat2::from_cols(DVec2::new(a.y_axis.y, -a.y_axis.x), DVec2::new(-a.x_axis.y, a.x_axis.x));
             let own = c.transpose() * self.two_sided.gradient(&j);
             faces[t].by_jacobian += (own - cofactor * density) * (piece.area / det);
-            let at = [0, 1, 2].map(|k| corners[HalfedgeId::of(piece.source_face, k)]);
-            sweep(&overlay.points[piece.points.clone()], at, (density, &mut faces[t].by_corner));
         }
+        self.add_sweeps(&densities, &mut faces);
         faces
+    }
+
+    /// Adds what the moving edges sweep over: the jump of the density times the area gained per motion of their ends.
+    fn add_sweeps(&self, densities: &[f64], faces: &mut [FaceDerivatives]) {
+        let corners = &self.embeddings[self.moving].corners;
+        for segment in self.present.overlay.segments(self.sides[self.moving].mesh, SideOf::Source) {
+            let h = segment.halfedge;
+            let along = (corners[h.next()] - corners[h]) * (segment.end - segment.begin);
+            let jump = densities[segment.left as usize] - densities[segment.right as usize];
+            let outwards = DVec2::new(along.y, -along.x) * jump;
+            let middle = 0.5 * (segment.begin + segment.end);
+            let by_corner = &mut faces[h.face().index()].by_corner;
+            by_corner[h.corner()] += outwards * (1.0 - middle);
+            by_corner[h.next().corner()] += outwards * middle;
+        }
     }
 
     fn hessians(&self) -> Vec<FaceHessian> {
         let Evaluation { overlay, jacobians, onto_rest, .. } = &self.present;
         let mut hessians = vec![FaceHessian::ZERO; jacobians.len()];
-        for (piece, c) in overlay.pieces.iter().zip(onto_rest) {
+        for (piece, c) in overlay.pieces().iter().zip(onto_rest) {
             let t = piece.source_face.index();
             let area = piece.area / jacobians[t].determinant();
             for term in self.two_sided.hessian(&(*c * jacobians[t])) {
@@ -297,37 +322,19 @@ impl Evaluation {
         self.jacobians.clear();
         self.jacobians.extend(problem.jacobians(z));
         self.onto_rest.clear();
-        self.onto_rest.extend(self.overlay.pieces.iter().map(|piece| {
-            fixed_inverses[piece.target_face]
-                * DMat2::from_cols(piece.motion.rotation, piece.motion.rotation.perp())
+        self.onto_rest.extend(self.overlay.pieces().iter().map(|piece| {
+            fixed_inverses[piece.target_face] * DMat2::from_cols(piece.rotation, piece.rotation.perp())
         }));
         self.energy = self.integral(two_sided);
     }
 
     fn integral(&self, two_sided: TwoSided) -> f64 {
-        let pieces = self.overlay.pieces.iter().zip(&self.onto_rest);
+        let pieces = self.overlay.pieces().iter().zip(&self.onto_rest);
         let part = pieces.map(|(piece, c)| {
             let a = &self.jacobians[piece.source_face.index()];
             piece.area / a.determinant() * two_sided.density(&(*c * *a))
         });
         part.sum()
-    }
-}
-
-/// Adds, for each corner of a moving face, the density times the area that a piece gains per motion of the corner, through
-/// its sides on the face's own edges.
-fn sweep(points: &[OverlayPoint], corners: [DVec2; 3], (density, by_corner): (f64, &mut [DVec2; 3])) {
-    let place = |w: &[f64; 3]| corners[0] * w[0] + corners[1] * w[1] + corners[2] * w[2];
-    for k in 0..points.len() {
-        if points[k].side != SideOf::Source {
-            continue;
-        }
-        let (p, q) = (&points[k].source, &points[(k + 1) % points.len()].source);
-        let along = place(q) - place(p);
-        let outwards = DVec2::new(along.y, -along.x) * (0.5 * density);
-        for c in 0..3 {
-            by_corner[c] += outwards * (p[c] + q[c]);
-        }
     }
 }
 

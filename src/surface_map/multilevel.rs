@@ -47,7 +47,7 @@ impl Default for MultilevelOptions {
     fn default() -> Self {
         Self {
             coarse_vertices: 500,
-            growth: 4.0,
+            growth: 2.0,
             initial: InitialOptions::default(),
             relax: RelaxOptions::default(),
             judge: ComposedOptions { max_rounds: 1, ..ComposedOptions::default() },

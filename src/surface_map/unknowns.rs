@@ -3,6 +3,7 @@
 use super::embedding::{Embedding, Parametrised};
 use super::flat_problem::{Corner, FlatProblem, FlatTriangle};
 use crate::math::rigid2::Rigid2;
+use crate::math::scalar::{cos, sin};
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec2;
 use typed_index_collections::{TiVec, ti_vec};
@@ -49,6 +50,24 @@ impl<'a> Unknowns<'a> {
     /// The unknowns of an embedding with the same transitions.
     pub fn points(&self, embedding: &Embedding) -> Vec<DVec2> {
         self.free.iter().map(|&v| embedding.corners[self.mesh.outgoing(v)]).collect()
+    }
+
+    /// The unknowns of an embedding; from attempt 1 on each is moved by a tiny part of its shortest edge, every time more,
+    /// in a direction that scatters with its number.
+    pub fn nudged(&self, embedding: &Embedding, attempt: usize) -> Vec<DVec2> {
+        const GOLDEN: f64 = 2.399_963_229_728_653;
+        let corners = &embedding.corners;
+        let shortest = |v: VertexId| {
+            let length = |h: HalfedgeId| corners[h].distance(corners[h.next()]);
+            self.mesh.star(v).map(length).fold(f64::INFINITY, f64::min)
+        };
+        let size = (1..attempt).fold(1e-9, |size, _| size * 30.0);
+        let mut z = self.points(embedding);
+        for (k, (point, &v)) in z.iter_mut().zip(&self.free).enumerate().filter(|_| attempt > 0) {
+            let angle = GOLDEN * ((k + 1) % 1_000_003) as f64;
+            *point += DVec2::new(cos(angle), sin(angle)) * (size * shortest(v));
+        }
+        z
     }
 
     /// Writes the corners that unknowns mean.
