@@ -132,7 +132,7 @@ test('two real meshes and their landmarks give a certified map', async ({ page }
   await page.waitForTimeout(1500);
   await page.screenshot({ path: `${ROOT}test-results/cat-lion.png` });
   await expect(page.locator('#result')).toContainText(/classes? tried/);
-  await page.getByText('Distortion', { exact: true }).first().click();
+  await page.getByRole('radio', { name: 'Distortion' }).check();
   await expect(page.locator('.scale')).toBeVisible();
   await page.waitForTimeout(1500);
   await page.screenshot({ path: `${ROOT}test-results/cat-lion-distortion.png` });

@@ -60,7 +60,7 @@ export function displayPanel(actions: Actions, resetViews: () => void): Panel {
       for (const { value, input } of radios) {
         input.checked = state.style.surface === value;
         input.disabled =
-          value !== 'shaded' && (!hasResult || (value === 'distortion' && state.result?.output.distortion.length === 0));
+          value !== 'shaded' && (state.result === null || (value === 'distortion' && state.result.output.distortion.length === 0));
       }
       for (const { key, input } of toggles) {
         input.checked = state.style[key];
