@@ -2,10 +2,10 @@
 
 use super::BaseDomain;
 use crate::math::quadric::Quadric;
+use crate::mesh::coarsening::Entry;
 use crate::mesh::collapsible::{CollapsibleMesh, ShapeLimits};
-use crate::mesh::{HalfedgeId, MeshError, SurfaceMesh, VertexId};
+use crate::mesh::{MeshError, SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
-use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use typed_index_collections::{TiVec, ti_vec};
 
@@ -146,37 +146,6 @@ impl<'a> Simplification<'a> {
         let positions = landmarks.iter().map(|&v| self.input.positions()[v]).collect();
         let faces = self.mesh.faces().map(|f| self.mesh.corners(f).map(|v| number[v])).collect();
         Ok(BaseDomain { mesh: SurfaceMesh::from_triangles(positions, faces)? })
-    }
-}
-
-struct Entry {
-    cost: f64,
-    vertex: VertexId,
-    version: u32,
-    halfedge: HalfedgeId,
-}
-
-impl PartialEq for Entry {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Entry {}
-
-impl Ord for Entry {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other
-            .cost
-            .total_cmp(&self.cost)
-            .then(other.vertex.cmp(&self.vertex))
-            .then(other.version.cmp(&self.version))
-    }
-}
-
-impl PartialOrd for Entry {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
     }
 }
 

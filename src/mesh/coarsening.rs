@@ -144,11 +144,16 @@ enum Strictness {
     LinkOnly,
 }
 
-struct Entry {
-    cost: f64,
-    vertex: VertexId,
-    version: u32,
-    halfedge: HalfedgeId,
+/// A collapse that waits for its turn, the cheapest first; ties by number.
+pub(crate) struct Entry {
+    /// Quadric error of the collapse.
+    pub cost: f64,
+    /// The vertex that would vanish.
+    pub vertex: VertexId,
+    /// The vertex's version when the cost was taken; another one means that it is out of date.
+    pub version: u32,
+    /// From the vertex to the one it would go into.
+    pub halfedge: HalfedgeId,
 }
 
 impl PartialEq for Entry {

@@ -241,14 +241,7 @@ fn result(
         }),
         own_landmarks: map.sides[0].landmarks.len() - input.landmarks.len(),
         certificate: Some(certificate_report(map)),
-        distortion: DistortionReport {
-            energy: measured.energy,
-            mean: measured.mean,
-            median: measured.median,
-            p95: measured.p95,
-            max: measured.max,
-            l2_stretch: metrics.target_atlas.l2_stretch,
-        },
+        distortion: DistortionReport::new(&measured, metrics),
         ground_truth,
         warnings: warnings(&map.layout, &measured),
         ..Report::of_inputs(input, &map.layout.base, metrics)

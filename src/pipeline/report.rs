@@ -3,6 +3,7 @@
 use super::{FindingReport, MapInput, Metrics};
 use crate::base_domain::BaseDomain;
 use crate::cone_metric::FlowReport;
+use crate::surface_map::distortion::Distortion;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -116,6 +117,19 @@ pub struct DistortionReport {
     pub max: f64,
     /// L2 stretch of the target's texture coordinates (Sander et al. 2001); 1 for an isometry.
     pub l2_stretch: f64,
+}
+
+impl DistortionReport {
+    pub(super) fn new(measured: &Distortion, metrics: &Metrics) -> Self {
+        Self {
+            energy: measured.energy,
+            mean: measured.mean,
+            median: measured.median,
+            p95: measured.p95,
+            max: measured.max,
+            l2_stretch: metrics.target_atlas.l2_stretch,
+        }
+    }
 }
 
 /// Distance to the true images, in units of sqrt(target area).

@@ -47,14 +47,7 @@ fn result(input: MapInput<'_>, layout: BaseLayout, metrics: &Metrics, map: Thesi
     let report = Report {
         certificate: None,
         unmapped_share: map.unmapped_share,
-        distortion: DistortionReport {
-            energy: measured.energy,
-            mean: measured.mean,
-            median: measured.median,
-            p95: measured.p95,
-            max: measured.max,
-            l2_stretch: metrics.target_atlas.l2_stretch,
-        },
+        distortion: DistortionReport::new(&measured, metrics),
         ground_truth,
         warnings: warnings(&map),
         ..Report::of_inputs(input, &layout.base, metrics)
