@@ -1,4 +1,4 @@
-//! Progress and cancellation: the only upward call of the core.
+//! Progress, cancellation and the wish to finish now: the only upward call of the core.
 
 use std::fmt;
 
@@ -47,12 +47,20 @@ impl fmt::Display for Cancelled {
 
 impl std::error::Error for Cancelled {}
 
-/// Receives progress and may ask to stop.
+/// Receives progress and may ask to stop, without a result ([`Monitor::step`]) or with one ([`Monitor::wants_result`]).
 ///
 /// Algorithms call [`Monitor::step`] between iterations, never inside an inner loop, and return the error at once.
 pub trait Monitor {
     /// A stage begins.
     fn enter(&mut self, _stage: Stage) {}
+    /// The present energy of the map that is being relaxed, with its balance: 4 for an isometry. It falls as long as one map
+    /// is relaxed; the next candidate, or the same map on a finer level, begins anew.
+    fn map_energy(&mut self, _energy: f64) {}
+    /// Whether to finish now: no more is tried than a whole, valid result needs. Asked between rounds, levels and
+    /// candidates; once true it must stay true.
+    fn wants_result(&self) -> bool {
+        false
+    }
     /// The current stage went on; an error asks it to stop.
     ///
     /// # Errors

@@ -91,7 +91,7 @@ impl SearchReport {
 ///
 /// `judge` answers with the energy of a (coarse) map of a layout, 4 for an isometry, or `None` where it finds no map. The
 /// candidates are judged in their order until the answer is clear or nothing is gained; then twists of the best, as long as
-/// they lower the energy.
+/// they lower the energy. A monitor that wants a result gets the best map so far, or the first.
 ///
 /// # Errors
 /// [`LayoutError::Cancelled`]; the last error of drawing when nothing could be drawn; [`LayoutError::NoMap`] when no layout
@@ -165,7 +165,7 @@ impl Search<'_, '_> {
             let found_before = self.best.is_some();
             let better = self.judge(candidate, Origin::Order)?;
             without_gain = if better || !found_before { 0 } else { without_gain + 1 };
-            if self.is_clear() {
+            if self.is_clear() || self.must_end() {
                 break;
             }
         }
@@ -175,7 +175,7 @@ impl Search<'_, '_> {
     fn twists(&mut self, candidates: &mut Candidates<'_>) -> Result<(), LayoutError> {
         let mut left = self.options.twists;
         let mut without_gain = 0;
-        while left > 0 {
+        while left > 0 && !self.must_end() {
             let Some((_, best)) = &self.best else { return Ok(()) };
             let SearchOptions { twist_ratio, ambiguous_ratio, .. } = *self.options;
             let ratio = if self.is_clear() { ambiguous_ratio } else { twist_ratio };
@@ -190,7 +190,7 @@ impl Search<'_, '_> {
                     break;
                 }
                 without_gain += 1;
-                if without_gain >= self.options.patience {
+                if without_gain >= self.options.patience || self.must_end() {
                     break;
                 }
             }
@@ -219,6 +219,11 @@ impl Search<'_, '_> {
         self.report.best = self.report.judged.len() - 1;
         self.best = Some((energy, candidate));
         Ok(gain)
+    }
+
+    /// Whether a result is wanted now, and there is one.
+    fn must_end(&self) -> bool {
+        self.monitor.wants_result() && self.best.as_ref().is_some_and(|best| best.0.is_finite())
     }
 
     fn is_clear(&self) -> bool {

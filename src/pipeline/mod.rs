@@ -52,6 +52,9 @@ pub enum GroundTruth {
 
 /// Maps the source onto the target.
 ///
+/// A monitor that wants a result gets a valid, certified map of the full meshes from what there is, only less relaxed (one
+/// round on every level that is left), and the report says so; the thesis' method has nothing to shorten.
+///
 /// # Errors
 /// [`PipelineError`] names the stage that failed and carries its error. A result that is not certified is never
 /// returned as a map: [`Method::Relaxed`] ends in an error instead.

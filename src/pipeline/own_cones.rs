@@ -87,6 +87,9 @@ pub(super) fn add(
     let mut before: Vec<VertexId> = Vec::new();
     let mut without_gain = 0;
     for _ in 0..own.rounds {
+        if monitor.wants_result() {
+            break;
+        }
         let pairs = pairs(full, &images, &before, own.count);
         let Some(with_own) = with(full, &pairs).filter(|_| without_gain < own.patience) else { break };
         without_gain += 1;

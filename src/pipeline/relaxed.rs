@@ -53,6 +53,7 @@ struct Parametrisation {
     sides: [Full; 2],
     embeddings: [Embedding; 2],
     certificate: Certificate,
+    stopped_early: bool,
 }
 
 impl Parametrisation {
@@ -144,13 +145,14 @@ fn parametrise(
         }
     };
     let full = with_own.unwrap_or(full);
+    let stopped_early = monitor.wants_result();
     monitor.enter(Stage::Certificate);
     let [source, target] = [0, 1].map(|k| certify(parametrised(&full[k], &embeddings[k]), &surface));
     let certificate = source.and(&target);
     if !certificate.bijective {
         return Err(PipelineError::NotCertified(certificate));
     }
-    Ok(Parametrisation { layout, search, surface, sides: full, embeddings, certificate })
+    Ok(Parametrisation { layout, search, surface, sides: full, embeddings, certificate, stopped_early })
 }
 
 /// The coarse map of least energy among the classes of layouts that are tried.
@@ -243,7 +245,8 @@ fn result(
         certificate: Some(certificate_report(map)),
         distortion: DistortionReport::new(&measured, metrics),
         ground_truth,
-        warnings: warnings(&map.layout, &measured),
+        stopped_early: map.stopped_early,
+        warnings: warnings(map, &measured),
         ..Report::of_inputs(input, &map.layout.base, metrics)
     };
     let common = common_mesh(surfaces[0], surfaces[1], overlay, &metrics.target_atlas.corner_uvs);
@@ -284,8 +287,16 @@ fn certificate_report(map: &Parametrisation) -> CertificateReport {
     }
 }
 
-fn warnings(layout: &BaseLayout, measured: &Distortion) -> Vec<String> {
+fn warnings(map: &Parametrisation, measured: &Distortion) -> Vec<String> {
     let mut warnings = Vec::new();
+    if map.stopped_early {
+        warnings.push(format!(
+            "Finished early on request, at energy {:.3} (4 is an isometry): the map is whole and certified, but a full run \
+             would lower its distortion.",
+            measured.energy
+        ));
+    }
+    let layout = &map.layout;
     if layout.report.worst_stretch > 1.3 {
         warnings.push(format!(
             "A path between two landmarks is {:.1} times its shortest length: the map may wind around a limb. Landmarks \

@@ -27,6 +27,9 @@ pub struct Report {
     pub unmapped_share: f64,
     /// Distance to the true images in units of sqrt(target area), where the truth is known.
     pub ground_truth: Option<GroundTruthReport>,
+    /// Whether the monitor asked for a result before the map was relaxed as far as usual
+    /// ([`crate::monitor::Monitor::wants_result`]); it is valid all the same.
+    pub stopped_early: bool,
     /// Triangles of the two input meshes.
     pub faces: FacesReport,
     /// Landmark pairs that do not fit, as found before the map was made; filled by whoever asks for them.

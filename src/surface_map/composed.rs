@@ -54,7 +54,8 @@ const NUDGES: usize = 5;
 /// Relative residual of the linear solves.
 const LINEAR_TOLERANCE: f64 = 0.03;
 
-/// Lowers the energy of the map by moving both parametrisations in turn; both stay valid at every step.
+/// Lowers the energy of the map by moving both parametrisations in turn; both stay valid at every step. Ends after
+/// the first round when the monitor wants a result: that takes away most of what new vertices have distorted.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -70,13 +71,18 @@ pub fn relax(
         return Ok((relaxation.embeddings, report));
     }
     report.energies.push(relaxation.present.energy);
+    monitor.map_energy(relaxation.present.energy);
     for round in 0..options.max_rounds {
         let before = relaxation.present.energy;
         for _ in 0..2 {
             let fraction = round as f64 / options.max_rounds as f64;
             monitor.step(Step { fraction, residual: Some(relaxation.present.energy) })?;
+            if round > 0 && monitor.wants_result() {
+                break;
+            }
             if relaxation.step() {
                 report.energies.push(relaxation.present.energy);
+                monitor.map_energy(relaxation.present.energy);
             }
             relaxation.exchange_roles();
         }

@@ -107,7 +107,7 @@ pub fn json_fields(value: &serde_json::Value) -> Vec<String> {
 }
 
 /// The fields of the report of a map, `ground_truth` and `seconds` unopened.
-pub const REPORT_FIELDS: [&str; 37] = [
+pub const REPORT_FIELDS: [&str; 38] = [
     "base_domain.faces",
     "base_domain.vertices",
     "certificate.bijective",
@@ -142,6 +142,7 @@ pub const REPORT_FIELDS: [&str; 37] = [
     "layout.twists",
     "own_landmarks",
     "findings",
+    "stopped_early",
     "unmapped_share",
     "warnings",
     "ground_truth",

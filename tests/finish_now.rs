@@ -1,0 +1,110 @@
+//! A map that is asked for before it is done: whole and certified at any time.
+#![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
+
+use conemap::demo;
+use conemap::landmarks::Landmarks;
+use conemap::mesh::generators::icosphere;
+use conemap::mesh::{SurfaceMesh, VertexId};
+use conemap::monitor::{Cancelled, Monitor, Stage, Step};
+use conemap::pipeline::{GroundTruth, MapInput, MapResult, PipelineOptions, run};
+use glam::DVec3;
+
+/// Wants a result from the n-th step on.
+#[derive(Default)]
+struct AskAt {
+    steps: usize,
+    limit: usize,
+    /// Steps up to the certificate; the textures' flows come after it.
+    relaxed: usize,
+    energies: Vec<f64>,
+}
+
+impl Monitor for AskAt {
+    fn enter(&mut self, stage: Stage) {
+        if stage == Stage::Certificate {
+            self.relaxed = self.steps;
+        }
+    }
+
+    fn map_energy(&mut self, energy: f64) {
+        self.energies.push(energy);
+    }
+
+    fn wants_result(&self) -> bool {
+        self.steps >= self.limit
+    }
+
+    fn step(&mut self, _step: Step) -> Result<(), Cancelled> {
+        self.steps += 1;
+        Ok(())
+    }
+}
+
+/// The map that is asked for at the n-th step, certified and told as stopped early.
+fn asked_at(input: MapInput<'_>, limit: usize) -> (MapResult, AskAt) {
+    let mut monitor = AskAt { limit, ..AskAt::default() };
+    let result = run(input, &PipelineOptions::default(), &mut monitor)
+        .unwrap_or_else(|e| panic!("asked after {limit} steps: {e}"));
+    let certificate = result.report.certificate.as_ref().unwrap();
+    assert!(certificate.bijective && certificate.flipped_triangles == 0, "{limit}: {certificate:?}");
+    assert!(result.target_from_source.iter().all(Option::is_some), "{limit}");
+    let early = limit <= monitor.relaxed;
+    assert_eq!(result.report.stopped_early, early, "{limit} of {}", monitor.relaxed);
+    assert_eq!(result.report.warnings.iter().any(|w| w.contains("early on request")), early);
+    (result, monitor)
+}
+
+/// Maps that are asked for at many times: none better than the full one, later ones better than earlier ones.
+fn check(input: MapInput<'_>, limits: impl Fn(usize) -> Vec<usize>) {
+    let (full, all) = asked_at(input, usize::MAX);
+    let least = full.report.distortion.energy;
+    assert!(all.energies.windows(2).filter(|w| w[1] < w[0]).count() * 2 > all.energies.len());
+    let energies: Vec<f64> = limits(all.relaxed)
+        .into_iter()
+        .map(|limit| {
+            let (result, monitor) = asked_at(input, limit);
+            assert!(monitor.relaxed <= all.relaxed, "{limit}");
+            let energy = result.report.distortion.energy;
+            assert!(energy > least * 0.995, "asked after {limit} steps: {energy} instead of {least}");
+            energy
+        })
+        .collect();
+    let third = energies.len() / 3;
+    let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+    let (early, late) = (mean(&energies[..third]), mean(&energies[energies.len() - third..]));
+    assert!(early > late && late >= least * 0.995, "{energies:?}, full {least}");
+    assert!(energies[0] < 2.0 * least, "{energies:?}, full {least}");
+}
+
+fn unknown<'a>(source: &'a SurfaceMesh, target: &'a SurfaceMesh, landmarks: &'a Landmarks) -> MapInput<'a> {
+    MapInput { source, target, landmarks, ground_truth: GroundTruth::Unknown }
+}
+
+#[test]
+fn two_round_bodies_at_all_times() {
+    let (source, ball) = (icosphere(3), icosphere(4));
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
+    let nearest = |mesh: &SurfaceMesh, p: DVec3| {
+        let distance = |v: &VertexId| mesh.positions()[*v].distance(p);
+        mesh.vertices().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap().0
+    };
+    let pairs: Vec<_> = axes.iter().map(|&p| [nearest(&source, p), nearest(&ball, p)]).collect();
+    let bend = |p: &DVec3| DVec3::new(1.6 * p.x, p.y + 0.4 * p.x * p.x, p.z * (1.0 + 0.3 * p.y));
+    let target = ball.with_positions(ball.positions().iter().map(bend).collect());
+    let landmarks = Landmarks::from_vertices(&source, &target, &pairs).unwrap();
+    let last = |steps: usize| (steps - 7..=steps).collect::<Vec<_>>();
+    check(unknown(&source, &target, &landmarks), |steps| {
+        let mut limits: Vec<usize> =
+            [0, 1, 2].into_iter().chain((3..steps - 7).step_by(steps / 12)).collect();
+        limits.extend(last(steps));
+        limits
+    });
+}
+
+#[test]
+fn two_animals_at_a_few_times() {
+    let demo = demo::build("horse-cat").unwrap();
+    let landmarks = Landmarks::from_vertices(&demo.source, &demo.target, &demo.landmarks).unwrap();
+    let input = unknown(&demo.source, &demo.target, &landmarks);
+    check(input, |steps| vec![0, steps / 2, steps - 12, steps - 3]);
+}
