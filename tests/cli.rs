@@ -206,6 +206,63 @@ fn maps_every_demo() {
     }
 }
 
+/// Runs `map` on a demo with a limit of time; the report.
+fn mapped_within(seconds: &str) -> Value {
+    let folder = folder(&format!("mapped_within/{seconds}"));
+    let demo = conemap::demo::build("horse-cat").unwrap();
+    let [source, target, pairs] = write_files(&folder, [&demo.source, &demo.target], &demo.landmarks);
+    let report = folder.join("report.json");
+    let flags = ["map", "--time-limit", seconds, "--landmarks"].map(OsStr::new);
+    let files = [&pairs, &source, &target].map(|path| path.as_os_str());
+    let output = conemap([&flags[..], &files[..], &[OsStr::new("--report"), report.as_os_str()]].concat());
+    assert!(output.status.success(), "{}", errors(&output));
+    assert!(errors(&output).contains("certified bijective: 0 of "), "{}", errors(&output));
+    let report = json(&report);
+    let early = report["stopped_early"].as_bool().unwrap();
+    assert_eq!(errors(&output).contains("warning: Finished early on request, at energy "), early);
+    report
+}
+
+#[test]
+fn a_limit_of_time_gives_a_certified_map_sooner() {
+    let (short, long) = (mapped_within("0"), mapped_within("1000"));
+    assert_eq!([&short["stopped_early"], &long["stopped_early"]], [&Value::Bool(true), &Value::Bool(false)]);
+    let number = |report: &Value, path: &str| report.pointer(path).and_then(Value::as_f64).unwrap();
+    assert!(number(&short, "/distortion/energy") > number(&long, "/distortion/energy"));
+    assert!(number(&short, "/seconds/total") < 0.7 * number(&long, "/seconds/total"));
+    assert_eq!(short["layout"]["judged"], 1, "{short}");
+}
+
+/// Ctrl-C while the map is relaxed: a whole result.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_finishes_with_a_certified_map() {
+    use std::io::{BufRead, BufReader};
+    use std::process::Stdio;
+    let folder = folder("an_interrupt_finishes_with_a_certified_map");
+    let demo = conemap::demo::build("horse-cat").unwrap();
+    let [source, target, pairs] = write_files(&folder, [&demo.source, &demo.target], &demo.landmarks);
+    let mut child = Command::new(env!("CARGO_BIN_EXE_conemap"))
+        .arg("map")
+        .args([&source, &target])
+        .args([OsStr::new("--landmarks"), pairs.as_os_str()])
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
+    // The stage before the search for the layout has ended: the program listens now.
+    let mut said = vec![lines.find(|line| line.starts_with("landmarks")).expect("a first stage")];
+    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(sent.success());
+    said.extend(lines);
+    assert!(child.wait().unwrap().success(), "{said:?}");
+    for words in
+        ["finishing with the best map so far", "certified bijective: 0 of ", "Finished early on request"]
+    {
+        assert!(said.iter().any(|line| line.contains(words)), "{words}: {said:?}");
+    }
+}
+
 #[test]
 fn the_patchwise_map_has_no_certificate() {
     let folder = folder("the_patchwise_map_has_no_certificate");

@@ -11,6 +11,8 @@ mod clock;
 mod flow;
 #[path = "conemap/input.rs"]
 mod input;
+#[path = "conemap/interrupt.rs"]
+mod interrupt;
 #[path = "conemap/map.rs"]
 mod map;
 #[path = "conemap/outputs.rs"]

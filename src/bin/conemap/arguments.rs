@@ -2,6 +2,7 @@
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// Bijective, low-distortion maps between closed triangle meshes of genus 0.
 #[derive(Debug, Parser)]
@@ -43,6 +44,10 @@ pub struct MapArguments {
     /// Points that are added as cones of the program's own where there are few landmarks; 0 for none.
     #[arg(long, value_name = "N")]
     pub own_cones: Option<usize>,
+    /// Finish from then on with the best map so far: less relaxed, but whole and certified. Ctrl-C does the same; pressed
+    /// twice it ends without a map.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub time_limit: Option<Duration>,
     /// Use the mirror image of the target: for landmarks whose left and right are exchanged.
     #[arg(long)]
     pub mirror_target: bool,
@@ -52,6 +57,12 @@ pub struct MapArguments {
     /// File for the report (JSON).
     #[arg(long)]
     pub report: Option<PathBuf>,
+}
+
+/// A time of zero or more seconds.
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds: f64 = text.parse().map_err(|_| format!("`{text}` is no number of seconds"))?;
+    Duration::try_from_secs_f64(seconds).map_err(|_| format!("`{text}` is no time to wait"))
 }
 
 /// `conemap flow`.
