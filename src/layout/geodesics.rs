@@ -81,6 +81,9 @@ impl Links {
     }
 
     /// Dijkstra's algorithm; other landmarks end paths. Positive floats order like their bits.
+    ///
+    /// Not inlined: a browser optimises a function from one call to the next, never within a call.
+    #[inline(never)]
     fn distances_to(&self, mesh: &RefinableMesh, landmark: VertexId) -> TiVec<VertexId, f64> {
         let vertices = mesh.positions.len();
         let mut distance = vec![f64::INFINITY; self.begin.len() - 1];

@@ -1,6 +1,6 @@
 //! Triangles from edge lengths or corner positions.
 
-use super::scalar::atan2;
+use super::scalar::{atan2, max};
 use glam::{DVec2, DVec3};
 
 /// Area of a triangle from its edge lengths by Kahan's stable form of Heron's formula.
@@ -11,7 +11,7 @@ pub fn area_from_lengths(a: f64, b: f64, c: f64) -> f64 {
     let (a, c) = if a < c { (c, a) } else { (a, c) };
     let (b, c) = if b < c { (c, b) } else { (b, c) };
     let product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
-    0.25 * product.max(0.0).sqrt()
+    0.25 * max(product, 0.0).sqrt()
 }
 
 /// Interior angle, in radians, opposite edge `opposite`; `adjacent` are the two edges at the corner.

@@ -5,6 +5,7 @@
 //! is the caller's to ask for.
 
 use super::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
+use crate::math::scalar::max;
 use glam::DVec3;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
@@ -121,8 +122,20 @@ impl CollapsibleMesh {
     /// Whether the ends of `h` have exactly two common neighbours, and more than four vertices are left.
     pub fn link_condition(&self, h: HalfedgeId) -> bool {
         let (a, b) = (self.tails[h], self.head(h));
-        let common = self.star(a).filter(|&g| self.star(b).any(|k| self.head(k) == self.head(g))).count();
-        common == 2 && self.live_vertices > 4
+        // The second star in parts that stay in near memory, instead of once for every neighbour.
+        let (mut common, mut around) = (0, self.star(b));
+        loop {
+            let mut part = [VertexId(u32::MAX); 16];
+            let mut filled = 0;
+            for (slot, k) in part.iter_mut().zip(&mut around) {
+                *slot = self.head(k);
+                filled += 1;
+            }
+            common += self.star(a).filter(|&g| part[..filled].contains(&self.head(g))).count();
+            if filled < part.len() {
+                return common == 2 && self.live_vertices > 4;
+            }
+        }
     }
 
     /// Whether the triangles that move when the start of `h` goes into its end stay within the limits.
@@ -141,8 +154,8 @@ impl CollapsibleMesh {
             }
             let (p, q) = (positions[p], positions[q]);
             let (before, after) = ((p - at_a).cross(q - at_a), (p - at_b).cross(q - at_b));
-            let longest =
-                (p - at_b).length_squared().max((q - at_b).length_squared()).max((p - q).length_squared());
+            let squares = [p - at_b, q - at_b, p - q].map(DVec3::length_squared);
+            let longest = max(max(squares[0], squares[1]), squares[2]);
             let double_area = after.length();
             before.dot(after) > limits.normal_cosine * before.length() * double_area
                 && double_area > limits.double_area * longest

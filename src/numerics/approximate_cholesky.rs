@@ -118,6 +118,9 @@ impl Lists {
     }
 
     /// The neighbours left, parallel edges summed, by ascending weight.
+    ///
+    /// Not inlined into the one loop that calls it: browsers optimise a function only from one call to the next.
+    #[inline(never)]
     fn gather(&self, v: u32, neighbours: &mut Vec<(u32, f64)>) {
         neighbours.clear();
         let mut e = self.heads[v as usize];
@@ -139,7 +142,8 @@ impl Lists {
         neighbours.sort_unstable_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
     }
 
-    /// Joins the neighbours of an eliminated vertex by a random tree.
+    /// Joins the neighbours of an eliminated vertex by a random tree; not inlined, likewise.
+    #[inline(never)]
     fn replace_clique(&mut self, neighbours: &[(u32, f64)], random: &mut SplitMix, queue: &mut DegreeQueue) {
         let total: f64 = neighbours.iter().map(|n| n.1).sum();
         let mut rest = total;

@@ -102,12 +102,20 @@ impl BlockCsr {
     /// y = A x.
     pub fn multiply(&self, x: &[DVec2], y: &mut [DVec2]) {
         for (i, out) in y.iter_mut().enumerate() {
-            let mut sum = DVec2::ZERO;
-            for k in self.starts[i] as usize..self.starts[i + 1] as usize {
-                sum += self.blocks[k] * x[self.columns[k] as usize];
-            }
-            *out = sum;
+            *out = self.row_times([self.starts[i], self.starts[i + 1]], x);
         }
+    }
+
+    /// The sum of some blocks of a row, each times what x has in its column.
+    #[inline]
+    fn row_times(&self, [from, to]: [u32; 2], x: &[DVec2]) -> DVec2 {
+        let (from, to) = (from as usize, to as usize);
+        let row = self.blocks[from..to].iter().zip(&self.columns[from..to]);
+        let mut sum = DVec2::ZERO;
+        for (block, &column) in row {
+            sum += *block * x[column as usize];
+        }
+        sum
     }
 
     fn invert_diagonal(&mut self) {
@@ -120,18 +128,12 @@ impl BlockCsr {
     /// y = (L + D)^-T D (L + D)^-1 x: one symmetric Gauss-Seidel sweep from zero.
     fn precondition(&self, x: &[DVec2], y: &mut [DVec2]) {
         for i in 0..x.len() {
-            let mut sum = x[i];
-            for k in self.starts[i] as usize..self.diagonal[i] as usize {
-                sum -= self.blocks[k] * y[self.columns[k] as usize];
-            }
-            y[i] = self.inverse_diagonal[i] * sum;
+            let before = self.row_times([self.starts[i], self.diagonal[i]], y);
+            y[i] = self.inverse_diagonal[i] * (x[i] - before);
         }
         for i in (0..x.len()).rev() {
-            let mut sum = DVec2::ZERO;
-            for k in self.diagonal[i] as usize + 1..self.starts[i + 1] as usize {
-                sum += self.blocks[k] * y[self.columns[k] as usize];
-            }
-            y[i] -= self.inverse_diagonal[i] * sum;
+            let after = self.row_times([self.diagonal[i] + 1, self.starts[i + 1]], y);
+            y[i] -= self.inverse_diagonal[i] * after;
         }
     }
 }

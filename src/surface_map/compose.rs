@@ -9,6 +9,7 @@ pub use super::embedding::Parametrised;
 use super::embedding::{Anchor, Embedding};
 use super::fan::{Fan, Wedge};
 use crate::math::rigid2::Rigid2;
+use crate::math::scalar::max;
 use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, HalfedgeId, SurfacePoint, VertexId};
 use glam::DVec2;
@@ -315,7 +316,7 @@ pub(super) fn exit_edge(
 /// Whether q lies to the right of a b by more than rounding.
 fn clearly_outside(a: DVec2, b: DVec2, q: DVec2) -> bool {
     let beyond = side(a, b, q);
-    beyond < 0.0 && beyond < -1e-14 * (b - a).length().max(1e-3)
+    beyond < 0.0 && beyond < -1e-14 * max((b - a).length(), 1e-3)
 }
 
 /// Positive when r lies to the left of p q (robust).

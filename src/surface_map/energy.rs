@@ -5,7 +5,8 @@
 //! Hessian are known from the singular vectors of J, so the projection to positive semidefinite costs nothing
 //! (Shtengel et al. 2017; Smith, de Goes & Kim 2019).
 
-use crate::math::scalar::{atan2, cos, sin};
+use crate::math::rigid2::{complex_mul, half_turn};
+use crate::math::scalar::max;
 use glam::{DMat2, DVec2};
 
 /// e(J); `None` where det J is not positive.
@@ -65,10 +66,10 @@ impl Signed {
         let alpha = 0.5 * DVec2::new(k1.x + k2.y, k1.y - k2.x);
         let beta = 0.5 * DVec2::new(k1.x - k2.y, k1.y + k2.x);
         let s1 = alpha.length() + beta.length();
-        let (arg_a, arg_b) = (atan2(alpha.y, alpha.x), atan2(beta.y, beta.x));
-        let (phi_u, phi_v) = (0.5 * (arg_a + arg_b), 0.5 * (arg_b - arg_a));
-        let u = DVec2::new(cos(phi_u), sin(phi_u));
-        let v = DVec2::new(cos(phi_v), sin(phi_v));
+        // With unit directions a of alpha and b of beta, u^2 = a b and u conj(v) = a. Similarities have no b: any will do.
+        let [a, b] = [alpha, beta].map(|z| z.normalize_or(DVec2::X));
+        let u = half_turn(complex_mul(a, b));
+        let v = complex_mul(u, DVec2::new(a.x, -a.y));
         Self { u: [u, u.perp()], v: [v, v.perp()], s: [s1, j.determinant() / s1] }
     }
 
@@ -96,7 +97,7 @@ pub fn hessian(j: &DMat2) -> [HessianTerm; 4] {
     let cube = q * q * q;
     let stretch = |s: f64| 0.5 + 1.5 / (s * s * s * s);
     let shear = 0.5 * (1.0 + (s1 * s1 + q + s2 * s2) / cube);
-    let spin = (0.5 * (1.0 - (s1 * s1 - q + s2 * s2) / cube)).max(0.0);
+    let spin = max(0.5 * (1.0 - (s1 * s1 - q + s2 * s2) / cube), 0.0);
     [
         svd.stretch(stretch(s1), [1.0, 0.0]),
         svd.stretch(stretch(s2), [0.0, 1.0]),
@@ -159,10 +160,10 @@ impl TwoSided {
         let first = DVec2::new(h12, mean + root - h11).normalize_or(DVec2::X);
         let (shear, spin) = (2.0 * f - squares * slope, 2.0 * f + squares * slope);
         [
-            svd.stretch((mean + root).max(0.0), [first.x, first.y]),
-            svd.stretch((mean - root).max(0.0), [-first.y, first.x]),
-            svd.twist(shear.max(0.0), 1.0),
-            svd.twist(spin.max(0.0), -1.0),
+            svd.stretch(max(mean + root, 0.0), [first.x, first.y]),
+            svd.stretch(max(mean - root, 0.0), [-first.y, first.x]),
+            svd.twist(max(shear, 0.0), 1.0),
+            svd.twist(max(spin, 0.0), -1.0),
         ]
     }
 }

@@ -7,6 +7,7 @@
 use super::embedding::Parametrised;
 use super::energy;
 use crate::math::rigid2::Rigid2;
+use crate::math::scalar::{max, min};
 use crate::math::triangle;
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::monitor::{Cancelled, Monitor, Step};
@@ -51,7 +52,7 @@ impl FlatTriangle {
     pub fn with_rest(corners: [Corner; 3], rest: [DVec3; 3]) -> Self {
         let lengths = [0, 1, 2].map(|k| rest[k].distance(rest[(k + 1) % 3]));
         let mut flat = triangle::lay_out(lengths);
-        let longest = lengths[0].max(lengths[1]).max(lengths[2]).max(1e-150);
+        let longest = max(max(max(lengths[0], lengths[1]), lengths[2]), 1e-150);
         if lengths[0] < 1e-10 * longest {
             flat = [DVec2::ZERO, DVec2::new(1e-10 * longest, 0.0), DVec2::new(0.0, longest)];
         } else if flat[2].y < 1e-10 * longest {
@@ -358,7 +359,7 @@ impl FlatProblem {
             let (e1, e2, d1, d2) = (p[1] - p[0], p[2] - p[0], d[1] - d[0], d[2] - d[0]);
             smallest_positive_root(d1.perp_dot(d2), e1.perp_dot(d2) + d1.perp_dot(e2), e1.perp_dot(e2))
         };
-        self.triangles.iter().map(root).fold(f64::INFINITY, f64::min)
+        self.triangles.iter().map(root).fold(f64::INFINITY, min)
     }
 }
 
@@ -374,7 +375,7 @@ fn smallest_positive_root(a: f64, b: f64, c: f64) -> f64 {
     }
     let q = -0.5 * (b + discriminant.sqrt().copysign(b));
     let roots = [q / a, c / q];
-    roots.into_iter().filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min)
+    roots.into_iter().filter(|t| *t > 0.0).fold(f64::INFINITY, min)
 }
 
 #[cfg(test)]

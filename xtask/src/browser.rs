@@ -15,7 +15,7 @@ pub fn test() -> Result<(), String> {
 }
 
 /// The Chromium to use; `None` for Playwright's own.
-fn chromium() -> Result<Option<String>, String> {
+pub fn chromium() -> Result<Option<String>, String> {
     if let Some(program) = installed() {
         return Ok(Some(program));
     }

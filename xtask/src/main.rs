@@ -1,6 +1,7 @@
-//! Build helper of the project: `cargo xtask serve | build | test | wasm`.
+//! Build helper of the project: `cargo xtask serve | build | test | compare | wasm`.
 
 mod browser;
+mod compare;
 mod page;
 mod run;
 mod suite;
@@ -12,7 +13,8 @@ const USAGE: &str = "cargo xtask COMMAND
   serve   build the app, serve it and print its address
   build   build the app into dist/, to be put on any static web server
   test    run every test: formatting, lints, documentation, core, wasm in Node, page, browser
-  wasm    build only the wasm module, into www/wasm/";
+  compare time whole maps, wasm in a browser against native: [--runs N] [PAIR.json ...], the demos without files
+  wasm    build only the wasm module, into www/wasm/; with --names it keeps the functions' names for profilers";
 
 fn main() -> ExitCode {
     let mut arguments = std::env::args().skip(1);
@@ -22,6 +24,8 @@ fn main() -> ExitCode {
         "serve" => page::serve(&rest),
         "build" => page::build(),
         "test" => suite::test(),
+        "compare" => compare::compare(&rest),
+        "wasm" if rest == ["--names"] => wasm::build_named(),
         "wasm" => wasm::build(),
         "wasm-test-runner" => return wasm::test_runner(rest),
         _ => Err(USAGE.to_owned()),

@@ -8,14 +8,24 @@ const TARGET: &str = "wasm32-unknown-unknown";
 
 /// Builds `www/wasm/conemap.js`, its types and `conemap_bg.wasm`.
 pub fn build() -> Result<(), String> {
+    build_with(&["--remove-name-section"])
+}
+
+/// The same with the names of all functions, for profilers.
+pub fn build_named() -> Result<(), String> {
+    build_with(&[])
+}
+
+fn build_with(options: &[&str]) -> Result<(), String> {
     ensure_target()?;
     // As a cdylib alone: with an rlib beside it cargo would leave out link-time optimisation.
     let build = ["rustc", "--lib", "--crate-type", "cdylib", "--target", TARGET, "--profile", "web"];
     run(&cargo(), &[&build[..], &["--no-default-features", "--features", "web"]].concat())?;
     let module = target_folder().join(TARGET).join("web/conemap.wasm");
     let folder = root().join("www/wasm");
-    let arguments = ["wasm-bindgen", "--target", "web", "--remove-name-section", "--out-dir"].map(Into::into);
-    let arguments = arguments.into_iter().chain([folder.into_os_string(), module.into_os_string()]);
+    let arguments = [&["wasm-bindgen", "--target", "web"], options, &["--out-dir"]].concat();
+    let arguments = arguments.into_iter().map(Into::into);
+    let arguments = arguments.chain([folder.into_os_string(), module.into_os_string()]);
     wasm_bindgen_cli::wasm_bindgen::run_cli_with_args(arguments)
         .map_err(|e| format!("wasm-bindgen failed: {e:#}"))
 }
