@@ -56,34 +56,9 @@ pub fn conj_mul(a: DVec2, b: DVec2) -> DVec2 {
     DVec2::new(a.x * b.x + a.y * b.y, a.x * b.y - a.y * b.x)
 }
 
-/// A unit complex number whose square is the unit complex number w: half its rotation, one of the two.
-#[inline]
-pub fn half_turn(w: DVec2) -> DVec2 {
-    // The larger part by the root: dividing by it loses nothing.
-    if w.x >= 0.0 {
-        let x = (0.5 + 0.5 * w.x).sqrt();
-        DVec2::new(x, 0.5 * w.y / x)
-    } else {
-        let y = (0.5 - 0.5 * w.x).sqrt();
-        DVec2::new(0.5 * w.y / y, y)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::scalar::{cos, sin};
-
-    #[test]
-    fn two_half_turns_are_the_turn() {
-        for k in -100..=100 {
-            let angle = f64::from(k) * std::f64::consts::PI / 100.0;
-            let w = DVec2::new(cos(angle), sin(angle));
-            let half = half_turn(w);
-            assert!((complex_mul(half, half) - w).length() < 4e-16, "{angle}");
-            assert!((half.length() - 1.0).abs() < 4e-16, "{angle}");
-        }
-    }
 
     #[test]
     fn a_motion_after_its_inverse_is_the_identity() {

@@ -49,7 +49,7 @@ pub struct ComposedReport {
 const FIRST_DAMPING: f64 = 0.03;
 
 /// How often a start without an overlay is nudged.
-const NUDGES: usize = 5;
+const NUDGES: usize = 8;
 
 /// Relative residual of the linear solves.
 const LINEAR_TOLERANCE: f64 = 0.03;

@@ -5,7 +5,6 @@
 //! Hessian are known from the singular vectors of J, so the projection to positive semidefinite costs nothing
 //! (Shtengel et al. 2017; Smith, de Goes & Kim 2019).
 
-use crate::math::rigid2::{complex_mul, half_turn};
 use crate::math::scalar::max;
 use glam::{DMat2, DVec2};
 
@@ -26,66 +25,64 @@ pub fn gradient(j: &DMat2) -> DMat2 {
     *j * (0.5 * (1.0 + 1.0 / (det * det))) - cofactor * (0.5 * squares / (det * det * det))
 }
 
-/// One term `weight M (x) M` of the projected Hessian, M = `left[0]` `right[0]`^T + `left[1]` `right[1]`^T.
+/// One term `weight M (x) M` of the projected Hessian.
 #[derive(Clone, Copy, Debug)]
 pub struct HessianTerm {
     /// Eigenvalue, not negative.
     pub weight: f64,
-    /// Image-side vectors.
-    pub left: [DVec2; 2],
-    /// Rest-side vectors.
-    pub right: [DVec2; 2],
+    matrix: DMat2,
 }
 
 impl HessianTerm {
     /// M g.
     #[inline]
     pub fn apply(&self, g: DVec2) -> DVec2 {
-        self.left[0] * self.right[0].dot(g) + self.left[1] * self.right[1].dot(g)
+        self.matrix * g
     }
 
     /// M.
     #[inline]
     pub fn matrix(&self) -> DMat2 {
-        let column = |c: fn(DVec2) -> f64| self.left[0] * c(self.right[0]) + self.left[1] * c(self.right[1]);
-        DMat2::from_cols(column(|g| g.x), column(|g| g.y))
+        self.matrix
     }
 }
 
 /// The singular value decomposition J = s1 u1 v1^T + s2 u2 v2^T, both bases right-handed; det J must be positive.
-struct Signed {
-    u: [DVec2; 2],
-    v: [DVec2; 2],
-    s: [f64; 2],
+///
+/// As complex numbers u1 and v1 occur only in the products a = u1 conj(v1) and b = u1 v1, and with J(z) = alpha z +
+/// beta conj(z) these are the directions of alpha and beta: no angle has to be halved.
+pub(super) struct Signed {
+    a: DVec2,
+    b: DVec2,
+    /// The singular values, the larger one first.
+    pub(super) s: [f64; 2],
 }
 
 impl Signed {
-    fn of(j: &DMat2) -> Self {
+    #[inline]
+    pub(super) fn of(j: &DMat2) -> Self {
         let (k1, k2) = (j.x_axis, j.y_axis);
-        // J as a complex map z -> alpha z + beta conj(z).
         let alpha = 0.5 * DVec2::new(k1.x + k2.y, k1.y - k2.x);
         let beta = 0.5 * DVec2::new(k1.x - k2.y, k1.y + k2.x);
         let s1 = alpha.length() + beta.length();
-        // With unit directions a of alpha and b of beta, u^2 = a b and u conj(v) = a. Similarities have no b: any will do.
+        // Similarities have no b: any will do.
         let [a, b] = [alpha, beta].map(|z| z.normalize_or(DVec2::X));
-        let u = half_turn(complex_mul(a, b));
-        let v = complex_mul(u, DVec2::new(a.x, -a.y));
-        Self { u: [u, u.perp()], v: [v, v.perp()], s: [s1, j.determinant() / s1] }
+        Self { a, b, s: [s1, j.determinant() / s1] }
     }
 
-    /// `weight` on the matrix a u1 v1^T + b u2 v2^T.
-    fn stretch(&self, weight: f64, [a, b]: [f64; 2]) -> HessianTerm {
-        HessianTerm { weight, left: [self.u[0] * a, self.u[1] * b], right: self.v }
+    /// `weight` on the matrix x u1 v1^T + y u2 v2^T.
+    #[inline]
+    pub(super) fn stretch(&self, weight: f64, [x, y]: [f64; 2]) -> HessianTerm {
+        let (p, q) = (self.a * (0.5 * (x + y)), self.b * (0.5 * (x - y)));
+        HessianTerm { weight, matrix: DMat2::from_cols(p + q, (p - q).perp()) }
     }
 
     /// `weight` on (u1 v2^T + sign u2 v1^T) / sqrt 2.
-    fn twist(&self, weight: f64, sign: f64) -> HessianTerm {
-        let half = std::f64::consts::FRAC_1_SQRT_2;
-        HessianTerm {
-            weight,
-            left: [self.u[0] * half, self.u[1] * (sign * half)],
-            right: [self.v[1], self.v[0]],
-        }
+    #[inline]
+    pub(super) fn twist(&self, weight: f64, sign: f64) -> HessianTerm {
+        let half = 0.5 * std::f64::consts::FRAC_1_SQRT_2;
+        let (p, q) = (self.a.perp() * (half * (sign - 1.0)), self.b.perp() * (half * (sign + 1.0)));
+        HessianTerm { weight, matrix: DMat2::from_cols(p + q, (p - q).perp()) }
     }
 }
 

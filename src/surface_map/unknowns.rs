@@ -61,7 +61,7 @@ impl<'a> Unknowns<'a> {
             let length = |h: HalfedgeId| corners[h].distance(corners[h.next()]);
             self.mesh.star(v).map(length).fold(f64::INFINITY, f64::min)
         };
-        let size = (1..attempt).fold(1e-9, |size, _| size * 30.0);
+        let size = (1..attempt).fold(1e-9, |size, _| size * 6.0);
         let mut z = self.points(embedding);
         for (k, (point, &v)) in z.iter_mut().zip(&self.free).enumerate().filter(|_| attempt > 0) {
             let angle = GOLDEN * ((k + 1) % 1_000_003) as f64;
