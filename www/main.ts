@@ -13,10 +13,10 @@ import type { Actions, Panel } from './panels/panel.ts';
 import { resultPanel } from './panels/result.ts';
 import { runPanel } from './panels/run.ts';
 import type { Finding, Report } from './report.ts';
-import type { Demo, Event, Side, State } from './state.ts';
-import { canRun, INITIAL, landmarkFileOf, SIDES, update } from './state.ts';
+import type { Demo, Event, Side, State, Suggestion } from './state.ts';
+import { canRun, INITIAL, landmarkFileOf, pointsOf, SIDES, update } from './state.ts';
 import { Views } from './viewer/viewer.ts';
-import init, { buildDemo, demoList } from './wasm/conemap.js';
+import init, { buildDemo, demoList, suggestLandmarks } from './wasm/conemap.js';
 
 let state: State = INITIAL;
 let core: WebAssembly.Module | null = null;
@@ -174,6 +174,9 @@ function compute(): void {
       progress: (progress) => {
         dispatch({ kind: 'run-progress', progress });
       },
+      finishable: () => {
+        dispatch({ kind: 'run-finishable' });
+      },
       found: (findings) => {
         dispatch({ kind: 'run-found', findings });
       },
@@ -198,6 +201,49 @@ function cancel(): void {
   }
 }
 
+function finish(): void {
+  run?.finish();
+  dispatch({ kind: 'run-finish' });
+}
+
+/** Suggestions with letters for names, in their order. */
+function lettered(found: readonly { point: number; reason: Suggestion['reason']; partner: number | null }[]): Suggestion[] {
+  const letter = (index: number): string => String.fromCharCode(65 + (index % 26));
+  return found.map(({ point, reason, partner }, index) => ({
+    point,
+    reason,
+    letter: letter(index),
+    partner: partner === null ? null : letter(partner),
+  }));
+}
+
+const SUGGESTIONS = 12;
+
+/** Marks places of one mesh that are worth a landmark. */
+async function suggest(side: Side): Promise<void> {
+  const file = state.meshes[side];
+  if (file === null || state.job.kind === 'running') {
+    return;
+  }
+  dispatch({ kind: 'error-closed' }, { kind: 'busy', sentence: 'Looking for places that are worth a landmark…' });
+  await painted();
+  try {
+    if (file === state.meshes[side]) {
+      const marked = pointsOf(state, side).concat(state.pending?.side === side ? state.queue : []);
+      const json = suggestLandmarks(file.mesh, JSON.stringify(marked.filter((point) => point !== null)), SUGGESTIONS);
+      const suggestions = lettered(JSON.parse(json) as Parameters<typeof lettered>[0]);
+      dispatch({ kind: 'suggested', side, suggestions });
+      if (suggestions.length === 0) {
+        fail(SENTENCES.nothingToSuggest);
+      }
+    }
+  } catch (thrown) {
+    fail(failureSentence(failureOf(thrown)));
+  } finally {
+    dispatch({ kind: 'busy', sentence: null });
+  }
+}
+
 /** Does what a finding asks for; a run with the old pairs ends. */
 function repair(finding: Finding): void {
   try {
@@ -215,6 +261,12 @@ function repair(finding: Finding): void {
         }
         break;
       }
+      case 'mark':
+        if (finding.side !== null) {
+          const ends = finding.vertices.map((point) => ({ point, reason: 'tip' as const, partner: null }));
+          dispatch({ kind: 'suggested', side: finding.side, suggestions: lettered(ends) });
+        }
+        break;
       case 'check':
         lookAtPair(finding.pairs[0] ?? 0);
         break;
@@ -232,7 +284,11 @@ const actions: Actions = {
   openDemo: (id) => {
     void openDemo(id);
   },
+  suggest: (side) => {
+    void suggest(side);
+  },
   run: compute,
+  finish,
   cancel,
   repair,
 };

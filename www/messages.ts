@@ -1,5 +1,6 @@
 /** The only place that turns codes into sentences. */
 import type { Failure, Progress } from './compute/messages.ts';
+import type { Suggestion } from './state.ts';
 
 const STAGES: readonly (readonly [string, string, number])[] = [
   ['landmarks', 'Placing the landmarks', 0.02],
@@ -91,8 +92,16 @@ export const SENTENCES = {
   otherMeshes: 'Load the meshes of these landmarks first, or together with them.',
   empty: 'is empty.',
   tooLarge: 'is larger than 1 GiB, more than the page can take.',
+  nothingToSuggest: 'No further place to suggest: the landmarks cover this mesh.',
   badPoint: 'Some landmarks do not belong to these meshes. Load the meshes that the landmark file was made for.',
 } as const;
+
+/** A suggestion in words. */
+export function suggestionName({ letter, reason, partner }: Suggestion, all: readonly Suggestion[]): string {
+  const what = reason === 'tip' ? 'the end of a limb' : 'a place far from all landmarks';
+  const isThere = all.some((other) => other.letter === partner);
+  return `${letter}, ${what}${partner !== null && isThere ? `, looks like ${partner}: mind left and right` : ''}`;
+}
 
 /** What to do next. */
 export function hint(options: {
@@ -100,15 +109,16 @@ export function hint(options: {
   readonly hasTarget: boolean;
   readonly pendingSide: 0 | 1 | null;
   readonly pairs: number;
+  /** Points that wait behind the pending one. */
+  readonly waiting: number;
 }): string {
   if (!options.hasSource || !options.hasTarget) {
     return 'Drop two closed meshes here, or choose a demo.';
   }
-  if (options.pendingSide === 0) {
-    return `Now click the same place on the target to finish pair ${options.pairs + 1}.`;
-  }
-  if (options.pendingSide === 1) {
-    return `Now click the same place on the source to finish pair ${options.pairs + 1}.`;
+  if (options.pendingSide !== null) {
+    const other = options.pendingSide === 0 ? 'target' : 'source';
+    const waiting = options.waiting > 0 ? ` ${options.waiting} more wait; Escape skips this one.` : '';
+    return `Now click the same place on the ${other} to finish pair ${options.pairs + 1}.${waiting}`;
   }
   if (options.pairs < 4) {
     const missing = 4 - options.pairs;

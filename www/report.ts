@@ -3,6 +3,8 @@ export interface Report {
   readonly base_domain: { readonly vertices: number; readonly faces: number };
   readonly cone_metric: { readonly source: FlowReport; readonly target: FlowReport };
   readonly layout: LayoutSearch | null;
+  /** Points that the program added as cones of its own and held. */
+  readonly own_landmarks: number;
   readonly certificate: Certificate | null;
   readonly distortion: {
     readonly energy: number;
@@ -12,6 +14,8 @@ export interface Report {
     readonly max: number;
     readonly l2_stretch: number;
   };
+  /** Whether the result was asked for before it was done. */
+  readonly stopped_early: boolean;
   readonly unmapped_share: number;
   readonly ground_truth: { readonly mean: number; readonly p95: number; readonly max: number } | null;
   readonly faces: { readonly source: number; readonly target: number };
@@ -46,10 +50,14 @@ export interface LayoutSearch {
   readonly path_stretch: number;
 }
 
-/** A doubt about landmark pairs, numbered from 0. */
+/** A doubt about landmark pairs, numbered from 0, or limbs of one mesh without a landmark. */
 export interface Finding {
-  readonly kind: 'mirrored' | 'swapped' | 'misplaced';
+  readonly kind: 'mirrored' | 'swapped' | 'misplaced' | 'unmarked_limbs';
   readonly pairs: readonly number[];
-  readonly repair: 'mirror_target' | 'swap' | 'check';
+  readonly repair: 'mirror_target' | 'swap' | 'check' | 'mark';
   readonly sentence: string;
+  /** Of limbs: 0 the source, 1 the target. */
+  readonly side: 0 | 1 | null;
+  /** Of limbs: their ends. */
+  readonly vertices: readonly number[];
 }

@@ -17,6 +17,17 @@ export interface Pair {
   readonly label: string;
 }
 
+/** A place of one mesh that is worth a landmark. */
+export interface Suggestion {
+  readonly point: number;
+  /** The end of a limb, or far from all landmarks. */
+  readonly reason: 'tip' | 'far';
+  /** Its name on the page. */
+  readonly letter: string;
+  /** The letter of the suggestion that looks alike, as left and right do. */
+  readonly partner: string | null;
+}
+
 /** A mesh with the bytes it came from; the bytes go to the worker. */
 export interface MeshFile {
   readonly name: string;
@@ -49,10 +60,22 @@ export interface Style {
   readonly markers: boolean;
 }
 
+/** A run under way. */
+export interface Running {
+  readonly kind: 'running';
+  readonly progress: Progress | null;
+  /** Whether it can be asked to finish, and whether it was. */
+  readonly finish: 'no' | 'possible' | 'asked';
+  /** Energies of the relaxation, the first first. */
+  readonly energies: readonly number[];
+}
+
+const STARTED: Running = { kind: 'running', progress: null, finish: 'no', energies: [] };
+
 /** Where the map is. */
 export type Job =
   | { readonly kind: 'idle' }
-  | { readonly kind: 'running'; readonly progress: Progress | null }
+  | Running
   | { readonly kind: 'done' }
   | { readonly kind: 'error' };
 
@@ -75,6 +98,10 @@ export interface State {
   readonly groundTruth: string | null;
   /** A point picked on one side that waits for its partner. */
   readonly pending: { readonly side: Side; readonly point: SurfacePoint } | null;
+  /** Points of the pending one's side whose turn comes after it. */
+  readonly queue: readonly SurfacePoint[];
+  /** Suggested landmarks by side. */
+  readonly suggestions: readonly [readonly Suggestion[], readonly Suggestion[]];
   /** Earlier lists of pairs, latest last. */
   readonly history: readonly (readonly Pair[])[];
   readonly options: RunOptions;
@@ -97,8 +124,10 @@ export const INITIAL: State = {
   named: [null, null],
   groundTruth: null,
   pending: null,
+  queue: [],
+  suggestions: [[], []],
   history: [],
-  options: { method: 'relaxed', base: 'joint', cones: 'base-domain' },
+  options: { method: 'relaxed', base: 'joint', cones: 'base-domain', ownCones: null },
   style: { surface: 'shaded', patchLines: true, cones: true, markers: true },
   job: { kind: 'idle' },
   result: null,
@@ -115,6 +144,8 @@ export type Event =
   | { readonly kind: 'demo'; readonly demo: Demo }
   | { readonly kind: 'picked'; readonly side: Side; readonly point: SurfacePoint }
   | { readonly kind: 'pick-dropped' }
+  | { readonly kind: 'suggested'; readonly side: Side; readonly suggestions: readonly Suggestion[] }
+  | { readonly kind: 'suggestions-taken'; readonly side: Side }
   | { readonly kind: 'pair-deleted'; readonly index: number }
   | { readonly kind: 'pair-labelled'; readonly index: number; readonly label: string }
   | { readonly kind: 'pairs-cleared' }
@@ -124,6 +155,8 @@ export type Event =
   | { readonly kind: 'style'; readonly style: Partial<Style> }
   | { readonly kind: 'run-started' }
   | { readonly kind: 'run-progress'; readonly progress: Progress }
+  | { readonly kind: 'run-finishable' }
+  | { readonly kind: 'run-finish' }
   | { readonly kind: 'run-found'; readonly findings: readonly Finding[] }
   | { readonly kind: 'run-done'; readonly output: RunOutput; readonly report: Report }
   | { readonly kind: 'run-failed'; readonly sentence: string }
@@ -159,6 +192,7 @@ export function isStale(state: State): boolean {
     (result.options.method !== state.options.method ||
       result.options.base !== state.options.base ||
       result.options.cones !== state.options.cones ||
+      result.options.ownCones !== state.options.ownCones ||
       result.pairs.length !== pairs.length ||
       result.pairs.some((pair, index) => pair.points !== pairs[index]?.points))
   );
@@ -204,6 +238,8 @@ function withMesh(state: State, side: Side, file: MeshFile): State {
     named: keeps ? state.named : [null, null],
     groundTruth: keeps ? state.groundTruth : null,
     pending: null,
+    queue: [],
+    suggestions: withSuggestions(state, side, []),
     history: [],
     result: null,
     findings: [],
@@ -217,12 +253,48 @@ function withLandmarks(state: State, file: LandmarkFile): State {
   return {
     ...withPairs(state, pairs),
     pending: null,
+    queue: [],
     named: [
       file.source === undefined ? null : baseName(file.source),
       file.target === undefined ? null : baseName(file.target),
     ],
     groundTruth: file.ground_truth ?? null,
   };
+}
+
+function withSuggestions(state: State, side: Side, suggestions: readonly Suggestion[]): State['suggestions'] {
+  return side === 0 ? [suggestions, state.suggestions[1]] : [state.suggestions[0], suggestions];
+}
+
+/** A point of one side is picked: half a pair, or the other half of one. */
+function withPick(state: State, side: Side, point: SurfacePoint): State {
+  const { pending } = state;
+  const left = state.suggestions[side].filter((suggestion) => suggestion.point !== point);
+  const taken = left.length < state.suggestions[side].length;
+  const suggestions = taken ? withSuggestions(state, side, left) : state.suggestions;
+  if (pending === null || pending.side === side) {
+    return { ...state, suggestions, pending: { side, point } };
+  }
+  const points: readonly [SurfacePoint, SurfacePoint] = side === 1 ? [pending.point, point] : [point, pending.point];
+  return {
+    ...withPairs(state, [...state.pairs, { points, label: '' }]),
+    suggestions,
+    ...nextInQueue(state, pending.side),
+  };
+}
+
+/** The next point of a side that waits for its partner. */
+function nextInQueue(state: State, side: Side): Pick<State, 'pending' | 'queue'> {
+  const [point, ...queue] = state.queue;
+  return { pending: point === undefined ? null : { side, point }, queue };
+}
+
+/** All suggestions of a side, the first one to be paired now. */
+function withAllTaken(state: State, side: Side): State {
+  const points = state.suggestions[side].map((suggestion) => suggestion.point);
+  const waiting = state.pending?.side === side ? [state.pending.point, ...state.queue] : [];
+  const queued = { ...state, queue: [...waiting, ...points] };
+  return { ...queued, suggestions: withSuggestions(state, side, []), ...nextInQueue(queued, side) };
 }
 
 /** Two pairs with each other's target. */
@@ -238,6 +310,13 @@ function withTargetsExchanged(state: State, indices: readonly number[]): State {
   );
 }
 
+/** A run after a report of its progress. */
+function advanced(job: Running, progress: Progress): Running {
+  const { energy } = progress;
+  const relaxes = progress.stage === 'relaxation' && energy !== null && energy !== job.energies.at(-1);
+  return { ...job, progress, energies: relaxes ? [...job.energies, energy] : job.energies };
+}
+
 /** The state after an event. */
 export function update(state: State, event: Event): State {
   switch (event.kind) {
@@ -251,17 +330,14 @@ export function update(state: State, event: Event): State {
       return withLandmarks(state, event.file);
     case 'demo':
       return { ...state, demo: event.demo, history: [], error: null };
-    case 'picked': {
-      const { pending } = state;
-      if (pending === null || pending.side === event.side) {
-        return { ...state, pending: { side: event.side, point: event.point } };
-      }
-      const points: readonly [SurfacePoint, SurfacePoint] =
-        event.side === 1 ? [pending.point, event.point] : [event.point, pending.point];
-      return { ...withPairs(state, [...state.pairs, { points, label: '' }]), pending: null };
-    }
+    case 'picked':
+      return withPick(state, event.side, event.point);
     case 'pick-dropped':
-      return { ...state, pending: null };
+      return state.pending === null ? state : { ...state, ...nextInQueue(state, state.pending.side) };
+    case 'suggested':
+      return { ...state, suggestions: withSuggestions(state, event.side, event.suggestions) };
+    case 'suggestions-taken':
+      return withAllTaken(state, event.side);
     case 'pair-deleted':
       return withPairs(
         state,
@@ -275,12 +351,12 @@ export function update(state: State, event: Event): State {
         ),
       };
     case 'pairs-cleared':
-      return { ...withPairs(state, []), pending: null };
+      return { ...withPairs(state, []), pending: null, queue: [] };
     case 'targets-exchanged':
       return withTargetsExchanged(state, event.indices);
     case 'undo': {
       if (state.pending !== null) {
-        return { ...state, pending: null };
+        return { ...state, pending: null, queue: [] };
       }
       const last = state.history.at(-1);
       return last === undefined ? state : { ...state, pairs: last, findings: [], history: state.history.slice(0, -1) };
@@ -290,11 +366,13 @@ export function update(state: State, event: Event): State {
     case 'style':
       return { ...state, style: { ...state.style, ...event.style } };
     case 'run-started':
-      return { ...state, job: { kind: 'running', progress: null }, findings: [], error: null, pending: null };
+      return { ...state, job: STARTED, findings: [], error: null, pending: null, queue: [] };
     case 'run-progress':
-      return state.job.kind === 'running'
-        ? { ...state, job: { kind: 'running', progress: event.progress } }
-        : state;
+      return state.job.kind === 'running' ? { ...state, job: advanced(state.job, event.progress) } : state;
+    case 'run-finishable':
+      return state.job.kind === 'running' ? { ...state, job: { ...state.job, finish: 'possible' } } : state;
+    case 'run-finish':
+      return state.job.kind === 'running' ? { ...state, job: { ...state.job, finish: 'asked' } } : state;
     case 'run-found':
       return { ...state, findings: event.findings };
     case 'run-done':

@@ -1,4 +1,4 @@
-//! The command line: `conemap map` and `conemap flow`.
+//! The command line: `conemap map`, `conemap suggest` and `conemap flow`.
 //!
 //! Progress and errors go to standard error; the exit code is 0 only for a converged, certified result.
 #![allow(clippy::print_stderr, reason = "a command line prints")]
@@ -17,6 +17,8 @@ mod interrupt;
 mod map;
 #[path = "conemap/outputs.rs"]
 mod outputs;
+#[path = "conemap/suggest.rs"]
+mod suggest;
 
 use clap::Parser;
 use std::process::ExitCode;
@@ -25,6 +27,7 @@ fn main() -> ExitCode {
     let arguments = arguments::Arguments::parse();
     let outcome = match &arguments.command {
         arguments::Command::Map(options) => map::run(options),
+        arguments::Command::Suggest(options) => suggest::run(options),
         arguments::Command::Flow(options) => flow::run(options),
     };
     match outcome {

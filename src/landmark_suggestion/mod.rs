@@ -1,11 +1,18 @@
-//! Points of one mesh that are worth a landmark: ends of limbs, and points far from all others.
+//! Points of one mesh that are worth a landmark: ends of limbs, and points far from all others; which of them are partners
+//! under a symmetry; and limbs without a landmark.
 
 mod distance;
+mod limbs;
+mod symmetry;
 mod tips;
 
 pub use distance::{distances, shorten};
+pub use limbs::unmarked_limbs;
+pub use symmetry::partners;
 pub use tips::tips;
 
+use crate::math::triangle;
+use crate::mesh::coarsening::Level;
 use crate::mesh::{SurfaceMesh, VertexId};
 use typed_index_collections::TiVec;
 
@@ -25,29 +32,53 @@ pub struct Suggestion {
     pub vertex: VertexId,
     /// Why.
     pub reason: Reason,
+    /// Of a tip: the number of the suggestion that looks alike from the whole surface, as the left foot and the right one do.
+    pub partner: Option<usize>,
 }
+
+/// Vertices of the level on which large meshes are looked at.
+const COARSE_VERTICES: usize = 4000;
 
 /// At most `count` vertices that are worth a landmark beside those that there are, the best first: tips, the most remote
 /// first, then farthest points. All are farther from each other and from `landmarks` than a tenth of the root of the area.
+/// A large mesh is looked at on a coarse level.
 pub fn suggest(mesh: &SurfaceMesh, landmarks: &[VertexId], count: usize) -> Vec<Suggestion> {
+    if mesh.vertex_count() <= COARSE_VERTICES {
+        return suggest_here(mesh, landmarks, count);
+    }
+    let level = Level::coarse(mesh, landmarks, COARSE_VERTICES);
+    let numbers: Vec<VertexId> = level.numbers(landmarks).collect();
+    let found = suggest_here(&level.mesh, &numbers, count);
+    found.into_iter().map(|s| Suggestion { vertex: level.vertices[s.vertex], ..s }).collect()
+}
+
+fn suggest_here(mesh: &SurfaceMesh, landmarks: &[VertexId], count: usize) -> Vec<Suggestion> {
     let least = 0.1 * mesh.area().sqrt();
     let mut distance = distances(mesh, landmarks);
     let mut found = Vec::with_capacity(count);
     for vertex in tips(mesh, least) {
         if found.len() < count && distance[vertex] > least {
-            found.push(Suggestion { vertex, reason: Reason::Tip });
+            found.push(Suggestion { vertex, reason: Reason::Tip, partner: None });
             shorten(mesh, &[vertex], &mut distance);
         }
+    }
+    let ends: Vec<VertexId> = found.iter().map(|s| s.vertex).collect();
+    for (suggestion, partner) in found.iter_mut().zip(partners(mesh, &ends)) {
+        suggestion.partner = partner;
     }
     let nothing_known = landmarks.is_empty() && found.is_empty();
     if nothing_known && count > 0 {
         // A ball: any point is as good as another.
-        found.push(Suggestion { vertex: VertexId(0), reason: Reason::Far });
+        found.push(far(VertexId(0)));
         shorten(mesh, &[VertexId(0)], &mut distance);
     }
     let rest = farthest_points(mesh, distance, (count - found.len(), least), |_| true);
-    found.extend(rest.into_iter().map(|vertex| Suggestion { vertex, reason: Reason::Far }));
+    found.extend(rest.into_iter().map(far));
     found
+}
+
+fn far(vertex: VertexId) -> Suggestion {
+    Suggestion { vertex, reason: Reason::Far, partner: None }
 }
 
 /// Farthest points: at most `count` vertices, each the farthest from all before it and from what `distance` measures from;
@@ -71,6 +102,16 @@ pub fn farthest_points(
     chosen
 }
 
+/// A third of the faces around each vertex.
+fn areas(mesh: &SurfaceMesh) -> Vec<f64> {
+    let mut areas = vec![0.0; mesh.vertex_count()];
+    for (f, corners) in mesh.triangles().iter_enumerated() {
+        let [a, b, c] = mesh.corners(f);
+        corners.iter().for_each(|v| areas[v.index()] += triangle::area(a, b, c) / 3.0);
+    }
+    areas
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -91,5 +132,24 @@ mod tests {
             }
         }
         assert!(suggest(&ball, &[], 0).is_empty());
+    }
+
+    #[test]
+    fn feet_of_a_horse_have_their_partners_on_the_other_side() {
+        let horse = crate::demo::build("horse-cat").unwrap().source;
+        let fine = crate::mesh::generators::midpoint_subdivision(&horse);
+        for mesh in [&horse, &fine] {
+            let found = suggest(mesh, &[], 8);
+            let place = |s: &Suggestion| mesh.positions()[s.vertex];
+            let mut feet = 0;
+            for (k, s) in found.iter().enumerate() {
+                let Some(partner) = s.partner else { continue };
+                assert_eq!(found[partner].partner, Some(k));
+                let mirrored = place(&found[partner]) * glam::DVec3::new(1.0, 1.0, -1.0);
+                assert!(place(s).distance(mirrored) < 0.15, "{} {}", place(s), mirrored);
+                feet += usize::from(place(s).y < 0.1);
+            }
+            assert_eq!(feet, 4, "{found:?}");
+        }
     }
 }

@@ -19,6 +19,19 @@ pub struct CheckedMesh {
     pub turned_faces: usize,
 }
 
+impl CheckedMesh {
+    /// The number in the file of each of the mesh's vertices, the first one where several became one.
+    pub fn file_from_vertex(&self) -> Vec<usize> {
+        let mut numbers = vec![0; self.mesh.vertex_count()];
+        for (number, vertex) in self.vertex_from_file.iter().enumerate().rev() {
+            if let Some(v) = vertex {
+                numbers[v.index()] = number;
+            }
+        }
+        numbers
+    }
+}
+
 /// Elements at fault: how many, and the first few by number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Elements<T> {
@@ -477,6 +490,8 @@ mod tests {
         assert!((checked.mesh.area() - 6.0).abs() < 1e-12);
         assert_eq!(checked.vertex_from_file[0], None);
         assert_eq!(checked.vertex_from_file[8], Some(VertexId(7)));
+        let numbers = checked.file_from_vertex();
+        assert_eq!((numbers[0], numbers[7]), (1, 8));
     }
 
     #[test]

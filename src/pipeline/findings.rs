@@ -1,7 +1,8 @@
-//! Doubts about landmark pairs, before a map is made: found on coarse levels, told as stable JSON.
+//! Doubts about landmark pairs and limbs without one, before a map is made: found on coarse levels, told as stable JSON.
 
 use super::MapInput;
 use crate::landmark_fit::{Finding, Repair, landmark_fit};
+use crate::landmark_suggestion::unmarked_limbs;
 use crate::landmarks::Landmarks;
 use crate::layout::LandmarkDistances;
 use crate::mesh::VertexId;
@@ -21,6 +22,8 @@ pub enum FindingKind {
     Swapped,
     /// One pair is far from where the others want it.
     Misplaced,
+    /// Limbs of one mesh have no landmark.
+    UnmarkedLimbs,
 }
 
 /// What to do about it.
@@ -33,6 +36,8 @@ pub enum RepairKind {
     Swap,
     /// Look at the pair.
     Check,
+    /// Add pairs at the ends of the limbs.
+    Mark,
 }
 
 /// A doubt about landmark pairs. Numbers that a kind does not have are `null`.
@@ -40,7 +45,7 @@ pub enum RepairKind {
 pub struct FindingReport {
     /// What is in doubt.
     pub kind: FindingKind,
-    /// The pairs in doubt, 0-based: none (the whole set), two, or one.
+    /// The pairs in doubt, 0-based: none (the whole set, or limbs), two, or one.
     pub pairs: Vec<usize>,
     /// What to do about it.
     pub repair: RepairKind,
@@ -54,6 +59,10 @@ pub struct FindingReport {
     pub distance: Option<f64>,
     /// Of misplaced pairs: the pair whose target is nearest to the best place, 0-based.
     pub near: Option<usize>,
+    /// Of limbs: the mesh, 0 the source and 1 the target.
+    pub side: Option<usize>,
+    /// Of limbs: their ends, as vertices of the mesh, the most remote first.
+    pub vertices: Vec<usize>,
 }
 
 impl FindingReport {
@@ -72,6 +81,8 @@ impl FindingReport {
             misfit: None,
             distance: None,
             near: None,
+            side: None,
+            vertices: Vec::new(),
         };
         match *finding {
             Finding::Mirrored { agreement } => Self { agreement: Some(agreement), ..bare },
@@ -89,17 +100,74 @@ impl FindingReport {
     }
 }
 
-/// Landmark pairs that do not fit; none when all do. `labels` are the pairs' names, where they have any.
+/// Limbs of one mesh without a landmark.
+fn limbs(side: usize, vertices: Vec<usize>) -> FindingReport {
+    FindingReport {
+        kind: FindingKind::UnmarkedLimbs,
+        pairs: Vec::new(),
+        repair: RepairKind::Mark,
+        sentence: limbs_sentence(side, &vertices),
+        agreement: None,
+        misfit: None,
+        distance: None,
+        near: None,
+        side: Some(side),
+        vertices,
+    }
+}
+
+fn limbs_sentence(side: usize, vertices: &[usize]) -> String {
+    let mesh = if side == 0 { "source" } else { "target" };
+    match vertices {
+        [end] => format!(
+            "A limb of the {mesh} has no landmark: its end is vertex {end}. A pair there may lower the distortion."
+        ),
+        ends => {
+            let ends: Vec<String> = ends.iter().map(usize::to_string).collect();
+            format!(
+                "{} limbs of the {mesh} have no landmark: their ends are the vertices {}. Pairs there may lower the \
+                 distortion.",
+                ends.len(),
+                ends.join(", ")
+            )
+        }
+    }
+}
+
+impl FindingReport {
+    /// The same with other numbers for the vertices of each mesh, such as those of its file.
+    #[must_use]
+    pub fn renumbered(mut self, number: impl Fn(usize, usize) -> usize) -> Self {
+        if let Some(side) = self.side {
+            self.vertices.iter_mut().for_each(|v| *v = number(side, *v));
+            self.sentence = limbs_sentence(side, &self.vertices);
+        }
+        self
+    }
+}
+
+/// Landmark pairs that do not fit and limbs without one; none when all is well. `labels` are the pairs' names, where they have any.
 ///
 /// A doubt is no error: the map can be made all the same, and the user knows the shapes.
 pub fn findings(input: MapInput<'_>, labels: &[String]) -> Vec<FindingReport> {
     let Landmarks { source, target } = input.landmarks;
+    let numbers =
+        |level: &Level, ends: Vec<VertexId>| ends.iter().map(|&v| level.vertices[v].index()).collect();
     let ((source, from), (target, onto)) = (coarse((input.source, source)), coarse((input.target, target)));
     let meshes = [&source.mesh, &target.mesh];
     let landmarks = Landmarks { source: from, target: onto };
     let distances = LandmarkDistances::new(meshes, &landmarks);
     let found = landmark_fit(meshes, &landmarks, &distances);
-    found.iter().map(|finding| FindingReport::new(finding, labels)).collect()
+    let mut reports: Vec<_> = found.iter().map(|finding| FindingReport::new(finding, labels)).collect();
+    for (side, (level, marks)) in
+        [(&source, &landmarks.source), (&target, &landmarks.target)].iter().enumerate()
+    {
+        let ends: Vec<usize> = numbers(level, unmarked_limbs(&level.mesh, marks));
+        if !ends.is_empty() {
+            reports.push(limbs(side, ends));
+        }
+    }
+    reports
 }
 
 fn coarse((mesh, landmarks): (&crate::mesh::SurfaceMesh, &[VertexId])) -> (Level, Vec<VertexId>) {
@@ -114,6 +182,31 @@ mod tests {
     use crate::demo;
     use crate::mesh::mirror::mirrored;
     use crate::pipeline::GroundTruth;
+
+    #[test]
+    fn limbs_without_a_landmark_are_named_with_the_numbers_of_the_file() {
+        let demo = demo::build("horse-cat").unwrap();
+        let is_tail = |k: &usize| demo.labels[*k].starts_with("tail");
+        let kept = (0..demo.labels.len()).filter(|k| !is_tail(k)).map(|k| demo.landmarks[k]);
+        let pairs: Vec<[u32; 2]> = kept.collect();
+        let landmarks = Landmarks::from_vertices(&demo.source, &demo.target, &pairs).unwrap();
+        let (source, target) = (&demo.source, &demo.target);
+        let input = MapInput { source, target, landmarks: &landmarks, ground_truth: GroundTruth::Unknown };
+        let found = findings(input, &[]);
+        assert_eq!(found.iter().map(|f| f.side).collect::<Vec<_>>(), [Some(0), Some(1)], "{found:?}");
+        let tail = (0..demo.labels.len()).find(is_tail).unwrap();
+        for (side, mesh) in [source, target].into_iter().enumerate() {
+            assert_eq!(
+                (found[side].kind, found[side].repair),
+                (FindingKind::UnmarkedLimbs, RepairKind::Mark)
+            );
+            let [end] = found[side].vertices[..] else { panic!("{found:?}") };
+            let place = |v: usize| mesh.positions()[VertexId::from(v)];
+            assert!(place(end).distance(place(demo.landmarks[tail][side] as usize)) < 0.25, "{found:?}");
+            let given = found[side].clone().renumbered(|side, v| 10 * v + side);
+            assert!(given.sentence.contains(&format!("vertex {}.", 10 * end + side)), "{given:?}");
+        }
+    }
 
     #[test]
     fn a_demo_fits_its_mirror_image_and_two_exchanged_pairs_do_not() {

@@ -7,7 +7,7 @@ use crate::io::landmark_file;
 use crate::landmarks::{PlacedLandmarks, place};
 use crate::monitor::{Cancelled, Monitor, Stage, Step};
 use crate::pipeline::{
-    Base, Cones, GroundTruth, MapInput, MapResult, Method, PipelineOptions, findings, run,
+    Base, Cones, GroundTruth, MapInput, MapResult, Method, OwnConeOptions, PipelineOptions, findings, run,
 };
 use glam::{DVec2, DVec3};
 use serde::Deserialize;
@@ -16,6 +16,7 @@ use wasm_bindgen::prelude::*;
 
 /// Options as the page sends them.
 #[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
 struct Options {
     #[serde(default)]
     method: String,
@@ -23,6 +24,9 @@ struct Options {
     base: String,
     #[serde(default)]
     cones: String,
+    /// Points of the program's own; none for as many as usual.
+    #[serde(default)]
+    own_cones: Option<usize>,
 }
 
 impl From<Options> for PipelineOptions {
@@ -31,17 +35,61 @@ impl From<Options> for PipelineOptions {
             method: if options.method == "thesis" { Method::Thesis } else { Method::Relaxed },
             base: if options.base == "qem" { Base::Qem } else { Base::Joint },
             cones: if options.cones == "uniform" { Cones::Uniform } else { Cones::BaseDomain },
+            own_cones: match options.own_cones {
+                Some(count) => OwnConeOptions { count, ..OwnConeOptions::default() },
+                None => OwnConeOptions::default(),
+            },
             ..Self::default()
         }
     }
 }
 
+#[wasm_bindgen(typescript_custom_section)]
+const LISTENER: &str = r"
+/** What a run tells and asks while it goes. Numbers that a step does not have are NaN. */
+export interface RunListener {
+  /** A stage begins or goes on, at most 30 times a second; `energy` is that of the map being relaxed, 4 for an isometry. */
+  progress(stage: string, fraction: number, residual: number, energy: number): void;
+  /** Landmark pairs that do not fit, before the map is made. */
+  found(json: string): void;
+  /** Whether to finish now with a whole map, only less relaxed; asked at most ten times a second. */
+  wantsResult(): boolean;
+}
+";
+
+#[wasm_bindgen]
+extern "C" {
+    /// What a run tells and asks while it goes.
+    #[wasm_bindgen(typescript_type = "RunListener")]
+    pub type RunListener;
+    #[wasm_bindgen(method, catch)]
+    fn progress(
+        this: &RunListener,
+        stage: &str,
+        fraction: f64,
+        residual: f64,
+        energy: f64,
+    ) -> Result<(), JsValue>;
+    #[wasm_bindgen(method, catch)]
+    fn found(this: &RunListener, json: &str) -> Result<(), JsValue>;
+    #[wasm_bindgen(method, catch, js_name = wantsResult)]
+    fn wants_result(this: &RunListener) -> Result<bool, JsValue>;
+}
+
 /// The least time between two messages of one stage, in milliseconds: more often nobody can see.
 const MESSAGE_INTERVAL: f64 = 33.0;
 
+/// The least time between two questions, in milliseconds.
+const QUESTION_INTERVAL: f64 = 100.0;
+
 /// Tells the page how the run goes on and takes the time of each stage.
 struct Messenger<'a> {
-    progress: &'a js_sys::Function,
+    listener: &'a RunListener,
+    /// Of the map that is being relaxed.
+    energy: f64,
+    /// When the page was last asked, and whether it wants a result.
+    asked: f64,
+    wants_result: bool,
     stage: Option<(Stage, f64)>,
     /// When the page was last told.
     told: f64,
@@ -59,8 +107,7 @@ impl Messenger<'_> {
         self.told = js_sys::Date::now();
         let residual = step.residual.unwrap_or(f64::NAN);
         // A page that does not listen is not a reason to stop.
-        let _ =
-            self.progress.call3(&JsValue::NULL, &name(stage).into(), &step.fraction.into(), &residual.into());
+        let _ = self.listener.progress(&name(stage), step.fraction, residual, self.energy);
     }
 }
 
@@ -72,10 +119,23 @@ impl Monitor for Messenger<'_> {
     fn enter(&mut self, stage: Stage) {
         self.leave();
         self.stage = Some((stage, js_sys::Date::now()));
+        self.energy = f64::NAN;
         self.tell(stage, Step::default());
     }
 
+    fn map_energy(&mut self, energy: f64) {
+        self.energy = energy;
+    }
+
+    fn wants_result(&self) -> bool {
+        self.wants_result
+    }
+
     fn step(&mut self, step: Step) -> Result<(), Cancelled> {
+        if !self.wants_result && js_sys::Date::now() - self.asked >= QUESTION_INTERVAL {
+            self.wants_result = self.listener.wants_result().unwrap_or(false);
+            self.asked = js_sys::Date::now();
+        }
         if let Some((stage, _)) = self.stage
             && js_sys::Date::now() - self.told >= MESSAGE_INTERVAL
         {
@@ -92,8 +152,7 @@ pub struct MapOutput {
     csv: Vec<u8>,
 }
 
-/// Runs the pipeline; `progress(stage, fraction, residual)` hears of each stage and of its steps, at most 30 a second, and
-/// `found(json)` of landmark pairs that do not fit, before the map is made.
+/// Runs the pipeline; the listener hears how it goes on and may ask for the result.
 ///
 /// # Errors
 /// `{"code", "message"}` with the stage's code.
@@ -103,25 +162,37 @@ pub fn run_map(
     target: &[u8],
     landmarks: &str,
     options: &str,
-    progress: &js_sys::Function,
-    found: &js_sys::Function,
+    listener: &RunListener,
 ) -> Result<MapOutput, JsValue> {
-    let mut messenger = Messenger { progress, stage: None, told: 0.0, seconds: BTreeMap::new() };
+    let mut messenger = Messenger {
+        listener,
+        energy: f64::NAN,
+        asked: 0.0,
+        wants_result: false,
+        stage: None,
+        told: 0.0,
+        seconds: BTreeMap::new(),
+    };
     let begun = js_sys::Date::now();
     messenger.enter(Stage::Landmarks);
     let options: Options = serde_json::from_str(options).map_err(|e| failure("options", e))?;
     let (source, target) = (checked(source)?, checked(target)?);
     let file = landmark_file::read(landmarks.as_bytes()).map_err(|e| failure("landmarks", e))?;
     let vertices = source.mesh.vertex_count();
+    let numbers = [source.file_from_vertex(), target.file_from_vertex()];
     let same = source.mesh.triangles() == target.mesh.triangles() && file.ground_truth.is_some();
     let ground_truth = if same { GroundTruth::SameConnectivity } else { GroundTruth::Unknown };
     let placed = place([&source, &target], &file.pairs).map_err(|e| failure("landmarks", e))?;
     let PlacedLandmarks { source, target, landmarks } = placed;
     let input = MapInput { source: &source.mesh, target: &target.mesh, landmarks: &landmarks, ground_truth };
-    let doubts = findings(input, &file.labels.unwrap_or_default());
+    let number = |side: usize, v: usize| numbers[side].get(v).copied().unwrap_or(v);
+    let doubts: Vec<_> = findings(input, &file.labels.unwrap_or_default())
+        .into_iter()
+        .map(|finding| finding.renumbered(number))
+        .collect();
     let json = serde_json::to_string(&doubts).unwrap_or_default();
     // A page that does not listen is not a reason to stop.
-    let _ = found.call1(&JsValue::NULL, &json.into());
+    let _ = listener.found(&json);
     let mut result = run(input, &options.into(), &mut messenger).map_err(|e| failure(e.code(), e))?;
     messenger.leave();
     let mut seconds = messenger.seconds;

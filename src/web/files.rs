@@ -2,8 +2,10 @@
 
 use super::failure;
 use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
+use crate::landmark_suggestion::{Reason, Suggestion, suggest};
 use crate::mesh::check::{CheckedMesh, closed_genus_zero};
 use crate::mesh::mirror::mirrored;
+use crate::mesh::{FaceId, VertexId};
 use crate::{demo, export, io, landmarks};
 use serde_json::json;
 use wasm_bindgen::prelude::*;
@@ -68,6 +70,39 @@ pub fn check_landmarks(source: &LoadedMesh, target: &LoadedMesh, bytes: &[u8]) -
     let file = landmark_file::read(bytes).map_err(|e| failure("landmarks", e))?;
     let meshes = [&source.checked, &target.checked];
     landmarks::exist(meshes, &file.pairs).map_err(|e| failure("landmarks", e))
+}
+
+/// Vertices of one mesh that are worth a landmark beside those that there are: JSON
+/// `[{"point", "reason": "tip" | "far", "partner": number | null}]`, the best first; `point` is a vertex of the file, `partner`
+/// the number of the suggestion that looks alike. `landmarks` is a JSON array of landmark points.
+///
+/// # Errors
+/// `{"code": "landmarks", "message"}`.
+#[wasm_bindgen(js_name = suggestLandmarks)]
+pub fn suggest_landmarks(loaded: &LoadedMesh, landmarks: &str, count: usize) -> Result<String, JsValue> {
+    let points: Vec<LandmarkPoint> = serde_json::from_str(landmarks).map_err(|e| failure("landmarks", e))?;
+    let checked = &loaded.checked;
+    let CheckedMesh { mesh, vertex_from_file, .. } = checked;
+    let nearest = |point: LandmarkPoint| match point {
+        LandmarkPoint::Vertex(v) => vertex_from_file.get(v as usize).copied().flatten(),
+        LandmarkPoint::OnFace { face, barycentric: w } => {
+            let corners = mesh.triangles().get(FaceId(face))?;
+            (0..3).max_by(|&a: &usize, &b| w[a].total_cmp(&w[b])).map(|k| corners[k])
+        }
+    };
+    let mut marked: Vec<VertexId> = points.into_iter().filter_map(nearest).collect();
+    marked.sort_unstable();
+    marked.dedup();
+    let numbers = checked.file_from_vertex();
+    let entry = |s: &Suggestion| {
+        let reason = match s.reason {
+            Reason::Tip => "tip",
+            Reason::Far => "far",
+        };
+        json!({ "point": numbers[s.vertex.index()], "reason": reason, "partner": s.partner })
+    };
+    let found: Vec<_> = suggest(mesh, &marked, count).iter().map(entry).collect();
+    Ok(serde_json::Value::from(found).to_string())
 }
 
 /// The mirror image of a target with the landmarks carried along.

@@ -61,6 +61,8 @@ struct Side {
     result: Option<SideResult>,
     /// Landmarks in pair order; `None` where not picked yet.
     landmarks: Vec<Option<Vec3>>,
+    /// Points that the page marks itself.
+    suggestions: Vec<Option<Vec3>>,
 }
 
 struct SideMesh {
@@ -128,6 +130,7 @@ impl Viewer {
         side.mesh = Some(SideMesh { checked, frame, picker, surface: uploaded });
         side.result = None;
         side.landmarks.clear();
+        side.suggestions.clear();
         side.look_at_all();
     }
 
@@ -138,6 +141,7 @@ impl Viewer {
         side.mesh = None;
         side.result = None;
         side.landmarks.clear();
+        side.suggestions.clear();
     }
 
     /// Shows landmarks: a JSON array, in pair order, of landmark points or null.
@@ -146,12 +150,19 @@ impl Viewer {
     /// `{"code": "landmarks", "message"}`.
     #[wasm_bindgen(js_name = setLandmarks)]
     pub fn set_landmarks(&mut self, side: usize, points: &str) -> Result<(), JsValue> {
-        let points: Vec<Option<LandmarkPoint>> =
-            serde_json::from_str(points).map_err(|e| failure("landmarks", e))?;
         let side = &mut self.sides[side.min(1)];
-        let Some(mesh) = &side.mesh else { return Ok(()) };
-        let place = |p: Option<LandmarkPoint>| Some(mesh.frame.place(mesh.position(p?)?));
-        side.landmarks = points.into_iter().map(place).collect();
+        side.landmarks = side.placed(points)?;
+        Ok(())
+    }
+
+    /// Takes suggested points, likewise; they are not drawn, see [`Viewer::suggestions`].
+    ///
+    /// # Errors
+    /// `{"code": "landmarks", "message"}`.
+    #[wasm_bindgen(js_name = setSuggestions)]
+    pub fn set_suggestions(&mut self, side: usize, points: &str) -> Result<(), JsValue> {
+        let side = &mut self.sides[side.min(1)];
+        side.suggestions = side.placed(points)?;
         Ok(())
     }
 
@@ -270,6 +281,12 @@ impl Viewer {
         side.landmarks.iter().flat_map(|p| side.label(*p)).collect()
     }
 
+    /// Where the suggested points are, as [`Viewer::labels`].
+    pub fn suggestions(&self, side: usize) -> Vec<f32> {
+        let side = &self.sides[side.min(1)];
+        side.suggestions.iter().flat_map(|p| side.label(*p)).collect()
+    }
+
     /// Draws a frame.
     pub fn render(&mut self) {
         let background = if self.style.dark { [0.011, 0.013, 0.018] } else { [0.84, 0.86, 0.88] };
@@ -335,6 +352,15 @@ impl Viewer {
 }
 
 impl Side {
+    /// The places of a JSON array of landmark points or null.
+    fn placed(&self, points: &str) -> Result<Vec<Option<Vec3>>, JsValue> {
+        let points: Vec<Option<LandmarkPoint>> =
+            serde_json::from_str(points).map_err(|e| failure("landmarks", e))?;
+        let Some(mesh) = &self.mesh else { return Ok(Vec::new()) };
+        let place = |p: Option<LandmarkPoint>| Some(mesh.frame.place(mesh.position(p?)?));
+        Ok(points.into_iter().map(place).collect())
+    }
+
     /// The first look: the whole mesh, as large as the view allows.
     fn look_at_all(&mut self) {
         self.camera = Camera::default();

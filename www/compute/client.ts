@@ -19,6 +19,8 @@ export async function compileCore(): Promise<WebAssembly.Module> {
 /** What a run reports while it goes and when it ends. */
 export interface RunListener {
   progress(progress: Progress): void;
+  /** From now on the run can be asked to finish. */
+  finishable(): void;
   /** Landmark pairs that do not fit, before the map is made. */
   found(findings: readonly Finding[]): void;
   done(output: RunOutput): void;
@@ -29,16 +31,20 @@ export interface RunListener {
 export interface Run {
   /** Ends the worker at once; the listener hears nothing more. */
   cancel(): void;
+  /** Asks for the result: a whole map, only less relaxed. */
+  finish(): void;
 }
 
 /** Starts a run. */
-export function startRun(request: RunRequest, listener: RunListener): Run {
+export function startRun(request: Omit<RunRequest, 'finishUrl'>, listener: RunListener): Run {
   const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
+  const finishUrl = URL.createObjectURL(new Blob());
   let over = false;
   const end = (): boolean => {
     const first = !over;
     over = true;
     worker.terminate();
+    URL.revokeObjectURL(finishUrl);
     return first;
   };
   worker.addEventListener('message', (event: MessageEvent<WorkerMessage>) => {
@@ -49,6 +55,9 @@ export function startRun(request: RunRequest, listener: RunListener): Run {
     switch (message.kind) {
       case 'progress':
         listener.progress(message);
+        break;
+      case 'finishable':
+        listener.finishable();
         break;
       case 'found':
         listener.found(message.findings);
@@ -75,7 +84,7 @@ export function startRun(request: RunRequest, listener: RunListener): Run {
     }
   });
   try {
-    worker.postMessage(request);
+    worker.postMessage({ ...request, finishUrl } satisfies RunRequest);
   } catch (thrown) {
     end();
     queueMicrotask(() => {
@@ -85,6 +94,9 @@ export function startRun(request: RunRequest, listener: RunListener): Run {
   return {
     cancel: () => {
       end();
+    },
+    finish: () => {
+      URL.revokeObjectURL(finishUrl);
     },
   };
 }

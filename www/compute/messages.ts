@@ -7,6 +7,8 @@ export interface RunOptions {
   readonly method: 'relaxed' | 'thesis';
   readonly base: 'joint' | 'qem';
   readonly cones: 'base-domain' | 'uniform';
+  /** Points that the program adds where there are few landmarks; `null` for as many as usual. */
+  readonly ownCones: number | null;
 }
 
 /** Everything one run needs. */
@@ -16,6 +18,8 @@ export interface RunRequest {
   readonly target: Uint8Array;
   readonly landmarks: string;
   readonly options: RunOptions;
+  /** The address of an empty file; when the page takes it back the run is to finish. */
+  readonly finishUrl: string;
 }
 
 /** One view's share of the result. */
@@ -41,11 +45,13 @@ export interface RunOutput {
   readonly baseObj: Uint8Array<ArrayBuffer>;
 }
 
-/** Where a run is; the residual is `null` where a stage has none. */
+/** Where a run is; numbers that a step does not have are `null`. */
 export interface Progress {
   readonly stage: string;
   readonly fraction: number;
   readonly residual: number | null;
+  /** Of the map that is being relaxed, 4 for an isometry. */
+  readonly energy: number | null;
 }
 
 /** A failure: a stable code and the core's own words. */
@@ -57,6 +63,7 @@ export interface Failure {
 /** From the worker. */
 export type WorkerMessage =
   | ({ readonly kind: 'progress' } & Progress)
+  | { readonly kind: 'finishable' }
   | { readonly kind: 'found'; readonly findings: readonly Finding[] }
   | { readonly kind: 'done'; readonly output: RunOutput }
   | { readonly kind: 'failed'; readonly failure: Failure };

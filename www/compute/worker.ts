@@ -48,19 +48,46 @@ function buffersOf(output: RunOutput): Transferable[] {
   return [...new Set(arrays.map((array) => array.buffer))].filter((buffer) => buffer instanceof ArrayBuffer);
 }
 
+function finite(value: number): number | null {
+  return Number.isFinite(value) ? value : null;
+}
+
+/**
+ * Whether the page has taken the address of an empty file back. A worker that computes receives no message; but it can ask
+ * for a file, and wait for the answer.
+ */
+function isRevoked(url: string): boolean {
+  const request = new XMLHttpRequest();
+  request.open('GET', url, false);
+  try {
+    request.send();
+  } catch {
+    return true;
+  }
+  return request.status !== 200;
+}
+
 async function run(request: RunRequest): Promise<void> {
   try {
     await init({ module_or_path: request.module });
+    // Where the file cannot be read at all, its absence would say nothing.
+    const canAsk = !isRevoked(request.finishUrl);
+    if (canAsk && request.options.method === 'relaxed') {
+      post({ kind: 'finishable' });
+    }
     const output = runMap(
       request.source,
       request.target,
       request.landmarks,
       JSON.stringify(request.options),
-      (stage: string, fraction: number, residual: number) => {
-        post({ kind: 'progress', stage, fraction, residual: Number.isFinite(residual) ? residual : null });
-      },
-      (json: string) => {
-        post({ kind: 'found', findings: JSON.parse(json) as Finding[] });
+      {
+        progress: (stage, fraction, residual, energy) => {
+          post({ kind: 'progress', stage, fraction, residual: finite(residual), energy: finite(energy) });
+        },
+        found: (json) => {
+          post({ kind: 'found', findings: JSON.parse(json) as Finding[] });
+        },
+        wantsResult: () => canAsk && isRevoked(request.finishUrl),
       },
     );
     const copy = read(output);

@@ -1,4 +1,4 @@
-/** Landmark pairs that do not fit, each with its repair. They stop nothing: the user knows the shapes. */
+/** Landmark pairs that do not fit and limbs without one, each with its repair. They stop nothing: the user knows the shapes. */
 import type { Finding } from '../report.ts';
 import type { State } from '../state.ts';
 import { byId, button, make } from './dom.ts';
@@ -8,6 +8,7 @@ const REPAIRS: Readonly<Record<Finding['repair'], string>> = {
   mirror_target: 'Mirror the target',
   swap: 'Swap these two pairs',
   check: 'Look at this pair',
+  mark: 'Show with rings',
 };
 
 /** Makes the panel. */
@@ -19,8 +20,9 @@ export function findingsPanel(actions: Actions): Panel {
         return;
       }
       root.hidden = state.findings.length === 0;
+      const doubts = state.findings.some((finding) => finding.repair !== 'mark');
       root.replaceChildren(
-        make('h2', {}, 'Landmarks that do not fit'),
+        make('h2', {}, doubts ? 'Landmarks that do not fit' : 'Limbs without a landmark'),
         ...state.findings.map((finding) =>
           make(
             'div',
@@ -31,7 +33,13 @@ export function findingsPanel(actions: Actions): Panel {
             }),
           ),
         ),
-        make('p', { class: 'quiet' }, 'A repair ends the run; compute the map again after it. If the pairs are right, go on.'),
+        make(
+          'p',
+          { class: 'quiet' },
+          doubts
+            ? 'A repair ends the run; compute the map again after it. If the pairs are right, go on.'
+            : 'The map is made all the same. More pairs can be added when it is done.',
+        ),
       );
     },
   };

@@ -3,6 +3,7 @@ import type { State } from '../state.ts';
 import { landmarkFileOf } from '../state.ts';
 import { byId, button, download, landmarkColour, make } from './dom.ts';
 import type { Actions, Panel } from './panel.ts';
+import { SuggestionsBlock } from './suggestions.ts';
 
 /** Brings a pair's row into sight and its label under the cursor. */
 export function lookAtPair(index: number): void {
@@ -30,9 +31,11 @@ export function landmarksPanel(actions: Actions): Panel {
       download('landmarks.json', 'application/json', text);
     }
   }, { id: 'save-landmarks' });
+  const suggestions = new SuggestionsBlock(actions);
   root.append(
     make('h2', {}, 'Landmarks ', count),
     make('div', { class: 'row' }, undo, clear, save),
+    suggestions.root,
     empty,
     list,
   );
@@ -76,6 +79,7 @@ export function landmarksPanel(actions: Actions): Panel {
   return {
     render(state: State, previous: State | null): void {
       latest = state;
+      suggestions.render(state, previous);
       const running = state.job.kind === 'running';
       undo.disabled = running || (state.history.length === 0 && state.pending === null);
       clear.disabled = running || (state.pairs.length === 0 && state.pending === null);

@@ -13,6 +13,10 @@ export interface Actions {
   readonly openFiles: (files: readonly File[], side: Side | null) => void;
   readonly openDemo: (id: string) => void;
   readonly run: () => void;
+  /** Looks for places of one mesh that are worth a landmark. */
+  readonly suggest: (side: Side) => void;
+  /** Asks the run for its result. */
+  readonly finish: () => void;
   readonly cancel: () => void;
   readonly repair: (finding: Finding) => void;
 }

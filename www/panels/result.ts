@@ -17,8 +17,9 @@ function verdict(report: Report): HTMLElement {
     return make('p', { class: 'verdict open' }, text);
   }
   const flips = `${integer(certificate.flipped_triangles)} of ${integer(certificate.triangles)} triangles flipped`;
+  const early = report.stopped_early ? ' (finished early)' : '';
   return certificate.bijective
-    ? make('p', { class: 'verdict good' }, `Certified bijective: ${flips}`)
+    ? make('p', { class: 'verdict good' }, `Certified bijective${early}: ${flips}`)
     : make('p', { class: 'verdict open' }, `Not certified: ${flips}`);
 }
 
@@ -52,6 +53,9 @@ function facts(report: Report): (readonly [string, string, string])[] {
     ],
     ['Base domain', `${integer(report.base_domain.vertices)} vertices, ${integer(report.base_domain.faces)} triangles`, ''],
   ];
+  if (report.own_landmarks > 0) {
+    rows.push(['Own cones', `${integer(report.own_landmarks)} of the program’s own`, 'Points added where the landmarks are few']);
+  }
   if (report.layout !== null) {
     rows.push(['Layout', layoutSentence(report.layout), 'Ways to draw the base domain, judged by the energy of coarse maps']);
   }

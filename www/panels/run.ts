@@ -1,8 +1,10 @@
 /** Start, progress and cancel; the page's errors. */
 import { hint, overallShare, stageSentence } from '../messages.ts';
-import type { State } from '../state.ts';
+import type { Progress } from '../compute/messages.ts';
+import type { Running, State } from '../state.ts';
 import { canRun, isStale, MIN_PAIRS } from '../state.ts';
 import { byId, button, figure, make } from './dom.ts';
+import { EnergyCurve } from './energy.ts';
 import type { Actions, Panel } from './panel.ts';
 
 function selectOf<T extends string>(
@@ -40,15 +42,36 @@ function idleSentence(state: State): string {
   return state.result === null ? `Ready with ${state.pairs.length} landmark pairs.` : 'The map is done.';
 }
 
+/** What a run does. */
+function runningSentence({ progress, finish }: Running): string {
+  const stage = progress === null ? 'Starting' : stageSentence(progress.stage);
+  return finish === 'asked' ? `Finishing with the best map so far: ${stage.toLowerCase()}…` : `${stage}…`;
+}
+
+/** The number that a run brings down, in words. */
+function progressNumber({ energy, residual, stage }: Progress): string {
+  if (energy !== null) {
+    const which = stage === 'relaxation' ? 'Energy' : 'Energy of the map being tried';
+    return `${which} ${energy.toFixed(3)} (4 is an isometry)`;
+  }
+  return residual === null ? '' : `Residual ${figure(residual)}`;
+}
+
 /** Makes the panel. */
 export function runPanel(actions: Actions): Panel {
   const root = byId('run-panel');
   const run = button('Compute the map', actions.run, { id: 'run', class: 'primary' });
+  const finish = button('Finish now', actions.finish, {
+    id: 'finish',
+    hidden: true,
+    title: 'Stop improving the map and show it: whole and certified, only less relaxed',
+  });
   const cancel = button('Cancel', actions.cancel, { id: 'cancel', hidden: true });
   const bar = make('progress', { max: 1, value: 0, 'aria-label': 'Progress of the map', hidden: true });
   const status = make('p', { id: 'status', role: 'status' });
   const about = make('p', { class: 'quiet' });
   const residual = make('p', { class: 'quiet residual' });
+  const curve = new EnergyCurve();
   const method = selectOf(
     'Method',
     [
@@ -79,14 +102,29 @@ export function runPanel(actions: Actions): Panel {
       actions.dispatch({ kind: 'options', options: { cones: value } });
     },
   );
+  const ownCones = selectOf(
+    'Own cones',
+    [
+      ['usual', 'Where they help'],
+      ['0', 'None'],
+      ['10', 'Up to 10'],
+      ['20', 'Up to 20'],
+      ['40', 'Up to 40'],
+    ] as const,
+    (value) => {
+      actions.dispatch({ kind: 'options', options: { ownCones: value === 'usual' ? null : Number(value) } });
+    },
+  );
+  ownCones.select.title = 'Points that the program adds as cones of its own where there are at most 16 landmarks';
   root.append(
     make('h2', { class: 'hidden-title' }, 'Map'),
     about,
-    make('div', { class: 'row' }, run, cancel),
+    make('div', { class: 'row' }, run, finish, cancel),
     bar,
     status,
     residual,
-    make('details', {}, make('summary', {}, 'Advanced'), method.row, base.row, cones.row),
+    curve.root,
+    make('details', {}, make('summary', {}, 'Advanced'), method.row, base.row, cones.row, ownCones.row),
   );
 
   const error = byId('error');
@@ -104,23 +142,30 @@ export function runPanel(actions: Actions): Panel {
       about.hidden = state.demo === null;
       run.disabled = !canRun(state);
       run.hidden = running;
+      const finishable = state.job.kind === 'running' && state.job.finish === 'possible';
+      if (!finishable && document.activeElement === finish) {
+        // A hidden button would lose the keyboard's place.
+        cancel.hidden = !running;
+        (running ? cancel : run).focus();
+      }
+      finish.hidden = !finishable;
       cancel.hidden = !running;
       bar.hidden = !running;
       method.select.value = state.options.method;
       base.select.value = state.options.base;
       cones.select.value = state.options.cones;
+      ownCones.select.value = state.options.ownCones === null ? 'usual' : String(state.options.ownCones);
       for (const select of [method.select, base.select, cones.select]) {
         select.disabled = running;
       }
+      ownCones.select.disabled = running || state.options.method === 'thesis';
       let sentence = idleSentence(state);
       let number = '';
       if (state.job.kind === 'running') {
         const { progress } = state.job;
-        sentence = progress === null ? 'Starting…' : `${stageSentence(progress.stage)}…`;
-        bar.value = progress === null ? 0 : overallShare(progress);
-        if (progress !== null && progress.residual !== null) {
-          number = `residual ${figure(progress.residual)}`;
-        }
+        sentence = runningSentence(state.job);
+        number = progress === null ? '' : progressNumber(progress);
+        bar.value = progress === null ? 0 : Math.max(bar.value, overallShare(progress));
       } else if (state.job.kind === 'error') {
         sentence = state.result === null ? 'No map was made.' : 'No new map was made; the last one is shown.';
       }
@@ -129,6 +174,7 @@ export function runPanel(actions: Actions): Panel {
       }
       residual.textContent = number;
       residual.hidden = !running;
+      curve.show(state.job.kind === 'running' ? state.job.energies : []);
       if (previous !== null && (previous.job.kind === 'running') !== running && document.activeElement === document.body) {
         (running ? cancel : run).focus();
       }
@@ -147,6 +193,7 @@ export function runPanel(actions: Actions): Panel {
               hasTarget: state.meshes[1] !== null,
               pendingSide: state.pending?.side ?? null,
               pairs: state.pairs.length,
+              waiting: state.queue.length,
             });
       if (hintBox.textContent !== next) {
         hintBox.textContent = next;

@@ -8,6 +8,7 @@ import { Viewer } from '../wasm/conemap.js';
 import type { Box } from './gestures.ts';
 import { listen } from './gestures.ts';
 import { Labels } from './labels.ts';
+import { Rings } from './rings.ts';
 
 /** What the views tell the page. */
 export interface ViewListener {
@@ -41,6 +42,7 @@ export class Views {
   readonly #canvas: HTMLCanvasElement;
   readonly #elements: readonly [HTMLElement, HTMLElement];
   readonly #labels: readonly [Labels, Labels];
+  readonly #rings: readonly [Rings, Rings];
   readonly #listener: ViewListener;
   #viewer: Viewer | null = null;
   #state: State;
@@ -60,6 +62,7 @@ export class Views {
     this.#listener = listener;
     this.#elements = [byId('view-source'), byId('view-target')];
     this.#labels = [new Labels(this.#elements[0]), new Labels(this.#elements[1])];
+    this.#rings = [new Rings(this.#elements[0], 'source'), new Rings(this.#elements[1], 'target')];
     for (const side of SIDES) {
       const element = this.#elements[side];
       element.tabIndex = 0;
@@ -144,6 +147,9 @@ export class Views {
       ) {
         this.#setLandmarks(viewer);
       }
+      if (previous?.suggestions !== state.suggestions || previous.meshes !== state.meshes) {
+        this.#setSuggestions(viewer);
+      }
       if (previous?.style !== state.style || previous.result !== state.result || previous.pairs !== state.pairs) {
         this.#setStyle(viewer);
       }
@@ -177,6 +183,18 @@ export class Views {
         viewer.setLandmarks(side, '[]');
         this.#listener.failed(SENTENCES.badPoint);
       }
+    }
+  }
+
+  #setSuggestions(viewer: Viewer): void {
+    for (const side of SIDES) {
+      const suggestions = this.#state.meshes[side] === null ? [] : this.#state.suggestions[side];
+      viewer.setSuggestions(side, JSON.stringify(suggestions.map((suggestion) => suggestion.point)));
+      this.#rings[side].show(suggestions, ({ point }) => {
+        if (this.#state.job.kind !== 'running') {
+          this.#listener.picked(side, point);
+        }
+      });
     }
   }
 
@@ -221,6 +239,7 @@ export class Views {
           box.width,
           box.height,
         );
+        this.#rings[side].place(viewer.suggestions(side), box.width, box.height);
       }
     } catch (thrown) {
       console.error(thrown);

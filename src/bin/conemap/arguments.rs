@@ -18,6 +18,8 @@ pub struct Arguments {
 pub enum Command {
     /// Map a source mesh onto a target mesh from corresponding landmarks.
     Map(MapArguments),
+    /// Print vertices of a mesh that are worth a landmark: ends of limbs, then points far from all others.
+    Suggest(SuggestArguments),
     /// Deform one mesh conformally to a flat metric with prescribed cones.
     Flow(FlowArguments),
 }
@@ -57,6 +59,19 @@ pub struct MapArguments {
     /// File for the report (JSON).
     #[arg(long)]
     pub report: Option<PathBuf>,
+}
+
+/// `conemap suggest`.
+#[derive(Debug, Args)]
+pub struct SuggestArguments {
+    /// Mesh: OBJ, OFF, PLY, STL, GLB or glTF; closed, genus 0.
+    pub mesh: PathBuf,
+    /// How many at most.
+    #[arg(long, default_value_t = 12)]
+    pub count: usize,
+    /// Vertices (0-based) that are landmarks already: the suggestions keep away from them.
+    #[arg(long, value_name = "VERTEX", value_delimiter = ',')]
+    pub beside: Vec<usize>,
 }
 
 /// A time of zero or more seconds.

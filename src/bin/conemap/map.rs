@@ -32,10 +32,15 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
         _ => GroundTruth::Unknown,
     };
     let source_vertices = source.mesh.vertex_count();
+    let numbers = [source.file_from_vertex(), target.file_from_vertex()];
     let PlacedLandmarks { source, target, landmarks } = placed;
     let map_input =
         MapInput { source: &source.mesh, target: &target.mesh, landmarks: &landmarks, ground_truth };
-    let found = findings(map_input, &file.labels.unwrap_or_default());
+    let number = |side: usize, v: usize| numbers[side].get(v).copied().unwrap_or(v);
+    let found: Vec<_> = findings(map_input, &file.labels.unwrap_or_default())
+        .into_iter()
+        .map(|finding| finding.renumbered(number))
+        .collect();
     found.iter().for_each(tell_finding);
     // The thesis' method has nothing to shorten.
     if matches!(arguments.method, MethodArgument::Relaxed) {
@@ -91,7 +96,7 @@ fn add_seconds(result: &mut MapResult, seconds: BTreeMap<String, f64>) {
 fn tell_finding(finding: &FindingReport) {
     let repair = match finding.repair {
         RepairKind::MirrorTarget => " (--mirror-target)",
-        RepairKind::Swap | RepairKind::Check => "",
+        RepairKind::Swap | RepairKind::Check | RepairKind::Mark => "",
     };
     eprintln!("landmarks: {}{repair}", finding.sentence);
 }

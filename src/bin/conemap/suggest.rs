@@ -1,0 +1,32 @@
+//! `conemap suggest`.
+#![allow(clippy::print_stdout, reason = "the result goes to standard output")]
+
+use crate::arguments::SuggestArguments;
+use crate::input::{self, Failure};
+use conemap::landmark_suggestion::{Reason, suggest};
+use serde_json::json;
+
+/// Prints vertices of a mesh that are worth a landmark, as JSON.
+pub fn run(arguments: &SuggestArguments) -> Result<(), Failure> {
+    let checked = input::mesh(&arguments.mesh)?;
+    let numbers = checked.file_from_vertex();
+    let mut marked = Vec::new();
+    for &v in &arguments.beside {
+        let known = checked.vertex_from_file.get(v).copied().flatten();
+        marked.push(known.ok_or_else(|| format!("--beside: the mesh has no vertex {v}"))?);
+    }
+    marked.sort_unstable();
+    marked.dedup();
+    let found = suggest(&checked.mesh, &marked, arguments.count);
+    let entry = |s: &conemap::landmark_suggestion::Suggestion| {
+        let reason = match s.reason {
+            Reason::Tip => "tip",
+            Reason::Far => "far",
+        };
+        let partner = s.partner.map(|k| numbers[found[k].vertex.index()]);
+        json!({ "vertex": numbers[s.vertex.index()], "reason": reason, "partner": partner })
+    };
+    let entries: Vec<_> = found.iter().map(entry).collect();
+    println!("{}", serde_json::to_string_pretty(&json!({ "suggestions": entries }))?);
+    Ok(())
+}

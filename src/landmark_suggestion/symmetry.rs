@@ -1,0 +1,84 @@
+//! Points that look alike from the whole surface, as left and right do.
+//!
+//! How far the surface lies from a point, as quantiles over the area, does not change under a symmetry of the surface. So two
+//! points whose quantiles agree, each nearest to the other, are taken for partners. Distances alone cannot tell which is left.
+
+use super::areas;
+use super::distance::distances;
+use crate::mesh::{SurfaceMesh, VertexId};
+
+/// Quantiles by which points are compared.
+const QUANTILES: usize = 32;
+
+/// Partners' quantiles differ by less than this share of their mean.
+const ALIKE: f64 = 0.03;
+
+/// For each point the number of its partner under a symmetry, where there is one; partners name each other.
+pub fn partners(mesh: &SurfaceMesh, points: &[VertexId]) -> Vec<Option<usize>> {
+    let areas = areas(mesh);
+    let quantiles: Vec<[f64; QUANTILES]> = points.iter().map(|&v| quantiles(mesh, &areas, v)).collect();
+    let nearest = |i: usize| {
+        let others = (0..points.len()).filter(|&j| j != i);
+        let misfits = others.map(|j| (misfit(&quantiles[i], &quantiles[j]), j));
+        misfits.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|best| best.0 < ALIKE).map(|best| best.1)
+    };
+    let nearest: Vec<Option<usize>> = (0..points.len()).map(nearest).collect();
+    (0..points.len()).map(|i| nearest[i].filter(|&j| nearest[j] == Some(i))).collect()
+}
+
+/// Distances within which equal shares of the area lie.
+fn quantiles(mesh: &SurfaceMesh, areas: &[f64], v: VertexId) -> [f64; QUANTILES] {
+    let field = distances(mesh, &[v]);
+    let mut order: Vec<usize> = (0..areas.len()).collect();
+    order.sort_by(|&a, &b| field.raw[a].total_cmp(&field.raw[b]));
+    let share = areas.iter().sum::<f64>() / QUANTILES as f64;
+    let (mut quantiles, mut next, mut within) = ([0.0; QUANTILES], 0, 0.0);
+    for w in order {
+        within += areas[w];
+        while next < QUANTILES && within > (next as f64 + 0.5) * share {
+            quantiles[next] = field.raw[w];
+            next += 1;
+        }
+    }
+    quantiles
+}
+
+/// Mean difference, relative to the mean.
+fn misfit(a: &[f64; QUANTILES], b: &[f64; QUANTILES]) -> f64 {
+    let difference: f64 = a.iter().zip(b).map(|(x, y)| (x - y).abs()).sum();
+    2.0 * difference / (a.iter().sum::<f64>() + b.iter().sum::<f64>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::landmark_suggestion::tips;
+    use crate::mesh::generators::icosphere;
+    use glam::DVec3;
+
+    /// A ball with two equal arms and two of other lengths.
+    #[test]
+    fn equal_arms_are_partners_and_others_are_not() {
+        let arms = [(DVec3::X, 2.0), (DVec3::NEG_X, 2.0), (DVec3::Y, 1.0), (DVec3::NEG_Y, 3.0)];
+        let ball = icosphere(4);
+        let arm = |p: &DVec3| {
+            let grown = |(a, l): &(DVec3, f64)| l * crate::math::scalar::pow(a.dot(*p).max(0.0), 12.0);
+            *p * (1.0 + arms.iter().map(grown).sum::<f64>())
+        };
+        let star = ball.with_positions(ball.positions().iter().map(arm).collect());
+        let ends = tips(&star, 0.5);
+        assert_eq!(ends.len(), arms.len());
+        let found = partners(&star, &ends);
+        for (i, partner) in found.iter().enumerate() {
+            let p = star.positions()[ends[i]];
+            match partner {
+                Some(j) => {
+                    let q = star.positions()[ends[*j]];
+                    assert!(p.distance(q * DVec3::new(-1.0, 1.0, 1.0)) < 0.2, "{p} {q}");
+                    assert_eq!(found[*j], Some(i));
+                }
+                None => assert!(p.x.abs() < 0.5, "{p} has no partner"),
+            }
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! Limbs without a landmark on real animals.
+#![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
+
+mod common;
+
+use conemap::pipeline::{FindingKind, GroundTruth, MapInput, findings};
+
+/// Sides (0 source, 1 target) of a pair on which limbs are named, with how many.
+fn named(data: &std::path::Path, name: &str) -> Vec<(usize, usize)> {
+    let pair = common::read_pair(data, name);
+    let landmarks = common::landmarks(&pair);
+    let (source, target, ground_truth) = (&pair.source, &pair.target, GroundTruth::Unknown);
+    let found = findings(MapInput { source, target, landmarks: &landmarks, ground_truth }, &[]);
+    let limbs = found.iter().filter(|f| f.kind == FindingKind::UnmarkedLimbs);
+    limbs.map(|f| (f.side.unwrap(), f.vertices.len())).collect()
+}
+
+/// The 21 landmarks of the SHREC07 pairs leave the tails out: five of eight are long. The 33 landmarks leave nothing out.
+#[test]
+fn tails_without_a_landmark_are_named_and_nothing_else() {
+    let Some(data) = common::data_folder("tails_without_a_landmark_are_named_and_nothing_else") else {
+        return;
+    };
+    for name in ["cat-cat1", "cat-dog", "cat-lion", "horse-camel", "horse-horse05"] {
+        assert_eq!(named(&data, name), [], "{name}");
+    }
+    let expected: [(&str, &[(usize, usize)]); 4] = [
+        ("shrec07-381-383", &[(1, 1)]),
+        ("shrec07-385-387", &[(0, 1)]),
+        ("shrec07-392-394", &[(1, 1)]),
+        ("shrec07-397-400", &[(0, 1), (1, 1)]),
+    ];
+    for (name, sides) in expected {
+        assert_eq!(named(&data, name), sides, "{name}");
+    }
+}

@@ -1,0 +1,56 @@
+/** A run that is asked for its result before it is done. */
+import { existsSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import type { Page } from '@playwright/test';
+import { expect, test } from '@playwright/test';
+
+const ROOT = fileURLToPath(new URL('../../', import.meta.url));
+const SHARED = `${ROOT}../shared`;
+const DATA = `${SHARED}/data`;
+
+async function open(page: Page): Promise<void> {
+  await page.goto('/');
+  await expect(page.locator('body')).toHaveAttribute('data-ready', 'true', { timeout: 120_000 });
+  await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
+}
+
+/** The energy that the result shows. */
+async function energyOf(page: Page): Promise<number> {
+  await expect(page.locator('body')).toHaveAttribute('data-state', /done|error/, { timeout: 200_000 });
+  await expect(page.locator('#error')).toBeHidden();
+  await expect(page.locator('#result')).toContainText(/Certified bijective.*: 0 of [\d,]+ triangles flipped/);
+  return Number(/Energy([\d.]+)/.exec(await page.locator('#result').innerText().then((text) => text.replace(/\s/g, '')))?.[1]);
+}
+
+test('Finish now gives a certified map that is marked as finished early', async ({ page }) => {
+  await open(page);
+  await page.locator('#run').click();
+  await page.locator('#finish').click();
+  await expect(page.locator('#finish')).toBeHidden();
+  const early = await energyOf(page);
+  await expect(page.locator('#result')).toContainText('Certified bijective (finished early)');
+  await expect(page.locator('#result .warning').first()).toContainText('Finished early on request, at energy');
+
+  await page.locator('#run').click();
+  await expect(page.locator('.residual')).toContainText(/Energy \d\.\d+/, { timeout: 60_000 });
+  const full = await energyOf(page);
+  await expect(page.locator('#result')).not.toContainText('finished early');
+  expect(full).toBeLessThan(early);
+});
+
+test('a run on real meshes finishes when asked during its relaxation', async ({ page }) => {
+  test.skip(!existsSync(SHARED) && !process.env['CI'], 'the real meshes (../shared/data) are not here');
+  await open(page);
+  await page.locator('#source-file').setInputFiles(`${DATA}/sumner/cat.off`);
+  await expect(page.locator('#view-source')).toContainText('cat.off');
+  await page.locator('#target-file').setInputFiles(`${DATA}/sumner/lion.off`);
+  await expect(page.locator('#view-target')).toContainText('lion.off');
+  await page.locator('#landmark-file').setInputFiles(`${DATA}/pairs/cat-lion.json`);
+  await expect(page.locator('#landmark-list li')).toHaveCount(33, { timeout: 60_000 });
+  await page.locator('#run').click();
+  await expect(page.locator('.energy-curve')).toBeVisible({ timeout: 120_000 });
+  await page.screenshot({ path: `${ROOT}test-results/relaxing.png` });
+  await page.locator('#finish').click();
+  expect(await energyOf(page)).toBeLessThan(5);
+  await expect(page.locator('#result')).toContainText('Certified bijective (finished early)');
+});

@@ -1,0 +1,46 @@
+/** Suggested points over a view: hollow rings, taken as a landmark by a click or a key. */
+import { make } from '../panels/dom.ts';
+import type { Suggestion } from '../state.ts';
+import { suggestionName } from '../messages.ts';
+
+/** One view's rings. */
+export class Rings {
+  readonly #layer: HTMLElement;
+  #rings: HTMLButtonElement[] = [];
+
+  constructor(view: HTMLElement, side: string) {
+    this.#layer = make('div', { class: 'rings', role: 'group', 'aria-label': `Suggested points of the ${side}` });
+    view.append(this.#layer);
+  }
+
+  /** Shows these suggestions; `take` hears which one is taken. */
+  show(suggestions: readonly Suggestion[], take: (suggestion: Suggestion) => void): void {
+    this.#rings = suggestions.map((suggestion) => {
+      const name = suggestionName(suggestion, suggestions);
+      const ring = make('button', { type: 'button', title: name, 'aria-label': `Take ${name}` }, suggestion.letter);
+      ring.addEventListener('click', () => {
+        take(suggestion);
+      });
+      ring.addEventListener('keydown', (event) => {
+        if (event.key === 'Enter' || event.key === ' ') {
+          // The view below would pick the point in its middle.
+          event.stopPropagation();
+        }
+      });
+      return ring;
+    });
+    this.#layer.replaceChildren(...this.#rings);
+  }
+
+  /** Places the rings: x, y in [-1, 1] (y up) and visible (0 or 1) for each. */
+  place(places: Float32Array, width: number, height: number): void {
+    this.#rings.forEach((ring, index) => {
+      ring.hidden = (places[3 * index + 2] ?? 0) < 0.5;
+      if (!ring.hidden) {
+        const x = (((places[3 * index] ?? 0) + 1) / 2) * width;
+        const y = ((1 - (places[3 * index + 1] ?? 0)) / 2) * height;
+        ring.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
+      }
+    });
+  }
+}
