@@ -16,7 +16,8 @@ export class FileRefused extends Error {}
 
 function jsonOf(bytes: Uint8Array): unknown {
   const start = bytes.findIndex((byte) => byte > 0x20 && byte !== 0xef && byte !== 0xbb && byte !== 0xbf);
-  if (bytes[start] !== 0x7b) {
+  const first = String.fromCharCode(bytes[start] ?? 0);
+  if (first !== '{' && first !== '[') {
     return undefined;
   }
   try {

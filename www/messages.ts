@@ -56,7 +56,8 @@ const INSTEAD: Readonly<Record<string, string>> = {
 
 function asSentence(text: string): string {
   const trimmed = text.trim();
-  const start = trimmed.charAt(0).toUpperCase() + trimmed.slice(1);
+  // glTF is a name and stays.
+  const start = trimmed.startsWith('glTF') ? trimmed : trimmed.charAt(0).toUpperCase() + trimmed.slice(1);
   return /[.!?]$/.test(start) ? start : `${start}.`;
 }
 

@@ -1,0 +1,127 @@
+/** What the page gives back: landmark files that load again, and exports that other programs can read. */
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import type { Page } from '@playwright/test';
+import { expect, test } from '@playwright/test';
+
+const ROOT = fileURLToPath(new URL('../../', import.meta.url));
+const SHARED = `${ROOT}../shared`;
+const DATA = `${SHARED}/data`;
+
+async function open(page: Page, hash: string): Promise<void> {
+  await page.goto(`/${hash}`);
+  await expect(page.locator('body')).toHaveAttribute('data-ready', 'true', { timeout: 120_000 });
+  await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
+}
+
+async function downloaded(page: Page, button: string): Promise<Buffer> {
+  const download = page.waitForEvent('download');
+  await page.getByRole('button', { name: button, exact: true }).click();
+  const file = await download;
+  const path = test.info().outputPath(file.suggestedFilename());
+  await file.saveAs(path);
+  return readFileSync(path);
+}
+
+async function finished(page: Page): Promise<void> {
+  await expect(page.locator('body')).toHaveAttribute('data-state', /done|error/, { timeout: 200_000 });
+  await expect(page.locator('#error')).toBeHidden();
+}
+
+interface Accessor {
+  readonly bufferView: number;
+  readonly componentType: number;
+  readonly count: number;
+  readonly type: string;
+}
+
+interface Gltf {
+  readonly asset: { readonly version: string };
+  readonly meshes: readonly { readonly primitives: readonly { readonly indices: number; readonly attributes: Readonly<Record<string, number>> }[] }[];
+  readonly accessors: readonly Accessor[];
+  readonly bufferViews: readonly { readonly byteOffset?: number; readonly byteLength: number }[];
+}
+
+/** Checks the container and that every index names a vertex; the number of triangles. */
+function trianglesOfGlb(glb: Buffer): number {
+  expect(glb.subarray(0, 4).toString()).toBe('glTF');
+  expect([glb.readUInt32LE(4), glb.readUInt32LE(8)]).toEqual([2, glb.length]);
+  const length = glb.readUInt32LE(12);
+  const gltf = JSON.parse(glb.subarray(20, 20 + length).toString()) as Gltf;
+  expect(gltf.asset.version).toBe('2.0');
+  const binary = glb.subarray(28 + length);
+  const primitive = gltf.meshes[0]?.primitives[0];
+  const indices = gltf.accessors[primitive?.indices ?? -1];
+  const positions = gltf.accessors[primitive?.attributes['POSITION'] ?? -1];
+  const view = gltf.bufferViews[indices?.bufferView ?? -1];
+  if (indices === undefined || positions === undefined || view === undefined) {
+    throw new Error('the GLB has no triangles');
+  }
+  expect(indices.componentType).toBe(5125);
+  let largest = 0;
+  for (let k = 0; k < indices.count; k++) {
+    largest = Math.max(largest, binary.readUInt32LE((view.byteOffset ?? 0) + 4 * k));
+  }
+  expect(largest).toBe(positions.count - 1);
+  return indices.count / 3;
+}
+
+test('landmarks and exports can be read again', async ({ page }) => {
+  await open(page, '#demo=horse-cat');
+  const rows = page.locator('#landmark-list [data-pair]');
+  const pairs = await rows.count();
+  const saved = await downloaded(page, 'Save file');
+  await page.getByRole('button', { name: 'Clear all' }).click();
+  await expect(rows).toHaveCount(0);
+  await page.locator('#landmark-file').setInputFiles({ name: 'landmarks.json', mimeType: 'application/json', buffer: saved });
+  await expect(rows).toHaveCount(pairs);
+  expect((await downloaded(page, 'Save file')).toString()).toBe(saved.toString());
+
+  await page.locator('#run').click();
+  await finished(page);
+  const faces = Number(/([\d,]+) triangles/.exec(await page.locator('#view-source').innerText())?.[1]?.replace(',', ''));
+  const vertices = faces / 2 + 2;
+  expect(trianglesOfGlb(await downloaded(page, 'GLB'))).toBeGreaterThan(faces);
+  const [header, ...lines] = (await downloaded(page, 'CSV')).toString().trim().split('\n');
+  expect(header?.split(',')).toHaveLength(5);
+  expect(lines).toHaveLength(vertices);
+  for (const line of lines) {
+    const numbers = line.split(',').map(Number);
+    expect(numbers).toHaveLength(5);
+    expect(numbers.every((number) => Number.isFinite(number) && number >= -1e-9)).toBe(true);
+  }
+  const base = (await downloaded(page, 'Base OBJ')).toString().split('\n');
+  expect(base.filter((line) => line.startsWith('v '))).toHaveLength(pairs);
+  expect(base.filter((line) => line.startsWith('f '))).toHaveLength(2 * pairs - 4);
+  const report = JSON.parse((await downloaded(page, 'Report')).toString()) as { certificate: { bijective: boolean }; stopped_early: boolean };
+  expect([report.certificate.bijective, report.stopped_early]).toEqual([true, false]);
+});
+
+test('a mirrored set is repaired by a click', async ({ page }) => {
+  test.skip(!existsSync(SHARED) && !process.env['CI'], 'the real meshes (../shared/data) are not here');
+  await open(page, '');
+  // The mirror image of the lion: x turned, and every triangle with it.
+  const [kind, sizes, ...lines] = readFileSync(`${DATA}/sumner/lion.off`, 'utf8').split(/\r?\n/).filter((line) => line.trim() !== '' && !line.startsWith('#'));
+  const count = Number(sizes?.trim().split(/\s+/)[0]);
+  const mirrored = lines.map((line, index) => {
+    const words = line.trim().split(/\s+/);
+    return index < count ? [String(-Number(words[0])), words[1], words[2]].join(' ') : [words[0], words[1], words[3], words[2]].join(' ');
+  });
+  const path = test.info().outputPath('lion.off');
+  writeFileSync(path, [kind, sizes, ...mirrored].join('\n'));
+  await page.locator('#source-file').setInputFiles(`${DATA}/sumner/cat.off`);
+  await expect(page.locator('#view-source')).toContainText('cat.off');
+  await page.locator('#target-file').setInputFiles(path);
+  await expect(page.locator('#view-target')).toContainText('lion.off');
+  await page.locator('#landmark-file').setInputFiles(`${DATA}/pairs/cat-lion.json`);
+  await expect(page.locator('#landmark-list [data-pair]')).toHaveCount(33);
+
+  await page.locator('#run').click();
+  await page.getByRole('button', { name: 'Mirror the target' }).click({ timeout: 120_000 });
+  await expect(page.locator('#view-target')).toContainText('lion (mirrored).obj');
+  await expect(page.locator('#landmark-list [data-pair]')).toHaveCount(33);
+  await page.locator('#run').click();
+  await finished(page);
+  await expect(page.locator('#findings')).toBeHidden();
+  await expect(page.locator('#result')).toContainText(/Certified bijective: 0 of/);
+});
