@@ -29,9 +29,10 @@ const demos = () => JSON.parse(demoList()).map(({ id }) => {
   const demo = buildDemo(id);
   return { name: id, files: [demo.source(), demo.target(), demo.landmarks()].map(text) };
 });
-const hush = () => undefined;
+const nothing = () => undefined;
+const listener = { progress: nothing, found: nothing, wantsResult: () => false };
 const map = ([source, target, landmarks]) =>
-  JSON.parse(runMap(source, target, text(landmarks), '{}', hush, hush).report());
+  JSON.parse(runMap(source, target, text(landmarks), '{}', listener).report());
 self.onmessage = async ({ data: { module, paths } }) => {
   await init({ module_or_path: module });
   const files = await Promise.all(paths.map(bytes));

@@ -1,5 +1,5 @@
 /** Wires the state, the views, the panels and the worker together. */
-import { compileCore, startRun } from './compute/client.ts';
+import { compileCore, startRun, warmUp } from './compute/client.ts';
 import type { Run } from './compute/client.ts';
 import { failureOf } from './compute/messages.ts';
 import type { NamedBytes } from './files.ts';
@@ -21,6 +21,7 @@ import init, { buildDemo, demoList, suggestLandmarks } from './wasm/conemap.js';
 let state: State = INITIAL;
 let core: WebAssembly.Module | null = null;
 let run: Run | null = null;
+let endWarmUp = (): void => undefined;
 /** Counts loads, so that a slow one does not overwrite a later one. */
 let loads = 0;
 
@@ -161,6 +162,7 @@ function compute(): void {
   if (core === null || source === null || target === null || !canRun(state)) {
     return;
   }
+  endWarmUp();
   dispatch({ kind: 'run-started' });
   run = startRun(
     {
@@ -339,6 +341,9 @@ async function start(): Promise<void> {
     await openDemo(linked);
   } else if (first !== undefined) {
     await openDemo(first.id);
+  }
+  if (run === null) {
+    endWarmUp = warmUp(core);
   }
 }
 

@@ -16,6 +16,21 @@ export async function compileCore(): Promise<WebAssembly.Module> {
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
+/**
+ * Lets the browser optimise the core while the user is still choosing, so that the first run is as fast as later ones;
+ * the returned function ends that at once. Nothing depends on it.
+ */
+export function warmUp(module: WebAssembly.Module): () => void {
+  const worker = new Worker(new URL('./warmer.ts', import.meta.url), { type: 'module' });
+  worker.addEventListener('error', (event) => {
+    event.preventDefault();
+  });
+  worker.postMessage(module);
+  return () => {
+    worker.terminate();
+  };
+}
+
 /** What a run reports while it goes and when it ends. */
 export interface RunListener {
   progress(progress: Progress): void;
