@@ -36,7 +36,7 @@ impl Default for SearchOptions {
             twists: 12,
             twist_ratio: 2.5,
             ambiguous_ratio: 1.2,
-            least_gain: 0.01,
+            least_gain: 0.001,
         }
     }
 }

@@ -79,7 +79,7 @@ pub(super) fn add(
     monitor: &mut dyn Monitor,
 ) -> Result<Option<OwnCones>, PipelineError> {
     let own = &options.own_cones;
-    if own.count == 0 || full[0].landmarks.len() > own.most_landmarks || map.energy < own.least_energy {
+    if own.count == 0 || full[0].landmarks.len() > own.most_landmarks || map.judged < own.least_energy {
         return Ok(None);
     }
     let Some(mut images) = map.images(user_sides) else { return Ok(None) };
@@ -102,7 +102,7 @@ pub(super) fn add(
             Err(_) => continue,
         };
         let Coarse { layout, map: next, .. } = next;
-        let (energy, least) = (next.energy, best.as_ref().map_or(map.energy, |best| best.energy));
+        let (energy, least) = (next.judged, best.as_ref().map_or(map.judged, |best| best.energy));
         let Some(next_images) = next.images(&sides).filter(|_| energy < least) else { continue };
         if energy < (1.0 - own.least_gain) * least {
             without_gain = 0;

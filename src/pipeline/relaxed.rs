@@ -187,32 +187,55 @@ pub(super) fn searched<'a>(
 ) -> Result<Coarse<'a>, PipelineError> {
     let landmarks = coarse_landmarks(sides);
     let meshes = [&sides[0].coarse.mesh, &sides[1].coarse.mesh];
-    let mut best: Option<CoarseMap<'a>> = None;
-    let mut judge = |layout: &BaseLayout, monitor: &mut dyn Monitor| match solve_coarse(
-        sides,
-        layout,
-        (options, monitor),
-    ) {
-        Ok(map) => {
-            let energy = map.energy;
-            if best.as_ref().is_none_or(|best| energy < best.energy) {
-                best = Some(map);
+    let mut finalists: Vec<Finalist<'a>> = Vec::new();
+    let mut count = 0;
+    let mut judge = |layout: &BaseLayout, monitor: &mut dyn Monitor| {
+        let number = count;
+        count += 1;
+        match solve_coarse(sides, layout, (options, monitor)) {
+            Ok(map) => {
+                let energy = map.judged;
+                finalists.push(Finalist { number, layout: layout.clone(), map });
+                finalists.sort_by(|a, b| a.map.judged.total_cmp(&b.map.judged));
+                finalists.truncate(options.finalists);
+                Ok(Some(energy))
             }
-            Ok(Some(energy))
+            Err(MapError::Cancelled(stop)) => Err(stop),
+            Err(_) => Ok(None),
         }
-        Err(MapError::Cancelled(stop)) => Err(stop),
-        Err(_) => Ok(None),
     };
     let mut candidates = Candidates::new(meshes, &landmarks);
-    let (layout, search) = layout::search(&mut candidates, &mut judge, search_options, monitor)?;
-    // The search may keep an earlier layout for a gain too small to change it.
-    let kept = best.filter(|best| search.energy().is_none_or(|energy| energy == best.energy));
-    let mut map = match kept {
-        Some(map) => map,
-        None => solve_coarse(sides, &layout, (options, &mut *monitor))?,
-    };
+    let (_, mut search) = layout::search(&mut candidates, &mut judge, search_options, monitor)?;
+    let Finalist { number, layout, mut map } = winner(finalists, sides, (options, &mut *monitor))?;
+    search.best = number;
+    search.judged[number].energy = Some(map.judged);
     map.finish(sides, (options, monitor))?;
     Ok(Coarse { layout, search, map })
+}
+
+/// One of the best maps of a search.
+struct Finalist<'a> {
+    /// Among the judged layouts.
+    number: usize,
+    layout: BaseLayout,
+    map: CoarseMap<'a>,
+}
+
+/// The best of maps that are too close to tell after a first look: each is relaxed further.
+fn winner<'a>(
+    mut finalists: Vec<Finalist<'a>>,
+    sides: &[Side<'_>; 2],
+    (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
+) -> Result<Finalist<'a>, PipelineError> {
+    let least = finalists.first().map_or(f64::INFINITY, |first| first.map.judged);
+    finalists.retain(|other| other.map.judged - 4.0 <= options.close * (least - 4.0));
+    if finalists.len() > 1 && !monitor.wants_result() {
+        for finalist in &mut finalists {
+            finalist.map.relax(sides, (&options.decide, &mut *monitor))?;
+        }
+    }
+    let best = finalists.into_iter().min_by(|a, b| a.map.judged.total_cmp(&b.map.judged));
+    best.ok_or(LayoutError::NoMap { layouts: 0 }.into())
 }
 
 fn result(

@@ -8,9 +8,9 @@
 use super::compose::{Locations, Locator, Parametrised};
 use super::cone_surface::ConeSurface;
 use super::embedding::Embedding;
-use super::energy::TwoSided;
 use super::flat_problem::{FaceHessian, FlatProblem, rest_jacobian, unrotate};
 use super::overlay::{Measure, SideOf};
+use super::two_sided::TwoSided;
 use super::unknowns::Unknowns;
 use crate::mesh::FaceId;
 use crate::monitor::{Cancelled, Monitor, Step};
@@ -26,13 +26,13 @@ pub struct ComposedOptions {
     pub relative_decrease: f64,
     /// Weight of the flat energy.
     pub barrier: f64,
-    /// Weight of the part of the energy that keeps regions from collapsing, [`TwoSided::balance`].
-    pub balance: f64,
+    /// What is lowered.
+    pub energy: TwoSided,
 }
 
 impl Default for ComposedOptions {
     fn default() -> Self {
-        Self { max_rounds: 20, relative_decrease: 1e-3, barrier: 0.1, balance: 0.02 }
+        Self { max_rounds: 20, relative_decrease: 5e-4, barrier: 0.03, energy: TwoSided::SMOOTH }
     }
 }
 
@@ -43,6 +43,10 @@ pub struct ComposedReport {
     pub energies: Vec<f64>,
     /// E at the end.
     pub energy: f64,
+    /// Energy at the end by [`TwoSided::JUDGE`], 4 for an isometry.
+    pub judged: f64,
+    /// Half of both surfaces is distorted by no more than this at the end ([`TwoSided::distortion`]).
+    pub median: f64,
 }
 
 /// Share of the diagonal that is added to the Hessian at first.
@@ -66,7 +70,12 @@ pub fn relax(
     monitor: &mut dyn Monitor,
 ) -> Result<([Embedding; 2], ComposedReport), Cancelled> {
     let mut relaxation = Relaxation::new(sides, surface, options);
-    let mut report = ComposedReport { energies: Vec::new(), energy: f64::INFINITY };
+    let mut report = ComposedReport {
+        energies: Vec::new(),
+        energy: f64::INFINITY,
+        judged: f64::INFINITY,
+        median: f64::INFINITY,
+    };
     if !relaxation.begin() {
         return Ok((relaxation.embeddings, report));
     }
@@ -91,7 +100,9 @@ pub fn relax(
             break;
         }
     }
-    report.energy = relaxation.plain_energy();
+    report.energy = relaxation.present.integral(TwoSided::PLAIN);
+    report.judged = relaxation.present.integral(TwoSided::JUDGE) / (1.0 + TwoSided::JUDGE.balance);
+    report.median = relaxation.present.median(TwoSided::POSES);
     Ok((relaxation.embeddings, report))
 }
 
@@ -153,7 +164,7 @@ impl<'a> Relaxation<'a> {
             sides,
             surface,
             options,
-            two_sided: TwoSided { balance: options.balance },
+            two_sided: options.energy,
             unknowns,
             problems,
             trials: embeddings.clone(),
@@ -243,11 +254,6 @@ impl<'a> Relaxation<'a> {
         self.present.measure((problem, &z), &self.inverses[1 - self.moving], self.two_sided);
         let flat = problem.energy(&z).unwrap_or(f64::INFINITY);
         self.present.total = self.present.energy + self.options.barrier * flat;
-    }
-
-    /// E at the present state.
-    fn plain_energy(&self) -> f64 {
-        self.present.integral(TwoSided { balance: 0.0 })
     }
 
     /// The gradient of the energy and the barrier.
@@ -342,6 +348,25 @@ impl Evaluation {
         });
         part.sum()
     }
+
+    /// The median distortion, each piece counted by its areas on both surfaces.
+    fn median(&self, two_sided: TwoSided) -> f64 {
+        let pieces = self.overlay.pieces().iter().zip(&self.onto_rest);
+        let local = pieces.map(|(piece, c)| {
+            let a = &self.jacobians[piece.source_face.index()];
+            let j = *c * *a;
+            (two_sided.distortion(&j), piece.area / a.determinant() * (1.0 + j.determinant()))
+        });
+        let mut local: Vec<(f64, f64)> = local.collect();
+        local.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let half = 0.5 * local.iter().map(|part| part.1).sum::<f64>();
+        let mut below = 0.0;
+        let middle = local.iter().find(|part| {
+            below += part.1;
+            below >= half
+        });
+        middle.map_or(f64::INFINITY, |part| part.0)
+    }
 }
 
 #[cfg(test)]
@@ -386,7 +411,8 @@ mod tests {
     #[test]
     fn the_gradient_with_its_transport_term_is_the_difference_quotient() {
         let (layout, surface, embeddings) = example();
-        let options = ComposedOptions { balance: 0.1, ..ComposedOptions::default() };
+        let options =
+            ComposedOptions { energy: TwoSided { balance: 0.1, knee: 0.2 }, ..ComposedOptions::default() };
         let mut relaxation = Relaxation::new(sides(&layout, &embeddings), &surface, &options);
         assert!(relaxation.begin());
         let z = relaxation.unknowns[0].points(&embeddings[0]);

@@ -103,73 +103,11 @@ pub fn hessian(j: &DMat2) -> [HessianTerm; 4] {
     ]
 }
 
-/// The energy of a map per unit of source area, counted on both surfaces alike: with S = |J|^2 and q = det J > 0
-///
-/// h(J) = S (1 + 1/q) + b S (q + 1/q^2).
-///
-/// The first part integrates to E = |J|^2 over the source and |J^-1|^2 over the target, 4 for an isometry. It counts a
-/// region by the area of its image, so that what collapses costs little; the second part, |J|^2 over the target and
-/// |J^-1|^2 over the source, counts it by what it was.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TwoSided {
-    /// The weight b of the second part.
-    pub balance: f64,
-}
-
-impl TwoSided {
-    /// h / S with its first and second derivative by q.
-    #[inline]
-    fn factor(&self, q: f64) -> [f64; 3] {
-        let (r, b) = (1.0 / q, self.balance);
-        let (r2, r3) = (r * r, r * r * r);
-        [1.0 + r + b * (q + r2), -r2 + b * (1.0 - 2.0 * r3), 2.0 * r3 + 6.0 * b * r2 * r2]
-    }
-
-    /// h.
-    #[inline]
-    pub fn density(&self, j: &DMat2) -> f64 {
-        let squares = j.x_axis.length_squared() + j.y_axis.length_squared();
-        squares * self.factor(j.determinant())[0]
-    }
-
-    /// dh/dJ.
-    #[inline]
-    pub fn gradient(&self, j: &DMat2) -> DMat2 {
-        let squares = j.x_axis.length_squared() + j.y_axis.length_squared();
-        let [f, slope, _] = self.factor(j.determinant());
-        let cofactor =
-            DMat2::from_cols(DVec2::new(j.y_axis.y, -j.y_axis.x), DVec2::new(-j.x_axis.y, j.x_axis.x));
-        *j * (2.0 * f) + cofactor * (squares * slope)
-    }
-
-    /// The Hessian of h at J, projected to positive semidefinite, as four rank-one terms.
-    pub fn hessian(&self, j: &DMat2) -> [HessianTerm; 4] {
-        let svd = Signed::of(j);
-        let [s1, s2] = svd.s;
-        let (q, squares) = (s1 * s2, s1 * s1 + s2 * s2);
-        let [f, slope, bend] = self.factor(q);
-        let own = 2.0 * f + 4.0 * q * slope;
-        let (h11, h22) = (own + squares * bend * s2 * s2, own + squares * bend * s1 * s1);
-        let h12 = squares * (3.0 * slope + q * bend);
-        // Eigenvalues of the 2 x 2 block of stretches.
-        let (mean, difference) = (0.5 * (h11 + h22), 0.5 * (h11 - h22));
-        let root = (difference * difference + h12 * h12).sqrt();
-        let first = DVec2::new(h12, mean + root - h11).normalize_or(DVec2::X);
-        let (shear, spin) = (2.0 * f - squares * slope, 2.0 * f + squares * slope);
-        [
-            svd.stretch(max(mean + root, 0.0), [first.x, first.y]),
-            svd.stretch(max(mean - root, 0.0), [-first.y, first.x]),
-            svd.twist(max(shear, 0.0), 1.0),
-            svd.twist(max(spin, 0.0), -1.0),
-        ]
-    }
-}
-
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
-    fn samples() -> Vec<DMat2> {
+    pub fn samples() -> Vec<DMat2> {
         [
             [1.0, 0.2, -0.3, 0.8],
             [0.3, 0.0, 1.0, 2.0],
@@ -182,7 +120,7 @@ mod tests {
         .collect()
     }
 
-    fn unit(k: usize) -> DMat2 {
+    pub fn unit(k: usize) -> DMat2 {
         let mut e = [0.0; 4];
         e[k] = 1.0;
         DMat2::from_cols_array(&e)
@@ -208,50 +146,8 @@ mod tests {
         }
     }
 
-    #[test]
-    fn the_two_sided_energy_is_that_of_the_inverse() {
-        for j in samples() {
-            let (det, inverse) = (j.determinant(), j.inverse());
-            for two_sided in BALANCES.map(|balance| TwoSided { balance }) {
-                let (there, back) = (two_sided.density(&j), det * two_sided.density(&inverse));
-                assert!((there - back).abs() < 1e-9 * there.max(1.0));
-            }
-        }
-        assert!((TwoSided { balance: 0.0 }.density(&DMat2::IDENTITY) - 4.0).abs() < 1e-15);
-    }
-
-    const BALANCES: [f64; 2] = [0.0, 0.3];
-
-    #[test]
-    fn two_sided_derivatives_are_difference_quotients() {
-        for two_sided in BALANCES.map(|balance| TwoSided { balance }) {
-            for j in samples() {
-                for k in 0..4 {
-                    let h = 1e-6;
-                    let at = |h: f64| two_sided.density(&(j + unit(k) * h));
-                    let quotient = (at(h) - at(-h)) / (2.0 * h);
-                    let exact = two_sided.gradient(&j).to_cols_array()[k];
-                    assert!((quotient - exact).abs() < 1e-5 * exact.abs().max(1.0), "{quotient} {exact}");
-                }
-            }
-            // Where nothing is projected.
-            for j in [[1.1, 0.1, -0.1, 0.9], [1.5, 0.2, 0.1, 1.6]].map(|c| DMat2::from_cols_array(&c)) {
-                let exact = assembled(&two_sided.hessian(&j));
-                for k in 0..4 {
-                    let h = 1e-5;
-                    let plus = two_sided.gradient(&(j + unit(k) * h)).to_cols_array();
-                    let minus = two_sided.gradient(&(j - unit(k) * h)).to_cols_array();
-                    for r in 0..4 {
-                        let quotient = (plus[r] - minus[r]) / (2.0 * h);
-                        assert!((quotient - exact[r][k]).abs() < 1e-5, "{r} {k}: {quotient} {}", exact[r][k]);
-                    }
-                }
-            }
-        }
-    }
-
     /// sum weight M (x) M as a 4 x 4 matrix on column-major J.
-    fn assembled(terms: &[HessianTerm]) -> [[f64; 4]; 4] {
+    pub fn assembled(terms: &[HessianTerm]) -> [[f64; 4]; 4] {
         let mut full = [[0.0; 4]; 4];
         for term in terms {
             let m = DMat2::from_cols(term.apply(DVec2::X), term.apply(DVec2::Y)).to_cols_array();
@@ -283,21 +179,25 @@ mod tests {
         }
     }
 
+    /// Checks that x^T (`projected` - true) x >= 0 on many directions, also where the true Hessian is indefinite.
+    pub fn assert_dominates(j: DMat2, projected: &[HessianTerm], gradient: impl Fn(&DMat2) -> DMat2) {
+        let projected = assembled(projected);
+        for k in 0..50_u32 {
+            let d: Vec<f64> = (0..4_u32).map(|i| f64::from((k * 37 + i * 101) % 23) - 11.0).collect();
+            let direction = DMat2::from_cols_array(&[d[0], d[1], d[2], d[3]]) * 1e-5;
+            let second = (gradient(&(j + direction)) - gradient(&(j - direction))) * 0.5;
+            let dot = |a: DMat2, b: DMat2| a.x_axis.dot(b.x_axis) + a.y_axis.dot(b.y_axis);
+            let truth = dot(second, direction) * 1e10;
+            let model: f64 =
+                (0..4).map(|r| (0..4).map(|c| d[r] * projected[r][c] * d[c]).sum::<f64>()).sum();
+            assert!(model >= truth - 1e-3 * truth.abs().max(1.0), "{model} < {truth}");
+        }
+    }
+
     #[test]
     fn the_projected_hessian_dominates_the_true_one() {
-        // x^T (projected - true) x >= 0 on many directions, also where the true one is indefinite.
         for j in samples() {
-            let projected = assembled(&hessian(&j));
-            for k in 0..50_u32 {
-                let d: Vec<f64> = (0..4_u32).map(|i| f64::from((k * 37 + i * 101) % 23) - 11.0).collect();
-                let direction = DMat2::from_cols_array(&[d[0], d[1], d[2], d[3]]) * 1e-5;
-                let second = (gradient(&(j + direction)) - gradient(&(j - direction))) * 0.5;
-                let dot = |a: DMat2, b: DMat2| a.x_axis.dot(b.x_axis) + a.y_axis.dot(b.y_axis);
-                let truth = dot(second, direction) * 1e10;
-                let model: f64 =
-                    (0..4).map(|r| (0..4).map(|c| d[r] * projected[r][c] * d[c]).sum::<f64>()).sum();
-                assert!(model >= truth - 1e-3 * truth.abs().max(1.0), "{model} < {truth}");
-            }
+            assert_dominates(j, &hessian(&j), gradient);
         }
     }
 }

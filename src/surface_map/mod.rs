@@ -23,6 +23,7 @@ pub mod queries;
 pub mod seamless;
 pub mod thesis;
 pub mod transfer;
+pub mod two_sided;
 mod unknowns;
 
 pub use certificate::{Certificate, certify};

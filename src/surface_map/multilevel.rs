@@ -14,6 +14,7 @@ use super::embedding::{Embedding, Parametrised};
 use super::flat_problem::RelaxOptions;
 use super::initial::{self, InitialOptions};
 use super::seamless::{RestTriangle, Seamless};
+use super::two_sided::TwoSided;
 use crate::landmarks::Landmarks;
 use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::coarsening::{Level, coarsen_around};
@@ -39,6 +40,15 @@ pub struct MultilevelOptions {
     pub judge: ComposedOptions,
     /// The relaxation of the map of the coarse level that was chosen.
     pub coarse: ComposedOptions,
+    /// The best so many layouts are compared once more after [`Self::decide`]
+    pub finalists: usize,
+    /// as far as their energy above 4 is at most this many times that of the best.
+    pub close: f64,
+    /// The relaxation before that.
+    pub decide: ComposedOptions,
+    /// A coarse map with a median distortion below this is between two poses of one body: it is relaxed by
+    /// [`TwoSided::POSES`] from then on.
+    pub pose_median: f64,
     /// The relaxation of the map on every finer level.
     pub fine: ComposedOptions,
 }
@@ -50,7 +60,11 @@ impl Default for MultilevelOptions {
             growth: 2.0,
             initial: InitialOptions::default(),
             relax: RelaxOptions::default(),
-            judge: ComposedOptions { max_rounds: 1, ..ComposedOptions::default() },
+            judge: ComposedOptions { max_rounds: 1, energy: TwoSided::JUDGE, ..ComposedOptions::default() },
+            finalists: 4,
+            close: 1.3,
+            decide: ComposedOptions { max_rounds: 5, energy: TwoSided::JUDGE, ..ComposedOptions::default() },
+            pose_median: 1.09,
             coarse: ComposedOptions::default(),
             fine: ComposedOptions { max_rounds: 8, ..ComposedOptions::default() },
         }
@@ -95,8 +109,12 @@ pub struct CoarseMap<'a> {
     /// The cone surface of its layout.
     pub surface: Arc<ConeSurface>,
     levels: [Seamless<'a>; 2],
-    /// Energy of the map of the coarse levels.
-    pub energy: f64,
+    /// Energy of the map of the coarse levels by [`TwoSided::JUDGE`], whatever was lowered; 4 for an isometry.
+    pub judged: f64,
+    /// Half of both coarse levels is distorted by no more than this.
+    pub median: f64,
+    /// What is lowered on finer levels.
+    energy: TwoSided,
 }
 
 /// A map of two coarse levels, from a layout drawn on them, relaxed as far as a judgement needs.
@@ -115,7 +133,13 @@ pub fn solve_coarse<'a>(
         without_layout_points(side, patched, (&surface, &relaxed), (options, monitor))
     };
     let levels = [level(&sides[0], &layout.source)?, level(&sides[1], &layout.target)?];
-    let mut map = CoarseMap { surface, levels, energy: f64::INFINITY };
+    let mut map = CoarseMap {
+        surface,
+        levels,
+        judged: f64::INFINITY,
+        median: f64::INFINITY,
+        energy: options.fine.energy,
+    };
     map.relax(sides, (&options.judge, monitor))?;
     Ok(map)
 }
@@ -130,7 +154,12 @@ impl CoarseMap<'_> {
         sides: &[Side<'_>; 2],
         (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
     ) -> Result<(), MapError> {
-        self.relax(sides, (&options.coarse, monitor))
+        self.relax(sides, (&options.coarse, &mut *monitor))?;
+        if self.median < options.pose_median {
+            self.energy = TwoSided::POSES;
+            self.relax(sides, (&ComposedOptions { energy: self.energy, ..options.coarse }, monitor))?;
+        }
+        Ok(())
     }
 
     /// The present levels with the images of the source level's vertices; `None` where a vertex is not found on the target.
@@ -153,7 +182,7 @@ impl CoarseMap<'_> {
     }
 
     /// Lowers the energy of the map of the present levels.
-    fn relax(
+    pub fn relax(
         &mut self,
         sides: &[Side<'_>; 2],
         (options, monitor): (&ComposedOptions, &mut dyn Monitor),
@@ -161,7 +190,8 @@ impl CoarseMap<'_> {
         let present = self.present(sides);
         let parametrised = [0, 1].map(|k| present[k].parametrised());
         let (relaxed, report) = composed::relax(parametrised, &self.surface, options, monitor)?;
-        self.energy = report.energies.last().copied().unwrap_or(f64::INFINITY);
+        self.judged = report.judged;
+        self.median = report.median;
         for k in 0..2 {
             self.levels[k].adopt(&present[k].level, &relaxed[k]);
         }
@@ -217,7 +247,7 @@ pub fn solve_fine(
         if !grown {
             break;
         }
-        map.relax(sides, (&options.fine, monitor))?;
+        map.relax(sides, (&ComposedOptions { energy: map.energy, ..options.fine }, monitor))?;
     }
     Ok(map.levels.map(|level| level.snapshot().1))
 }
