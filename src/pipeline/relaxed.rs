@@ -95,10 +95,24 @@ pub(super) fn run(
     monitor.enter(Stage::Composition);
     let [source, target] = map.sides();
     let locations = locate(source, target, &map.surface)?;
-    let overlay = overlay(source, target, &locations)?;
+    let overlay = overlaid([source, target], &map.surface, &locations)?;
     monitor.enter(Stage::Transfer);
     let measured = distortion(source, target, &overlay);
     Ok(result(input, (&map, &base), &metrics, (&locations, &overlay, measured)))
+}
+
+/// The overlay. Where a source edge is lost among target triangles that rounding cannot tell apart, the target's edges are
+/// traced through the source instead: what is tiny on one side is not on the other.
+fn overlaid(
+    [source, target]: [Parametrised<'_>; 2],
+    surface: &ConeSurface,
+    locations: &Locations,
+) -> Result<Overlay, PipelineError> {
+    overlay(source, target, locations).or_else(|lost| {
+        let mut inverse = overlay(target, source, &locate(target, source, surface)?).map_err(|_| lost)?;
+        inverse.exchange_roles();
+        Ok(inverse)
+    })
 }
 
 /// An order of meshes that does not depend on which is called the source.

@@ -188,8 +188,7 @@ pub(super) mod tests {
             let second = (gradient(&(j + direction)) - gradient(&(j - direction))) * 0.5;
             let dot = |a: DMat2, b: DMat2| a.x_axis.dot(b.x_axis) + a.y_axis.dot(b.y_axis);
             let truth = dot(second, direction) * 1e10;
-            let model: f64 =
-                (0..4).map(|r| (0..4).map(|c| d[r] * projected[r][c] * d[c]).sum::<f64>()).sum();
+            let model: f64 = (0..4).map(|r| (0..4).map(|c| d[r] * projected[r][c] * d[c]).sum::<f64>()).sum();
             assert!(model >= truth - 1e-3 * truth.abs().max(1.0), "{model} < {truth}");
         }
     }

@@ -38,14 +38,14 @@ pub struct MultilevelOptions {
     pub relax: RelaxOptions,
     /// The relaxation of the map of the coarse level by which a layout is judged.
     pub judge: ComposedOptions,
+    /// So many of the best layouts are judged a second time.
+    pub finalists: usize,
+    /// Those whose energy above 4 is at most this many times the least one.
+    pub close: f64,
+    /// The relaxation for the second judgement.
+    pub decide: ComposedOptions,
     /// The relaxation of the map of the coarse level that was chosen.
     pub coarse: ComposedOptions,
-    /// The best so many layouts are compared once more after [`Self::decide`]
-    pub finalists: usize,
-    /// as far as their energy above 4 is at most this many times that of the best.
-    pub close: f64,
-    /// The relaxation before that.
-    pub decide: ComposedOptions,
     /// A coarse map with a median distortion below this is between two poses of one body: it is relaxed by
     /// [`TwoSided::POSES`] from then on.
     pub pose_median: f64,
@@ -64,8 +64,8 @@ impl Default for MultilevelOptions {
             finalists: 4,
             close: 1.3,
             decide: ComposedOptions { max_rounds: 5, energy: TwoSided::JUDGE, ..ComposedOptions::default() },
-            pose_median: 1.09,
             coarse: ComposedOptions::default(),
+            pose_median: 1.09,
             fine: ComposedOptions { max_rounds: 8, ..ComposedOptions::default() },
         }
     }
@@ -145,7 +145,7 @@ pub fn solve_coarse<'a>(
 }
 
 impl CoarseMap<'_> {
-    /// Relaxes the coarse map that was chosen.
+    /// Relaxes the coarse map that was chosen, and finds out whether it is between two poses of one body.
     ///
     /// # Errors
     /// [`MapError::Cancelled`].
@@ -182,6 +182,9 @@ impl CoarseMap<'_> {
     }
 
     /// Lowers the energy of the map of the present levels.
+    ///
+    /// # Errors
+    /// [`MapError::Cancelled`].
     pub fn relax(
         &mut self,
         sides: &[Side<'_>; 2],
