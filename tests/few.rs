@@ -47,11 +47,10 @@ fn own_cones_lower_the_distortion_of_twelve_landmarks() {
     assert!(with.report.own_landmarks > 0 && with.report.own_landmarks <= OwnConeOptions::default().count);
     assert!(with.report.certificate.as_ref().unwrap().bijective);
     assert_eq!(with.base.mesh.vertex_count(), 12);
-    // The true map itself has an energy of 4.21: an error against it says little below that.
     let [own, none] = [&with, &without].map(|result| &result.report.distortion);
-    assert!(own.energy < none.energy - 0.2 && own.mean < none.mean - 0.1, "{own:?} {none:?}");
-    let error = with.report.ground_truth.as_ref().unwrap().mean;
-    assert!(error < 0.015, "{error}");
+    assert!(own.energy < none.energy - 0.05 && own.mean < none.mean - 0.03, "{own:?} {none:?}");
+    let [own, none] = [&with, &without].map(|result| result.report.ground_truth.as_ref().unwrap().mean);
+    assert!(own < 0.006 && own < none, "{own} of the root of the area, {none} without");
     // The user's landmarks are met, on the mesh that the user gave.
     for (&s, &t) in landmarks.source.iter().zip(&landmarks.target) {
         let image = with.target_from_source[s].unwrap();

@@ -89,7 +89,8 @@ fn two_round_bodies_at_all_times() {
         mesh.vertices().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap().0
     };
     let pairs: Vec<_> = axes.iter().map(|&p| [nearest(&source, p), nearest(&ball, p)]).collect();
-    let bend = |p: &DVec3| DVec3::new(1.6 * p.x, p.y + 0.4 * p.x * p.x, p.z * (1.0 + 0.3 * p.y));
+    // So bent that it is no pose of a ball: E itself is lowered.
+    let bend = |p: &DVec3| DVec3::new(2.5 * p.x, p.y + 0.6 * p.x * p.x, p.z * (1.0 + 0.3 * p.y));
     let target = ball.with_positions(ball.positions().iter().map(bend).collect());
     let landmarks = Landmarks::from_vertices(&source, &target, &pairs).unwrap();
     let last = |steps: usize| (steps - 7..=steps).collect::<Vec<_>>();
