@@ -128,6 +128,10 @@ fn precedes(a: &SurfaceMesh, b: &SurfaceMesh) -> bool {
     size(a).cmp(&size(b)).then_with(by_coordinates).is_lt()
 }
 
+/// Vertices of the coarse level per landmark, at least: a base domain of n landmarks has 2 n - 4 triangles, and each needs some
+/// vertices of its own.
+const PER_LANDMARK: usize = 18;
+
 /// Coarse map, fine map, certificate. Coarse levels grow until the layout's points can be taken out again.
 fn parametrise(
     input: MapInput<'_>,
@@ -136,7 +140,7 @@ fn parametrise(
     let Landmarks { source, target } = input.landmarks;
     let full = [Full::new(input.source, source), Full::new(input.target, target)];
     let most = full.iter().map(|side| side.refined.mesh.vertex_count()).max().unwrap_or(0);
-    let mut vertices = options.multilevel.coarse_vertices.max(2 * input.landmarks.len());
+    let mut vertices = options.multilevel.coarse_vertices.max(PER_LANDMARK * input.landmarks.len());
     let (layout, search, (surface, embeddings, with_own)) = loop {
         monitor.enter(Stage::BaseDomain);
         let sides = [0, 1].map(|k| Side::new(&full[k].refined.mesh, &full[k].landmarks, vertices));
