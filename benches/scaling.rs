@@ -1,44 +1,86 @@
-//! How the time of a whole map grows with the meshes: the horse and cat demo subdivided from about 5 000 to 300 000 faces
-//! each, all stages, one thread. Prints a table and the exponent of the growth.
+//! How the time of a whole map grows with the meshes, all stages, one thread, and how near its energy is to that of a map
+//! relaxed until nothing moves. The horse and cat demo, or a pair of the data folder that is named on the command line
+//! (`cargo bench --bench scaling -- cat-dog`), is subdivided again and again. Prints a table and the exponent of the growth.
 #![allow(clippy::print_stdout, clippy::expect_used, reason = "a benchmark prints its figures")]
+
+#[path = "../tests/common/mod.rs"]
+mod common;
 
 use conemap::demo;
 use conemap::landmarks::Landmarks;
 use conemap::math::scalar::ln;
-use conemap::mesh::VertexId;
 use conemap::mesh::generators::midpoint_subdivision;
+use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::Silent;
-use conemap::pipeline::{self, GroundTruth, MapInput, PipelineOptions};
+use conemap::pipeline::{self, GroundTruth, MapInput, PipelineOptions, Report};
+use conemap::surface_map::composed::ComposedOptions;
 use std::time::Instant;
 
+/// No larger meshes are mapped.
+const MOST_FACES: usize = 350_000;
+/// No larger meshes are relaxed until nothing moves, which takes minutes.
+const MOST_CONVERGED: usize = 100_000;
+
 fn main() {
-    let demo = demo::build("horse-cat").expect("a demo");
-    let side = |k: usize| demo.landmarks.iter().map(|pair| VertexId(pair[k])).collect();
-    let landmarks = Landmarks { source: side(0), target: side(1) };
-    let (mut source, mut target) = (demo.source, demo.target);
-    println!("faces source  faces target  seconds      E   bijective");
+    let named = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
+    let Some((mut source, mut target, landmarks)) = named.map_or_else(|| Some(demo()), |name| pair(&name))
+    else {
+        return;
+    };
+    println!("faces source  faces target  seconds       E  bijective  E converged  seconds");
     let mut measured: Vec<(f64, f64)> = Vec::new();
-    while source.face_count().max(target.face_count()) <= 350_000 {
-        let start = Instant::now();
+    while source.face_count().max(target.face_count()) <= MOST_FACES {
         let input = MapInput {
             source: &source,
             target: &target,
             landmarks: &landmarks,
             ground_truth: GroundTruth::Unknown,
         };
-        let map = pipeline::run(input, &PipelineOptions::default(), &mut Silent).expect("a certified map");
-        let seconds = start.elapsed().as_secs_f64();
-        println!(
-            "{:12}  {:12}  {seconds:7.2}  {:5.3}   {}",
+        let (report, seconds) = timed(input, &PipelineOptions::default());
+        print!(
+            "{:12}  {:12}  {seconds:7.2}  {:6.4}  {:9}",
             source.face_count(),
             target.face_count(),
-            map.report.distortion.energy,
-            map.report.certificate.is_some_and(|c| c.bijective)
+            report.distortion.energy,
+            report.certificate.is_some_and(|c| c.bijective)
         );
+        if source.face_count().max(target.face_count()) <= MOST_CONVERGED {
+            let (converged, seconds) = timed(input, &until_nothing_moves());
+            print!("  {:11.4}  {seconds:7.2}", converged.distortion.energy);
+        }
+        println!();
         measured.push(((source.face_count() + target.face_count()) as f64, seconds));
         // Midpoints keep the vertices' numbers, and with them the landmarks.
         (source, target) = (midpoint_subdivision(&source), midpoint_subdivision(&target));
     }
-    let (first, last) = (measured[0], measured[measured.len() - 1]);
-    println!("exponent {:.2}", ln(last.1 / first.1) / ln(last.0 / first.0));
+    if let [first, .., last] = measured[..] {
+        println!("exponent {:.2}", ln(last.1 / first.1) / ln(last.0 / first.0));
+    }
+}
+
+fn demo() -> (SurfaceMesh, SurfaceMesh, Landmarks) {
+    let demo = demo::build("horse-cat").expect("a demo");
+    let side = |k: usize| demo.landmarks.iter().map(|pair| VertexId(pair[k])).collect();
+    let landmarks = Landmarks { source: side(0), target: side(1) };
+    (demo.source, demo.target, landmarks)
+}
+
+fn pair(name: &str) -> Option<(SurfaceMesh, SurfaceMesh, Landmarks)> {
+    let pair = common::read_pair(&common::data_folder("the benchmark of a named pair")?, name);
+    let landmarks = common::landmarks(&pair);
+    Some((pair.source, pair.target, landmarks))
+}
+
+fn timed(input: MapInput<'_>, options: &PipelineOptions) -> (Report, f64) {
+    let start = Instant::now();
+    let map = pipeline::run(input, options, &mut Silent).expect("a certified map");
+    (map.report, start.elapsed().as_secs_f64())
+}
+
+/// The same classes and levels, but every finer level is relaxed as far as it goes.
+fn until_nothing_moves() -> PipelineOptions {
+    let mut options = PipelineOptions::default();
+    let fine = options.multilevel.fine;
+    options.multilevel.fine = ComposedOptions { max_rounds: 200, relative_decrease: 1e-6, ..fine };
+    options
 }
