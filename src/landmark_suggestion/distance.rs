@@ -11,13 +11,22 @@ use typed_index_collections::{TiVec, ti_vec};
 
 /// The distance of every vertex to the nearest of `seeds`, in the mesh's unit; infinite without seeds.
 pub fn distances(mesh: &SurfaceMesh, seeds: &[VertexId]) -> TiVec<VertexId, f64> {
+    distances_within(mesh, seeds, f64::INFINITY)
+}
+
+/// The same up to a radius; what lies beyond has a distance above it, or an infinite one.
+pub fn distances_within(mesh: &SurfaceMesh, seeds: &[VertexId], radius: f64) -> TiVec<VertexId, f64> {
     let mut distance = ti_vec![f64::INFINITY; mesh.vertex_count()];
-    shorten(mesh, seeds, &mut distance);
+    spread(mesh, (seeds, radius), &mut distance);
     distance
 }
 
 /// Lowers distances to what they are with more seeds.
 pub fn shorten(mesh: &SurfaceMesh, seeds: &[VertexId], distance: &mut TiVec<VertexId, f64>) {
+    spread(mesh, (seeds, f64::INFINITY), distance);
+}
+
+fn spread(mesh: &SurfaceMesh, (seeds, radius): (&[VertexId], f64), distance: &mut TiVec<VertexId, f64>) {
     let mut queue = BinaryHeap::new();
     for &v in seeds {
         distance[v] = 0.0;
@@ -26,6 +35,9 @@ pub fn shorten(mesh: &SurfaceMesh, seeds: &[VertexId], distance: &mut TiVec<Vert
     }
     while let Some((Reverse(bits), v)) = queue.pop() {
         let here = f64::from_bits(bits);
+        if here > radius {
+            break;
+        }
         if here > distance[v] {
             continue;
         }
@@ -92,6 +104,15 @@ mod tests {
             let angle = acos(ball.positions()[v].dot(pole).clamp(-1.0, 1.0));
             assert!((found[v] - angle).abs() < 0.02 * angle + 1e-12, "{} {angle}", found[v]);
         }
+    }
+
+    #[test]
+    fn within_a_radius_distances_are_the_same() {
+        let ball = icosphere(4);
+        let seed = VertexId(7);
+        let (all, near) = (distances(&ball, &[seed]), distances_within(&ball, &[seed], 0.5));
+        assert!(all.iter().zip(&near).all(|(a, n)| if *a <= 0.5 { a == n } else { *n > 0.5 }));
+        assert!(near.iter().any(|n| n.is_infinite()));
     }
 
     #[test]

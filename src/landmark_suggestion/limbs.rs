@@ -1,6 +1,6 @@
 //! Limbs without a landmark.
 
-use super::distance::distances;
+use super::distance::{distances, distances_within};
 use super::{areas, tips};
 use crate::mesh::{SurfaceMesh, VertexId};
 use std::f64::consts::PI;
@@ -30,7 +30,10 @@ pub fn unmarked_limbs(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> Vec<VertexI
 
 /// The least area of a disc around a vertex, relative to the flat one, among radii of a range; infinite for none.
 fn thinnest(mesh: &SurfaceMesh, areas: &[f64], (centre, radii): (VertexId, Range<f64>)) -> f64 {
-    let field = distances(mesh, &[centre]);
+    if radii.is_empty() {
+        return f64::INFINITY;
+    }
+    let field = distances_within(mesh, &[centre], radii.end);
     let mut order: Vec<usize> = (0..areas.len()).filter(|&v| field.raw[v] < radii.end).collect();
     order.sort_by(|&a, &b| field.raw[a].total_cmp(&field.raw[b]));
     let (mut within, mut least) = (0.0, f64::INFINITY);
