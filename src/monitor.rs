@@ -53,8 +53,8 @@ impl std::error::Error for Cancelled {}
 pub trait Monitor {
     /// A stage begins.
     fn enter(&mut self, _stage: Stage) {}
-    /// The present energy of the map that is being relaxed, with its balance: 4 for an isometry. It falls as long as one map
-    /// is relaxed; the next candidate, or the same map on a finer level, begins anew.
+    /// The present energy of the map that is being relaxed, of the kind that is lowered: 4 for an isometry. It falls as long
+    /// as one map is relaxed; the next candidate, or the same map on a finer level, begins anew.
     fn map_energy(&mut self, _energy: f64) {}
     /// Whether to finish now: no more is tried than a whole, valid result needs. Asked between rounds, levels and
     /// candidates; once true it must stay true.

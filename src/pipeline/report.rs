@@ -56,7 +56,9 @@ pub struct LayoutSearchReport {
     pub judged: usize,
     /// Twists that were made after the best order of drawing was found.
     pub twists: usize,
-    /// Energy of the coarse map by which the class was chosen, after one round of relaxation and with its balance.
+    /// Energy of the coarse map by which the class was chosen ([`TwoSided::JUDGE`]); 4 for an isometry.
+    ///
+    /// [`TwoSided::JUDGE`]: crate::surface_map::two_sided::TwoSided::JUDGE
     pub energy: Option<f64>,
     /// Energy of the next best class.
     pub runner_up: Option<f64>,

@@ -39,7 +39,7 @@ impl Default for ComposedOptions {
 /// What the true relaxation did.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ComposedReport {
-    /// What is lowered, before the first and after each step: E (4 for an isometry) with its balance, without the barrier.
+    /// What is lowered, before the first and after each step, without the barrier; 4 for an isometry.
     pub energies: Vec<f64>,
     /// E at the end.
     pub energy: f64,
@@ -79,29 +79,29 @@ pub fn relax(
     if !relaxation.begin() {
         return Ok((relaxation.embeddings, report));
     }
-    report.energies.push(relaxation.present.energy);
-    monitor.map_energy(relaxation.present.energy);
+    report.energies.push(relaxation.energy());
+    monitor.map_energy(relaxation.energy());
     for round in 0..options.max_rounds {
-        let before = relaxation.present.energy;
+        let before = relaxation.energy();
         for _ in 0..2 {
             let fraction = round as f64 / options.max_rounds as f64;
-            monitor.step(Step { fraction, residual: Some(relaxation.present.energy) })?;
+            monitor.step(Step { fraction, residual: Some(relaxation.energy()) })?;
             if round > 0 && monitor.wants_result() {
                 break;
             }
             if relaxation.step() {
-                report.energies.push(relaxation.present.energy);
-                monitor.map_energy(relaxation.present.energy);
+                report.energies.push(relaxation.energy());
+                monitor.map_energy(relaxation.energy());
             }
             relaxation.exchange_roles();
         }
-        let after = relaxation.present.energy;
+        let after = relaxation.energy();
         if before - after < options.relative_decrease * after {
             break;
         }
     }
     report.energy = relaxation.present.integral(TwoSided::PLAIN);
-    report.judged = relaxation.present.integral(TwoSided::JUDGE) / (1.0 + TwoSided::JUDGE.balance);
+    report.judged = relaxation.present.integral(TwoSided::JUDGE) / TwoSided::JUDGE.unit();
     report.median = relaxation.present.median(TwoSided::POSES);
     Ok((relaxation.embeddings, report))
 }
@@ -136,7 +136,7 @@ struct Evaluation {
     jacobians: Vec<DMat2>,
     /// Of each piece the Jacobian from the plane of the moving face to the rest plane of the fixed face.
     onto_rest: Vec<DMat2>,
-    /// E with its balance.
+    /// What is lowered, without the barrier.
     energy: f64,
     /// The energy and the barrier.
     total: f64,
@@ -254,6 +254,11 @@ impl<'a> Relaxation<'a> {
         self.present.measure((problem, &z), &self.inverses[1 - self.moving], self.two_sided);
         let flat = problem.energy(&z).unwrap_or(f64::INFINITY);
         self.present.total = self.present.energy + self.options.barrier * flat;
+    }
+
+    /// What is lowered, without the barrier; 4 for an isometry.
+    fn energy(&self) -> f64 {
+        self.present.energy / self.two_sided.unit()
     }
 
     /// The gradient of the energy and the barrier.

@@ -49,6 +49,12 @@ impl TwoSided {
         [1.0 + r + b * (q + r2), -r2 + b * (1.0 - 2.0 * r3), 2.0 * r3 + 6.0 * b * r2 * r2]
     }
 
+    /// A quarter of the energy of an isometry between surfaces of area 1: 1 + b.
+    #[inline]
+    pub fn unit(&self) -> f64 {
+        1.0 + self.balance
+    }
+
     /// 2 (1 + b).
     #[inline]
     fn scale(&self) -> f64 {
