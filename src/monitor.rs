@@ -1,9 +1,10 @@
 //! Progress, cancellation and the wish to finish now: the only upward call of the core.
 
+use serde::Serialize;
 use std::fmt;
 
 /// The stages a user waits for, in the order of the pipeline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stage {
     /// Landmarks are inserted and checked.
@@ -24,6 +25,13 @@ pub enum Stage {
     Certificate,
     /// Textures, attributes and measures.
     Transfer,
+}
+
+impl fmt::Display for Stage {
+    /// The name as in reports.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(f)
+    }
 }
 
 /// One report of an algorithm's progress.

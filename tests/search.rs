@@ -25,8 +25,8 @@ fn energy(layout: &BaseLayout, monitor: &mut dyn Monitor) -> Result<Option<f64>,
         let embeddings = [side(&layout.source)?, side(&layout.target)?];
         let sides = [layout.source.parametrised(&embeddings[0]), layout.target.parametrised(&embeddings[1])];
         let options = ComposedOptions { max_rounds: 3, ..ComposedOptions::default() };
-        let (_, report) = composed::relax(sides, &surface, &options, monitor)?;
-        Ok(report.energies.last().copied().unwrap_or(f64::INFINITY))
+        let relaxed = composed::relax(sides, &surface, &options, monitor)?;
+        Ok(relaxed.energies.last().copied().unwrap_or(f64::INFINITY))
     };
     match map(monitor) {
         Ok(energy) => Ok(Some(energy)),

@@ -17,7 +17,8 @@ use crate::mesh::{SurfaceMesh, VertexId};
 use typed_index_collections::TiVec;
 
 /// Why a point is suggested.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Reason {
     /// The end of a limb.
     Tip,

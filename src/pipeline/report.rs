@@ -3,6 +3,7 @@
 use super::{FindingReport, MapInput, Metrics};
 use crate::base_domain::BaseDomain;
 use crate::cone_metric::FlowReport;
+use crate::monitor::Stage;
 use crate::surface_map::distortion::Distortion;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -158,6 +159,14 @@ pub struct FacesReport {
 }
 
 impl Report {
+    /// Takes over wall-clock seconds by stage and `total`.
+    pub fn set_seconds(&mut self, seconds: BTreeMap<String, f64>) {
+        let of = |stage: Stage| seconds.get(&stage.to_string()).copied().unwrap_or_default();
+        self.cone_metric.source.seconds = of(Stage::SourceConeMetric);
+        self.cone_metric.target.seconds = of(Stage::TargetConeMetric);
+        self.seconds = seconds;
+    }
+
     /// What is known before the map.
     pub(super) fn of_inputs(input: MapInput<'_>, base: &BaseDomain, metrics: &Metrics) -> Self {
         Self {

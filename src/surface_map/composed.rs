@@ -7,6 +7,7 @@
 
 use super::compose::{Locations, Locator, Parametrised};
 use super::cone_surface::ConeSurface;
+use super::distortion::quantile;
 use super::embedding::Embedding;
 use super::flat_problem::{FaceHessian, FlatProblem, rest_jacobian, unrotate};
 use super::overlay::{Measure, SideOf};
@@ -36,17 +37,33 @@ impl Default for ComposedOptions {
     }
 }
 
-/// What the true relaxation did.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ComposedReport {
-    /// What is lowered, before the first and after each step, without the barrier; 4 for an isometry.
+/// A relaxed map.
+pub struct Relaxed<'a> {
+    relaxation: Relaxation<'a>,
+    /// What is lowered, before the first and after each step, without the barrier; 4 for an isometry. Empty where source and
+    /// target have no overlay.
     pub energies: Vec<f64>,
-    /// E at the end.
-    pub energy: f64,
-    /// Energy at the end by [`TwoSided::JUDGE`], 4 for an isometry.
-    pub judged: f64,
-    /// Half of both surfaces is distorted by no more than this at the end ([`TwoSided::distortion`]).
-    pub median: f64,
+}
+
+impl Relaxed<'_> {
+    /// Both parametrisations.
+    pub fn into_embeddings(self) -> [Embedding; 2] {
+        self.relaxation.embeddings
+    }
+
+    /// The energy by [`TwoSided::JUDGE`], whatever was lowered: 4 for an isometry, infinite without an overlay.
+    pub fn judged(&self) -> f64 {
+        match self.energies.is_empty() {
+            true => f64::INFINITY,
+            false => self.relaxation.present.integral(TwoSided::JUDGE) / TwoSided::JUDGE.unit(),
+        }
+    }
+
+    /// Half of both surfaces is distorted by no more than this ([`TwoSided::distortion`] with equal areas); not a number
+    /// without an overlay.
+    pub fn median(&self) -> f64 {
+        self.relaxation.present.median(TwoSided::POSES)
+    }
 }
 
 /// Share of the diagonal that is added to the Hessian at first.
@@ -63,23 +80,18 @@ const LINEAR_TOLERANCE: f64 = 0.03;
 ///
 /// # Errors
 /// [`Cancelled`].
-pub fn relax(
-    sides: [Parametrised<'_>; 2],
-    surface: &ConeSurface,
-    options: &ComposedOptions,
+pub fn relax<'a>(
+    sides: [Parametrised<'a>; 2],
+    surface: &'a ConeSurface,
+    options: &'a ComposedOptions,
     monitor: &mut dyn Monitor,
-) -> Result<([Embedding; 2], ComposedReport), Cancelled> {
+) -> Result<Relaxed<'a>, Cancelled> {
     let mut relaxation = Relaxation::new(sides, surface, options);
-    let mut report = ComposedReport {
-        energies: Vec::new(),
-        energy: f64::INFINITY,
-        judged: f64::INFINITY,
-        median: f64::INFINITY,
-    };
+    let mut energies = Vec::new();
     if !relaxation.begin() {
-        return Ok((relaxation.embeddings, report));
+        return Ok(Relaxed { relaxation, energies });
     }
-    report.energies.push(relaxation.energy());
+    energies.push(relaxation.energy());
     monitor.map_energy(relaxation.energy());
     for round in 0..options.max_rounds {
         let before = relaxation.energy();
@@ -90,7 +102,7 @@ pub fn relax(
                 break;
             }
             if relaxation.step() {
-                report.energies.push(relaxation.energy());
+                energies.push(relaxation.energy());
                 monitor.map_energy(relaxation.energy());
             }
             relaxation.exchange_roles();
@@ -100,10 +112,7 @@ pub fn relax(
             break;
         }
     }
-    report.energy = relaxation.present.integral(TwoSided::PLAIN);
-    report.judged = relaxation.present.integral(TwoSided::JUDGE) / TwoSided::JUDGE.unit();
-    report.median = relaxation.present.median(TwoSided::POSES);
-    Ok((relaxation.embeddings, report))
+    Ok(Relaxed { relaxation, energies })
 }
 
 /// Both sides; one moves over the other.
@@ -364,13 +373,7 @@ impl Evaluation {
         });
         let mut local: Vec<(f64, f64)> = local.collect();
         local.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let half = 0.5 * local.iter().map(|part| part.1).sum::<f64>();
-        let mut below = 0.0;
-        let middle = local.iter().find(|part| {
-            below += part.1;
-            below >= half
-        });
-        middle.map_or(f64::INFINITY, |part| part.0)
+        quantile(&local, 0.5)
     }
 }
 
@@ -440,10 +443,14 @@ mod tests {
     fn the_energy_falls_and_the_map_stays_certified() {
         let (layout, surface, embeddings) = example();
         let options = ComposedOptions::default();
-        let (relaxed, report) = relax(sides(&layout, &embeddings), &surface, &options, &mut Silent).unwrap();
-        assert!(report.energies.len() > 2, "{:?}", report.energies);
-        let (first, last) = (report.energies[0], report.energies[report.energies.len() - 1]);
-        assert!(last < first && last > 4.0 - 1e-9, "{:?}", report.energies);
-        assert!(sides(&layout, &relaxed).into_iter().all(|side| certify(side, &surface).bijective));
+        let relaxed = relax(sides(&layout, &embeddings), &surface, &options, &mut Silent).unwrap();
+        assert!(relaxed.energies.len() > 2, "{:?}", relaxed.energies);
+        let (first, last) = (relaxed.energies[0], relaxed.energies[relaxed.energies.len() - 1]);
+        assert!(last < first && last > 4.0 - 1e-9, "{:?}", relaxed.energies);
+        assert!(
+            sides(&layout, &relaxed.into_embeddings())
+                .into_iter()
+                .all(|side| certify(side, &surface).bijective)
+        );
     }
 }

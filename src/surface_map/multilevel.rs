@@ -8,7 +8,7 @@
 use super::MapError;
 use super::base_lines::mend_anchors;
 use super::compose::{barycentric, locate};
-use super::composed::{self, ComposedOptions};
+use super::composed::{self, ComposedOptions, Relaxed};
 use super::cone_surface::ConeSurface;
 use super::embedding::{Embedding, Parametrised};
 use super::flat_problem::RelaxOptions;
@@ -181,7 +181,7 @@ impl CoarseMap<'_> {
         })
     }
 
-    /// Lowers the energy of the map of the present levels.
+    /// Lowers the energy of the map of the coarse levels and measures it.
     ///
     /// # Errors
     /// [`MapError::Cancelled`].
@@ -190,15 +190,27 @@ impl CoarseMap<'_> {
         sides: &[Side<'_>; 2],
         (options, monitor): (&ComposedOptions, &mut dyn Monitor),
     ) -> Result<(), MapError> {
+        let measure = |relaxed: &Relaxed<'_>| (relaxed.judged(), relaxed.median());
+        (self.judged, self.median) = self.lower(sides, (options, monitor), measure)?;
+        Ok(())
+    }
+
+    /// Lowers the energy of the map of the present levels; answers with what `look` sees in it.
+    fn lower<T>(
+        &mut self,
+        sides: &[Side<'_>; 2],
+        (options, monitor): (&ComposedOptions, &mut dyn Monitor),
+        look: impl FnOnce(&Relaxed<'_>) -> T,
+    ) -> Result<T, MapError> {
         let present = self.present(sides);
         let parametrised = [0, 1].map(|k| present[k].parametrised());
-        let (relaxed, report) = composed::relax(parametrised, &self.surface, options, monitor)?;
-        self.judged = report.judged;
-        self.median = report.median;
+        let relaxed = composed::relax(parametrised, &self.surface, options, monitor)?;
+        let seen = look(&relaxed);
+        let embeddings = relaxed.into_embeddings();
         for k in 0..2 {
-            self.levels[k].adopt(&present[k].level, &relaxed[k]);
+            self.levels[k].adopt(&present[k].level, &embeddings[k]);
         }
-        Ok(())
+        Ok(seen)
     }
 }
 
@@ -250,7 +262,7 @@ pub fn solve_fine(
         if !grown {
             break;
         }
-        map.relax(sides, (&ComposedOptions { energy: map.energy, ..options.fine }, monitor))?;
+        map.lower(sides, (&ComposedOptions { energy: map.energy, ..options.fine }, &mut *monitor), |_| ())?;
     }
     Ok(map.levels.map(|level| level.snapshot().1))
 }

@@ -58,7 +58,7 @@ impl TwoSided {
     /// 2 (1 + b).
     #[inline]
     fn scale(&self) -> f64 {
-        2.0 * (1.0 + self.balance)
+        2.0 * self.unit()
     }
 
     /// rho and its derivative.

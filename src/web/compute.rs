@@ -99,7 +99,7 @@ struct Messenger<'a> {
 impl Messenger<'_> {
     fn leave(&mut self) {
         if let Some((stage, begun)) = self.stage.take() {
-            *self.seconds.entry(name(stage)).or_default() += (js_sys::Date::now() - begun) / 1000.0;
+            *self.seconds.entry(stage.to_string()).or_default() += (js_sys::Date::now() - begun) / 1000.0;
         }
     }
 
@@ -107,12 +107,8 @@ impl Messenger<'_> {
         self.told = js_sys::Date::now();
         let residual = step.residual.unwrap_or(f64::NAN);
         // A page that does not listen is not a reason to stop.
-        let _ = self.listener.progress(&name(stage), step.fraction, residual, self.energy);
+        let _ = self.listener.progress(&stage.to_string(), step.fraction, residual, self.energy);
     }
-}
-
-fn name(stage: Stage) -> String {
-    serde_json::to_value(stage).ok().and_then(|v| v.as_str().map(str::to_owned)).unwrap_or_default()
 }
 
 impl Monitor for Messenger<'_> {
@@ -197,10 +193,7 @@ pub fn run_map(
     messenger.leave();
     let mut seconds = messenger.seconds;
     seconds.insert("total".into(), (js_sys::Date::now() - begun) / 1000.0);
-    let of = |stage: &str| seconds.get(stage).copied().unwrap_or_default();
-    result.report.cone_metric.source.seconds = of("source_cone_metric");
-    result.report.cone_metric.target.seconds = of("target_cone_metric");
-    result.report.seconds = seconds;
+    result.report.set_seconds(seconds);
     result.report.findings = doubts;
     let images: Vec<_> =
         result.target_from_source.iter().take(vertices).map(|p| p.map(|p| target.on_original(p))).collect();

@@ -2,7 +2,7 @@
 
 use super::failure;
 use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
-use crate::landmark_suggestion::{Reason, Suggestion, suggest};
+use crate::landmark_suggestion::{Suggestion, suggest};
 use crate::mesh::check::{CheckedMesh, closed_genus_zero};
 use crate::mesh::mirror::mirrored;
 use crate::mesh::{FaceId, VertexId};
@@ -94,13 +94,7 @@ pub fn suggest_landmarks(loaded: &LoadedMesh, landmarks: &str, count: usize) -> 
     marked.sort_unstable();
     marked.dedup();
     let numbers = checked.file_from_vertex();
-    let entry = |s: &Suggestion| {
-        let reason = match s.reason {
-            Reason::Tip => "tip",
-            Reason::Far => "far",
-        };
-        json!({ "point": numbers[s.vertex.index()], "reason": reason, "partner": s.partner })
-    };
+    let entry = |s: &Suggestion| json!({ "point": numbers[s.vertex.index()], "reason": s.reason, "partner": s.partner });
     let found: Vec<_> = suggest(mesh, &marked, count).iter().map(entry).collect();
     Ok(serde_json::Value::from(found).to_string())
 }

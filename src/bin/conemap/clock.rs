@@ -52,8 +52,8 @@ impl Clock {
     fn leave(&mut self) {
         if let Some((stage, begun)) = self.stage.take() {
             let seconds = begun.elapsed().as_secs_f64();
-            *self.seconds.entry(name(stage)).or_default() += seconds;
-            self.line(&format!("{:<20} {seconds:8.3} s\n", name(stage)));
+            *self.seconds.entry(stage.to_string()).or_default() += seconds;
+            self.line(&format!("{stage:<20} {seconds:8.3} s\n"));
         }
     }
 
@@ -90,16 +90,8 @@ impl Monitor for Clock {
                 (None, Some(residual)) => format!("  {residual:.3e}"),
                 (None, None) => String::new(),
             };
-            self.line(&format!("{:<20} {:5.1} %{residual}", name(stage), 100.0 * step.fraction));
+            self.line(&format!("{stage:<20} {:5.1} %{residual}", 100.0 * step.fraction));
         }
         Ok(())
-    }
-}
-
-/// The stage's name as in the report.
-pub fn name(stage: Stage) -> String {
-    match serde_json::to_value(stage) {
-        Ok(serde_json::Value::String(name)) => name,
-        _ => format!("{stage:?}"),
     }
 }

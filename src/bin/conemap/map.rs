@@ -12,7 +12,6 @@ use conemap::pipeline::{
     Base, Cones, FindingReport, GroundTruth, MapInput, MapResult, Method, OwnConeOptions, PipelineOptions,
     RepairKind, findings, run as run_pipeline,
 };
-use std::collections::BTreeMap;
 
 /// Maps, writes what was asked for, and tells the certificate; an error where there is no certified map.
 pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
@@ -47,7 +46,7 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
         clock.ask_for_result(arguments.time_limit, interrupt::listen());
     }
     let mut result = run_pipeline(map_input, &options(arguments), &mut clock)?;
-    add_seconds(&mut result, clock.stop());
+    result.report.set_seconds(clock.stop());
     result.report.findings = found;
     tell(&result);
     if let Some(folder) = &arguments.out {
@@ -84,13 +83,6 @@ fn options(arguments: &MapArguments) -> PipelineOptions {
         },
         ..PipelineOptions::default()
     }
-}
-
-fn add_seconds(result: &mut MapResult, seconds: BTreeMap<String, f64>) {
-    let of = |stage: &str| seconds.get(stage).copied().unwrap_or_default();
-    result.report.cone_metric.source.seconds = of("source_cone_metric");
-    result.report.cone_metric.target.seconds = of("target_cone_metric");
-    result.report.seconds = seconds;
 }
 
 fn tell_finding(finding: &FindingReport) {

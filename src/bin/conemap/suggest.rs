@@ -3,7 +3,7 @@
 
 use crate::arguments::SuggestArguments;
 use crate::input::{self, Failure};
-use conemap::landmark_suggestion::{Reason, suggest};
+use conemap::landmark_suggestion::{Suggestion, suggest};
 use serde_json::json;
 
 /// Prints vertices of a mesh that are worth a landmark, as JSON.
@@ -18,13 +18,9 @@ pub fn run(arguments: &SuggestArguments) -> Result<(), Failure> {
     marked.sort_unstable();
     marked.dedup();
     let found = suggest(&checked.mesh, &marked, arguments.count);
-    let entry = |s: &conemap::landmark_suggestion::Suggestion| {
-        let reason = match s.reason {
-            Reason::Tip => "tip",
-            Reason::Far => "far",
-        };
+    let entry = |s: &Suggestion| {
         let partner = s.partner.map(|k| numbers[found[k].vertex.index()]);
-        json!({ "vertex": numbers[s.vertex.index()], "reason": reason, "partner": partner })
+        json!({ "vertex": numbers[s.vertex.index()], "reason": s.reason, "partner": partner })
     };
     let entries: Vec<_> = found.iter().map(entry).collect();
     println!("{}", serde_json::to_string_pretty(&json!({ "suggestions": entries }))?);
