@@ -63,6 +63,16 @@ pub enum LandmarkError {
         /// Number of vertices of the mesh.
         vertices: usize,
     },
+    /// A vertex of the file that is no vertex of its surface.
+    #[error("landmark pair {} (the first is 1) names vertex {vertex}, which no face of the {side} uses", pair + 1)]
+    UnusedVertex {
+        /// The mesh.
+        side: MeshSide,
+        /// The pair, 0-based.
+        pair: usize,
+        /// The vertex number.
+        vertex: usize,
+    },
     /// Two pairs on one vertex.
     #[error("landmark pairs {} and {} (the first is 1) are at the same vertex of the {side}", pairs[0] + 1, pairs[1] + 1)]
     Coincident {
@@ -113,7 +123,8 @@ pub struct PlacedLandmarks {
     pub landmarks: Landmarks,
 }
 
-/// Makes vertices of all landmark points; vertex numbers are the file's, faces those of the triangulated mesh.
+/// Makes vertices of all landmark points. Vertex numbers are the file's; faces those of the triangulated mesh, with their
+/// corners in the file's order.
 ///
 /// # Errors
 /// [`LandmarkError`] with the number of the pair.
@@ -155,10 +166,12 @@ fn point(
     let mesh = &checked.mesh;
     match point {
         LandmarkPoint::Vertex(vertex) => {
-            let known = checked.vertex_from_file.get(vertex as usize).copied().flatten();
             let vertices = checked.vertex_from_file.len();
-            let missing = LandmarkError::MissingVertex { side, pair, vertex: vertex as usize, vertices };
-            Ok(SurfacePoint::at_vertex(mesh, known.ok_or(missing)?))
+            let vertex = vertex as usize;
+            let missing = LandmarkError::MissingVertex { side, pair, vertex, vertices };
+            let known = checked.vertex_from_file.get(vertex).ok_or(missing)?;
+            let unused = LandmarkError::UnusedVertex { side, pair, vertex };
+            Ok(SurfacePoint::at_vertex(mesh, known.ok_or(unused)?))
         }
         LandmarkPoint::OnFace { face, barycentric } => {
             let faces = mesh.face_count();
@@ -171,7 +184,8 @@ fn point(
             }
             let clamped = barycentric.map(|w| w.max(0.0));
             let sum: f64 = clamped.iter().sum();
-            Ok(SurfacePoint { face: FaceId(face), barycentric: clamped.map(|w| w / sum) })
+            let point = SurfacePoint { face: FaceId(face), barycentric: clamped.map(|w| w / sum) };
+            Ok(checked.with_file_corners(point))
         }
     }
 }
@@ -235,7 +249,8 @@ mod tests {
     fn ball() -> CheckedMesh {
         let mesh = icosphere(0);
         let polygons = mesh.triangles().iter().map(|t| t.map(|v| v.0).to_vec()).collect();
-        let soup = soup::PolygonSoup { positions: mesh.positions().iter().copied().collect(), polygons };
+        let positions = mesh.positions().iter().copied().collect();
+        let soup = soup::PolygonSoup { positions, polygons, ..soup::PolygonSoup::default() };
         check::closed_genus_zero(&soup).unwrap()
     }
 

@@ -198,6 +198,113 @@ fn maps_two_round_bodies() {
     map_and_check(files.each_ref().map(PathBuf::as_path), &folder);
 }
 
+/// The OBJ file with a vertex in front that no face uses, inside out or not.
+fn with_an_unused_vertex(obj: &str, inside_out: bool) -> String {
+    let face = |words: &str| {
+        let mut corners: Vec<usize> = words.split(' ').map(|n| n.parse::<usize>().unwrap() + 1).collect();
+        if inside_out {
+            corners.swap(1, 2);
+        }
+        format!("f {} {} {}", corners[0], corners[1], corners[2])
+    };
+    let line = |line: &str| line.strip_prefix("f ").map_or_else(|| line.to_owned(), face);
+    format!("v 9 9 9\n{}\n", obj.lines().map(line).collect::<Vec<_>>().join("\n"))
+}
+
+/// The fields of every line but the first.
+fn rows(path: &Path) -> Vec<Vec<String>> {
+    let text = std::fs::read_to_string(path).unwrap();
+    text.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect()
+}
+
+#[test]
+fn landmarks_and_tables_speak_of_the_files_vertices_and_corners() {
+    let folder = folder("landmarks_and_tables_speak_of_the_files_vertices_and_corners");
+    let [source, target, pairs] = write_bodies(&folder);
+    let other = folder.join("other");
+    std::fs::create_dir_all(&other).unwrap();
+    let mut file = landmark_file::read(&std::fs::read(&pairs).unwrap()).unwrap();
+    let on_face = |barycentric| landmark_file::LandmarkPoint::OnFace { face: 7, barycentric };
+    file.pairs.push([on_face([0.5, 0.375, 0.125]); 2]);
+    std::fs::write(&pairs, landmark_file::write(&file)).unwrap();
+    for [a, b] in &mut file.pairs {
+        for point in [a, b] {
+            if let landmark_file::LandmarkPoint::Vertex(v) = point {
+                *v += 1;
+            }
+        }
+    }
+    // The target's faces are turned when it is read, so its weights belong to other corners.
+    file.pairs.last_mut().unwrap()[1] = on_face([0.5, 0.125, 0.375]);
+    let [other_source, other_target, other_pairs] =
+        ["source.obj", "target.obj", "pairs.json"].map(|name| other.join(name));
+    let text = |path: &Path| std::fs::read_to_string(path).unwrap();
+    std::fs::write(&other_source, with_an_unused_vertex(&text(&source), false)).unwrap();
+    std::fs::write(&other_target, with_an_unused_vertex(&text(&target), true)).unwrap();
+    std::fs::write(&other_pairs, landmark_file::write(&file)).unwrap();
+    for [source, target, pairs] in [[&source, &target, &pairs], [&other_source, &other_target, &other_pairs]]
+    {
+        let out = source.parent().unwrap().join("out");
+        let files = [source, target, pairs, &out].map(|path| path.as_os_str());
+        let [landmarks, out] = ["--landmarks", "--out"].map(OsStr::new);
+        let output = conemap([OsStr::new("map"), files[0], files[1], landmarks, files[2], out, files[3]]);
+        assert!(output.status.success(), "{}", errors(&output));
+    }
+
+    let (plain, moved) = (folder.join("out"), other.join("out"));
+    let mut expected = rows(&plain.join("vertex-images.csv"));
+    assert_eq!(expected.len(), octasphere().vertex_count());
+    for (v, row) in expected.iter_mut().enumerate() {
+        row[0] = (v + 1).to_string();
+        row.swap(3, 4);
+    }
+    expected.insert(0, ["0", "", "", "", ""].map(str::to_owned).to_vec());
+    assert_eq!(rows(&moved.join("vertex-images.csv")), expected);
+
+    let mut expected = rows(&plain.join("vertex-distortion.csv"));
+    expected.iter_mut().enumerate().for_each(|(v, row)| row[0] = (v + 1).to_string());
+    expected.insert(0, vec!["0".to_owned(), String::new()]);
+    assert_eq!(rows(&moved.join("vertex-distortion.csv")), expected);
+}
+
+#[test]
+fn every_corner_of_an_stl_file_has_its_row() {
+    let folder = folder("every_corner_of_an_stl_file_has_its_row");
+    let [source, target, pairs] = write_bodies(&folder);
+    let mesh = octasphere();
+    let stl = folder.join("source.stl");
+    let facet = |f| {
+        let corners = mesh.corners(f).map(|p| format!("vertex {} {} {}\n", p.x, p.y, p.z)).concat();
+        format!("facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n")
+    };
+    std::fs::write(&stl, format!("solid a\n{}endsolid a\n", mesh.faces().map(facet).collect::<String>()))
+        .unwrap();
+    // Every landmark by the last corner at its place.
+    let corners: Vec<VertexId> = mesh.triangles().iter().flatten().copied().collect();
+    let mut file = landmark_file::read(&std::fs::read(&pairs).unwrap()).unwrap();
+    for [point, _] in &mut file.pairs {
+        if let landmark_file::LandmarkPoint::Vertex(v) = point {
+            *v = corners.iter().rposition(|w| w.0 == *v).unwrap() as u32;
+        }
+    }
+    let by_corner = folder.join("corners.json");
+    std::fs::write(&by_corner, landmark_file::write(&file)).unwrap();
+    for (source, pairs, out) in [(&source, &pairs, "out"), (&stl, &by_corner, "out-stl")] {
+        let out = folder.join(out);
+        let [landmarks, to] = ["--landmarks", "--out"].map(OsStr::new);
+        let files = [source, &target, pairs, &out].map(|path| path.as_os_str());
+        let output = conemap([OsStr::new("map"), files[0], files[1], landmarks, files[2], to, files[3]]);
+        assert!(output.status.success(), "{}", errors(&output));
+    }
+    let by_vertex = rows(&folder.join("out/vertex-distortion.csv"));
+    let by_corner = rows(&folder.join("out-stl/vertex-distortion.csv"));
+    assert_eq!(by_corner.len(), corners.len());
+    for (row, vertex) in by_corner.iter().zip(&corners) {
+        let [there, here] = [&by_vertex[vertex.index()][1], &row[1]].map(|x| x.parse::<f64>().unwrap());
+        assert!((there - here).abs() < 0.02, "{there} {here}");
+    }
+}
+
 #[test]
 fn maps_every_demo() {
     for info in conemap::demo::list() {

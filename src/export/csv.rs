@@ -4,7 +4,8 @@ use crate::mesh::{FaceId, SurfacePoint};
 use crate::pipeline::TriangleDistortion;
 use std::fmt::Write;
 
-/// One line per source vertex: `source_vertex,target_face,b0,b1,b2`; the last four are empty where there is no image.
+/// One line per vertex of the source's file ([`crate::mesh::check::CheckedMesh::by_file_vertex`]):
+/// `source_vertex,target_face,b0,b1,b2`; the last four are empty where there is no image.
 pub fn vertex_images(images: &[Option<SurfacePoint>]) -> Vec<u8> {
     let mut text = String::from("source_vertex,target_face,b0,b1,b2\n");
     for (v, image) in images.iter().enumerate() {
@@ -31,11 +32,14 @@ pub fn distortion(triangles: &[TriangleDistortion], faces: [&dyn Fn(FaceId) -> F
     text.into_bytes()
 }
 
-/// One line per source vertex: `source_vertex,density`, the mean around it.
-pub fn vertex_distortion(densities: &[f64]) -> Vec<u8> {
+/// One line per vertex of the source's file: `source_vertex,density`, the mean around it; empty where no face uses it.
+pub fn vertex_distortion(densities: &[Option<f64>]) -> Vec<u8> {
     let mut text = String::from("source_vertex,density\n");
     for (v, density) in densities.iter().enumerate() {
-        let _ = writeln!(text, "{v},{density}");
+        let _ = match density {
+            Some(density) => writeln!(text, "{v},{density}"),
+            None => writeln!(text, "{v},"),
+        };
     }
     text.into_bytes()
 }
@@ -58,6 +62,6 @@ mod tests {
         let text = distortion(&[triangle], [&|f| f, &|f| FaceId(10 * f.0)]);
         let text = String::from_utf8(text).unwrap();
         assert_eq!(text, "triangle,source_face,target_face,density,angle,area\n0,3,40,1.25,1.5,0.5\n");
-        assert_eq!(vertex_distortion(&[1.5]), b"source_vertex,density\n0,1.5\n");
+        assert_eq!(vertex_distortion(&[None, Some(1.5)]), b"source_vertex,density\n0,\n1,1.5\n");
     }
 }

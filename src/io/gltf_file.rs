@@ -1,4 +1,5 @@
-//! glTF 2.0: all triangles of the scene in world coordinates, welded at equal coordinates.
+//! glTF 2.0: all triangles of the scene in world coordinates, joined at equal coordinates. Vertices are numbered as the
+//! elements of the primitives' positions, one primitive after another as the scene names them.
 //!
 //! Buffers are the binary part of a GLB or data URIs. Accessors are read here with their bounds checked in u64.
 

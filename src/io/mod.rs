@@ -190,24 +190,19 @@ fn number<T: std::str::FromStr>(token: Option<&str>, line: usize, what: &str) ->
     token.parse().map_err(|_| (Place::Line(line), format!("\"{short}\" should be {what}")))
 }
 
-/// Vertices with exactly equal coordinates become one; formats without shared vertices need it.
-fn weld(soup: PolygonSoup) -> PolygonSoup {
-    let mut numbers = rustc_hash::FxHashMap::default();
-    let mut welded = PolygonSoup::default();
-    let mut new_number = Vec::with_capacity(soup.positions.len());
-    for p in soup.positions {
+/// Polygons name the first of the vertices with exactly equal coordinates; formats without shared vertices need it.
+fn weld(mut soup: PolygonSoup) -> PolygonSoup {
+    let mut first_at = rustc_hash::FxHashMap::default();
+    let joined = |(number, p): (u32, &glam::DVec3)| {
         // Adding 0 makes -0 and 0 the same bits.
-        let key = (p + glam::DVec3::ZERO).to_array().map(f64::to_bits);
-        let next = welded.positions.len() as u32;
-        let number = *numbers.entry(key).or_insert(next);
-        if number == next {
-            welded.positions.push(p);
-        }
-        new_number.push(number);
+        let key = (*p + glam::DVec3::ZERO).to_array().map(f64::to_bits);
+        *first_at.entry(key).or_insert(number)
+    };
+    soup.joined_with = (0..).zip(&soup.positions).map(joined).collect();
+    for v in soup.polygons.iter_mut().flatten() {
+        *v = soup.joined_with.get(*v as usize).copied().unwrap_or(u32::MAX);
     }
-    let old = |v: &u32| new_number.get(*v as usize).copied().unwrap_or(u32::MAX);
-    welded.polygons = soup.polygons.iter().map(|polygon| polygon.iter().map(old).collect()).collect();
-    welded
+    soup
 }
 
 #[cfg(test)]

@@ -26,8 +26,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
             format!("it announces {vertices} vertices and {faces} faces, more than the file can hold");
         return Err((Place::Line(line), problem));
     }
-    let mut soup =
-        PolygonSoup { positions: Vec::with_capacity(vertices), polygons: Vec::with_capacity(faces) };
+    let mut soup = PolygonSoup {
+        positions: Vec::with_capacity(vertices),
+        polygons: Vec::with_capacity(faces),
+        ..PolygonSoup::default()
+    };
     let mut next_line = |what: &str| {
         lines
             .next()

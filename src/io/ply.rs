@@ -20,7 +20,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
     let faces = payload.swap_remove("face").ok_or((Place::Header, "it has no faces".to_owned()))?;
     let positions = vertices.iter().enumerate().map(|(v, e)| position(v, e)).collect::<Result<_, _>>()?;
     let polygons = faces.iter().enumerate().map(|(f, e)| polygon(f, e)).collect::<Result<_, _>>()?;
-    Ok(PolygonSoup { positions, polygons })
+    Ok(PolygonSoup { positions, polygons, ..PolygonSoup::default() })
 }
 
 /// The elements announced must fit into the file, so that a small file cannot ask for much memory or time.

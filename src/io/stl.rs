@@ -1,4 +1,4 @@
-//! STL, text and binary: loose triangles, welded at equal coordinates.
+//! STL, text and binary: loose triangles, joined at equal coordinates. Vertex 3 t + k is corner k of triangle t.
 
 use super::{Place, Problem, number, text, weld};
 use crate::mesh::soup::PolygonSoup;
@@ -19,7 +19,7 @@ fn triangle_count(bytes: &[u8]) -> Option<u64> {
 pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
     let positions = if is_binary(bytes) { binary(bytes) } else { ascii(bytes)? };
     let polygons = (0..positions.len() as u32 / 3).map(|t| vec![3 * t, 3 * t + 1, 3 * t + 2]).collect();
-    Ok(weld(PolygonSoup { positions, polygons }))
+    Ok(weld(PolygonSoup { positions, polygons, ..PolygonSoup::default() }))
 }
 
 fn binary(bytes: &[u8]) -> Vec<DVec3> {

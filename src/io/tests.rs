@@ -97,6 +97,26 @@ fn every_format_gives_the_same_tetrahedron() {
 }
 
 #[test]
+fn joined_vertices_keep_the_files_numbers() {
+    // Corner k of triangle t is vertex 3 t + k.
+    let vertices = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];
+    let first = [0, 2, 1, 5].map(|number| number as usize);
+    for bytes in [ascii_stl().into(), binary_stl(b"binary"), gltf_text().into()] {
+        let checked = closed_genus_zero(&read_mesh(&bytes).unwrap()).unwrap();
+        assert_eq!(checked.vertex_from_file.len(), 12);
+        for (corner, vertex) in vertices.iter().enumerate() {
+            assert_eq!(checked.vertex_from_file[corner], checked.vertex_from_file[first[*vertex]]);
+        }
+        let mut numbers = checked.file_from_vertex();
+        assert!(
+            numbers.iter().zip(checked.mesh.vertices()).all(|(&n, v)| checked.vertex_from_file[n] == Some(v))
+        );
+        numbers.sort_unstable();
+        assert_eq!(numbers, [0, 1, 2, 5]);
+    }
+}
+
+#[test]
 fn errors_name_the_line() {
     let says = |text: &str| read_mesh(text.as_bytes()).unwrap_err().to_string();
     assert_eq!(says(&OFF.replace("1 0 0", "1 x 0")), "OFF file, line 5: \"x\" should be a coordinate");

@@ -1,7 +1,7 @@
 //! From a polygon soup to one closed, oriented, manifold surface of genus 0, or to a sentence that says why not.
 
 use super::soup::PolygonSoup;
-use super::{FaceId, SurfaceMesh, VertexId};
+use super::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::math::triangle;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -15,8 +15,8 @@ pub struct CheckedMesh {
     pub mesh: SurfaceMesh,
     /// The mesh's vertex for each vertex of the file; `None` for vertices that no face uses, which are left out.
     pub vertex_from_file: Vec<Option<VertexId>>,
-    /// Faces whose orientation was turned to agree with their neighbours' or to face outwards.
-    pub turned_faces: usize,
+    /// Whether each face was turned, its last two corners exchanged, to agree with its neighbours or to face outwards.
+    pub turned: TiVec<FaceId, bool>,
 }
 
 impl CheckedMesh {
@@ -29,6 +29,25 @@ impl CheckedMesh {
             }
         }
         numbers
+    }
+
+    /// Values by vertex of the mesh as values by vertex of the file; `None` for vertices that no face uses.
+    pub fn by_file_vertex<T: Copy>(&self, values: &[T]) -> Vec<Option<T>> {
+        self.vertex_from_file.iter().map(|v| v.and_then(|v| values.get(v.index()).copied())).collect()
+    }
+
+    /// A point of the mesh with its face's corners in the file's order, or the other way round: its own inverse.
+    pub fn with_file_corners(&self, point: SurfacePoint) -> SurfacePoint {
+        let [a, b, c] = point.barycentric;
+        match self.turned.get(point.face) {
+            Some(true) => SurfacePoint { barycentric: [a, c, b], ..point },
+            _ => point,
+        }
+    }
+
+    /// How many faces were turned.
+    pub fn turned_faces(&self) -> usize {
+        self.turned.iter().filter(|turned| **turned).count()
     }
 }
 
@@ -172,7 +191,7 @@ pub fn closed_genus_zero(soup: &PolygonSoup) -> Result<CheckedMesh, MeshFault> {
     check_degenerate(soup, &triangles, &polygon_of)?;
     let edges = EdgeTable::new(&triangles)?;
     edges.check_closed()?;
-    let mut turned_faces = orient(&mut triangles, &edges)?;
+    let mut turned = orient(&mut triangles, &edges)?;
     let (vertex_from_file, positions) = used_vertices(soup, &triangles);
     check_fans(&triangles, &edges, soup.positions.len())?;
     check_components(&edges)?;
@@ -182,14 +201,14 @@ pub fn closed_genus_zero(soup: &PolygonSoup) -> Result<CheckedMesh, MeshFault> {
     }
     if signed_volume(soup, &triangles) < 0.0 {
         triangles.iter_mut().for_each(|t| t.swap(1, 2));
-        turned_faces = triangles.len() - turned_faces;
+        turned.iter_mut().for_each(|turned| *turned = !*turned);
     }
     let vertex = |v: u32| vertex_from_file[v as usize].unwrap_or(VertexId(0));
     let faces: TiVec<FaceId, _> = triangles.iter().map(|t| t.map(vertex)).collect();
     let mesh = SurfaceMesh::from_triangles(positions, faces);
     // Everything that could be refused was refused above with better words.
     let mesh = mesh.map_err(|_| MeshFault::PinchedVertices(Elements { count: 1, first: Vec::new() }))?;
-    Ok(CheckedMesh { mesh, vertex_from_file, turned_faces })
+    Ok(CheckedMesh { mesh, vertex_from_file, turned })
 }
 
 /// Triangles, and the polygon that each comes from.
@@ -347,8 +366,8 @@ impl EdgeTable {
     }
 }
 
-/// Turns triangles so that neighbours agree; returns how many were turned. Side numbers stay those of the table.
-fn orient(triangles: &mut [Triangle], edges: &EdgeTable) -> Result<usize, MeshFault> {
+/// Turns triangles so that neighbours agree; returns which were turned. Side numbers stay those of the table.
+fn orient(triangles: &mut [Triangle], edges: &EdgeTable) -> Result<TiVec<FaceId, bool>, MeshFault> {
     let original = triangles.to_vec();
     let start_of = |side: usize| original[side / 3][side % 3];
     let mut turned: Vec<Option<bool>> = vec![None; triangles.len()];
@@ -379,12 +398,11 @@ fn orient(triangles: &mut [Triangle], edges: &EdgeTable) -> Result<usize, MeshFa
             }
         }
     }
-    let mut count = 0;
-    for (t, _) in turned.iter().enumerate().filter(|(_, x)| **x == Some(true)) {
-        triangles[t].swap(1, 2);
-        count += 1;
+    let turned: TiVec<FaceId, bool> = turned.into_iter().map(|x| x == Some(true)).collect();
+    for (triangle, _) in triangles.iter_mut().zip(&turned).filter(|(_, turned)| **turned) {
+        triangle.swap(1, 2);
     }
-    Ok(count)
+    Ok(turned)
 }
 
 fn used_vertices(
@@ -395,7 +413,10 @@ fn used_vertices(
     triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
     let mut positions = TiVec::new();
     let number = |(used, p): (bool, &DVec3)| used.then(|| positions.push_and_get_key(*p));
-    let from_file = used.into_iter().zip(&soup.positions).map(number).collect();
+    let mut from_file: Vec<Option<VertexId>> = used.into_iter().zip(&soup.positions).map(number).collect();
+    for (vertex, first) in soup.joined_with.iter().enumerate().take(soup.positions.len()) {
+        from_file[vertex] = from_file.get(*first as usize).copied().flatten();
+    }
     (from_file, positions)
 }
 
@@ -452,6 +473,7 @@ mod tests {
         PolygonSoup {
             positions: mesh.positions().iter().copied().collect(),
             polygons: mesh.triangles().iter().map(|t| t.iter().map(|v| v.0).collect()).collect(),
+            ..PolygonSoup::default()
         }
     }
 
@@ -464,7 +486,17 @@ mod tests {
         inside_out.polygons.iter_mut().for_each(|p| p.reverse());
         for (soup, turned) in [(&sphere, 0), (&mixed, 107), (&inside_out, 320)] {
             let checked = closed_genus_zero(soup).unwrap();
-            assert_eq!(checked.turned_faces, turned);
+            assert_eq!(checked.turned_faces(), turned);
+            let there = |point: SurfacePoint, polygon: &[u32]| {
+                let corners = polygon.iter().zip(point.barycentric);
+                corners.map(|(&v, w)| soup.positions[v as usize] * w).sum::<DVec3>()
+            };
+            for (face, polygon) in checked.mesh.faces().zip(&soup.polygons) {
+                let point = SurfacePoint { face, barycentric: [0.2, 0.3, 0.5] };
+                let in_file = checked.with_file_corners(point);
+                assert!(there(in_file, polygon).distance(point.position(&checked.mesh)) < 1e-15);
+                assert_eq!(checked.with_file_corners(in_file), point);
+            }
             let [p, q, r] = checked.mesh.corners(FaceId(0));
             assert!((q - p).cross(r - p).dot(p) > 0.0);
         }
@@ -483,6 +515,7 @@ mod tests {
                 vec![0, 4, 6, 2],
                 vec![1, 3, 7, 5],
             ],
+            ..PolygonSoup::default()
         };
         soup.polygons.iter_mut().flatten().for_each(|v| *v += 1);
         let checked = closed_genus_zero(&soup).unwrap();
@@ -492,6 +525,10 @@ mod tests {
         assert_eq!(checked.vertex_from_file[8], Some(VertexId(7)));
         let numbers = checked.file_from_vertex();
         assert_eq!((numbers[0], numbers[7]), (1, 8));
+        let values: Vec<f64> = checked.mesh.positions().iter().map(|p| p.x).collect();
+        let by_file = checked.by_file_vertex(&values);
+        assert_eq!(by_file[0], None);
+        assert!(by_file[1..].iter().zip(&soup.positions[1..]).all(|(x, p)| *x == Some(p.x)));
     }
 
     #[test]
@@ -501,7 +538,8 @@ mod tests {
         let positions = [0.0, 1.0].iter().flat_map(|&z| l.map(|(x, y)| DVec3::new(x, y, z))).collect();
         let mut polygons = vec![vec![5, 4, 3, 2, 1, 0], vec![6, 7, 8, 9, 10, 11]];
         polygons.extend((0..6_u32).map(|k| vec![k, (k + 1) % 6, 6 + (k + 1) % 6, 6 + k]));
-        let checked = closed_genus_zero(&PolygonSoup { positions, polygons }).unwrap();
+        let checked =
+            closed_genus_zero(&PolygonSoup { positions, polygons, ..PolygonSoup::default() }).unwrap();
         assert!((checked.mesh.area() - (2.0 * 3.0 + 8.0)).abs() < 1e-12);
     }
 

@@ -9,4 +9,7 @@ pub struct PolygonSoup {
     pub positions: Vec<DVec3>,
     /// Polygons as vertex numbers into `positions`, in file order and orientation.
     pub polygons: Vec<Vec<u32>>,
+    /// For each vertex the first one at the same place: both are one vertex of the surface, and polygons name the first.
+    /// Empty where the file shares vertices itself and none were joined.
+    pub joined_with: Vec<u32>,
 }

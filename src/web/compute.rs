@@ -174,13 +174,12 @@ pub fn run_map(
     let options: Options = serde_json::from_str(options).map_err(|e| failure("options", e))?;
     let (source, target) = (checked(source)?, checked(target)?);
     let file = landmark_file::read(landmarks.as_bytes()).map_err(|e| failure("landmarks", e))?;
-    let vertices = source.mesh.vertex_count();
     let numbers = [source.file_from_vertex(), target.file_from_vertex()];
     let same = source.mesh.triangles() == target.mesh.triangles() && file.ground_truth.is_some();
     let ground_truth = if same { GroundTruth::SameConnectivity } else { GroundTruth::Unknown };
     let placed = place([&source, &target], &file.pairs).map_err(|e| failure("landmarks", e))?;
-    let PlacedLandmarks { source, target, landmarks } = placed;
-    let input = MapInput { source: &source.mesh, target: &target.mesh, landmarks: &landmarks, ground_truth };
+    let PlacedLandmarks { source: inserted, target: on_target, landmarks } = &placed;
+    let input = MapInput { source: &inserted.mesh, target: &on_target.mesh, landmarks, ground_truth };
     let number = |side: usize, v: usize| numbers[side].get(v).copied().unwrap_or(v);
     let doubts: Vec<_> = findings(input, &file.labels.unwrap_or_default())
         .into_iter()
@@ -195,8 +194,9 @@ pub fn run_map(
     seconds.insert("total".into(), (js_sys::Date::now() - begun) / 1000.0);
     result.report.set_seconds(seconds);
     result.report.findings = doubts;
-    let images: Vec<_> =
-        result.target_from_source.iter().take(vertices).map(|p| p.map(|p| target.on_original(p))).collect();
+    let as_given = |p| target.with_file_corners(on_target.on_original(p));
+    let images = source.by_file_vertex(&result.target_from_source.raw);
+    let images: Vec<_> = images.into_iter().map(|image| image.flatten().map(as_given)).collect();
     Ok(MapOutput { csv: export::csv::vertex_images(&images), result })
 }
 

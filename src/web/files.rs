@@ -5,7 +5,7 @@ use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 use crate::landmark_suggestion::{Suggestion, suggest};
 use crate::mesh::check::{CheckedMesh, closed_genus_zero};
 use crate::mesh::mirror::mirrored;
-use crate::mesh::{FaceId, VertexId};
+use crate::mesh::{FaceId, SurfacePoint, VertexId};
 use crate::{demo, export, io, landmarks};
 use serde_json::json;
 use wasm_bindgen::prelude::*;
@@ -33,7 +33,7 @@ impl LoadedMesh {
     /// Faces whose orientation was turned.
     #[wasm_bindgen(getter, js_name = turnedFaces)]
     pub fn turned_faces(&self) -> usize {
-        self.checked.turned_faces
+        self.checked.turned_faces()
     }
 }
 
@@ -85,8 +85,10 @@ pub fn suggest_landmarks(loaded: &LoadedMesh, landmarks: &str, count: usize) -> 
     let CheckedMesh { mesh, vertex_from_file, .. } = checked;
     let nearest = |point: LandmarkPoint| match point {
         LandmarkPoint::Vertex(v) => vertex_from_file.get(v as usize).copied().flatten(),
-        LandmarkPoint::OnFace { face, barycentric: w } => {
-            let corners = mesh.triangles().get(FaceId(face))?;
+        LandmarkPoint::OnFace { face, barycentric } => {
+            let point = SurfacePoint { face: FaceId(face), barycentric };
+            let corners = mesh.triangles().get(point.face)?;
+            let w = checked.with_file_corners(point).barycentric;
             (0..3).max_by(|&a: &usize, &b| w[a].total_cmp(&w[b])).map(|k| corners[k])
         }
     };
@@ -127,15 +129,20 @@ impl MirroredTarget {
 pub fn mirror_target(target: &LoadedMesh, landmarks: &[u8]) -> Result<MirroredTarget, JsValue> {
     let mut file = landmark_file::read(landmarks).map_err(|e| failure("landmarks", e))?;
     let mesh = mirrored(&target.checked.mesh).map_err(|e| failure("mesh", e))?;
+    // The image's file has the checked mesh's vertices only, and its faces as they were turned.
     for [_, point] in &mut file.pairs {
-        *point = match point.mirrored() {
-            // The image's file has the checked mesh's vertices only.
+        let on_mesh = match *point {
             LandmarkPoint::Vertex(v) => {
                 let known = target.checked.vertex_from_file.get(v as usize).copied().flatten();
                 LandmarkPoint::Vertex(known.map_or(v, |v| v.0))
             }
-            on_face @ LandmarkPoint::OnFace { .. } => on_face,
+            LandmarkPoint::OnFace { face, barycentric } => {
+                let point = SurfacePoint { face: FaceId(face), barycentric };
+                let barycentric = target.checked.with_file_corners(point).barycentric;
+                LandmarkPoint::OnFace { face, barycentric }
+            }
         };
+        *point = on_mesh.mirrored();
     }
     file.ground_truth = None;
     Ok(MirroredTarget { mesh: export::obj::mesh(&mesh), landmarks: landmark_file::write(&file) })

@@ -271,6 +271,7 @@ impl Viewer {
         let from = mesh.frame.unplace(origin);
         let along = (mesh.frame.unplace(origin + direction) - from).normalize();
         let hit = mesh.picker.as_ref()?.pick(&mesh.checked.mesh, from, along)?;
+        let hit = mesh.checked.with_file_corners(hit);
         Some(json!({ "face": hit.face.0, "barycentric": hit.barycentric }).to_string())
     }
 
@@ -405,7 +406,8 @@ impl SideMesh {
             }
             LandmarkPoint::OnFace { face, barycentric } => {
                 let inside = (face as usize) < mesh.face_count();
-                inside.then(|| SurfacePoint { face: FaceId(face), barycentric }.position(mesh))
+                let point = SurfacePoint { face: FaceId(face), barycentric };
+                inside.then(|| self.checked.with_file_corners(point).position(mesh))
             }
         }
     }

@@ -30,11 +30,10 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
         Some(_) if same_connectivity(&source, &target) => GroundTruth::SameConnectivity,
         _ => GroundTruth::Unknown,
     };
-    let source_vertices = source.mesh.vertex_count();
-    let numbers = [source.file_from_vertex(), target.file_from_vertex()];
-    let PlacedLandmarks { source, target, landmarks } = placed;
-    let map_input =
-        MapInput { source: &source.mesh, target: &target.mesh, landmarks: &landmarks, ground_truth };
+    let checked = [&source, &target];
+    let numbers = checked.map(CheckedMesh::file_from_vertex);
+    let PlacedLandmarks { source, target, landmarks } = &placed;
+    let map_input = MapInput { source: &source.mesh, target: &target.mesh, landmarks, ground_truth };
     let number = |side: usize, v: usize| numbers[side].get(v).copied().unwrap_or(v);
     let found: Vec<_> = findings(map_input, &file.labels.unwrap_or_default())
         .into_iter()
@@ -50,8 +49,8 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
     result.report.findings = found;
     tell(&result);
     if let Some(folder) = &arguments.out {
-        let insertions = [&source, &target];
-        outputs::write(folder, &result, &outputs::Inputs { insertions, source_vertices, arguments })?;
+        let insertions = [source, target];
+        outputs::write(folder, &result, &outputs::Inputs { insertions, checked, arguments })?;
     }
     if let Some(path) = &arguments.report {
         input::write(path, &serde_json::to_vec_pretty(&result.report)?)?;

@@ -3,6 +3,7 @@
 use crate::arguments::MapArguments;
 use crate::input::{self, Failure};
 use conemap::export;
+use conemap::mesh::check::CheckedMesh;
 use conemap::mesh::insertion::Insertion;
 use conemap::mesh::mirror::{mirrored, mirrored_point};
 use conemap::mesh::{FaceId, SurfacePoint};
@@ -13,22 +14,22 @@ use std::path::Path;
 pub struct Inputs<'a> {
     /// Source and target with their landmarks.
     pub insertions: [&'a Insertion; 2],
-    /// Vertices of the source before landmarks were inserted.
-    pub source_vertices: usize,
+    /// Source and target before landmarks were inserted.
+    pub checked: [&'a CheckedMesh; 2],
     /// What the user asked for.
     pub arguments: &'a MapArguments,
 }
 
-/// Writes all files; everything is told of the meshes that the user gave, also where the target was mirrored.
+/// Writes all files; everything is told of the files that the user gave, also where the target was mirrored.
 pub fn write(folder: &Path, result: &MapResult, inputs: &Inputs<'_>) -> Result<(), Failure> {
-    let [source, target] = inputs.insertions;
+    let ([source, target], [checked_source, checked_target]) = (inputs.insertions, inputs.checked);
     let mirror = inputs.arguments.mirror_target;
     let as_given = |p: SurfacePoint| {
         let point = target.on_original(p);
-        if mirror { mirrored_point(point) } else { point }
+        checked_target.with_file_corners(if mirror { mirrored_point(point) } else { point })
     };
-    let images = result.target_from_source.iter().take(inputs.source_vertices);
-    let images: Vec<_> = images.map(|image| image.map(as_given)).collect();
+    let images = checked_source.by_file_vertex(&result.target_from_source.raw);
+    let images: Vec<_> = images.into_iter().map(|image| image.flatten().map(as_given)).collect();
     let glb = export::glb::textured_source(&result.common, &result.common_vertex_distortion())?;
     input::write(&folder.join("source-with-target-texture.glb"), &glb)?;
     input::write(&folder.join("vertex-images.csv"), &export::csv::vertex_images(&images))?;
@@ -38,9 +39,8 @@ pub fn write(folder: &Path, result: &MapResult, inputs: &Inputs<'_>) -> Result<(
         let faces: [&dyn Fn(FaceId) -> FaceId; 2] = [&|f| source.face_origin[f], &|f| target.face_origin[f]];
         let by_triangle = export::csv::distortion(&result.triangle_distortion, faces);
         input::write(&folder.join("distortion.csv"), &by_triangle)?;
-        let by_vertex = &result.vertex_distortion.raw;
-        let by_vertex = &by_vertex[..inputs.source_vertices.min(by_vertex.len())];
-        input::write(&folder.join("vertex-distortion.csv"), &export::csv::vertex_distortion(by_vertex))?;
+        let by_vertex = checked_source.by_file_vertex(&result.vertex_distortion.raw);
+        input::write(&folder.join("vertex-distortion.csv"), &export::csv::vertex_distortion(&by_vertex))?;
     }
     Ok(())
 }
