@@ -6,6 +6,7 @@ use crate::io::landmark_file::LandmarkPoint;
 use crate::mesh::check::CheckedMesh;
 use crate::mesh::insertion::{Insertion, insert};
 use crate::mesh::{FaceId, MeshError, SurfaceMesh, SurfacePoint, VertexId, ids_id as id};
+use rustc_hash::FxHashMap;
 
 id!(
     /// A landmark: the same number on the source, the target and the base domain.
@@ -141,12 +142,18 @@ pub fn place(
     Ok(PlacedLandmarks { source, target, landmarks })
 }
 
-/// Whether all landmark points are points of the meshes; there may be fewer than a map needs.
+/// Whether the landmark points of one side are different points of its mesh, as [`place`] demands; there may be fewer than a
+/// map needs.
 ///
 /// # Errors
-/// [`LandmarkError`] with the number of the first pair that is not.
-pub fn exist(meshes: [&CheckedMesh; 2], pairs: &[[LandmarkPoint; 2]]) -> Result<(), LandmarkError> {
-    (0..2).try_for_each(|k| points(meshes[k], SIDES[k], pairs).map(|_| ()))
+/// [`LandmarkError`] with the number of the first pair that is not, or of the first two at one vertex.
+pub fn check_side(
+    mesh: &CheckedMesh,
+    side: MeshSide,
+    pairs: &[[LandmarkPoint; 2]],
+) -> Result<(), LandmarkError> {
+    let inserted = insert(&mesh.mesh, &points(mesh, side, pairs)?)?;
+    distinct(&inserted.vertices, side)
 }
 
 fn points(
@@ -173,13 +180,12 @@ fn point(
             let unused = LandmarkError::UnusedVertex { side, pair, vertex };
             Ok(SurfacePoint::at_vertex(mesh, known.ok_or(unused)?))
         }
-        LandmarkPoint::OnFace { face, barycentric } => {
+        on_face @ LandmarkPoint::OnFace { face, barycentric } => {
             let faces = mesh.face_count();
             if face as usize >= faces {
                 return Err(LandmarkError::MissingFace { side, pair, face: face as usize, faces });
             }
-            let sum: f64 = barycentric.iter().sum();
-            if !barycentric.iter().all(|w| *w >= -1e-6) || sum.is_nan() || (sum - 1.0).abs() >= 1e-4 {
+            if !on_face.is_sound() {
                 return Err(LandmarkError::Barycentric { side, pair, weights: barycentric });
             }
             let clamped = barycentric.map(|w| w.max(0.0));
@@ -225,19 +231,24 @@ fn checked_side(
     side: MeshSide,
     mesh: &SurfaceMesh,
 ) -> Result<Vec<VertexId>, LandmarkError> {
-    let mut vertices = Vec::with_capacity(pairs.len());
-    for (pair, ends) in pairs.iter().enumerate() {
-        let v = VertexId(ends[side as usize]);
-        if v.index() >= mesh.vertex_count() {
-            let vertices = mesh.vertex_count();
-            return Err(LandmarkError::MissingVertex { side, pair, vertex: v.index(), vertices });
-        }
-        if let Some(other) = vertices.iter().position(|&w| w == v) {
+    let vertices: Vec<VertexId> = pairs.iter().map(|ends| VertexId(ends[side as usize])).collect();
+    let count = mesh.vertex_count();
+    if let Some(pair) = vertices.iter().position(|v| v.index() >= count) {
+        let vertex = vertices[pair].index();
+        return Err(LandmarkError::MissingVertex { side, pair, vertex, vertices: count });
+    }
+    distinct(&vertices, side)?;
+    Ok(vertices)
+}
+
+fn distinct(vertices: &[VertexId], side: MeshSide) -> Result<(), LandmarkError> {
+    let mut first = FxHashMap::default();
+    for (pair, v) in vertices.iter().enumerate() {
+        if let Some(other) = first.insert(v, pair) {
             return Err(LandmarkError::Coincident { side, pairs: [other, pair] });
         }
-        vertices.push(v);
     }
-    Ok(vertices)
+    Ok(())
 }
 
 #[cfg(test)]
@@ -259,7 +270,9 @@ mod tests {
         let ball = ball();
         let at = LandmarkPoint::Vertex;
         let on = |face, barycentric| LandmarkPoint::OnFace { face, barycentric };
-        let wrong = |pair: [LandmarkPoint; 2]| exist([&ball, &ball], &[[at(0), at(0)], pair]).unwrap_err();
+        let check =
+            |pairs: &[[LandmarkPoint; 2]]| SIDES.iter().try_for_each(|&side| check_side(&ball, side, pairs));
+        let wrong = |pair: [LandmarkPoint; 2]| check(&[[at(0), at(0)], pair]).unwrap_err();
         assert_eq!(
             wrong([at(3), at(99)]).to_string(),
             "landmark pair 2 (the first is 1) names vertex 99, but the target has 12 vertices"
@@ -270,6 +283,29 @@ mod tests {
         );
         let heavy = wrong([on(0, [0.5, 0.6, 0.5]), at(1)]);
         assert!(matches!(heavy, LandmarkError::Barycentric { side: MeshSide::Source, pair: 1, .. }));
-        assert_eq!(exist([&ball, &ball], &[[at(0), on(19, [0.2, 0.3, 0.5])]]), Ok(()));
+        assert_eq!(check(&[[at(0), on(19, [0.2, 0.3, 0.5])]]), Ok(()));
+    }
+
+    #[test]
+    fn two_pairs_at_one_vertex_are_named_however_it_is_written() {
+        let mut ball = ball();
+        // As if the file had the first vertex twice, and one that no face uses.
+        ball.vertex_from_file.extend([Some(VertexId(0)), None]);
+        let at = LandmarkPoint::Vertex;
+        let corner = ball.mesh.triangles()[FaceId(4)][1];
+        let on_corner = LandmarkPoint::OnFace { face: 4, barycentric: [1e-12, 1.0, 0.0] };
+        let wrong = |points: [LandmarkPoint; 3]| {
+            let pairs: Vec<_> = (1..).zip(points).map(|(v, p)| [at(v), p]).collect();
+            assert_eq!(check_side(&ball, MeshSide::Source, &pairs), Ok(()));
+            check_side(&ball, MeshSide::Target, &pairs).unwrap_err()
+        };
+        let same = |pairs| LandmarkError::Coincident { side: MeshSide::Target, pairs };
+        assert_eq!(wrong([at(0), at(12), at(1)]), same([0, 1]));
+        let others = ball.mesh.vertices().find(|v| *v != corner).unwrap();
+        assert_eq!(wrong([on_corner, at(others.0), at(corner.0)]), same([0, 2]));
+        assert_eq!(
+            wrong([at(0), at(1), at(13)]).to_string(),
+            "landmark pair 3 (the first is 1) names vertex 13, which no face of the target uses"
+        );
     }
 }

@@ -9,7 +9,7 @@ use conemap::io::{self, landmark_file};
 use conemap::mesh::check::closed_genus_zero;
 use conemap::mesh::generators::{icosphere, midpoint_subdivision, octahedron};
 use conemap::mesh::mirror::mirrored;
-use conemap::mesh::{SurfaceMesh, VertexId};
+use conemap::mesh::{FaceId, SurfaceMesh, VertexId};
 use glam::DVec3;
 use serde_json::Value;
 use std::ffi::OsStr;
@@ -491,14 +491,20 @@ fn bad_meshes_and_landmarks_are_refused_by_name() {
     let text = std::fs::read_to_string(&source).unwrap();
     let open = folder.join("open.obj");
     std::fs::write(&open, text.rsplit_once("f ").unwrap().0).unwrap();
-    let [noise, few, far, broken] =
-        ["noise.obj", "few.json", "far.json", "broken.json"].map(|name| folder.join(name));
+    let [noise, few, far, broken, shared, corner] =
+        ["noise.obj", "few.json", "far.json", "broken.json", "shared.json", "corner.json"]
+            .map(|name| folder.join(name));
     std::fs::write(&noise, "this is not a mesh\n").unwrap();
     std::fs::write(&few, r#"{"pairs": [[0, 0], [1, 1], [2, 2]]}"#).unwrap();
     std::fs::write(&far, r#"{"pairs": [[0, 0], [1, 1], [2, 2], [3, 999999]]}"#).unwrap();
     std::fs::write(&broken, "{\"pairs\":\n [[0, 0]").unwrap();
+    std::fs::write(&shared, r#"{"pairs": [[0, 0], [1, 1], [2, 2], [3, 1], [4, 4]]}"#).unwrap();
+    let first = octasphere().triangles()[FaceId(0)][0].0;
+    let on_corner = r#"{"face": 0, "barycentric": [1, 0, 0]}"#;
+    std::fs::write(&corner, format!("{{\"pairs\": [[{first}, 0], [{on_corner}, 1], [100, 2], [101, 3]]}}"))
+        .unwrap();
     let missing = folder.join("missing.obj");
-    let cases: [([&Path; 3], &[&str]); 7] = [
+    let cases: [([&Path; 3], &[&str]); 9] = [
         ([&missing, &target, &pairs], &["missing.obj"]),
         ([&source, &noise, &pairs], &["noise.obj", "not a mesh file"]),
         ([&open, &target, &pairs], &["open.obj", "open"]),
@@ -506,6 +512,8 @@ fn bad_meshes_and_landmarks_are_refused_by_name() {
         ([&source, &target, &broken], &["broken.json", "line 2"]),
         ([&source, &target, &few], &["few.json", "at least 4"]),
         ([&source, &target, &far], &["far.json", "999999"]),
+        ([&source, &target, &shared], &["shared.json", "pairs 2 and 4", "the target"]),
+        ([&source, &target, &corner], &["corner.json", "pairs 1 and 2", "same vertex of the source"]),
     ];
     for ([a, b, landmarks], words) in cases {
         let flags = ["map", "--landmarks"].map(OsStr::new);

@@ -1,8 +1,9 @@
 /** Tells meshes from landmark files and finds each mesh's side. */
 import { failureOf } from './compute/messages.ts';
-import { fileSentence, SENTENCES } from './messages.ts';
+import type { Failure } from './compute/messages.ts';
+import { failureSentence, fileSentence, SENTENCES } from './messages.ts';
 import type { Event, LandmarkFile, MeshFile, Side, State } from './state.ts';
-import { baseName } from './state.ts';
+import { baseName, landmarkFileOf, SIDES, update } from './state.ts';
 import { checkLandmarks, mirrorTarget, readLandmarks, readMesh } from './wasm/conemap.js';
 
 /** Some named bytes. */
@@ -81,23 +82,35 @@ export function mirroredTarget(target: MeshFile, landmarks: LandmarkFile): Event
   ];
 }
 
-/** Refuses landmarks that are no points of the meshes they would be shown on. */
-function checkFit(file: NamedBytes, events: readonly Event[], state: State): void {
-  const meshes: [MeshFile | null, MeshFile | null] = [...state.meshes];
-  for (const event of events) {
-    if (event.kind === 'mesh') {
-      meshes[event.side] = event.file;
-    }
-  }
-  const [source, target] = meshes;
-  if (source === null || target === null) {
-    return;
-  }
+/** Why the landmarks of a state are no different points of its meshes; `null` where they are. */
+function misfit(state: State): Failure | null {
+  const landmarks = new TextEncoder().encode(JSON.stringify(landmarkFileOf(state)));
   try {
-    checkLandmarks(source.mesh, target.mesh, file.bytes);
+    for (const side of SIDES) {
+      const file = state.meshes[side];
+      if (file !== null) {
+        checkLandmarks(file.mesh, side, landmarks);
+      }
+    }
+    return null;
   } catch (thrown) {
-    throw new FileRefused(`${fileSentence(file.name, failureOf(thrown))} ${SENTENCES.otherMeshes}`);
+    return failureOf(thrown);
   }
+}
+
+/** Refuses landmarks that do not fit the meshes they would be shown on. */
+function checkFit(file: NamedBytes, events: readonly Event[], state: State): void {
+  const failure = misfit(events.reduce(update, state));
+  if (failure !== null) {
+    const advice = failure.code === 'other-meshes' ? ` ${SENTENCES.otherMeshes}` : '';
+    throw new FileRefused(`${fileSentence(file.name, failure)}${advice}`);
+  }
+}
+
+/** What to say where landmarks that stay do not fit the meshes that come. */
+function keptMisfit(events: readonly Event[], state: State): Event[] {
+  const failure = misfit(events.reduce(update, state));
+  return failure === null ? [] : [{ kind: 'error', sentence: `${failureSentence(failure)} ${SENTENCES.keptMisfit}` }];
 }
 
 function sideByName(name: string, file: LandmarkFile | null, state: State): Side | null {
@@ -144,10 +157,11 @@ export function eventsOf(files: readonly NamedBytes[], over: Side | null, state:
     }
     const events: Event[] = loaded.map((file, index) => ({ kind: 'mesh', side: sides[index] ?? 0, file }));
     if (landmarks !== null && landmarkFiles[0] !== undefined) {
-      checkFit(landmarkFiles[0], events, state);
       events.push({ kind: 'landmarks', file: landmarks });
+      checkFit(landmarkFiles[0], events, state);
+      return events;
     }
-    return events;
+    return [...events, ...keptMisfit(events, state)];
   } catch (thrown) {
     loaded.forEach((file) => {
       file.mesh.free();

@@ -91,11 +91,17 @@ export const SENTENCES = {
   notLandmarks: 'this is JSON, but it has no "pairs" and is no mesh.',
   unexpected: 'Something unexpected went wrong in the page. Your files are untouched; reload if the page no longer answers.',
   otherMeshes: 'Load the meshes of these landmarks first, or together with them.',
+  keptMisfit: 'The landmarks are kept: load the mesh that they were made for, or clear them.',
   empty: 'is empty.',
   tooLarge: 'is larger than 1 GiB, more than the page can take.',
   nothingToSuggest: 'No further place to suggest: the landmarks cover this mesh.',
   badPoint: 'Some landmarks do not belong to these meshes. Load the meshes that the landmark file was made for.',
 } as const;
+
+/** A point that is picked a second time. */
+export function pointTaken(side: 0 | 1, pair: number): string {
+  return `This point of the ${side === 0 ? 'source' : 'target'} belongs to pair ${pair} already. Pick another one.`;
+}
 
 /** A suggestion in words. */
 export function suggestionName({ letter, reason, partner }: Suggestion, all: readonly Suggestion[]): string {

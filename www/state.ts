@@ -1,5 +1,6 @@
 /** One state and one way to change it: `update(state, event)`, without side effects. */
 import type { Progress, RunOptions, RunOutput } from './compute/messages.ts';
+import { pointTaken } from './messages.ts';
 import type { Finding, Report } from './report.ts';
 import type { LoadedMesh } from './wasm/conemap.js';
 
@@ -269,16 +270,22 @@ function withSuggestions(state: State, side: Side, suggestions: readonly Suggest
 /** A point of one side is picked: half a pair, or the other half of one. */
 function withPick(state: State, side: Side, point: SurfacePoint): State {
   const { pending } = state;
+  const isSame = (other: SurfacePoint): boolean => JSON.stringify(other) === JSON.stringify(point);
+  const pair = state.pairs.findIndex(({ points }) => isSame(points[side]));
+  if (pair >= 0) {
+    return { ...state, error: pointTaken(side, pair + 1) };
+  }
   const left = state.suggestions[side].filter((suggestion) => suggestion.point !== point);
   const taken = left.length < state.suggestions[side].length;
   const suggestions = taken ? withSuggestions(state, side, left) : state.suggestions;
   if (pending === null || pending.side === side) {
-    return { ...state, suggestions, pending: { side, point } };
+    return { ...state, suggestions, pending: { side, point }, error: null };
   }
   const points: readonly [SurfacePoint, SurfacePoint] = side === 1 ? [pending.point, point] : [point, pending.point];
   return {
     ...withPairs(state, [...state.pairs, { points, label: '' }]),
     suggestions,
+    error: null,
     ...nextInQueue(state, pending.side),
   };
 }

@@ -1,10 +1,14 @@
 //! Landmark pairs as JSON.
 
 use crate::mesh::mirror::mirrored_weights;
+use rustc_hash::FxHashMap;
 use serde::{Deserialize, Serialize};
 
 /// More pairs than this are refused.
 pub const MAX_PAIRS: usize = 10_000;
+
+/// What the two sides of a pair are called.
+const SIDES: [&str; 2] = ["source", "target"];
 
 /// One side of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,6 +29,27 @@ pub enum LandmarkPoint {
 }
 
 impl LandmarkPoint {
+    /// Whether the weights of a point of a face are barycentric coordinates, to the digits that files have: none below -1e-6,
+    /// and a sum that is 1 to 1e-4.
+    pub fn is_sound(self) -> bool {
+        match self {
+            Self::Vertex(_) => true,
+            Self::OnFace { barycentric, .. } => {
+                let sum: f64 = barycentric.iter().sum();
+                barycentric.iter().all(|w| *w >= -1e-6) && (sum - 1.0).abs() < 1e-4
+            }
+        }
+    }
+
+    /// Equal for points that are written alike.
+    fn key(self) -> (Option<u32>, [u64; 3]) {
+        match self {
+            Self::Vertex(v) => (None, [u64::from(v), 0, 0]),
+            // Adding 0 makes -0 and 0 the same bits.
+            Self::OnFace { face, barycentric } => (Some(face), barycentric.map(|w| (w + 0.0).to_bits())),
+        }
+    }
+
     /// The same point of the mesh's mirror image ([`crate::mesh::mirror::mirrored`]).
     #[must_use]
     pub fn mirrored(self) -> Self {
@@ -77,12 +102,34 @@ pub enum LandmarkFileError {
         /// How many.
         count: usize,
     },
+    /// Weights that are no barycentric coordinates.
+    #[error(
+        "landmark pair {} (the first is 1) has barycentric coordinates on the {} that are negative or do not sum to 1: \
+         {weights}",
+        pair + 1, SIDES[side % 2]
+    )]
+    Barycentric {
+        /// 0 the source, 1 the target.
+        side: usize,
+        /// The pair, 0-based.
+        pair: usize,
+        /// As given.
+        weights: String,
+    },
+    /// One point in two pairs.
+    #[error("landmark pairs {} and {} (the first is 1) have the same point of the {}", pairs[0] + 1, pairs[1] + 1, SIDES[side % 2])]
+    SharedPoint {
+        /// 0 the source, 1 the target.
+        side: usize,
+        /// The pairs, 0-based.
+        pairs: [usize; 2],
+    },
 }
 
-/// Reads a landmark file.
+/// Reads a landmark file. What can be said without the meshes is checked: weights, and points that two pairs share.
 ///
 /// # Errors
-/// [`LandmarkFileError`] with the line.
+/// [`LandmarkFileError`] with the line or the pairs, the first fault of the file.
 pub fn read(bytes: &[u8]) -> Result<LandmarkFile, LandmarkFileError> {
     let json = |e: serde_json::Error| {
         let words = e.to_string();
@@ -93,7 +140,26 @@ pub fn read(bytes: &[u8]) -> Result<LandmarkFile, LandmarkFileError> {
     if file.pairs.len() > MAX_PAIRS {
         return Err(LandmarkFileError::TooMany { count: file.pairs.len() });
     }
+    check_points(&file.pairs)?;
     Ok(file)
+}
+
+fn check_points(pairs: &[[LandmarkPoint; 2]]) -> Result<(), LandmarkFileError> {
+    let mut first: [FxHashMap<_, usize>; 2] = Default::default();
+    for (pair, points) in pairs.iter().enumerate() {
+        for (side, point) in points.iter().enumerate() {
+            if let LandmarkPoint::OnFace { barycentric, .. } = point
+                && !point.is_sound()
+            {
+                let weights = format!("{barycentric:?}");
+                return Err(LandmarkFileError::Barycentric { side, pair, weights });
+            }
+            if let Some(other) = first[side].insert(point.key(), pair) {
+                return Err(LandmarkFileError::SharedPoint { side, pairs: [other, pair] });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Writes a landmark file.

@@ -134,6 +134,38 @@ fn errors_name_the_line() {
     assert!(says(&huge).contains("announces"));
 }
 
+#[test]
+fn landmark_files_are_refused_by_line_and_pairs() {
+    let says = |pairs: &str| {
+        landmark_file::read(format!("{{\"pairs\": {pairs}}}").as_bytes()).unwrap_err().to_string()
+    };
+    let on = |face: u32, weights: &str| format!("{{\"face\": {face}, \"barycentric\": [{weights}]}}");
+    assert_eq!(
+        says("[[0, 5], [1, 6], [2, 5]]"),
+        "landmark pairs 1 and 3 (the first is 1) have the same point of the target"
+    );
+    let point = on(3, "0.2, 0.3, 0.5");
+    assert_eq!(
+        says(&format!("[[0, 1], [{point}, 0], [{point}, 2]]")),
+        "landmark pairs 2 and 3 (the first is 1) have the same point of the source"
+    );
+    // Different points of different faces, and a vertex with a face's number.
+    let fine = format!("[[3, 1], [{point}, 0], [{}, 2]]", on(4, "0.2, 0.3, 0.5"));
+    assert!(landmark_file::read(format!("{{\"pairs\": {fine}}}").as_bytes()).is_ok());
+    assert_eq!(
+        says(&format!("[[0, 1], [1, {}]]", on(3, "0.2, 0.3, 0.6"))),
+        "landmark pair 2 (the first is 1) has barycentric coordinates on the target that are negative or do not sum to 1: \
+         [0.2, 0.3, 0.6]"
+    );
+    assert!(says(&format!("[[{}, 1]]", on(3, "-0.5, 0.5, 1.0"))).starts_with("landmark pair 1 "));
+    for wrong in
+        ["-1", "1.5", "\"7\"", "null", &on(3, "0.5, 0.5"), &on(3, "1, 0, null"), &on(3, "0, 0, 1e999")]
+    {
+        let sentence = says(&format!("[[0, 1],\n[2, {wrong}]]"));
+        assert!(sentence.starts_with("the landmark file, line 2: "), "{wrong}: {sentence}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
     #[test]

@@ -3,10 +3,11 @@
 use super::failure;
 use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 use crate::landmark_suggestion::{Suggestion, suggest};
+use crate::landmarks::{self, MeshSide};
 use crate::mesh::check::{CheckedMesh, closed_genus_zero};
 use crate::mesh::mirror::mirrored;
 use crate::mesh::{FaceId, SurfacePoint, VertexId};
-use crate::{demo, export, io, landmarks};
+use crate::{demo, export, io};
 use serde_json::json;
 use wasm_bindgen::prelude::*;
 
@@ -61,15 +62,19 @@ pub fn read_landmarks(bytes: &[u8]) -> Result<String, JsValue> {
     serde_json::to_string(&file).map_err(|e| failure("landmarks", e))
 }
 
-/// Checks that the points of a landmark file are points of these meshes.
+/// Checks that the points of a landmark file on one side, 0 the source and 1 the target, are different points of its mesh.
 ///
 /// # Errors
-/// `{"code": "landmarks", "message"}`.
+/// `{"code": "landmarks" | "other-meshes", "message"}`; the second where the file seems to be made for other meshes.
 #[wasm_bindgen(js_name = checkLandmarks)]
-pub fn check_landmarks(source: &LoadedMesh, target: &LoadedMesh, bytes: &[u8]) -> Result<(), JsValue> {
+pub fn check_landmarks(mesh: &LoadedMesh, side: usize, bytes: &[u8]) -> Result<(), JsValue> {
+    use landmarks::LandmarkError::{MissingFace, MissingVertex, UnusedVertex};
     let file = landmark_file::read(bytes).map_err(|e| failure("landmarks", e))?;
-    let meshes = [&source.checked, &target.checked];
-    landmarks::exist(meshes, &file.pairs).map_err(|e| failure("landmarks", e))
+    let side = if side == 0 { MeshSide::Source } else { MeshSide::Target };
+    landmarks::check_side(&mesh.checked, side, &file.pairs).map_err(|e| match e {
+        MissingFace { .. } | MissingVertex { .. } | UnusedVertex { .. } => failure("other-meshes", e),
+        _ => failure("landmarks", e),
+    })
 }
 
 /// Vertices of one mesh that are worth a landmark beside those that there are: JSON
