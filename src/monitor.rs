@@ -61,8 +61,11 @@ impl std::error::Error for Cancelled {}
 pub trait Monitor {
     /// A stage begins.
     fn enter(&mut self, _stage: Stage) {}
-    /// The present energy of the map that is being relaxed, of the kind that is lowered: 4 for an isometry. It falls as long
-    /// as one map is relaxed; the next candidate, or the same map on a finer level, begins anew.
+    /// A map is relaxed from now on: another one, or the same one on a finer level or by another kind of energy. The energies
+    /// told next do not compare with those before.
+    fn relaxation_begins(&mut self) {}
+    /// The present energy of the map that is being relaxed, of the kind that is lowered: 4 for an isometry. It falls until the
+    /// next relaxation begins, but for a little that a step may give to the barrier (2e-4 of 4.6 was seen).
     fn map_energy(&mut self, _energy: f64) {}
     /// Whether to finish now: no more is tried than a whole, valid result needs. Asked between rounds, levels and
     /// candidates; once true it must stay true.

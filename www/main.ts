@@ -176,6 +176,9 @@ function compute(): void {
       progress: (progress) => {
         dispatch({ kind: 'run-progress', progress });
       },
+      relaxes: () => {
+        dispatch({ kind: 'run-relaxes' });
+      },
       finishable: () => {
         dispatch({ kind: 'run-finishable' });
       },

@@ -67,8 +67,8 @@ export interface Running {
   readonly progress: Progress | null;
   /** Whether it can be asked to finish, and whether it was. */
   readonly finish: 'no' | 'possible' | 'asked';
-  /** Energies of the relaxation, the first first. */
-  readonly energies: readonly number[];
+  /** Falling energies of each relaxation, the first first. */
+  readonly energies: readonly (readonly number[])[];
 }
 
 const STARTED: Running = { kind: 'running', progress: null, finish: 'no', energies: [] };
@@ -156,6 +156,7 @@ export type Event =
   | { readonly kind: 'style'; readonly style: Partial<Style> }
   | { readonly kind: 'run-started' }
   | { readonly kind: 'run-progress'; readonly progress: Progress }
+  | { readonly kind: 'run-relaxes' }
   | { readonly kind: 'run-finishable' }
   | { readonly kind: 'run-finish' }
   | { readonly kind: 'run-found'; readonly findings: readonly Finding[] }
@@ -320,8 +321,9 @@ function withTargetsExchanged(state: State, indices: readonly number[]): State {
 /** A run after a report of its progress. */
 function advanced(job: Running, progress: Progress): Running {
   const { energy } = progress;
-  const relaxes = progress.stage === 'relaxation' && energy !== null && energy !== job.energies.at(-1);
-  return { ...job, progress, energies: relaxes ? [...job.energies, energy] : job.energies };
+  const present = job.energies.at(-1) ?? [];
+  const falls = progress.stage === 'relaxation' && energy !== null && energy < (present.at(-1) ?? Infinity);
+  return { ...job, progress, energies: falls ? [...job.energies.slice(0, -1), [...present, energy]] : job.energies };
 }
 
 /** The state after an event. */
@@ -376,6 +378,10 @@ export function update(state: State, event: Event): State {
       return { ...state, job: STARTED, findings: [], error: null, pending: null, queue: [] };
     case 'run-progress':
       return state.job.kind === 'running' ? { ...state, job: advanced(state.job, event.progress) } : state;
+    case 'run-relaxes':
+      return state.job.kind === 'running'
+        ? { ...state, job: { ...state.job, energies: [...state.job.energies, []] } }
+        : state;
     case 'run-finishable':
       return state.job.kind === 'running' ? { ...state, job: { ...state.job, finish: 'possible' } } : state;
     case 'run-finish':

@@ -92,6 +92,7 @@ pub fn relax<'a>(
         return Ok(Relaxed { relaxation, energies });
     }
     energies.push(relaxation.energy());
+    monitor.relaxation_begins();
     monitor.map_energy(relaxation.energy());
     for round in 0..options.max_rounds {
         let before = relaxation.energy();
@@ -439,11 +440,31 @@ mod tests {
         }
     }
 
+    /// Writes down what is told of the energy: `None` where a relaxation begins.
+    #[derive(Default)]
+    struct Listener(Vec<Option<f64>>);
+
+    impl Monitor for Listener {
+        fn relaxation_begins(&mut self) {
+            self.0.push(None);
+        }
+        fn map_energy(&mut self, energy: f64) {
+            self.0.push(Some(energy));
+        }
+        fn step(&mut self, _step: Step) -> Result<(), Cancelled> {
+            Ok(())
+        }
+    }
+
     #[test]
     fn the_energy_falls_and_the_map_stays_certified() {
         let (layout, surface, embeddings) = example();
         let options = ComposedOptions::default();
-        let relaxed = relax(sides(&layout, &embeddings), &surface, &options, &mut Silent).unwrap();
+        let mut told = Listener::default();
+        let relaxed = relax(sides(&layout, &embeddings), &surface, &options, &mut told).unwrap();
+        let expected: Vec<_> =
+            std::iter::once(None).chain(relaxed.energies.iter().copied().map(Some)).collect();
+        assert_eq!(told.0, expected);
         assert!(relaxed.energies.len() > 2, "{:?}", relaxed.energies);
         let (first, last) = (relaxed.energies[0], relaxed.energies[relaxed.energies.len() - 1]);
         assert!(last < first && last > 4.0 - 1e-9, "{:?}", relaxed.energies);

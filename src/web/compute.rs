@@ -48,6 +48,8 @@ impl From<Options> for PipelineOptions {
 const LISTENER: &str = r"
 /** What a run tells and asks while it goes. Numbers that a step does not have are NaN. */
 export interface RunListener {
+  /** In the stage `relaxation`: a map is relaxed, or is on a finer level; energies do not compare with those before. */
+  relaxes(): void;
   /** A stage begins or goes on, at most 30 times a second; `energy` is that of the map being relaxed, 4 for an isometry. */
   progress(stage: string, fraction: number, residual: number, energy: number): void;
   /** Landmark pairs that do not fit, before the map is made. */
@@ -70,6 +72,8 @@ extern "C" {
         residual: f64,
         energy: f64,
     ) -> Result<(), JsValue>;
+    #[wasm_bindgen(method, catch)]
+    fn relaxes(this: &RunListener) -> Result<(), JsValue>;
     #[wasm_bindgen(method, catch)]
     fn found(this: &RunListener, json: &str) -> Result<(), JsValue>;
     #[wasm_bindgen(method, catch, js_name = wantsResult)]
@@ -117,6 +121,13 @@ impl Monitor for Messenger<'_> {
         self.stage = Some((stage, js_sys::Date::now()));
         self.energy = f64::NAN;
         self.tell(stage, Step::default());
+    }
+
+    fn relaxation_begins(&mut self) {
+        if self.stage.is_some_and(|(stage, _)| stage == Stage::Relaxation) {
+            // A page that does not listen is not a reason to stop.
+            let _ = self.listener.relaxes();
+        }
     }
 
     fn map_energy(&mut self, energy: f64) {

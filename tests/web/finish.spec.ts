@@ -49,6 +49,15 @@ test('a run on real meshes finishes when asked during its relaxation', async ({ 
   await expect(page.locator('#landmark-list li')).toHaveCount(33, { timeout: 60_000 });
   await page.locator('#run').click();
   await expect(page.locator('.energy-curve')).toBeVisible({ timeout: 120_000 });
+  // Every level has a piece of its own, and each falls: y grows downwards.
+  await expect(page.locator('.energy-curve line').first()).toBeAttached({ timeout: 120_000 });
+  const pieces = await page.locator('.energy-curve polyline').evaluateAll((lines) => lines.map((line) => line.getAttribute('points') ?? ''));
+  expect(pieces.length).toBeGreaterThan(1);
+  for (const piece of pieces) {
+    const heights = piece.split(' ').map((corner) => Number(corner.split(',')[1]));
+    expect(heights).toEqual([...heights].sort((a, b) => a - b));
+  }
+  await expect(page.locator('.residual')).toContainText(/Energy [\d.]+ \(4 is an isometry\), level \d/);
   await page.locator('#finish').click();
   expect(await energyOf(page)).toBeLessThan(5);
   await expect(page.locator('#result')).toContainText('Certified bijective (finished early)');

@@ -34,6 +34,8 @@ export function warmUp(module: WebAssembly.Module): () => void {
 /** What a run reports while it goes and when it ends. */
 export interface RunListener {
   progress(progress: Progress): void;
+  /** A map is relaxed, or is on a finer level: energies do not compare with those before. */
+  relaxes(): void;
   /** From now on the run can be asked to finish. */
   finishable(): void;
   /** Landmark pairs that do not fit, before the map is made. */
@@ -70,6 +72,9 @@ export function startRun(request: Omit<RunRequest, 'finishUrl'>, listener: RunLi
     switch (message.kind) {
       case 'progress':
         listener.progress(message);
+        break;
+      case 'relaxes':
+        listener.relaxes();
         break;
       case 'finishable':
         listener.finishable();

@@ -63,6 +63,7 @@ export interface Failure {
 /** From the worker. */
 export type WorkerMessage =
   | ({ readonly kind: 'progress' } & Progress)
+  | { readonly kind: 'relaxes' }
   | { readonly kind: 'finishable' }
   | { readonly kind: 'found'; readonly findings: readonly Finding[] }
   | { readonly kind: 'done'; readonly output: RunOutput }

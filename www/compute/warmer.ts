@@ -11,7 +11,7 @@ async function warm(module: WebAssembly.Module): Promise<void> {
   if (demo !== undefined) {
     const landmarks = new TextDecoder().decode(demo.landmarks());
     const nothing = (): void => undefined;
-    const listener = { progress: nothing, found: nothing, wantsResult: () => false };
+    const listener = { relaxes: nothing, progress: nothing, found: nothing, wantsResult: () => false };
     runMap(demo.source(), demo.target(), landmarks, '{}', listener);
   }
 }

@@ -84,6 +84,9 @@ async function run(request: RunRequest): Promise<void> {
         progress: (stage, fraction, residual, energy) => {
           post({ kind: 'progress', stage, fraction, residual: finite(residual), energy: finite(energy) });
         },
+        relaxes: () => {
+          post({ kind: 'relaxes' });
+        },
         found: (json) => {
           post({ kind: 'found', findings: JSON.parse(json) as Finding[] });
         },

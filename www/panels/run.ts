@@ -49,10 +49,11 @@ function runningSentence({ progress, finish }: Running): string {
 }
 
 /** The number that a run brings down, in words. */
-function progressNumber({ energy, residual, stage }: Progress): string {
+function progressNumber({ energy, residual, stage }: Progress, relaxations: number): string {
   if (energy !== null) {
-    const which = stage === 'relaxation' ? 'Energy' : 'Energy of the map being tried';
-    return `${which} ${energy.toFixed(3)} (4 is an isometry)`;
+    const isFinal = stage === 'relaxation';
+    const which = isFinal ? 'Energy' : 'Energy of the map being tried';
+    return `${which} ${energy.toFixed(3)} (4 is an isometry)${isFinal ? `, level ${relaxations}` : ''}`;
   }
   return residual === null ? '' : `Residual ${figure(residual)}`;
 }
@@ -164,7 +165,7 @@ export function runPanel(actions: Actions): Panel {
       if (state.job.kind === 'running') {
         const { progress } = state.job;
         sentence = runningSentence(state.job);
-        number = progress === null ? '' : progressNumber(progress);
+        number = progress === null ? '' : progressNumber(progress, state.job.energies.length);
         bar.value = progress === null ? 0 : Math.max(bar.value, overallShare(progress));
       } else if (state.job.kind === 'error') {
         sentence = state.result === null ? 'No map was made.' : 'No new map was made; the last one is shown.';
