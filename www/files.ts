@@ -84,6 +84,9 @@ export function mirroredTarget(target: MeshFile, landmarks: LandmarkFile): Event
 
 /** Why the landmarks of a state are no different points of its meshes; `null` where they are. */
 function misfit(state: State): Failure | null {
+  if (state.pairs.length === 0) {
+    return null;
+  }
   const landmarks = new TextEncoder().encode(JSON.stringify(landmarkFileOf(state)));
   try {
     for (const side of SIDES) {

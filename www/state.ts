@@ -320,10 +320,12 @@ function withTargetsExchanged(state: State, indices: readonly number[]): State {
 
 /** A run after a report of its progress. */
 function advanced(job: Running, progress: Progress): Running {
-  const { energy } = progress;
+  const { energy, stage } = progress;
+  // After the relaxation there is nothing left to shorten.
+  const finish = stage === 'certificate' && job.finish === 'possible' ? 'no' : job.finish;
   const present = job.energies.at(-1) ?? [];
-  const falls = progress.stage === 'relaxation' && energy !== null && energy < (present.at(-1) ?? Infinity);
-  return { ...job, progress, energies: falls ? [...job.energies.slice(0, -1), [...present, energy]] : job.energies };
+  const falls = stage === 'relaxation' && energy !== null && energy < (present.at(-1) ?? Infinity);
+  return { ...job, progress, finish, energies: falls ? [...job.energies.slice(0, -1), [...present, energy]] : job.energies };
 }
 
 /** The state after an event. */

@@ -31,11 +31,28 @@ test('Finish now gives a certified map that is marked as finished early', async 
   await expect(page.locator('#result')).toContainText('Certified bijective (finished early)');
   await expect(page.locator('#result .warning').first()).toContainText('Finished early on request, at energy');
 
+  await page.evaluate(() => {
+    const said: [string, boolean][] = [];
+    Reflect.set(window, 'said', said);
+    const status = document.querySelector('#status');
+    const note = (): void => {
+      said.push([status?.textContent ?? '', document.querySelector<HTMLElement>('#finish')?.hidden ?? false]);
+    };
+    if (status !== null) {
+      new MutationObserver(note).observe(status, { childList: true, characterData: true, subtree: true });
+    }
+  });
   await page.locator('#run').click();
   await expect(page.locator('.residual')).toContainText(/Energy \d\.\d+/, { timeout: 60_000 });
   const full = await energyOf(page);
   await expect(page.locator('#result')).not.toContainText('finished early');
   expect(full).toBeLessThan(early);
+  // Offered as long as there is something to shorten.
+  const said = await page.evaluate(() => Reflect.get(window, 'said') as [string, boolean][]);
+  expect(said.filter(([sentence]) => sentence.startsWith('Relaxing')).map(([, hidden]) => hidden)).toContain(false);
+  const late = said.filter(([sentence]) => /^(Checking|Carrying)/.test(sentence));
+  expect(late.length).toBeGreaterThan(1);
+  expect(late.every(([, hidden]) => hidden)).toBe(true);
 });
 
 test('a run on real meshes finishes when asked during its relaxation', async ({ page }) => {

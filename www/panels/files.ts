@@ -121,7 +121,7 @@ export function filesPanel(actions: Actions): Panel {
           const facts =
             file === null
               ? ['drop a mesh here']
-              : [file.name, make('small', {}, `${integer(file.faceCount)} triangles${turned(file.turnedFaces)}`)];
+              : [file.name, ' ', make('small', {}, `${integer(file.faceCount)} triangles${turned(file.turnedFaces)}`)];
           caption?.replaceChildren(make('strong', {}, NAMES[side]), ' ', ...facts);
         }
       }

@@ -37,8 +37,8 @@ export function findingsPanel(actions: Actions): Panel {
           'p',
           { class: 'quiet' },
           doubts
-            ? 'A repair ends the run; compute the map again after it. If the pairs are right, go on.'
-            : 'The map is made all the same. More pairs can be added when it is done.',
+            ? 'A repair ends a run that is under way; compute the map again after it. If the pairs are right, there is nothing to do.'
+            : 'The map is made all the same. To improve it, add pairs after the run and compute it again.',
         ),
       );
     },

@@ -139,7 +139,7 @@ export function runPanel(actions: Actions): Panel {
   return {
     render(state: State, previous: State | null): void {
       const running = state.job.kind === 'running';
-      about.textContent = state.demo?.sentence ?? '';
+      about.textContent = state.demo === null ? '' : `${state.demo.sentence}.`;
       about.hidden = state.demo === null;
       run.disabled = !canRun(state);
       run.hidden = running;
