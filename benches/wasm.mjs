@@ -30,7 +30,7 @@ const demos = () => JSON.parse(demoList()).map(({ id }) => {
   return { name: id, files: [demo.source(), demo.target(), demo.landmarks()].map(text) };
 });
 const nothing = () => undefined;
-const listener = { progress: nothing, found: nothing, wantsResult: () => false };
+const listener = { relaxes: nothing, progress: nothing, found: nothing, wantsResult: () => false };
 const map = ([source, target, landmarks]) =>
   JSON.parse(runMap(source, target, text(landmarks), '{}', listener).report());
 self.onmessage = async ({ data: { module, paths } }) => {
