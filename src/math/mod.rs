@@ -3,5 +3,6 @@
 pub mod decorated;
 pub mod quadric;
 pub mod rigid2;
+pub mod rigid3;
 pub mod scalar;
 pub mod triangle;

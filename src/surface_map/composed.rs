@@ -11,9 +11,10 @@ use super::distortion::quantile;
 use super::embedding::Embedding;
 use super::flat_problem::{FaceHessian, FlatProblem, rest_jacobian, unrotate};
 use super::overlay::{Measure, SideOf};
+use super::pull::Pull;
 use super::two_sided::TwoSided;
 use super::unknowns::Unknowns;
-use crate::mesh::FaceId;
+use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use glam::{DMat2, DVec2};
 use typed_index_collections::TiVec;
@@ -40,7 +41,7 @@ impl Default for ComposedOptions {
 /// A relaxed map.
 pub struct Relaxed<'a> {
     relaxation: Relaxation<'a>,
-    /// What is lowered, before the first and after each step, without the barrier; 4 for an isometry. Empty where source and
+    /// What is lowered, before the first and after each step, without the barrier; 4 for an isometry without pulls. Empty where source and
     /// target have no overlay.
     pub energies: Vec<f64>,
 }
@@ -86,7 +87,22 @@ pub fn relax<'a>(
     options: &'a ComposedOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Relaxed<'a>, Cancelled> {
-    let mut relaxation = Relaxation::new(sides, surface, options);
+    relax_pulled(sides, (surface, [&[], &[]]), options, monitor)
+}
+
+/// The same with vertices of either side that are drawn to places on the other.
+///
+/// While a side moves its own pulls count, so what is lowered is not quite the same for both.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn relax_pulled<'a>(
+    sides: [Parametrised<'a>; 2],
+    (surface, pulls): (&'a ConeSurface, [&'a [(VertexId, Pull)]; 2]),
+    options: &'a ComposedOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Relaxed<'a>, Cancelled> {
+    let mut relaxation = Relaxation::new(sides, (surface, pulls), options);
     let mut energies = Vec::new();
     if !relaxation.begin() {
         return Ok(Relaxed { relaxation, energies });
@@ -120,6 +136,7 @@ pub fn relax<'a>(
 struct Relaxation<'a> {
     sides: [Parametrised<'a>; 2],
     surface: &'a ConeSurface,
+    pulls: [&'a [(VertexId, Pull)]; 2],
     options: &'a ComposedOptions,
     two_sided: TwoSided,
     unknowns: [Unknowns<'a>; 2],
@@ -146,9 +163,15 @@ struct Evaluation {
     jacobians: Vec<DMat2>,
     /// Of each piece the Jacobian from the plane of the moving face to the rest plane of the fixed face.
     onto_rest: Vec<DMat2>,
-    /// What is lowered, without the barrier.
+    /// What is lowered, without the barrier and the pulls.
     energy: f64,
-    /// The energy and the barrier.
+    /// The energy of the pulls.
+    pulled: f64,
+    /// Their gradients by unknown.
+    pull_slopes: Vec<(u32, DVec2)>,
+    /// Their Hessians by unknown.
+    pull_hessians: Vec<(u32, DMat2)>,
+    /// The energy, the pulls and the barrier.
     total: f64,
 }
 
@@ -164,7 +187,11 @@ impl FaceDerivatives {
 }
 
 impl<'a> Relaxation<'a> {
-    fn new(sides: [Parametrised<'a>; 2], surface: &'a ConeSurface, options: &'a ComposedOptions) -> Self {
+    fn new(
+        sides: [Parametrised<'a>; 2],
+        (surface, pulls): (&'a ConeSurface, [&'a [(VertexId, Pull)]; 2]),
+        options: &'a ComposedOptions,
+    ) -> Self {
         let unknowns = sides.map(Unknowns::new);
         let problems = [unknowns[0].problem(), unknowns[1].problem()];
         let embeddings = sides.map(|side| side.embedding.clone());
@@ -173,6 +200,7 @@ impl<'a> Relaxation<'a> {
         Self {
             sides,
             surface,
+            pulls,
             options,
             two_sided: options.energy,
             unknowns,
@@ -214,7 +242,8 @@ impl<'a> Relaxation<'a> {
             return false;
         }
         self.trial.measure((&self.problems[moving], z), &self.inverses[1 - moving], self.two_sided);
-        self.trial.total = self.trial.energy + self.options.barrier * flat;
+        self.trial.pull([from, onto], (&self.unknowns[moving], self.pulls[moving]), &self.locations);
+        self.trial.total = self.trial.energy + self.trial.pulled + self.options.barrier * flat;
         true
     }
 
@@ -226,7 +255,8 @@ impl<'a> Relaxation<'a> {
         let hessians = self.hessians();
         let problem = &mut self.problems[moving];
         let weights = (self.options.barrier, self.damping[moving]);
-        let step = problem.direction(&z, weights, &hessians, (&slope, LINEAR_TOLERANCE));
+        let hessians = (&hessians[..], &self.present.pull_hessians[..]);
+        let step = problem.direction(&z, weights, hessians, (&slope, LINEAR_TOLERANCE));
         let descent: f64 = -slope.iter().zip(&step).map(|(g, d)| g.dot(*d)).sum::<f64>();
         if descent.is_nan() || descent <= 0.0 {
             return false;
@@ -263,12 +293,25 @@ impl<'a> Relaxation<'a> {
         let z = self.unknowns[self.moving].points(&self.embeddings[self.moving]);
         self.present.measure((problem, &z), &self.inverses[1 - self.moving], self.two_sided);
         let flat = problem.energy(&z).unwrap_or(f64::INFINITY);
-        self.present.total = self.present.energy + self.options.barrier * flat;
+        self.locate_pulled();
+        self.present.total = self.present.energy + self.present.pulled + self.options.barrier * flat;
+    }
+
+    /// The pulls at the present state, where there are any.
+    fn locate_pulled(&mut self) {
+        let moving = self.moving;
+        let sides =
+            [moving, 1 - moving].map(|k| Parametrised { embedding: &self.embeddings[k], ..self.sides[k] });
+        let mut pulls = self.pulls[moving];
+        if !pulls.is_empty() && self.locator.fill(sides, self.surface, &mut self.locations).is_err() {
+            pulls = &[];
+        }
+        self.present.pull(sides, (&self.unknowns[moving], pulls), &self.locations);
     }
 
     /// What is lowered, without the barrier; 4 for an isometry.
     fn energy(&self) -> f64 {
-        self.present.energy / self.two_sided.unit()
+        (self.present.energy + self.present.pulled) / self.two_sided.unit()
     }
 
     /// The gradient of the energy and the barrier.
@@ -277,6 +320,7 @@ impl<'a> Relaxation<'a> {
         let mut slope = vec![DVec2::ZERO; z.len()];
         problem.gradient(z, &mut slope);
         slope.iter_mut().for_each(|g| *g *= self.options.barrier);
+        self.present.pull_slopes.iter().for_each(|(v, pull)| slope[*v as usize] += *pull);
         for (t, face) in self.face_derivatives().iter().enumerate() {
             let triangle = &problem.triangles()[t];
             for k in 0..3 {
@@ -355,6 +399,33 @@ impl Evaluation {
         self.energy = self.integral(two_sided);
     }
 
+    /// The pulls of the moving side, the first one; its vertices have been located.
+    fn pull(
+        &mut self,
+        [from, onto]: [Parametrised<'_>; 2],
+        (unknowns, pulls): (&Unknowns<'_>, &[(VertexId, Pull)]),
+        locations: &Locations,
+    ) {
+        self.pulled = 0.0;
+        self.pull_slopes.clear();
+        self.pull_hessians.clear();
+        for (v, pull) in pulls {
+            let at = &locations.by_vertex[*v];
+            let Some((unknown, sight)) = unknowns.sight(at.corner) else { continue };
+            let q = at.motion.apply(from.embedding.corners[at.corner]);
+            let p = [0, 1, 2].map(|k| onto.embedding.corners[HalfedgeId::of(at.face, k)]);
+            let double_area = (p[1] - p[0]).perp_dot(p[2] - p[0]);
+            let hats = [0, 1, 2].map(|k| (p[(k + 2) % 3] - p[(k + 1) % 3]).perp() / double_area);
+            let [second, third] = [1, 2].map(|k| (q - p[0]).dot(hats[k]));
+            let barycentric = [1.0 - second - third, second, third];
+            let turned = hats.map(|hat| unrotate(&sight, unrotate(&at.motion, hat)));
+            let term = pull.term(onto.mesh.corners(at.face), barycentric, turned);
+            self.pulled += term.energy;
+            self.pull_slopes.push((unknown, term.gradient));
+            self.pull_hessians.push((unknown, term.hessian));
+        }
+    }
+
     fn integral(&self, two_sided: TwoSided) -> f64 {
         let pieces = self.overlay.pieces().iter().zip(&self.onto_rest);
         let part = pieces.map(|(piece, c)| {
@@ -422,7 +493,7 @@ mod tests {
         let (layout, surface, embeddings) = example();
         let options =
             ComposedOptions { energy: TwoSided { balance: 0.1, knee: 0.2 }, ..ComposedOptions::default() };
-        let mut relaxation = Relaxation::new(sides(&layout, &embeddings), &surface, &options);
+        let mut relaxation = Relaxation::new(sides(&layout, &embeddings), (&surface, [&[], &[]]), &options);
         assert!(relaxation.begin());
         let z = relaxation.unknowns[0].points(&embeddings[0]);
         let slope = relaxation.gradient(&z);

@@ -252,20 +252,24 @@ impl FlatProblem {
         }
     }
 
-    /// Newton's direction for a slope, with the Hessian of this energy (scaled) and further Hessians by triangle.
+    /// Newton's direction for a slope, with the Hessian of this energy (scaled) and further Hessians by triangle and by
+    /// unknown.
     ///
     /// `damping` is added to the diagonal, relative to it.
     pub(super) fn direction(
         &mut self,
         z: &[DVec2],
         (barrier, damping): (f64, f64),
-        hessians: &[FaceHessian],
+        (hessians, by_unknown): (&[FaceHessian], &[(u32, DMat2)]),
         (slope, tolerance): (&[DVec2], f64),
     ) -> Vec<DVec2> {
         self.matrix.clear();
         self.add_hessian(z, barrier);
         for (t, hessian) in hessians.iter().enumerate() {
             self.add_face(t, hessian);
+        }
+        for (unknown, hessian) in by_unknown {
+            self.matrix.add_at(self.matrix.place(*unknown, *unknown), *hessian);
         }
         self.matrix.regularise(damping);
         let downhill: Vec<DVec2> = slope.iter().map(|g| -*g).collect();

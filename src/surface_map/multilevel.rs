@@ -13,6 +13,9 @@ use super::cone_surface::ConeSurface;
 use super::embedding::{Embedding, Parametrised};
 use super::flat_problem::RelaxOptions;
 use super::initial::{self, InitialOptions};
+use super::patch_fit::Skin;
+use super::pull::Pull;
+use super::relief::{self, ReliefOptions, Seen};
 use super::seamless::{RestTriangle, Seamless};
 use super::two_sided::TwoSided;
 use crate::landmarks::Landmarks;
@@ -51,6 +54,8 @@ pub struct MultilevelOptions {
     pub pose_median: f64,
     /// The relaxation of the map on every finer level.
     pub fine: ComposedOptions,
+    /// How the map between two poses follows the relief of the skin.
+    pub relief: ReliefOptions,
 }
 
 impl Default for MultilevelOptions {
@@ -67,6 +72,7 @@ impl Default for MultilevelOptions {
             coarse: ComposedOptions::default(),
             pose_median: 1.09,
             fine: ComposedOptions { max_rounds: 8, ..ComposedOptions::default() },
+            relief: ReliefOptions::default(),
         }
     }
 }
@@ -115,6 +121,8 @@ pub struct CoarseMap<'a> {
     pub median: f64,
     /// What is lowered on finer levels.
     energy: TwoSided,
+    /// By side the vertices of the full mesh that are drawn to places on the other side.
+    pulls: [Vec<(VertexId, Pull)>; 2],
 }
 
 /// A map of two coarse levels, from a layout drawn on them, relaxed as far as a judgement needs.
@@ -139,6 +147,7 @@ pub fn solve_coarse<'a>(
         judged: f64::INFINITY,
         median: f64::INFINITY,
         energy: options.fine.energy,
+        pulls: [Vec::new(), Vec::new()],
     };
     map.relax(sides, (&options.judge, monitor))?;
     Ok(map)
@@ -195,6 +204,60 @@ impl CoarseMap<'_> {
         Ok(())
     }
 
+    /// Between two poses, on levels of the right size, draws vertices to where the relief of the skin says that they belong.
+    ///
+    /// # Errors
+    /// [`MapError::Cancelled`].
+    fn follow_relief(
+        &mut self,
+        sides: &[Side<'_>; 2],
+        (options, fine, monitor): (&ReliefOptions, &ComposedOptions, &mut dyn Monitor),
+    ) -> Result<(), MapError> {
+        let [least, most] = options.vertices;
+        let fits = |level: &Seamless<'_>| (least..=most).contains(&level.mesh().live_vertices());
+        if self.energy != TwoSided::POSES || !self.levels.iter().all(fits) {
+            return Ok(());
+        }
+        let skins = [0, 1].map(|k| Skin::new(sides[k].full));
+        let skins = [&skins[0], &skins[1]];
+        for _ in 0..options.rounds {
+            if monitor.wants_result() {
+                break;
+            }
+            self.look(sides, |k, seen, pulls| {
+                let found = relief::pulls([skins[k], skins[1 - k]], seen, options);
+                *pulls = found.into_iter().map(|(v, pull)| (seen.vertices[v], pull)).collect();
+            });
+            self.lower(sides, (&ComposedOptions { max_rounds: 4, ..*fine }, &mut *monitor), |_| ())?;
+        }
+        // Finer levels hold what has settled: a pull of one of their small triangles would dent the map.
+        self.look(sides, |_, seen, pulls| {
+            for (v, pull) in pulls {
+                if let Ok(v) = seen.vertices.binary_search(v) {
+                    pull.place = seen.images[v];
+                }
+            }
+        });
+        Ok(())
+    }
+
+    /// Shows each side's level with its images, and its pulls.
+    fn look(
+        &mut self,
+        sides: &[Side<'_>; 2],
+        mut show: impl FnMut(usize, &Seen<'_>, &mut Vec<(VertexId, Pull)>),
+    ) {
+        let present = self.present(sides);
+        for k in 0..2 {
+            let [from, onto] = [k, 1 - k].map(|k| present[k].parametrised());
+            let [level, other] = [k, 1 - k].map(|k| &present[k].level);
+            let Ok(locations) = locate(from, onto, &self.surface) else { continue };
+            let points = locations.by_vertex.iter().map(|at| barycentric(from, onto, at));
+            let seen = Seen::new((&level.mesh, &level.vertices), (&other.mesh, &other.vertices), points);
+            show(k, &seen, &mut self.pulls[k]);
+        }
+    }
+
     /// Lowers the energy of the map of the present levels; answers with what `look` sees in it.
     fn lower<T>(
         &mut self,
@@ -204,7 +267,9 @@ impl CoarseMap<'_> {
     ) -> Result<T, MapError> {
         let present = self.present(sides);
         let parametrised = [0, 1].map(|k| present[k].parametrised());
-        let relaxed = composed::relax(parametrised, &self.surface, options, monitor)?;
+        let pulls = [0, 1].map(|k| on_level(&self.pulls[k], &present[k].level));
+        let pulls = [&pulls[0][..], &pulls[1][..]];
+        let relaxed = composed::relax_pulled(parametrised, (&self.surface, pulls), options, monitor)?;
         let seen = look(&relaxed);
         let embeddings = relaxed.into_embeddings();
         for k in 0..2 {
@@ -212,6 +277,12 @@ impl CoarseMap<'_> {
         }
         Ok(seen)
     }
+}
+
+/// The pulls of those vertices that are in a level, by its numbers.
+fn on_level(pulls: &[(VertexId, Pull)], level: &Level) -> Vec<(VertexId, Pull)> {
+    let number = |(v, pull): &(VertexId, Pull)| Some((level.vertices.binary_search(v).ok()?, *pull));
+    pulls.iter().filter_map(number).collect()
 }
 
 /// The level of one side that is present.
@@ -262,7 +333,9 @@ pub fn solve_fine(
         if !grown {
             break;
         }
-        map.lower(sides, (&ComposedOptions { energy: map.energy, ..options.fine }, &mut *monitor), |_| ())?;
+        let fine = ComposedOptions { energy: map.energy, ..options.fine };
+        map.lower(sides, (&fine, &mut *monitor), |_| ())?;
+        map.follow_relief(sides, (&options.relief, &fine, monitor))?;
     }
     Ok(map.levels.map(|level| level.snapshot().1))
 }

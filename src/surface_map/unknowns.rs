@@ -47,6 +47,14 @@ impl<'a> Unknowns<'a> {
         FlatProblem::new(self.mesh.faces().map(triangle).collect(), self.free.len())
     }
 
+    /// A corner as an unknown: number and motion, `None` where fixed.
+    pub fn sight(&self, h: HalfedgeId) -> Option<(u32, Rigid2)> {
+        match self.sights[h] {
+            Corner::Free(number, motion) => Some((number, motion)),
+            Corner::Fixed(_) => None,
+        }
+    }
+
     /// The unknowns of an embedding with the same transitions.
     pub fn points(&self, embedding: &Embedding) -> Vec<DVec2> {
         self.free.iter().map(|&v| embedding.corners[self.mesh.outgoing(v)]).collect()

@@ -1,0 +1,264 @@
+//! A patch of one surface laid onto another one by a rigid motion.
+//!
+//! The points of the patch slide over the other surface: only their distances from its tangent planes count (Chen & Medioni
+//! 1991), less where they do not fit. How the fit worsens when the patch is shifted, all rotations allowed, tells in which
+//! directions relief holds it.
+
+use super::transfer::vertex_normals;
+use crate::math::rigid3::{Rigid3, nearest_rotation, outer, small_turn};
+use crate::math::scalar::max;
+use crate::mesh::{SurfaceMesh, VertexId};
+use glam::{DMat3, DVec3};
+use typed_index_collections::TiVec;
+
+/// A surface with its normals.
+pub struct Skin<'a> {
+    mesh: &'a SurfaceMesh,
+    /// Unit normals.
+    pub normals: TiVec<VertexId, DVec3>,
+}
+
+impl<'a> Skin<'a> {
+    /// A mesh with smooth normals.
+    pub fn new(mesh: &'a SurfaceMesh) -> Self {
+        Self { mesh, normals: vertex_normals(mesh) }
+    }
+
+    /// The vertex nearest to p among its neighbours, downhill from a vertex.
+    pub fn nearest(&self, from: VertexId, p: DVec3) -> VertexId {
+        let distance = |v: VertexId| self.mesh.positions()[v].distance_squared(p);
+        let (mut best, mut least) = (from, distance(from));
+        loop {
+            let v = best;
+            for w in self.mesh.star(v).map(|h| self.mesh.head(h)) {
+                let d = distance(w);
+                if d < least {
+                    (best, least) = (w, d);
+                }
+            }
+            if best == v {
+                return v;
+            }
+        }
+    }
+}
+
+/// A point of a patch.
+#[derive(Clone, Copy, Debug)]
+pub struct PatchPoint {
+    /// Where it is.
+    pub position: DVec3,
+    /// Unit normal there.
+    pub normal: DVec3,
+    /// How much it counts.
+    pub weight: f64,
+    /// Its image by the present map.
+    pub image: DVec3,
+    /// A vertex of the other surface near its image.
+    pub near: VertexId,
+}
+
+/// A patch laid onto the other surface.
+#[derive(Clone, Copy, Debug)]
+pub struct PatchFit {
+    /// Where its first point came to lie.
+    pub centre: DVec3,
+    /// Mean square of the distances from the tangent planes.
+    pub misfit: f64,
+    /// The mean square of the distances grows by d^T H d when the patch is shifted by d: the matrix H.
+    pub hold: DMat3,
+}
+
+/// How a patch is laid onto the other surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FitOptions {
+    /// Steps at most.
+    pub max_steps: usize,
+    /// The square of a shift by d, times this, is added to the mean square of the distances.
+    pub damping: f64,
+    /// Distances below this count in full, whatever the others.
+    pub noise: f64,
+}
+
+/// The sums of one step: rotations and shifts about the centre.
+struct Normal {
+    turns: DMat3,
+    mixed: DMat3,
+    shifts: DMat3,
+    torque: DVec3,
+    force: DVec3,
+    misfit: f64,
+}
+
+/// Fits of patches; keeps its working memory from one to the next.
+#[derive(Default)]
+pub struct Fitter {
+    distances: Vec<f64>,
+    sorted: Vec<f64>,
+    normals: Vec<DVec3>,
+    arms: Vec<DVec3>,
+}
+
+impl Fitter {
+    /// Lays a patch onto the other surface, from where the map takes it; the first point is its centre. `None` where there is
+    /// no fit.
+    pub fn fit(
+        &mut self,
+        points: &mut [PatchPoint],
+        onto: &Skin<'_>,
+        options: &FitOptions,
+    ) -> Option<PatchFit> {
+        let centre = *points.first()?;
+        let total: f64 = points.iter().map(|p| p.weight).sum();
+        let mut motion = start(points, total, onto)?;
+        let mut fit = None;
+        for _ in 0..options.max_steps {
+            let at = motion.apply(centre.position);
+            let sums = self.sums(points, (&motion, at), (onto, options), total);
+            // A flat patch resists no turn about its normal.
+            let unturn = (sums.turns + DMat3::from_diagonal(DVec3::splat(1e-9))).inverse();
+            let hold = sums.shifts - sums.mixed.transpose() * unturn * sums.mixed;
+            let damped = hold + DMat3::from_diagonal(DVec3::splat(options.damping));
+            let back = (centre.image - at) * options.damping;
+            let shift =
+                damped.inverse() * (sums.force + back - sums.mixed.transpose() * unturn * sums.torque);
+            let turn = unturn * (sums.torque - sums.mixed * shift);
+            if !shift.is_finite() || !turn.is_finite() || turn.length_squared() > 1.0 {
+                return None;
+            }
+            let rotation = small_turn(turn) * motion.rotation;
+            motion = Rigid3::with_point(rotation, centre.position, at + shift);
+            fit = Some(PatchFit { centre: at + shift, misfit: sums.misfit, hold });
+            if turn.length() + shift.length() < 3e-5 {
+                break;
+            }
+        }
+        fit
+    }
+
+    fn sums(
+        &mut self,
+        points: &mut [PatchPoint],
+        (motion, at): (&Rigid3, DVec3),
+        (onto, options): (&Skin<'_>, &FitOptions),
+        total: f64,
+    ) -> Normal {
+        self.distances.clear();
+        self.normals.clear();
+        self.arms.clear();
+        for p in points.iter_mut() {
+            let y = motion.apply(p.position);
+            p.near = onto.nearest(p.near, y);
+            let normal = onto.normals[p.near];
+            self.distances.push((onto.mesh.positions()[p.near] - y).dot(normal));
+            let agrees = (motion.rotation * p.normal).dot(normal) > 0.5;
+            self.normals.push(if agrees { normal } else { DVec3::ZERO });
+            self.arms.push(y - at);
+        }
+        self.sorted.clear();
+        self.sorted.extend(self.distances.iter().map(|d| d.abs()));
+        self.sorted.sort_unstable_by(f64::total_cmp);
+        let knee = max(1.5 * self.sorted[self.sorted.len() / 2], options.noise);
+        let mut sums = Normal {
+            turns: DMat3::ZERO,
+            mixed: DMat3::ZERO,
+            shifts: DMat3::ZERO,
+            torque: DVec3::ZERO,
+            force: DVec3::ZERO,
+            misfit: 0.0,
+        };
+        for (k, p) in points.iter().enumerate() {
+            let (distance, n) = (self.distances[k], self.normals[k]);
+            let share = p.weight / total;
+            let square = (distance / knee) * (distance / knee);
+            let weight = share / ((1.0 + square) * (1.0 + square));
+            let lever = self.arms[k].cross(n);
+            sums.turns += outer(lever, lever) * weight;
+            sums.mixed += outer(lever, n) * weight;
+            sums.shifts += outer(n, n) * weight;
+            sums.torque += lever * (weight * distance);
+            sums.force += n * (weight * distance);
+            sums.misfit += share * square.min(9.0) * knee * knee;
+        }
+        sums
+    }
+}
+
+/// The rigid motion that takes the points nearest to their images.
+fn start(points: &[PatchPoint], total: f64, onto: &Skin<'_>) -> Option<Rigid3> {
+    let centre = points[0];
+    let (mut mean, mut image) = (DVec3::ZERO, DVec3::ZERO);
+    for p in points {
+        mean += p.position * (p.weight / total);
+        image += p.image * (p.weight / total);
+    }
+    let moment: DMat3 = points
+        .iter()
+        .map(|p| outer((p.image - image) * (p.weight / total), p.position - mean))
+        .fold(DMat3::ZERO, |sum, m| sum + m);
+    let distance = |p: &PatchPoint| p.position.distance_squared(centre.position);
+    let far = points.iter().max_by(|p, q| distance(p).total_cmp(&distance(q)))?;
+    let frame = |normal: DVec3, d: DVec3| {
+        let along = d.reject_from_normalized(normal).normalize_or(normal.any_orthonormal_vector());
+        DMat3::from_cols(along, normal.cross(along), normal)
+    };
+    let onto_normal = onto.normals[onto.nearest(centre.near, centre.image)];
+    let guess = frame(onto_normal, far.image - centre.image)
+        * frame(centre.normal, far.position - centre.position).transpose();
+    Some(Rigid3::with_point(nearest_rotation(&moment, guess), mean, image))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::scalar::{cos, sin};
+    use crate::mesh::generators::icosphere;
+
+    const OPTIONS: FitOptions = FitOptions { max_steps: 20, damping: 1e-6, noise: 1e-4 };
+
+    /// A ball with hills.
+    fn hilly() -> SurfaceMesh {
+        let ball = icosphere(5);
+        let hill = |p: &DVec3| *p * (1.0 + 0.03 * sin(7.0 * p.x) * cos(6.0 * p.y) + 0.02 * sin(8.0 * p.z));
+        ball.with_positions(ball.positions().iter().map(hill).collect())
+    }
+
+    /// A disc around a vertex; its images have slid by `slid` over the surface.
+    fn patch(skin: &Skin<'_>, slid: DVec3) -> Vec<PatchPoint> {
+        let positions = skin.mesh.positions();
+        let centre = skin.nearest(VertexId(0), DVec3::new(0.6, 0.5, 0.6));
+        let inside = skin.mesh.vertices().filter(|&v| positions[v].distance(positions[centre]) < 0.3);
+        let point = |v: VertexId| {
+            let near = skin.nearest(v, positions[v] + slid);
+            let image = positions[v] + slid;
+            PatchPoint { position: positions[v], normal: skin.normals[v], weight: 1.0, image, near }
+        };
+        std::iter::once(centre).chain(inside.filter(|&v| v != centre)).map(point).collect()
+    }
+
+    #[test]
+    fn hills_bring_a_patch_back_to_where_it_belongs() {
+        let mesh = hilly();
+        let skin = Skin::new(&mesh);
+        let mut points = patch(&skin, DVec3::new(0.02, -0.03, 0.01));
+        let fit = Fitter::default().fit(&mut points, &skin, &OPTIONS).unwrap();
+        assert!(fit.centre.distance(points[0].position) < 2e-3, "{fit:?}");
+        assert!(fit.misfit < 1e-6, "{fit:?}");
+    }
+
+    #[test]
+    fn a_plain_ball_holds_no_patch() {
+        let ball = icosphere(5);
+        let skin = Skin::new(&ball);
+        let mut points = patch(&skin, DVec3::ZERO);
+        let held = |mesh: &SurfaceMesh| {
+            let skin = Skin::new(mesh);
+            let fit = Fitter::default().fit(&mut patch(&skin, DVec3::ZERO), &skin, &OPTIONS).unwrap();
+            let normal = skin.normals[skin.nearest(VertexId(0), fit.centre)];
+            let along = normal.any_orthonormal_vector();
+            along.dot(fit.hold * along)
+        };
+        assert!(held(&ball) < 0.02 * held(&hilly()), "{} {}", held(&ball), held(&hilly()));
+        assert!(Fitter::default().fit(&mut points[..0], &skin, &OPTIONS).is_none());
+    }
+}

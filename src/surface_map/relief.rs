@@ -1,0 +1,295 @@
+//! Poses of one body: where the relief of the skin says that the map slides.
+//!
+//! An energy knows lengths only, and between two poses the known map has not the least one. But most of the skin moves
+//! rigidly: a patch of it fits its true image exactly, and nowhere else around, as far as muscles and bones show. So patches
+//! are laid onto the other surface by rigid motions, from where the map takes them ([`super::patch_fit`]); where one comes to
+//! lie is where its centre is drawn to ([`Pull`]), in each direction as much as relief holds it there. Patches that bend do
+//! not fit well, and count by the square of noise / (noise + misfit). Found anew after the map has followed, the places
+//! settle.
+
+use super::patch_fit::{FitOptions, Fitter, PatchFit, PatchPoint, Skin};
+use super::pull::Pull;
+use crate::math::scalar::max;
+use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use glam::{DMat2, DVec2, DVec3};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
+
+/// How places are found; lengths in units of the root of the area.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReliefOptions {
+    /// Levels of at least and at most so many vertices are drawn to new places: where relief shows, and costs little.
+    pub vertices: [usize; 2],
+    /// How often on every such level.
+    pub rounds: usize,
+    /// Distance of the points that make up the patches.
+    pub spacing: f64,
+    /// Radii of the patches around every point.
+    pub radii: [f64; 2],
+    /// How a patch is laid onto the other surface.
+    pub fit: FitOptions,
+    /// Energy by area of a miss as large as what makes the mean square distance of a patch grow by the noise.
+    pub strength: f64,
+    /// Energy by area from which on a miss counts like the distance.
+    pub knee: f64,
+}
+
+impl Default for ReliefOptions {
+    fn default() -> Self {
+        Self {
+            vertices: [1000, 5000],
+            rounds: 2,
+            spacing: 0.02,
+            radii: [0.05, 0.08],
+            fit: FitOptions { max_steps: 5, damping: 5e-5, noise: 2e-4 },
+            strength: 10.0,
+            knee: 0.2,
+        }
+    }
+}
+
+/// Patches of fewer points hold nothing.
+const LEAST_POINTS: usize = 12;
+
+/// A place farther off than this is not believed.
+const FARTHEST: f64 = 0.06;
+
+/// One side's level with its images on the other side's.
+pub struct Seen<'a> {
+    /// The level.
+    pub mesh: &'a SurfaceMesh,
+    /// Its vertices on the full mesh.
+    pub vertices: &'a TiSlice<VertexId, VertexId>,
+    /// By vertex its image.
+    pub images: TiVec<VertexId, DVec3>,
+    /// By vertex a vertex of the other full mesh near its image.
+    pub near: TiVec<VertexId, VertexId>,
+}
+
+impl<'a> Seen<'a> {
+    /// A level by its images on the other level.
+    pub fn new(
+        (mesh, vertices): (&'a SurfaceMesh, &'a TiSlice<VertexId, VertexId>),
+        (onto, onto_vertices): (&SurfaceMesh, &TiSlice<VertexId, VertexId>),
+        points: impl Iterator<Item = SurfacePoint>,
+    ) -> Self {
+        let mut seen = Self { mesh, vertices, images: TiVec::new(), near: TiVec::new() };
+        for point in points {
+            let weight = |k: &usize| point.barycentric[*k];
+            let corner = (0..3).max_by(|a, b| weight(a).total_cmp(&weight(b))).unwrap_or(0);
+            seen.images.push(point.position(onto));
+            seen.near.push(onto_vertices[onto.triangles()[point.face][corner]]);
+        }
+        seen
+    }
+}
+
+/// The pulls of one side's level vertices to where patches around them fit the other side. Both areas are 1.
+pub fn pulls([own, onto]: [&Skin<'_>; 2], seen: &Seen<'_>, options: &ReliefOptions) -> Vec<(VertexId, Pull)> {
+    let weights = spread(own, seen, options.spacing);
+    let mut patches = Patches { own, seen, weights: &weights, reached: ti_vec![None; weights.len()] };
+    let (mut fitter, mut patch) = (Fitter::default(), Vec::new());
+    let mut pulls = Vec::new();
+    for v in seen.mesh.vertices().filter(|&v| weights[v] > 0.0) {
+        let normal = onto.normals[onto.nearest(seen.near[v], seen.images[v])];
+        let mut sum = Knowledge::new(normal);
+        for radius in options.radii {
+            patches.around(v, radius, &mut patch);
+            let fit =
+                if patch.len() < LEAST_POINTS { None } else { fitter.fit(&mut patch, onto, &options.fit) };
+            if let Some(fit) = fit.filter(|fit| fit.centre.distance(seen.images[v]) < FARTHEST) {
+                sum.add(&fit, seen.images[v], options.fit.noise);
+            }
+        }
+        pulls.extend(sum.pull(seen.images[v], weights[v], options).map(|pull| (v, pull)));
+    }
+    pulls
+}
+
+/// Vertices about `spacing` apart, or as far as the level's are, with the areas that they stand for; the other vertices
+/// have none. One of each cell of a grid and main direction of the normal is taken.
+fn spread(own: &Skin<'_>, seen: &Seen<'_>, spacing: f64) -> TiVec<VertexId, f64> {
+    let mut areas: TiVec<VertexId, f64> = ti_vec![0.0; seen.mesh.vertex_count()];
+    for f in seen.mesh.faces() {
+        let third = seen.mesh.face_area(f) / 3.0;
+        seen.mesh.triangles()[f].iter().for_each(|&v| areas[v] += third);
+    }
+    let cell = |v: VertexId| {
+        let at = (seen.mesh.positions()[v] / spacing).floor();
+        let normal = own.normals[seen.vertices[v]];
+        let main = normal.abs().max_position();
+        let direction = 2 * main + usize::from(normal[main] > 0.0);
+        (at.to_array().map(|c| c as i64), direction, v)
+    };
+    let mut cells: Vec<_> = seen.mesh.vertices().map(cell).collect();
+    cells.sort_unstable();
+    let mut weights: TiVec<VertexId, f64> = ti_vec![0.0; areas.len()];
+    for group in cells.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+        weights[group[0].2] = group.iter().map(|c| areas[c.2]).sum();
+    }
+    weights
+}
+
+/// Patches of one side.
+struct Patches<'a> {
+    own: &'a Skin<'a>,
+    seen: &'a Seen<'a>,
+    weights: &'a TiSlice<VertexId, f64>,
+    /// The centre of the last patch that reached a vertex, with its radius.
+    reached: TiVec<VertexId, Option<(VertexId, u64)>>,
+}
+
+impl Patches<'_> {
+    /// Fills `patch` with the points connected to `centre` within the radius, the centre first. Points whose images are far
+    /// away or that face the other way are left out.
+    fn around(&mut self, centre: VertexId, radius: f64, patch: &mut Vec<PatchPoint>) {
+        let Self { own, seen, weights, .. } = *self;
+        let positions = seen.mesh.positions();
+        let distance = |v: VertexId| positions[v].distance(positions[centre]);
+        let mark = Some((centre, radius.to_bits()));
+        let mut queue = vec![centre];
+        self.reached[centre] = mark;
+        let normal = own.normals[seen.vertices[centre]];
+        let mut next = 0;
+        patch.clear();
+        while let Some(&v) = queue.get(next) {
+            next += 1;
+            let own_normal = own.normals[seen.vertices[v]];
+            let near = seen.images[v].distance(seen.images[centre]) < 1.6 * radius;
+            if weights[v] > 0.0 && near && own_normal.dot(normal) > -0.3 {
+                let share = distance(v) / radius;
+                let fading = (1.0 - share * share) * (1.0 - share * share);
+                patch.push(PatchPoint {
+                    position: positions[v],
+                    normal: own_normal,
+                    weight: weights[v] * fading,
+                    image: seen.images[v],
+                    near: seen.near[v],
+                });
+            }
+            for w in seen.mesh.star(v).map(|h| seen.mesh.head(h)) {
+                if self.reached[w] != mark && distance(w) < radius {
+                    self.reached[w] = mark;
+                    queue.push(w);
+                }
+            }
+        }
+    }
+}
+
+/// What fits of several patches know about the place of their centre: a quadratic form in a tangent plane.
+struct Knowledge {
+    frame: [DVec3; 2],
+    form: DMat2,
+    slope: DVec2,
+}
+
+impl Knowledge {
+    fn new(normal: DVec3) -> Self {
+        let first = normal.any_orthonormal_vector();
+        Self { frame: [first, normal.cross(first)], form: DMat2::ZERO, slope: DVec2::ZERO }
+    }
+
+    fn in_plane(&self, d: DVec3) -> DVec2 {
+        DVec2::from(self.frame.map(|axis| axis.dot(d)))
+    }
+
+    fn add(&mut self, fit: &PatchFit, image: DVec3, noise: f64) {
+        let square = noise * noise;
+        let trust = square / (square + fit.misfit);
+        let column = |axis: DVec3| self.in_plane(fit.hold * axis) * (trust * trust / square);
+        let form = DMat2::from_cols(column(self.frame[0]), column(self.frame[1]));
+        self.slope += form * self.in_plane(fit.centre - image);
+        self.form += form;
+    }
+
+    /// The pull; `None` where nothing is known.
+    fn pull(&self, image: DVec3, area: f64, options: &ReliefOptions) -> Option<Pull> {
+        let (form, [first, second]) = (self.form, self.frame);
+        let shift = form.inverse() * self.slope;
+        let scale = options.strength * area;
+        // Cholesky's factor of the form.
+        let a = (scale * form.x_axis.x).sqrt();
+        let b = scale * form.x_axis.y / a;
+        let c = max(scale * form.y_axis.y - b * b, 0.0).sqrt();
+        let known = form.determinant() > 0.0 && shift.is_finite() && a > 0.0 && b.is_finite();
+        known.then(|| Pull {
+            place: image + first * shift.x + second * shift.y,
+            rows: [first * a + second * b, second * c],
+            knee: options.knee * area,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::scalar::{cos, sin};
+    use crate::mesh::generators::icosphere;
+
+    fn hilly() -> SurfaceMesh {
+        let ball = icosphere(4);
+        let hill = |p: &DVec3| {
+            // Area near 1.
+            *p * 0.28 * (1.0 + 0.03 * sin(11.0 * p.x) * cos(9.0 * p.y) + 0.03 * sin(10.0 * p.z))
+        };
+        ball.with_positions(ball.positions().iter().map(hill).collect())
+    }
+
+    /// All vertices, with images turned by a small angle about z.
+    fn slid<'a>(mesh: &'a SurfaceMesh, all: &'a TiSlice<VertexId, VertexId>, skin: &Skin<'_>) -> Seen<'a> {
+        let (c, s) = (cos(0.02), sin(0.02));
+        let turn = |p: DVec3| DVec3::new(c * p.x - s * p.y, s * p.x + c * p.y, p.z);
+        let images: TiVec<VertexId, DVec3> = mesh.positions().iter().map(|p| turn(*p)).collect();
+        let near = images.iter_enumerated().map(|(v, p)| skin.nearest(v, *p)).collect();
+        Seen { mesh, vertices: all, images, near }
+    }
+
+    #[test]
+    fn points_stand_for_the_whole_area() {
+        let mesh = hilly();
+        let all: TiVec<VertexId, VertexId> = mesh.vertices().collect();
+        let skin = Skin::new(&mesh);
+        let weights = spread(&skin, &slid(&mesh, &all, &skin), 0.04);
+        assert!((weights.iter().sum::<f64>() - mesh.area()).abs() < 1e-12);
+        let taken = weights.iter().filter(|w| **w > 0.0).count();
+        assert!(taken > 300 && taken < 1500, "{taken}");
+    }
+
+    #[test]
+    fn relief_draws_vertices_back_to_where_they_belong() {
+        let mesh = hilly();
+        let all: TiVec<VertexId, VertexId> = mesh.vertices().collect();
+        let skin = Skin::new(&mesh);
+        let seen = slid(&mesh, &all, &skin);
+        let found = pulls([&skin, &skin], &seen, &ReliefOptions::default());
+        assert!(found.len() > 500, "{}", found.len());
+        let mut errors: Vec<[f64; 2]> = found
+            .iter()
+            .map(|(v, pull)| {
+                let truth = mesh.positions()[*v];
+                [pull.place.distance(truth), seen.images[*v].distance(truth)]
+            })
+            .collect();
+        let mean = |k: usize| errors.iter().map(|e| e[k]).sum::<f64>() / errors.len() as f64;
+        let means = [mean(0), mean(1)];
+        errors.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        assert!(means[0] < 0.4 * means[1], "{means:?}");
+        assert!(errors[errors.len() / 2][0] < 0.2 * means[1], "{means:?} {:?}", errors[errors.len() / 2]);
+    }
+
+    #[test]
+    fn a_pull_knows_what_the_fits_know() {
+        let mut sum = Knowledge::new(DVec3::Z);
+        let hold = glam::DMat3::from_diagonal(DVec3::new(0.1, 0.02, 0.7));
+        let centre = DVec3::new(0.01, 0.02, 0.0);
+        sum.add(&PatchFit { centre, misfit: 0.0, hold }, DVec3::ZERO, 1e-3);
+        let pull =
+            sum.pull(DVec3::ZERO, 0.5, &ReliefOptions { strength: 2.0, ..Default::default() }).unwrap();
+        assert!(pull.place.distance(centre) < 1e-12);
+        for (axis, held) in [(DVec3::X, 0.1), (DVec3::Y, 0.02), (DVec3::Z, 0.0)] {
+            let square: f64 = pull.rows.iter().map(|row| row.dot(axis) * row.dot(axis)).sum();
+            assert!((square - held * 1e6).abs() < 1e-3, "{square}");
+        }
+        assert!(Knowledge::new(DVec3::Z).pull(DVec3::ZERO, 1.0, &ReliefOptions::default()).is_none());
+    }
+}
