@@ -54,7 +54,7 @@ pub struct PatchPoint {
     pub weight: f64,
     /// Its image by the present map.
     pub image: DVec3,
-    /// A vertex of the other surface near its image.
+    /// The vertex of the other surface nearest to its image.
     pub near: VertexId,
 }
 
@@ -202,7 +202,7 @@ fn start(points: &[PatchPoint], total: f64, onto: &Skin<'_>) -> Option<Rigid3> {
         let along = d.reject_from_normalized(normal).normalize_or(normal.any_orthonormal_vector());
         DMat3::from_cols(along, normal.cross(along), normal)
     };
-    let onto_normal = onto.normals[onto.nearest(centre.near, centre.image)];
+    let onto_normal = onto.normals[centre.near];
     let guess = frame(onto_normal, far.image - centre.image)
         * frame(centre.normal, far.position - centre.position).transpose();
     Some(Rigid3::with_point(nearest_rotation(&moment, guess), mean, image))
@@ -229,8 +229,8 @@ mod tests {
         let centre = skin.nearest(VertexId(0), DVec3::new(0.6, 0.5, 0.6));
         let inside = skin.mesh.vertices().filter(|&v| positions[v].distance(positions[centre]) < 0.3);
         let point = |v: VertexId| {
-            let near = skin.nearest(v, positions[v] + slid);
             let image = positions[v] + slid;
+            let near = skin.nearest(v, image);
             PatchPoint { position: positions[v], normal: skin.normals[v], weight: 1.0, image, near }
         };
         std::iter::once(centre).chain(inside.filter(|&v| v != centre)).map(point).collect()

@@ -86,12 +86,13 @@ impl<'a> Seen<'a> {
 /// The pulls of one side's level vertices to where patches around them fit the other side. Both areas are 1.
 pub fn pulls([own, onto]: [&Skin<'_>; 2], seen: &Seen<'_>, options: &ReliefOptions) -> Vec<(VertexId, Pull)> {
     let weights = spread(own, seen, options.spacing);
-    let mut patches = Patches { own, seen, weights: &weights, reached: ti_vec![None; weights.len()] };
+    // Every vertex is in many patches, which all start from here.
+    let near = seen.mesh.vertices().map(|v| onto.nearest(seen.near[v], seen.images[v])).collect();
+    let mut patches = Patches { own, seen, weights: &weights, near, reached: ti_vec![None; weights.len()] };
     let (mut fitter, mut patch) = (Fitter::default(), Vec::new());
     let mut pulls = Vec::new();
     for v in seen.mesh.vertices().filter(|&v| weights[v] > 0.0) {
-        let normal = onto.normals[onto.nearest(seen.near[v], seen.images[v])];
-        let mut sum = Knowledge::new(normal);
+        let mut sum = Knowledge::new(onto.normals[patches.near[v]]);
         for radius in options.radii {
             patches.around(v, radius, &mut patch);
             let fit =
@@ -134,6 +135,8 @@ struct Patches<'a> {
     own: &'a Skin<'a>,
     seen: &'a Seen<'a>,
     weights: &'a TiSlice<VertexId, f64>,
+    /// By vertex the vertex of the other full mesh that is nearest to its image.
+    near: TiVec<VertexId, VertexId>,
     /// The centre of the last patch that reached a vertex, with its radius.
     reached: TiVec<VertexId, Option<(VertexId, u64)>>,
 }
@@ -163,7 +166,7 @@ impl Patches<'_> {
                     normal: own_normal,
                     weight: weights[v] * fading,
                     image: seen.images[v],
-                    near: seen.near[v],
+                    near: self.near[v],
                 });
             }
             for w in seen.mesh.star(v).map(|h| seen.mesh.head(h)) {
