@@ -6,52 +6,53 @@
 
 use super::PipelineError;
 use super::options::PipelineOptions;
-use super::relaxed::{Coarse, Full, parametrised, searched};
+use super::relaxed::{Full, parametrised, searched};
 use crate::landmark_suggestion::{distances, farthest_points};
-use crate::layout::BaseLayout;
 use crate::mesh::closest_point::closest_point;
 use crate::mesh::insertion::insert;
 use crate::mesh::{RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor};
-use crate::surface_map::multilevel::{CoarseMap, LevelImages, Side, solve_coarse, solve_fine};
+use crate::surface_map::multilevel::{CoarseMap, LevelImages, MultilevelOptions, Side, solve_fine};
 use crate::surface_map::{ConeSurface, Embedding, MapError, certify};
 use glam::DVec3;
+use std::cell::OnceCell;
 use std::sync::Arc;
 
-/// Both meshes with own landmarks after the user's, and the layout of all.
-pub(super) struct OwnCones {
-    full: [Full; 2],
-    layout: BaseLayout,
-    /// Of the coarse map.
-    energy: f64,
+/// What the rounds make and their maps borrow: each round fills a cell.
+pub(super) struct Rounds<T>(Vec<OnceCell<[T; 2]>>);
+
+impl<T> Rounds<T> {
+    /// Room for all rounds.
+    pub(super) fn new(options: &PipelineOptions) -> Self {
+        Self((0..options.own_cones.rounds).map(|_| OnceCell::new()).collect())
+    }
 }
 
-impl OwnCones {
+/// Both meshes with own landmarks after the user's, and the coarse map of all.
+pub(super) struct OwnCones<'a> {
+    full: &'a [Full; 2],
+    map: CoarseMap<'a>,
+}
+
+impl OwnCones<'_> {
     /// The map of the full meshes; `None` where it is not found or not certified.
     ///
     /// # Errors
     /// Cancellation only.
     pub(super) fn refined(
         self,
-        (vertices, options): (usize, &PipelineOptions),
-        monitor: &mut dyn Monitor,
+        (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
     ) -> Result<Option<Refined>, Cancelled> {
-        let sides = sides(&self.full, vertices);
-        let solved =
-            solve_coarse(&sides, &self.layout, (&options.multilevel, &mut *monitor)).and_then(|mut map| {
-                map.finish(&sides, (&options.multilevel, &mut *monitor))?;
-                let surface = map.surface.clone();
-                Ok((surface, solve_fine(map, &sides, (&options.multilevel, monitor))?))
-            });
-        drop(sides);
-        let (surface, embeddings) = match solved {
-            Ok(solved) => solved,
+        let Self { full, map } = self;
+        let surface = map.surface.clone();
+        let embeddings = match solve_fine(map, (options, monitor)) {
+            Ok(embeddings) => embeddings,
             Err(MapError::Cancelled(stop)) => return Err(stop),
             Err(_) => return Ok(None),
         };
-        let certified = |k: usize| certify(parametrised(&self.full[k], &embeddings[k]), &surface).bijective;
+        let certified = |k: usize| certify(parametrised(&full[k], &embeddings[k]), &surface).bijective;
         let bijective = certified(0) && certified(1);
-        Ok(bijective.then_some(Refined { surface, embeddings, full: self.full }))
+        Ok(bijective.then(|| Refined { surface, embeddings, full: full.clone() }))
     }
 }
 
@@ -62,31 +63,27 @@ pub(super) struct Refined {
     pub(super) full: [Full; 2],
 }
 
-fn sides(full: &[Full; 2], vertices: usize) -> [Side<'_>; 2] {
-    [0, 1].map(|k| Side::new(&full[k].refined.mesh, &full[k].landmarks, vertices))
-}
-
 /// Adds own landmarks round by round, as long as they lower the energy of the coarse map; `None` where they do not.
 ///
 /// Every round takes fresh points at their images under the best map so far.
 ///
 /// # Errors
 /// Cancellation only.
-pub(super) fn add(
-    (full, user_sides): (&[Full; 2], &[Side<'_>; 2]),
-    map: &CoarseMap<'_>,
+pub(super) fn add<'a>(
+    (full, map): (&[Full; 2], &CoarseMap<'_>),
+    (fulls, all_sides): (&'a Rounds<Full>, &'a Rounds<Side<'a>>),
     (vertices, options): (usize, &PipelineOptions),
     monitor: &mut dyn Monitor,
-) -> Result<Option<OwnCones>, PipelineError> {
+) -> Result<Option<OwnCones<'a>>, Cancelled> {
     let own = &options.own_cones;
     if own.count == 0 || full[0].landmarks.len() > own.most_landmarks || map.judged < own.least_energy {
         return Ok(None);
     }
-    let Some(mut images) = map.images(user_sides) else { return Ok(None) };
-    let mut best: Option<OwnCones> = None;
+    let Some(mut images) = map.images() else { return Ok(None) };
+    let mut best: Option<OwnCones<'a>> = None;
     let mut before: Vec<VertexId> = Vec::new();
     let mut without_gain = 0;
-    for _ in 0..own.rounds {
+    for (full_cell, sides_cell) in fulls.0.iter().zip(&all_sides.0) {
         if monitor.wants_result() {
             break;
         }
@@ -94,22 +91,23 @@ pub(super) fn add(
         let Some(with_own) = with(full, &pairs).filter(|_| without_gain < own.patience) else { break };
         without_gain += 1;
         before = pairs.iter().map(|pair| pair.0).collect();
-        let sides = sides(&with_own, vertices);
-        let next = match searched(&sides, (&options.multilevel, &own.search), monitor) {
-            Ok(next) => next,
-            Err(PipelineError::Cancelled(stop)) => return Err(stop.into()),
+        let with_own = full_cell.get_or_init(|| with_own);
+        let sides = sides_cell.get_or_init(|| {
+            [0, 1].map(|k| Side::new(&with_own[k].refined.mesh, &with_own[k].landmarks, vertices))
+        });
+        let next = match searched(sides, (&options.multilevel, &own.search), monitor) {
+            Ok(next) => next.map,
+            Err(PipelineError::Cancelled(stop)) => return Err(stop),
             // No map with these points: others may do.
             Err(_) => continue,
         };
-        let Coarse { layout, map: next, .. } = next;
-        let (energy, least) = (next.judged, best.as_ref().map_or(map.judged, |best| best.energy));
-        let Some(next_images) = next.images(&sides).filter(|_| energy < least) else { continue };
+        let (energy, least) = (next.judged, best.as_ref().map_or(map.judged, |best| best.map.judged));
+        let Some(next_images) = next.images().filter(|_| energy < least) else { continue };
         if energy < (1.0 - own.least_gain) * least {
             without_gain = 0;
         }
         images = next_images;
-        drop(sides);
-        best = Some(OwnCones { full: with_own, layout, energy });
+        best = Some(OwnCones { full: with_own, map: next });
     }
     Ok(best)
 }

@@ -1,6 +1,6 @@
 //! The relaxed map: from a layout and both cone metrics to a certified result.
 
-use super::own_cones::{self, Refined};
+use super::own_cones::{self, Refined, Rounds};
 use super::report::{CertificateReport, DistortionReport, GroundTruthReport, LayoutSearchReport};
 use super::{
     Base, GroundTruth, MapInput, MapResult, Metrics, PipelineError, PipelineOptions, Report,
@@ -27,6 +27,7 @@ use std::sync::Arc;
 use typed_index_collections::TiVec;
 
 /// One of both meshes, scaled to area 1, with its landmarks.
+#[derive(Clone)]
 pub(super) struct Full {
     pub(super) refined: RefinedMesh,
     pub(super) landmarks: TiVec<VertexId, VertexId>,
@@ -148,14 +149,16 @@ fn parametrise(
             Err(PipelineError::Layout(LayoutError::NoMap { .. })) if vertices < most => vertices *= 4,
             Err(error) => return Err(error),
             Ok(Coarse { layout, search, map }) => {
-                let own = own_cones::add((&full, &sides), &map, (vertices, options), monitor)?;
+                let rounds = (Rounds::new(options), Rounds::new(options));
+                let cells = (&rounds.0, &rounds.1);
+                let own = own_cones::add((&full, &map), cells, (vertices, options), monitor)?;
                 monitor.enter(Stage::Relaxation);
-                let own = own.map_or(Ok(None), |own| own.refined((vertices, options), monitor))?;
+                let own = own.map_or(Ok(None), |own| own.refined((&options.multilevel, &mut *monitor)))?;
                 let fine = match own {
                     Some(Refined { surface, embeddings, full }) => (surface, embeddings, Some(full)),
                     None => {
                         let surface = map.surface.clone();
-                        (surface, solve_fine(map, &sides, (&options.multilevel, monitor))?, None)
+                        (surface, solve_fine(map, (&options.multilevel, monitor))?, None)
                     }
                 };
                 break (layout, search, fine);
@@ -191,7 +194,7 @@ fn coarse<'a>(
                 MapError::Cancelled(stop) => PipelineError::from(stop),
                 _ => LayoutError::NoMap { layouts: 1 }.into(),
             })?;
-            map.finish(sides, (&options.multilevel, monitor))?;
+            map.finish((&options.multilevel, monitor))?;
             Ok(Coarse { layout, search: SearchReport::default(), map })
         }
     }
@@ -224,10 +227,10 @@ pub(super) fn searched<'a>(
     };
     let mut candidates = Candidates::new(meshes, &landmarks);
     let (_, mut search) = layout::search(&mut candidates, &mut judge, search_options, monitor)?;
-    let Finalist { number, layout, mut map } = winner(finalists, sides, (options, &mut *monitor))?;
+    let Finalist { number, layout, mut map } = winner(finalists, (options, &mut *monitor))?;
     search.best = number;
     search.judged[number].energy = Some(map.judged);
-    map.finish(sides, (options, monitor))?;
+    map.finish((options, monitor))?;
     Ok(Coarse { layout, search, map })
 }
 
@@ -242,14 +245,13 @@ struct Finalist<'a> {
 /// The best of maps that are too close to tell after a first look: each is relaxed further.
 fn winner<'a>(
     mut finalists: Vec<Finalist<'a>>,
-    sides: &[Side<'_>; 2],
     (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
 ) -> Result<Finalist<'a>, PipelineError> {
     let least = finalists.first().map_or(f64::INFINITY, |first| first.map.judged);
     finalists.retain(|other| other.map.judged - 4.0 <= options.close * (least - 4.0));
     if finalists.len() > 1 && !monitor.wants_result() {
         for finalist in &mut finalists {
-            finalist.map.relax(sides, (&options.decide, &mut *monitor))?;
+            finalist.map.relax((&options.decide, &mut *monitor))?;
         }
     }
     let best = finalists.into_iter().min_by(|a, b| a.map.judged.total_cmp(&b.map.judged));

@@ -123,6 +123,9 @@ pub struct CoarseMap<'a> {
     energy: TwoSided,
     /// By side the vertices of the full mesh that are drawn to places on the other side.
     pulls: [Vec<(VertexId, Pull)>; 2],
+    full: [&'a SurfaceMesh; 2],
+    /// By side the full mesh's vertex of each landmark.
+    landmarks: [&'a TiSlice<VertexId, VertexId>; 2],
 }
 
 /// A map of two coarse levels, from a layout drawn on them, relaxed as far as a judgement needs.
@@ -148,8 +151,10 @@ pub fn solve_coarse<'a>(
         median: f64::INFINITY,
         energy: options.fine.energy,
         pulls: [Vec::new(), Vec::new()],
+        full: [sides[0].full, sides[1].full],
+        landmarks: [sides[0].landmarks, sides[1].landmarks],
     };
-    map.relax(sides, (&options.judge, monitor))?;
+    map.relax((&options.judge, monitor))?;
     Ok(map)
 }
 
@@ -160,20 +165,19 @@ impl CoarseMap<'_> {
     /// [`MapError::Cancelled`].
     pub fn finish(
         &mut self,
-        sides: &[Side<'_>; 2],
         (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
     ) -> Result<(), MapError> {
-        self.relax(sides, (&options.coarse, &mut *monitor))?;
+        self.relax((&options.coarse, &mut *monitor))?;
         if self.median < options.pose_median {
             self.energy = TwoSided::POSES;
-            self.relax(sides, (&ComposedOptions { energy: self.energy, ..options.coarse }, monitor))?;
+            self.relax((&ComposedOptions { energy: self.energy, ..options.coarse }, monitor))?;
         }
         Ok(())
     }
 
     /// The present levels with the images of the source level's vertices; `None` where a vertex is not found on the target.
-    pub fn images(&self, sides: &[Side<'_>; 2]) -> Option<LevelImages> {
-        let present = self.present(sides);
+    pub fn images(&self) -> Option<LevelImages> {
+        let present = self.present();
         let [source, target] = [0, 1].map(|k| present[k].parametrised());
         let locations = locate(source, target, &self.surface).ok()?;
         let target_from_source =
@@ -181,10 +185,10 @@ impl CoarseMap<'_> {
         Some(LevelImages { levels: present.map(|p| p.level), target_from_source })
     }
 
-    fn present(&self, sides: &[Side<'_>; 2]) -> [Present; 2] {
+    fn present(&self) -> [Present; 2] {
         [0, 1].map(|k| {
             let (level, mut embedding) = self.levels[k].snapshot();
-            let landmarks: TiVec<VertexId, VertexId> = level.numbers(sides[k].landmarks).collect();
+            let landmarks: TiVec<VertexId, VertexId> = level.numbers(self.landmarks[k]).collect();
             mend_anchors(&mut embedding, (&level.mesh, &landmarks), &self.surface);
             Present { level, landmarks, embedding }
         })
@@ -196,11 +200,10 @@ impl CoarseMap<'_> {
     /// [`MapError::Cancelled`].
     pub fn relax(
         &mut self,
-        sides: &[Side<'_>; 2],
         (options, monitor): (&ComposedOptions, &mut dyn Monitor),
     ) -> Result<(), MapError> {
         let measure = |relaxed: &Relaxed<'_>| (relaxed.judged(), relaxed.median());
-        (self.judged, self.median) = self.lower(sides, (options, monitor), measure)?;
+        (self.judged, self.median) = self.lower((options, monitor), measure)?;
         Ok(())
     }
 
@@ -210,7 +213,6 @@ impl CoarseMap<'_> {
     /// [`MapError::Cancelled`].
     fn follow_relief(
         &mut self,
-        sides: &[Side<'_>; 2],
         (options, fine, monitor): (&ReliefOptions, &ComposedOptions, &mut dyn Monitor),
     ) -> Result<(), MapError> {
         let [least, most] = options.vertices;
@@ -218,20 +220,20 @@ impl CoarseMap<'_> {
         if self.energy != TwoSided::POSES || !self.levels.iter().all(fits) {
             return Ok(());
         }
-        let skins = [0, 1].map(|k| Skin::new(sides[k].full));
+        let skins = [0, 1].map(|k| Skin::new(self.full[k]));
         let skins = [&skins[0], &skins[1]];
         for _ in 0..options.rounds {
             if monitor.wants_result() {
                 break;
             }
-            self.look(sides, |k, seen, pulls| {
+            self.look(|k, seen, pulls| {
                 let found = relief::pulls([skins[k], skins[1 - k]], seen, options);
                 *pulls = found.into_iter().map(|(v, pull)| (seen.vertices[v], pull)).collect();
             });
-            self.lower(sides, (&ComposedOptions { max_rounds: 4, ..*fine }, &mut *monitor), |_| ())?;
+            self.lower((&ComposedOptions { max_rounds: 4, ..*fine }, &mut *monitor), |_| ())?;
         }
         // Finer levels hold what has settled: a pull of one of their small triangles would dent the map.
-        self.look(sides, |_, seen, pulls| {
+        self.look(|_, seen, pulls| {
             for (v, pull) in pulls {
                 if let Ok(v) = seen.vertices.binary_search(v) {
                     pull.place = seen.images[v];
@@ -242,12 +244,8 @@ impl CoarseMap<'_> {
     }
 
     /// Shows each side's level with its images, and its pulls.
-    fn look(
-        &mut self,
-        sides: &[Side<'_>; 2],
-        mut show: impl FnMut(usize, &Seen<'_>, &mut Vec<(VertexId, Pull)>),
-    ) {
-        let present = self.present(sides);
+    fn look(&mut self, mut show: impl FnMut(usize, &Seen<'_>, &mut Vec<(VertexId, Pull)>)) {
+        let present = self.present();
         for k in 0..2 {
             let [from, onto] = [k, 1 - k].map(|k| present[k].parametrised());
             let [level, other] = [k, 1 - k].map(|k| &present[k].level);
@@ -261,11 +259,10 @@ impl CoarseMap<'_> {
     /// Lowers the energy of the map of the present levels; answers with what `look` sees in it.
     fn lower<T>(
         &mut self,
-        sides: &[Side<'_>; 2],
         (options, monitor): (&ComposedOptions, &mut dyn Monitor),
         look: impl FnOnce(&Relaxed<'_>) -> T,
     ) -> Result<T, MapError> {
-        let present = self.present(sides);
+        let present = self.present();
         let parametrised = [0, 1].map(|k| present[k].parametrised());
         let pulls = [0, 1].map(|k| on_level(&self.pulls[k], &present[k].level));
         let pulls = [&pulls[0][..], &pulls[1][..]];
@@ -316,13 +313,12 @@ pub struct LevelImages {
 /// [`MapError::NoStart`].
 pub fn solve_fine(
     mut map: CoarseMap<'_>,
-    sides: &[Side<'_>; 2],
     (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
 ) -> Result<[Embedding; 2], MapError> {
     loop {
         let mut grown = false;
-        for (level, side) in map.levels.iter_mut().zip(sides) {
-            let (live, full) = (level.mesh().live_vertices(), side.full.vertex_count());
+        for level in &mut map.levels {
+            let (live, full) = (level.mesh().live_vertices(), level.full_vertices());
             let next = (live as f64 * options.growth) as usize;
             // No level that is only a little coarser than the full mesh.
             let goal = if 2 * next > full { full } else { next };
@@ -334,8 +330,8 @@ pub fn solve_fine(
             break;
         }
         let fine = ComposedOptions { energy: map.energy, ..options.fine };
-        map.lower(sides, (&fine, &mut *monitor), |_| ())?;
-        map.follow_relief(sides, (&options.relief, &fine, monitor))?;
+        map.lower((&fine, &mut *monitor), |_| ())?;
+        map.follow_relief((&options.relief, &fine, monitor))?;
     }
     Ok(map.levels.map(|level| level.snapshot().1))
 }

@@ -110,6 +110,11 @@ impl<'a> Seamless<'a> {
         &self.mesh
     }
 
+    /// Number of vertices of the full resolution.
+    pub fn full_vertices(&self) -> usize {
+        self.positions.len()
+    }
+
     /// Sets a face's corner and the way out through its halfedge.
     pub fn set(&mut self, h: HalfedgeId, corner: DVec2, transition: Rigid2) {
         self.corners[h] = corner;
