@@ -329,6 +329,10 @@ pub fn solve_fine(
         if !grown {
             break;
         }
+        if map.levels.iter().all(Seamless::is_full) {
+            // The finest level has room for what pulls have dented, and hardly moves otherwise.
+            map.pulls = [Vec::new(), Vec::new()];
+        }
         let fine = ComposedOptions { energy: map.energy, ..options.fine };
         map.lower((&fine, &mut *monitor), |_| ())?;
         map.follow_relief((&options.relief, &fine, monitor))?;

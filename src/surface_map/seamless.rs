@@ -115,6 +115,11 @@ impl<'a> Seamless<'a> {
         self.positions.len()
     }
 
+    /// Whether all vertices are there.
+    pub fn is_full(&self) -> bool {
+        self.mesh.live_vertices() == self.full_vertices()
+    }
+
     /// Sets a face's corner and the way out through its halfedge.
     pub fn set(&mut self, h: HalfedgeId, corner: DVec2, transition: Rigid2) {
         self.corners[h] = corner;
