@@ -49,24 +49,19 @@ fn spread(mesh: &SurfaceMesh, (seeds, radius): (&[VertexId], f64), distance: &mu
         };
         for h in mesh.star(v) {
             let (b, c) = (mesh.head(h), mesh.tail(h.prev()));
+            let lengths = [mesh.length(h), mesh.length(h.next()), mesh.length(h.prev())];
+            offer(b, here + lengths[0], distance);
+            // Through the sides of the face that end in v.
+            let onto_c = through_edge([here, distance[b]], lengths);
+            offer(c, onto_c, distance);
+            let onto_b = through_edge([here, distance[c]], [lengths[2], lengths[1], lengths[0]]);
+            offer(b, onto_b, distance);
+            // And through the far side, where v has just become known.
             let twin = mesh.twin(h.next());
             let far = mesh.tail(twin.prev());
-            // What is as near as v has its distance.
-            let [to_b, to_c, to_far] = [b, c, far].map(|w| distance[w] > here);
-            if to_b || to_c {
-                let lengths = [mesh.length(h), mesh.length(h.next()), mesh.length(h.prev())];
-                offer(b, here + lengths[0], distance);
-                // Through the sides of the face that end in v.
-                let onto_c = through_edge([here, distance[b]], lengths);
-                offer(c, onto_c, distance);
-                let onto_b = through_edge([here, distance[c]], [lengths[2], lengths[1], lengths[0]]);
-                offer(b, onto_b, distance);
-            }
-            // And through the far side, where v has just become known. `twin` runs from c to b.
-            if to_far && distance[b].is_finite() && distance[c].is_finite() {
-                let sides = [mesh.length(twin), mesh.length(twin.prev()), mesh.length(twin.next())];
-                offer(far, through_edge([distance[b], distance[c]], sides), distance);
-            }
+            // `twin` runs from c to b.
+            let sides = [mesh.length(twin), mesh.length(twin.prev()), mesh.length(twin.next())];
+            offer(far, through_edge([distance[b], distance[c]], sides), distance);
         }
     }
 }
