@@ -329,13 +329,18 @@ pub fn solve_fine(
         if !grown {
             break;
         }
-        if map.levels.iter().all(Seamless::is_full) {
-            // The finest level has room for what pulls have dented, and hardly moves otherwise.
+        let fine = ComposedOptions { energy: map.energy, ..options.fine };
+        // The finest level has room for what pulls have dented, and hardly moves otherwise.
+        let is_finest = map.levels.iter().all(Seamless::is_full);
+        if is_finest {
             map.pulls = [Vec::new(), Vec::new()];
         }
-        let fine = ComposedOptions { energy: map.energy, ..options.fine };
         map.lower((&fine, &mut *monitor), |_| ())?;
-        map.follow_relief((&options.relief, &fine, monitor))?;
+        map.follow_relief((&options.relief, &fine, &mut *monitor))?;
+        if is_finest && map.pulls.iter().any(|pulls| !pulls.is_empty()) {
+            map.pulls = [Vec::new(), Vec::new()];
+            map.lower((&fine, &mut *monitor), |_| ())?;
+        }
     }
     Ok(map.levels.map(|level| level.snapshot().1))
 }
