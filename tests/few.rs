@@ -6,7 +6,7 @@ mod common;
 use conemap::landmarks::Landmarks;
 use conemap::mesh::VertexId;
 use conemap::monitor::Silent;
-use conemap::pipeline::{GroundTruth, MapInput, MapResult, OwnConeOptions, PipelineOptions, run};
+use conemap::pipeline::{GroundTruth, MapResult, OwnConeOptions, PipelineOptions, run};
 use glam::DVec3;
 
 /// `count` of the pairs by farthest points of the source in space, from the one farthest from their mean on.
@@ -30,8 +30,12 @@ fn farthest_pairs(pair: &common::Pair, count: usize) -> Landmarks {
 
 fn map(pair: &common::Pair, landmarks: &Landmarks, own_cones: OwnConeOptions) -> MapResult {
     let ground_truth = GroundTruth::SameConnectivity;
-    let input = MapInput { source: &pair.source, target: &pair.target, landmarks, ground_truth };
-    run(input, &PipelineOptions { own_cones, ..PipelineOptions::default() }, &mut Silent).unwrap()
+    run(
+        pair.input(landmarks, ground_truth),
+        &PipelineOptions { own_cones, ..PipelineOptions::default() },
+        &mut Silent,
+    )
+    .unwrap()
 }
 
 #[test]

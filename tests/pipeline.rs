@@ -15,8 +15,7 @@ fn map(pair: &common::Pair, monitor: &mut dyn Monitor) -> Result<MapResult, Pipe
         Some(_) => GroundTruth::SameConnectivity,
         None => GroundTruth::Unknown,
     };
-    let input = MapInput { source: &pair.source, target: &pair.target, landmarks: &landmarks, ground_truth };
-    run(input, &PipelineOptions::default(), monitor)
+    run(pair.input(&landmarks, ground_truth), &PipelineOptions::default(), monitor)
 }
 
 fn images(result: &MapResult) -> Vec<SurfacePoint> {

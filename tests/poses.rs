@@ -4,7 +4,7 @@
 mod common;
 
 use conemap::monitor::Silent;
-use conemap::pipeline::{GroundTruth, MapInput, PipelineOptions, run};
+use conemap::pipeline::{GroundTruth, PipelineOptions, run};
 use conemap::surface_map::relief::ReliefOptions;
 
 #[test]
@@ -15,12 +15,7 @@ fn the_relief_of_the_skin_brings_the_map_nearer_to_the_known_one() {
     };
     let pair = common::read_pair(&data, "horse-horse01");
     let landmarks = common::landmarks(&pair);
-    let input = MapInput {
-        source: &pair.source,
-        target: &pair.target,
-        landmarks: &landmarks,
-        ground_truth: GroundTruth::SameConnectivity,
-    };
+    let input = pair.input(&landmarks, GroundTruth::SameConnectivity);
     let error = |relief: ReliefOptions| {
         let mut options = PipelineOptions::default();
         options.multilevel.relief = relief;

@@ -3,7 +3,7 @@
 mod common;
 
 use conemap::monitor::Silent;
-use conemap::pipeline::{GroundTruth, MapInput, Method, PipelineOptions, run};
+use conemap::pipeline::{GroundTruth, Method, PipelineOptions, run};
 
 #[test]
 fn the_patchwise_map_of_cat_and_lion_tells_what_is_missing() {
@@ -12,12 +12,7 @@ fn the_patchwise_map_of_cat_and_lion_tells_what_is_missing() {
     };
     let pair = common::read_pair(&data, "cat-lion");
     let landmarks = common::landmarks(&pair);
-    let input = MapInput {
-        source: &pair.source,
-        target: &pair.target,
-        landmarks: &landmarks,
-        ground_truth: GroundTruth::Unknown,
-    };
+    let input = pair.input(&landmarks, GroundTruth::Unknown);
     let options = PipelineOptions { method: Method::Thesis, ..PipelineOptions::default() };
     let result = run(input, &options, &mut Silent).unwrap();
     let report = &result.report;

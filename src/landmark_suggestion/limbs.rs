@@ -1,7 +1,7 @@
 //! Limbs without a landmark.
 
 use super::distance::{distances, distances_within};
-use super::{areas, tips};
+use super::tips;
 use crate::mesh::{SurfaceMesh, VertexId};
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -20,7 +20,7 @@ const THIN: f64 = 0.3;
 /// limbs (less than 0.18 of the root of the area from end to landmark) are not told.
 pub fn unmarked_limbs(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> Vec<VertexId> {
     let to_landmark = distances(mesh, landmarks);
-    let areas = areas(mesh);
+    let areas = mesh.vertex_areas().raw;
     let marked = MARKED * mesh.area().sqrt();
     let is_unmarked = |&tip: &VertexId| {
         landmarks.is_empty() || thinnest(mesh, &areas, (tip, marked..to_landmark[tip])) < THIN

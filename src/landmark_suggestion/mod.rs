@@ -11,7 +11,6 @@ pub use limbs::unmarked_limbs;
 pub use symmetry::partners;
 pub use tips::tips;
 
-use crate::math::triangle;
 use crate::mesh::coarsening::Level;
 use crate::mesh::{SurfaceMesh, VertexId};
 use typed_index_collections::TiVec;
@@ -101,16 +100,6 @@ pub fn farthest_points(
         shorten(mesh, &[v], &mut distance);
     }
     chosen
-}
-
-/// A third of the faces around each vertex.
-fn areas(mesh: &SurfaceMesh) -> Vec<f64> {
-    let mut areas = vec![0.0; mesh.vertex_count()];
-    for (f, corners) in mesh.triangles().iter_enumerated() {
-        let [a, b, c] = mesh.corners(f);
-        corners.iter().for_each(|v| areas[v.index()] += triangle::area(a, b, c) / 3.0);
-    }
-    areas
 }
 
 #[cfg(test)]

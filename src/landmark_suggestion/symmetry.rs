@@ -3,7 +3,6 @@
 //! How far the surface lies from a point, as quantiles over the area, does not change under a symmetry of the surface. So two
 //! points whose quantiles agree, each nearest to the other, are taken for partners. Distances alone cannot tell which is left.
 
-use super::areas;
 use super::distance::distances;
 use crate::mesh::{SurfaceMesh, VertexId};
 
@@ -15,7 +14,7 @@ const ALIKE: f64 = 0.03;
 
 /// For each point the number of its partner under a symmetry, where there is one; partners name each other.
 pub fn partners(mesh: &SurfaceMesh, points: &[VertexId]) -> Vec<Option<usize>> {
-    let areas = areas(mesh);
+    let areas = mesh.vertex_areas().raw;
     let quantiles: Vec<[f64; QUANTILES]> = points.iter().map(|&v| quantiles(mesh, &areas, v)).collect();
     let nearest = |i: usize| {
         let others = (0..points.len()).filter(|&j| j != i);

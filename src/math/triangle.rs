@@ -37,6 +37,13 @@ pub fn signed_double_area(p: DVec2, q: DVec2, r: DVec2) -> f64 {
     (q - p).perp_dot(r - p)
 }
 
+/// Gradients of the hat functions of a triangle's corners in its plane.
+#[inline]
+pub fn hat_gradients([p, q, r]: [DVec2; 3]) -> [DVec2; 3] {
+    let double_area = signed_double_area(p, q, r);
+    [r - q, p - r, q - p].map(|side| side.perp() / double_area)
+}
+
 /// Corner positions in the plane of a triangle with edge lengths |01|, |12|, |20|: corner 0 at the origin, corner 1
 /// on the positive x axis, corner 2 above it.
 pub fn lay_out([l01, l12, l20]: [f64; 3]) -> [DVec2; 3] {

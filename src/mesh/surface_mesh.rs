@@ -182,6 +182,16 @@ impl SurfaceMesh {
         triangle::area(p, q, r)
     }
 
+    /// By vertex a third of the faces around it.
+    pub fn vertex_areas(&self) -> TiVec<VertexId, f64> {
+        let mut areas = ti_vec![0.0; self.vertex_count()];
+        for f in self.faces() {
+            let third = self.face_area(f) / 3.0;
+            self.triangles()[f].iter().for_each(|&v| areas[v] += third);
+        }
+        areas
+    }
+
     /// Area of the whole surface.
     pub fn area(&self) -> f64 {
         self.faces().map(|f| self.face_area(f)).sum()

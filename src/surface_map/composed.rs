@@ -14,6 +14,7 @@ use super::overlay::{Measure, SideOf};
 use super::pull::Pull;
 use super::two_sided::TwoSided;
 use super::unknowns::Unknowns;
+use crate::math::triangle::hat_gradients;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use glam::{DMat2, DVec2};
@@ -414,8 +415,7 @@ impl Evaluation {
             let Some((unknown, sight)) = unknowns.sight(at.corner) else { continue };
             let q = at.motion.apply(from.embedding.corners[at.corner]);
             let p = [0, 1, 2].map(|k| onto.embedding.corners[HalfedgeId::of(at.face, k)]);
-            let double_area = (p[1] - p[0]).perp_dot(p[2] - p[0]);
-            let hats = [0, 1, 2].map(|k| (p[(k + 2) % 3] - p[(k + 1) % 3]).perp() / double_area);
+            let hats = hat_gradients(p);
             let [second, third] = [1, 2].map(|k| (q - p[0]).dot(hats[k]));
             let barycentric = [1.0 - second - third, second, third];
             let turned = hats.map(|hat| unrotate(&sight, unrotate(&at.motion, hat)));

@@ -58,9 +58,8 @@ impl FlatTriangle {
         } else if flat[2].y < 1e-10 * longest {
             flat[2].y = 1e-10 * longest;
         }
-        let double_area = triangle::signed_double_area(flat[0], flat[1], flat[2]);
-        let hat = |k: usize| (flat[(k + 2) % 3] - flat[(k + 1) % 3]).perp() / double_area;
-        Self { corners, area: 0.5 * double_area, hats: [hat(0), hat(1), hat(2)] }
+        let area = 0.5 * triangle::signed_double_area(flat[0], flat[1], flat[2]);
+        Self { corners, area, hats: triangle::hat_gradients(flat) }
     }
 
     /// The Jacobian when corner 0 is at `z` and the other corners are fixed.

@@ -150,7 +150,7 @@ pub fn solve_coarse<'a>(
         judged: f64::INFINITY,
         median: f64::INFINITY,
         energy: options.fine.energy,
-        pulls: [Vec::new(), Vec::new()],
+        pulls: Default::default(),
         full: [sides[0].full, sides[1].full],
         landmarks: [sides[0].landmarks, sides[1].landmarks],
     };
@@ -333,12 +333,12 @@ pub fn solve_fine(
         // The finest level has room for what pulls have dented, and hardly moves otherwise.
         let is_finest = map.levels.iter().all(Seamless::is_full);
         if is_finest {
-            map.pulls = [Vec::new(), Vec::new()];
+            map.pulls = Default::default();
         }
         map.lower((&fine, &mut *monitor), |_| ())?;
         map.follow_relief((&options.relief, &fine, &mut *monitor))?;
         if is_finest && map.pulls.iter().any(|pulls| !pulls.is_empty()) {
-            map.pulls = [Vec::new(), Vec::new()];
+            map.pulls = Default::default();
             map.lower((&fine, &mut *monitor), |_| ())?;
         }
     }

@@ -109,11 +109,7 @@ pub fn pulls([own, onto]: [&Skin<'_>; 2], seen: &Seen<'_>, options: &ReliefOptio
 /// Vertices about `spacing` apart, or as far as the level's are, with the areas that they stand for; the other vertices
 /// have none. One of each cell of a grid and main direction of the normal is taken.
 fn spread(own: &Skin<'_>, seen: &Seen<'_>, spacing: f64) -> TiVec<VertexId, f64> {
-    let mut areas: TiVec<VertexId, f64> = ti_vec![0.0; seen.mesh.vertex_count()];
-    for f in seen.mesh.faces() {
-        let third = seen.mesh.face_area(f) / 3.0;
-        seen.mesh.triangles()[f].iter().for_each(|&v| areas[v] += third);
-    }
+    let areas = seen.mesh.vertex_areas();
     let cell = |v: VertexId| {
         let at = (seen.mesh.positions()[v] / spacing).floor();
         let normal = own.normals[seen.vertices[v]];

@@ -9,6 +9,7 @@ use conemap::io;
 use conemap::io::landmark_file::{LandmarkFile, LandmarkPoint};
 use conemap::landmarks::Landmarks;
 use conemap::mesh::{SurfaceMesh, VertexId, check};
+use conemap::pipeline::{GroundTruth, MapInput};
 use std::path::{Path, PathBuf};
 
 /// The data folder, or `None` (said on standard error) in a plain checkout.
@@ -36,6 +37,13 @@ pub struct Pair {
     pub source: SurfaceMesh,
     pub target: SurfaceMesh,
     pub file: LandmarkFile,
+}
+
+impl Pair {
+    /// The pair as the pipeline takes it.
+    pub fn input<'a>(&'a self, landmarks: &'a Landmarks, ground_truth: GroundTruth) -> MapInput<'a> {
+        MapInput { source: &self.source, target: &self.target, landmarks, ground_truth }
+    }
 }
 
 /// Reads `pairs/NAME.json` and its meshes.
