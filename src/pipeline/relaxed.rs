@@ -9,7 +9,7 @@ use super::{
 use crate::base_domain::{self, BaseDomain};
 use crate::landmarks::Landmarks;
 use crate::layout::{self, BaseLayout, Candidates, LayoutError, SearchOptions, SearchReport};
-use crate::mesh::{RefinedMesh, SurfaceMesh, VertexId};
+use crate::mesh::{MeshError, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Monitor, Stage};
 use crate::surface_map::base_lines::base_line;
 use crate::surface_map::compose::{Locations, locate};
@@ -33,9 +33,26 @@ pub(super) struct Full {
     pub(super) landmarks: TiVec<VertexId, VertexId>,
 }
 
+/// Edges at a landmark, at least. Around a landmark of degree 3, such as one inside a face, no layout's points can be taken
+/// out again: with three edges straight there is no room for the paths between them.
+const LEAST_DEGREE: usize = 6;
+
 impl Full {
-    fn new(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> Self {
-        Self { refined: RefinedMesh::unrefined(mesh), landmarks: landmarks.iter().copied().collect() }
+    fn new(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> Result<Self, MeshError> {
+        let refined = RefinedMesh::unrefined(mesh);
+        let refined = refined.with_degrees(mesh, landmarks.iter().copied(), LEAST_DEGREE)?;
+        Ok(Self { refined, landmarks: landmarks.iter().copied().collect() })
+    }
+
+    /// The same with more landmarks: points of the refined mesh.
+    pub(super) fn with_landmarks(
+        &self,
+        input: &SurfaceMesh,
+        points: &[SurfacePoint],
+    ) -> Result<(Self, Vec<VertexId>), MeshError> {
+        let (refined, vertices) = self.refined.with_points(input, points)?;
+        let refined = refined.with_degrees(input, vertices.iter().copied(), LEAST_DEGREE)?;
+        Ok((Self { refined, landmarks: self.landmarks.clone() }, vertices))
     }
 }
 
@@ -139,7 +156,7 @@ fn parametrise(
     (options, monitor): (&PipelineOptions, &mut dyn Monitor),
 ) -> Result<Parametrisation, PipelineError> {
     let Landmarks { source, target } = input.landmarks;
-    let full = [Full::new(input.source, source), Full::new(input.target, target)];
+    let full = [Full::new(input.source, source)?, Full::new(input.target, target)?];
     let most = full.iter().map(|side| side.refined.mesh.vertex_count()).max().unwrap_or(0);
     let mut vertices = options.multilevel.coarse_vertices.max(PER_LANDMARK * input.landmarks.len());
     let (layout, search, (surface, embeddings, with_own)) = loop {
@@ -151,7 +168,12 @@ fn parametrise(
             Ok(Coarse { layout, search, map }) => {
                 let rounds = (Rounds::new(options), Rounds::new(options));
                 let cells = (&rounds.0, &rounds.1);
-                let own = own_cones::add((&full, &map), cells, (vertices, options), monitor)?;
+                let own = own_cones::add(
+                    ([input.source, input.target], &full, &map),
+                    cells,
+                    (vertices, options),
+                    monitor,
+                )?;
                 monitor.enter(Stage::Relaxation);
                 let own = own.map_or(Ok(None), |own| own.refined((&options.multilevel, &mut *monitor)))?;
                 let fine = match own {
