@@ -62,7 +62,7 @@ pub(super) struct Refined {
     pub(super) full: [Full; 2],
 }
 
-/// Adds own landmarks round by round, as long as they lower the energy of the coarse map; `None` where they do not.
+/// Adds own landmarks round by round, as long as they lower the mean log density of the coarse map; `None` where they do not.
 ///
 /// Every round takes fresh points at their images under the best map so far.
 ///
@@ -75,7 +75,7 @@ pub(super) fn add<'a>(
     monitor: &mut dyn Monitor,
 ) -> Result<Option<OwnCones<'a>>, Cancelled> {
     let own = &options.own_cones;
-    if own.count == 0 || full[0].landmarks.len() > own.most_landmarks || map.judged < own.least_energy {
+    if own.count == 0 || full[0].landmarks.len() > own.most_landmarks || map.mean_log < own.least_mean_log {
         return Ok(None);
     }
     let Some(mut images) = map.images() else { return Ok(None) };
@@ -102,9 +102,9 @@ pub(super) fn add<'a>(
             // No map with these points: others may do.
             Err(_) => continue,
         };
-        let (energy, least) = (next.judged, best.as_ref().map_or(map.judged, |best| best.map.judged));
-        let Some(next_images) = next.images().filter(|_| energy < least) else { continue };
-        if energy < (1.0 - own.least_gain) * least {
+        let (mean_log, least) = (next.mean_log, best.as_ref().map_or(map.mean_log, |best| best.map.mean_log));
+        let Some(next_images) = next.images().filter(|_| mean_log < least) else { continue };
+        if mean_log < (1.0 - own.least_gain) * least {
             without_gain = 0;
         }
         images = next_images;

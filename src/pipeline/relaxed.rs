@@ -198,7 +198,7 @@ fn parametrise(
     Ok(Parametrisation { layout, search, surface, sides: full, embeddings, certificate, stopped_early })
 }
 
-/// The coarse map of least energy among the classes of layouts that are tried.
+/// The coarse map of least mean log density among the classes of layouts that are tried.
 fn coarse<'a>(
     input: MapInput<'_>,
     sides: &'a [Side<'a>; 2],
@@ -222,7 +222,7 @@ fn coarse<'a>(
     }
 }
 
-/// The coarse map of least energy among layouts planned on both coarse levels.
+/// The coarse map of least mean log density among layouts planned on both coarse levels.
 pub(super) fn searched<'a>(
     sides: &'a [Side<'a>; 2],
     (options, search_options): (&MultilevelOptions, &SearchOptions),
@@ -237,11 +237,11 @@ pub(super) fn searched<'a>(
         count += 1;
         match solve_coarse(sides, layout, (options, monitor)) {
             Ok(map) => {
-                let energy = map.judged;
+                let mean_log = map.mean_log;
                 finalists.push(Finalist { number, layout: layout.clone(), map });
-                finalists.sort_by(|a, b| a.map.judged.total_cmp(&b.map.judged));
+                finalists.sort_by(|a, b| a.map.mean_log.total_cmp(&b.map.mean_log));
                 finalists.truncate(options.finalists);
-                Ok(Some(energy))
+                Ok(Some(mean_log))
             }
             Err(MapError::Cancelled(stop)) => Err(stop),
             Err(_) => Ok(None),
@@ -251,7 +251,7 @@ pub(super) fn searched<'a>(
     let (_, mut search) = layout::search(&mut candidates, &mut judge, search_options, monitor)?;
     let Finalist { number, layout, mut map } = winner(finalists, (options, &mut *monitor))?;
     search.best = number;
-    search.judged[number].energy = Some(map.judged);
+    search.judged[number].mean_log = Some(map.mean_log);
     map.finish((options, monitor))?;
     Ok(Coarse { layout, search, map })
 }
@@ -269,14 +269,14 @@ fn winner<'a>(
     mut finalists: Vec<Finalist<'a>>,
     (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
 ) -> Result<Finalist<'a>, PipelineError> {
-    let least = finalists.first().map_or(f64::INFINITY, |first| first.map.judged);
-    finalists.retain(|other| other.map.judged - 4.0 <= options.close * (least - 4.0));
+    let least = finalists.first().map_or(f64::INFINITY, |first| first.map.mean_log);
+    finalists.retain(|other| other.map.mean_log <= options.close * least);
     if finalists.len() > 1 && !monitor.wants_result() {
         for finalist in &mut finalists {
             finalist.map.relax((&options.decide, &mut *monitor))?;
         }
     }
-    let best = finalists.into_iter().min_by(|a, b| a.map.judged.total_cmp(&b.map.judged));
+    let best = finalists.into_iter().min_by(|a, b| a.map.mean_log.total_cmp(&b.map.mean_log));
     best.ok_or(LayoutError::NoMap { layouts: 0 }.into())
 }
 
@@ -302,7 +302,7 @@ fn result(
         layout: Some(LayoutSearchReport {
             judged: map.search.judged.len(),
             twists: map.search.twists_made,
-            energy: map.search.energy(),
+            mean_log: map.search.mean_log(),
             runner_up: map.search.runner_up(),
             path_stretch: map.layout.report.worst_stretch,
         }),
