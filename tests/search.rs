@@ -4,7 +4,7 @@ mod common;
 
 use conemap::demo;
 use conemap::landmarks::Landmarks;
-use conemap::layout::{self, BaseLayout, Candidates, PatchedMesh, SearchOptions, same_class};
+use conemap::layout::{self, BaseLayout, Candidate, Candidates, PatchedMesh, SearchOptions, same_class};
 use conemap::mesh::coarsening::Level;
 use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::{Cancelled, Monitor, Silent, Step};
@@ -35,6 +35,11 @@ fn mean_log(layout: &BaseLayout, monitor: &mut dyn Monitor) -> Result<Option<f64
         Err(MapError::Cancelled(stop)) => Err(stop),
         Err(_) => Ok(None),
     }
+}
+
+/// The mean log density of a candidate's map.
+fn judge(candidate: &Candidate, monitor: &mut dyn Monitor) -> Result<Option<f64>, Cancelled> {
+    mean_log(&candidate.layout, monitor)
 }
 
 /// A mesh coarsened with its landmarks, and their numbers there.
@@ -69,12 +74,12 @@ fn limbs_turned_by_a_whole_turn_are_turned_back() {
         let mut fresh = Candidates::new(meshes, &landmarks);
         let options = SearchOptions::default();
         let (found, report) =
-            layout::untwist((&mut fresh, twisted), &mut mean_log, &options, &mut Silent).expect("a layout");
+            layout::untwist((&mut fresh, twisted), &mut judge, &options, &mut Silent).expect("a layout");
         let before = report.judged[0].mean_log.unwrap_or(f64::INFINITY);
         let after = report.mean_log().expect("a map");
         assert!(before > 1.2 * least, "a whole turn distorts: {before} against {least}");
         assert!(
-            same_class(&straight.layout, &found) || after <= least,
+            same_class(&straight.layout, &found.layout) || after <= least,
             "{before} -> {after}, untwisted {least}"
         );
     }
@@ -103,8 +108,8 @@ fn poses_find_the_class_of_the_known_map() {
         let mut candidates = Candidates::new([&source, &target], &landmarks);
         let options = SearchOptions::default();
         let (found, report) =
-            layout::search(&mut candidates, &mut mean_log, &options, &mut Silent).expect("a layout");
-        assert!(same_class(&found, &identity(&found)), "{name}: {report:?}");
+            layout::search(&mut candidates, &mut judge, &options, &mut Silent).expect("a layout");
+        assert!(same_class(&found.layout, &identity(&found.layout)), "{name}: {report:?}");
     }
 }
 
@@ -114,11 +119,11 @@ fn the_search_is_deterministic_and_stops_on_request() {
     let options = SearchOptions { candidates: 3, twists: 2, ..SearchOptions::default() };
     let run = |monitor: &mut dyn Monitor| {
         let mut candidates = Candidates::new([&source, &target], &landmarks);
-        layout::search(&mut candidates, &mut mean_log, &options, monitor)
+        layout::search(&mut candidates, &mut judge, &options, monitor)
     };
     let (first, second) = (run(&mut Silent).expect("a layout"), run(&mut Silent).expect("a layout"));
     assert_eq!(first.1, second.1);
-    assert!(same_class(&first.0, &second.0));
+    assert!(same_class(&first.0.layout, &second.0.layout));
     assert!(first.1.runner_up().is_none_or(|next| Some(next) >= first.1.mean_log()));
 
     struct StopAfter(usize);

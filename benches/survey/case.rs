@@ -6,7 +6,7 @@ use conemap::landmarks::{Landmarks, PlacedLandmarks};
 use conemap::mesh::insertion::insert;
 use conemap::mesh::{SurfaceMesh, SurfacePoint};
 use conemap::monitor::{Cancelled, Monitor, Step};
-use conemap::pipeline::{GroundTruth, MapInput, MapResult, PipelineOptions, run};
+use conemap::pipeline::{GroundTruth, MapInput, MapResult, run};
 use cpu_time::ThreadTime;
 use glam::DVec3;
 use std::time::Instant;
@@ -106,12 +106,8 @@ impl Case {
             landmarks: &placed.landmarks,
             ground_truth: GroundTruth::Unknown,
         };
-        let mut options = PipelineOptions::default();
-        if arguments.coarse > 0 {
-            options.multilevel.coarse_vertices = arguments.coarse;
-        }
         let mut limit = Limit { begun: ThreadTime::now(), seconds: arguments.time_limit };
-        let result = run(input, &options, &mut limit).map_err(|e| e.to_string())?;
+        let result = run(input, &arguments.options, &mut limit).map_err(|e| e.to_string())?;
         Ok(self.measured(&result, &placed))
     }
 

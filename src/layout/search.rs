@@ -3,8 +3,8 @@
 //! The judge is the mean logarithm of the distortion density, not the energy: that is 4 for every conformal map, and tells
 //! little about which of several ways round a limb is the right one.
 
+use super::LayoutError;
 use super::candidates::{Candidate, Candidates};
-use super::{BaseLayout, LayoutError};
 use crate::monitor::{Cancelled, Monitor, Step};
 
 /// How long the class of the map is searched.
@@ -104,13 +104,13 @@ pub fn search(
     judge: &mut Judge<'_>,
     options: &SearchOptions,
     monitor: &mut dyn Monitor,
-) -> Result<(BaseLayout, SearchReport), LayoutError> {
+) -> Result<(Candidate, SearchReport), LayoutError> {
     let mut search = Search { judge, options, monitor, best: None, report: SearchReport::default() };
     search.orders(candidates)?;
     search.twists(candidates)?;
     let Search { best, report, .. } = search;
     match best {
-        Some((_, candidate)) => Ok((candidate.layout, report)),
+        Some((_, candidate)) => Ok((candidate, report)),
         None if report.judged.is_empty() => Err(candidates.failure().cloned().unwrap_or(NOTHING)),
         None => Err(LayoutError::NoMap { layouts: report.judged.len() }),
     }
@@ -127,7 +127,7 @@ pub fn untwist(
     judge: &mut Judge<'_>,
     options: &SearchOptions,
     monitor: &mut dyn Monitor,
-) -> Result<(BaseLayout, SearchReport), LayoutError> {
+) -> Result<(Candidate, SearchReport), LayoutError> {
     let mut search = Search { judge, options, monitor, best: None, report: SearchReport::default() };
     // A start without a map has neighbours all the same.
     search.best = Some((f64::INFINITY, start.clone()));
@@ -135,13 +135,13 @@ pub fn untwist(
     search.twists(candidates)?;
     let Search { best, report, .. } = search;
     match best {
-        Some((mean_log, candidate)) if mean_log.is_finite() => Ok((candidate.layout, report)),
+        Some((mean_log, candidate)) if mean_log.is_finite() => Ok((candidate, report)),
         _ => Err(LayoutError::NoMap { layouts: report.judged.len() }),
     }
 }
 
 /// The mean log density of a layout's map; `None` where there is no map.
-pub type Judge<'a> = dyn FnMut(&BaseLayout, &mut dyn Monitor) -> Result<Option<f64>, Cancelled> + 'a;
+pub type Judge<'a> = dyn FnMut(&Candidate, &mut dyn Monitor) -> Result<Option<f64>, Cancelled> + 'a;
 
 /// A layout whose detour is larger than the best one's by this is not judged.
 const HOPELESS: f64 = 4.0;
@@ -209,7 +209,7 @@ impl Search<'_, '_> {
         let most = (self.options.candidates + self.options.twists) as f64;
         let residual = self.best.as_ref().map(|best| best.0);
         self.monitor.step(Step { fraction: self.report.judged.len() as f64 / most, residual })?;
-        let mean_log = (self.judge)(&candidate.layout, self.monitor)?;
+        let mean_log = (self.judge)(&candidate, self.monitor)?;
         let super::LayoutReport { detour, worst_stretch, .. } = candidate.layout.report;
         self.report.judged.push(Judged { origin, detour, worst_stretch, mean_log });
         let least = self.best.as_ref().map_or(f64::INFINITY, |best| best.0);

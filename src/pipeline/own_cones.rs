@@ -5,8 +5,9 @@
 //! so that those of the round before are free to move.
 
 use super::PipelineError;
+use super::class_search::choose_class;
 use super::options::PipelineOptions;
-use super::relaxed::{Full, parametrised, searched};
+use super::relaxed::{Full, parametrised};
 use crate::landmark_suggestion::{distances, farthest_points};
 use crate::mesh::closest_point::closest_point;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
@@ -96,8 +97,8 @@ pub(super) fn add<'a>(
         let sides = sides_cell.get_or_init(|| {
             [0, 1].map(|k| Side::new(&with_own[k].refined.mesh, &with_own[k].landmarks, vertices))
         });
-        let next = match searched(sides, (&options.multilevel, &own.search), monitor) {
-            Ok(next) => next.map,
+        let next = match choose_class(sides, (&options.multilevel, &own.search), monitor) {
+            Ok(chosen) => chosen.map,
             Err(PipelineError::Cancelled(stop)) => return Err(stop),
             // No map with these points: others may do.
             Err(_) => continue,

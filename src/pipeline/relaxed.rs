@@ -1,5 +1,6 @@
 //! The relaxed map: from a layout and both cone metrics to a certified result.
 
+use super::class_search::{Chosen, choose_class};
 use super::own_cones::{self, Refined, Rounds};
 use super::report::{CertificateReport, DistortionReport, GroundTruthReport, LayoutSearchReport};
 use super::{
@@ -8,16 +9,14 @@ use super::{
 };
 use crate::base_domain::{self, BaseDomain};
 use crate::landmarks::Landmarks;
-use crate::layout::{self, BaseLayout, Candidates, LayoutError, SearchOptions, SearchReport};
+use crate::layout::{self, BaseLayout, LayoutError, SearchReport};
 use crate::mesh::{MeshError, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Monitor, Stage};
 use crate::surface_map::base_lines::base_line;
 use crate::surface_map::compose::{Locations, locate};
 use crate::surface_map::distortion::{Distortion, distortion};
 use crate::surface_map::ground_truth::same_connectivity_error;
-use crate::surface_map::multilevel::{
-    CoarseMap, MultilevelOptions, Side, coarse_landmarks, solve_coarse, solve_fine,
-};
+use crate::surface_map::multilevel::{CoarseMap, Side, coarse_landmarks, solve_coarse, solve_fine};
 use crate::surface_map::overlay::{Overlay, overlay};
 use crate::surface_map::transfer::{Surface, common_mesh, vertex_images};
 use crate::surface_map::{Certificate, ConeSurface, Embedding, MapError, Parametrised, certify};
@@ -54,13 +53,6 @@ impl Full {
         let refined = refined.with_degrees(input, vertices.iter().copied(), LEAST_DEGREE)?;
         Ok((Self { refined, landmarks: self.landmarks.clone() }, vertices))
     }
-}
-
-/// The layout that was chosen with its coarse map.
-pub(super) struct Coarse<'a> {
-    pub(super) layout: BaseLayout,
-    pub(super) search: SearchReport,
-    pub(super) map: CoarseMap<'a>,
 }
 
 /// The certified parametrisations of both sides.
@@ -165,7 +157,7 @@ fn parametrise(
         match coarse(input, &sides, (options, &mut *monitor)) {
             Err(PipelineError::Layout(LayoutError::NoMap { .. })) if vertices < most => vertices *= 4,
             Err(error) => return Err(error),
-            Ok(Coarse { layout, search, map }) => {
+            Ok((layout, search, map)) => {
                 let rounds = (Rounds::new(options), Rounds::new(options));
                 let cells = (&rounds.0, &rounds.1);
                 let own = own_cones::add(
@@ -203,9 +195,14 @@ fn coarse<'a>(
     input: MapInput<'_>,
     sides: &'a [Side<'a>; 2],
     (options, monitor): (&PipelineOptions, &mut dyn Monitor),
-) -> Result<Coarse<'a>, PipelineError> {
+) -> Result<(BaseLayout, SearchReport, CoarseMap<'a>), PipelineError> {
     match options.base {
-        Base::Joint => searched(sides, (&options.multilevel, &options.search), monitor),
+        Base::Joint => {
+            let chosen = choose_class(sides, (&options.multilevel, &options.search), &mut *monitor)?;
+            let Chosen { candidate, search, mut map } = chosen;
+            map.finish((&options.multilevel, monitor))?;
+            Ok((candidate.layout, search, map))
+        }
         Base::Qem => {
             let landmarks = coarse_landmarks(sides);
             let meshes = [&sides[0].coarse.mesh, &sides[1].coarse.mesh];
@@ -217,67 +214,9 @@ fn coarse<'a>(
                 _ => LayoutError::NoMap { layouts: 1 }.into(),
             })?;
             map.finish((&options.multilevel, monitor))?;
-            Ok(Coarse { layout, search: SearchReport::default(), map })
+            Ok((layout, SearchReport::default(), map))
         }
     }
-}
-
-/// The coarse map of least mean log density among layouts planned on both coarse levels.
-pub(super) fn searched<'a>(
-    sides: &'a [Side<'a>; 2],
-    (options, search_options): (&MultilevelOptions, &SearchOptions),
-    monitor: &mut dyn Monitor,
-) -> Result<Coarse<'a>, PipelineError> {
-    let landmarks = coarse_landmarks(sides);
-    let meshes = [&sides[0].coarse.mesh, &sides[1].coarse.mesh];
-    let mut finalists: Vec<Finalist<'a>> = Vec::new();
-    let mut count = 0;
-    let mut judge = |layout: &BaseLayout, monitor: &mut dyn Monitor| {
-        let number = count;
-        count += 1;
-        match solve_coarse(sides, layout, (options, monitor)) {
-            Ok(map) => {
-                let mean_log = map.mean_log;
-                finalists.push(Finalist { number, layout: layout.clone(), map });
-                finalists.sort_by(|a, b| a.map.mean_log.total_cmp(&b.map.mean_log));
-                finalists.truncate(options.finalists);
-                Ok(Some(mean_log))
-            }
-            Err(MapError::Cancelled(stop)) => Err(stop),
-            Err(_) => Ok(None),
-        }
-    };
-    let mut candidates = Candidates::new(meshes, &landmarks);
-    let (_, mut search) = layout::search(&mut candidates, &mut judge, search_options, monitor)?;
-    let Finalist { number, layout, mut map } = winner(finalists, (options, &mut *monitor))?;
-    search.best = number;
-    search.judged[number].mean_log = Some(map.mean_log);
-    map.finish((options, monitor))?;
-    Ok(Coarse { layout, search, map })
-}
-
-/// One of the best maps of a search.
-struct Finalist<'a> {
-    /// Among the judged layouts.
-    number: usize,
-    layout: BaseLayout,
-    map: CoarseMap<'a>,
-}
-
-/// The best of maps that are too close to tell after a first look: each is relaxed further.
-fn winner<'a>(
-    mut finalists: Vec<Finalist<'a>>,
-    (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
-) -> Result<Finalist<'a>, PipelineError> {
-    let least = finalists.first().map_or(f64::INFINITY, |first| first.map.mean_log);
-    finalists.retain(|other| other.map.mean_log <= options.close * least);
-    if finalists.len() > 1 && !monitor.wants_result() {
-        for finalist in &mut finalists {
-            finalist.map.relax((&options.decide, &mut *monitor))?;
-        }
-    }
-    let best = finalists.into_iter().min_by(|a, b| a.map.mean_log.total_cmp(&b.map.mean_log));
-    best.ok_or(LayoutError::NoMap { layouts: 0 }.into())
 }
 
 fn result(
