@@ -1,0 +1,79 @@
+//! Vertices move in their tangent planes, and back onto the surface.
+
+use super::creases::Kind;
+use super::working::{Place, Working};
+use crate::math::triangle;
+use crate::mesh::VertexId;
+use glam::DVec3;
+use typed_index_collections::{TiVec, ti_vec};
+
+impl Working<'_> {
+    /// Moves every vertex once towards the mean of its neighbours by area, or of its two neighbours along a sharp edge; as far
+    /// as no triangle turns over.
+    pub fn smooth(&mut self) {
+        let areas = self.areas();
+        let vertices: Vec<_> = self.mesh.vertices().collect();
+        for v in vertices {
+            let goal = match self.creases.kind(v) {
+                Kind::Corner => continue,
+                Kind::Along(_) => self.mean_along(v),
+                Kind::Free => self.mean_by_area(v, &areas),
+            };
+            let before = self.fit_around(v, self.places[v]);
+            for share in [1.0, 0.5, 0.0] {
+                let place = self.moved(v, goal, share);
+                if self.fit_around(v, place).may_replace(before) {
+                    self.places[v] = place;
+                    break;
+                }
+            }
+        }
+    }
+
+    /// A vertex on the surface, moved by a share of the way to a goal.
+    fn moved(&self, v: VertexId, goal: DVec3, share: f64) -> Place {
+        let Place { position, normal, near } = self.places[v];
+        let step = goal - position;
+        if let Kind::Along(chain) = self.creases.kind(v) {
+            let (position, near) = self.creases.nearest(position + share * step, chain);
+            let normal = self.original.nearest_facing(position, normal, near);
+            return Place { position, normal: self.original.normal(normal.point), near };
+        }
+        let tangential = step - normal * step.dot(normal);
+        let nearest = self.original.nearest_facing(position + share * tangential, normal, near);
+        let point = nearest.point;
+        Place {
+            position: point.position(self.original.mesh()),
+            normal: self.original.normal(point),
+            near: point.face,
+        }
+    }
+
+    fn mean_by_area(&self, v: VertexId, areas: &TiVec<VertexId, f64>) -> DVec3 {
+        let (mut sum, mut weight) = (DVec3::ZERO, 0.0);
+        for h in self.mesh.star(v) {
+            let w = self.mesh.head(h);
+            sum += areas[w] * self.places[w].position;
+            weight += areas[w];
+        }
+        if weight > 0.0 { sum / weight } else { self.places[v].position }
+    }
+
+    fn mean_along(&self, v: VertexId) -> DVec3 {
+        let along = self.mesh.star(v).filter(|&h| self.is_sharp(h)).map(|h| self.mesh.head(h));
+        let (sum, count) =
+            along.fold((DVec3::ZERO, 0.0), |(sum, count), w| (sum + self.places[w].position, count + 1.0));
+        if count > 0.0 { sum / count } else { self.places[v].position }
+    }
+
+    /// By vertex the area of the triangles around it.
+    fn areas(&self) -> TiVec<VertexId, f64> {
+        let mut areas = ti_vec![0.0; self.places.len()];
+        for f in self.mesh.faces() {
+            let corners = self.mesh.corners(f);
+            let [p, q, r] = corners.map(|v| self.places[v].position);
+            corners.iter().for_each(|&v| areas[v] += triangle::area(p, q, r));
+        }
+        areas
+    }
+}
