@@ -9,6 +9,7 @@ export interface Report {
   readonly distortion: {
     readonly energy: number;
     readonly mean: number;
+    readonly mean_log: number;
     readonly median: number;
     readonly p95: number;
     readonly max: number;

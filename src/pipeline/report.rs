@@ -115,6 +115,8 @@ pub struct DistortionReport {
     pub energy: f64,
     /// Area-weighted mean over the source of (s1^2 + s2^2 + s1^-2 + s2^-2) / 4; 1 for an isometry.
     pub mean: f64,
+    /// Half the sum of the area-weighted means of its logarithm over the source and over the target; 0 for an isometry.
+    pub mean_log: f64,
     /// Its area-weighted median.
     pub median: f64,
     /// Its area-weighted 95 % quantile.
@@ -130,6 +132,7 @@ impl DistortionReport {
         Self {
             energy: measured.energy,
             mean: measured.mean,
+            mean_log: measured.mean_log,
             median: measured.median,
             p95: measured.p95,
             max: measured.max,

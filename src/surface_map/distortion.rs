@@ -5,6 +5,7 @@
 use super::compose::Parametrised;
 use super::flat_problem::rest_jacobian;
 use super::overlay::Overlay;
+use crate::math::scalar::ln;
 use crate::math::triangle::lay_out;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use glam::{DMat2, DVec3};
@@ -35,6 +36,9 @@ pub struct Distortion {
     pub energy: f64,
     /// Area-weighted mean over the source of (s1^2 + s2^2 + s1^-2 + s2^-2) / 4; 1 for an isometry.
     pub mean: f64,
+    /// Half the sum of the area-weighted means of the density's logarithm over the source and over the target; 0 for an
+    /// isometry. It says which of two maps is the better one where the energy does not: that is 4 for every conformal map.
+    pub mean_log: f64,
     /// Its area-weighted median over the source.
     pub median: f64,
     /// Its area-weighted 95 % quantile over the source.
@@ -74,6 +78,7 @@ pub fn distortion(source: Parametrised<'_>, target: Parametrised<'_>, overlay: &
         result.energy += squares * source_area + inverse_squares * target_area;
         result.source_area += source_area;
         result.target_area += target_area;
+        result.mean_log += 0.5 * ln(density) * (source_area + target_area);
         densities.push((density, source_area));
         face_sums[piece.source_face][0] += density * source_area;
         face_sums[piece.source_face][1] += source_area;
@@ -95,6 +100,7 @@ pub fn image_distortion(
 ) -> Distortion {
     let scales = [source, target].map(|mesh| 1.0 / mesh.area().sqrt());
     let mut result = Distortion::default();
+    let mut logs = [0.0; 2];
     let mut densities = Vec::new();
     for (f, corners) in source.triangles().iter_enumerated() {
         let [Some(a), Some(b), Some(c)] = corners.map(|v| images[v]) else { continue };
@@ -115,8 +121,10 @@ pub fn image_distortion(
         result.energy += squares * areas[0] + inverse_squares * areas[1];
         result.source_area += areas[0];
         result.target_area += areas[1];
+        (0..2).for_each(|k| logs[k] += ln(density) * areas[k]);
         densities.push((density, areas[0]));
     }
+    result.mean_log = 0.5 * (logs[0] / result.source_area + logs[1] / result.target_area);
     result.summarise(densities);
     result
 }

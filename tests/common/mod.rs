@@ -115,7 +115,7 @@ pub fn json_fields(value: &serde_json::Value) -> Vec<String> {
 }
 
 /// The fields of the report of a map, `ground_truth` and `seconds` unopened.
-pub const REPORT_FIELDS: [&str; 38] = [
+pub const REPORT_FIELDS: [&str; 39] = [
     "base_domain.faces",
     "base_domain.vertices",
     "certificate.bijective",
@@ -139,6 +139,7 @@ pub const REPORT_FIELDS: [&str; 38] = [
     "distortion.l2_stretch",
     "distortion.max",
     "distortion.mean",
+    "distortion.mean_log",
     "distortion.median",
     "distortion.p95",
     "faces.source",

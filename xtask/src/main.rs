@@ -1,10 +1,11 @@
-//! Build helper of the project: `cargo xtask serve | build | test | compare | wasm`.
+//! Build helper of the project: `cargo xtask serve | build | test | compare | survey | wasm`.
 
 mod browser;
 mod compare;
 mod page;
 mod run;
 mod suite;
+mod survey;
 mod wasm;
 
 use std::process::ExitCode;
@@ -14,6 +15,7 @@ const USAGE: &str = "cargo xtask COMMAND
   build   build the app into dist/, to be put on any static web server
   test    run every test: formatting, lints, documentation, core, wasm in Node, page, browser
   compare time whole maps, wasm in a browser against native: [--runs N] [PAIR.json ...], the demos without files
+  survey  tables of many maps on the meshes of ../shared/data: TABLE [--pairs NAME,NAME] [--seeds N]; lists them without a name
   wasm    build only the wasm module, into www/wasm/; with --names it keeps the functions' names for profilers";
 
 fn main() -> ExitCode {
@@ -25,6 +27,7 @@ fn main() -> ExitCode {
         "build" => page::build(),
         "test" => suite::test(),
         "compare" => compare::compare(&rest),
+        "survey" => survey::survey(&rest),
         "wasm" if rest == ["--names"] => wasm::build_named(),
         "wasm" => wasm::build(),
         "wasm-test-runner" => return wasm::test_runner(rest),

@@ -1,0 +1,63 @@
+//! What a survey is asked for.
+
+use crate::common;
+use std::path::PathBuf;
+
+/// The arguments of the command line.
+pub struct Arguments {
+    /// The table's name.
+    pub table: String,
+    /// The folder with the meshes.
+    pub data: PathBuf,
+    /// Names of pairs, or beginnings of names; all when empty.
+    pub pairs: Vec<String>,
+    /// Random repetitions.
+    pub seeds: u64,
+    /// Maps that are made at once.
+    pub jobs: usize,
+    /// Processor seconds after which a map is given up.
+    pub time_limit: f64,
+    /// Landmarks, thinned by farthest points; 0 for all.
+    pub landmarks: usize,
+    /// Vertices of the coarse level; 0 for the default.
+    pub coarse: usize,
+}
+
+impl Arguments {
+    /// Those of this process. `--bench`, which cargo adds, is left out.
+    pub fn read() -> Self {
+        let mut given = std::env::args().skip(1).filter(|argument| argument != "--bench");
+        let data = common::data_folder("the survey").expect("the data folder");
+        let mut arguments = Self {
+            table: given.next().unwrap_or_default(),
+            data,
+            pairs: Vec::new(),
+            seeds: 1,
+            jobs: std::thread::available_parallelism().map_or(1, usize::from),
+            time_limit: 150.0,
+            landmarks: 0,
+            coarse: 0,
+        };
+        while let Some(option) = given.next() {
+            let value = given.next().unwrap_or_else(|| panic!("{option} needs a value"));
+            let number = || value.parse::<f64>().unwrap_or_else(|_| panic!("{option} {value}: not a number"));
+            match option.as_str() {
+                "--pairs" => arguments.pairs = value.split(',').map(str::to_owned).collect(),
+                "--seeds" => arguments.seeds = number() as u64,
+                "--jobs" => arguments.jobs = number() as usize,
+                "--time-limit" => arguments.time_limit = number(),
+                "--landmarks" => arguments.landmarks = number() as usize,
+                "--coarse" => arguments.coarse = number() as usize,
+                _ => panic!("unknown option {option}"),
+            }
+        }
+        arguments
+    }
+
+    /// The names of the pairs that are asked for.
+    pub fn names(&self) -> Vec<String> {
+        let mut names = common::pair_names(&self.data);
+        names.retain(|name| self.pairs.is_empty() || self.pairs.iter().any(|p| name.starts_with(p.as_str())));
+        names
+    }
+}

@@ -1,0 +1,213 @@
+//! One map of a survey, and what it reached.
+
+use crate::arguments::Arguments;
+use crate::common;
+use conemap::landmarks::{Landmarks, PlacedLandmarks};
+use conemap::mesh::insertion::insert;
+use conemap::mesh::{SurfaceMesh, SurfacePoint};
+use conemap::monitor::{Cancelled, Monitor, Step};
+use conemap::pipeline::{GroundTruth, MapInput, MapResult, PipelineOptions, run};
+use cpu_time::ThreadTime;
+use glam::DVec3;
+use std::time::Instant;
+
+/// Two meshes with corresponding points.
+pub struct Case {
+    pub name: String,
+    pub variant: String,
+    pub meshes: [SurfaceMesh; 2],
+    /// By side and landmark.
+    pub points: [Vec<SurfacePoint>; 2],
+    /// The true image of each vertex of the source in space, where it is known.
+    pub truth: Option<Vec<DVec3>>,
+}
+
+/// What a map reached.
+#[derive(Clone, Debug, Default)]
+pub struct Reached {
+    pub certified: bool,
+    pub energy: f64,
+    pub mean: f64,
+    pub mean_log: f64,
+    pub p95: f64,
+    pub max: f64,
+    /// Share of both areas with a density above 20, the larger of the two.
+    pub dented: f64,
+    /// Mean distance to the true images, in units of the root of the target's area.
+    pub truth: Option<f64>,
+    pub own: usize,
+    pub judged: usize,
+}
+
+/// A line of a table.
+pub struct Outcome {
+    pub name: String,
+    pub variant: String,
+    pub reached: Result<Reached, String>,
+    /// Processor seconds.
+    pub seconds: f64,
+}
+
+/// Ends a run after a number of processor seconds.
+struct Limit {
+    begun: ThreadTime,
+    seconds: f64,
+}
+
+impl Monitor for Limit {
+    fn step(&mut self, _step: Step) -> Result<(), Cancelled> {
+        if self.begun.elapsed().as_secs_f64() > self.seconds { Err(Cancelled) } else { Ok(()) }
+    }
+}
+
+impl Case {
+    /// A pair of the data folder as it is, its landmarks thinned where that is asked for.
+    pub fn of_pair(arguments: &Arguments, name: &str) -> Self {
+        let pair = common::read_pair(&arguments.data, name);
+        let mut vertices = common::vertex_pairs(&pair.file);
+        if arguments.landmarks > 0 {
+            vertices = thinned(&pair.source, &vertices, arguments.landmarks);
+        }
+        let same = pair.file.ground_truth.is_some();
+        let points = [&pair.source, &pair.target].map(|mesh| (mesh, Vec::new()));
+        let mut points: [(&SurfaceMesh, Vec<SurfacePoint>); 2] = points;
+        for (k, (mesh, points)) in points.iter_mut().enumerate() {
+            points.extend(vertices.iter().map(|ends| SurfacePoint::at_vertex(mesh, ends[k].into_vertex())));
+        }
+        let points = points.map(|(_, points)| points);
+        let truth = same.then(|| pair.target.positions().iter().copied().collect());
+        Self {
+            name: name.to_owned(),
+            variant: String::new(),
+            meshes: [pair.source, pair.target],
+            points,
+            truth,
+        }
+    }
+
+    /// Makes the map and measures it.
+    pub fn map(&self, arguments: &Arguments) -> Outcome {
+        let begun = ThreadTime::now();
+        let reached = self.reached(arguments);
+        let seconds = begun.elapsed().as_secs_f64();
+        Outcome { name: self.name.clone(), variant: self.variant.clone(), reached, seconds }
+    }
+
+    fn reached(&self, arguments: &Arguments) -> Result<Reached, String> {
+        let side = |k: usize| insert(&self.meshes[k], &self.points[k]).map_err(|e| e.to_string());
+        let (source, target) = (side(0)?, side(1)?);
+        let landmarks = Landmarks { source: source.vertices.clone(), target: target.vertices.clone() };
+        let placed = PlacedLandmarks { source, target, landmarks };
+        let input = MapInput {
+            source: &placed.source.mesh,
+            target: &placed.target.mesh,
+            landmarks: &placed.landmarks,
+            ground_truth: GroundTruth::Unknown,
+        };
+        let mut options = PipelineOptions::default();
+        if arguments.coarse > 0 {
+            options.multilevel.coarse_vertices = arguments.coarse;
+        }
+        let mut limit = Limit { begun: ThreadTime::now(), seconds: arguments.time_limit };
+        let result = run(input, &options, &mut limit).map_err(|e| e.to_string())?;
+        Ok(self.measured(&result, &placed))
+    }
+
+    fn measured(&self, result: &MapResult, placed: &PlacedLandmarks) -> Reached {
+        let report = &result.report;
+        let truth = self.truth.as_ref().map(|truth| {
+            let target = &placed.target.mesh;
+            let scale = 1.0 / target.area().sqrt();
+            let distance = |(v, place): (usize, &DVec3)| {
+                let image = result.target_from_source[conemap::mesh::VertexId::from(v)]
+                    .expect("the relaxed map has all images");
+                image.position(target).distance(*place) * scale
+            };
+            truth.iter().enumerate().map(distance).sum::<f64>() / truth.len() as f64
+        });
+        Reached {
+            certified: report.certificate.as_ref().is_some_and(|c| c.bijective),
+            energy: report.distortion.energy,
+            mean: report.distortion.mean,
+            mean_log: report.distortion.mean_log,
+            p95: report.distortion.p95,
+            max: report.distortion.max,
+            dented: dented(result),
+            truth,
+            own: report.own_landmarks,
+            judged: report.layout.as_ref().map_or(0, |layout| layout.judged),
+        }
+    }
+}
+
+/// The larger share of both areas on which the density is above 20.
+fn dented(result: &MapResult) -> f64 {
+    let share = |positions: &[DVec3]| -> f64 {
+        let (mut dented, mut all) = (0.0_f64, 0.0_f64);
+        for (corners, triangle) in result.common.triangles.iter().zip(&result.triangle_distortion) {
+            let [p, q, r] = corners.map(|v| positions[v as usize]);
+            let area = (q - p).cross(r - p).length();
+            all += area;
+            dented += if triangle.local.density > 20.0 { area } else { 0.0 };
+        }
+        dented / all
+    };
+    share(&result.common.source_positions).max(share(&result.common.target_positions))
+}
+
+/// `count` of the pairs by farthest points of the source in space, from the one farthest from their mean on.
+pub fn thinned(source: &SurfaceMesh, all: &[[u32; 2]], count: usize) -> Vec<[u32; 2]> {
+    let place = |pair: &[u32; 2]| source.positions()[pair[0].into_vertex()];
+    let mean = all.iter().map(place).sum::<DVec3>() / all.len() as f64;
+    let mut nearest: Vec<f64> = all.iter().map(|pair| place(pair).distance(mean)).collect();
+    let mut chosen: Vec<[u32; 2]> = Vec::new();
+    while chosen.len() < count.min(all.len()) {
+        let far = (0..all.len()).max_by(|&a, &b| nearest[a].total_cmp(&nearest[b])).expect("pairs");
+        if chosen.is_empty() {
+            nearest.fill(f64::INFINITY);
+        }
+        chosen.push(all[far]);
+        let last = place(&all[far]);
+        nearest.iter_mut().zip(all).for_each(|(d, pair)| *d = d.min(place(pair).distance(last)));
+    }
+    chosen
+}
+
+/// Vertex numbers of landmark files.
+trait IntoVertex {
+    fn into_vertex(self) -> conemap::mesh::VertexId;
+}
+
+impl IntoVertex for u32 {
+    fn into_vertex(self) -> conemap::mesh::VertexId {
+        conemap::mesh::VertexId(self)
+    }
+}
+
+/// Reads or changes meshes when its turn has come.
+pub type Make<'a> = Box<dyn FnOnce() -> Case + Send + 'a>;
+
+/// Maps all cases, some at once, and hands each outcome over as it comes.
+pub fn map_all(cases: Vec<Make<'_>>, arguments: &Arguments) -> Vec<Outcome> {
+    let queue =
+        std::sync::Mutex::new(cases.into_iter().enumerate().collect::<std::collections::VecDeque<_>>());
+    let outcomes = std::sync::Mutex::new(Vec::new());
+    let begun = Instant::now();
+    std::thread::scope(|scope| {
+        for _ in 0..arguments.jobs.max(1) {
+            scope.spawn(|| {
+                loop {
+                    let next = queue.lock().expect("a queue").pop_front();
+                    let Some((number, make)) = next else { break };
+                    let outcome = make().map(arguments);
+                    println!("{}", crate::table::line(&outcome));
+                    outcomes.lock().expect("a list").push((number, outcome));
+                }
+            });
+        }
+    });
+    let mut outcomes = outcomes.into_inner().expect("a list");
+    outcomes.sort_by_key(|(number, _)| *number);
+    println!("{:.0} s of wall time", begun.elapsed().as_secs_f64());
+    outcomes.into_iter().map(|(_, outcome)| outcome).collect()
+}

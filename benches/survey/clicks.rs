@@ -1,0 +1,111 @@
+//! Landmarks where users put them: inside faces, beside edges, on edges.
+
+use crate::arguments::Arguments;
+use crate::case::{Case, Make, map_all};
+use crate::table::{compare, header};
+use conemap::mesh::insertion::insert;
+use conemap::mesh::{SurfaceMesh, SurfacePoint};
+
+/// Each landmark at a random point of a random face beside its vertex, both meshes independently; against the vertices.
+pub fn random(arguments: &Arguments) {
+    header();
+    let mut cases: Vec<Make<'_>> = Vec::new();
+    for name in arguments.names() {
+        let vertices = name.clone();
+        cases.push(Box::new(move || Case {
+            variant: "vertices".into(),
+            ..Case::of_pair(arguments, &vertices)
+        }));
+        for seed in 0..arguments.seeds {
+            let name = name.clone();
+            cases.push(Box::new(move || {
+                let mut case = Case::of_pair(arguments, &name);
+                let mut random = Random::new(seed);
+                for k in 0..2 {
+                    case.points[k] = moved(&case.meshes[k], &case.points[k], &mut random);
+                }
+                case.variant = format!("clicks {seed}");
+                case
+            }));
+        }
+    }
+    compare(&map_all(cases, arguments), "vertices");
+}
+
+/// The same points of the surface given in several ways; against points inside faces.
+pub fn same_points(arguments: &Arguments) {
+    header();
+    let mut cases: Vec<Make<'_>> = Vec::new();
+    for name in arguments.names() {
+        for (variant, place) in PLACES {
+            let name = name.clone();
+            cases.push(Box::new(move || {
+                let mut case = Case::of_pair(arguments, &name);
+                for k in 0..2 {
+                    let vertices: Vec<SurfacePoint> = case.points[k].clone();
+                    case.points[k] = vertices.iter().map(|p| at(&case.meshes[k], p, place)).collect();
+                    if variant == "as vertices" {
+                        let inserted =
+                            insert(&case.meshes[k], &case.points[k]).expect("points can be inserted");
+                        let at = |v: &conemap::mesh::VertexId| SurfacePoint::at_vertex(&inserted.mesh, *v);
+                        case.points[k] = inserted.vertices.iter().map(at).collect();
+                        case.meshes[k] = inserted.mesh;
+                    }
+                }
+                case.truth = None;
+                case.variant = variant.into();
+                case
+            }));
+        }
+    }
+    compare(&map_all(cases, arguments), "in faces");
+}
+
+/// Weights of the landmark's own corner and the two others of its face.
+const PLACES: [(&str, [f64; 3]); 6] = [
+    ("in faces", [0.6, 0.2, 0.2]),
+    ("as vertices", [0.6, 0.2, 0.2]),
+    ("on edges", [0.5, 0.5, 0.0]),
+    ("beside edges", [0.499_999_5, 0.499_999_5, 1e-6]),
+    ("beside 1e-9", [0.5, 0.5 - 2e-9, 2e-9]),
+    ("beside corner", [1.0 - 2e-6, 1e-6, 1e-6]),
+];
+
+fn at(mesh: &SurfaceMesh, vertex: &SurfacePoint, [own, next, last]: [f64; 3]) -> SurfacePoint {
+    let k = (0..3).find(|&k| vertex.barycentric[k] > 0.5).expect("a vertex");
+    let mut barycentric = [0.0; 3];
+    (barycentric[k], barycentric[(k + 1) % 3], barycentric[(k + 2) % 3]) = (own, next, last);
+    debug_assert!(vertex.face.index() < mesh.face_count());
+    SurfacePoint { face: vertex.face, barycentric }
+}
+
+fn moved(mesh: &SurfaceMesh, points: &[SurfacePoint], random: &mut Random) -> Vec<SurfacePoint> {
+    let place = |point: &SurfacePoint| {
+        let k = (0..3).find(|&k| point.barycentric[k] > 0.5).expect("a vertex");
+        let v = mesh.triangles()[point.face][k];
+        let faces: Vec<_> = mesh.star(v).map(|h| h.face()).collect();
+        let face = faces[(random.share() * faces.len() as f64) as usize];
+        let (a, b) = (random.share().sqrt(), random.share());
+        SurfacePoint { face, barycentric: [1.0 - a, a * (1.0 - b), a * b] }
+    };
+    points.iter().map(place).collect()
+}
+
+/// splitmix64 (Steele, Lea, Flood 2014).
+pub struct Random(u64);
+
+impl Random {
+    /// The same numbers for the same seed.
+    pub fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5bf0_3635)
+    }
+
+    /// Uniform in [0, 1).
+    pub fn share(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        (z ^ (z >> 31)) as f64 / 2.0_f64.powi(64)
+    }
+}

@@ -1,0 +1,53 @@
+//! Tables of many maps: `cargo xtask survey TABLE [--pairs NAME,NAME] [--seeds N] [--jobs N] [--time-limit SECONDS]`.
+//!
+//! A table maps the pairs of the data folder as they are, or as users would have given them: clicked inside faces, remeshed,
+//! with few landmarks. Each line tells what a map reached, with its processor time; the last lines sum up. A map that fails
+//! or takes longer than the limit is told in its line, never left out.
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a survey prints its tables")]
+#![allow(clippy::expect_used, reason = "without its data a survey ends")]
+
+#[path = "../../tests/common/mod.rs"]
+mod common;
+
+mod arguments;
+mod case;
+mod clicks;
+mod pairs;
+mod table;
+
+use arguments::Arguments;
+
+/// A table by its name, with one line about it.
+struct Survey {
+    name: &'static str,
+    about: &'static str,
+    run: fn(&Arguments),
+}
+
+const SURVEYS: &[Survey] = &[
+    Survey { name: "pairs", about: "all pairs as they are", run: pairs::as_they_are },
+    Survey { name: "exchanged", about: "all pairs with source and target exchanged", run: pairs::exchanged },
+    Survey {
+        name: "clicks",
+        about: "each landmark at a random point of a random face beside it",
+        run: clicks::random,
+    },
+    Survey {
+        name: "beside",
+        about: "the same points in faces, as vertices, beside edges, on edges",
+        run: clicks::same_points,
+    },
+];
+
+fn main() {
+    let arguments = Arguments::read();
+    match SURVEYS.iter().find(|survey| survey.name == arguments.table) {
+        Some(survey) => (survey.run)(&arguments),
+        None => {
+            eprintln!(
+                "cargo xtask survey TABLE [--pairs NAME,NAME] [--seeds N] [--jobs N] [--time-limit SECONDS]"
+            );
+            SURVEYS.iter().for_each(|survey| eprintln!("  {:12}{}", survey.name, survey.about));
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! The pairs of the data folder as they are.
+
+use crate::arguments::Arguments;
+use crate::case::{Case, Make, map_all};
+use crate::table::{header, sum_up};
+use conemap::mesh::VertexId;
+
+/// Each pair as its file gives it.
+pub fn as_they_are(arguments: &Arguments) {
+    each(arguments, |case| case);
+}
+
+/// Each pair with source and target exchanged; a known truth is that of the inverse.
+pub fn exchanged(arguments: &Arguments) {
+    each(arguments, |mut case| {
+        let place = |v: usize| case.meshes[0].positions()[VertexId::from(v)];
+        case.truth = case.truth.map(|truth| (0..truth.len()).map(place).collect());
+        case.meshes.reverse();
+        case.points.reverse();
+        case.variant = "exchanged".into();
+        case
+    });
+}
+
+fn each(arguments: &Arguments, change: fn(Case) -> Case) {
+    header();
+    let mut cases: Vec<Make<'_>> = Vec::new();
+    for name in arguments.names() {
+        cases.push(Box::new(move || change(Case::of_pair(arguments, &name))));
+    }
+    let outcomes = map_all(cases, arguments);
+    let of = |begin: &str, is: bool| {
+        outcomes.iter().filter(|o| o.name.starts_with(begin) == is).collect::<Vec<_>>()
+    };
+    sum_up("shrec07", &of("shrec07", true));
+    sum_up("others", &of("shrec07", false));
+}
