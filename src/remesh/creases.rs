@@ -76,6 +76,11 @@ impl Creases {
         creases
     }
 
+    /// Holds vertices like corners.
+    pub fn hold(&mut self, vertices: &[VertexId]) {
+        vertices.iter().for_each(|&v| self.kinds[v] = Kind::Corner);
+    }
+
     /// What a vertex is.
     pub fn kind(&self, v: VertexId) -> Kind {
         self.kinds[v]
@@ -144,8 +149,7 @@ fn is_sharp(surface: &SurfaceMesh, h: HalfedgeId, angle: f64) -> bool {
     a_is_round && b_is_round && atan2(a.cross(b).length(), a.dot(b)) > angle
 }
 
-/// The edges of connected sets whose lengths sum to `least` and more; before, ends that hang free go as far as they are
-/// shorter than a fifth of that.
+/// The edges of connected sets whose lengths sum to `least` and more.
 fn without_short_lines(surface: &SurfaceMesh, sharp: Vec<HalfedgeId>, least: f64) -> Vec<HalfedgeId> {
     let graph = Graph::new(surface, &sharp);
     let mut part = vec![u32::MAX; sharp.len()];

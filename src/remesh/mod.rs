@@ -14,6 +14,7 @@ mod flips;
 mod lengths;
 mod report;
 mod smoothing;
+mod tips;
 mod variants;
 mod working;
 
@@ -92,7 +93,7 @@ const LAST_ROUNDS: usize = 3;
 /// The share of the wanted faces by which a result may differ from it.
 const TOLERANCE: f64 = 0.05;
 /// The difference at which no better one is waited for.
-const AIM: f64 = 0.01;
+const AIM: f64 = 0.02;
 
 /// Remeshes a closed surface.
 ///
@@ -111,7 +112,8 @@ pub fn remesh(
     let original = SurfaceIndex::new(surface);
     // Of equilateral triangles.
     let mut length = (4.0 * surface.area() / (3.0_f64.sqrt() * wanted as f64)).sqrt();
-    let creases = Creases::find(surface, options.crease_angle, length);
+    let mut creases = Creases::find(surface, options.crease_angle, length);
+    creases.hold(&tips::tips(surface, length));
     let mut working = Working::new(&original, creases);
     let mut rounds = 0;
     while rounds < options.max_rounds {
