@@ -13,6 +13,7 @@ mod arguments;
 mod case;
 mod clicks;
 mod pairs;
+mod remesh;
 mod table;
 
 use arguments::Arguments;
@@ -36,6 +37,11 @@ const SURVEYS: &[Survey] = &[
         name: "beside",
         about: "the same points in faces, as vertices, beside edges, on edges",
         run: clicks::same_points,
+    },
+    Survey {
+        name: "remesh",
+        about: "every mesh remeshed to half, once and twice its faces; --pairs FOLDER/NAME,...",
+        run: remesh::data_meshes,
     },
 ];
 

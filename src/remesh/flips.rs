@@ -26,9 +26,8 @@ impl Working<'_> {
             let excess = self.mesh.star(v).count() as i64 + change - 6;
             excess * excess
         };
-        let sum = |at_edge, across| {
-            excess(i, at_edge) + excess(j, at_edge) + excess(k, across) + excess(l, across)
-        };
+        let sum =
+            |at_edge, across| excess(i, at_edge) + excess(j, at_edge) + excess(k, across) + excess(l, across);
         let gain = sum(0, 0) - sum(-1, 1);
         if gain < 0 {
             return false;

@@ -1,11 +1,9 @@
 //! Long edges are split, short ones collapsed.
 
 use super::creases::Kind;
-use super::working::{Fit, Place, Working};
+use super::working::{Fit, Place, Working, distance};
 use crate::math::scalar::min;
-use crate::mesh::closest_point::closest_in_triangle;
 use crate::mesh::{HalfedgeId, VertexId};
-use glam::DVec3;
 
 /// A vertex goes only where the surface stays within this share of the longest allowed edge: the ends of limbs stay.
 const DEVIATION: f64 = 0.25;
@@ -117,9 +115,4 @@ impl Working<'_> {
             }
         }
     }
-}
-
-fn distance(p: DVec3, corners: [DVec3; 3]) -> f64 {
-    let weights = closest_in_triangle(p, corners);
-    p.distance(corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2])
 }

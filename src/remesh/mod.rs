@@ -63,7 +63,8 @@ pub struct Remeshed {
 pub enum Error {
     /// No closed surface has so few triangles, or none of this shape that the method finds.
     #[error(
-        "{wanted} faces are too few for this shape: {} faces are left where no more edges can go", reached
+        "{wanted} faces are too few for this shape: {} faces are left where no more edges can go",
+        reached
     )]
     TooFewFaces {
         /// How many were asked for.
@@ -120,7 +121,7 @@ pub fn remesh(
         working.split_longer_than(4.0 / 3.0 * length);
         working.collapse_shorter_than(0.8 * length, 4.0 / 3.0 * length);
         working.flip_towards_six();
-        working.smooth();
+        working.smooth(length);
         rounds += 1;
         let ratio = working.face_count() as f64 / wanted as f64;
         monitor.step(Step { fraction: share_done(rounds, options), residual: Some((ratio - 1.0).abs()) })?;
@@ -132,7 +133,7 @@ pub fn remesh(
     check_count(working.face_count(), wanted, rounds)?;
     for _ in 0..LAST_ROUNDS {
         working.flip_towards_six();
-        working.smooth();
+        working.smooth(length);
         monitor.step(Step { fraction: 0.95, residual: None })?;
     }
     let mesh = working.into_mesh();

@@ -1,16 +1,20 @@
 //! Vertices move in their tangent planes, and back onto the surface.
 
 use super::creases::Kind;
-use super::working::{Place, Working};
+use super::working::{Place, Working, distance};
+use crate::math::scalar::min;
 use crate::math::triangle;
-use crate::mesh::VertexId;
+use crate::mesh::{HalfedgeId, VertexId};
 use glam::DVec3;
 use typed_index_collections::{TiVec, ti_vec};
 
+/// A vertex leaves its place only where the surface stays within this share of an edge of it: rims and valleys stay.
+const DEVIATION: f64 = 0.1;
+
 impl Working<'_> {
     /// Moves every vertex once towards the mean of its neighbours by area, or of its two neighbours along a sharp edge; as far
-    /// as no triangle turns over.
-    pub fn smooth(&mut self) {
+    /// as no triangle turns over and the surface, of edges of about the given length, stays where it is.
+    pub fn smooth(&mut self, length: f64) {
         let areas = self.areas();
         let vertices: Vec<_> = self.mesh.vertices().collect();
         for v in vertices {
@@ -22,12 +26,22 @@ impl Working<'_> {
             let before = self.fit_around(v, self.places[v]);
             for share in [1.0, 0.5, 0.0] {
                 let place = self.moved(v, goal, share);
-                if self.fit_around(v, place).may_replace(before) {
+                let stays = share == 0.0 || self.distance_around(v, place) < DEVIATION * length;
+                if stays && self.fit_around(v, place).may_replace(before) {
                     self.places[v] = place;
                     break;
                 }
             }
         }
+    }
+
+    /// How far a vertex is from the triangles around it as they would be with it elsewhere.
+    fn distance_around(&self, v: VertexId, place: Place) -> f64 {
+        let away = |h: HalfedgeId| {
+            let across = [self.mesh.head(h), self.mesh.tail(h.prev())].map(|w| self.places[w].position);
+            distance(self.places[v].position, [place.position, across[0], across[1]])
+        };
+        self.mesh.star(v).map(away).fold(f64::INFINITY, min)
     }
 
     /// A vertex on the surface, moved by a share of the way to a goal.

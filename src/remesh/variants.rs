@@ -31,11 +31,8 @@ pub fn perturbed(mesh: &SurfaceMesh, noise: Noise) -> SurfaceMesh {
     let mut even = || 2.0 * random.unit() - 1.0;
     let mut moved = |v: VertexId| {
         let normal = index.normal(SurfacePoint::at_vertex(mesh, v));
-        let (tangent, across) = if normal == DVec3::ZERO {
-            (DVec3::ZERO, DVec3::ZERO)
-        } else {
-            normal.any_orthonormal_pair()
-        };
+        let (tangent, across) =
+            if normal == DVec3::ZERO { (DVec3::ZERO, DVec3::ZERO) } else { normal.any_orthonormal_pair() };
         let (length, count) =
             mesh.star(v).fold((0.0, 0.0), |(sum, count), h| (sum + mesh.length(h), count + 1.0));
         let step = noise.tangential * (even() * tangent + even() * across) + noise.normal * even() * normal;

@@ -2,6 +2,7 @@
 
 use super::creases::Creases;
 use crate::math::scalar::{max, min};
+use crate::mesh::closest_point::closest_in_triangle;
 use crate::mesh::coarsening::Level;
 use crate::mesh::collapsible::CollapsibleMesh;
 use crate::mesh::surface_index::SurfaceIndex;
@@ -60,10 +61,7 @@ impl Fit {
 
     /// The worse in either way.
     pub fn worse(self, other: Self) -> Self {
-        Self {
-            facing: min(self.facing, other.facing),
-            roundness: min(self.roundness, other.roundness),
-        }
+        Self { facing: min(self.facing, other.facing), roundness: min(self.roundness, other.roundness) }
     }
 
     /// Whether triangles may take the place of others: they are good, or no worse.
@@ -123,4 +121,10 @@ impl<'a> Working<'a> {
         });
         fan.fold(Fit::BEST, Fit::worse)
     }
+}
+
+/// From a point to a triangle.
+pub(super) fn distance(p: DVec3, corners: [DVec3; 3]) -> f64 {
+    let weights = closest_in_triangle(p, corners);
+    p.distance(corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2])
 }
