@@ -558,7 +558,8 @@ fn wrong_arguments_end_in_the_usage() {
 fn remeshes_into_every_format() {
     let folder = folder("remeshes_into_every_format");
     let [source, _, _] = write_bodies(&folder);
-    let read = |path: &Path| closed_genus_zero(&io::read_mesh(&std::fs::read(path).unwrap()).unwrap()).unwrap();
+    let read =
+        |path: &Path| closed_genus_zero(&io::read_mesh(&std::fs::read(path).unwrap()).unwrap()).unwrap();
     let written: Vec<_> = ["new.obj", "deep/new.off", "new.PLY"]
         .iter()
         .map(|name| {

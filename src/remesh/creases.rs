@@ -1,8 +1,8 @@
 //! Sharp edges of the given surface, as lines along which the vertices of the new mesh stay.
 //!
 //! A chain is a line of sharp edges between two corners, or a closed one. Corners are where more or fewer than two sharp edges
-//! meet, or where the line bends sharply: they stay in the mesh. What is shorter than a few of the new edges is no line but
-//! a dent, and is left out.
+//! meet, or where the line bends sharply: they stay in the mesh. A chain shorter than a few of the new edges is no line but a
+//! dent or a part of fur, and is left out.
 
 use crate::math::scalar::{atan2, cos, max};
 use crate::mesh::surface_index::bounding_box;
@@ -14,7 +14,7 @@ use rustc_hash::FxHashMap;
 use typed_index_collections::{TiVec, ti_vec};
 
 /// Lines are at least so many new edges long.
-const SHORTEST: f64 = 5.0;
+const SHORTEST: f64 = 3.0;
 /// A line turns by less than this at a vertex (45 degrees) that is no corner.
 const BEND: f64 = std::f64::consts::FRAC_PI_4;
 /// Triangles with less double area by longest side squared have no normal that means anything.
@@ -52,10 +52,7 @@ impl Creases {
     /// edges of the new `length`.
     pub fn find(surface: &SurfaceMesh, angle: f64, length: f64) -> Self {
         let sharp = surface.edges().filter(|&h| is_sharp(surface, h, angle)).collect();
-        let sharp = without_short_lines(surface, sharp, SHORTEST * length);
-        let mut graph = Graph::new(surface, &sharp);
-        let kinds = surface.vertices().map(|v| graph.is_corner(v)).collect();
-        let chains = graph.chains(&kinds);
+        let Lines { sharp, chains, is_corner } = Lines::find(surface, sharp, SHORTEST * length);
         let mut creases = Self {
             chains: FxHashMap::default(),
             kinds: ti_vec![Kind::Free; surface.vertex_count()],
@@ -66,7 +63,7 @@ impl Creases {
             let ends = [surface.tail(h), surface.head(h)];
             creases.chains.insert(sorted(ends), chain);
             for v in ends {
-                creases.kinds[v] = if kinds[v] { Kind::Corner } else { Kind::Along(chain) };
+                creases.kinds[v] = if is_corner[v] { Kind::Corner } else { Kind::Along(chain) };
             }
             let ends = ends.map(|v| surface.positions()[v]);
             creases.segments.push(Segment { chain, ends, face: h.face() });
@@ -149,33 +146,32 @@ fn is_sharp(surface: &SurfaceMesh, h: HalfedgeId, angle: f64) -> bool {
     a_is_round && b_is_round && atan2(a.cross(b).length(), a.dot(b)) > angle
 }
 
-/// The edges of connected sets whose lengths sum to `least` and more.
-fn without_short_lines(surface: &SurfaceMesh, sharp: Vec<HalfedgeId>, least: f64) -> Vec<HalfedgeId> {
-    let graph = Graph::new(surface, &sharp);
-    let mut part = vec![u32::MAX; sharp.len()];
-    let mut lengths = Vec::new();
-    for first in 0..sharp.len() {
-        if part[first] != u32::MAX {
-            continue;
-        }
-        let number = lengths.len() as u32;
-        let (mut length, mut queue) = (0.0, vec![first]);
-        part[first] = number;
-        while let Some(edge) = queue.pop() {
-            length += surface.length(sharp[edge]);
-            for v in [surface.tail(sharp[edge]), surface.head(sharp[edge])] {
-                for &next in &graph.edges_at[v] {
-                    if part[next] == u32::MAX {
-                        part[next] = number;
-                        queue.push(next);
-                    }
-                }
+/// Chains, and what they are made of.
+struct Lines {
+    sharp: Vec<HalfedgeId>,
+    /// By sharp edge its chain.
+    chains: Vec<u32>,
+    is_corner: TiVec<VertexId, bool>,
+}
+
+impl Lines {
+    /// The chains of at least some length. Where short ones go, others may join, or end where they met: so until none is short.
+    fn find(surface: &SurfaceMesh, mut sharp: Vec<HalfedgeId>, least: f64) -> Self {
+        loop {
+            let graph = Graph::new(surface, &sharp);
+            let is_corner = surface.vertices().map(|v| graph.is_corner(v)).collect();
+            let chains = graph.chains(&is_corner);
+            let mut lengths = vec![0.0; sharp.len()];
+            for (&h, &chain) in sharp.iter().zip(&chains) {
+                lengths[chain as usize] += surface.length(h);
             }
+            let long = |chain: u32| lengths[chain as usize] >= least;
+            if chains.iter().all(|&chain| long(chain)) {
+                return Self { sharp, chains, is_corner };
+            }
+            sharp = sharp.iter().zip(&chains).filter(|(_, chain)| long(**chain)).map(|(&h, _)| h).collect();
         }
-        lengths.push(length);
     }
-    let long = |edge: &usize| lengths[part[*edge] as usize] >= least;
-    (0..sharp.len()).filter(long).map(|edge| sharp[edge]).collect()
 }
 
 /// Sharp edges by the vertices that they meet in.
@@ -207,7 +203,7 @@ impl<'a> Graph<'a> {
     }
 
     /// By sharp edge the number of its chain.
-    fn chains(&mut self, is_corner: &TiVec<VertexId, bool>) -> Vec<u32> {
+    fn chains(&self, is_corner: &TiVec<VertexId, bool>) -> Vec<u32> {
         let mut chains = vec![u32::MAX; self.sharp.len()];
         let mut count = 0;
         for first in 0..self.sharp.len() {

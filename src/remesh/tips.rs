@@ -20,8 +20,10 @@ pub(super) fn tips(surface: &SurfaceMesh, length: f64) -> Vec<VertexId> {
         surface.vertices().map(|v| pointedness(surface, &areas, v, &patches.around(v))).collect();
     let mut patches = Patches::new(surface, REACH * length);
     let mut is_tip = |&v: &VertexId| {
+        let near = |w: VertexId| surface.positions()[w].distance(surface.positions()[v]) < REACH * length;
         // Of equals the first.
-        let beats = |&w: &VertexId| pointed[w] > pointed[v] || (pointed[w] == pointed[v] && w < v);
+        let more = |w: VertexId| pointed[w] > pointed[v] || (pointed[w] == pointed[v] && w < v);
+        let beats = |&w: &VertexId| near(w) && more(w);
         pointed[v] > POINTED && !patches.around(v).iter().any(beats)
     };
     surface.vertices().filter(&mut is_tip).collect()
