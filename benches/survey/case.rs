@@ -37,6 +37,8 @@ pub struct Reached {
     pub truth: Option<f64>,
     pub own: usize,
     pub judged: usize,
+    /// Mean log density of the coarse map and that of the next best class.
+    pub coarse: [f64; 2],
 }
 
 /// A line of a table.
@@ -136,6 +138,9 @@ impl Case {
             truth,
             own: report.own_landmarks,
             judged: report.layout.as_ref().map_or(0, |layout| layout.judged),
+            coarse: report.layout.as_ref().map_or([f64::NAN; 2], |layout| {
+                [layout.mean_log, layout.runner_up].map(|value| value.unwrap_or(f64::NAN))
+            }),
         }
     }
 }

@@ -9,7 +9,7 @@ use super::{
 use crate::base_domain::{self, BaseDomain};
 use crate::landmarks::Landmarks;
 use crate::layout::{self, BaseLayout, Candidates, LayoutError, SearchOptions, SearchReport};
-use crate::mesh::{RefinedMesh, SurfaceMesh, VertexId};
+use crate::mesh::{MeshError, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Monitor, Stage};
 use crate::surface_map::base_lines::base_line;
 use crate::surface_map::compose::{Locations, locate};
@@ -33,9 +33,26 @@ pub(super) struct Full {
     pub(super) landmarks: TiVec<VertexId, VertexId>,
 }
 
+/// Edges at a landmark, at least. Around a landmark of degree 3, such as one inside a face, no layout's points can be taken
+/// out again: with three edges straight there is no room for the paths between them.
+const LEAST_DEGREE: usize = 6;
+
 impl Full {
-    fn new(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> Self {
-        Self { refined: RefinedMesh::unrefined(mesh), landmarks: landmarks.iter().copied().collect() }
+    fn new(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> Result<Self, MeshError> {
+        let refined = RefinedMesh::unrefined(mesh);
+        let refined = refined.with_degrees(mesh, landmarks.iter().copied(), LEAST_DEGREE)?;
+        Ok(Self { refined, landmarks: landmarks.iter().copied().collect() })
+    }
+
+    /// The same with more landmarks: points of the refined mesh.
+    pub(super) fn with_landmarks(
+        &self,
+        input: &SurfaceMesh,
+        points: &[SurfacePoint],
+    ) -> Result<(Self, Vec<VertexId>), MeshError> {
+        let (refined, vertices) = self.refined.with_points(input, points)?;
+        let refined = refined.with_degrees(input, vertices.iter().copied(), LEAST_DEGREE)?;
+        Ok((Self { refined, landmarks: self.landmarks.clone() }, vertices))
     }
 }
 
@@ -139,7 +156,7 @@ fn parametrise(
     (options, monitor): (&PipelineOptions, &mut dyn Monitor),
 ) -> Result<Parametrisation, PipelineError> {
     let Landmarks { source, target } = input.landmarks;
-    let full = [Full::new(input.source, source), Full::new(input.target, target)];
+    let full = [Full::new(input.source, source)?, Full::new(input.target, target)?];
     let most = full.iter().map(|side| side.refined.mesh.vertex_count()).max().unwrap_or(0);
     let mut vertices = options.multilevel.coarse_vertices.max(PER_LANDMARK * input.landmarks.len());
     let (layout, search, (surface, embeddings, with_own)) = loop {
@@ -151,7 +168,12 @@ fn parametrise(
             Ok(Coarse { layout, search, map }) => {
                 let rounds = (Rounds::new(options), Rounds::new(options));
                 let cells = (&rounds.0, &rounds.1);
-                let own = own_cones::add((&full, &map), cells, (vertices, options), monitor)?;
+                let own = own_cones::add(
+                    ([input.source, input.target], &full, &map),
+                    cells,
+                    (vertices, options),
+                    monitor,
+                )?;
                 monitor.enter(Stage::Relaxation);
                 let own = own.map_or(Ok(None), |own| own.refined((&options.multilevel, &mut *monitor)))?;
                 let fine = match own {
@@ -176,7 +198,7 @@ fn parametrise(
     Ok(Parametrisation { layout, search, surface, sides: full, embeddings, certificate, stopped_early })
 }
 
-/// The coarse map of least energy among the classes of layouts that are tried.
+/// The coarse map of least mean log density among the classes of layouts that are tried.
 fn coarse<'a>(
     input: MapInput<'_>,
     sides: &'a [Side<'a>; 2],
@@ -200,7 +222,7 @@ fn coarse<'a>(
     }
 }
 
-/// The coarse map of least energy among layouts planned on both coarse levels.
+/// The coarse map of least mean log density among layouts planned on both coarse levels.
 pub(super) fn searched<'a>(
     sides: &'a [Side<'a>; 2],
     (options, search_options): (&MultilevelOptions, &SearchOptions),
@@ -215,11 +237,11 @@ pub(super) fn searched<'a>(
         count += 1;
         match solve_coarse(sides, layout, (options, monitor)) {
             Ok(map) => {
-                let energy = map.judged;
+                let mean_log = map.mean_log;
                 finalists.push(Finalist { number, layout: layout.clone(), map });
-                finalists.sort_by(|a, b| a.map.judged.total_cmp(&b.map.judged));
+                finalists.sort_by(|a, b| a.map.mean_log.total_cmp(&b.map.mean_log));
                 finalists.truncate(options.finalists);
-                Ok(Some(energy))
+                Ok(Some(mean_log))
             }
             Err(MapError::Cancelled(stop)) => Err(stop),
             Err(_) => Ok(None),
@@ -229,7 +251,7 @@ pub(super) fn searched<'a>(
     let (_, mut search) = layout::search(&mut candidates, &mut judge, search_options, monitor)?;
     let Finalist { number, layout, mut map } = winner(finalists, (options, &mut *monitor))?;
     search.best = number;
-    search.judged[number].energy = Some(map.judged);
+    search.judged[number].mean_log = Some(map.mean_log);
     map.finish((options, monitor))?;
     Ok(Coarse { layout, search, map })
 }
@@ -247,14 +269,14 @@ fn winner<'a>(
     mut finalists: Vec<Finalist<'a>>,
     (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
 ) -> Result<Finalist<'a>, PipelineError> {
-    let least = finalists.first().map_or(f64::INFINITY, |first| first.map.judged);
-    finalists.retain(|other| other.map.judged - 4.0 <= options.close * (least - 4.0));
+    let least = finalists.first().map_or(f64::INFINITY, |first| first.map.mean_log);
+    finalists.retain(|other| other.map.mean_log <= options.close * least);
     if finalists.len() > 1 && !monitor.wants_result() {
         for finalist in &mut finalists {
             finalist.map.relax((&options.decide, &mut *monitor))?;
         }
     }
-    let best = finalists.into_iter().min_by(|a, b| a.map.judged.total_cmp(&b.map.judged));
+    let best = finalists.into_iter().min_by(|a, b| a.map.mean_log.total_cmp(&b.map.mean_log));
     best.ok_or(LayoutError::NoMap { layouts: 0 }.into())
 }
 
@@ -280,7 +302,7 @@ fn result(
         layout: Some(LayoutSearchReport {
             judged: map.search.judged.len(),
             twists: map.search.twists_made,
-            energy: map.search.energy(),
+            mean_log: map.search.mean_log(),
             runner_up: map.search.runner_up(),
             path_stretch: map.layout.report.worst_stretch,
         }),
