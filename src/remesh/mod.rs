@@ -2,7 +2,7 @@
 //!
 //! The wanted number of faces says how long edges are to be. In every round edges longer than 4/3 of that are split, edges
 //! shorter than 4/5 collapsed, edges flipped towards six neighbours a vertex, and vertices moved in their tangent planes to
-//! the mean of their neighbours by area and put back onto the given surface. No step turns a triangle over. The wanted length
+//! the mean of their neighbours by area and put back onto the given surface. No such step turns a triangle over. The wanted length
 //! follows the number of faces that a round ends with. Sharp edges stay: their vertices move along them only.
 //!
 //! All edges are of one length, so that what is smaller than an edge (a thin tail, fingers) is lost or becomes crude; the
@@ -131,6 +131,8 @@ pub fn remesh(
         length *= max(0.8, min(1.25, ratio.sqrt()));
     }
     check_count(working.face_count(), wanted, rounds)?;
+    // Once there, they leave it no more; the last rounds repair the triangles that this may have turned over.
+    working.put_onto_surface();
     for _ in 0..LAST_ROUNDS {
         working.flip_towards_six();
         working.smooth(length);

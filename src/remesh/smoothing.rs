@@ -35,6 +35,16 @@ impl Working<'_> {
         }
     }
 
+    /// Puts every vertex onto the surface, also those few new ones that smoothing left where they were because a triangle would
+    /// have become worse.
+    pub fn put_onto_surface(&mut self) {
+        let vertices: Vec<_> =
+            self.mesh.vertices().filter(|&v| self.creases.kind(v) != Kind::Corner).collect();
+        for v in vertices {
+            self.places[v] = self.moved(v, self.places[v].position, 0.0);
+        }
+    }
+
     /// How far a vertex is from the triangles around it as they would be with it elsewhere.
     fn distance_around(&self, v: VertexId, place: Place) -> f64 {
         let away = |h: HalfedgeId| {
