@@ -20,6 +20,7 @@ pub mod mesh;
 pub mod monitor;
 pub mod numerics;
 pub mod pipeline;
+pub mod remesh;
 pub mod scene;
 pub mod surface_map;
 

@@ -25,6 +25,8 @@ pub enum Stage {
     Certificate,
     /// Textures, attributes and measures.
     Transfer,
+    /// A mesh gets new triangles.
+    Remeshing,
 }
 
 impl fmt::Display for Stage {

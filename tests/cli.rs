@@ -540,7 +540,80 @@ fn bad_cones_are_refused_by_line() {
 
 #[test]
 fn wrong_arguments_end_in_the_usage() {
-    let output = conemap(["map", "only-one.obj"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(errors(&output).contains("--landmarks"), "{}", errors(&output));
+    let cases: [(&[&str], &str); 5] = [
+        (&["map", "only-one.obj"], "--landmarks"),
+        (&["remesh", "ball.obj", "--faces=100"], "--out"),
+        (&["remesh", "ball.obj", "--out=new.obj"], "--faces"),
+        (&["remesh", "ball.obj", "--out=new.obj", "--faces=-5"], "--faces"),
+        (&["remesh", "ball.obj", "--out=new.obj", "--faces=50", "--crease-angle=200"], "from 0 to 180"),
+    ];
+    for (arguments, word) in cases {
+        let output = conemap(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(errors(&output).contains(word), "{arguments:?}: {}", errors(&output));
+    }
+}
+
+#[test]
+fn remeshes_into_every_format() {
+    let folder = folder("remeshes_into_every_format");
+    let [source, _, _] = write_bodies(&folder);
+    let read =
+        |path: &Path| closed_genus_zero(&io::read_mesh(&std::fs::read(path).unwrap()).unwrap()).unwrap();
+    let written: Vec<_> = ["new.obj", "deep/new.off", "new.PLY"]
+        .iter()
+        .map(|name| {
+            let [out, report] = [folder.join(name), folder.join("report.json")];
+            let flags = ["remesh", "--faces=300", "--out", "--report"].map(OsStr::new);
+            let paths = [&source, &out, &report].map(|path| path.as_os_str());
+            let output = conemap([flags[0], paths[0], flags[1], flags[2], paths[1], flags[3], paths[2]]);
+            assert!(output.status.success(), "{}", errors(&output));
+            assert!(errors(&output).contains(" faces, edges "), "{}", errors(&output));
+            let report = json(&report);
+            let fields = common::json_fields(&report);
+            let expected = [
+                "distance.from_original",
+                "distance.to_original",
+                "edge_length.deviation",
+                "edge_length.mean",
+                "faces",
+                "mean_min_angle",
+                "min_angle",
+                "rounds",
+                "seconds.remeshing",
+                "seconds.total",
+            ];
+            assert_eq!(fields, expected);
+            let mesh = read(&out).mesh;
+            assert_eq!(report["faces"], mesh.face_count());
+            assert!(mesh.face_count().abs_diff(300) <= 15);
+            mesh
+        })
+        .collect();
+    for mesh in &written[1..] {
+        assert_eq!(mesh.positions(), written[0].positions());
+        assert_eq!(mesh.triangles(), written[0].triangles());
+    }
+}
+
+#[test]
+fn bad_remeshing_is_refused_in_a_sentence() {
+    let folder = folder("bad_remeshing_is_refused_in_a_sentence");
+    let [source, _, _] = write_bodies(&folder);
+    let [missing, noise] = ["missing.obj", "noise.obj"].map(|name| folder.join(name));
+    std::fs::write(&noise, "this is not a mesh\n").unwrap();
+    let cases: [(&Path, &str, &str, &[&str]); 6] = [
+        (&source, "3", "new.obj", &["source.obj", "3 faces are too few"]),
+        (&source, "0", "new.obj", &["source.obj", "0 faces are too few"]),
+        (&source, "300", "new.stl", &["new.stl", ".obj, .off, .ply"]),
+        (&source, "300", "new", &["new", ".obj, .off, .ply"]),
+        (&missing, "300", "new.obj", &["missing.obj"]),
+        (&noise, "300", "new.obj", &["noise.obj", "not a mesh file"]),
+    ];
+    for (mesh, faces, name, words) in cases {
+        let out = folder.join(name);
+        let flags = ["remesh", "--faces", faces, "--out"].map(OsStr::new);
+        assert_refused(&[flags[0], mesh.as_os_str(), flags[1], flags[2], flags[3], out.as_os_str()], words);
+        assert!(!out.exists());
+    }
 }

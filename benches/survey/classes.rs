@@ -71,7 +71,7 @@ fn one(arguments: &Arguments, name: &str, vertices: usize) -> String {
     let singles: Vec<Candidate> = fresh.twists(&chosen.candidate, all, &mut Silent).expect("not stopped");
     for single in &singles {
         let value = judge(single);
-        if value < known {
+        if value < 1.1 * known {
             let [a, b] = [&chosen.candidate, single].map(|c| &c.layout.report);
             println!(
                 "    {known:.5} -> {value:.5}, detour {:.3} -> {:.3}, stretch {:.3} -> {:.3}, place {} by detour",

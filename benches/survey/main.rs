@@ -14,6 +14,7 @@ mod case;
 mod classes;
 mod clicks;
 mod pairs;
+mod remesh;
 mod table;
 
 use arguments::Arguments;
@@ -42,6 +43,11 @@ const SURVEYS: &[Survey] = &[
         name: "classes",
         about: "the class chosen against all twists (--depth 2: and pairs of them)",
         run: classes::exhaustive,
+    },
+    Survey {
+        name: "remesh",
+        about: "every mesh remeshed to half, once and twice its faces; --pairs FOLDER/NAME,...",
+        run: remesh::data_meshes,
     },
 ];
 

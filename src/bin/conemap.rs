@@ -1,4 +1,4 @@
-//! The command line: `conemap map`, `conemap suggest` and `conemap flow`.
+//! The command line: `conemap map`, `conemap suggest`, `conemap flow` and `conemap remesh`.
 //!
 //! Progress and errors go to standard error; the exit code is 0 only for a converged, certified result.
 #![allow(clippy::print_stderr, reason = "a command line prints")]
@@ -17,6 +17,8 @@ mod interrupt;
 mod map;
 #[path = "conemap/outputs.rs"]
 mod outputs;
+#[path = "conemap/remesh.rs"]
+mod remesh;
 #[path = "conemap/suggest.rs"]
 mod suggest;
 
@@ -29,6 +31,7 @@ fn main() -> ExitCode {
         arguments::Command::Map(options) => map::run(options),
         arguments::Command::Suggest(options) => suggest::run(options),
         arguments::Command::Flow(options) => flow::run(options),
+        arguments::Command::Remesh(options) => remesh::run(options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

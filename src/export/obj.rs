@@ -15,18 +15,3 @@ pub fn mesh(mesh: &SurfaceMesh) -> Vec<u8> {
     }
     text.into_bytes()
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::io::read_mesh;
-    use crate::mesh::check::closed_genus_zero;
-    use crate::mesh::generators::icosphere;
-
-    #[test]
-    fn the_reader_reads_it_back() {
-        let sphere = icosphere(1);
-        let back = closed_genus_zero(&read_mesh(&super::mesh(&sphere)).unwrap()).unwrap().mesh;
-        assert_eq!(back.positions(), sphere.positions());
-        assert_eq!(back.triangles(), sphere.triangles());
-    }
-}

@@ -29,7 +29,7 @@ pub use candidates::{Candidate, Candidates};
 pub use geodesics::LandmarkDistances;
 pub use isotopy::same_class;
 pub use patches::PatchFault;
-pub use search::{Judge, Judged, Origin, SearchOptions, SearchReport, search, untwist};
+pub use search::{Judge, Judged, Origin, SearchOptions, SearchReport, neighbours, search, untwist};
 
 /// The base domain and its drawing on both meshes.
 #[derive(Clone, Debug)]

@@ -140,6 +140,27 @@ pub fn untwist(
     }
 }
 
+/// Judges the twists of a layout, the straightest first, until nothing is gained over the best of them.
+///
+/// # Errors
+/// [`LayoutError::Cancelled`].
+pub fn neighbours(
+    (candidates, of): (&mut Candidates<'_>, &Candidate),
+    judge: &mut Judge<'_>,
+    options: &SearchOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<Judged>, LayoutError> {
+    let mut search = Search { judge, options, monitor, best: None, report: SearchReport::default() };
+    let mut without_gain = 0;
+    for candidate in candidates.twists(of, (options.twists, options.twist_ratio), search.monitor)? {
+        without_gain = if search.judge(candidate, Origin::Twist)? { 0 } else { without_gain + 1 };
+        if without_gain >= options.patience || search.monitor.wants_result() {
+            break;
+        }
+    }
+    Ok(search.report.judged)
+}
+
 /// The mean log density of a layout's map; `None` where there is no map.
 pub type Judge<'a> = dyn FnMut(&Candidate, &mut dyn Monitor) -> Result<Option<f64>, Cancelled> + 'a;
 

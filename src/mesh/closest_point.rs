@@ -22,7 +22,7 @@ pub fn closest_point(mesh: &SurfaceMesh, p: DVec3, normal: DVec3) -> SurfacePoin
 }
 
 /// Barycentric coordinates of the point of a triangle nearest to `p`.
-fn closest_in_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
+pub(crate) fn closest_in_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
     let normal = (b - a).cross(c - a);
     let area = normal.length_squared();
     if area > 0.0 {

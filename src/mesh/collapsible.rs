@@ -1,6 +1,6 @@
-//! A closed triangle mesh under half-edge collapses that can be undone, and edge flips.
+//! A closed triangle mesh under half-edge collapses that can be undone, edge flips and edge splits.
 //!
-//! Element numbers never change: a collapse moves corners from the vertex that vanishes to the one that is kept, and
+//! Element numbers never change, and new elements get the next ones: a collapse moves corners from the vertex that vanishes to the one that is kept, and
 //! undoing collapses in reverse order restores every intermediate mesh exactly. The mesh stays simple: the link condition
 //! is the caller's to ask for.
 
@@ -58,7 +58,7 @@ impl CollapsibleMesh {
         self.live_vertices
     }
 
-    /// Number of faces of the full resolution: every face number is below.
+    /// Number of faces of the full resolution and of splits: every face number is below.
     pub fn face_slots(&self) -> usize {
         self.face_alive.len()
     }
@@ -71,6 +71,11 @@ impl CollapsibleMesh {
     /// The vertices of the present level.
     pub fn vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
         self.vertex_alive.iter_enumerated().filter(|(_, alive)| **alive).map(|(v, _)| v)
+    }
+
+    /// Whether a face is in the present level.
+    pub fn is_face_alive(&self, f: FaceId) -> bool {
+        self.face_alive[f]
     }
 
     /// The faces of the present level.
@@ -197,7 +202,34 @@ impl CollapsibleMesh {
         self.twins[t] = h;
     }
 
-    /// Undoes the last collapse; `None` when the mesh has its full resolution again. Not after [`Self::flip`].
+    /// Puts a vertex on the edge of `h` and joins it to the corners across. The start of `h` stays, its end is the new vertex,
+    /// which has the next number. Vertex and faces are new: no [`Self::restore`] of a collapse before.
+    pub fn split(&mut self, h: HalfedgeId) -> VertexId {
+        let t = self.twins[h];
+        let (b, c, d) = (self.tails[t], self.tails[h.prev()], self.tails[t.prev()]);
+        let m = VertexId::from(self.outgoing.len());
+        let [left, right] = [0, 1].map(|k| FaceId::from(self.face_alive.len() + k));
+        // abc becomes amc and mbc, bad becomes mad and bmd.
+        let (left_outer, right_outer) = (self.twins[h.next()], self.twins[t.prev()]);
+        self.tails.extend([m, b, c, b, m, d]);
+        self.twins.extend([HalfedgeId(u32::MAX); 6]);
+        self.face_alive.extend([true; 2]);
+        self.tails[h.next()] = m;
+        self.tails[t] = m;
+        self.link(HalfedgeId::of(left, 0), HalfedgeId::of(right, 0));
+        self.link(HalfedgeId::of(left, 1), left_outer);
+        self.link(HalfedgeId::of(left, 2), h.next());
+        self.link(HalfedgeId::of(right, 1), t.prev());
+        self.link(HalfedgeId::of(right, 2), right_outer);
+        self.outgoing[b] = HalfedgeId::of(left, 1);
+        self.outgoing.push(HalfedgeId::of(left, 0));
+        self.vertex_alive.push(true);
+        self.live_vertices += 1;
+        m
+    }
+
+    /// Undoes the last collapse; `None` when the mesh has its full resolution again. Not after [`Self::flip`] or
+    /// [`Self::split`].
     pub fn restore(&mut self) -> Option<Collapse> {
         let collapse = self.collapses.pop()?;
         let (a, h) = (collapse.removed, collapse.halfedge);
@@ -297,5 +329,21 @@ mod tests {
             assert!(is_closed_manifold(&mesh), "after flip {k}");
         }
         assert!(flipped > 50);
+    }
+
+    #[test]
+    fn splits_keep_a_sphere() {
+        let sphere = icosphere(1);
+        let mut mesh = CollapsibleMesh::new(&sphere);
+        for k in 0..200_u32 {
+            let h = HalfedgeId(k * 7919 % (240 + 6 * k));
+            let ends = [mesh.tail(h), mesh.head(h)];
+            let middle = mesh.split(h);
+            assert!(is_closed_manifold(&mesh), "after split {k}");
+            assert_eq!([mesh.tail(h), mesh.head(h)], [ends[0], middle]);
+            assert_eq!(mesh.star(middle).count(), 4);
+            assert!(mesh.star(middle).any(|h| mesh.head(h) == ends[1]));
+        }
+        assert_eq!(mesh.live_vertices(), sphere.vertex_count() + 200);
     }
 }

@@ -10,6 +10,7 @@ pub mod insertion;
 pub mod mirror;
 mod refined;
 pub mod soup;
+pub mod surface_index;
 mod surface_mesh;
 mod surface_point;
 mod textured;

@@ -5,6 +5,7 @@
 //! seed is fixed: the same graph has the same factor.
 
 use super::laplacian::Graph;
+use crate::math::random::SplitMix;
 
 const NONE: u32 = u32::MAX;
 const BUCKETS: usize = 256;
@@ -29,7 +30,7 @@ impl ApproximateCholesky {
         let n = graph.vertices;
         let mut lists = Lists::new(graph);
         let mut queue = DegreeQueue::new(&lists.degrees);
-        let mut random = SplitMix(0x9e37_79b9_7f4a_7c15);
+        let mut random = SplitMix::new(0x9e37_79b9_7f4a_7c15);
         let mut factor = Self {
             order: Vec::with_capacity(n),
             starts: vec![0],
@@ -200,19 +201,5 @@ impl DegreeQueue {
             self.least += 1;
         }
         None
-    }
-}
-
-/// The SplitMix64 generator (Steele, Lea & Flood 2014).
-struct SplitMix(u64);
-
-impl SplitMix {
-    /// Uniform in [0, 1).
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 }

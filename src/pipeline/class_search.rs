@@ -2,7 +2,7 @@
 
 use super::PipelineError;
 use crate::layout::{self, Candidate, Candidates, LayoutError, SearchOptions, SearchReport};
-use crate::monitor::Monitor;
+use crate::monitor::{Cancelled, Monitor};
 use crate::surface_map::MapError;
 use crate::surface_map::multilevel::{CoarseMap, MultilevelOptions, Side, coarse_landmarks, solve_coarse};
 
@@ -18,6 +18,9 @@ pub struct Chosen<'a> {
 
 /// The class whose coarse map has the least mean log density, among layouts planned on both coarse levels.
 ///
+/// The best after a first look are relaxed further before one is taken, its own twists are judged, and where several are
+/// still as good they are compared on finer levels, whose triangles distort less by their size.
+///
 /// # Errors
 /// [`PipelineError::Layout`] where no layout has a map, [`PipelineError::Cancelled`].
 pub fn choose_class<'a>(
@@ -27,29 +30,30 @@ pub fn choose_class<'a>(
 ) -> Result<Chosen<'a>, PipelineError> {
     let landmarks = coarse_landmarks(sides);
     let meshes = [&sides[0].coarse.mesh, &sides[1].coarse.mesh];
-    let mut finalists: Vec<Finalist<'a>> = Vec::new();
-    let mut count = 0;
-    let mut judge = |candidate: &Candidate, monitor: &mut dyn Monitor| {
-        let number = count;
-        count += 1;
-        match solve_coarse(sides, &candidate.layout, (options, monitor)) {
-            Ok(map) => {
-                let mean_log = map.mean_log;
-                finalists.push(Finalist { number, candidate: candidate.clone(), map });
-                finalists.sort_by(|a, b| a.map.mean_log.total_cmp(&b.map.mean_log));
-                finalists.truncate(options.finalists);
-                Ok(Some(mean_log))
-            }
-            Err(MapError::Cancelled(stop)) => Err(stop),
-            Err(_) => Ok(None),
-        }
-    };
     let mut candidates = Candidates::new(meshes, &landmarks);
+    let mut finalists = Finalists { sides, options, maps: Vec::new(), judged: 0 };
+    let mut judge = |candidate: &Candidate, monitor: &mut dyn Monitor| finalists.judge(candidate, monitor);
     let (_, mut search) = layout::search(&mut candidates, &mut judge, search_options, monitor)?;
-    let Finalist { number, candidate, map } = winner(finalists, (options, &mut *monitor))?;
-    search.best = number;
-    search.judged[number].mean_log = Some(map.mean_log);
-    Ok(Chosen { candidate, search, map })
+    let mut explored = vec![search.best];
+    loop {
+        let winner = finalists.decide(monitor)?;
+        if explored.contains(&winner) || monitor.wants_result() {
+            break;
+        }
+        explored.push(winner);
+        let around = finalists.maps[0].candidate.clone();
+        let mut judge =
+            |candidate: &Candidate, monitor: &mut dyn Monitor| finalists.judge(candidate, monitor);
+        let more = layout::neighbours((&mut candidates, &around), &mut judge, search_options, monitor)?;
+        search.judged.extend(more);
+    }
+    finalists.compare_finer(monitor)?;
+    for finalist in &finalists.maps {
+        search.judged[finalist.number].mean_log = Some(finalist.map.mean_log);
+    }
+    let best = finalists.maps.into_iter().next().ok_or(LayoutError::NoMap { layouts: 0 })?;
+    search.best = best.number;
+    Ok(Chosen { candidate: best.candidate, search, map: best.map })
 }
 
 /// One of the best maps of a search.
@@ -58,20 +62,75 @@ struct Finalist<'a> {
     number: usize,
     candidate: Candidate,
     map: CoarseMap<'a>,
+    /// Mean log density after the first look.
+    first_look: f64,
+    is_relaxed: bool,
 }
 
-/// The best of maps that are too close to tell after a first look: each is relaxed further.
-fn winner<'a>(
-    mut finalists: Vec<Finalist<'a>>,
-    (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
-) -> Result<Finalist<'a>, PipelineError> {
-    let least = finalists.first().map_or(f64::INFINITY, |first| first.map.mean_log);
-    finalists.retain(|other| other.map.mean_log <= options.close * least);
-    if finalists.len() > 1 && !monitor.wants_result() {
-        for finalist in &mut finalists {
-            finalist.map.relax((&options.decide, &mut *monitor))?;
+/// The best maps so far, the best first.
+struct Finalists<'a, 'o> {
+    sides: &'a [Side<'a>; 2],
+    options: &'o MultilevelOptions,
+    maps: Vec<Finalist<'a>>,
+    judged: usize,
+}
+
+impl Finalists<'_, '_> {
+    /// Judges a layout by a first look at its map.
+    fn judge(&mut self, candidate: &Candidate, monitor: &mut dyn Monitor) -> Result<Option<f64>, Cancelled> {
+        let number = self.judged;
+        self.judged += 1;
+        match solve_coarse(self.sides, &candidate.layout, (self.options, monitor)) {
+            Ok(map) => {
+                let first_look = map.mean_log;
+                let candidate = candidate.clone();
+                self.maps.push(Finalist { number, candidate, map, first_look, is_relaxed: false });
+                self.maps.sort_by(|a, b| a.first_look.total_cmp(&b.first_look));
+                self.maps.truncate(self.options.finalists);
+                Ok(Some(first_look))
+            }
+            Err(MapError::Cancelled(stop)) => Err(stop),
+            Err(_) => Ok(None),
         }
     }
-    let best = finalists.into_iter().min_by(|a, b| a.map.mean_log.total_cmp(&b.map.mean_log));
-    best.ok_or(LayoutError::NoMap { layouts: 0 }.into())
+
+    /// Relaxes those further that are close after the first look, and puts the best first; its number.
+    fn decide(&mut self, monitor: &mut dyn Monitor) -> Result<usize, PipelineError> {
+        let least = self.maps.iter().map(|map| map.first_look).fold(f64::INFINITY, f64::min);
+        self.maps.retain(|map| map.first_look <= self.options.close * least);
+        if self.maps.len() > 1 && !monitor.wants_result() {
+            for finalist in self.maps.iter_mut().filter(|map| !map.is_relaxed) {
+                finalist.map.relax((&self.options.decide, &mut *monitor))?;
+                finalist.is_relaxed = true;
+            }
+        }
+        self.sort();
+        self.maps.first().map(|map| map.number).ok_or(LayoutError::NoMap { layouts: 0 }.into())
+    }
+
+    /// Compares those that are as good as the best on finer levels.
+    fn compare_finer(&mut self, monitor: &mut dyn Monitor) -> Result<(), PipelineError> {
+        for _ in 0..self.options.finer {
+            let least = self.maps.first().map_or(0.0, |best| best.map.mean_log);
+            let close = |map: &&mut Finalist<'_>| map.map.mean_log <= self.options.undecided * least;
+            let mut undecided: Vec<_> = self.maps.iter_mut().filter(close).collect();
+            if undecided.len() < 2 || monitor.wants_result() {
+                break;
+            }
+            for finalist in &mut undecided {
+                if !finalist.map.judge_finer((self.options, &mut *monitor))? {
+                    return Ok(());
+                }
+            }
+            // The others were left behind on a coarser level.
+            let level = undecided.len();
+            self.maps[..level].sort_by(|a, b| a.map.mean_log.total_cmp(&b.map.mean_log));
+            self.maps.truncate(level);
+        }
+        Ok(())
+    }
+
+    fn sort(&mut self) {
+        self.maps.sort_by(|a, b| a.map.mean_log.total_cmp(&b.map.mean_log));
+    }
 }

@@ -45,6 +45,11 @@ pub struct MultilevelOptions {
     pub finalists: usize,
     /// Those whose mean log density is at most this many times the least one.
     pub close: f64,
+    /// Maps whose mean log density is within this factor of the least one after the second judgement are judged again on
+    /// finer levels.
+    pub undecided: f64,
+    /// Finer levels on which they are, at most.
+    pub finer: usize,
     /// The relaxation for the second judgement.
     pub decide: ComposedOptions,
     /// The relaxation of the map of the coarse level that was chosen.
@@ -68,6 +73,8 @@ impl Default for MultilevelOptions {
             judge: ComposedOptions { max_rounds: 1, energy: TwoSided::JUDGE, ..ComposedOptions::default() },
             finalists: 4,
             close: 1.3,
+            undecided: 1.1,
+            finer: 2,
             decide: ComposedOptions { max_rounds: 5, energy: TwoSided::JUDGE, ..ComposedOptions::default() },
             coarse: ComposedOptions::default(),
             pose_median: 1.09,
@@ -243,6 +250,36 @@ impl CoarseMap<'_> {
         Ok(())
     }
 
+    /// Brings vertices back on both sides, as many times more as a level has; `false` where none is missing.
+    fn grow(&mut self, (options, monitor): (&MultilevelOptions, &mut dyn Monitor)) -> Result<bool, MapError> {
+        let mut grown = false;
+        for level in &mut self.levels {
+            let (live, full) = (level.mesh().live_vertices(), level.full_vertices());
+            let next = (live as f64 * options.growth) as usize;
+            // No level that is only a little coarser than the full mesh.
+            let goal = if 2 * next > full { full } else { next };
+            grown |= goal > live;
+            let quiet = InitialOptions { growth: f64::INFINITY, ..options.initial };
+            initial::refine(level, goal, &quiet, monitor)?;
+        }
+        Ok(grown)
+    }
+
+    /// Goes to the next finer level and judges the map there; `false` where there is none.
+    ///
+    /// # Errors
+    /// [`MapError::NoStart`], [`MapError::Cancelled`].
+    pub fn judge_finer(
+        &mut self,
+        (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
+    ) -> Result<bool, MapError> {
+        let grown = self.grow((options, &mut *monitor))?;
+        if grown {
+            self.relax((&options.decide, monitor))?;
+        }
+        Ok(grown)
+    }
+
     /// Shows each side's level with its images, and its pulls.
     fn look(&mut self, mut show: impl FnMut(usize, &Seen<'_>, &mut Vec<(VertexId, Pull)>)) {
         let present = self.present();
@@ -315,20 +352,7 @@ pub fn solve_fine(
     mut map: CoarseMap<'_>,
     (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
 ) -> Result<[Embedding; 2], MapError> {
-    loop {
-        let mut grown = false;
-        for level in &mut map.levels {
-            let (live, full) = (level.mesh().live_vertices(), level.full_vertices());
-            let next = (live as f64 * options.growth) as usize;
-            // No level that is only a little coarser than the full mesh.
-            let goal = if 2 * next > full { full } else { next };
-            grown |= goal > live;
-            let quiet = InitialOptions { growth: f64::INFINITY, ..options.initial };
-            initial::refine(level, goal, &quiet, monitor)?;
-        }
-        if !grown {
-            break;
-        }
+    while map.grow((options, &mut *monitor))? {
         let fine = ComposedOptions { energy: map.energy, ..options.fine };
         // The finest level has room for what pulls have dented, and hardly moves otherwise.
         let is_finest = map.levels.iter().all(Seamless::is_full);

@@ -22,6 +22,8 @@ pub enum Command {
     Suggest(SuggestArguments),
     /// Deform one mesh conformally to a flat metric with prescribed cones.
     Flow(FlowArguments),
+    /// Give a mesh even triangles, as many as wanted, with vertices on its surface.
+    Remesh(RemeshArguments),
 }
 
 /// `conemap map`.
@@ -94,6 +96,31 @@ pub struct FlowArguments {
     /// File for the report (JSON).
     #[arg(long)]
     pub report: Option<PathBuf>,
+}
+
+/// `conemap remesh`.
+#[derive(Debug, Args)]
+pub struct RemeshArguments {
+    /// Mesh: OBJ, OFF, PLY, STL, GLB or glTF; closed, genus 0.
+    pub mesh: PathBuf,
+    /// The wanted number of triangles; the result is within 5 % of it.
+    #[arg(long, value_name = "N")]
+    pub faces: usize,
+    /// Edges whose faces' normals differ by more than this stay sharp; 180 for none.
+    #[arg(long, value_name = "DEGREES", default_value_t = 45.0, value_parser = degrees)]
+    pub crease_angle: f64,
+    /// File for the new mesh: its ending, obj, off or ply, says the format.
+    #[arg(long)]
+    pub out: PathBuf,
+    /// File for the report (JSON).
+    #[arg(long)]
+    pub report: Option<PathBuf>,
+}
+
+/// An angle from 0 to 180 degrees.
+fn degrees(text: &str) -> Result<f64, String> {
+    let degrees = text.parse().map_err(|_| format!("`{text}` is no number of degrees"))?;
+    if (0.0..=180.0).contains(&degrees) { Ok(degrees) } else { Err("it must be from 0 to 180".to_owned()) }
 }
 
 /// How the map is made.

@@ -1,0 +1,230 @@
+//! Sharp edges of the given surface, as lines along which the vertices of the new mesh stay.
+//!
+//! A chain is a line of sharp edges between two corners, or a closed one. Corners are where more or fewer than two sharp edges
+//! meet, or where the line bends sharply: they stay in the mesh. A chain shorter than a few of the new edges is no line but a
+//! dent or a part of fur, and is left out.
+
+use crate::math::scalar::{atan2, cos, max};
+use crate::mesh::surface_index::bounding_box;
+use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
+use glam::DVec3;
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+use parry3d_f64::query::PointQuery;
+use rustc_hash::FxHashMap;
+use typed_index_collections::{TiVec, ti_vec};
+
+/// Lines are at least so many new edges long.
+const SHORTEST: f64 = 3.0;
+/// A line turns by less than this at a vertex (45 degrees) that is no corner.
+const BEND: f64 = std::f64::consts::FRAC_PI_4;
+/// Triangles with less double area by longest side squared have no normal that means anything.
+const SLIVER: f64 = 0.02;
+
+/// What a vertex is to the sharp edges.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// On none.
+    Free,
+    /// Inside the chain of that number.
+    Along(u32),
+    /// The end of a chain.
+    Corner,
+}
+
+/// The sharp edges of a mesh that changes, and their lines on the given surface.
+pub(super) struct Creases {
+    /// By edge, the lower vertex first, its chain.
+    chains: FxHashMap<[VertexId; 2], u32>,
+    kinds: TiVec<VertexId, Kind>,
+    /// The given surface's sharp edges.
+    segments: Vec<Segment>,
+    hierarchy: Bvh,
+}
+
+struct Segment {
+    chain: u32,
+    ends: [DVec3; 2],
+    face: FaceId,
+}
+
+impl Creases {
+    /// The sharp edges of a surface: where the normals of two faces differ by more than `angle`, in lines of at least some
+    /// edges of the new `length`.
+    pub fn find(surface: &SurfaceMesh, angle: f64, length: f64) -> Self {
+        let sharp = surface.edges().filter(|&h| is_sharp(surface, h, angle)).collect();
+        let Lines { sharp, chains, is_corner } = Lines::find(surface, sharp, SHORTEST * length);
+        let mut creases = Self {
+            chains: FxHashMap::default(),
+            kinds: ti_vec![Kind::Free; surface.vertex_count()],
+            segments: Vec::with_capacity(sharp.len()),
+            hierarchy: Bvh::new(),
+        };
+        for (&h, chain) in sharp.iter().zip(chains) {
+            let ends = [surface.tail(h), surface.head(h)];
+            creases.chains.insert(sorted(ends), chain);
+            for v in ends {
+                creases.kinds[v] = if is_corner[v] { Kind::Corner } else { Kind::Along(chain) };
+            }
+            let ends = ends.map(|v| surface.positions()[v]);
+            creases.segments.push(Segment { chain, ends, face: h.face() });
+        }
+        let boxes: Vec<_> = creases.segments.iter().map(|segment| bounding_box(&segment.ends)).collect();
+        creases.hierarchy = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
+        creases
+    }
+
+    /// Holds vertices like corners.
+    pub fn hold(&mut self, vertices: &[VertexId]) {
+        vertices.iter().for_each(|&v| self.kinds[v] = Kind::Corner);
+    }
+
+    /// What a vertex is.
+    pub fn kind(&self, v: VertexId) -> Kind {
+        self.kinds[v]
+    }
+
+    /// The chain of the edge between two vertices, if it is sharp.
+    pub fn chain(&self, ends: [VertexId; 2]) -> Option<u32> {
+        self.chains.get(&sorted(ends)).copied()
+    }
+
+    /// The edge between two vertices was split by the next one.
+    pub fn split(&mut self, ends: [VertexId; 2], middle: VertexId) {
+        let chain = self.chains.remove(&sorted(ends));
+        self.kinds.push(chain.map_or(Kind::Free, Kind::Along));
+        if let Some(chain) = chain {
+            ends.iter().for_each(|&end| {
+                self.chains.insert(sorted([end, middle]), chain);
+            });
+        }
+    }
+
+    /// A vertex with these neighbours went into one of them.
+    pub fn collapse(&mut self, removed: VertexId, kept: VertexId, neighbours: &[VertexId]) {
+        for &w in neighbours {
+            if let Some(chain) = self.chains.remove(&sorted([removed, w]))
+                && w != kept
+            {
+                self.chains.insert(sorted([kept, w]), chain);
+            }
+        }
+    }
+
+    /// The nearest point of a chain, with a face beside it.
+    pub fn nearest(&self, p: DVec3, chain: u32) -> (DVec3, FaceId) {
+        let place = p.to_array().into();
+        let found = self.hierarchy.find_best(
+            f64::MAX,
+            |node, _| node.aabb().distance_to_local_point(place, true),
+            |k, _| {
+                let segment = self.segments.get(k as usize).filter(|segment| segment.chain == chain)?;
+                let nearest = nearest_between(p, segment.ends);
+                Some((nearest.distance(p), (nearest, segment.face)))
+            },
+        );
+        found.map_or((p, FaceId(0)), |(_, (_, nearest))| nearest)
+    }
+}
+
+fn sorted([a, b]: [VertexId; 2]) -> [VertexId; 2] {
+    if a < b { [a, b] } else { [b, a] }
+}
+
+fn nearest_between(p: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
+    let squared = a.distance_squared(b);
+    if squared > 0.0 { a.lerp(b, ((p - a).dot(b - a) / squared).clamp(0.0, 1.0)) } else { a }
+}
+
+fn is_sharp(surface: &SurfaceMesh, h: HalfedgeId, angle: f64) -> bool {
+    let normals = [h, surface.twin(h)].map(|h| {
+        let [p, q, r] = surface.corners(h.face());
+        let longest = max(max(p.distance_squared(q), q.distance_squared(r)), r.distance_squared(p));
+        let normal = (q - p).cross(r - p);
+        (normal, normal.length() > SLIVER * longest)
+    });
+    let [(a, a_is_round), (b, b_is_round)] = normals;
+    a_is_round && b_is_round && atan2(a.cross(b).length(), a.dot(b)) > angle
+}
+
+/// Chains, and what they are made of.
+struct Lines {
+    sharp: Vec<HalfedgeId>,
+    /// By sharp edge its chain.
+    chains: Vec<u32>,
+    is_corner: TiVec<VertexId, bool>,
+}
+
+impl Lines {
+    /// The chains of at least some length. Where short ones go, others may join, or end where they met: so until none is short.
+    fn find(surface: &SurfaceMesh, mut sharp: Vec<HalfedgeId>, least: f64) -> Self {
+        loop {
+            let graph = Graph::new(surface, &sharp);
+            let is_corner = surface.vertices().map(|v| graph.is_corner(v)).collect();
+            let chains = graph.chains(&is_corner);
+            let mut lengths = vec![0.0; sharp.len()];
+            for (&h, &chain) in sharp.iter().zip(&chains) {
+                lengths[chain as usize] += surface.length(h);
+            }
+            let long = |chain: u32| lengths[chain as usize] >= least;
+            if chains.iter().all(|&chain| long(chain)) {
+                return Self { sharp, chains, is_corner };
+            }
+            sharp = sharp.iter().zip(&chains).filter(|(_, chain)| long(**chain)).map(|(&h, _)| h).collect();
+        }
+    }
+}
+
+/// Sharp edges by the vertices that they meet in.
+struct Graph<'a> {
+    surface: &'a SurfaceMesh,
+    sharp: &'a [HalfedgeId],
+    edges_at: TiVec<VertexId, Vec<usize>>,
+}
+
+impl<'a> Graph<'a> {
+    fn new(surface: &'a SurfaceMesh, sharp: &'a [HalfedgeId]) -> Self {
+        let mut edges_at = ti_vec![Vec::new(); surface.vertex_count()];
+        for (edge, &h) in sharp.iter().enumerate() {
+            edges_at[surface.tail(h)].push(edge);
+            edges_at[surface.head(h)].push(edge);
+        }
+        Self { surface, sharp, edges_at }
+    }
+
+    /// Whether a line ends at a vertex.
+    fn is_corner(&self, v: VertexId) -> bool {
+        let [a, b] = self.edges_at[v][..] else { return !self.edges_at[v].is_empty() };
+        let away = |edge: usize| {
+            let [tail, head] = [self.surface.tail(self.sharp[edge]), self.surface.head(self.sharp[edge])];
+            let other = if tail == v { head } else { tail };
+            (self.surface.positions()[other] - self.surface.positions()[v]).normalize_or_zero()
+        };
+        away(a).dot(away(b)) > -cos(BEND)
+    }
+
+    /// By sharp edge the number of its chain.
+    fn chains(&self, is_corner: &TiVec<VertexId, bool>) -> Vec<u32> {
+        let mut chains = vec![u32::MAX; self.sharp.len()];
+        let mut count = 0;
+        for first in 0..self.sharp.len() {
+            if chains[first] != u32::MAX {
+                continue;
+            }
+            let mut queue = vec![first];
+            chains[first] = count;
+            while let Some(edge) = queue.pop() {
+                let h = self.sharp[edge];
+                for v in [self.surface.tail(h), self.surface.head(h)].into_iter().filter(|&v| !is_corner[v]) {
+                    for &next in &self.edges_at[v] {
+                        if chains[next] == u32::MAX {
+                            chains[next] = count;
+                            queue.push(next);
+                        }
+                    }
+                }
+            }
+            count += 1;
+        }
+        chains
+    }
+}

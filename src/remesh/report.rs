@@ -1,0 +1,88 @@
+//! What a new mesh is like.
+
+use crate::math::scalar::{max, min};
+use crate::math::triangle::angle_at;
+use crate::mesh::surface_index::SurfaceIndex;
+use crate::mesh::{FaceId, SurfaceMesh};
+use glam::DVec3;
+use serde::Serialize;
+
+/// What a new mesh is like, in the units of the given one.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// Number of triangles.
+    pub faces: usize,
+    /// Rounds that were made.
+    pub rounds: usize,
+    /// Of the edges.
+    pub edge_length: EdgeLengths,
+    /// Smallest angle of a triangle, in degrees.
+    pub min_angle: f64,
+    /// Mean over the triangles of their smallest angles, in degrees; 60 at most.
+    pub mean_min_angle: f64,
+    /// To the given surface and from it.
+    pub distance: Distances,
+}
+
+/// How long edges are.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct EdgeLengths {
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation.
+    pub deviation: f64,
+}
+
+/// Largest distances between two surfaces, at the vertices, edge midpoints and centroids of the one that is named first.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Distances {
+    /// From the new mesh to the given one.
+    pub to_original: f64,
+    /// From the given mesh to the new one: large where a thin part was lost.
+    pub from_original: f64,
+}
+
+impl Report {
+    /// Measures a mesh against the surface that it stands for.
+    pub(super) fn new(mesh: &SurfaceMesh, original: &SurfaceIndex<'_>, rounds: usize) -> Self {
+        let smallest: Vec<_> = mesh.faces().map(|f| smallest_angle(mesh.corners(f)).to_degrees()).collect();
+        Self {
+            faces: mesh.face_count(),
+            rounds,
+            edge_length: EdgeLengths::of(mesh),
+            min_angle: smallest.iter().copied().fold(60.0, min),
+            mean_min_angle: smallest.iter().sum::<f64>() / smallest.len() as f64,
+            distance: Distances {
+                to_original: largest_distance(mesh, original),
+                from_original: largest_distance(original.mesh(), &SurfaceIndex::new(mesh)),
+            },
+        }
+    }
+}
+
+impl EdgeLengths {
+    /// Of a mesh.
+    pub fn of(mesh: &SurfaceMesh) -> Self {
+        let count = mesh.edge_count() as f64;
+        let mean = mesh.edges().map(|h| mesh.length(h)).sum::<f64>() / count;
+        let square = |length: f64| (length - mean) * (length - mean);
+        let deviation = (mesh.edges().map(|h| square(mesh.length(h))).sum::<f64>() / count).sqrt();
+        Self { mean, deviation }
+    }
+}
+
+fn smallest_angle([p, q, r]: [DVec3; 3]) -> f64 {
+    min(angle_at(p, q, r), min(angle_at(q, r, p), angle_at(r, p, q)))
+}
+
+fn largest_distance(from: &SurfaceMesh, to: &SurfaceIndex<'_>) -> f64 {
+    let samples = |f: FaceId| {
+        let [p, q, r] = from.corners(f);
+        [p, p.midpoint(q), q.midpoint(r), r.midpoint(p), (p + q + r) / 3.0]
+    };
+    let mut largest = 0.0;
+    for sample in from.faces().flat_map(samples) {
+        largest = max(largest, to.nearest(sample).distance);
+    }
+    largest
+}
