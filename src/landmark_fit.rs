@@ -138,7 +138,9 @@ pub fn landmark_fit(
         }
     }
     let mut fit = Fit::new(landmarks, distances);
-    while let Some(finding) = fit.best_swap() {
+    // Any order of n targets is n - 1 exchanges away, and an exchange may make others look worth while again.
+    for _ in 1..landmarks.len() {
+        let Some(finding) = fit.best_swap() else { break };
         let Finding::Swapped { pairs: [a, b], .. } = finding else { break };
         fit.target_of.swap(a, b);
         findings.push(finding);

@@ -9,6 +9,7 @@ pub mod base_domain;
 pub mod cone_metric;
 pub mod demo;
 pub mod export;
+pub mod geodesic;
 pub mod intrinsic;
 pub mod io;
 pub mod landmark_fit;

@@ -15,7 +15,8 @@ use serde_json::Value;
 use std::ffi::OsStr;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
 
 /// An empty folder of this test's own.
 fn folder(test: &str) -> PathBuf {
@@ -347,7 +348,6 @@ fn a_limit_of_time_gives_a_certified_map_sooner() {
 #[test]
 fn an_interrupt_finishes_with_a_certified_map() {
     use std::io::{BufRead, BufReader};
-    use std::process::Stdio;
     let folder = folder("an_interrupt_finishes_with_a_certified_map");
     let demo = conemap::demo::build("horse-cat").unwrap();
     let [source, target, pairs] = write_files(&folder, [&demo.source, &demo.target], &demo.landmarks);
@@ -397,6 +397,38 @@ fn suggests_vertices_as_json() {
         &[OsStr::new("suggest"), source.as_os_str(), OsStr::new("--beside=99999999")],
         &["no vertex 99999999"],
     );
+}
+
+/// The program's output, within a minute of wall time.
+fn conemap_in_a_minute<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_conemap"));
+    let mut child = command.args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let begun = Instant::now();
+    while child.try_wait().unwrap().is_none() {
+        if begun.elapsed() > Duration::from_secs(60) {
+            child.kill().unwrap();
+            panic!("{command:?} did not end");
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    child.wait_with_output().unwrap()
+}
+
+#[test]
+fn suggestions_end_on_all_meshes() {
+    let Some(data) = common::data_folder("suggestions_end_on_all_meshes") else { return };
+    for folder in ["single", "hang"] {
+        let files = std::fs::read_dir(data.join(folder)).unwrap().map(|entry| entry.unwrap().path());
+        let mut meshes: Vec<_> = files.filter(|path| path.extension() == Some(OsStr::new("off"))).collect();
+        meshes.sort();
+        assert!(!meshes.is_empty());
+        for mesh in meshes {
+            let output = conemap_in_a_minute([OsStr::new("suggest"), mesh.as_os_str()]);
+            assert!(output.status.success(), "{}: {}", mesh.display(), errors(&output));
+            let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+            assert!(!json["suggestions"].as_array().unwrap().is_empty(), "{}", mesh.display());
+        }
+    }
 }
 
 #[test]

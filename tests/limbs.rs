@@ -3,6 +3,7 @@
 
 mod common;
 
+use conemap::monitor::Silent;
 use conemap::pipeline::{FindingKind, GroundTruth, MapInput, findings};
 
 /// Sides (0 source, 1 target) of a pair on which limbs are named, with how many.
@@ -10,7 +11,8 @@ fn named(data: &std::path::Path, name: &str) -> Vec<(usize, usize)> {
     let pair = common::read_pair(data, name);
     let landmarks = common::landmarks(&pair);
     let (source, target, ground_truth) = (&pair.source, &pair.target, GroundTruth::Unknown);
-    let found = findings(MapInput { source, target, landmarks: &landmarks, ground_truth }, &[]);
+    let input = MapInput { source, target, landmarks: &landmarks, ground_truth };
+    let found = findings(input, &[], &mut Silent).unwrap();
     let limbs = found.iter().filter(|f| f.kind == FindingKind::UnmarkedLimbs);
     limbs.map(|f| (f.side.unwrap(), f.vertices.len())).collect()
 }

@@ -5,6 +5,7 @@ use conemap::pipeline::PipelineOptions;
 use std::path::PathBuf;
 
 /// The arguments of the command line.
+#[derive(Clone)]
 pub struct Arguments {
     /// The table's name.
     pub table: String,
@@ -12,6 +13,8 @@ pub struct Arguments {
     pub data: PathBuf,
     /// Names of pairs, or beginnings of names; all when empty.
     pub pairs: Vec<String>,
+    /// Names of variants; all when empty.
+    pub variants: Vec<String>,
     /// Random repetitions.
     pub seeds: u64,
     /// Maps that are made at once.
@@ -37,6 +40,7 @@ impl Arguments {
             table: given.next().unwrap_or_default(),
             data,
             pairs: Vec::new(),
+            variants: Vec::new(),
             seeds: 1,
             jobs: std::thread::available_parallelism().map_or(1, usize::from),
             time_limit: 150.0,
@@ -50,6 +54,7 @@ impl Arguments {
             let number = || value.parse::<f64>().unwrap_or_else(|_| panic!("{option} {value}: not a number"));
             match option.as_str() {
                 "--pairs" => arguments.pairs = value.split(',').map(str::to_owned).collect(),
+                "--variants" => arguments.variants = value.split(',').map(str::to_owned).collect(),
                 "--seeds" => arguments.seeds = number() as u64,
                 "--jobs" => arguments.jobs = number() as usize,
                 "--time-limit" => arguments.time_limit = number(),

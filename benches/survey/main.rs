@@ -15,6 +15,7 @@ mod classes;
 mod clicks;
 mod pairs;
 mod remesh;
+mod remeshed;
 mod table;
 
 use arguments::Arguments;
@@ -48,6 +49,16 @@ const SURVEYS: &[Survey] = &[
         name: "remesh",
         about: "every mesh remeshed to half, once and twice its faces; --pairs FOLDER/NAME,...",
         run: remesh::data_meshes,
+    },
+    Survey {
+        name: "remeshed",
+        about: "the target in other triangles, landmarks in faces; --variants half,isotropic,...",
+        run: remeshed::targets,
+    },
+    Survey {
+        name: "truth",
+        about: "poses with a known truth, the same connectivity or remeshed, 33, 12 and 6 landmarks; --pairs horse-horse,cat-cat",
+        run: remeshed::truth,
     },
 ];
 

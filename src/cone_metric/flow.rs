@@ -131,7 +131,7 @@ impl<'a> Newton<'a> {
             self.report.cg_iterations +=
                 cg.solve(&graph, &preconditioner, (&residual, &mut step), (tolerance, 1000));
             start.copy_from_slice(self.metric.log_radii.as_ref());
-            if !self.line_search(&start, &step, &mut residual) {
+            if !self.line_search(&start, &step, (&mut residual, first), monitor)? {
                 break;
             }
             error = self.residual(&mut residual);
@@ -142,8 +142,12 @@ impl<'a> Newton<'a> {
         if error < self.options.tolerance {
             return Ok((self.metric, self.report));
         }
-        let best = self.report.residuals.iter().copied().fold(f64::INFINITY, f64::min);
-        Err(FlowError::NotConverged { best, report: Box::new(self.report) })
+        Err(FlowError::NotConverged { best: self.best(), report: Box::new(self.report) })
+    }
+
+    /// The least residual so far.
+    fn best(&self) -> f64 {
+        self.report.residuals.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
     /// Progress on a logarithmic scale of the residual.
@@ -172,7 +176,13 @@ impl<'a> Newton<'a> {
     }
 
     /// Moves along the step by the largest power of 1/2 at which the energy still falls, or nearly so.
-    fn line_search(&mut self, start: &[f64], step: &[f64], residual: &mut [f64]) -> bool {
+    fn line_search(
+        &mut self,
+        start: &[f64],
+        step: &[f64],
+        (residual, at_first): (&mut [f64], f64),
+        monitor: &mut dyn Monitor,
+    ) -> Result<bool, Cancelled> {
         let slope = |r: &[f64]| r.iter().zip(step).map(|(a, b)| a * b).sum::<f64>();
         let first = slope(residual);
         let mut t = 1.0;
@@ -183,14 +193,15 @@ impl<'a> Newton<'a> {
             let valid = self.update();
             let error = self.residual(residual);
             if valid && error.is_finite() && slope(residual) >= -0.1 * first {
-                return true;
+                return Ok(true);
             }
+            monitor.step(Step { fraction: self.fraction(at_first, self.best()), residual: None })?;
             t *= 0.5;
         }
         self.metric.log_radii.iter_mut().zip(start).for_each(|(u, s)| *u = *s);
         self.update();
         self.residual(residual);
-        false
+        Ok(false)
     }
 }
 

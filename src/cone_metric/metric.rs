@@ -12,6 +12,9 @@ use crate::numerics::laplacian::Graph;
 use std::f64::consts::TAU;
 use typed_index_collections::{TiVec, ti_vec};
 
+/// Flips by halfedge, at most: after a whole step of the flow there are fewer than one.
+const MOST_FLIPS: usize = 100;
+
 /// A discrete metric conformal to a mesh.
 #[derive(Clone, Debug)]
 pub struct ConeMetric {
@@ -55,11 +58,15 @@ impl ConeMetric {
     }
 
     /// Flips until every edge is weighted Delaunay; returns the number of flips.
+    ///
+    /// Flips lower an energy, so they end; where rounding makes them go round in circles they are ended here. What is left is
+    /// a triangulation all the same, and the flow judges it by its curvatures.
     pub(super) fn restore_delaunay(&mut self, queue: &mut FlipQueue) -> usize {
         let inverse: TiVec<VertexId, f64> = self.log_radii.iter().map(|&u| exp(-u)).collect();
         queue.fill(&self.triangulation);
         let mut flips = 0;
-        while let Some(h) = queue.pop() {
+        let most = MOST_FLIPS * self.etas.len();
+        while let Some(h) = queue.pop().filter(|_| flips < most) {
             if self.is_delaunay(h, &inverse) || !self.triangulation.is_flippable(h) {
                 continue;
             }

@@ -1,8 +1,9 @@
 //! Limbs without a landmark.
 
-use super::distance::{distances, distances_within};
 use super::tips;
+use crate::geodesic::{distances, distances_within};
 use crate::mesh::{SurfaceMesh, VertexId};
+use crate::monitor::{Cancelled, Monitor, Step};
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -18,14 +19,26 @@ const THIN: f64 = 0.3;
 ///
 /// The limits were set by the test pairs: tails without a landmark are at 0.22 and less, ears and muzzles at 0.3 and more. Short
 /// limbs (less than 0.18 of the root of the area from end to landmark) are not told.
-pub fn unmarked_limbs(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> Vec<VertexId> {
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn unmarked_limbs(
+    mesh: &SurfaceMesh,
+    landmarks: &[VertexId],
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<VertexId>, Cancelled> {
     let to_landmark = distances(mesh, landmarks);
     let areas = mesh.vertex_areas().raw;
     let marked = MARKED * mesh.area().sqrt();
-    let is_unmarked = |&tip: &VertexId| {
-        landmarks.is_empty() || thinnest(mesh, &areas, (tip, marked..to_landmark[tip])) < THIN
-    };
-    tips(mesh, marked).into_iter().filter(is_unmarked).collect()
+    let tips = tips(mesh, marked, monitor)?;
+    let mut unmarked = Vec::new();
+    for (k, &tip) in tips.iter().enumerate() {
+        monitor.step(Step { fraction: k as f64 / tips.len() as f64, residual: None })?;
+        if landmarks.is_empty() || thinnest(mesh, &areas, (tip, marked..to_landmark[tip])) < THIN {
+            unmarked.push(tip);
+        }
+    }
+    Ok(unmarked)
 }
 
 /// The least area of a disc around a vertex, relative to the flat one, among radii of a range; infinite for none.
@@ -52,18 +65,19 @@ mod tests {
     use super::*;
     use crate::demo;
     use crate::mesh::generators::icosphere;
+    use crate::monitor::Silent;
 
     #[test]
     fn a_limb_is_missed_when_its_landmark_is_taken_away() {
         let demo = demo::build("horse-cat").unwrap();
         let all: Vec<VertexId> = demo.landmarks.iter().map(|pair| VertexId(pair[0])).collect();
-        assert_eq!(unmarked_limbs(&demo.source, &all), []);
+        assert_eq!(unmarked_limbs(&demo.source, &all, &mut Silent).unwrap(), []);
         for name in ["left fore", "right hind", "tail"] {
             let named = |label: &&String| label.starts_with(name);
             let (gone, kept): (Vec<_>, Vec<_>) =
                 all.iter().zip(&demo.labels).partition(|(_, label)| named(label));
             let kept: Vec<VertexId> = kept.into_iter().map(|(v, _)| *v).collect();
-            let found = unmarked_limbs(&demo.source, &kept);
+            let found = unmarked_limbs(&demo.source, &kept, &mut Silent).unwrap();
             let near = |v: VertexId| {
                 let p = demo.source.positions()[v];
                 gone.iter().any(|(w, _)| demo.source.positions()[**w].distance(p) < 0.25)
@@ -75,6 +89,6 @@ mod tests {
     #[test]
     fn a_ball_has_no_limbs() {
         let ball = icosphere(3);
-        assert_eq!(unmarked_limbs(&ball, &[0, 100, 200, 300].map(VertexId)), []);
+        assert_eq!(unmarked_limbs(&ball, &[0, 100, 200, 300].map(VertexId), &mut Silent).unwrap(), []);
     }
 }

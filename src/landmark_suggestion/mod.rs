@@ -1,18 +1,18 @@
 //! Points of one mesh that are worth a landmark: ends of limbs, and points far from all others; which of them are partners
 //! under a symmetry; and limbs without a landmark.
 
-mod distance;
 mod limbs;
 mod symmetry;
 mod tips;
 
-pub use distance::{distances, shorten};
 pub use limbs::unmarked_limbs;
 pub use symmetry::partners;
 pub use tips::tips;
 
+use crate::geodesic::{distances, shorten};
 use crate::mesh::coarsening::Level;
 use crate::mesh::{SurfaceMesh, VertexId};
+use crate::monitor::{Cancelled, Monitor, Step};
 use typed_index_collections::TiVec;
 
 /// Why a point is suggested.
@@ -42,28 +42,42 @@ const COARSE_VERTICES: usize = 4000;
 /// At most `count` vertices that are worth a landmark beside those that there are, the best first: tips, the most remote
 /// first, then farthest points. All are farther from each other and from `landmarks` than a tenth of the root of the area.
 /// A large mesh is looked at on a coarse level.
-pub fn suggest(mesh: &SurfaceMesh, landmarks: &[VertexId], count: usize) -> Vec<Suggestion> {
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn suggest(
+    mesh: &SurfaceMesh,
+    landmarks: &[VertexId],
+    count: usize,
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<Suggestion>, Cancelled> {
     if mesh.vertex_count() <= COARSE_VERTICES {
-        return suggest_here(mesh, landmarks, count);
+        return suggest_here(mesh, landmarks, count, monitor);
     }
     let level = Level::coarse(mesh, landmarks, COARSE_VERTICES);
     let numbers: Vec<VertexId> = level.numbers(landmarks).collect();
-    let found = suggest_here(&level.mesh, &numbers, count);
-    found.into_iter().map(|s| Suggestion { vertex: level.vertices[s.vertex], ..s }).collect()
+    let found = suggest_here(&level.mesh, &numbers, count, monitor)?;
+    Ok(found.into_iter().map(|s| Suggestion { vertex: level.vertices[s.vertex], ..s }).collect())
 }
 
-fn suggest_here(mesh: &SurfaceMesh, landmarks: &[VertexId], count: usize) -> Vec<Suggestion> {
+fn suggest_here(
+    mesh: &SurfaceMesh,
+    landmarks: &[VertexId],
+    count: usize,
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<Suggestion>, Cancelled> {
     let least = 0.1 * mesh.area().sqrt();
     let mut distance = distances(mesh, landmarks);
-    let mut found = Vec::with_capacity(count);
-    for vertex in tips(mesh, least) {
+    let mut found = Vec::new();
+    for vertex in tips(mesh, least, monitor)? {
         if found.len() < count && distance[vertex] > least {
+            monitor.step(Step { fraction: found.len() as f64 / count as f64, residual: None })?;
             found.push(Suggestion { vertex, reason: Reason::Tip, partner: None });
             shorten(mesh, &[vertex], &mut distance);
         }
     }
     let ends: Vec<VertexId> = found.iter().map(|s| s.vertex).collect();
-    for (suggestion, partner) in found.iter_mut().zip(partners(mesh, &ends)) {
+    for (suggestion, partner) in found.iter_mut().zip(partners(mesh, &ends, monitor)?) {
         suggestion.partner = partner;
     }
     let nothing_known = landmarks.is_empty() && found.is_empty();
@@ -72,9 +86,9 @@ fn suggest_here(mesh: &SurfaceMesh, landmarks: &[VertexId], count: usize) -> Vec
         found.push(far(VertexId(0)));
         shorten(mesh, &[VertexId(0)], &mut distance);
     }
-    let rest = farthest_points(mesh, distance, (count - found.len(), least), |_| true);
+    let rest = farthest_points((mesh, distance), (count - found.len(), least), |_| true, monitor)?;
     found.extend(rest.into_iter().map(far));
-    found
+    Ok(found)
 }
 
 fn far(vertex: VertexId) -> Suggestion {
@@ -83,36 +97,42 @@ fn far(vertex: VertexId) -> Suggestion {
 
 /// Farthest points: at most `count` vertices, each the farthest from all before it and from what `distance` measures from;
 /// `may` says which vertices are allowed. Fewer where every allowed vertex is nearer than `least`.
+///
+/// # Errors
+/// [`Cancelled`].
 pub fn farthest_points(
-    mesh: &SurfaceMesh,
-    mut distance: TiVec<VertexId, f64>,
+    (mesh, mut distance): (&SurfaceMesh, TiVec<VertexId, f64>),
     (count, least): (usize, f64),
     may: impl Fn(VertexId) -> bool,
-) -> Vec<VertexId> {
-    let mut chosen = Vec::with_capacity(count);
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<VertexId>, Cancelled> {
+    let mut chosen = Vec::new();
     while chosen.len() < count {
+        monitor.step(Step { fraction: chosen.len() as f64 / count as f64, residual: None })?;
         let allowed = mesh.vertices().filter(|&v| may(v) && distance[v].is_finite());
         let Some(v) = allowed.max_by(|a, b| distance[*a].total_cmp(&distance[*b])) else { break };
-        if distance[v] < least {
+        // On a surface whose area is too small for a number, `least` is 0.
+        if distance[v] < least || distance[v] == 0.0 {
             break;
         }
         chosen.push(v);
         shorten(mesh, &[v], &mut distance);
     }
-    chosen
+    Ok(chosen)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mesh::generators::icosphere;
+    use crate::monitor::Silent;
 
     #[test]
     fn suggestions_are_apart_from_each_other_and_from_the_landmarks() {
         let ball = icosphere(3);
         let least = 0.1 * ball.area().sqrt();
         for landmarks in [vec![], vec![VertexId(5), VertexId(300)]] {
-            let found = suggest(&ball, &landmarks, 12);
+            let found = suggest(&ball, &landmarks, 12, &mut Silent).unwrap();
             assert_eq!(found.len(), 12);
             let all: Vec<VertexId> =
                 landmarks.iter().copied().chain(found.iter().map(|s| s.vertex)).collect();
@@ -121,7 +141,7 @@ mod tests {
                 assert!(all.iter().skip(k.max(landmarks.len()) + 1).all(|&w| field[w] >= 0.97 * least));
             }
         }
-        assert!(suggest(&ball, &[], 0).is_empty());
+        assert!(suggest(&ball, &[], 0, &mut Silent).unwrap().is_empty());
     }
 
     #[test]
@@ -129,7 +149,7 @@ mod tests {
         let horse = crate::demo::build("horse-cat").unwrap().source;
         let fine = crate::mesh::generators::midpoint_subdivision(&horse);
         for mesh in [&horse, &fine] {
-            let found = suggest(mesh, &[], 8);
+            let found = suggest(mesh, &[], 8, &mut Silent).unwrap();
             let place = |s: &Suggestion| mesh.positions()[s.vertex];
             let mut feet = 0;
             for (k, s) in found.iter().enumerate() {

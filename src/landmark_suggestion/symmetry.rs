@@ -3,8 +3,9 @@
 //! How far the surface lies from a point, as quantiles over the area, does not change under a symmetry of the surface. So two
 //! points whose quantiles agree, each nearest to the other, are taken for partners. Distances alone cannot tell which is left.
 
-use super::distance::distances;
+use crate::geodesic::distances;
 use crate::mesh::{SurfaceMesh, VertexId};
+use crate::monitor::{Cancelled, Monitor, Step};
 
 /// Quantiles by which points are compared.
 const QUANTILES: usize = 32;
@@ -13,16 +14,27 @@ const QUANTILES: usize = 32;
 const ALIKE: f64 = 0.03;
 
 /// For each point the number of its partner under a symmetry, where there is one; partners name each other.
-pub fn partners(mesh: &SurfaceMesh, points: &[VertexId]) -> Vec<Option<usize>> {
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn partners(
+    mesh: &SurfaceMesh,
+    points: &[VertexId],
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<Option<usize>>, Cancelled> {
     let areas = mesh.vertex_areas().raw;
-    let quantiles: Vec<[f64; QUANTILES]> = points.iter().map(|&v| quantiles(mesh, &areas, v)).collect();
+    let mut by_point: Vec<[f64; QUANTILES]> = Vec::with_capacity(points.len());
+    for &v in points {
+        monitor.step(Step { fraction: by_point.len() as f64 / points.len() as f64, residual: None })?;
+        by_point.push(quantiles(mesh, &areas, v));
+    }
     let nearest = |i: usize| {
         let others = (0..points.len()).filter(|&j| j != i);
-        let misfits = others.map(|j| (misfit(&quantiles[i], &quantiles[j]), j));
+        let misfits = others.map(|j| (misfit(&by_point[i], &by_point[j]), j));
         misfits.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|best| best.0 < ALIKE).map(|best| best.1)
     };
     let nearest: Vec<Option<usize>> = (0..points.len()).map(nearest).collect();
-    (0..points.len()).map(|i| nearest[i].filter(|&j| nearest[j] == Some(i))).collect()
+    Ok((0..points.len()).map(|i| nearest[i].filter(|&j| nearest[j] == Some(i))).collect())
 }
 
 /// Distances within which equal shares of the area lie.
@@ -53,6 +65,7 @@ mod tests {
     use super::*;
     use crate::landmark_suggestion::tips;
     use crate::mesh::generators::icosphere;
+    use crate::monitor::Silent;
     use glam::DVec3;
 
     /// A ball with two equal arms and two of other lengths.
@@ -65,9 +78,9 @@ mod tests {
             *p * (1.0 + arms.iter().map(grown).sum::<f64>())
         };
         let star = ball.with_positions(ball.positions().iter().map(arm).collect());
-        let ends = tips(&star, 0.5);
+        let ends = tips(&star, 0.5, &mut Silent).unwrap();
         assert_eq!(ends.len(), arms.len());
-        let found = partners(&star, &ends);
+        let found = partners(&star, &ends, &mut Silent).unwrap();
         for (i, partner) in found.iter().enumerate() {
             let p = star.positions()[ends[i]];
             match partner {

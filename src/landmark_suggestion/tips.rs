@@ -1,7 +1,8 @@
 //! Tips: ends of limbs.
 
-use super::distance::{distances, shorten};
+use crate::geodesic::{distances, shorten};
 use crate::mesh::{SurfaceMesh, VertexId};
+use crate::monitor::{Cancelled, Monitor, Step};
 use typed_index_collections::{TiVec, ti_vec};
 
 /// Points from which the mean distance is measured.
@@ -11,31 +12,38 @@ const SAMPLES: usize = 32;
 /// `radius` around them, and larger than the surface's mean.
 ///
 /// The mean over the surface is that over farthest points (Hilaga et al. 2001 call it the integral geodesic distance).
-pub fn tips(mesh: &SurfaceMesh, radius: f64) -> Vec<VertexId> {
-    let remoteness = remoteness(mesh);
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn tips(mesh: &SurfaceMesh, radius: f64, monitor: &mut dyn Monitor) -> Result<Vec<VertexId>, Cancelled> {
+    let remoteness = remoteness(mesh, monitor)?;
     let mean = remoteness.iter().sum::<f64>() / remoteness.len() as f64;
     let mut order: Vec<VertexId> = mesh.vertices().filter(|&v| remoteness[v] > mean).collect();
     order.sort_by(|a, b| remoteness[*b].total_cmp(&remoteness[*a]).then(a.cmp(b)));
     let mut covered: TiVec<VertexId, f64> = ti_vec![f64::INFINITY; mesh.vertex_count()];
     let mut tips = Vec::new();
-    for v in order {
+    let candidates = order.len() as f64;
+    for (k, v) in order.into_iter().enumerate() {
         let highest = mesh.star(v).all(|h| remoteness[mesh.head(h)] <= remoteness[v]);
         if highest && covered[v] > radius {
             tips.push(v);
         }
         if highest {
+            let fraction = 0.5 + 0.5 * k as f64 / candidates;
+            monitor.step(Step { fraction, residual: None })?;
             shorten(mesh, &[v], &mut covered);
         }
     }
-    tips
+    Ok(tips)
 }
 
-/// Mean distance of every vertex to points spread over the surface.
-fn remoteness(mesh: &SurfaceMesh) -> TiVec<VertexId, f64> {
+/// Mean distance of every vertex to points spread over the surface: half of the work.
+fn remoteness(mesh: &SurfaceMesh, monitor: &mut dyn Monitor) -> Result<TiVec<VertexId, f64>, Cancelled> {
     let mut sum: TiVec<VertexId, f64> = ti_vec![0.0; mesh.vertex_count()];
     let mut nearest: TiVec<VertexId, f64> = ti_vec![f64::INFINITY; mesh.vertex_count()];
     let mut sample = VertexId(0);
-    for _ in 0..SAMPLES {
+    for k in 0..SAMPLES {
+        monitor.step(Step { fraction: 0.5 * k as f64 / SAMPLES as f64, residual: None })?;
         let field = distances(mesh, &[sample]);
         for v in mesh.vertices() {
             sum[v] += field[v] / SAMPLES as f64;
@@ -44,13 +52,14 @@ fn remoteness(mesh: &SurfaceMesh) -> TiVec<VertexId, f64> {
         let farthest = mesh.vertices().max_by(|a, b| nearest[*a].total_cmp(&nearest[*b]));
         sample = farthest.unwrap_or(sample);
     }
-    sum
+    Ok(sum)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mesh::generators::icosphere;
+    use crate::monitor::Silent;
     use glam::DVec3;
 
     /// A ball with five arms.
@@ -63,7 +72,7 @@ mod tests {
             *p * (1.0 + 2.0 * crate::math::scalar::pow(along, 12.0))
         };
         let star = ball.with_positions(ball.positions().iter().map(arm).collect());
-        let found = tips(&star, 0.5);
+        let found = tips(&star, 0.5, &mut Silent).unwrap();
         assert_eq!(found.len(), arms.len());
         for a in arms {
             assert!(found.iter().any(|&v| star.positions()[v].distance(a * 3.0) < 0.2), "{a}");

@@ -156,8 +156,9 @@ fn faces_beside(patched: &PatchedMesh, path: &[VertexId]) -> Vec<FaceId> {
     let Some(mut incoming) = mesh.halfedge_between(path[0], path[1]) else { return faces };
     push(incoming.face());
     for &next in &path[2..] {
-        let mut out = incoming.next();
-        while mesh.head(out) != next {
+        let (mut out, back) = (incoming.next(), mesh.twin(incoming));
+        // Back where it came from at the latest.
+        while mesh.head(out) != next && out != back {
             out = mesh.twin(out).next();
             push(out.face());
         }

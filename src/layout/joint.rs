@@ -46,6 +46,7 @@ pub(super) fn draw(
     let mut planner = Planner::new(ground.distances, variant.midpoint_penalty);
     let mut drawing = ground.empty.clone();
     for ends in tree_in_order(ground.distances, variant) {
+        monitor.step(Step::default())?;
         let plan = drawing.plan(&mut planner, ends, [f64::INFINITY; 2]);
         let plan = plan.ok_or(LayoutError::NoPath { landmarks: ends })?;
         drawing.draw(&plan).ok_or(LayoutError::NoPath { landmarks: ends })?;
@@ -217,6 +218,9 @@ fn leaves_first(tree: Vec<[usize; 2]>, n: usize) -> Vec<[usize; 2]> {
     ordered
 }
 
+/// Keys above this are no limit to paths: the areas are 1.
+const NO_LIMIT: f64 = 1e6;
+
 struct Pair {
     key: f64,
     ends: [usize; 2],
@@ -272,7 +276,9 @@ impl<'a> PairQueue<'a> {
             let geodesics = planner.distances.between(ends);
             let factor = self.variant.factor(ends);
             let next_key = self.queue.peek().map_or(f64::INFINITY, |next| next.key);
-            let limit = 1.2 * next_key.max(least);
+            let raised = 1.2 * next_key.max(least);
+            // The limit grows from a positive number, so it ends; keys beyond the longest of paths need none.
+            let limit = if raised > 0.0 && raised < NO_LIMIT { raised } else { f64::INFINITY };
             let limits = [0, 1].map(|s| length_limit(limit / factor, geodesics, s));
             let Some(plan) = drawing.plan_within(planner, ends, &slots, limits) else {
                 if limit.is_finite() {

@@ -91,6 +91,10 @@ impl PartialOrd for Entry {
 
 const NONE: u32 = u32::MAX;
 
+/// Turns of a search, by nodes. The estimate is that of a mesh without paths, interpolated: nodes may be settled before their
+/// distances are the least, and come up again, mostly once or twice.
+const MOST_TURNS: usize = 100;
+
 /// Reusable search memory.
 #[derive(Default)]
 pub(super) struct PathSearch {
@@ -113,10 +117,12 @@ impl PathSearch {
         let mut best = direct(mesh, query).unwrap_or(f64::INFINITY);
         let mut best_last = NONE;
         self.seed(mesh, query);
+        let mut left = MOST_TURNS * self.distance.len();
         while let Some(Entry { priority, distance: here, node }) = self.queue.pop() {
-            if priority >= best || priority > query.limit {
+            if priority >= best || priority > query.limit || left == 0 {
                 break;
             }
+            left -= 1;
             if here > self.distance[node as usize] {
                 continue;
             }

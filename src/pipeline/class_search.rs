@@ -108,24 +108,33 @@ impl Finalists<'_, '_> {
         self.maps.first().map(|map| map.number).ok_or(LayoutError::NoMap { layouts: 0 }.into())
     }
 
-    /// Compares those that are as good as the best on finer levels.
+    /// Compares those that are as good as the best on finer levels and puts the best first. Only copies are refined: the map
+    /// that is chosen goes on from its coarse level.
     fn compare_finer(&mut self, monitor: &mut dyn Monitor) -> Result<(), PipelineError> {
+        let is_close = |mean_log: f64, least: f64| mean_log <= self.options.undecided * least;
+        let least = self.maps.first().map_or(0.0, |best| best.map.mean_log);
+        let close = self.maps.iter().filter(|finalist| is_close(finalist.map.mean_log, least));
+        let mut rivals: Vec<(usize, CoarseMap<'_>)> = close.map(|f| (f.number, f.map.clone())).collect();
         for _ in 0..self.options.finer {
-            let least = self.maps.first().map_or(0.0, |best| best.map.mean_log);
-            let close = |map: &&mut Finalist<'_>| map.map.mean_log <= self.options.undecided * least;
-            let mut undecided: Vec<_> = self.maps.iter_mut().filter(close).collect();
-            if undecided.len() < 2 || monitor.wants_result() {
+            if rivals.len() < 2 || monitor.wants_result() {
                 break;
             }
-            for finalist in &mut undecided {
-                if !finalist.map.judge_finer((self.options, &mut *monitor))? {
-                    return Ok(());
+            for (_, map) in &mut rivals {
+                match map.judge_finer((self.options, &mut *monitor)) {
+                    Ok(true) => {}
+                    Ok(false) => return Ok(()),
+                    Err(MapError::Cancelled(stop)) => return Err(stop.into()),
+                    // A vertex without a place: the others do better.
+                    Err(_) => map.mean_log = f64::INFINITY,
                 }
             }
-            // The others were left behind on a coarser level.
-            let level = undecided.len();
-            self.maps[..level].sort_by(|a, b| a.map.mean_log.total_cmp(&b.map.mean_log));
-            self.maps.truncate(level);
+            rivals.sort_by(|a, b| a.1.mean_log.total_cmp(&b.1.mean_log));
+            let least = rivals[0].1.mean_log;
+            rivals.retain(|(_, map)| is_close(map.mean_log, least));
+        }
+        if let Some(best) = rivals.first().and_then(|best| self.maps.iter().position(|f| f.number == best.0))
+        {
+            self.maps[..=best].rotate_right(1);
         }
         Ok(())
     }

@@ -7,6 +7,7 @@ use crate::landmarks::Landmarks;
 use crate::layout::LandmarkDistances;
 use crate::mesh::VertexId;
 use crate::mesh::coarsening::Level;
+use crate::monitor::{Cancelled, Monitor};
 use serde::Serialize;
 
 /// Vertices of the coarse levels, on which distances are measured.
@@ -149,7 +150,14 @@ impl FindingReport {
 /// Landmark pairs that do not fit and limbs without one; none when all is well. `labels` are the pairs' names, where they have any.
 ///
 /// A doubt is no error: the map can be made all the same, and the user knows the shapes.
-pub fn findings(input: MapInput<'_>, labels: &[String]) -> Vec<FindingReport> {
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn findings(
+    input: MapInput<'_>,
+    labels: &[String],
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<FindingReport>, Cancelled> {
     let Landmarks { source, target } = input.landmarks;
     let numbers =
         |level: &Level, ends: Vec<VertexId>| ends.iter().map(|&v| level.vertices[v].index()).collect();
@@ -162,12 +170,12 @@ pub fn findings(input: MapInput<'_>, labels: &[String]) -> Vec<FindingReport> {
     for (side, (level, marks)) in
         [(&source, &landmarks.source), (&target, &landmarks.target)].iter().enumerate()
     {
-        let ends: Vec<usize> = numbers(level, unmarked_limbs(&level.mesh, marks));
+        let ends: Vec<usize> = numbers(level, unmarked_limbs(&level.mesh, marks, monitor)?);
         if !ends.is_empty() {
             reports.push(limbs(side, ends));
         }
     }
-    reports
+    Ok(reports)
 }
 
 fn coarse((mesh, landmarks): (&crate::mesh::SurfaceMesh, &[VertexId])) -> (Level, Vec<VertexId>) {
@@ -181,6 +189,7 @@ mod tests {
     use super::*;
     use crate::demo;
     use crate::mesh::mirror::mirrored;
+    use crate::monitor::Silent;
     use crate::pipeline::GroundTruth;
 
     #[test]
@@ -192,7 +201,7 @@ mod tests {
         let landmarks = Landmarks::from_vertices(&demo.source, &demo.target, &pairs).unwrap();
         let (source, target) = (&demo.source, &demo.target);
         let input = MapInput { source, target, landmarks: &landmarks, ground_truth: GroundTruth::Unknown };
-        let found = findings(input, &[]);
+        let found = findings(input, &[], &mut Silent).unwrap();
         assert_eq!(found.iter().map(|f| f.side).collect::<Vec<_>>(), [Some(0), Some(1)], "{found:?}");
         let tail = (0..demo.labels.len()).find(is_tail).unwrap();
         for (side, mesh) in [source, target].into_iter().enumerate() {
@@ -214,7 +223,8 @@ mod tests {
         let found = |target: &crate::mesh::SurfaceMesh, pairs: &[[u32; 2]]| {
             let landmarks = Landmarks::from_vertices(&demo.source, target, pairs).unwrap();
             let (source, ground_truth) = (&demo.source, GroundTruth::Unknown);
-            findings(MapInput { source, target, landmarks: &landmarks, ground_truth }, &demo.labels)
+            let input = MapInput { source, target, landmarks: &landmarks, ground_truth };
+            findings(input, &demo.labels, &mut Silent).unwrap()
         };
         assert_eq!(found(&demo.target, &demo.landmarks), []);
 

@@ -8,7 +8,8 @@ use super::PipelineError;
 use super::class_search::choose_class;
 use super::options::PipelineOptions;
 use super::relaxed::{Full, parametrised};
-use crate::landmark_suggestion::{distances, farthest_points};
+use crate::geodesic::distances;
+use crate::landmark_suggestion::farthest_points;
 use crate::mesh::closest_point::closest_point;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor};
@@ -87,7 +88,7 @@ pub(super) fn add<'a>(
         if monitor.wants_result() {
             break;
         }
-        let pairs = pairs(full, &images, &before, own.count);
+        let pairs = pairs(full, &images, (&before, own.count), monitor)?;
         let Some(with_own) = with(inputs, full, &pairs).filter(|_| without_gain < own.patience) else {
             break;
         };
@@ -125,9 +126,9 @@ const SNAP: f64 = 0.15;
 fn pairs(
     full: &[Full; 2],
     images: &LevelImages,
-    before: &[VertexId],
-    count: usize,
-) -> Vec<(VertexId, SurfacePoint)> {
+    (before, count): (&[VertexId], usize),
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<(VertexId, SurfacePoint)>, Cancelled> {
     let [source, target] = &images.levels;
     let mesh = &source.mesh;
     let user: Vec<VertexId> = source.numbers(&full[0].landmarks).collect();
@@ -138,7 +139,8 @@ fn pairs(
         .collect();
     let mut free = vec![true; mesh.vertex_count()];
     avoid.iter().for_each(|&v| free[v.index()] = false);
-    let chosen = farthest_points(mesh, distances(mesh, &avoid), (count, LEAST_DISTANCE), |v| free[v.index()]);
+    let wanted = (count, LEAST_DISTANCE);
+    let chosen = farthest_points((mesh, distances(mesh, &avoid)), wanted, |v| free[v.index()], monitor)?;
     let mut places: Vec<DVec3> =
         full[1].landmarks.iter().map(|&v| full[1].refined.mesh.positions()[v]).collect();
     let mut pairs = Vec::new();
@@ -153,7 +155,7 @@ fn pairs(
         places.push(place);
         pairs.push((source.vertices[v], point));
     }
-    pairs
+    Ok(pairs)
 }
 
 /// The same point on a corner or a side that is near, so that no needles are made.

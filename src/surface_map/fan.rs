@@ -32,6 +32,9 @@ pub struct Wedge {
     pub motion: Rigid2,
 }
 
+/// Whole turns around a cone, at most: more are those of a cone angle that rounding has left without meaning.
+const MOST_TURNS: i64 = 10_000;
+
 impl<'a> Fan<'a> {
     /// The fan of a landmark.
     pub fn new(surface: &'a ConeSurface, landmark: VertexId) -> Self {
@@ -96,6 +99,7 @@ impl<'a> Fan<'a> {
         let transitions = &self.surface.transitions;
         let mut motion = Rigid2::IDENTITY;
         let mut at = place as i64;
+        let to = to.clamp(at - MOST_TURNS * n, at + MOST_TURNS * n);
         while at < to {
             // Counter-clockwise: out through the side that ends at the landmark.
             motion = transitions[self.halfedges[at.rem_euclid(n) as usize].0.prev()].after(&motion);
@@ -110,7 +114,7 @@ impl<'a> Fan<'a> {
 
     /// The motion from the plane of one anchor's face to that of another's, `turns` whole turns back around the cone.
     pub fn between(&self, from: &Anchor, to: &Anchor, turns: i64) -> Rigid2 {
-        let goal = self.place(to) as i64 - turns * self.halfedges.len() as i64;
+        let goal = (self.place(to) as i64).saturating_sub(turns.saturating_mul(self.halfedges.len() as i64));
         let charts = self.around(self.place(from), goal);
         to.motion.after(&charts).after(&from.motion.inverse())
     }
@@ -121,7 +125,7 @@ impl<'a> Fan<'a> {
         let turns = (angle / self.total).floor();
         let rest = angle - turns * self.total;
         let inside = self.halfedges.iter().rposition(|(_, begin)| *begin <= rest).unwrap_or(0);
-        let to = inside as i64 + turns as i64 * n;
+        let to = (turns as i64).saturating_mul(n).saturating_add(inside as i64);
         let motion = anchor.motion.after(&self.around(self.place(anchor), to).inverse());
         Anchor { corner: anchor.corner, chart: self.halfedges[inside].0.face(), motion }
     }

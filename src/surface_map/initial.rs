@@ -19,6 +19,9 @@ use crate::monitor::{Monitor, Step};
 use std::sync::Arc;
 use typed_index_collections::{TiVec, ti_vec};
 
+/// Vertices that come back between two questions to the monitor.
+const ASKED_EVERY: usize = 4096;
+
 /// How the first parametrisation is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InitialOptions {
@@ -116,6 +119,9 @@ pub fn refine(
             }
         }
         let live = level.mesh().live_vertices();
+        if live.is_multiple_of(ASKED_EVERY) {
+            monitor.step(Step { fraction: live as f64 / goal as f64, residual: None })?;
+        }
         if live as f64 >= options.growth * relaxed_at as f64 && live < goal {
             monitor.step(Step { fraction: live as f64 / goal as f64, residual: None })?;
             level.relax(&options.level, monitor)?;

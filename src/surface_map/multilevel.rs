@@ -118,6 +118,7 @@ pub fn coarse_landmarks(sides: &[Side<'_>; 2]) -> Landmarks {
 }
 
 /// Both coarse levels with their parametrisations.
+#[derive(Clone)]
 pub struct CoarseMap<'a> {
     /// The cone surface of its layout.
     pub surface: Arc<ConeSurface>,

@@ -7,7 +7,8 @@ use crate::io::landmark_file;
 use crate::landmarks::{PlacedLandmarks, place};
 use crate::monitor::{Cancelled, Monitor, Stage, Step};
 use crate::pipeline::{
-    Base, Cones, GroundTruth, MapInput, MapResult, Method, OwnConeOptions, PipelineOptions, findings, run,
+    Base, Cones, GroundTruth, MapInput, MapResult, Method, OwnConeOptions, PipelineError, PipelineOptions,
+    findings, run,
 };
 use glam::{DVec2, DVec3};
 use serde::Deserialize;
@@ -192,7 +193,8 @@ pub fn run_map(
     let PlacedLandmarks { source: inserted, target: on_target, landmarks } = &placed;
     let input = MapInput { source: &inserted.mesh, target: &on_target.mesh, landmarks, ground_truth };
     let number = |side: usize, v: usize| numbers[side].get(v).copied().unwrap_or(v);
-    let doubts: Vec<_> = findings(input, &file.labels.unwrap_or_default())
+    let doubts: Vec<_> = findings(input, &file.labels.unwrap_or_default(), &mut messenger)
+        .map_err(|e| failure(PipelineError::from(e).code(), e))?
         .into_iter()
         .map(|finding| finding.renumbered(number))
         .collect();

@@ -7,6 +7,7 @@ use crate::landmarks::{self, MeshSide};
 use crate::mesh::check::{CheckedMesh, closed_genus_zero};
 use crate::mesh::mirror::mirrored;
 use crate::mesh::{FaceId, SurfacePoint, VertexId};
+use crate::monitor::Silent;
 use crate::{demo, export, io};
 use serde_json::json;
 use wasm_bindgen::prelude::*;
@@ -102,7 +103,9 @@ pub fn suggest_landmarks(loaded: &LoadedMesh, landmarks: &str, count: usize) -> 
     marked.dedup();
     let numbers = checked.file_from_vertex();
     let entry = |s: &Suggestion| json!({ "point": numbers[s.vertex.index()], "reason": s.reason, "partner": s.partner });
-    let found: Vec<_> = suggest(mesh, &marked, count).iter().map(entry).collect();
+    // The page asks outside of a worker, where nobody could ask to stop.
+    let suggestions = suggest(mesh, &marked, count, &mut Silent).map_err(|e| failure("cancelled", e))?;
+    let found: Vec<_> = suggestions.iter().map(entry).collect();
     Ok(serde_json::Value::from(found).to_string())
 }
 

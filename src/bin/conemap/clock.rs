@@ -57,6 +57,13 @@ impl Clock {
         }
     }
 
+    /// Takes the line of progress away, before others are written.
+    pub fn clear(&self) {
+        if self.terminal {
+            self.line("");
+        }
+    }
+
     fn line(&self, text: &str) {
         let start = if self.terminal { "\r\x1b[K" } else { "" };
         let mut stderr = std::io::stderr();

@@ -35,10 +35,11 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
     let PlacedLandmarks { source, target, landmarks } = &placed;
     let map_input = MapInput { source: &source.mesh, target: &target.mesh, landmarks, ground_truth };
     let number = |side: usize, v: usize| numbers[side].get(v).copied().unwrap_or(v);
-    let found: Vec<_> = findings(map_input, &file.labels.unwrap_or_default())
+    let found: Vec<_> = findings(map_input, &file.labels.unwrap_or_default(), &mut clock)?
         .into_iter()
         .map(|finding| finding.renumbered(number))
         .collect();
+    clock.clear();
     found.iter().for_each(tell_finding);
     // The thesis' method has nothing to shorten.
     if matches!(arguments.method, MethodArgument::Relaxed) {

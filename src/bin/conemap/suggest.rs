@@ -2,12 +2,16 @@
 #![allow(clippy::print_stdout, reason = "the result goes to standard output")]
 
 use crate::arguments::SuggestArguments;
+use crate::clock::Clock;
 use crate::input::{self, Failure};
 use conemap::landmark_suggestion::{Suggestion, suggest};
+use conemap::monitor::{Monitor, Stage};
 use serde_json::json;
 
 /// Prints vertices of a mesh that are worth a landmark, as JSON.
 pub fn run(arguments: &SuggestArguments) -> Result<(), Failure> {
+    let mut clock = Clock::start();
+    clock.enter(Stage::Landmarks);
     let checked = input::mesh(&arguments.mesh)?;
     let numbers = checked.file_from_vertex();
     let mut marked = Vec::new();
@@ -17,7 +21,8 @@ pub fn run(arguments: &SuggestArguments) -> Result<(), Failure> {
     }
     marked.sort_unstable();
     marked.dedup();
-    let found = suggest(&checked.mesh, &marked, arguments.count);
+    let found = suggest(&checked.mesh, &marked, arguments.count, &mut clock)?;
+    clock.stop();
     let entry = |s: &Suggestion| {
         let partner = s.partner.map(|k| numbers[found[k].vertex.index()]);
         json!({ "vertex": numbers[s.vertex.index()], "reason": s.reason, "partner": partner })

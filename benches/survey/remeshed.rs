@@ -1,0 +1,78 @@
+//! The same surfaces cut into other triangles.
+
+use crate::arguments::Arguments;
+use crate::case::{Case, Make, map_all};
+use crate::table::{compare, header};
+use conemap::mesh::SurfaceMesh;
+use conemap::mesh::generators::midpoint_subdivision;
+use conemap::monitor::Silent;
+use conemap::remesh::{Noise, Options, carried, decimated, perturbed, remesh};
+
+/// Each pair with its target remeshed in several ways, its landmarks at the nearest points, in faces; against the pair as
+/// it is.
+pub fn targets(arguments: &Arguments) {
+    header();
+    let mut cases: Vec<Make<'_>> = Vec::new();
+    for name in arguments.names() {
+        for (variant, remade) in WAYS {
+            if !arguments.variants.is_empty() && !arguments.variants.iter().any(|v| v == variant) {
+                continue;
+            }
+            let name = name.clone();
+            cases.push(Box::new(move || {
+                let mut case = Case::of_pair(arguments, &name);
+                case.variant = variant.into();
+                if let Some(target) = remade(&case.meshes[1]) {
+                    case.points[1] = carried(&case.meshes[1], &target, &case.points[1]);
+                    case.meshes[1] = target;
+                }
+                case
+            }));
+        }
+    }
+    compare(&map_all(cases, arguments), "as it is");
+}
+
+/// Pairs with a known truth, the target remeshed to its own number of faces, with 33, 12 and 6 landmarks; against the same
+/// connectivity.
+pub fn truth(arguments: &Arguments) {
+    header();
+    let mut cases: Vec<Make<'_>> = Vec::new();
+    for name in arguments.names() {
+        for count in [33, 12, 6] {
+            for (variant, remade) in [WAYS[0], WAYS[2]] {
+                let name = name.clone();
+                cases.push(Box::new(move || {
+                    let thinned = Arguments { landmarks: count, ..arguments.clone() };
+                    let mut case = Case::of_pair(&thinned, &name);
+                    case.variant = format!("{variant}, {count}");
+                    if let Some(target) = remade(&case.meshes[1]) {
+                        case.points[1] = carried(&case.meshes[1], &target, &case.points[1]);
+                        case.meshes[1] = target;
+                    }
+                    case
+                }));
+            }
+        }
+    }
+    let outcomes = map_all(cases, arguments);
+    crate::table::sum_up("truth", &outcomes.iter().collect::<Vec<_>>());
+}
+
+/// A surface in other triangles; `None` for those that it has.
+type Remade = fn(&SurfaceMesh) -> Option<SurfaceMesh>;
+
+const WAYS: [(&str, Remade); 7] = [
+    ("as it is", |_| None),
+    ("half", |mesh| Some(isotropic(mesh, 0.5))),
+    ("isotropic", |mesh| Some(isotropic(mesh, 1.0))),
+    ("double", |mesh| Some(isotropic(mesh, 2.0))),
+    ("3000 faces", |mesh| Some(decimated(mesh, 3000))),
+    ("subdivided", |mesh| Some(midpoint_subdivision(mesh))),
+    ("noise", |mesh| Some(perturbed(mesh, Noise { tangential: 0.1, normal: 0.1, seed: 1 }))),
+];
+
+fn isotropic(mesh: &SurfaceMesh, share: f64) -> SurfaceMesh {
+    let faces = (share * mesh.face_count() as f64) as usize;
+    remesh(mesh, &Options::to_faces(faces), &mut Silent).expect("a new mesh").mesh
+}

@@ -1,0 +1,192 @@
+//! The front: vertices that wait to be settled, and what a settled one offers to those around it.
+
+use super::unfolding::{Window, apex, source_below};
+use crate::math::scalar::max;
+use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
+use glam::DVec2;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use typed_index_collections::TiVec;
+
+/// Faces through which the front is followed from every settled edge: what it still knows of its centre is lost by and by when
+/// it is told anew by each edge.
+const FREE_FACES: u32 = 2;
+
+/// Faces through which it is followed where that is needed: a fan of slivers.
+const MOST_FACES: u32 = 16;
+
+/// An edge shorter than this, relative to its distance from the centre, may have lost its direction.
+const SHORT: f64 = 1e-5;
+
+/// Relative error of lengths in the plane, generously.
+const ROUNDING: f64 = 1e-9;
+
+/// Vertices whose distances may still fall wait in a queue.
+pub(super) struct Front<'a> {
+    mesh: &'a SurfaceMesh,
+    /// No more than `here`: settled. More: what is offered so far, or the distance to seeds of an earlier front.
+    distance: &'a mut TiVec<VertexId, f64>,
+    queue: BinaryHeap<(Reverse<u64>, VertexId)>,
+    /// The distance of the vertex that was settled last. It never falls.
+    here: f64,
+}
+
+/// An edge seen in the plane, from `a` on the left to `b` on the right, by the halfedge of the face beyond it.
+#[derive(Clone, Copy)]
+struct Edge {
+    beyond: HalfedgeId,
+    a: DVec2,
+    b: DVec2,
+}
+
+impl<'a> Front<'a> {
+    /// A front that starts from seeds where they are not seeds already.
+    pub(super) fn new(
+        mesh: &'a SurfaceMesh,
+        seeds: &[VertexId],
+        distance: &'a mut TiVec<VertexId, f64>,
+    ) -> Self {
+        let mut front = Self { mesh, distance, queue: BinaryHeap::new(), here: 0.0 };
+        seeds.iter().for_each(|&v| front.offer(v, 0.0));
+        front
+    }
+
+    /// Settles all vertices within a radius and returns how many those are.
+    ///
+    /// Ends after one turn for each time that a vertex was offered less, which happens only before it is settled.
+    pub(super) fn advance(&mut self, radius: f64) -> usize {
+        let mut settled = 0;
+        while let Some((Reverse(bits), v)) = self.queue.pop() {
+            let here = f64::from_bits(bits);
+            if here > radius {
+                break;
+            }
+            if here > self.distance[v] {
+                continue;
+            }
+            self.here = here;
+            self.settle(v);
+            settled += 1;
+        }
+        settled
+    }
+
+    /// Lowers a distance. Not below that of the front, so that no settled one falls.
+    fn offer(&mut self, v: VertexId, through: f64) {
+        let through = max(self.here, through);
+        if through < self.distance[v] {
+            self.distance[v] = through;
+            // Positive floats order like their bits.
+            self.queue.push((Reverse(through.to_bits()), v));
+        }
+    }
+
+    fn is_settled(&self, v: VertexId) -> bool {
+        self.distance[v] <= self.here
+    }
+
+    fn settle(&mut self, v: VertexId) {
+        let mesh = self.mesh;
+        for h in mesh.star(v) {
+            self.offer(mesh.head(h), self.here + mesh.length(h));
+        }
+        for h in mesh.star(v) {
+            if self.is_settled(mesh.head(h)) {
+                self.cross(h);
+                self.cross(mesh.twin(h));
+            }
+        }
+    }
+
+    /// Sends the front through a settled edge into the face of a halfedge.
+    fn cross(&mut self, h: HalfedgeId) {
+        let mesh = self.mesh;
+        if self.is_settled(mesh.tail(h.prev())) {
+            return;
+        }
+        let [at_a, at_b] = [mesh.tail(h), mesh.head(h)].map(|v| self.distance[v]);
+        let length = mesh.length(h);
+        let Some(source) = source_below(length, [at_a, at_b]) else { return };
+        let edge = Edge { beyond: h, a: DVec2::ZERO, b: DVec2::new(length, 0.0) };
+        let window = Window { source, left: edge.a, right: edge.b };
+        self.follow(edge, window, (1, f64::INFINITY));
+    }
+
+    /// Offers the corner beyond an edge its distance and goes on through the face's other sides, after the first faces only as
+    /// long as what lies behind is nearer than `bound`, the least distance at which an edge on the way will be settled: what is
+    /// farther is reached from there.
+    fn follow(&mut self, edge: Edge, window: Window, (crossed, bound): (u32, f64)) {
+        let (mesh, h) = (self.mesh, edge.beyond);
+        let corner = mesh.tail(h.prev());
+        if self.is_settled(corner) {
+            return;
+        }
+        let [ab, bc, ca] = [h, h.next(), h.prev()].map(|x| mesh.length(x));
+        let place = apex([edge.a, edge.b], [ab, bc, ca]);
+        let through = place.distance(window.source);
+        if through.is_nan() || (crossed > FREE_FACES && through >= bound) {
+            return;
+        }
+        // A line through the edge is no shorter than this: else rounding has turned an edge too short for the plane.
+        let least = || edge.a.distance(window.source) + ca - 2.0 * ab;
+        if ab < SHORT * (through + ca) && through < (1.0 - ROUNDING) * least() {
+            return;
+        }
+        let [left, right] = window.split(place);
+        if left.is_some() && right.is_some() {
+            self.offer(corner, through);
+        }
+        if crossed == MOST_FACES {
+            return;
+        }
+        let at_corner = self.distance[corner];
+        let onwards = |end: f64| (crossed + 1, bound.min(max(end, at_corner)));
+        let ends = [mesh.tail(h), mesh.head(h)].map(|v| self.distance[v]);
+        if let Some(window) = left {
+            let edge = Edge { beyond: mesh.twin(h.prev()), a: edge.a, b: place };
+            self.follow(edge, window, onwards(ends[0]));
+        }
+        if let Some(window) = right {
+            let edge = Edge { beyond: mesh.twin(h.next()), a: place, b: edge.b };
+            self.follow(edge, window, onwards(ends[1]));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::generators::{icosphere, octahedron};
+    use typed_index_collections::ti_vec;
+
+    /// Flat needles, with heights down to 1e-13 of their lengths.
+    fn squeezed(mesh: &SurfaceMesh, by: f64) -> SurfaceMesh {
+        let place = |p: &glam::DVec3| *p * glam::DVec3::new(1.0, by, by * by);
+        mesh.with_positions(mesh.positions().iter().map(place).collect())
+    }
+
+    #[test]
+    fn every_vertex_is_settled_once_and_in_order() {
+        for mesh in
+            [octahedron(), icosphere(4), squeezed(&icosphere(3), 1e-6), squeezed(&icosphere(3), 1e-13)]
+        {
+            for seed in [0, 3, mesh.vertex_count() as u32 - 1].map(VertexId) {
+                let mut distance = ti_vec![f64::INFINITY; mesh.vertex_count()];
+                let mut front = Front::new(&mesh, &[seed, seed], &mut distance);
+                assert_eq!(front.advance(f64::INFINITY), mesh.vertex_count());
+                let last = front.here;
+                assert_eq!(last, distance.iter().copied().fold(0.0, f64::max));
+            }
+        }
+    }
+
+    #[test]
+    fn seeds_that_are_seeds_already_change_nothing() {
+        let ball = icosphere(3);
+        let mut distance = ti_vec![f64::INFINITY; ball.vertex_count()];
+        Front::new(&ball, &[VertexId(9)], &mut distance).advance(f64::INFINITY);
+        let before = distance.clone();
+        assert_eq!(Front::new(&ball, &[VertexId(9)], &mut distance).advance(f64::INFINITY), 0);
+        assert_eq!(before, distance);
+    }
+}

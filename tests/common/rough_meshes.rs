@@ -1,0 +1,134 @@
+//! Closed meshes that no tool would be proud of, by seed: slivers, needles, flipped edges, noise, extreme scales.
+
+use conemap::math::scalar::pow;
+use conemap::mesh::generators::{icosphere, octahedron};
+use conemap::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
+use glam::DVec3;
+
+/// The SplitMix64 generator (Steele, Lea & Flood 2014).
+pub struct Random(pub u64);
+
+impl Random {
+    /// Uniform in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Below `n`.
+    pub fn below(&mut self, n: usize) -> usize {
+        (self.unit() * n as f64) as usize
+    }
+
+    /// Between 1e-12 and 1/2, every order of size alike.
+    fn small(&mut self) -> f64 {
+        0.5 * pow(10.0, -11.7 * self.unit())
+    }
+}
+
+/// A ball, an ellipsoid, or a ball with three limbs, by seed.
+pub fn body(random: &mut Random) -> SurfaceMesh {
+    let (shape, levels) = (random.below(3), 1 + random.below(3));
+    let ball = icosphere(levels);
+    let limbs = [DVec3::X, DVec3::new(-0.6, 0.8, 0.0), DVec3::new(0.0, -0.6, 0.8)];
+    let place = |p: &DVec3| match shape {
+        0 => *p,
+        1 => *p * DVec3::new(1.0, 3.0, 0.3),
+        _ => *p * (1.0 + limbs.iter().map(|l| 2.0 * pow(l.dot(*p).max(0.0), 8.0)).sum::<f64>()),
+    };
+    ball.with_positions(ball.positions().iter().map(place).collect())
+}
+
+/// The octahedron with points put into its faces and onto its edges: the same surface, cut into slivers and needles.
+pub fn cut_octahedron(random: &mut Random, points: usize) -> SurfaceMesh {
+    let mut mesh = octahedron();
+    for _ in 0..points {
+        mesh = if random.unit() < 0.5 { split_face(&mesh, random) } else { split_edge(&mesh, random) };
+    }
+    mesh
+}
+
+/// Another surface with the same number of handles: some edges turned, points put in near corners, noise, any scale.
+pub fn roughened(mesh: &SurfaceMesh, random: &mut Random) -> SurfaceMesh {
+    let mut mesh = mesh.clone();
+    let changes = mesh.vertex_count();
+    let (flips, noise) = (random.unit(), if random.unit() < 0.5 { 0.0 } else { random.small() });
+    for _ in 0..changes {
+        mesh = match random.unit() {
+            x if x < 0.6 * flips => flipped(&mesh, random),
+            x if x < 0.8 => split_face(&mesh, random),
+            _ => split_edge(&mesh, random),
+        };
+    }
+    let size = mesh.area().sqrt() * 0.1 * noise;
+    let scale = [1.0, 1e-60, 1e60][random.below(3)];
+    let moved = mesh.positions().iter().map(|p| {
+        let by = DVec3::new(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5);
+        scale * (*p + size * by)
+    });
+    let moved = moved.collect();
+    mesh.with_positions(moved)
+}
+
+fn rebuilt(
+    mesh: &SurfaceMesh,
+    added: Option<DVec3>,
+    change: impl Fn(usize, [VertexId; 3]) -> Vec<[VertexId; 3]>,
+) -> Option<SurfaceMesh> {
+    let positions = mesh.positions().iter().copied().chain(added).collect();
+    let faces = mesh.triangles().iter().enumerate().flat_map(|(f, corners)| change(f, *corners)).collect();
+    SurfaceMesh::from_triangles(positions, faces).ok()
+}
+
+/// A point in a face, near a corner or a side, or not.
+fn split_face(mesh: &SurfaceMesh, random: &mut Random) -> SurfaceMesh {
+    let face = FaceId::from(random.below(mesh.face_count()));
+    let (s, t) = (random.small(), random.small());
+    let first = random.below(3);
+    let [a, b, c] = [0, 1, 2].map(|k| mesh.corners(face)[(first + k) % 3]);
+    let point = a + s * (b - a) + t * (c - a);
+    if [a, b, c].contains(&point) {
+        return mesh.clone();
+    }
+    let v = VertexId::from(mesh.vertex_count());
+    let change = |f: usize, [a, b, c]: [VertexId; 3]| {
+        if f == face.index() { vec![[a, b, v], [b, c, v], [c, a, v]] } else { vec![[a, b, c]] }
+    };
+    rebuilt(mesh, Some(point), change).expect("a face may be split")
+}
+
+/// A point on an edge, near its start or not.
+fn split_edge(mesh: &SurfaceMesh, random: &mut Random) -> SurfaceMesh {
+    let h = HalfedgeId::from(random.below(3 * mesh.face_count()));
+    let [p, q] = [mesh.tail(h), mesh.head(h)].map(|v| mesh.positions()[v]);
+    let point = p + random.small() * (q - p);
+    if point == p || point == q {
+        return mesh.clone();
+    }
+    let v = VertexId::from(mesh.vertex_count());
+    let (ends, faces) = ([mesh.tail(h), mesh.head(h)], [h, mesh.twin(h)].map(|h| h.face().index()));
+    let change = |f: usize, corners: [VertexId; 3]| {
+        if !faces.contains(&f) {
+            return vec![corners];
+        }
+        let with = |old: VertexId| corners.map(|w| if w == old { v } else { w });
+        vec![with(ends[0]), with(ends[1])]
+    };
+    rebuilt(mesh, Some(point), change).expect("an edge may be split")
+}
+
+/// The other diagonal of two faces, where that is not an edge already.
+fn flipped(mesh: &SurfaceMesh, random: &mut Random) -> SurfaceMesh {
+    let h = HalfedgeId::from(random.below(3 * mesh.face_count()));
+    let t = mesh.twin(h);
+    let [i, j, k, l] = [mesh.tail(h), mesh.head(h), mesh.tail(h.prev()), mesh.tail(t.prev())];
+    let change = |f: usize, corners: [VertexId; 3]| match f {
+        f if f == h.face().index() => vec![[l, k, i]],
+        f if f == t.face().index() => vec![[k, l, j]],
+        _ => vec![corners],
+    };
+    rebuilt(mesh, None, change).unwrap_or_else(|| mesh.clone())
+}

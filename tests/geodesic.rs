@@ -1,0 +1,100 @@
+//! Geodesic distances on meshes that no tool would be proud of: bounds that hold whatever the triangles are.
+#![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
+
+mod common;
+#[path = "common/exact_geodesics.rs"]
+mod exact;
+#[path = "common/rough_meshes.rs"]
+mod rough_meshes;
+
+use conemap::geodesic::{distances, shorten};
+use conemap::mesh::{SurfaceMesh, VertexId};
+use exact::{along_edges, exact_distances};
+use rough_meshes::{Random, body, cut_octahedron, roughened};
+
+/// No longer than along edges, hardly shorter than straight through space.
+fn check_bounds(mesh: &SurfaceMesh, seed: VertexId, name: &str) {
+    let (found, most) = (distances(mesh, &[seed]), along_edges(mesh, &[seed]));
+    for v in mesh.vertices() {
+        let (d, most) = (found[v], most[v.index()]);
+        let straight = mesh.positions()[v].distance(mesh.positions()[seed]);
+        assert!(d <= most * (1.0 + 1e-12), "{name}: vertex {v:?} at {d}, along edges at {most}");
+        assert!(d >= 0.99 * straight, "{name}: vertex {v:?} at {d}, in space at {straight}");
+    }
+}
+
+#[test]
+fn distances_on_rough_meshes_are_between_those_in_space_and_those_along_edges() {
+    for number in 0..200 {
+        let mut random = Random(number);
+        let mesh = roughened(&body(&mut random), &mut random);
+        for _ in 0..3 {
+            let seed = VertexId::from(random.below(mesh.vertex_count()));
+            check_bounds(&mesh, seed, &format!("rough mesh {number}"));
+        }
+    }
+}
+
+#[test]
+fn distances_on_rough_meshes_hardly_depend_on_the_direction() {
+    for number in 0..200 {
+        let mut random = Random(number);
+        let mesh = roughened(&body(&mut random), &mut random);
+        let [a, b] = [(), ()].map(|()| VertexId::from(random.below(mesh.vertex_count())));
+        let (there, back) = (distances(&mesh, &[a])[b], distances(&mesh, &[b])[a]);
+        assert!(there <= 1.8 * back && back <= 1.8 * there, "rough mesh {number}: {there} {back}");
+    }
+}
+
+/// Slivers and needles do not change a surface: the corners of an octahedron keep their distances.
+#[test]
+fn slivers_and_needles_do_not_change_distances() {
+    for number in 0..200 {
+        let mesh = cut_octahedron(&mut Random(1000 + number), 60);
+        for a in 0..6_u32 {
+            let found = distances(&mesh, &[VertexId(a)]);
+            for b in (0..6_u32).filter(|&b| b != a) {
+                // Neighbours along an edge, opposite corners across two faces.
+                let known = if a / 2 == b / 2 { 6.0_f64.sqrt() } else { 2.0_f64.sqrt() };
+                let found = found[VertexId(b)];
+                assert!((found - known).abs() < 1e-5 * known, "cut {number}: {a} to {b}: {found} {known}");
+            }
+        }
+    }
+}
+
+#[test]
+fn distances_on_bodies_are_nearly_exact() {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for number in 0..40 {
+        let mut random = Random(number);
+        let mesh = body(&mut random);
+        let seed = VertexId::from(random.below(mesh.vertex_count()));
+        let (found, known) = (distances(&mesh, &[seed]), exact_distances(&mesh, seed));
+        for v in mesh.vertices().filter(|&v| v != seed) {
+            let ratio = found[v] / known[v.index()];
+            assert!((0.9..1.15).contains(&ratio), "body {number}: vertex {v:?} {ratio}");
+            sum += (ratio - 1.0).abs();
+            count += 1.0;
+        }
+    }
+    assert!(sum / count < 0.003, "mean error {}", sum / count);
+}
+
+/// The mesh on which a front that sinks by rounding never ended.
+#[test]
+fn distances_end_on_meshes_that_once_hung() {
+    let Some(data) = common::data_folder("distances_end_on_meshes_that_once_hung") else { return };
+    for name in ["remeshed-horse", "centaur0", "centaur1-remeshed"] {
+        let mesh = common::read_mesh(&data.join("hang").join(format!("{name}.off")));
+        for k in 0..8 {
+            check_bounds(&mesh, VertexId::from(k * mesh.vertex_count() / 8), name);
+        }
+        let mut nearest = distances(&mesh, &[VertexId(0)]);
+        for v in mesh.vertices().step_by(100) {
+            let before = nearest.clone();
+            shorten(&mesh, &[v], &mut nearest);
+            assert!(nearest[v] == 0.0 && nearest.iter().zip(&before).all(|(now, before)| now <= before));
+        }
+    }
+}
