@@ -62,7 +62,7 @@ export interface Certificate {
 export interface LayoutSearch {
   readonly judged: number;
   readonly twists: number;
-  readonly energy: number | null;
+  readonly mean_log: number | null;
   readonly runner_up: number | null;
   readonly path_stretch: number;
 }

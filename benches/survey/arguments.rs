@@ -1,6 +1,7 @@
 //! What a survey is asked for.
 
 use crate::common;
+use conemap::pipeline::PipelineOptions;
 use std::path::PathBuf;
 
 /// The arguments of the command line.
@@ -19,8 +20,12 @@ pub struct Arguments {
     pub time_limit: f64,
     /// Landmarks, thinned by farthest points; 0 for all.
     pub landmarks: usize,
-    /// Vertices of the coarse level; 0 for the default.
-    pub coarse: usize,
+    /// Vertices of the coarse levels of the classes.
+    pub levels: Vec<usize>,
+    /// Twists made one after the other.
+    pub depth: usize,
+    /// Other options of the pipeline.
+    pub options: PipelineOptions,
 }
 
 impl Arguments {
@@ -36,7 +41,9 @@ impl Arguments {
             jobs: std::thread::available_parallelism().map_or(1, usize::from),
             time_limit: 150.0,
             landmarks: 0,
-            coarse: 0,
+            levels: vec![600, 1000],
+            depth: 1,
+            options: PipelineOptions::default(),
         };
         while let Some(option) = given.next() {
             let value = given.next().unwrap_or_else(|| panic!("{option} needs a value"));
@@ -47,7 +54,22 @@ impl Arguments {
                 "--jobs" => arguments.jobs = number() as usize,
                 "--time-limit" => arguments.time_limit = number(),
                 "--landmarks" => arguments.landmarks = number() as usize,
-                "--coarse" => arguments.coarse = number() as usize,
+                "--levels" => {
+                    arguments.levels = value.split(',').map(|n| n.parse().expect("a number")).collect()
+                }
+                "--depth" => arguments.depth = number() as usize,
+                "--coarse" => arguments.options.multilevel.coarse_vertices = number() as usize,
+                "--coarse-decrease" => arguments.options.multilevel.coarse.relative_decrease = number(),
+                "--fine-decrease" => arguments.options.multilevel.fine.relative_decrease = number(),
+                "--coarse-rounds" => arguments.options.multilevel.coarse.max_rounds = number() as usize,
+                "--fine-rounds" => arguments.options.multilevel.fine.max_rounds = number() as usize,
+                "--relief-rounds" => arguments.options.multilevel.relief.rounds = number() as usize,
+                "--relief-from" => arguments.options.multilevel.relief.vertices[0] = number() as usize,
+                "--relief-to" => arguments.options.multilevel.relief.vertices[1] = number() as usize,
+                "--relief-strength" => arguments.options.multilevel.relief.strength = number(),
+                "--relief-radius" => arguments.options.multilevel.relief.radii[1] = number(),
+                "--growth" => arguments.options.multilevel.growth = number(),
+                "--own" => arguments.options.own_cones.count = number() as usize,
                 _ => panic!("unknown option {option}"),
             }
         }

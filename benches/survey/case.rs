@@ -6,7 +6,7 @@ use conemap::landmarks::{Landmarks, PlacedLandmarks};
 use conemap::mesh::insertion::insert;
 use conemap::mesh::{SurfaceMesh, SurfacePoint};
 use conemap::monitor::{Cancelled, Monitor, Step};
-use conemap::pipeline::{GroundTruth, MapInput, MapResult, PipelineOptions, run};
+use conemap::pipeline::{GroundTruth, MapInput, MapResult, run};
 use cpu_time::ThreadTime;
 use glam::DVec3;
 use std::time::Instant;
@@ -37,6 +37,8 @@ pub struct Reached {
     pub truth: Option<f64>,
     pub own: usize,
     pub judged: usize,
+    /// Mean log density of the coarse map and that of the next best class.
+    pub coarse: [f64; 2],
 }
 
 /// A line of a table.
@@ -104,12 +106,8 @@ impl Case {
             landmarks: &placed.landmarks,
             ground_truth: GroundTruth::Unknown,
         };
-        let mut options = PipelineOptions::default();
-        if arguments.coarse > 0 {
-            options.multilevel.coarse_vertices = arguments.coarse;
-        }
         let mut limit = Limit { begun: ThreadTime::now(), seconds: arguments.time_limit };
-        let result = run(input, &options, &mut limit).map_err(|e| e.to_string())?;
+        let result = run(input, &arguments.options, &mut limit).map_err(|e| e.to_string())?;
         Ok(self.measured(&result, &placed))
     }
 
@@ -136,6 +134,9 @@ impl Case {
             truth,
             own: report.own_landmarks,
             judged: report.layout.as_ref().map_or(0, |layout| layout.judged),
+            coarse: report.layout.as_ref().map_or([f64::NAN; 2], |layout| {
+                [layout.mean_log, layout.runner_up].map(|value| value.unwrap_or(f64::NAN))
+            }),
         }
     }
 }

@@ -11,6 +11,7 @@ mod common;
 
 mod arguments;
 mod case;
+mod classes;
 mod clicks;
 mod pairs;
 mod table;
@@ -36,6 +37,11 @@ const SURVEYS: &[Survey] = &[
         name: "beside",
         about: "the same points in faces, as vertices, beside edges, on edges",
         run: clicks::same_points,
+    },
+    Survey {
+        name: "classes",
+        about: "the class chosen against all twists (--depth 2: and pairs of them)",
+        run: classes::exhaustive,
     },
 ];
 

@@ -5,8 +5,21 @@ use crate::case::{Outcome, Reached};
 /// The names of the columns.
 pub fn header() {
     println!(
-        "{:20} {:14} {:>8} {:>8} {:>7} {:>7} {:>9} {:>8} {:>8} {:>3} {:>3} {:>7}",
-        "pair", "variant", "E", "mean log", "mean", "p95", "max", "dented", "truth %", "own", "cls", "cpu s"
+        "{:20} {:14} {:>8} {:>8} {:>7} {:>7} {:>9} {:>8} {:>8} {:>3} {:>3} {:>7} {:>7} {:>7}",
+        "pair",
+        "variant",
+        "E",
+        "mean log",
+        "mean",
+        "p95",
+        "max",
+        "dented",
+        "truth %",
+        "own",
+        "cls",
+        "coarse",
+        "next",
+        "cpu s"
     );
 }
 
@@ -15,7 +28,7 @@ pub fn line(outcome: &Outcome) -> String {
     let Outcome { name, variant, reached, seconds } = outcome;
     match reached {
         Ok(r) => format!(
-            "{name:20} {variant:14} {:8.4} {:8.5} {:7.3} {:7.2} {:9.1e} {:7.3}% {:>8} {:3} {:3} {seconds:7.2}{}",
+            "{name:20} {variant:14} {:8.4} {:8.5} {:7.3} {:7.2} {:9.1e} {:7.3}% {:>8} {:3} {:3} {:7.5} {:7.5} {seconds:7.2}{}",
             r.energy,
             r.mean_log,
             r.mean,
@@ -25,6 +38,8 @@ pub fn line(outcome: &Outcome) -> String {
             r.truth.map_or(String::new(), |truth| format!("{:.3}", 100.0 * truth)),
             r.own,
             r.judged,
+            r.coarse[0],
+            r.coarse[1],
             if r.certified { "" } else { "  NOT CERTIFIED" }
         ),
         Err(error) => format!("{name:20} {variant:14} FAILED after {seconds:.1} s: {error}"),

@@ -1,7 +1,10 @@
-//! The search for the isotopy class: candidates judged by a map's energy, then twists of the best.
+//! The search for the isotopy class: candidates judged by how much a map distorts, then twists of the best.
+//!
+//! The judge is the mean logarithm of the distortion density, not the energy: that is 4 for every conformal map, and tells
+//! little about which of several ways round a limb is the right one.
 
+use super::LayoutError;
 use super::candidates::{Candidate, Candidates};
-use super::{BaseLayout, LayoutError};
 use crate::monitor::{Cancelled, Monitor, Step};
 
 /// How long the class of the map is searched.
@@ -9,11 +12,11 @@ use crate::monitor::{Cancelled, Monitor, Step};
 pub struct SearchOptions {
     /// Layouts from different orders of drawing that are judged at most.
     pub candidates: usize,
-    /// A layout with at most this detour ([`super::LayoutReport::detour`]) and at most `clear_energy` is clear: no other order
+    /// A layout with at most this detour ([`super::LayoutReport::detour`]) and at most `clear_mean_log` is clear: no other order
     /// is judged, and of its twists only the ambiguous ones.
     pub clear_detour: f64,
     /// See `clear_detour`.
-    pub clear_energy: f64,
+    pub clear_mean_log: f64,
     /// Stops either part of the search after this many layouts without a gain.
     pub patience: usize,
     /// Twisted layouts that are judged at most.
@@ -22,7 +25,7 @@ pub struct SearchOptions {
     pub twist_ratio: f64,
     /// The same for clear layouts: near 1 the path might as well go the other way.
     pub ambiguous_ratio: f64,
-    /// The least relative decrease of the energy for which a layout is changed.
+    /// The least relative decrease of the mean log density for which a layout is changed.
     pub least_gain: f64,
 }
 
@@ -31,12 +34,12 @@ impl Default for SearchOptions {
         Self {
             candidates: 8,
             clear_detour: 0.1,
-            clear_energy: 4.6,
+            clear_mean_log: 0.14,
             patience: 4,
             twists: 12,
             twist_ratio: 2.5,
             ambiguous_ratio: 1.2,
-            least_gain: 0.001,
+            least_gain: 0.01,
         }
     }
 }
@@ -59,8 +62,8 @@ pub struct Judged {
     pub detour: f64,
     /// Its worst path, relative to the shortest.
     pub worst_stretch: f64,
-    /// The energy of its map, 4 for an isometry; `None` where no map was found.
-    pub energy: Option<f64>,
+    /// The mean log density of its map, 0 for an isometry; `None` where no map was found.
+    pub mean_log: Option<f64>,
 }
 
 /// What the search saw.
@@ -75,23 +78,23 @@ pub struct SearchReport {
 }
 
 impl SearchReport {
-    /// The energy of the layout returned.
-    pub fn energy(&self) -> Option<f64> {
-        self.judged.get(self.best)?.energy
+    /// The mean log density of the layout returned.
+    pub fn mean_log(&self) -> Option<f64> {
+        self.judged.get(self.best)?.mean_log
     }
 
-    /// The least energy of the other classes.
+    /// The least mean log density of the other classes.
     pub fn runner_up(&self) -> Option<f64> {
         let others = self.judged.iter().enumerate().filter(|(k, _)| *k != self.best);
-        others.filter_map(|(_, judged)| judged.energy).min_by(f64::total_cmp)
+        others.filter_map(|(_, judged)| judged.mean_log).min_by(f64::total_cmp)
     }
 }
 
-/// Finds the layout whose map has the least energy.
+/// Finds the layout whose map has the least mean log density.
 ///
-/// `judge` answers with the energy of a (coarse) map of a layout, 4 for an isometry, or `None` where it finds no map. The
+/// `judge` answers with that of a (coarse) map of a layout, 0 for an isometry, or `None` where it finds no map. The
 /// candidates are judged in their order until the answer is clear or nothing is gained; then twists of the best, as long as
-/// they lower the energy. A monitor that wants a result gets the best map so far, or the first.
+/// they lower it. A monitor that wants a result gets the best map so far, or the first.
 ///
 /// # Errors
 /// [`LayoutError::Cancelled`]; the last error of drawing when nothing could be drawn; [`LayoutError::NoMap`] when no layout
@@ -101,19 +104,19 @@ pub fn search(
     judge: &mut Judge<'_>,
     options: &SearchOptions,
     monitor: &mut dyn Monitor,
-) -> Result<(BaseLayout, SearchReport), LayoutError> {
+) -> Result<(Candidate, SearchReport), LayoutError> {
     let mut search = Search { judge, options, monitor, best: None, report: SearchReport::default() };
     search.orders(candidates)?;
     search.twists(candidates)?;
     let Search { best, report, .. } = search;
     match best {
-        Some((_, candidate)) => Ok((candidate.layout, report)),
+        Some((_, candidate)) => Ok((candidate, report)),
         None if report.judged.is_empty() => Err(candidates.failure().cloned().unwrap_or(NOTHING)),
         None => Err(LayoutError::NoMap { layouts: report.judged.len() }),
     }
 }
 
-/// Lowers the energy of a given layout's map by twists alone; the layout itself need not have a map.
+/// Lowers the mean log density of a given layout's map by twists alone; the layout itself need not have a map.
 ///
 /// `candidates` must be of the meshes and landmarks of `start`.
 ///
@@ -124,7 +127,7 @@ pub fn untwist(
     judge: &mut Judge<'_>,
     options: &SearchOptions,
     monitor: &mut dyn Monitor,
-) -> Result<(BaseLayout, SearchReport), LayoutError> {
+) -> Result<(Candidate, SearchReport), LayoutError> {
     let mut search = Search { judge, options, monitor, best: None, report: SearchReport::default() };
     // A start without a map has neighbours all the same.
     search.best = Some((f64::INFINITY, start.clone()));
@@ -132,13 +135,13 @@ pub fn untwist(
     search.twists(candidates)?;
     let Search { best, report, .. } = search;
     match best {
-        Some((energy, candidate)) if energy.is_finite() => Ok((candidate.layout, report)),
+        Some((mean_log, candidate)) if mean_log.is_finite() => Ok((candidate, report)),
         _ => Err(LayoutError::NoMap { layouts: report.judged.len() }),
     }
 }
 
-/// The energy of a layout's map; `None` where there is no map.
-pub type Judge<'a> = dyn FnMut(&BaseLayout, &mut dyn Monitor) -> Result<Option<f64>, Cancelled> + 'a;
+/// The mean log density of a layout's map; `None` where there is no map.
+pub type Judge<'a> = dyn FnMut(&Candidate, &mut dyn Monitor) -> Result<Option<f64>, Cancelled> + 'a;
 
 /// A layout whose detour is larger than the best one's by this is not judged.
 const HOPELESS: f64 = 4.0;
@@ -206,18 +209,18 @@ impl Search<'_, '_> {
         let most = (self.options.candidates + self.options.twists) as f64;
         let residual = self.best.as_ref().map(|best| best.0);
         self.monitor.step(Step { fraction: self.report.judged.len() as f64 / most, residual })?;
-        let energy = (self.judge)(&candidate.layout, self.monitor)?;
+        let mean_log = (self.judge)(&candidate, self.monitor)?;
         let super::LayoutReport { detour, worst_stretch, .. } = candidate.layout.report;
-        self.report.judged.push(Judged { origin, detour, worst_stretch, energy });
+        self.report.judged.push(Judged { origin, detour, worst_stretch, mean_log });
         let least = self.best.as_ref().map_or(f64::INFINITY, |best| best.0);
         let needed = match origin {
             Origin::Order => least,
             Origin::Twist => least * (1.0 - self.options.least_gain),
         };
-        let Some(energy) = energy.filter(|energy| *energy < needed) else { return Ok(false) };
-        let gain = energy <= least * (1.0 - self.options.least_gain);
+        let Some(mean_log) = mean_log.filter(|mean_log| *mean_log < needed) else { return Ok(false) };
+        let gain = mean_log <= least * (1.0 - self.options.least_gain);
         self.report.best = self.report.judged.len() - 1;
-        self.best = Some((energy, candidate));
+        self.best = Some((mean_log, candidate));
         Ok(gain)
     }
 
@@ -227,8 +230,8 @@ impl Search<'_, '_> {
     }
 
     fn is_clear(&self) -> bool {
-        self.best.as_ref().is_some_and(|(energy, candidate)| {
-            *energy <= self.options.clear_energy
+        self.best.as_ref().is_some_and(|(mean_log, candidate)| {
+            *mean_log <= self.options.clear_mean_log
                 && candidate.layout.report.detour <= self.options.clear_detour
         })
     }

@@ -4,8 +4,9 @@ use super::{FaceId, MeshError, SurfaceMesh, SurfacePoint, VertexId};
 use glam::{DMat3, DVec3};
 use typed_index_collections::TiVec;
 
-/// Nearer than this (in barycentric coordinates) to a corner or an edge, a point is taken to lie on it.
-const SNAP: f64 = 1e-9;
+/// Nearer than this (in barycentric coordinates) to a corner or an edge, a point is taken to lie on it: no click can be meant
+/// that exactly, and the needle beside the edge would have angles of rounding size once its neighbours are small.
+const SNAP: f64 = 1e-5;
 
 /// A mesh with points inserted; its first vertices are those of the original.
 #[derive(Clone, Debug)]

@@ -1,6 +1,8 @@
 //! A mesh that refines an input mesh, and points carried between the two.
 
-use super::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
+use super::insertion::insert;
+use super::{FaceId, HalfedgeId, MeshError, SurfaceMesh, SurfacePoint, VertexId};
+use crate::math::triangle::angle_at;
 use typed_index_collections::TiVec;
 
 /// A mesh that refines an input mesh, of area 1.
@@ -25,6 +27,48 @@ impl RefinedMesh {
         }
     }
 
+    /// The same with points of the refined mesh inserted as vertices after those that there are, and the vertex of each point.
+    ///
+    /// # Errors
+    /// [`MeshError`], which points of the mesh rule out.
+    pub fn with_points(
+        &self,
+        input: &SurfaceMesh,
+        points: &[SurfacePoint],
+    ) -> Result<(Self, Vec<VertexId>), MeshError> {
+        let inserted = insert(&self.mesh, points)?;
+        let on_input = |v: VertexId| {
+            self.on_input(input, inserted.on_original(SurfacePoint::at_vertex(&inserted.mesh, v)))
+        };
+        let known = self.mesh.vertex_count();
+        let added = inserted.mesh.vertices().skip(known).map(on_input);
+        let refined = Self {
+            vertex_origin: self.vertex_origin.iter().copied().chain(added).collect(),
+            face_origin: inserted.face_origin.iter().map(|&f| self.face_origin[f]).collect(),
+            mesh: inserted.mesh,
+        };
+        Ok((refined, inserted.vertices))
+    }
+
+    /// The same with at least `degree` edges at each of some vertices (at most twice as many as there were): the widest faces
+    /// there are bisected.
+    ///
+    /// # Errors
+    /// As [`Self::with_points`].
+    pub fn with_degrees(
+        &self,
+        input: &SurfaceMesh,
+        vertices: impl IntoIterator<Item = VertexId>,
+        degree: usize,
+    ) -> Result<Self, MeshError> {
+        let points: Vec<SurfacePoint> =
+            vertices.into_iter().flat_map(|v| bisectors(&self.mesh, v, degree)).collect();
+        if points.is_empty() {
+            return Ok(self.clone());
+        }
+        Ok(self.with_points(input, &points)?.0)
+    }
+
     /// Barycentric coordinates, in the input face of a refined face, of its three corners.
     pub fn origins_in_face(&self, input: &SurfaceMesh, face: FaceId) -> [[f64; 3]; 3] {
         let corners = input.triangles()[self.face_origin[face]];
@@ -40,5 +84,61 @@ impl RefinedMesh {
         let rows = self.origins_in_face(input, point.face);
         let weight = |c: usize| (0..3).map(|k| rows[k][c] * point.barycentric[k]).sum();
         SurfacePoint { face: self.face_origin[point.face], barycentric: [weight(0), weight(1), weight(2)] }
+    }
+}
+
+/// Where the bisectors of the widest faces at a vertex meet the opposite edges; as many as are missing to a degree.
+fn bisectors(mesh: &SurfaceMesh, v: VertexId, degree: usize) -> Vec<SurfacePoint> {
+    let place = |h: HalfedgeId| mesh.positions()[mesh.tail(h)];
+    let angle = |h: &HalfedgeId| angle_at(place(*h), place(h.next()), place(h.prev()));
+    let mut star: Vec<HalfedgeId> = mesh.star(v).collect();
+    let missing = degree.saturating_sub(star.len()).min(star.len());
+    star.sort_by(|a, b| angle(b).total_cmp(&angle(a)).then(a.cmp(b)));
+    let meets = |h: &HalfedgeId| {
+        // The bisector divides the opposite side like the sides beside it.
+        let (next, last) = (mesh.length(*h), mesh.length(h.prev()));
+        let mut barycentric = [0.0; 3];
+        barycentric[h.next().corner()] = last / (next + last);
+        barycentric[h.prev().corner()] = next / (next + last);
+        SurfacePoint { face: h.face(), barycentric }
+    };
+    star.iter().take(missing).map(meets).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::generators::icosphere;
+
+    #[test]
+    fn a_vertex_of_degree_three_gets_six_and_its_surface_stays() {
+        let ball = icosphere(1);
+        let inside = SurfacePoint { face: FaceId(17), barycentric: [0.7, 0.2, 0.1] };
+        let beside = SurfacePoint { face: FaceId(17), barycentric: [0.2, 1e-4, 0.8 - 1e-4] };
+        let (mesh, points) = RefinedMesh::unrefined(&ball).with_points(&ball, &[inside, beside]).unwrap();
+        assert_eq!(points.iter().map(|&v| mesh.mesh.star(v).count()).collect::<Vec<_>>(), [3, 3]);
+        let refined = mesh.with_degrees(&ball, points.iter().copied(), 6).unwrap();
+        assert_eq!(refined.mesh.euler_characteristic(), 2);
+        assert!((refined.mesh.area() - 1.0).abs() < 1e-12);
+        let scale = 1.0 / ball.area().sqrt();
+        for &v in &points {
+            assert!(refined.mesh.star(v).count() >= 6);
+        }
+        for v in refined.mesh.vertices() {
+            let there = refined.vertex_origin[v].position(&ball) * scale;
+            assert!(there.distance(refined.mesh.positions()[v]) < 1e-12);
+        }
+        for f in refined.mesh.faces() {
+            let corners = refined.origins_in_face(&ball, f);
+            assert!(corners.iter().all(|w| (w.iter().sum::<f64>() - 1.0).abs() < 1e-9), "{corners:?}");
+        }
+    }
+
+    #[test]
+    fn a_degree_that_is_there_changes_nothing() {
+        let ball = icosphere(1);
+        let mesh = RefinedMesh::unrefined(&ball);
+        let same = mesh.with_degrees(&ball, [VertexId(20), VertexId(30)], 6).unwrap();
+        assert_eq!(same.mesh.triangles(), mesh.mesh.triangles());
     }
 }

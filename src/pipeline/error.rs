@@ -3,6 +3,7 @@
 use crate::base_domain::SimplifyError;
 use crate::cone_metric::FlowError;
 use crate::layout::LayoutError;
+use crate::mesh::MeshError;
 use crate::monitor::Cancelled;
 use crate::surface_map::compose::LocateError;
 use crate::surface_map::overlay::OverlayError;
@@ -27,6 +28,9 @@ pub enum PipelineError {
     /// The target's flow failed.
     #[error("cone metric of the target: {0}")]
     TargetFlow(FlowError),
+    /// The mesh around a landmark could not be refined.
+    #[error("refinement around the landmarks: {0}")]
+    Refinement(#[from] MeshError),
     /// No parametrisation.
     #[error("map: {0}")]
     Map(MapError),
@@ -98,7 +102,7 @@ impl PipelineError {
             Self::BaseDomain(_) => "base-domain",
             Self::Layout(_) => "layout",
             Self::SourceFlow(_) | Self::TargetFlow(_) => "cone-metric",
-            Self::Map(_) => "map",
+            Self::Refinement(_) | Self::Map(_) => "map",
             Self::Locate(_) | Self::Overlay(_) => "composition",
             Self::NotCertified(_) => "not-certified",
         }

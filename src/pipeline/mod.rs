@@ -1,5 +1,6 @@
 //! Options, the order of the stages, the report: the only place that knows the whole way.
 
+pub mod class_search;
 mod error;
 mod findings;
 mod options;

@@ -62,13 +62,13 @@ pub struct OwnConeOptions {
     pub count: usize,
     /// With more landmarks than this none are added.
     pub most_landmarks: usize,
-    /// A coarse map of less energy needs no help; 4 for an isometry.
-    pub least_energy: f64,
+    /// A coarse map of less mean log density needs no help; 0 for an isometry.
+    pub least_mean_log: f64,
     /// Sets of points, one after the other, at most.
     pub rounds: usize,
     /// Stops after this many sets without a gain.
     pub patience: usize,
-    /// A gain lowers the energy by this share.
+    /// A gain lowers the mean log density by this share.
     pub least_gain: f64,
     /// The search for the layout with own points.
     pub search: SearchOptions,
@@ -80,10 +80,10 @@ impl Default for OwnConeOptions {
         Self {
             count: 20,
             most_landmarks: 16,
-            least_energy: 4.01,
+            least_mean_log: 0.0025,
             rounds: 6,
             patience: 2,
-            least_gain: 0.002,
+            least_gain: 0.02,
             search,
         }
     }

@@ -5,12 +5,12 @@
 //! so that those of the round before are free to move.
 
 use super::PipelineError;
+use super::class_search::choose_class;
 use super::options::PipelineOptions;
-use super::relaxed::{Full, parametrised, searched};
+use super::relaxed::{Full, parametrised};
 use crate::landmark_suggestion::{distances, farthest_points};
 use crate::mesh::closest_point::closest_point;
-use crate::mesh::insertion::insert;
-use crate::mesh::{RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
+use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor};
 use crate::surface_map::multilevel::{CoarseMap, LevelImages, MultilevelOptions, Side, solve_fine};
 use crate::surface_map::{ConeSurface, Embedding, MapError, certify};
@@ -63,20 +63,20 @@ pub(super) struct Refined {
     pub(super) full: [Full; 2],
 }
 
-/// Adds own landmarks round by round, as long as they lower the energy of the coarse map; `None` where they do not.
+/// Adds own landmarks round by round, as long as they lower the mean log density of the coarse map; `None` where they do not.
 ///
 /// Every round takes fresh points at their images under the best map so far.
 ///
 /// # Errors
 /// Cancellation only.
 pub(super) fn add<'a>(
-    (full, map): (&[Full; 2], &CoarseMap<'_>),
+    (inputs, full, map): ([&SurfaceMesh; 2], &[Full; 2], &CoarseMap<'_>),
     (fulls, all_sides): (&'a Rounds<Full>, &'a Rounds<Side<'a>>),
     (vertices, options): (usize, &PipelineOptions),
     monitor: &mut dyn Monitor,
 ) -> Result<Option<OwnCones<'a>>, Cancelled> {
     let own = &options.own_cones;
-    if own.count == 0 || full[0].landmarks.len() > own.most_landmarks || map.judged < own.least_energy {
+    if own.count == 0 || full[0].landmarks.len() > own.most_landmarks || map.mean_log < own.least_mean_log {
         return Ok(None);
     }
     let Some(mut images) = map.images() else { return Ok(None) };
@@ -88,22 +88,24 @@ pub(super) fn add<'a>(
             break;
         }
         let pairs = pairs(full, &images, &before, own.count);
-        let Some(with_own) = with(full, &pairs).filter(|_| without_gain < own.patience) else { break };
+        let Some(with_own) = with(inputs, full, &pairs).filter(|_| without_gain < own.patience) else {
+            break;
+        };
         without_gain += 1;
         before = pairs.iter().map(|pair| pair.0).collect();
         let with_own = full_cell.get_or_init(|| with_own);
         let sides = sides_cell.get_or_init(|| {
             [0, 1].map(|k| Side::new(&with_own[k].refined.mesh, &with_own[k].landmarks, vertices))
         });
-        let next = match searched(sides, (&options.multilevel, &own.search), monitor) {
-            Ok(next) => next.map,
+        let next = match choose_class(sides, (&options.multilevel, &own.search), monitor) {
+            Ok(chosen) => chosen.map,
             Err(PipelineError::Cancelled(stop)) => return Err(stop),
             // No map with these points: others may do.
             Err(_) => continue,
         };
-        let (energy, least) = (next.judged, best.as_ref().map_or(map.judged, |best| best.map.judged));
-        let Some(next_images) = next.images().filter(|_| energy < least) else { continue };
-        if energy < (1.0 - own.least_gain) * least {
+        let (mean_log, least) = (next.mean_log, best.as_ref().map_or(map.mean_log, |best| best.map.mean_log));
+        let Some(next_images) = next.images().filter(|_| mean_log < least) else { continue };
+        if mean_log < (1.0 - own.least_gain) * least {
             without_gain = 0;
         }
         images = next_images;
@@ -162,23 +164,24 @@ fn snapped(point: SurfacePoint) -> SurfacePoint {
 }
 
 /// Both meshes with the pairs as landmarks after the user's; `None` where there are no pairs.
-fn with(full: &[Full; 2], pairs: &[(VertexId, SurfacePoint)]) -> Option<[Full; 2]> {
-    let points: Vec<SurfacePoint> = pairs.iter().map(|pair| pair.1).collect();
-    let target: &SurfaceMesh = &full[1].refined.mesh;
-    let inserted = insert(target, &points).ok().filter(|_| !pairs.is_empty())?;
-    let mut landmarks = [full[0].landmarks.clone(), full[1].landmarks.clone()];
-    for (&(s, _), &t) in pairs.iter().zip(&inserted.vertices) {
-        if !landmarks[1].contains(&t) {
-            landmarks[0].push(s);
-            landmarks[1].push(t);
+fn with(
+    inputs: [&SurfaceMesh; 2],
+    full: &[Full; 2],
+    pairs: &[(VertexId, SurfacePoint)],
+) -> Option<[Full; 2]> {
+    if pairs.is_empty() {
+        return None;
+    }
+    let at = |pair: &(VertexId, SurfacePoint)| SurfacePoint::at_vertex(&full[0].refined.mesh, pair.0);
+    let points: [Vec<SurfacePoint>; 2] =
+        [pairs.iter().map(at).collect(), pairs.iter().map(|pair| pair.1).collect()];
+    let side = |k: usize| full[k].with_landmarks(inputs[k], &points[k]).ok();
+    let ((mut source, from), (mut target, onto)) = (side(0)?, side(1)?);
+    for (s, t) in from.into_iter().zip(onto) {
+        if !target.landmarks.contains(&t) {
+            source.landmarks.push(s);
+            target.landmarks.push(t);
         }
     }
-    let origin = |v: VertexId| inserted.on_original(SurfacePoint::at_vertex(&inserted.mesh, v));
-    let refined = RefinedMesh {
-        vertex_origin: inserted.mesh.vertices().map(origin).collect(),
-        face_origin: inserted.face_origin.clone(),
-        mesh: inserted.mesh,
-    };
-    let [first, second] = landmarks;
-    Some([Full { refined: full[0].refined.clone(), landmarks: first }, Full { refined, landmarks: second }])
+    Some([source, target])
 }

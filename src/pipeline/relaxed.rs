@@ -1,5 +1,6 @@
 //! The relaxed map: from a layout and both cone metrics to a certified result.
 
+use super::class_search::{Chosen, choose_class};
 use super::own_cones::{self, Refined, Rounds};
 use super::report::{CertificateReport, DistortionReport, GroundTruthReport, LayoutSearchReport};
 use super::{
@@ -8,16 +9,14 @@ use super::{
 };
 use crate::base_domain::{self, BaseDomain};
 use crate::landmarks::Landmarks;
-use crate::layout::{self, BaseLayout, Candidates, LayoutError, SearchOptions, SearchReport};
-use crate::mesh::{RefinedMesh, SurfaceMesh, VertexId};
+use crate::layout::{self, BaseLayout, LayoutError, SearchReport};
+use crate::mesh::{MeshError, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Monitor, Stage};
 use crate::surface_map::base_lines::base_line;
 use crate::surface_map::compose::{Locations, locate};
 use crate::surface_map::distortion::{Distortion, distortion};
 use crate::surface_map::ground_truth::same_connectivity_error;
-use crate::surface_map::multilevel::{
-    CoarseMap, MultilevelOptions, Side, coarse_landmarks, solve_coarse, solve_fine,
-};
+use crate::surface_map::multilevel::{CoarseMap, Side, coarse_landmarks, solve_coarse, solve_fine};
 use crate::surface_map::overlay::{Overlay, overlay};
 use crate::surface_map::transfer::{Surface, common_mesh, vertex_images};
 use crate::surface_map::{Certificate, ConeSurface, Embedding, MapError, Parametrised, certify};
@@ -33,17 +32,27 @@ pub(super) struct Full {
     pub(super) landmarks: TiVec<VertexId, VertexId>,
 }
 
-impl Full {
-    fn new(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> Self {
-        Self { refined: RefinedMesh::unrefined(mesh), landmarks: landmarks.iter().copied().collect() }
-    }
-}
+/// Edges at a landmark, at least. Around a landmark of degree 3, such as one inside a face, no layout's points can be taken
+/// out again: with three edges straight there is no room for the paths between them.
+const LEAST_DEGREE: usize = 6;
 
-/// The layout that was chosen with its coarse map.
-pub(super) struct Coarse<'a> {
-    pub(super) layout: BaseLayout,
-    pub(super) search: SearchReport,
-    pub(super) map: CoarseMap<'a>,
+impl Full {
+    fn new(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> Result<Self, MeshError> {
+        let refined = RefinedMesh::unrefined(mesh);
+        let refined = refined.with_degrees(mesh, landmarks.iter().copied(), LEAST_DEGREE)?;
+        Ok(Self { refined, landmarks: landmarks.iter().copied().collect() })
+    }
+
+    /// The same with more landmarks: points of the refined mesh.
+    pub(super) fn with_landmarks(
+        &self,
+        input: &SurfaceMesh,
+        points: &[SurfacePoint],
+    ) -> Result<(Self, Vec<VertexId>), MeshError> {
+        let (refined, vertices) = self.refined.with_points(input, points)?;
+        let refined = refined.with_degrees(input, vertices.iter().copied(), LEAST_DEGREE)?;
+        Ok((Self { refined, landmarks: self.landmarks.clone() }, vertices))
+    }
 }
 
 /// The certified parametrisations of both sides.
@@ -139,7 +148,7 @@ fn parametrise(
     (options, monitor): (&PipelineOptions, &mut dyn Monitor),
 ) -> Result<Parametrisation, PipelineError> {
     let Landmarks { source, target } = input.landmarks;
-    let full = [Full::new(input.source, source), Full::new(input.target, target)];
+    let full = [Full::new(input.source, source)?, Full::new(input.target, target)?];
     let most = full.iter().map(|side| side.refined.mesh.vertex_count()).max().unwrap_or(0);
     let mut vertices = options.multilevel.coarse_vertices.max(PER_LANDMARK * input.landmarks.len());
     let (layout, search, (surface, embeddings, with_own)) = loop {
@@ -148,10 +157,15 @@ fn parametrise(
         match coarse(input, &sides, (options, &mut *monitor)) {
             Err(PipelineError::Layout(LayoutError::NoMap { .. })) if vertices < most => vertices *= 4,
             Err(error) => return Err(error),
-            Ok(Coarse { layout, search, map }) => {
+            Ok((layout, search, map)) => {
                 let rounds = (Rounds::new(options), Rounds::new(options));
                 let cells = (&rounds.0, &rounds.1);
-                let own = own_cones::add((&full, &map), cells, (vertices, options), monitor)?;
+                let own = own_cones::add(
+                    ([input.source, input.target], &full, &map),
+                    cells,
+                    (vertices, options),
+                    monitor,
+                )?;
                 monitor.enter(Stage::Relaxation);
                 let own = own.map_or(Ok(None), |own| own.refined((&options.multilevel, &mut *monitor)))?;
                 let fine = match own {
@@ -176,14 +190,19 @@ fn parametrise(
     Ok(Parametrisation { layout, search, surface, sides: full, embeddings, certificate, stopped_early })
 }
 
-/// The coarse map of least energy among the classes of layouts that are tried.
+/// The coarse map of least mean log density among the classes of layouts that are tried.
 fn coarse<'a>(
     input: MapInput<'_>,
     sides: &'a [Side<'a>; 2],
     (options, monitor): (&PipelineOptions, &mut dyn Monitor),
-) -> Result<Coarse<'a>, PipelineError> {
+) -> Result<(BaseLayout, SearchReport, CoarseMap<'a>), PipelineError> {
     match options.base {
-        Base::Joint => searched(sides, (&options.multilevel, &options.search), monitor),
+        Base::Joint => {
+            let chosen = choose_class(sides, (&options.multilevel, &options.search), &mut *monitor)?;
+            let Chosen { candidate, search, mut map } = chosen;
+            map.finish((&options.multilevel, monitor))?;
+            Ok((candidate.layout, search, map))
+        }
         Base::Qem => {
             let landmarks = coarse_landmarks(sides);
             let meshes = [&sides[0].coarse.mesh, &sides[1].coarse.mesh];
@@ -195,67 +214,9 @@ fn coarse<'a>(
                 _ => LayoutError::NoMap { layouts: 1 }.into(),
             })?;
             map.finish((&options.multilevel, monitor))?;
-            Ok(Coarse { layout, search: SearchReport::default(), map })
+            Ok((layout, SearchReport::default(), map))
         }
     }
-}
-
-/// The coarse map of least energy among layouts planned on both coarse levels.
-pub(super) fn searched<'a>(
-    sides: &'a [Side<'a>; 2],
-    (options, search_options): (&MultilevelOptions, &SearchOptions),
-    monitor: &mut dyn Monitor,
-) -> Result<Coarse<'a>, PipelineError> {
-    let landmarks = coarse_landmarks(sides);
-    let meshes = [&sides[0].coarse.mesh, &sides[1].coarse.mesh];
-    let mut finalists: Vec<Finalist<'a>> = Vec::new();
-    let mut count = 0;
-    let mut judge = |layout: &BaseLayout, monitor: &mut dyn Monitor| {
-        let number = count;
-        count += 1;
-        match solve_coarse(sides, layout, (options, monitor)) {
-            Ok(map) => {
-                let energy = map.judged;
-                finalists.push(Finalist { number, layout: layout.clone(), map });
-                finalists.sort_by(|a, b| a.map.judged.total_cmp(&b.map.judged));
-                finalists.truncate(options.finalists);
-                Ok(Some(energy))
-            }
-            Err(MapError::Cancelled(stop)) => Err(stop),
-            Err(_) => Ok(None),
-        }
-    };
-    let mut candidates = Candidates::new(meshes, &landmarks);
-    let (_, mut search) = layout::search(&mut candidates, &mut judge, search_options, monitor)?;
-    let Finalist { number, layout, mut map } = winner(finalists, (options, &mut *monitor))?;
-    search.best = number;
-    search.judged[number].energy = Some(map.judged);
-    map.finish((options, monitor))?;
-    Ok(Coarse { layout, search, map })
-}
-
-/// One of the best maps of a search.
-struct Finalist<'a> {
-    /// Among the judged layouts.
-    number: usize,
-    layout: BaseLayout,
-    map: CoarseMap<'a>,
-}
-
-/// The best of maps that are too close to tell after a first look: each is relaxed further.
-fn winner<'a>(
-    mut finalists: Vec<Finalist<'a>>,
-    (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
-) -> Result<Finalist<'a>, PipelineError> {
-    let least = finalists.first().map_or(f64::INFINITY, |first| first.map.judged);
-    finalists.retain(|other| other.map.judged - 4.0 <= options.close * (least - 4.0));
-    if finalists.len() > 1 && !monitor.wants_result() {
-        for finalist in &mut finalists {
-            finalist.map.relax((&options.decide, &mut *monitor))?;
-        }
-    }
-    let best = finalists.into_iter().min_by(|a, b| a.map.judged.total_cmp(&b.map.judged));
-    best.ok_or(LayoutError::NoMap { layouts: 0 }.into())
 }
 
 fn result(
@@ -284,7 +245,7 @@ fn result(
         layout: Some(LayoutSearchReport {
             judged: map.search.judged.len(),
             twists: map.search.twists_made,
-            energy: map.search.energy(),
+            mean_log: map.search.mean_log(),
             runner_up: map.search.runner_up(),
             path_stretch: map.layout.report.worst_stretch,
         }),

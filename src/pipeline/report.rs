@@ -58,11 +58,9 @@ pub struct LayoutSearchReport {
     pub judged: usize,
     /// Twists that were made after the best order of drawing was found.
     pub twists: usize,
-    /// Energy of the coarse map by which the class was chosen ([`TwoSided::JUDGE`]); 4 for an isometry.
-    ///
-    /// [`TwoSided::JUDGE`]: crate::surface_map::two_sided::TwoSided::JUDGE
-    pub energy: Option<f64>,
-    /// Energy of the next best class.
+    /// Mean log density (see [`DistortionReport::mean_log`]) of the coarse map by which the class was chosen; 0 for an isometry.
+    pub mean_log: Option<f64>,
+    /// Mean log density of the next best class.
     pub runner_up: Option<f64>,
     /// The largest ratio of a path of the layout to the shortest one between its landmarks.
     pub path_stretch: f64,

@@ -14,6 +14,7 @@ use super::overlay::{Measure, SideOf};
 use super::pull::Pull;
 use super::two_sided::TwoSided;
 use super::unknowns::Unknowns;
+use crate::math::scalar::ln;
 use crate::math::triangle::hat_gradients;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
@@ -53,11 +54,12 @@ impl Relaxed<'_> {
         self.relaxation.embeddings
     }
 
-    /// The energy by [`TwoSided::JUDGE`], whatever was lowered: 4 for an isometry, infinite without an overlay.
-    pub fn judged(&self) -> f64 {
+    /// Half the sum of the area-weighted means of the density's logarithm over both surfaces: 0 for an isometry, infinite
+    /// without an overlay.
+    pub fn mean_log(&self) -> f64 {
         match self.energies.is_empty() {
             true => f64::INFINITY,
-            false => self.relaxation.present.integral(TwoSided::JUDGE) / TwoSided::JUDGE.unit(),
+            false => self.relaxation.present.mean_log(),
         }
     }
 
@@ -433,6 +435,23 @@ impl Evaluation {
             piece.area / a.determinant() * two_sided.density(&(*c * *a))
         });
         part.sum()
+    }
+
+    /// Half the sum of the means of the density's logarithm over both surfaces.
+    fn mean_log(&self) -> f64 {
+        let (mut sums, mut areas) = ([0.0; 2], [0.0; 2]);
+        for (piece, c) in self.overlay.pieces().iter().zip(&self.onto_rest) {
+            let a = &self.jacobians[piece.source_face.index()];
+            let j = *c * *a;
+            let area = piece.area / a.determinant();
+            // With equal areas the distortion is the density.
+            let log = ln(TwoSided::POSES.distortion(&j));
+            for (k, area) in [area, area * j.determinant()].into_iter().enumerate() {
+                sums[k] += log * area;
+                areas[k] += area;
+            }
+        }
+        0.5 * (sums[0] / areas[0] + sums[1] / areas[1])
     }
 
     /// The median distortion, each piece counted by its areas on both surfaces.

@@ -45,7 +45,7 @@ pub struct MultilevelOptions {
     pub judge: ComposedOptions,
     /// So many of the best layouts are judged a second time.
     pub finalists: usize,
-    /// Those whose energy above 4 is at most this many times the least one.
+    /// Those whose mean log density is at most this many times the least one.
     pub close: f64,
     /// The relaxation for the second judgement.
     pub decide: ComposedOptions,
@@ -120,8 +120,8 @@ pub struct CoarseMap<'a> {
     /// The cone surface of its layout.
     pub surface: Arc<ConeSurface>,
     levels: [Seamless<'a>; 2],
-    /// Energy of the map of the coarse levels by [`TwoSided::JUDGE`], whatever was lowered; 4 for an isometry.
-    pub judged: f64,
+    /// Half the sum of the means over both coarse levels of the logarithm of the distortion density; 0 for an isometry.
+    pub mean_log: f64,
     /// Half of both coarse levels is distorted by no more than this.
     pub median: f64,
     /// What is lowered on finer levels.
@@ -152,7 +152,7 @@ pub fn solve_coarse<'a>(
     let mut map = CoarseMap {
         surface,
         levels,
-        judged: f64::INFINITY,
+        mean_log: f64::INFINITY,
         median: f64::INFINITY,
         energy: options.fine.energy,
         pulls: Default::default(),
@@ -207,8 +207,8 @@ impl CoarseMap<'_> {
         &mut self,
         (options, monitor): (&ComposedOptions, &mut dyn Monitor),
     ) -> Result<(), MapError> {
-        let measure = |relaxed: &Relaxed<'_>| (relaxed.judged(), relaxed.median());
-        (self.judged, self.median) = self.lower((options, monitor), measure)?;
+        let measure = |relaxed: &Relaxed<'_>| (relaxed.mean_log(), relaxed.median());
+        (self.mean_log, self.median) = self.lower((options, monitor), measure)?;
         Ok(())
     }
 

@@ -27,8 +27,8 @@ function verdict(report: Report): HTMLElement {
 function layoutSentence(layout: LayoutSearch): string {
   const judged = layout.judged === 1 ? 'one class tried' : `best of ${integer(layout.judged)} classes tried`;
   const words = [layout.judged === 0 ? 'drawn from the base domain' : judged];
-  if (layout.energy !== null && layout.runner_up !== null) {
-    words.push(`coarse energy ${figure(layout.energy)}, next best ${figure(layout.runner_up)}`);
+  if (layout.mean_log !== null && layout.runner_up !== null) {
+    words.push(`mean log distortion ${figure(layout.mean_log)}, next best ${figure(layout.runner_up)}`);
   }
   if (layout.twists > 0) {
     words.push(`${integer(layout.twists)} ${layout.twists === 1 ? 'twist' : 'twists'} made`);
@@ -57,7 +57,7 @@ function facts(report: Report): (readonly [string, string, string])[] {
     rows.push(['Own cones', `${integer(report.own_landmarks)} of the program’s own`, 'Points added where the landmarks are few']);
   }
   if (report.layout !== null) {
-    rows.push(['Layout', layoutSentence(report.layout), 'Ways to draw the base domain, judged by the energy of coarse maps']);
+    rows.push(['Layout', layoutSentence(report.layout), 'Ways to draw the base domain, judged by the mean logarithm of the distortion of coarse maps']);
   }
   if (certificate !== null) {
     const error = certificate.max_landmark_error;

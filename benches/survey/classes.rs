@@ -1,0 +1,102 @@
+//! Whether the search finds the best class: all twists by one exchanged path, and all pairs of them, judged.
+
+use crate::arguments::Arguments;
+use crate::common;
+use conemap::layout::{Candidate, Candidates};
+use conemap::mesh::{RefinedMesh, SurfaceMesh, VertexId};
+use conemap::monitor::Silent;
+use conemap::pipeline::class_search::choose_class;
+use conemap::surface_map::multilevel::{Side, coarse_landmarks, solve_coarse};
+use cpu_time::ThreadTime;
+use typed_index_collections::TiVec;
+
+/// For each pair and number of coarse vertices: the mean log density of the class that the search chose, and the least ones
+/// among its neighbours by one twist and by two.
+pub fn exhaustive(arguments: &Arguments) {
+    println!(
+        "{:20} {:>6} {:>8} {:>4} {:>7}  {:>8} {:>4}  {:>8} {:>4} {:>7}",
+        "pair", "coarse", "chosen", "cls", "cpu s", "1 twist", "", "2 twists", "", "cpu s"
+    );
+    let queue =
+        std::sync::Mutex::new(arguments.names().into_iter().collect::<std::collections::VecDeque<_>>());
+    std::thread::scope(|scope| {
+        for _ in 0..arguments.jobs.max(1) {
+            scope.spawn(|| {
+                loop {
+                    let next = queue.lock().expect("a queue").pop_front();
+                    let Some(name) = next else { break };
+                    for &vertices in &arguments.levels {
+                        println!("{}", one(arguments, &name, vertices));
+                    }
+                }
+            });
+        }
+    });
+}
+
+fn one(arguments: &Arguments, name: &str, vertices: usize) -> String {
+    let pair = common::read_pair(&arguments.data, name);
+    let landmarks = common::landmarks(&pair);
+    let refined = |mesh: &SurfaceMesh, held: &[VertexId]| {
+        RefinedMesh::unrefined(mesh)
+            .with_degrees(mesh, held.iter().copied(), 6)
+            .expect("room around landmarks")
+            .mesh
+    };
+    let full = [refined(&pair.source, &landmarks.source), refined(&pair.target, &landmarks.target)];
+    let held: [TiVec<VertexId, VertexId>; 2] =
+        [landmarks.source.iter().copied().collect(), landmarks.target.iter().copied().collect()];
+    let sides = [0, 1].map(|k| Side::new(&full[k], &held[k], vertices));
+    let coarse = coarse_landmarks(&sides);
+    let options = (&arguments.options.multilevel, &arguments.options.search);
+    let begun = ThreadTime::now();
+    let chosen = match choose_class(&sides, options, &mut Silent) {
+        Ok(chosen) => chosen,
+        Err(error) => return format!("{name:20} {vertices:6} FAILED: {error}"),
+    };
+    let searched = begun.elapsed().as_secs_f64();
+    // As the pipeline judges the finalists.
+    let judge = |candidate: &Candidate| {
+        let map = solve_coarse(&sides, &candidate.layout, (options.0, &mut Silent));
+        map.ok().map_or(f64::INFINITY, |mut map| {
+            map.relax((&options.0.decide, &mut Silent)).expect("nobody stops");
+            map.mean_log
+        })
+    };
+    let known = judge(&chosen.candidate);
+    let mut fresh = Candidates::new([&sides[0].coarse.mesh, &sides[1].coarse.mesh], &coarse);
+    let mut best = [f64::INFINITY; 2];
+    let mut count = [0; 2];
+    let all = (usize::MAX / 4, f64::INFINITY);
+    let singles: Vec<Candidate> = fresh.twists(&chosen.candidate, all, &mut Silent).expect("not stopped");
+    for single in &singles {
+        let value = judge(single);
+        if value < known {
+            let [a, b] = [&chosen.candidate, single].map(|c| &c.layout.report);
+            println!(
+                "    {known:.5} -> {value:.5}, detour {:.3} -> {:.3}, stretch {:.3} -> {:.3}, place {} by detour",
+                a.detour, b.detour, a.worst_stretch, b.worst_stretch, count[0]
+            );
+        }
+        best[0] = f64::min(best[0], value);
+        count[0] += 1;
+        if arguments.depth < 2 {
+            continue;
+        }
+        for double in fresh.twists(single, all, &mut Silent).expect("not stopped") {
+            let value = judge(&double);
+            best[1] = f64::min(best[1], value);
+            count[1] += 1;
+        }
+    }
+    let missed = if best[0].min(best[1]) < 0.99 * known { "  MISSED" } else { "" };
+    format!(
+        "{name:20} {vertices:6} {known:8.5} {:4} {searched:7.2}  {:8.5} {:4}  {:8.5} {:4} {:7.2}{missed}",
+        chosen.search.judged.len(),
+        best[0],
+        count[0],
+        best[1],
+        count[1],
+        begun.elapsed().as_secs_f64() - searched
+    )
+}
