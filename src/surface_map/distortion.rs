@@ -183,7 +183,7 @@ pub fn image_distortion(
 ) -> Distortion {
     let scales = [source, target].map(|mesh| 1.0 / mesh.area().sqrt());
     let mut result = Distortion::default();
-    let mut logs = [0.0; 2];
+    let (mut logs, mut dented) = ([0.0; 2], [0.0; 2]);
     let mut densities = Vec::new();
     for (f, corners) in source.triangles().iter_enumerated() {
         let [Some(a), Some(b), Some(c)] = corners.map(|v| images[v]) else { continue };
@@ -205,8 +205,12 @@ pub fn image_distortion(
         result.source_area += areas[0];
         result.target_area += areas[1];
         (0..2).for_each(|k| logs[k] += ln(density) * areas[k]);
+        if density > DENTED {
+            (0..2).for_each(|k| dented[k] += areas[k]);
+        }
         densities.push((density, areas[0]));
     }
+    result.dented = max(dented[0] / result.source_area, dented[1] / result.target_area);
     result.mean_log = 0.5 * (logs[0] / result.source_area + logs[1] / result.target_area);
     result.summarise(densities);
     result
