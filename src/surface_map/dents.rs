@@ -39,9 +39,12 @@ pub struct DentOptions {
 
 impl Default for DentOptions {
     fn default() -> Self {
-        Self { pose_brink: 20.0, brink: 500.0, sweeps: 10, deep_sweeps: 30, share: 0.005 }
+        Self { pose_brink: 20.0, brink: 500.0, sweeps: 12, deep_sweeps: 40, share: 0.006 }
     }
 }
+
+/// A vertex that lowers the cost of its star by less than this share rests.
+const REST: f64 = 5e-3;
 
 /// So many vertices may move in a sweep over meshes of any size.
 const LEAST: usize = 20;
@@ -263,7 +266,7 @@ impl Healer<'_> {
                 break;
             }
         }
-        if least > start - 1e-3 {
+        if least > start - REST {
             return None;
         }
         self.place(k, &star, z).then_some(star)
@@ -414,13 +417,13 @@ impl Star {
         let [xx, yy] = [(e + w - 2.0 * least), (n + s - 2.0 * least)].map(|sum| sum / (h * h));
         let xy = (corner - e - n + least) / (h * h);
         let mut step = newton(slope, [xx, xy, yy], 10.0 * room)?;
-        for _ in 0..8 {
+        for _ in 0..6 {
             if let Some(cost) = at(z + step)
                 && cost < least
             {
                 return Some((z + step, cost));
             }
-            step *= 0.4;
+            step *= 0.3;
         }
         None
     }
