@@ -13,6 +13,8 @@ export interface Report {
     readonly median: number;
     readonly p95: number;
     readonly max: number;
+    readonly dented: number;
+    readonly worst: readonly WorstPiece[];
     readonly l2_stretch: number;
   };
   /** Whether the result was asked for before it was done. */
@@ -23,6 +25,20 @@ export interface Report {
   readonly findings: readonly Finding[];
   readonly warnings: readonly string[];
   readonly seconds: Readonly<Record<string, number>>;
+}
+
+/** A piece of the overlay of large density, with its middle on both meshes. */
+export interface WorstPiece {
+  readonly density: number;
+  readonly area: number;
+  readonly source: Place;
+  readonly target: Place;
+}
+
+/** A point of a mesh. */
+export interface Place {
+  readonly face: number;
+  readonly barycentric: readonly [number, number, number];
 }
 
 /** One flow to a cone metric. */

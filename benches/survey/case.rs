@@ -130,7 +130,7 @@ impl Case {
             mean_log: report.distortion.mean_log,
             p95: report.distortion.p95,
             max: report.distortion.max,
-            dented: dented(result),
+            dented: report.distortion.dented,
             truth,
             own: report.own_landmarks,
             judged: report.layout.as_ref().map_or(0, |layout| layout.judged),
@@ -139,21 +139,6 @@ impl Case {
             }),
         }
     }
-}
-
-/// The larger share of both areas on which the density is above 20.
-fn dented(result: &MapResult) -> f64 {
-    let share = |positions: &[DVec3]| -> f64 {
-        let (mut dented, mut all) = (0.0_f64, 0.0_f64);
-        for (corners, triangle) in result.common.triangles.iter().zip(&result.triangle_distortion) {
-            let [p, q, r] = corners.map(|v| positions[v as usize]);
-            let area = (q - p).cross(r - p).length();
-            all += area;
-            dented += if triangle.local.density > 20.0 { area } else { 0.0 };
-        }
-        dented / all
-    };
-    share(&result.common.source_positions).max(share(&result.common.target_positions))
 }
 
 /// `count` of the pairs by farthest points of the source in space, from the one farthest from their mean on.

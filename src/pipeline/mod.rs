@@ -15,7 +15,7 @@ pub use findings::{FindingKind, FindingReport, RepairKind, findings};
 pub use options::{Base, Cones, Method, OwnConeOptions, PipelineOptions};
 pub use report::{
     BaseDomainReport, CertificateReport, ConeMetricReport, ConeMetricsReport, DistortionReport, FacesReport,
-    GroundTruthReport, LayoutSearchReport, Report,
+    GroundTruthReport, LayoutSearchReport, PlaceReport, Report, WorstPieceReport,
 };
 pub use result::{MapResult, TriangleDistortion};
 

@@ -99,7 +99,7 @@ pub(super) fn add<'a>(
             [0, 1].map(|k| Side::new(&with_own[k].refined.mesh, &with_own[k].landmarks, vertices))
         });
         let next = match choose_class(sides, (&options.multilevel, &own.search), monitor) {
-            Ok(chosen) => chosen.map,
+            Ok(chosen) => finished(chosen.map, (&options.multilevel, &mut *monitor))?,
             Err(PipelineError::Cancelled(stop)) => return Err(stop),
             // No map with these points: others may do.
             Err(_) => continue,
@@ -113,6 +113,17 @@ pub(super) fn add<'a>(
         best = Some(OwnCones { full: with_own, map: next });
     }
     Ok(best)
+}
+
+/// The chosen map relaxed to the end of its level.
+fn finished<'a>(
+    mut map: CoarseMap<'a>,
+    (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
+) -> Result<CoarseMap<'a>, Cancelled> {
+    match map.finish((options, monitor)) {
+        Err(MapError::Cancelled(stop)) => Err(stop),
+        _ => Ok(map),
+    }
 }
 
 /// Own points are at least this far from all others; the area is 1.

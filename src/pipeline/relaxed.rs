@@ -237,6 +237,10 @@ fn result(
             same_connectivity_error(input.target, images.iter().enumerate().map(|(v, p)| (v.into(), *p)));
         GroundTruthReport { mean: error.mean, p95: error.p95, max: error.max }
     });
+    let mut distortion = DistortionReport::new(&measured, metrics);
+    distortion.replace_worst([&|p| surfaces[0].refined.on_input(input.source, p), &|p| {
+        surfaces[1].refined.on_input(input.target, p)
+    }]);
     let report = Report {
         layout: Some(LayoutSearchReport {
             judged: map.search.judged.len(),
@@ -247,7 +251,7 @@ fn result(
         }),
         own_landmarks: map.sides[0].landmarks.len() - input.landmarks.len(),
         certificate: Some(certificate_report(map)),
-        distortion: DistortionReport::new(&measured, metrics),
+        distortion,
         ground_truth,
         stopped_early: map.stopped_early,
         warnings: warnings(map, &measured),

@@ -3,8 +3,9 @@
 use super::{FindingReport, MapInput, Metrics};
 use crate::base_domain::BaseDomain;
 use crate::cone_metric::FlowReport;
+use crate::mesh::SurfacePoint;
 use crate::monitor::Stage;
-use crate::surface_map::distortion::Distortion;
+use crate::surface_map::distortion::{Distortion, WorstPiece};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -119,13 +120,68 @@ pub struct DistortionReport {
     pub median: f64,
     /// Its area-weighted 95 % quantile.
     pub p95: f64,
-    /// Its maximum.
+    /// Its maximum, without pieces that rounding may have made.
     pub max: f64,
+    /// Share of the area with a density above 20, of the source or of the target, whichever is larger: dents that one sees in
+    /// a texture.
+    pub dented: f64,
+    /// Where the density is largest: at most ten pieces of the overlay, the worst first; none for the thesis' method.
+    pub worst: Vec<WorstPieceReport>,
     /// L2 stretch of the target's texture coordinates (Sander et al. 2001); 1 for an isometry.
     pub l2_stretch: f64,
 }
 
+/// A piece of the overlay of large density.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WorstPieceReport {
+    /// Its density.
+    pub density: f64,
+    /// Its share of the source's area.
+    pub area: f64,
+    /// Its middle on the source.
+    pub source: PlaceReport,
+    /// The same point on the target.
+    pub target: PlaceReport,
+}
+
+/// A point of one of the input meshes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PlaceReport {
+    /// Face, 0-based.
+    pub face: usize,
+    /// Weights of its corners.
+    pub barycentric: [f64; 3],
+}
+
+impl From<SurfacePoint> for PlaceReport {
+    fn from(point: SurfacePoint) -> Self {
+        Self { face: point.face.index(), barycentric: point.barycentric }
+    }
+}
+
+impl From<PlaceReport> for SurfacePoint {
+    fn from(place: PlaceReport) -> Self {
+        Self { face: place.face.into(), barycentric: place.barycentric }
+    }
+}
+
+impl From<&WorstPiece> for WorstPieceReport {
+    fn from(piece: &WorstPiece) -> Self {
+        let WorstPiece { density, area, source, target } = *piece;
+        Self { density, area, source: source.into(), target: target.into() }
+    }
+}
+
 impl DistortionReport {
+    /// Tells the places of the worst pieces on other meshes, as `places` (source, target) says.
+    pub fn replace_worst(&mut self, places: [&dyn Fn(SurfacePoint) -> SurfacePoint; 2]) {
+        for piece in &mut self.worst {
+            for (place, elsewhere) in [&mut piece.source, &mut piece.target].into_iter().zip(places) {
+                *place = elsewhere(place.clone().into()).into();
+            }
+        }
+    }
+
     pub(super) fn new(measured: &Distortion, metrics: &Metrics) -> Self {
         Self {
             energy: measured.energy,
@@ -134,6 +190,8 @@ impl DistortionReport {
             median: measured.median,
             p95: measured.p95,
             max: measured.max,
+            dented: measured.dented,
+            worst: measured.worst.iter().map(WorstPieceReport::from).collect(),
             l2_stretch: metrics.target_atlas.l2_stretch,
         }
     }

@@ -469,7 +469,7 @@ impl Evaluation {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::landmarks::Landmarks;
     use crate::layout::{self, BaseLayout, LayoutOptions};
@@ -487,12 +487,12 @@ mod tests {
         mesh.vertices().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap().0
     }
 
-    fn sides<'a>(layout: &'a BaseLayout, embeddings: &'a [Embedding; 2]) -> [Parametrised<'a>; 2] {
+    pub fn sides<'a>(layout: &'a BaseLayout, embeddings: &'a [Embedding; 2]) -> [Parametrised<'a>; 2] {
         [layout.source.parametrised(&embeddings[0]), layout.target.parametrised(&embeddings[1])]
     }
 
     /// A ball onto a bent, stretched ball with other connectivity.
-    fn example() -> (BaseLayout, Arc<ConeSurface>, [Embedding; 2]) {
+    pub fn example() -> (BaseLayout, Arc<ConeSurface>, [Embedding; 2]) {
         let (source, ball) = (icosphere(2), icosphere(3));
         let axes = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
         let pairs: Vec<_> = axes.iter().map(|&p| [nearest(&source, p), nearest(&ball, p)]).collect();

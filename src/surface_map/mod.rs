@@ -8,6 +8,7 @@ pub mod certificate;
 pub mod compose;
 pub mod composed;
 pub mod cone_surface;
+pub mod dents;
 pub mod distortion;
 pub mod embedding;
 pub mod energy;

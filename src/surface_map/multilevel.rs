@@ -10,9 +10,11 @@ use super::base_lines::mend_anchors;
 use super::compose::{barycentric, locate};
 use super::composed::{self, ComposedOptions, Relaxed};
 use super::cone_surface::ConeSurface;
+use super::dents::{self, DentEnergy, DentOptions};
 use super::embedding::{Embedding, Parametrised};
 use super::flat_problem::RelaxOptions;
 use super::initial::{self, InitialOptions};
+use super::overlay::overlay;
 use super::patch_fit::Skin;
 use super::pull::Pull;
 use super::relief::{self, ReliefOptions, Seen};
@@ -61,6 +63,8 @@ pub struct MultilevelOptions {
     pub fine: ComposedOptions,
     /// How the map between two poses follows the relief of the skin.
     pub relief: ReliefOptions,
+    /// How the worst places of the full map are healed.
+    pub dents: DentOptions,
 }
 
 impl Default for MultilevelOptions {
@@ -80,6 +84,7 @@ impl Default for MultilevelOptions {
             pose_median: 1.09,
             fine: ComposedOptions { max_rounds: 8, ..ComposedOptions::default() },
             relief: ReliefOptions::default(),
+            dents: DentOptions::default(),
         }
     }
 }
@@ -281,6 +286,20 @@ impl CoarseMap<'_> {
         Ok(grown)
     }
 
+    /// Heals the worst places of the present levels.
+    fn heal(&mut self, options: &DentOptions) {
+        let present = self.present();
+        let [source, target] = [0, 1].map(|k| present[k].parametrised());
+        let Ok(locations) = locate(source, target, &self.surface) else { return };
+        let Ok(overlay) = overlay(source, target, &locations) else { return };
+        let brink = if self.energy == TwoSided::POSES { options.pose_brink } else { options.brink };
+        let energy = DentEnergy { energy: self.energy, brink };
+        let healed = dents::heal([source, target], (&overlay, &self.surface), (options, energy));
+        for (k, embedding) in healed.iter().flatten().enumerate() {
+            self.levels[k].adopt(&present[k].level, embedding);
+        }
+    }
+
     /// Shows each side's level with its images, and its pulls.
     fn look(&mut self, mut show: impl FnMut(usize, &Seen<'_>, &mut Vec<(VertexId, Pull)>)) {
         let present = self.present();
@@ -367,6 +386,7 @@ pub fn solve_fine(
             map.lower((&fine, &mut *monitor), |_| ())?;
         }
     }
+    map.heal(&options.dents);
     Ok(map.levels.map(|level| level.snapshot().1))
 }
 

@@ -16,12 +16,30 @@ pub struct Skin<'a> {
     mesh: &'a SurfaceMesh,
     /// Unit normals.
     pub normals: TiVec<VertexId, DVec3>,
+    /// How the normal turns along the surface: it changes by minus this matrix times a step in the tangent plane.
+    bends: TiVec<VertexId, DMat3>,
 }
 
 impl<'a> Skin<'a> {
     /// A mesh with smooth normals.
     pub fn new(mesh: &'a SurfaceMesh) -> Self {
-        Self { mesh, normals: vertex_normals(mesh) }
+        let normals = vertex_normals(mesh);
+        let bends = mesh.vertices().map(|v| bend(mesh, &normals, v)).collect();
+        Self { mesh, normals, bends }
+    }
+
+    /// The way along the normal from a point to the surface near a vertex, and the unit normal there: the surface is taken
+    /// for a paraboloid, so that it matters little which vertex of which triangulation is the nearest.
+    fn distance(&self, near: VertexId, p: DVec3) -> (f64, DVec3) {
+        let normal = self.normals[near];
+        let away = p - self.mesh.positions()[near];
+        let along = away - normal * away.dot(normal);
+        let turn = self.bends[near] * along;
+        // Where the normal turns by much within a step, it is an edge and no paraboloid.
+        if turn.length_squared() > LARGEST_TURN * LARGEST_TURN {
+            return (-away.dot(normal), normal);
+        }
+        (-away.dot(normal) - 0.5 * along.dot(turn), (normal - turn).normalize_or(normal))
     }
 
     /// The vertex nearest to p among its neighbours, downhill from a vertex.
@@ -41,6 +59,37 @@ impl<'a> Skin<'a> {
             }
         }
     }
+}
+
+/// Largest turn of the normal, in radians, from a vertex to the point that is nearest to it.
+const LARGEST_TURN: f64 = 0.5;
+
+/// The bend of the surface at a vertex: fits minus the change of the normals to all neighbours by least squares.
+fn bend(mesh: &SurfaceMesh, normals: &TiVec<VertexId, DVec3>, v: VertexId) -> DMat3 {
+    let normal = normals[v];
+    let first = normal.any_orthonormal_vector();
+    let second = normal.cross(first);
+    // Unknowns a, b, c of the symmetric matrix (a b; b c).
+    let (mut matrix, mut right) = (DMat3::ZERO, DVec3::ZERO);
+    for w in mesh.star(v).map(|h| mesh.head(h)) {
+        let step = mesh.positions()[w] - mesh.positions()[v];
+        let change = normal - normals[w];
+        let (x, y) = (step.dot(first), step.dot(second));
+        // Far neighbours say less about this place.
+        let weight = 1.0 / max(x * x + y * y, 1e-30);
+        for (row, value) in
+            [(DVec3::new(x, y, 0.0), change.dot(first)), (DVec3::new(0.0, x, y), change.dot(second))]
+        {
+            matrix += outer(row, row) * weight;
+            right += row * (weight * value);
+        }
+    }
+    let found = matrix.inverse() * right;
+    if !found.is_finite() {
+        return DMat3::ZERO;
+    }
+    let mixed = outer(first, second) + outer(second, first);
+    outer(first, first) * found.x + mixed * found.y + outer(second, second) * found.z
 }
 
 /// A point of a patch.
@@ -149,8 +198,8 @@ impl Fitter {
         for p in points.iter_mut() {
             let y = motion.apply(p.position);
             p.near = onto.nearest(p.near, y);
-            let normal = onto.normals[p.near];
-            self.distances.push((onto.mesh.positions()[p.near] - y).dot(normal));
+            let (distance, normal) = onto.distance(p.near, y);
+            self.distances.push(distance);
             let agrees = (motion.rotation * p.normal).dot(normal) > 0.5;
             self.normals.push(if agrees { normal } else { DVec3::ZERO });
             self.arms.push(y - at);
@@ -244,6 +293,21 @@ mod tests {
         let fit = Fitter::default().fit(&mut points, &skin, &OPTIONS).unwrap();
         assert!(fit.centre.distance(points[0].position) < 2e-3, "{fit:?}");
         assert!(fit.misfit < 1e-6, "{fit:?}");
+    }
+
+    #[test]
+    fn on_a_ball_distances_and_normals_are_of_second_order() {
+        let ball = icosphere(3);
+        let skin = Skin::new(&ball);
+        let radius = |p: DVec3| p.length();
+        for f in ball.faces() {
+            let [p, q, r] = ball.corners(f);
+            let above = (p + q * 0.7 + r * 0.8).normalize() * 1.003;
+            let near = skin.nearest(ball.triangles()[f][0], above);
+            let (distance, normal) = skin.distance(near, above);
+            assert!((distance - (1.0 - radius(above))).abs() < 2e-4, "{distance}");
+            assert!(normal.distance(above.normalize()) < 6e-3, "{}", normal.distance(above.normalize()));
+        }
     }
 
     #[test]

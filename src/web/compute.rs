@@ -208,6 +208,8 @@ pub fn run_map(
     result.report.set_seconds(seconds);
     result.report.findings = doubts;
     let as_given = |p| target.with_file_corners(on_target.on_original(p));
+    let on_source_file = |p| source.with_file_corners(inserted.on_original(p));
+    result.report.distortion.replace_worst([&on_source_file, &as_given]);
     let images = source.by_file_vertex(&result.target_from_source.raw);
     let images: Vec<_> = images.into_iter().map(|image| image.flatten().map(as_given)).collect();
     Ok(MapOutput { csv: export::csv::vertex_images(&images), result })

@@ -115,7 +115,7 @@ pub fn json_fields(value: &serde_json::Value) -> Vec<String> {
 }
 
 /// The fields of the report of a map, `ground_truth` and `seconds` unopened.
-pub const REPORT_FIELDS: [&str; 39] = [
+pub const REPORT_FIELDS: [&str; 41] = [
     "base_domain.faces",
     "base_domain.vertices",
     "certificate.bijective",
@@ -135,6 +135,7 @@ pub const REPORT_FIELDS: [&str; 39] = [
     "cone_metric.target.newton_steps",
     "cone_metric.target.residuals",
     "cone_metric.target.seconds",
+    "distortion.dented",
     "distortion.energy",
     "distortion.l2_stretch",
     "distortion.max",
@@ -142,6 +143,7 @@ pub const REPORT_FIELDS: [&str; 39] = [
     "distortion.mean_log",
     "distortion.median",
     "distortion.p95",
+    "distortion.worst",
     "faces.source",
     "faces.target",
     "layout.judged",

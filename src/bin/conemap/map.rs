@@ -5,6 +5,7 @@ use crate::clock::Clock;
 use crate::input::{self, Failure};
 use crate::{interrupt, outputs};
 use conemap::landmarks::{PlacedLandmarks, place};
+use conemap::mesh::SurfacePoint;
 use conemap::mesh::check::CheckedMesh;
 use conemap::mesh::mirror::mirrored;
 use conemap::monitor::{Monitor, Stage};
@@ -49,9 +50,12 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
     result.report.set_seconds(clock.stop());
     result.report.findings = found;
     tell(&result);
+    let inputs = outputs::Inputs { insertions: [source, target], checked, arguments };
+    let in_files: [&dyn Fn(SurfacePoint) -> SurfacePoint; 2] =
+        [&|p| inputs.on_source_file(p), &|p| inputs.on_target_file(p)];
+    result.report.distortion.replace_worst(in_files);
     if let Some(folder) = &arguments.out {
-        let insertions = [source, target];
-        outputs::write(folder, &result, &outputs::Inputs { insertions, checked, arguments })?;
+        outputs::write(folder, &result, &inputs)?;
     }
     if let Some(path) = &arguments.report {
         input::write(path, &serde_json::to_vec_pretty(&result.report)?)?;

@@ -20,20 +20,31 @@ pub struct Inputs<'a> {
     pub arguments: &'a MapArguments,
 }
 
+impl Inputs<'_> {
+    /// A point of the mapped source as one of the source's file.
+    pub fn on_source_file(&self, point: SurfacePoint) -> SurfacePoint {
+        self.checked[0].with_file_corners(self.insertions[0].on_original(point))
+    }
+
+    /// A point of the mapped target as one of the target's file, also where it was mirrored.
+    pub fn on_target_file(&self, point: SurfacePoint) -> SurfacePoint {
+        let point = self.insertions[1].on_original(point);
+        let is_mirrored = self.arguments.mirror_target;
+        self.checked[1].with_file_corners(if is_mirrored { mirrored_point(point) } else { point })
+    }
+}
+
 /// Writes all files; everything is told of the files that the user gave, also where the target was mirrored.
 pub fn write(folder: &Path, result: &MapResult, inputs: &Inputs<'_>) -> Result<(), Failure> {
-    let ([source, target], [checked_source, checked_target]) = (inputs.insertions, inputs.checked);
-    let mirror = inputs.arguments.mirror_target;
-    let as_given = |p: SurfacePoint| {
-        let point = target.on_original(p);
-        checked_target.with_file_corners(if mirror { mirrored_point(point) } else { point })
-    };
+    let ([source, target], [checked_source, _]) = (inputs.insertions, inputs.checked);
+    let as_given = |p: SurfacePoint| inputs.on_target_file(p);
     let images = checked_source.by_file_vertex(&result.target_from_source.raw);
     let images: Vec<_> = images.into_iter().map(|image| image.flatten().map(as_given)).collect();
     let glb = export::glb::textured_source(&result.common, &result.common_vertex_distortion())?;
     input::write(&folder.join("source-with-target-texture.glb"), &glb)?;
     input::write(&folder.join("vertex-images.csv"), &export::csv::vertex_images(&images))?;
-    let base = if mirror { mirrored(&result.base.mesh)? } else { result.base.mesh.clone() };
+    let base =
+        if inputs.arguments.mirror_target { mirrored(&result.base.mesh)? } else { result.base.mesh.clone() };
     input::write(&folder.join("base-domain.obj"), &export::obj::mesh(&base))?;
     if !result.triangle_distortion.is_empty() {
         let faces: [&dyn Fn(FaceId) -> FaceId; 2] = [&|f| source.face_origin[f], &|f| target.face_origin[f]];
