@@ -12,6 +12,8 @@ mod common;
 mod arguments;
 mod case;
 mod clicks;
+mod fit;
+mod fit_faults;
 mod pairs;
 mod table;
 
@@ -36,6 +38,11 @@ const SURVEYS: &[Survey] = &[
         name: "beside",
         about: "the same points in faces, as vertices, beside edges, on edges",
         run: clicks::same_points,
+    },
+    Survey {
+        name: "fit",
+        about: "landmarks that do not fit: false alarms on correct pairs, and the share of faults that are named",
+        run: fit::table,
     },
 ];
 
