@@ -16,17 +16,19 @@ const RIGID: f64 = 0.2;
 /// The corners of a group, two by two.
 const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
 
-/// Agreement of the signs of volumes, from -1 (mirrored) to 1, over each landmark with triples of its nearest ones.
+/// Agreement of the signs of volumes, from -1 (mirrored) to 1, over each landmark with triples of its nearest ones;
+/// `target_of` tells which pair's target each pair has.
 pub(super) fn agreement(
     meshes: [&SurfaceMesh; 2],
     landmarks: &Landmarks,
-    distances: &LandmarkDistances,
+    (distances, target_of): (&LandmarkDistances, &[usize]),
 ) -> f64 {
-    let sides = [&landmarks.source, &landmarks.target];
-    let places = [0, 1].map(|s| sides[s].iter().map(|&v| meshes[s].positions()[v]).collect::<Vec<_>>());
+    let source: Vec<DVec3> = landmarks.source.iter().map(|&v| meshes[0].positions()[v]).collect();
+    let target = target_of.iter().map(|&j| meshes[1].positions()[landmarks.target[j]]).collect();
+    let places = [source, target];
     let mut votes = Votes::default();
     for i in 0..landmarks.len() {
-        let near = nearest(distances, i);
+        let near = nearest(distances, target_of, i);
         for (k, &a) in near.iter().enumerate() {
             for (l, &b) in near[..k].iter().enumerate() {
                 for &c in &near[..l] {

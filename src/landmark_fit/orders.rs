@@ -22,18 +22,22 @@ pub fn order_agreement(
     landmarks: &Landmarks,
     distances: &LandmarkDistances,
 ) -> f64 {
-    agreement(&Directions::new(meshes, landmarks, distances), distances)
+    let target_of: Vec<usize> = (0..landmarks.len()).collect();
+    agreement(&Directions::new(meshes, landmarks, distances), distances, &target_of)
 }
 
-pub(super) fn agreement(directions: &Directions, distances: &LandmarkDistances) -> f64 {
+/// The same; `target_of` tells which pair's target each pair has.
+pub(super) fn agreement(directions: &Directions, distances: &LandmarkDistances, target_of: &[usize]) -> f64 {
     let mut votes = Votes::default();
-    for i in 0..distances.landmark_count() {
-        let near = nearest(distances, i);
+    for i in 0..target_of.len() {
+        let near = nearest(distances, target_of, i);
         for (k, &a) in near.iter().enumerate() {
-            let turns = [0, 1].map(|s| directions.turns(s, i, a));
+            let source = directions.turns(0, i, a);
+            let target = directions.turns(1, target_of[i], target_of[a]);
             for (l, &b) in near[..k].iter().enumerate() {
                 for &c in &near[..l] {
-                    votes.add([0, 1].map(|s| order([turns[s][b], turns[s][c]])));
+                    let onto = [target[target_of[b]], target[target_of[c]]];
+                    votes.add([order([source[b], source[c]]), order(onto)]);
                 }
             }
         }
@@ -61,9 +65,10 @@ pub(super) fn pair_agreement(directions: &Directions, target_of: &[usize], [a, b
 }
 
 /// The landmarks nearest to one on both meshes together, the nearest first.
-pub(super) fn nearest(distances: &LandmarkDistances, i: usize) -> Vec<usize> {
-    let mut near: Vec<usize> = (0..distances.landmark_count()).filter(|&j| j != i).collect();
-    near.sort_by(|&j, &k| distances.sum([i, j]).total_cmp(&distances.sum([i, k])).then(j.cmp(&k)));
+pub(super) fn nearest(distances: &LandmarkDistances, target_of: &[usize], i: usize) -> Vec<usize> {
+    let sum = |j: usize| distances.between([i, j])[0] + distances.between([target_of[i], target_of[j]])[1];
+    let mut near: Vec<usize> = (0..target_of.len()).filter(|&j| j != i).collect();
+    near.sort_by(|&j, &k| sum(j).total_cmp(&sum(k)).then(j.cmp(&k)));
     near.truncate(NEIGHBOURS);
     near
 }
