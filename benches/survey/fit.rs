@@ -14,6 +14,7 @@ use conemap::mesh::coarsening::Level;
 use conemap::mesh::insertion::insert;
 use conemap::mesh::mirror::mirrored;
 use conemap::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use cpu_time::ThreadTime;
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
 
@@ -130,8 +131,30 @@ pub fn table(arguments: &Arguments) {
             faults::all(&plain, &partners, &mut random, &mut named);
         }
     }
+    processor_time(arguments);
     alarms.print("false alarms on correct pairs", ["mirrored", "swapped", "misplaced"]);
     named.print("faults", ["named", "first, alone", "another pair"]);
+}
+
+/// What the doubts cost, beside the coarse levels and distances that they are asked on.
+fn processor_time(arguments: &Arguments) {
+    let mut seconds = [0.0; 3];
+    for name in arguments.names() {
+        let pair = common::read_pair(&arguments.data, &name);
+        let landmarks = common::landmarks(&pair);
+        let begun = ThreadTime::now();
+        let fit = Fit::coarse(&name, [&pair.source, &pair.target], &landmarks);
+        seconds[0] += begun.elapsed().as_secs_f64();
+        let begun = ThreadTime::now();
+        let meshes = [&fit.meshes[0], &fit.meshes[1]];
+        let distances = LandmarkDistances::new(meshes, &fit.landmarks);
+        seconds[1] += begun.elapsed().as_secs_f64();
+        let begun = ThreadTime::now();
+        landmark_fit(meshes, &fit.landmarks, &distances);
+        seconds[2] += begun.elapsed().as_secs_f64();
+    }
+    let [levels, distances, fit] = seconds;
+    println!("cpu: coarse levels {levels:.2} s, distances {distances:.2} s, landmark_fit {fit:.3} s");
 }
 
 /// Correct pairs, all of their landmarks and some.

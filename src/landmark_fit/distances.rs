@@ -3,7 +3,7 @@
 use super::Finding;
 use crate::landmarks::Landmarks;
 use crate::layout::LandmarkDistances;
-use crate::math::scalar::{exp, ln, max};
+use crate::math::scalar::{exp, ln, max, min};
 use crate::mesh::VertexId;
 
 /// Added to distances before ratios are taken, in units of the root of the area: nearer landmarks say little.
@@ -67,13 +67,21 @@ impl<'a> Fit<'a> {
     }
 
     /// Mean misfit of two pairs to the others as it is and with the targets exchanged; `None` where that moves one of the
-    /// two away from its place: then the other one is misplaced, and not exchanged with it.
+    /// two away from its place, or leaves one misplaced: then it is not exchanged with the other.
     pub(super) fn exchanged(&self, [a, b]: [usize; 2]) -> Option<[f64; 2]> {
         let both = [(a, b), (b, a)];
         let now = both.map(|(i, j)| self.misfit(i, self.place(i), j));
         let then = both.map(|(i, j)| self.misfit(i, self.place(j), j));
         let worse = max(then[0] - now[0], then[1] - now[1]);
-        (worse < WORSE).then(|| [now, then].map(|pair| 0.5 * (pair[0] + pair[1])))
+        let settled = |k: usize| {
+            let (i, j) = both[k];
+            let best = (0..self.target[0].len())
+                .map(VertexId::from)
+                .map(|v| self.misfit(i, v, j))
+                .fold(f64::INFINITY, min);
+            then[k] - best < PLACE_GAIN || best > PLACE_SHARE * then[k]
+        };
+        (worse < WORSE && settled(0) && settled(1)).then(|| [now, then].map(|pair| 0.5 * (pair[0] + pair[1])))
     }
 
     /// The pair of the largest misfit that would be much less at a place far from its target.
