@@ -10,6 +10,8 @@ use crate::mesh::VertexId;
 const SOFTENING: f64 = 0.08;
 /// An exchange of two targets may make neither pair fit worse than by this.
 const WORSE: f64 = 0.05;
+/// Where it lowers the misfit to this share, it need not lower it further.
+const SWAP_SHARE: f64 = 0.6;
 /// Another place must lower the misfit by this, to this share, and be this far away.
 const PLACE_GAIN: f64 = 0.2;
 const PLACE_SHARE: f64 = 0.3;
@@ -67,7 +69,7 @@ impl<'a> Fit<'a> {
     }
 
     /// Mean misfit of two pairs to the others as it is and with the targets exchanged; `None` where that moves one of the
-    /// two away from its place, or leaves one misplaced: then it is not exchanged with the other.
+    /// two away from its place, or helps little and leaves one misplaced: then it is not exchanged with the other.
     pub(super) fn exchanged(&self, [a, b]: [usize; 2]) -> Option<[f64; 2]> {
         let both = [(a, b), (b, a)];
         let now = both.map(|(i, j)| self.misfit(i, self.place(i), j));
@@ -81,7 +83,9 @@ impl<'a> Fit<'a> {
                 .fold(f64::INFINITY, min);
             then[k] - best < PLACE_GAIN || best > PLACE_SHARE * then[k]
         };
-        (worse < WORSE && settled(0) && settled(1)).then(|| [now, then].map(|pair| 0.5 * (pair[0] + pair[1])))
+        let means = [now, then].map(|pair| 0.5 * (pair[0] + pair[1]));
+        let helps = means[1] < SWAP_SHARE * means[0];
+        (worse < WORSE && (helps || (settled(0) && settled(1)))).then_some(means)
     }
 
     /// The pair of the largest misfit that would be much less at a place far from its target.

@@ -22,7 +22,8 @@ const WEAK_SIDES: f64 = 0.003;
 /// from feet all paths leave together, and it is 0.
 const WEAK_ORDERS: f64 = 0.1;
 
-/// Exchanges that are tried before one is taken: where one pair is in two of them, what they leave behind decides.
+/// Exchanges that are tried before one is taken: where one pair is in two of them, what they leave behind
+/// decides.
 const TRIED: usize = 4;
 /// Agreement below which doubts are summed up.
 const DOUBTFUL: f64 = -0.1;
