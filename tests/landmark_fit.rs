@@ -120,7 +120,7 @@ const CAT_LION: [[usize; 2]; 6] = [[9, 13], [23, 24], [27, 29], [31, 32], [8, 15
 #[test]
 fn exchanged_left_and_right_partners_are_named_first() {
     let Some(data) = common::data_folder("exchanged_left_and_right_partners_are_named_first") else { return };
-    let (mut first, mut tried) = (0, 0);
+    let (mut missed, mut tried) = (Vec::new(), 0);
     for name in common::pair_names(&data) {
         let partners = match name.as_str() {
             "cat-lion" => &CAT_LION[..],
@@ -135,10 +135,12 @@ fn exchanged_left_and_right_partners_are_named_first() {
             let named = findings.first().is_some_and(|f| f.repair() == Repair::Swap { pairs: [a, b] });
             assert!(named || name != "cat-lion", "{name}, {a} and {b}: {findings:?}");
             tried += 1;
-            first += usize::from(named);
+            if !named {
+                missed.push(format!("{name}, {a} and {b}: {findings:?}"));
+            }
         }
     }
-    assert!(100 * first >= 95 * tried, "{first} of {tried}");
+    assert!(20 * missed.len() <= tried, "{} of {tried}: {missed:#?}", missed.len());
 }
 
 #[test]
