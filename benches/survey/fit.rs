@@ -168,7 +168,7 @@ fn correct(row: &str, fit: &Fit, random: &mut Random, alarms: &mut Counts) {
             any(|f| matches!(f, Finding::Misplaced { .. })),
         ];
         if !findings.is_empty() {
-            println!("alarm: {} {row}, {landmarks} landmarks {:?}: {findings:?}", fit.name, fit.numbers);
+            println!("alarm: {} {row}, landmarks {:?}: {findings:?}", fit.name, fit.numbers);
         }
         alarms.add(row, landmarks, kinds);
     };

@@ -29,8 +29,8 @@ const REVERSED: f64 = -0.1;
 const UNANIMOUS: f64 = -0.85;
 const LESS: f64 = 0.95;
 
-/// Exchanges that are tried before one is taken: where one pair is in two of them, what they leave behind
-/// decides.
+/// Exchanges that are tried before one is taken: where one pair is in two of them, what they leave
+/// behind decides.
 const TRIED: usize = 4;
 /// Agreement below which doubts are summed up.
 const DOUBTFUL: f64 = -0.1;
