@@ -112,6 +112,64 @@ fn exchanged_targets_are_named() {
     }
 }
 
+/// Left and right partners among the 21 landmarks of the animals of SHREC07.
+const SHREC07: [[usize; 2]; 8] = [[2, 3], [4, 10], [5, 11], [6, 8], [7, 9], [15, 16], [17, 18], [19, 20]];
+/// Left and right ears, eyes, corners of the mouth and knees of cat and lion.
+const CAT_LION: [[usize; 2]; 6] = [[9, 13], [23, 24], [27, 29], [31, 32], [8, 15], [25, 26]];
+
+#[test]
+fn exchanged_left_and_right_partners_are_named_first() {
+    let Some(data) = common::data_folder("exchanged_left_and_right_partners_are_named_first") else { return };
+    let (mut missed, mut tried) = (Vec::new(), 0);
+    for name in common::pair_names(&data) {
+        let partners = match name.as_str() {
+            "cat-lion" => &CAT_LION[..],
+            shrec if shrec.starts_with("shrec07") => &SHREC07[..],
+            _ => continue,
+        };
+        let case = Case::read(&data, &name);
+        for &[a, b] in partners {
+            let mut landmarks = case.landmarks.clone();
+            landmarks.target.swap(a, b);
+            let findings = case.findings(&landmarks);
+            let named = findings.first().is_some_and(|f| f.repair() == Repair::Swap { pairs: [a, b] });
+            assert!(named || name != "cat-lion", "{name}, {a} and {b}: {findings:?}");
+            tried += 1;
+            if !named {
+                missed.push(format!("{name}, {a} and {b}: {findings:?}"));
+            }
+        }
+    }
+    assert!(20 * missed.len() <= tried, "{} of {tried}: {missed:#?}", missed.len());
+}
+
+#[test]
+fn ears_and_eyes_exchanged_together_are_named_both() {
+    let Some(data) = common::data_folder("ears_and_eyes_exchanged_together_are_named_both") else { return };
+    let case = Case::read(&data, "cat-lion");
+    let mut landmarks = case.landmarks.clone();
+    let both = [[9, 13], [27, 29]];
+    both.iter().for_each(|&[a, b]| landmarks.target.swap(a, b));
+    let findings = case.findings(&landmarks);
+    let mut swaps = swaps(&findings);
+    swaps.sort_unstable();
+    assert_eq!(swaps, both, "{findings:?}");
+    assert_eq!(findings.len(), 2, "{findings:?}");
+}
+
+#[test]
+fn an_exchange_in_a_mirrored_set_is_named_after_the_mirror() {
+    let Some(data) = common::data_folder("an_exchange_in_a_mirrored_set_is_named_after_the_mirror") else {
+        return;
+    };
+    let case = Case::read(&data, "cat-lion");
+    let case = Case { target: mirrored(&case.target), ..case };
+    let mut landmarks = case.landmarks.clone();
+    landmarks.target.swap(9, 13);
+    let repairs: Vec<Repair> = case.findings(&landmarks).iter().map(Finding::repair).collect();
+    assert_eq!(repairs, [Repair::MirrorTarget, Repair::Swap { pairs: [9, 13] }]);
+}
+
 #[test]
 fn a_target_on_the_wrong_limb_is_named() {
     let Some(data) = common::data_folder("a_target_on_the_wrong_limb_is_named") else { return };

@@ -71,6 +71,8 @@ impl Arguments {
                 "--relief-rounds" => arguments.options.multilevel.relief.rounds = number() as usize,
                 "--relief-from" => arguments.options.multilevel.relief.vertices[0] = number() as usize,
                 "--relief-to" => arguments.options.multilevel.relief.vertices[1] = number() as usize,
+                "--relief-noise" => arguments.options.multilevel.relief.fit.noise = number(),
+                "--relief-knee" => arguments.options.multilevel.relief.knee = number(),
                 "--relief-strength" => arguments.options.multilevel.relief.strength = number(),
                 "--relief-radius" => arguments.options.multilevel.relief.radii[1] = number(),
                 "--growth" => arguments.options.multilevel.growth = number(),

@@ -33,8 +33,8 @@ pub struct Reached {
     pub max: f64,
     /// Share of both areas with a density above 20, the larger of the two.
     pub dented: f64,
-    /// Mean distance to the true images, in units of the root of the target's area.
-    pub truth: Option<f64>,
+    /// Mean, median and 95 % quantile of the distance to the true images, in units of the root of the target's area.
+    pub truth: Option<[f64; 3]>,
     pub own: usize,
     pub judged: usize,
     /// Mean log density of the coarse map and that of the next best class.
@@ -121,7 +121,10 @@ impl Case {
                     .expect("the relaxed map has all images");
                 image.position(target).distance(*place) * scale
             };
-            truth.iter().enumerate().map(distance).sum::<f64>() / truth.len() as f64
+            let mut all: Vec<f64> = truth.iter().enumerate().map(distance).collect();
+            all.sort_by(f64::total_cmp);
+            let at = |share: f64| all[(share * (all.len() - 1) as f64) as usize];
+            [all.iter().sum::<f64>() / all.len() as f64, at(0.5), at(0.95)]
         });
         Reached {
             certified: report.certificate.as_ref().is_some_and(|c| c.bijective),

@@ -79,7 +79,8 @@ fn at(mesh: &SurfaceMesh, vertex: &SurfacePoint, [own, next, last]: [f64; 3]) ->
     SurfacePoint { face: vertex.face, barycentric }
 }
 
-fn moved(mesh: &SurfaceMesh, points: &[SurfacePoint], random: &mut Random) -> Vec<SurfacePoint> {
+/// Each point, a vertex, moved to a random point of a random face beside it.
+pub fn moved(mesh: &SurfaceMesh, points: &[SurfacePoint], random: &mut Random) -> Vec<SurfacePoint> {
     let place = |point: &SurfacePoint| {
         let k = (0..3).find(|&k| point.barycentric[k] > 0.5).expect("a vertex");
         let v = mesh.triangles()[point.face][k];

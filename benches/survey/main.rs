@@ -13,6 +13,8 @@ mod arguments;
 mod case;
 mod classes;
 mod clicks;
+mod fit;
+mod fit_faults;
 mod pairs;
 mod remesh;
 mod remeshed;
@@ -59,6 +61,11 @@ const SURVEYS: &[Survey] = &[
         name: "truth",
         about: "poses with a known truth, the same connectivity or remeshed, 33, 12 and 6 landmarks; --pairs horse-horse,cat-cat",
         run: remeshed::truth,
+    },
+    Survey {
+        name: "fit",
+        about: "landmarks that do not fit: false alarms on correct pairs, and the share of faults that are named",
+        run: fit::table,
     },
 ];
 

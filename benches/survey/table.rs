@@ -5,7 +5,7 @@ use crate::case::{Outcome, Reached};
 /// The names of the columns.
 pub fn header() {
     println!(
-        "{:20} {:14} {:>8} {:>8} {:>7} {:>7} {:>9} {:>8} {:>8} {:>3} {:>3} {:>7} {:>7} {:>7}",
+        "{:20} {:14} {:>8} {:>8} {:>7} {:>7} {:>9} {:>8} {:>17} {:>3} {:>3} {:>7} {:>7} {:>7}",
         "pair",
         "variant",
         "E",
@@ -14,7 +14,7 @@ pub fn header() {
         "p95",
         "max",
         "dented",
-        "truth %",
+        "truth % 50 % 95 %",
         "own",
         "cls",
         "coarse",
@@ -28,14 +28,17 @@ pub fn line(outcome: &Outcome) -> String {
     let Outcome { name, variant, reached, seconds } = outcome;
     match reached {
         Ok(r) => format!(
-            "{name:20} {variant:14} {:8.4} {:8.5} {:7.3} {:7.2} {:9.1e} {:7.3}% {:>8} {:3} {:3} {:7.5} {:7.5} {seconds:7.2}{}",
+            "{name:20} {variant:14} {:8.4} {:8.5} {:7.3} {:7.2} {:9.1e} {:7.3}% {:>17} {:3} {:3} {:7.5} {:7.5} {seconds:7.2}{}",
             r.energy,
             r.mean_log,
             r.mean,
             r.p95,
             r.max,
             100.0 * r.dented,
-            r.truth.map_or(String::new(), |truth| format!("{:.3}", 100.0 * truth)),
+            r.truth.map_or(String::new(), |t| {
+                let [mean, middle, most] = t.map(|share| 100.0 * share);
+                format!("{mean:.3} {middle:.3} {most:.2}")
+            }),
             r.own,
             r.judged,
             r.coarse[0],

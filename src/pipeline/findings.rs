@@ -52,7 +52,8 @@ pub struct FindingReport {
     pub repair: RepairKind,
     /// One sentence for the user.
     pub sentence: String,
-    /// Of mirrored sets: agreement of the orders around the landmarks, from -1 (all reversed) to 1.
+    /// Of mirrored sets: agreement of the orders around the landmarks and of their places, from -1 (all reversed) to 1. Of
+    /// swapped pairs: of the others with the targets as they are, from -1 (all want them exchanged) to 1.
     pub agreement: Option<f64>,
     /// Mean misfit of the pairs' distances (absolute log ratio), as it is and repaired.
     pub misfit: Option<[f64; 2]>,
@@ -87,8 +88,8 @@ impl FindingReport {
         };
         match *finding {
             Finding::Mirrored { agreement } => Self { agreement: Some(agreement), ..bare },
-            Finding::Swapped { misfit, .. } => {
-                Self { kind: FindingKind::Swapped, misfit: Some(misfit), ..bare }
+            Finding::Swapped { agreement, misfit, .. } => {
+                Self { kind: FindingKind::Swapped, agreement: Some(agreement), misfit: Some(misfit), ..bare }
             }
             Finding::Misplaced { misfit, distance, near, .. } => Self {
                 kind: FindingKind::Misplaced,

@@ -1,0 +1,144 @@
+//! Faults put in on purpose: mirrored sets, exchanged targets of left and right partners and of any two pairs, targets moved
+//! away.
+
+use crate::clicks::Random;
+use crate::common::Pair;
+use crate::fit::{COUNTS, Counts, Fit};
+use conemap::landmark_fit::{Finding, Repair};
+use conemap::layout::LandmarkDistances;
+use conemap::mesh::VertexId;
+
+/// Left and right partners among the 21 landmarks of the animals of SHREC07.
+const SHREC07: [[usize; 2]; 8] = [[2, 3], [4, 10], [5, 11], [6, 8], [7, 9], [15, 16], [17, 18], [19, 20]];
+/// Any two pairs nearer to each other than this, in units of the root of the area, are near.
+const NEAR: f64 = 0.3;
+/// How far targets are moved away, in units of the root of the area.
+const AWAY: [f64; 4] = [0.1, 0.2, 0.3, 0.5];
+/// Random faults for each pair of meshes and number of landmarks.
+const REPETITIONS: usize = 2;
+
+/// Left and right partners of a pair file: those of SHREC07, or by their names.
+pub fn partners(pair: &Pair) -> Vec<[usize; 2]> {
+    if pair.name.starts_with("shrec07") {
+        return SHREC07.to_vec();
+    }
+    let labels = pair.file.labels.as_deref().unwrap_or_default();
+    let partner = |(left, label): (usize, &String)| {
+        let mirrored = format!("right{}", label.strip_prefix("left")?);
+        // Points on the outside of a paw are on its left side on the left.
+        let other = mirrored.replace("left side", "right side");
+        let right = labels.iter().position(|l| *l == mirrored || *l == other)?;
+        Some([left, right])
+    };
+    labels.iter().enumerate().filter_map(partner).collect()
+}
+
+/// All faults but those of bent meshes.
+pub fn all(fit: &Fit, partners: &[[usize; 2]], random: &mut Random, named: &mut Counts) {
+    mirror("mirrored", fit, random, named);
+    single("left and right", fit, partners, named);
+    several(fit, partners, random, named);
+    for landmarks in COUNTS.into_iter().chain([usize::MAX]) {
+        for _ in 0..REPETITIONS {
+            let some = fit.some(landmarks, random);
+            exchanged(landmarks, &some, random, named);
+            AWAY.iter().for_each(|&away| misplaced((landmarks, away), &some, random, named));
+        }
+    }
+}
+
+/// Mirror images: named as mirrored, that first and alone, and other findings.
+pub fn mirror(row: &str, fit: &Fit, random: &mut Random, named: &mut Counts) {
+    for landmarks in COUNTS.into_iter().chain([usize::MAX]) {
+        let findings = fit.some(landmarks, random).reflected().findings();
+        let is = |f: &Finding| matches!(f, Finding::Mirrored { .. });
+        let others = findings.iter().any(|f| !is(f));
+        let told = findings.iter().any(is);
+        named.add(row, landmarks, [told, told && !others, others]);
+    }
+}
+
+/// The targets of one pair of partners exchanged.
+fn single(row: &str, fit: &Fit, partners: &[[usize; 2]], named: &mut Counts) {
+    for &[a, b] in partners {
+        let mut wrong = fit.clone();
+        wrong.landmarks.target.swap(a, b);
+        count((row, usize::MAX), &wrong, [a.min(b), a.max(b)], named);
+    }
+}
+
+/// The targets of half of the partners exchanged: named when every swap is one of these.
+fn several(fit: &Fit, partners: &[[usize; 2]], random: &mut Random, named: &mut Counts) {
+    for count in [2, 3] {
+        if partners.len() < count {
+            continue;
+        }
+        let mut left = partners.to_vec();
+        let chosen: Vec<[usize; 2]> =
+            (0..count).map(|_| left.swap_remove((random.share() * left.len() as f64) as usize)).collect();
+        let mut wrong = fit.clone();
+        chosen.iter().for_each(|&[a, b]| wrong.landmarks.target.swap(a, b));
+        let findings = wrong.findings();
+        let swaps = swaps(&findings);
+        let is = |[a, b]: &[usize; 2]| chosen.contains(&[*a, *b]) || chosen.contains(&[*b, *a]);
+        let (right, wrong) = (swaps.iter().filter(|s| is(s)).count(), swaps.iter().any(|s| !is(s)));
+        let row = format!("{count} left and right");
+        named.add(&row, usize::MAX, [right > 0, right == count && findings.len() == count, wrong]);
+    }
+}
+
+/// The targets of two random pairs exchanged.
+fn exchanged(landmarks: usize, fit: &Fit, random: &mut Random, named: &mut Counts) {
+    let n = fit.numbers.len();
+    let a = (random.share() * n as f64) as usize;
+    let b = (a + 1 + (random.share() * (n - 1) as f64) as usize) % n;
+    let distances = LandmarkDistances::new([&fit.meshes[0], &fit.meshes[1]], &fit.landmarks);
+    let row = if distances.between([a, b])[0] < NEAR { "any two, near" } else { "any two, far" };
+    let mut wrong = fit.clone();
+    wrong.landmarks.target.swap(a, b);
+    count((row, landmarks), &wrong, [a.min(b), a.max(b)], named);
+}
+
+/// The target of one pair moved to another place at about this distance.
+fn misplaced((landmarks, away): (usize, f64), fit: &Fit, random: &mut Random, named: &mut Counts) {
+    let pair = (random.share() * fit.numbers.len() as f64) as usize;
+    let distances = LandmarkDistances::new([&fit.meshes[0], &fit.meshes[1]], &fit.landmarks);
+    let field = distances.field(1, pair);
+    let is = |v: &VertexId| (field[*v] - away).abs() < 0.03 && !fit.landmarks.target.contains(v);
+    let places: Vec<VertexId> = fit.meshes[1].vertices().filter(is).collect();
+    if places.is_empty() {
+        return;
+    }
+    let mut wrong = fit.clone();
+    wrong.landmarks.target[pair] = places[(random.share() * places.len() as f64) as usize];
+    let findings = wrong.findings();
+    let told = findings.iter().any(|f| f.repair() == Repair::Check { pair });
+    let others = findings.iter().any(|f| f.repair() != Repair::Check { pair });
+    if !swaps(&findings).is_empty() {
+        println!("not exchanged: {} pair {}, by {away}: {findings:?}", fit.name, fit.numbers[pair]);
+    }
+    named.add(&format!("misplaced by {away}"), landmarks, [told, told && !others, others]);
+}
+
+fn count((row, landmarks): (&str, usize), wrong: &Fit, pairs: [usize; 2], named: &mut Counts) {
+    let findings = wrong.findings();
+    let swaps = swaps(&findings);
+    let first = findings.first().is_some_and(|f| f.repair() == Repair::Swap { pairs });
+    if !first {
+        let numbers = pairs.map(|k| wrong.numbers[k]);
+        println!("not named: {} {row}, pairs {numbers:?}: {findings:?}", wrong.name);
+    }
+    named.add(
+        row,
+        landmarks,
+        [swaps.contains(&pairs), first && findings.len() == 1, swaps.iter().any(|s| *s != pairs)],
+    );
+}
+
+fn swaps(findings: &[Finding]) -> Vec<[usize; 2]> {
+    let swap = |finding: &Finding| match finding.repair() {
+        Repair::Swap { pairs } => Some(pairs),
+        _ => None,
+    };
+    findings.iter().filter_map(swap).collect()
+}

@@ -1,0 +1,80 @@
+//! Whether groups of four landmarks lie in space on both meshes with the same handedness.
+//!
+//! The orders of shortest paths are fickle where paths over the front and over the back of a body are equally long; the
+//! places in space are not, but bend with the pose. So groups count by how nearly they are similar on both meshes.
+
+use super::orders::{Votes, nearest};
+use crate::landmarks::Landmarks;
+use crate::layout::LandmarkDistances;
+use crate::math::scalar::ln;
+use crate::mesh::SurfaceMesh;
+use glam::DVec3;
+
+/// Spread of the log ratios of a group's six distances at which it counts half: what a joint bends has 0.3 and more, two
+/// animals' heads differ by 0.1.
+const RIGID: f64 = 0.2;
+/// The corners of a group, two by two.
+const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+
+/// Agreement of the signs of volumes, from -1 (mirrored) to 1, over each landmark with triples of its nearest ones;
+/// `target_of` tells which pair's target each pair has.
+pub(super) fn agreement(
+    meshes: [&SurfaceMesh; 2],
+    landmarks: &Landmarks,
+    (distances, target_of): (&LandmarkDistances, &[usize]),
+) -> f64 {
+    let source: Vec<DVec3> = landmarks.source.iter().map(|&v| meshes[0].positions()[v]).collect();
+    let target = target_of.iter().map(|&j| meshes[1].positions()[landmarks.target[j]]).collect();
+    let places = [source, target];
+    let mut votes = Votes::default();
+    for i in 0..landmarks.len() {
+        let near = nearest(distances, target_of, i);
+        for (k, &a) in near.iter().enumerate() {
+            for (l, &b) in near[..k].iter().enumerate() {
+                for &c in &near[..l] {
+                    let groups = [0, 1].map(|s| [i, a, b, c].map(|j| places[s][j]));
+                    let likeness = likeness(&groups);
+                    votes.add(groups.map(|group| likeness * volume(&group)));
+                }
+            }
+        }
+    }
+    votes.agreement().unwrap_or(0.0)
+}
+
+/// Signed volume over the cube of the mean distance of the corners.
+fn volume(group: &[DVec3; 4]) -> f64 {
+    let [p, q, r, s] = *group;
+    let mean = EDGES.iter().map(|&[i, j]| group[i].distance(group[j])).sum::<f64>() / 6.0;
+    let volume = (q - p).cross(r - p).dot(s - p);
+    if mean > 0.0 { volume / (mean * mean * mean) } else { 0.0 }
+}
+
+/// 1 for similar groups, 1/2 where distances differ by [`RIGID`].
+fn likeness(groups: &[[DVec3; 4]; 2]) -> f64 {
+    let ratios = EDGES.map(|[i, j]| {
+        let [s, t] = [0, 1].map(|side: usize| groups[side][i].distance(groups[side][j]));
+        if s > 0.0 && t > 0.0 { ln(s / t) } else { f64::INFINITY }
+    });
+    let mean = ratios.iter().sum::<f64>() / 6.0;
+    let spread = ratios.iter().map(|r| (r - mean) * (r - mean)).sum::<f64>() / (6.0 * RIGID * RIGID);
+    if spread.is_finite() { 1.0 / (1.0 + spread * spread) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn similar_groups_count_fully_and_their_mirror_images_have_the_opposite_volume() {
+        let group = [[0.0, 0.0, 0.0], [1.0, 0.2, 0.1], [0.3, 1.1, 0.0], [0.2, 0.4, 0.9]].map(DVec3::from);
+        let larger = group.map(|p| 3.0 * p + DVec3::Y);
+        let image = group.map(|p| DVec3::new(-p.x, p.y, p.z));
+        assert!((likeness(&[group, larger]) - 1.0).abs() < 1e-12);
+        assert!((volume(&group) - volume(&larger)).abs() < 1e-12);
+        assert!((volume(&group) + volume(&image)).abs() < 1e-12 && volume(&group).abs() > 0.1);
+        let mut bent = group;
+        bent[3] = DVec3::new(0.5, 0.4, 0.1);
+        assert!(likeness(&[group, bent]) < 0.5);
+    }
+}

@@ -1,0 +1,88 @@
+//! The directions in which shortest paths to the other landmarks leave each landmark.
+
+use crate::landmarks::Landmarks;
+use crate::layout::LandmarkDistances;
+use crate::math::triangle::angle_at;
+use crate::mesh::{SurfaceMesh, VertexId};
+use std::f64::consts::TAU;
+use typed_index_collections::TiSlice;
+
+/// Places on each edge of a landmark's ring through which paths are tried.
+const SHARES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
+
+/// Directions by side, landmark and goal: angles around the landmark, counter-clockwise, scaled to 2 pi.
+pub(super) struct Directions {
+    angles: [Vec<Vec<f64>>; 2],
+}
+
+impl Directions {
+    pub(super) fn new(
+        meshes: [&SurfaceMesh; 2],
+        landmarks: &Landmarks,
+        distances: &LandmarkDistances,
+    ) -> Self {
+        let sides = [&landmarks.source, &landmarks.target];
+        let angles = [0, 1].map(|s| {
+            let ring = |v: &VertexId| Ring::new(meshes[s], *v);
+            let fields = || (0..distances.landmark_count()).map(|j| distances.field(s, j));
+            sides[s].iter().map(ring).map(|ring| fields().map(|f| ring.direction(f)).collect()).collect()
+        });
+        Self { angles }
+    }
+
+    /// Turns from the direction to `first` on to those to all landmarks, around landmark `at`; from 0 to 2 pi.
+    pub(super) fn turns(&self, side: usize, at: usize, first: usize) -> Vec<f64> {
+        let around = &self.angles[side][at];
+        let begin = around[first];
+        around.iter().map(|a| if *a < begin { a - begin + TAU } else { a - begin }).collect()
+    }
+}
+
+/// Points around a vertex through which paths leave it.
+struct Ring {
+    points: Vec<RingPoint>,
+    /// The sum of the angles around the vertex.
+    turned: f64,
+}
+
+struct RingPoint {
+    /// The ends of the ring's edge, and the share of the way to the second.
+    edge: [VertexId; 2],
+    share: f64,
+    /// Length of the way there, the mesh's area scaled to 1.
+    length: f64,
+    angle: f64,
+}
+
+impl Ring {
+    fn new(mesh: &SurfaceMesh, v: VertexId) -> Self {
+        let scale = 1.0 / mesh.area().sqrt();
+        let place = mesh.positions()[v];
+        let mut ring = Self { points: Vec::new(), turned: 0.0 };
+        for h in mesh.star(v) {
+            let edge = [mesh.head(h), mesh.tail(h.prev())];
+            let [from, onto] = edge.map(|w| mesh.positions()[w]);
+            let width = angle_at(place, from, onto);
+            ring.points.extend(SHARES.map(|share| RingPoint {
+                edge,
+                share,
+                length: scale * from.lerp(onto, share).distance(place),
+                angle: ring.turned + share * width,
+            }));
+            ring.turned += width;
+        }
+        ring
+    }
+
+    /// The direction of the shortest path to where the field is 0.
+    fn direction(&self, field: &TiSlice<VertexId, f64>) -> f64 {
+        let mut best = (f64::INFINITY, 0.0);
+        for &RingPoint { edge: [from, onto], share, length, angle } in &self.points {
+            let through = length + field[from] + share * (field[onto] - field[from]);
+            if through < best.0 {
+                best = (through, angle);
+            }
+        }
+        best.1 / self.turned * TAU
+    }
+}

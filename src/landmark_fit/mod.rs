@@ -1,0 +1,193 @@
+//! Landmarks that do not fit, found before a map is made: mirrored sets, swapped pairs, pairs on the wrong limb.
+//!
+//! A map of low distortion nearly keeps the distances between landmarks on both (coarse) meshes, areas scaled to 1, up to a
+//! common factor: log ratios out of line point at misplaced pairs (`distances`). It also keeps which of two landmarks the
+//! others are nearer to, and the cyclic order in which shortest paths leave them: both reversed point at two pairs with each
+//! other's target (`exchange`). Orders (`orders`) and volumes in space (`chirality`) reversed nearly everywhere point at a
+//! mirrored set, which distances do not see.
+//! A finding is a doubt with numbers and a repair, not an error: the user knows the shapes.
+
+mod chirality;
+mod directions;
+mod distances;
+mod exchange;
+mod orders;
+
+pub use orders::order_agreement;
+
+use crate::landmarks::Landmarks;
+use crate::layout::LandmarkDistances;
+use crate::mesh::{SurfaceMesh, VertexId};
+use directions::Directions;
+use distances::Fit;
+use exchange::Exchange;
+use std::fmt;
+
+/// Fewer landmarks than these say too little about orders, or about places.
+const LEAST_FOR_ORDERS: usize = 6;
+const LEAST_FOR_PLACES: usize = 8;
+/// The mean agreement, orders twice and places in space once, below which a set is mirrored.
+///
+/// Orders of correct sets of 8 and more landmarks agree by 0.3 to 0.95. Where one of both is wrong (orders on a body whose
+/// front and back are equally long, places in bent poses), the other one keeps the mean above: none of 1190 correct sets, 510
+/// of them bent, is below. Unbent mirror images are below in 96 %, all of them where all landmarks are used.
+const MIRRORED: f64 = -0.4;
+
+/// A doubt about landmark pairs; pairs are numbered from 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Finding {
+    /// The whole set is mirrored: left on one mesh is right on the other.
+    Mirrored {
+        /// Agreement of the orders around the landmarks and of their places in space, from -1 (all reversed) to 1.
+        agreement: f64,
+    },
+    /// Two pairs have each other's target.
+    Swapped {
+        /// The pairs.
+        pairs: [usize; 2],
+        /// From -1, where all others say that the targets are exchanged, to 1, where all say that they fit.
+        agreement: f64,
+        /// Mean misfit of both pairs' distances (absolute log ratio) as it is and with the targets exchanged; of near
+        /// pairs, such as eyes, it is small both ways.
+        misfit: [f64; 2],
+    },
+    /// One pair is far from where the others want it.
+    Misplaced {
+        /// The pair.
+        pair: usize,
+        /// Mean misfit of its distances (absolute log ratio) as it is and at the best place.
+        misfit: [f64; 2],
+        /// Distance of its target to the best place, in units of the root of the target's area.
+        distance: f64,
+        /// The best place: a vertex of the (coarse) target.
+        place: VertexId,
+        /// The pair whose target is nearest to that place, itself apart.
+        near: usize,
+    },
+}
+
+/// What to do about a finding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Repair {
+    /// Exchange the targets of two pairs.
+    Swap {
+        /// The pairs.
+        pairs: [usize; 2],
+    },
+    /// Mirror the target mesh, or exchange left and right in all pairs.
+    MirrorTarget,
+    /// Look at a pair.
+    Check {
+        /// The pair.
+        pair: usize,
+    },
+}
+
+impl Finding {
+    /// The repair to offer.
+    pub fn repair(&self) -> Repair {
+        match *self {
+            Self::Mirrored { .. } => Repair::MirrorTarget,
+            Self::Swapped { pairs, .. } => Repair::Swap { pairs },
+            Self::Misplaced { pair, .. } => Repair::Check { pair },
+        }
+    }
+
+    /// One sentence for the user, with the pairs by name; pairs without a name are counted from 1.
+    pub fn sentence(&self, labels: &[String]) -> String {
+        let name = |pair: usize| match labels.get(pair).filter(|label| !label.is_empty()) {
+            Some(label) => format!("{} ({label})", pair + 1),
+            None => (pair + 1).to_string(),
+        };
+        match *self {
+            Self::Mirrored { .. } => {
+                "The landmarks are mirrored: left on one mesh is right on the other. Mirror the \
+                                      target, or exchange left and right."
+                    .into()
+            }
+            Self::Swapped { pairs: [a, b], .. } => format!(
+                "The targets of the pairs {} and {} look swapped: exchanged, they lie among the others as on the source. \
+                 Exchange them.",
+                name(a),
+                name(b)
+            ),
+            Self::Misplaced { pair, near, .. } => format!(
+                "Pair {} does not fit the others: its target is expected elsewhere, near that of pair {}.",
+                name(pair),
+                name(near)
+            ),
+        }
+    }
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.sentence(&[]))
+    }
+}
+
+/// Checks whether landmark pairs can belong to a map of low distortion; no findings when all fit.
+///
+/// `distances` are those of the same meshes and landmarks, coarse ones (some 1000 vertices) for speed.
+pub fn landmark_fit(
+    meshes: [&SurfaceMesh; 2],
+    landmarks: &Landmarks,
+    distances: &LandmarkDistances,
+) -> Vec<Finding> {
+    let directions = Directions::new(meshes, landmarks, distances);
+    let mut fit = Fit::new(landmarks, distances);
+    let mirrored = |target_of: &[usize]| {
+        let orders = orders::agreement(&directions, distances, target_of);
+        let places = chirality::agreement(meshes, landmarks, (distances, target_of));
+        let mean = (2.0 * orders + places) / 3.0;
+        (landmarks.len() >= LEAST_FOR_ORDERS && mean < MIRRORED).then_some(mean)
+    };
+    let as_given = mirrored(&fit.target_of);
+    let mut findings = exchanges(&mut fit, &Exchange::new(distances, &directions, 1.0));
+    // One exchange among few landmarks can reverse most orders: the set is mirrored where it is so without it, too.
+    if let Some(agreement) = as_given.filter(|_| mirrored(&fit.target_of).is_some()) {
+        fit = Fit::new(landmarks, distances);
+        findings = vec![Finding::Mirrored { agreement }];
+        findings.extend(exchanges(&mut fit, &Exchange::new(distances, &directions, -1.0)));
+    }
+    if landmarks.len() >= LEAST_FOR_PLACES {
+        while let Some(finding) = fit.worst_misplaced() {
+            let Finding::Misplaced { pair, .. } = finding else { break };
+            fit.left_out[pair] = true;
+            findings.push(finding);
+        }
+    }
+    findings
+}
+
+/// Exchanges targets as long as an exchange is clearly called for.
+fn exchanges(fit: &mut Fit<'_>, exchange: &Exchange<'_>) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    // More than half as many as pairs make no sense.
+    for _ in 0..fit.target_of.len() / 2 {
+        let Some(finding) = exchange.best(fit) else { break };
+        let Finding::Swapped { pairs: [a, b], .. } = finding else { break };
+        fit.target_of.swap(a, b);
+        findings.push(finding);
+    }
+    findings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn findings_name_pairs_and_repairs() {
+        let labels = ["nose", "tail"].map(String::from);
+        let swapped = Finding::Swapped { pairs: [0, 1], agreement: -0.9, misfit: [0.5, 0.1] };
+        assert_eq!(swapped.repair(), Repair::Swap { pairs: [0, 1] });
+        let sentence = swapped.sentence(&labels);
+        assert!(sentence.contains("1 (nose)") && sentence.contains("2 (tail)"), "{sentence}");
+        assert!(swapped.to_string().contains("pairs 1 and 2"), "{swapped}");
+        let mirrored = Finding::Mirrored { agreement: -0.8 };
+        assert_eq!(mirrored.repair(), Repair::MirrorTarget);
+    }
+}
