@@ -145,5 +145,5 @@ fn a_judge_without_maps_is_an_error() {
     let mut candidates = Candidates::new([&source, &target], &landmarks);
     let options = SearchOptions { candidates: 2, ..SearchOptions::default() };
     let result = layout::search(&mut candidates, &mut |_, _| Ok(None), &options, &mut Silent);
-    assert!(matches!(result, Err(layout::LayoutError::NoMap { layouts: 1..=2 })), "{:?}", result.err());
+    assert!(matches!(result, Err(layout::LayoutError::NoMap { layouts: 1..=2, .. })), "{:?}", result.err());
 }

@@ -64,6 +64,8 @@ export interface LayoutSearch {
   readonly twists: number;
   readonly mean_log: number | null;
   readonly runner_up: number | null;
+  /** The best other class relative to the one chosen; null where none is close. */
+  readonly rival: number | null;
   readonly path_stretch: number;
 }
 

@@ -128,7 +128,7 @@ export const INITIAL: State = {
   queue: [],
   suggestions: [[], []],
   history: [],
-  options: { method: 'relaxed', base: 'joint', cones: 'base-domain', ownCones: null },
+  options: { method: 'relaxed', base: 'joint', cones: 'base-domain', mapClass: 'best', ownCones: null },
   style: { surface: 'shaded', patchLines: true, cones: true, markers: true },
   job: { kind: 'idle' },
   result: null,
@@ -194,6 +194,7 @@ export function isStale(state: State): boolean {
     (result.options.method !== state.options.method ||
       result.options.base !== state.options.base ||
       result.options.cones !== state.options.cones ||
+      result.options.mapClass !== state.options.mapClass ||
       result.options.ownCones !== state.options.ownCones ||
       result.pairs.length !== pairs.length ||
       result.pairs.some((pair, index) => pair.points !== pairs[index]?.points))

@@ -5,6 +5,7 @@ use crate::common;
 use conemap::layout::{Candidate, Candidates};
 use conemap::mesh::{RefinedMesh, SurfaceMesh, VertexId};
 use conemap::monitor::Silent;
+use conemap::pipeline::ClassChoice;
 use conemap::pipeline::class_search::choose_class;
 use conemap::surface_map::multilevel::{Side, coarse_landmarks, solve_coarse};
 use cpu_time::ThreadTime;
@@ -48,7 +49,7 @@ fn one(arguments: &Arguments, name: &str, vertices: usize) -> String {
         [landmarks.source.iter().copied().collect(), landmarks.target.iter().copied().collect()];
     let sides = [0, 1].map(|k| Side::new(&full[k], &held[k], vertices));
     let coarse = coarse_landmarks(&sides);
-    let options = (&arguments.options.multilevel, &arguments.options.search);
+    let options = (&arguments.options.multilevel, &arguments.options.search, ClassChoice::Best);
     let begun = ThreadTime::now();
     let chosen = match choose_class(&sides, options, &mut Silent) {
         Ok(chosen) => chosen,

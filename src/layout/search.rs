@@ -75,6 +75,9 @@ pub struct SearchReport {
     pub best: usize,
     /// Twists that were made one after the other.
     pub twists_made: usize,
+    /// Mean log density of the best other class relative to the one that is returned, on the finest level on which both were
+    /// judged; may be below 1 where the runner-up was asked for. `None` where no other was as close.
+    pub rival: Option<f64>,
 }
 
 impl SearchReport {
@@ -112,7 +115,7 @@ pub fn search(
     match best {
         Some((_, candidate)) => Ok((candidate, report)),
         None if report.judged.is_empty() => Err(candidates.failure().cloned().unwrap_or(NOTHING)),
-        None => Err(LayoutError::NoMap { layouts: report.judged.len() }),
+        None => Err(LayoutError::NoMap { layouts: report.judged.len(), near: Vec::new() }),
     }
 }
 
@@ -136,7 +139,7 @@ pub fn untwist(
     let Search { best, report, .. } = search;
     match best {
         Some((mean_log, candidate)) if mean_log.is_finite() => Ok((candidate, report)),
-        _ => Err(LayoutError::NoMap { layouts: report.judged.len() }),
+        _ => Err(LayoutError::NoMap { layouts: report.judged.len(), near: Vec::new() }),
     }
 }
 
@@ -167,7 +170,7 @@ pub type Judge<'a> = dyn FnMut(&Candidate, &mut dyn Monitor) -> Result<Option<f6
 /// A layout whose detour is larger than the best one's by this is not judged.
 const HOPELESS: f64 = 4.0;
 
-const NOTHING: LayoutError = LayoutError::NoMap { layouts: 0 };
+const NOTHING: LayoutError = LayoutError::NoMap { layouts: 0, near: Vec::new() };
 
 struct Search<'a, 'j> {
     judge: &'a mut Judge<'j>,

@@ -1,6 +1,6 @@
 //! The class of the map: layouts of different isotopy classes, each judged by the coarse map that it leads to.
 
-use super::PipelineError;
+use super::{ClassChoice, PipelineError};
 use crate::layout::{self, Candidate, Candidates, LayoutError, SearchOptions, SearchReport};
 use crate::monitor::{Cancelled, Monitor};
 use crate::surface_map::MapError;
@@ -25,15 +25,20 @@ pub struct Chosen<'a> {
 /// [`PipelineError::Layout`] where no layout has a map, [`PipelineError::Cancelled`].
 pub fn choose_class<'a>(
     sides: &'a [Side<'a>; 2],
-    (options, search_options): (&MultilevelOptions, &SearchOptions),
+    (options, search_options, choice): (&MultilevelOptions, &SearchOptions, ClassChoice),
     monitor: &mut dyn Monitor,
 ) -> Result<Chosen<'a>, PipelineError> {
     let landmarks = coarse_landmarks(sides);
     let meshes = [&sides[0].coarse.mesh, &sides[1].coarse.mesh];
     let mut candidates = Candidates::new(meshes, &landmarks);
-    let mut finalists = Finalists { sides, options, maps: Vec::new(), judged: 0 };
+    let mut finalists =
+        Finalists { sides, options, maps: Vec::new(), judged: 0, blame: vec![0; landmarks.len()] };
     let mut judge = |candidate: &Candidate, monitor: &mut dyn Monitor| finalists.judge(candidate, monitor);
-    let (_, mut search) = layout::search(&mut candidates, &mut judge, search_options, monitor)?;
+    let searched = layout::search(&mut candidates, &mut judge, search_options, monitor);
+    let (_, mut search) = searched.map_err(|error| match error {
+        LayoutError::NoMap { layouts, .. } => LayoutError::NoMap { layouts, near: finalists.blamed() },
+        other => other,
+    })?;
     let mut explored = vec![search.best];
     loop {
         let winner = finalists.decide(monitor)?;
@@ -47,11 +52,16 @@ pub fn choose_class<'a>(
         let more = layout::neighbours((&mut candidates, &around), &mut judge, search_options, monitor)?;
         search.judged.extend(more);
     }
-    finalists.compare_finer(monitor)?;
+    search.rival = finalists.compare_finer(monitor)?;
+    if choice == ClassChoice::RunnerUp && finalists.maps.len() > 1 {
+        finalists.maps.swap(0, 1);
+        search.rival = search.rival.map(|rival| 1.0 / rival);
+    }
     for finalist in &finalists.maps {
         search.judged[finalist.number].mean_log = Some(finalist.map.mean_log);
     }
-    let best = finalists.maps.into_iter().next().ok_or(LayoutError::NoMap { layouts: 0 })?;
+    let best =
+        finalists.maps.into_iter().next().ok_or(LayoutError::NoMap { layouts: 0, near: Vec::new() })?;
     search.best = best.number;
     Ok(Chosen { candidate: best.candidate, search, map: best.map })
 }
@@ -73,6 +83,8 @@ struct Finalists<'a, 'o> {
     options: &'o MultilevelOptions,
     maps: Vec<Finalist<'a>>,
     judged: usize,
+    /// By landmark in how many layouts points around it could not be taken out.
+    blame: Vec<usize>,
 }
 
 impl Finalists<'_, '_> {
@@ -90,6 +102,14 @@ impl Finalists<'_, '_> {
                 Ok(Some(first_look))
             }
             Err(MapError::Cancelled(stop)) => Err(stop),
+            Err(MapError::LayoutPoints { near, .. }) => {
+                near.into_iter().for_each(|landmark| self.blame[landmark] += 1);
+                Ok(None)
+            }
+            Err(MapError::DegenerateBase { landmarks }) => {
+                landmarks.into_iter().for_each(|landmark| self.blame[landmark] += 1);
+                Ok(None)
+            }
             Err(_) => Ok(None),
         }
     }
@@ -105,16 +125,21 @@ impl Finalists<'_, '_> {
             }
         }
         self.sort();
-        self.maps.first().map(|map| map.number).ok_or(LayoutError::NoMap { layouts: 0 }.into())
+        self.maps
+            .first()
+            .map(|map| map.number)
+            .ok_or(LayoutError::NoMap { layouts: 0, near: Vec::new() }.into())
     }
 
     /// Compares those that are as good as the best on finer levels and puts the best first. Only copies are refined: the map
     /// that is chosen goes on from its coarse level.
-    fn compare_finer(&mut self, monitor: &mut dyn Monitor) -> Result<(), PipelineError> {
+    /// The next best relative to the best on the finest level on which both were judged, where any is close.
+    fn compare_finer(&mut self, monitor: &mut dyn Monitor) -> Result<Option<f64>, PipelineError> {
         let is_close = |mean_log: f64, least: f64| mean_log <= self.options.undecided * least;
         let least = self.maps.first().map_or(0.0, |best| best.map.mean_log);
         let close = self.maps.iter().filter(|finalist| is_close(finalist.map.mean_log, least));
         let mut rivals: Vec<(usize, CoarseMap<'_>)> = close.map(|f| (f.number, f.map.clone())).collect();
+        let (mut ratio, mut order) = (None, Vec::new());
         for _ in 0..self.options.finer {
             if rivals.len() < 2 || monitor.wants_result() {
                 break;
@@ -122,7 +147,7 @@ impl Finalists<'_, '_> {
             for (_, map) in &mut rivals {
                 match map.judge_finer((self.options, &mut *monitor)) {
                     Ok(true) => {}
-                    Ok(false) => return Ok(()),
+                    Ok(false) => return Ok(None),
                     Err(MapError::Cancelled(stop)) => return Err(stop.into()),
                     // A vertex without a place: the others do better.
                     Err(_) => map.mean_log = f64::INFINITY,
@@ -130,13 +155,23 @@ impl Finalists<'_, '_> {
             }
             rivals.sort_by(|a, b| a.1.mean_log.total_cmp(&b.1.mean_log));
             let least = rivals[0].1.mean_log;
+            ratio = Some(rivals[1].1.mean_log / least).filter(|ratio| ratio.is_finite());
+            order = rivals.iter().map(|rival| rival.0).collect();
             rivals.retain(|(_, map)| is_close(map.mean_log, least));
         }
-        if let Some(best) = rivals.first().and_then(|best| self.maps.iter().position(|f| f.number == best.0))
-        {
-            self.maps[..=best].rotate_right(1);
-        }
-        Ok(())
+        let place = |finalist: &Finalist<'_>| order.iter().position(|number| *number == finalist.number);
+        // Stable: those that were not compared keep their order.
+        self.maps.sort_by_key(|finalist| place(finalist).unwrap_or(usize::MAX));
+        Ok(ratio)
+    }
+
+    /// Landmarks around which at least half as many layouts failed as around the worst, the worst first; at most four.
+    fn blamed(&self) -> Vec<usize> {
+        let most = self.blame.iter().copied().max().unwrap_or(0);
+        let mut near: Vec<usize> = (0..self.blame.len()).filter(|&k| 2 * self.blame[k] > most).collect();
+        near.sort_by_key(|&k| std::cmp::Reverse(self.blame[k]));
+        near.truncate(4);
+        near
     }
 
     fn sort(&mut self) {

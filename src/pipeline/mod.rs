@@ -12,7 +12,7 @@ mod thesis;
 
 pub use error::PipelineError;
 pub use findings::{FindingKind, FindingReport, RepairKind, findings};
-pub use options::{Base, Cones, Method, OwnConeOptions, PipelineOptions};
+pub use options::{Base, ClassChoice, Cones, Method, OwnConeOptions, PipelineOptions};
 pub use report::{
     BaseDomainReport, CertificateReport, ConeMetricReport, ConeMetricsReport, DistortionReport, FacesReport,
     GroundTruthReport, LayoutSearchReport, PlaceReport, Report, WorstPieceReport,

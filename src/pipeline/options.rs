@@ -34,6 +34,16 @@ pub enum Cones {
     Uniform,
 }
 
+/// Which class of maps is taken where several are close.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ClassChoice {
+    /// The one of least mean log density.
+    #[default]
+    Best,
+    /// The next best, where there is one that is close.
+    RunnerUp,
+}
+
 /// Everything the pipeline lets a user choose.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PipelineOptions {
@@ -49,6 +59,8 @@ pub struct PipelineOptions {
     pub layout: LayoutOptions,
     /// The search for the class of the map.
     pub search: SearchOptions,
+    /// Which class is taken.
+    pub class: ClassChoice,
     /// From coarse to fine.
     pub multilevel: MultilevelOptions,
     /// Cones of the program's own where the landmarks are few.

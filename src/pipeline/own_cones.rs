@@ -98,7 +98,7 @@ pub(super) fn add<'a>(
         let sides = sides_cell.get_or_init(|| {
             [0, 1].map(|k| Side::new(&with_own[k].refined.mesh, &with_own[k].landmarks, vertices))
         });
-        let next = match choose_class(sides, (&options.multilevel, &own.search), monitor) {
+        let next = match choose_class(sides, (&options.multilevel, &own.search, options.class), monitor) {
             Ok(chosen) => finished(chosen.map, (&options.multilevel, &mut *monitor))?,
             Err(PipelineError::Cancelled(stop)) => return Err(stop),
             // No map with these points: others may do.

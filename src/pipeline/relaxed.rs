@@ -142,6 +142,11 @@ fn precedes(a: &SurfaceMesh, b: &SurfaceMesh) -> bool {
 /// vertices of its own.
 const PER_LANDMARK: usize = 18;
 
+/// How often coarse levels grow fourfold where no layout has a map, and how many layouts are tried then: so the user has the
+/// answer that there is none within about the time of two maps.
+const FINER_LEVELS: usize = 2;
+const FINER_CANDIDATES: usize = 3;
+
 /// Coarse map, fine map, certificate. Coarse levels grow until the layout's points can be taken out again.
 fn parametrise(
     input: MapInput<'_>,
@@ -150,12 +155,20 @@ fn parametrise(
     let Landmarks { source, target } = input.landmarks;
     let full = [Full::new(input.source, source)?, Full::new(input.target, target)?];
     let most = full.iter().map(|side| side.refined.mesh.vertex_count()).max().unwrap_or(0);
+    let mut finer_levels = FINER_LEVELS;
+    let mut options = options.clone();
     let mut vertices = options.multilevel.coarse_vertices.max(PER_LANDMARK * input.landmarks.len());
     let (layout, search, (surface, embeddings, with_own)) = loop {
         monitor.enter(Stage::BaseDomain);
         let sides = [0, 1].map(|k| Side::new(&full[k].refined.mesh, &full[k].landmarks, vertices));
+        let options = &mut options;
         match coarse(input, &sides, (options, &mut *monitor)) {
-            Err(PipelineError::Layout(LayoutError::NoMap { .. })) if vertices < most => vertices *= 4,
+            Err(PipelineError::Layout(LayoutError::NoMap { .. })) if vertices < most && finer_levels > 0 => {
+                finer_levels -= 1;
+                vertices *= 4;
+                // Each costs four times as much, and where one layout fails most do.
+                options.search.candidates = options.search.candidates.min(FINER_CANDIDATES);
+            }
             Err(error) => return Err(error),
             Ok((layout, search, map)) => {
                 let rounds = (Rounds::new(options), Rounds::new(options));
@@ -198,7 +211,8 @@ fn coarse<'a>(
 ) -> Result<(BaseLayout, SearchReport, CoarseMap<'a>), PipelineError> {
     match options.base {
         Base::Joint => {
-            let chosen = choose_class(sides, (&options.multilevel, &options.search), &mut *monitor)?;
+            let chosen =
+                choose_class(sides, (&options.multilevel, &options.search, options.class), &mut *monitor)?;
             let Chosen { candidate, search, mut map } = chosen;
             map.finish((&options.multilevel, monitor))?;
             Ok((candidate.layout, search, map))
@@ -211,7 +225,7 @@ fn coarse<'a>(
             let map = solve_coarse(sides, &layout, (&options.multilevel, &mut *monitor));
             let mut map = map.map_err(|error| match error {
                 MapError::Cancelled(stop) => PipelineError::from(stop),
-                _ => LayoutError::NoMap { layouts: 1 }.into(),
+                _ => LayoutError::NoMap { layouts: 1, near: Vec::new() }.into(),
             })?;
             map.finish((&options.multilevel, monitor))?;
             Ok((layout, SearchReport::default(), map))
@@ -244,6 +258,7 @@ fn result(
     let report = Report {
         layout: Some(LayoutSearchReport {
             judged: map.search.judged.len(),
+            rival: map.search.rival,
             twists: map.search.twists_made,
             mean_log: map.search.mean_log(),
             runner_up: map.search.runner_up(),
@@ -295,6 +310,9 @@ fn certificate_report(map: &Parametrisation) -> CertificateReport {
     }
 }
 
+/// A rival's mean log density, relative to that of the class chosen, below which the user is told.
+const AS_GOOD: f64 = 1.03;
+
 fn warnings(map: &Parametrisation, measured: &Distortion) -> Vec<String> {
     let mut warnings = Vec::new();
     if map.stopped_early {
@@ -302,6 +320,13 @@ fn warnings(map: &Parametrisation, measured: &Distortion) -> Vec<String> {
             "Finished early on request, at energy {:.3} (4 is an isometry): the map is whole and certified, but a full run \
              would lower its distortion.",
             measured.energy
+        ));
+    }
+    if let Some(rival) = map.search.rival.filter(|rival| *rival < AS_GOOD) {
+        warnings.push(format!(
+            "Another class of maps, which goes another way round some limb, is nearly as good: its mean log distortion is \
+             {rival:.3} times that of this one. The option for the runner-up (--class runner-up) makes it; one more pair of \
+             landmarks beside the limb decides.",
         ));
     }
     let layout = &map.layout;

@@ -56,6 +56,9 @@ pub struct BaseDomainReport {
 pub struct LayoutSearchReport {
     /// Layouts that were judged by their coarse map.
     pub judged: usize,
+    /// Mean log density of the best other class relative to the class chosen, on the finest level on which both were judged;
+    /// `null` where no other is close. Near 1 the other is as good.
+    pub rival: Option<f64>,
     /// Twists that were made after the best order of drawing was found.
     pub twists: usize,
     /// Mean log density (see [`DistortionReport::mean_log`]) of the coarse map by which the class was chosen; 0 for an isometry.

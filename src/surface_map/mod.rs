@@ -60,6 +60,8 @@ pub enum MapError {
     LayoutPoints {
         /// How many.
         left: usize,
+        /// The landmarks nearest to them, 0-based, each once.
+        near: Vec<usize>,
     },
     /// A vertex that found no place.
     #[error("no valid start: the parametrisation got stuck at {vertices} vertices")]

@@ -78,11 +78,12 @@ impl Default for MultilevelOptions {
             finalists: 4,
             close: 1.3,
             undecided: 1.1,
-            finer: 2,
+            finer: 1,
             decide: ComposedOptions { max_rounds: 5, energy: TwoSided::JUDGE, ..ComposedOptions::default() },
-            coarse: ComposedOptions::default(),
+            // A round costs little here, and what is left undone shows on every finer level.
+            coarse: ComposedOptions { max_rounds: 60, relative_decrease: 2e-5, ..ComposedOptions::default() },
             pose_median: 1.09,
-            fine: ComposedOptions { max_rounds: 8, ..ComposedOptions::default() },
+            fine: ComposedOptions { max_rounds: 10, relative_decrease: 3e-4, ..ComposedOptions::default() },
             relief: ReliefOptions::default(),
             dents: DentOptions::default(),
         }
@@ -426,7 +427,8 @@ fn without_layout_points<'a>(
         take_out(&mut refined, &mut left, kind);
     }
     if !left.is_empty() {
-        return Err(MapError::LayoutPoints { left: left.len() });
+        let near = nearest_landmarks(patched, &left);
+        return Err(MapError::LayoutPoints { left: left.len(), near });
     }
     let (level, embedding) = refined.snapshot();
     let same = |h: HalfedgeId| {
@@ -440,6 +442,20 @@ fn without_layout_points<'a>(
         surface.clone(),
         (&embedding, same),
     ))
+}
+
+/// The landmarks nearest in space to some vertices, each once.
+fn nearest_landmarks(patched: &PatchedMesh, vertices: &[VertexId]) -> Vec<usize> {
+    let place = |v: VertexId| patched.mesh.positions()[v];
+    let nearest = |&v: &VertexId| {
+        let distance = |l: &VertexId| place(*l).distance_squared(place(v));
+        let landmarks = patched.landmark_vertices.iter().enumerate();
+        landmarks.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1))).map(|(landmark, _)| landmark)
+    };
+    let mut near: Vec<usize> = vertices.iter().filter_map(nearest).collect();
+    near.sort_unstable();
+    near.dedup();
+    near
 }
 
 fn origin(patched: &PatchedMesh, coarse: &SurfaceMesh, v: VertexId) -> Added {

@@ -40,8 +40,8 @@ impl Default for ReliefOptions {
             rounds: 2,
             spacing: 0.02,
             radii: [0.05, 0.08],
-            fit: FitOptions { max_steps: 5, damping: 5e-5, noise: 2e-4 },
-            strength: 10.0,
+            fit: FitOptions { max_steps: 5, damping: 5e-5, noise: 3e-4 },
+            strength: 20.0,
             knee: 0.2,
         }
     }

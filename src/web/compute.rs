@@ -7,8 +7,8 @@ use crate::io::landmark_file;
 use crate::landmarks::{PlacedLandmarks, place};
 use crate::monitor::{Cancelled, Monitor, Stage, Step};
 use crate::pipeline::{
-    Base, Cones, GroundTruth, MapInput, MapResult, Method, OwnConeOptions, PipelineError, PipelineOptions,
-    findings, run,
+    Base, ClassChoice, Cones, GroundTruth, MapInput, MapResult, Method, OwnConeOptions, PipelineError,
+    PipelineOptions, findings, run,
 };
 use glam::{DVec2, DVec3};
 use serde::Deserialize;
@@ -25,6 +25,8 @@ struct Options {
     base: String,
     #[serde(default)]
     cones: String,
+    #[serde(default)]
+    map_class: String,
     /// Points of the program's own; none for as many as usual.
     #[serde(default)]
     own_cones: Option<usize>,
@@ -36,6 +38,7 @@ impl From<Options> for PipelineOptions {
             method: if options.method == "thesis" { Method::Thesis } else { Method::Relaxed },
             base: if options.base == "qem" { Base::Qem } else { Base::Joint },
             cones: if options.cones == "uniform" { Cones::Uniform } else { Cones::BaseDomain },
+            class: if options.map_class == "runner-up" { ClassChoice::RunnerUp } else { ClassChoice::Best },
             own_cones: match options.own_cones {
                 Some(count) => OwnConeOptions { count, ..OwnConeOptions::default() },
                 None => OwnConeOptions::default(),

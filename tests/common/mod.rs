@@ -115,7 +115,7 @@ pub fn json_fields(value: &serde_json::Value) -> Vec<String> {
 }
 
 /// The fields of the report of a map, `ground_truth` and `seconds` unopened.
-pub const REPORT_FIELDS: [&str; 41] = [
+pub const REPORT_FIELDS: [&str; 42] = [
     "base_domain.faces",
     "base_domain.vertices",
     "certificate.bijective",
@@ -149,6 +149,7 @@ pub const REPORT_FIELDS: [&str; 41] = [
     "layout.judged",
     "layout.mean_log",
     "layout.path_stretch",
+    "layout.rival",
     "layout.runner_up",
     "layout.twists",
     "own_landmarks",

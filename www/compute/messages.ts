@@ -7,6 +7,8 @@ export interface RunOptions {
   readonly method: 'relaxed' | 'thesis';
   readonly base: 'joint' | 'qem';
   readonly cones: 'base-domain' | 'uniform';
+  /** Which class of maps, where several are close. */
+  readonly mapClass: 'best' | 'runner-up';
   /** Points that the program adds where there are few landmarks; `null` for as many as usual. */
   readonly ownCones: number | null;
 }

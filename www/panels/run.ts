@@ -103,6 +103,17 @@ export function runPanel(actions: Actions): Panel {
       actions.dispatch({ kind: 'options', options: { cones: value } });
     },
   );
+  const mapClass = selectOf(
+    'Class',
+    [
+      ['best', 'The best'],
+      ['runner-up', 'The runner-up'],
+    ] as const,
+    (value) => {
+      actions.dispatch({ kind: 'options', options: { mapClass: value } });
+    },
+  );
+  mapClass.select.title = 'Maps of different classes go different ways round a limb';
   const ownCones = selectOf(
     'Own cones',
     [
@@ -125,7 +136,7 @@ export function runPanel(actions: Actions): Panel {
     status,
     residual,
     curve.root,
-    make('details', {}, make('summary', {}, 'Advanced'), method.row, base.row, cones.row, ownCones.row),
+    make('details', {}, make('summary', {}, 'Advanced'), method.row, base.row, cones.row, mapClass.row, ownCones.row),
   );
 
   const error = byId('error');
@@ -155,10 +166,12 @@ export function runPanel(actions: Actions): Panel {
       method.select.value = state.options.method;
       base.select.value = state.options.base;
       cones.select.value = state.options.cones;
+      mapClass.select.value = state.options.mapClass;
       ownCones.select.value = state.options.ownCones === null ? 'usual' : String(state.options.ownCones);
       for (const select of [method.select, base.select, cones.select]) {
         select.disabled = running;
       }
+      mapClass.select.disabled = running || state.options.method === 'thesis' || state.options.base === 'qem';
       ownCones.select.disabled = running || state.options.method === 'thesis';
       let sentence = idleSentence(state);
       let number = '';

@@ -45,6 +45,9 @@ pub struct MapArguments {
     /// Curvature at the landmarks.
     #[arg(long, value_enum, default_value_t = ConesArgument::BaseDomain)]
     pub cones: ConesArgument,
+    /// Which class of maps, where several are nearly as good.
+    #[arg(long, value_enum, default_value_t = ClassArgument::Best)]
+    pub class: ClassArgument,
     /// Points that are added as cones of the program's own where there are few landmarks; 0 for none.
     #[arg(long, value_name = "N")]
     pub own_cones: Option<usize>,
@@ -148,6 +151,15 @@ pub enum ConesArgument {
     BaseDomain,
     /// 4 pi divided by the number of landmarks.
     Uniform,
+}
+
+/// Which class of maps is taken where several are close.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum ClassArgument {
+    /// The one of least mean log distortion.
+    Best,
+    /// The next best.
+    RunnerUp,
 }
 
 /// The discrete conformal structure of the flow.

@@ -1,6 +1,6 @@
 //! `conemap map`.
 
-use crate::arguments::{BaseArgument, ConesArgument, MapArguments, MethodArgument};
+use crate::arguments::{BaseArgument, ClassArgument, ConesArgument, MapArguments, MethodArgument};
 use crate::clock::Clock;
 use crate::input::{self, Failure};
 use crate::{interrupt, outputs};
@@ -10,8 +10,8 @@ use conemap::mesh::check::CheckedMesh;
 use conemap::mesh::mirror::mirrored;
 use conemap::monitor::{Monitor, Stage};
 use conemap::pipeline::{
-    Base, Cones, FindingReport, GroundTruth, MapInput, MapResult, Method, OwnConeOptions, PipelineOptions,
-    RepairKind, findings, run as run_pipeline,
+    Base, ClassChoice, Cones, FindingReport, GroundTruth, MapInput, MapResult, Method, OwnConeOptions,
+    PipelineOptions, RepairKind, findings, run as run_pipeline,
 };
 
 /// Maps, writes what was asked for, and tells the certificate; an error where there is no certified map.
@@ -80,6 +80,10 @@ fn options(arguments: &MapArguments) -> PipelineOptions {
         cones: match arguments.cones {
             ConesArgument::BaseDomain => Cones::BaseDomain,
             ConesArgument::Uniform => Cones::Uniform,
+        },
+        class: match arguments.class {
+            ClassArgument::Best => ClassChoice::Best,
+            ClassArgument::RunnerUp => ClassChoice::RunnerUp,
         },
         own_cones: OwnConeOptions {
             count: arguments.own_cones.unwrap_or(OwnConeOptions::default().count),
