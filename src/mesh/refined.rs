@@ -50,8 +50,7 @@ impl RefinedMesh {
         Ok((refined, inserted.vertices))
     }
 
-    /// The same with at least `degree` edges at each of some vertices (at most twice as many as there were): the widest faces
-    /// there are bisected.
+    /// The same with at least `degree` edges at each of some vertices: the widest faces there are bisected.
     ///
     /// # Errors
     /// As [`Self::with_points`].
@@ -61,12 +60,18 @@ impl RefinedMesh {
         vertices: impl IntoIterator<Item = VertexId>,
         degree: usize,
     ) -> Result<Self, MeshError> {
-        let points: Vec<SurfacePoint> =
-            vertices.into_iter().flat_map(|v| bisectors(&self.mesh, v, degree)).collect();
-        if points.is_empty() {
-            return Ok(self.clone());
+        let vertices: Vec<VertexId> = vertices.into_iter().collect();
+        let mut refined = self.clone();
+        // The bisector of one vertex may be cut by that of a neighbour, and is made again then.
+        for _ in 0..BISECTIONS {
+            let points: Vec<SurfacePoint> =
+                vertices.iter().flat_map(|&v| bisectors(&refined.mesh, v, degree)).collect();
+            if points.is_empty() {
+                break;
+            }
+            refined = refined.with_points(input, &points)?.0;
         }
-        Ok(self.with_points(input, &points)?.0)
+        Ok(refined)
     }
 
     /// Barycentric coordinates, in the input face of a refined face, of its three corners.
@@ -86,6 +91,9 @@ impl RefinedMesh {
         SurfacePoint { face: self.face_origin[point.face], barycentric: [weight(0), weight(1), weight(2)] }
     }
 }
+
+/// Rounds of bisections at most; one is usual, and two were enough where landmarks are neighbours.
+const BISECTIONS: usize = 4;
 
 /// Where the bisectors of the widest faces at a vertex meet the opposite edges; as many as are missing to a degree.
 fn bisectors(mesh: &SurfaceMesh, v: VertexId, degree: usize) -> Vec<SurfacePoint> {

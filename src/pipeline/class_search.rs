@@ -40,7 +40,7 @@ pub fn choose_class<'a>(
         other => other,
     })?;
     let mut explored = vec![search.best];
-    loop {
+    for _ in 0..MOST_WINNERS {
         let winner = finalists.decide(monitor)?;
         if explored.contains(&winner) || monitor.wants_result() {
             break;
@@ -65,6 +65,9 @@ pub fn choose_class<'a>(
     search.best = best.number;
     Ok(Chosen { candidate: best.candidate, search, map: best.map })
 }
+
+/// So many winners' twists are judged at most.
+const MOST_WINNERS: usize = 4;
 
 /// One of the best maps of a search.
 struct Finalist<'a> {

@@ -4,10 +4,10 @@
 //! and carried to the target by the present map; the map is solved again with all as cones. Every round takes fresh points,
 //! so that those of the round before are free to move.
 
-use super::PipelineError;
 use super::class_search::choose_class;
 use super::options::PipelineOptions;
 use super::relaxed::{Full, parametrised};
+use super::{ClassChoice, PipelineError};
 use crate::geodesic::distances;
 use crate::landmark_suggestion::farthest_points;
 use crate::mesh::closest_point::closest_point;
@@ -98,7 +98,7 @@ pub(super) fn add<'a>(
         let sides = sides_cell.get_or_init(|| {
             [0, 1].map(|k| Side::new(&with_own[k].refined.mesh, &with_own[k].landmarks, vertices))
         });
-        let next = match choose_class(sides, (&options.multilevel, &own.search, options.class), monitor) {
+        let next = match choose_class(sides, (&options.multilevel, &own.search, ClassChoice::Best), monitor) {
             Ok(chosen) => finished(chosen.map, (&options.multilevel, &mut *monitor))?,
             Err(PipelineError::Cancelled(stop)) => return Err(stop),
             // No map with these points: others may do.
