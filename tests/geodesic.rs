@@ -26,7 +26,7 @@ fn check_bounds(mesh: &SurfaceMesh, seed: VertexId, name: &str) {
 #[test]
 fn distances_on_rough_meshes_are_between_those_in_space_and_those_along_edges() {
     for number in 0..200 {
-        let mut random = Random(number);
+        let mut random = Random::new(number);
         let mesh = roughened(&body(&mut random), &mut random);
         for _ in 0..3 {
             let seed = VertexId::from(random.below(mesh.vertex_count()));
@@ -38,7 +38,7 @@ fn distances_on_rough_meshes_are_between_those_in_space_and_those_along_edges() 
 #[test]
 fn distances_on_rough_meshes_hardly_depend_on_the_direction() {
     for number in 0..200 {
-        let mut random = Random(number);
+        let mut random = Random::new(number);
         let mesh = roughened(&body(&mut random), &mut random);
         let [a, b] = [(), ()].map(|()| VertexId::from(random.below(mesh.vertex_count())));
         let (there, back) = (distances(&mesh, &[a])[b], distances(&mesh, &[b])[a]);
@@ -50,7 +50,7 @@ fn distances_on_rough_meshes_hardly_depend_on_the_direction() {
 #[test]
 fn slivers_and_needles_do_not_change_distances() {
     for number in 0..200 {
-        let mesh = cut_octahedron(&mut Random(1000 + number), 60);
+        let mesh = cut_octahedron(&mut Random::new(1000 + number), 60);
         for a in 0..6_u32 {
             let found = distances(&mesh, &[VertexId(a)]);
             for b in (0..6_u32).filter(|&b| b != a) {
@@ -67,7 +67,7 @@ fn slivers_and_needles_do_not_change_distances() {
 fn distances_on_bodies_are_nearly_exact() {
     let (mut sum, mut count) = (0.0, 0.0);
     for number in 0..40 {
-        let mut random = Random(number);
+        let mut random = Random::new(number);
         let mesh = body(&mut random);
         let seed = VertexId::from(random.below(mesh.vertex_count()));
         let (found, known) = (distances(&mesh, &[seed]), exact_distances(&mesh, seed));

@@ -3,6 +3,7 @@
 use crate::arguments::Arguments;
 use crate::case::{Case, Make, map_all};
 use crate::table::{compare, header};
+use conemap::math::random::SplitMix;
 use conemap::mesh::insertion::insert;
 use conemap::mesh::{SurfaceMesh, SurfacePoint};
 
@@ -43,7 +44,7 @@ pub fn same_points(arguments: &Arguments) {
                 let mut case = Case::of_pair(arguments, &name);
                 for k in 0..2 {
                     let vertices: Vec<SurfacePoint> = case.points[k].clone();
-                    case.points[k] = vertices.iter().map(|p| at(&case.meshes[k], p, place)).collect();
+                    case.points[k] = vertices.iter().map(|p| at(p, place)).collect();
                     if variant == "as vertices" {
                         let inserted =
                             insert(&case.meshes[k], &case.points[k]).expect("points can be inserted");
@@ -71,11 +72,10 @@ const PLACES: [(&str, [f64; 3]); 6] = [
     ("beside corner", [1.0 - 2e-6, 1e-6, 1e-6]),
 ];
 
-fn at(mesh: &SurfaceMesh, vertex: &SurfacePoint, [own, next, last]: [f64; 3]) -> SurfacePoint {
+fn at(vertex: &SurfacePoint, [own, next, last]: [f64; 3]) -> SurfacePoint {
     let k = (0..3).find(|&k| vertex.barycentric[k] > 0.5).expect("a vertex");
     let mut barycentric = [0.0; 3];
     (barycentric[k], barycentric[(k + 1) % 3], barycentric[(k + 2) % 3]) = (own, next, last);
-    debug_assert!(vertex.face.index() < mesh.face_count());
     SurfacePoint { face: vertex.face, barycentric }
 }
 
@@ -92,21 +92,18 @@ pub fn moved(mesh: &SurfaceMesh, points: &[SurfacePoint], random: &mut Random) -
     points.iter().map(place).collect()
 }
 
-/// splitmix64 (Steele, Lea, Flood 2014).
-pub struct Random(u64);
+/// Random clicks.
+pub struct Random(SplitMix);
 
 impl Random {
     /// The same numbers for the same seed.
     pub fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5bf0_3635)
+        // Neighbouring seeds far apart, or the draws of one would be those of the next, shifted.
+        Self(SplitMix::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5bf0_3635))
     }
 
     /// Uniform in [0, 1).
     pub fn share(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (z ^ (z >> 31)) as f64 / 2.0_f64.powi(64)
+        self.0.unit()
     }
 }

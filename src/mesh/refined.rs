@@ -92,7 +92,7 @@ impl RefinedMesh {
     }
 }
 
-/// Rounds of bisections at most; one is usual, and two were enough where landmarks are neighbours.
+/// Rounds of bisections at most: each one after the first is for vertices whose bisectors a neighbour's has cut.
 const BISECTIONS: usize = 4;
 
 /// Where the bisectors of the widest faces at a vertex meet the opposite edges; as many as are missing to a degree.

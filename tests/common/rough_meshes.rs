@@ -1,21 +1,23 @@
 //! Closed meshes that no tool would be proud of, by seed: slivers, needles, flipped edges, noise, extreme scales.
 
+use conemap::math::random::SplitMix;
 use conemap::math::scalar::pow;
 use conemap::mesh::generators::{icosphere, octahedron};
 use conemap::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec3;
 
-/// The SplitMix64 generator (Steele, Lea & Flood 2014).
-pub struct Random(pub u64);
+/// Random numbers of the library, and some made of them.
+pub struct Random(SplitMix);
 
 impl Random {
+    /// The numbers of a seed.
+    pub fn new(seed: u64) -> Self {
+        Self(SplitMix::new(seed))
+    }
+
     /// Uniform in [0, 1).
     pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        self.0.unit()
     }
 
     /// Below `n`.
