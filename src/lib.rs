@@ -1,9 +1,9 @@
 //! Bijective, low-distortion maps between two closed triangle meshes of genus 0 from corresponding landmarks.
 //!
-//! Data goes one way: mesh files -> polygon soup -> surface mesh -> landmarks -> base domain -> cone metric ->
-//! layout -> surface map -> outputs. A stage takes the previous stage's result by reference with its options and
-//! returns an owned result or its own error; only [`pipeline`] knows the order. The core knows no browser, no GPU,
-//! no clock and no printing.
+//! Data goes one way: mesh files -> polygon soup -> surface mesh -> landmarks -> coarse levels -> layout -> coarse map ->
+//! surface map -> cone metrics and texture -> outputs. A stage takes the previous stage's result by reference with its
+//! options and returns an owned result or its own error; only [`pipeline`] knows the order of the stages, and [`job`] goes
+//! from a user's files to the pipeline and back. The core knows no browser, no GPU, no clock and no printing.
 
 pub mod base_domain;
 pub mod cone_metric;
@@ -12,6 +12,7 @@ pub mod export;
 pub mod geodesic;
 pub mod intrinsic;
 pub mod io;
+pub mod job;
 pub mod landmark_fit;
 pub mod landmark_suggestion;
 pub mod landmarks;

@@ -113,6 +113,7 @@ fn check(demo: &Demo, landmarks: &Landmarks, result: &MapResult, most_energy: f6
     let energy = result.report.distortion.energy;
     assert!((4.0..most_energy).contains(&energy), "energy {energy}");
     for flow in [&result.report.cone_metric.source, &result.report.cone_metric.target] {
+        let flow = flow.as_ref().unwrap();
         assert!(flow.max_curvature_error <= FlowOptions::default().tolerance, "{flow:?}");
     }
     // The theorem of Gauss and Bonnet.

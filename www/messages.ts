@@ -1,35 +1,6 @@
 /** The only place that turns codes into sentences. */
-import type { Failure, Progress } from './compute/messages.ts';
+import type { Failure } from './compute/messages.ts';
 import type { Suggestion } from './state.ts';
-
-const STAGES: readonly (readonly [string, string, number])[] = [
-  ['landmarks', 'Placing the landmarks', 0.02],
-  ['base_domain', 'Drawing the base domain on both meshes', 0.13],
-  ['source_cone_metric', 'Flattening the source to its cones', 0.12],
-  ['target_cone_metric', 'Flattening the target to its cones', 0.12],
-  ['initial_map', 'Laying both out on the flat cone surface', 0.16],
-  ['relaxation', 'Relaxing the map', 0.25],
-  ['certificate', 'Checking that the map is bijective', 0.04],
-  ['composition', 'Carrying points from source to target', 0.08],
-  ['transfer', 'Carrying the texture over', 0.08],
-];
-
-/** The stage in words. */
-export function stageSentence(stage: string): string {
-  return STAGES.find(([name]) => name === stage)?.[1] ?? stage.replaceAll('_', ' ');
-}
-
-/** Share of the whole run that is done, 0 to 1, by the usual times of the stages. */
-export function overallShare(progress: Progress): number {
-  let before = 0;
-  for (const [name, , weight] of STAGES) {
-    if (name === progress.stage) {
-      return before + weight * Math.min(1, Math.max(0, progress.fraction));
-    }
-    before += weight;
-  }
-  return 0;
-}
 
 /** A name for each stage of the report's seconds. */
 export function stageName(stage: string): string {

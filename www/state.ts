@@ -1,7 +1,7 @@
 /** One state and one way to change it: `update(state, event)`, without side effects. */
-import type { Progress, RunOptions, RunOutput } from './compute/messages.ts';
+import type { Progress, RunOutput } from './compute/messages.ts';
 import { pointTaken } from './messages.ts';
-import type { Finding, Report } from './report.ts';
+import type { Finding, Report, RunOptions } from './report.ts';
 import type { LoadedMesh } from './wasm/conemap.js';
 
 /** 0 the source, 1 the target. */
@@ -128,7 +128,7 @@ export const INITIAL: State = {
   queue: [],
   suggestions: [[], []],
   history: [],
-  options: { method: 'relaxed', base: 'joint', cones: 'base-domain', mapClass: 'best', ownCones: null },
+  options: { method: 'relaxed', base: 'joint', cones: 'base-domain', class: 'best', ownCones: null },
   style: { surface: 'shaded', patchLines: true, cones: true, markers: true },
   job: { kind: 'idle' },
   result: null,
@@ -194,7 +194,7 @@ export function isStale(state: State): boolean {
     (result.options.method !== state.options.method ||
       result.options.base !== state.options.base ||
       result.options.cones !== state.options.cones ||
-      result.options.mapClass !== state.options.mapClass ||
+      result.options.class !== state.options.class ||
       result.options.ownCones !== state.options.ownCones ||
       result.pairs.length !== pairs.length ||
       result.pairs.some((pair, index) => pair.points !== pairs[index]?.points))

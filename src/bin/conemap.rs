@@ -15,8 +15,6 @@ mod input;
 mod interrupt;
 #[path = "conemap/map.rs"]
 mod map;
-#[path = "conemap/outputs.rs"]
-mod outputs;
 #[path = "conemap/remesh.rs"]
 mod remesh;
 #[path = "conemap/suggest.rs"]

@@ -3,7 +3,7 @@
 use super::tips;
 use crate::geodesic::{distances, distances_within};
 use crate::mesh::{SurfaceMesh, VertexId};
-use crate::monitor::{Cancelled, Monitor, Step};
+use crate::monitor::{Cancelled, Monitor, Portion, Step};
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -30,8 +30,9 @@ pub fn unmarked_limbs(
     let to_landmark = distances(mesh, landmarks);
     let areas = mesh.vertex_areas().raw;
     let marked = MARKED * mesh.area().sqrt();
-    let tips = tips(mesh, marked, monitor)?;
+    let tips = tips(mesh, marked, &mut Portion::new(monitor, 0.0, TIPS_SHARE))?;
     let mut unmarked = Vec::new();
+    let monitor = &mut Portion::new(monitor, TIPS_SHARE, 1.0);
     for (k, &tip) in tips.iter().enumerate() {
         monitor.step(Step { fraction: k as f64 / tips.len() as f64, residual: None })?;
         if landmarks.is_empty() || thinnest(mesh, &areas, (tip, marked..to_landmark[tip])) < THIN {
@@ -40,6 +41,9 @@ pub fn unmarked_limbs(
     }
     Ok(unmarked)
 }
+
+/// The share of the time that the tips take: they need 32 distances over the whole mesh, a disc less than one.
+const TIPS_SHARE: f64 = 0.8;
 
 /// The least area of a disc around a vertex, relative to the flat one, among radii of a range; infinite for none.
 fn thinnest(mesh: &SurfaceMesh, areas: &[f64], (centre, radii): (VertexId, Range<f64>)) -> f64 {

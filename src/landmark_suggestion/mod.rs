@@ -12,7 +12,7 @@ pub use tips::tips;
 use crate::geodesic::{distances, shorten};
 use crate::mesh::coarsening::Level;
 use crate::mesh::{SurfaceMesh, VertexId};
-use crate::monitor::{Cancelled, Monitor, Step};
+use crate::monitor::{Cancelled, Monitor, Portion, Step};
 use typed_index_collections::TiVec;
 
 /// Why a point is suggested.
@@ -69,15 +69,16 @@ fn suggest_here(
     let least = 0.1 * mesh.area().sqrt();
     let mut distance = distances(mesh, landmarks);
     let mut found = Vec::new();
-    for vertex in tips(mesh, least, monitor)? {
+    for vertex in tips(mesh, least, &mut Portion::new(monitor, 0.0, 0.7))? {
         if found.len() < count && distance[vertex] > least {
-            monitor.step(Step { fraction: found.len() as f64 / count as f64, residual: None })?;
             found.push(Suggestion { vertex, reason: Reason::Tip, partner: None });
             shorten(mesh, &[vertex], &mut distance);
         }
     }
     let ends: Vec<VertexId> = found.iter().map(|s| s.vertex).collect();
-    for (suggestion, partner) in found.iter_mut().zip(partners(mesh, &ends, monitor)?) {
+    for (suggestion, partner) in
+        found.iter_mut().zip(partners(mesh, &ends, &mut Portion::new(monitor, 0.7, 0.9))?)
+    {
         suggestion.partner = partner;
     }
     let nothing_known = landmarks.is_empty() && found.is_empty();
@@ -86,7 +87,8 @@ fn suggest_here(
         found.push(far(VertexId(0)));
         shorten(mesh, &[VertexId(0)], &mut distance);
     }
-    let rest = farthest_points((mesh, distance), (count - found.len(), least), |_| true, monitor)?;
+    let last = &mut Portion::new(monitor, 0.9, 1.0);
+    let rest = farthest_points((mesh, distance), (count - found.len(), least), |_| true, last)?;
     found.extend(rest.into_iter().map(far));
     Ok(found)
 }

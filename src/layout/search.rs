@@ -5,7 +5,7 @@
 
 use super::LayoutError;
 use super::candidates::{Candidate, Candidates};
-use crate::monitor::{Cancelled, Monitor, Step};
+use crate::monitor::{Cancelled, Monitor, Portion, Step};
 
 /// How long the class of the map is searched.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -155,7 +155,8 @@ pub fn neighbours(
 ) -> Result<Vec<Judged>, LayoutError> {
     let mut search = Search { judge, options, monitor, best: None, report: SearchReport::default() };
     let mut without_gain = 0;
-    for candidate in candidates.twists(of, (options.twists, options.twist_ratio), search.monitor)? {
+    let wanted = (options.twists, options.twist_ratio);
+    for candidate in candidates.twists(of, wanted, &mut search.between())? {
         without_gain = if search.judge(candidate, Origin::Twist)? { 0 } else { without_gain + 1 };
         if without_gain >= options.patience || search.monitor.wants_result() {
             break;
@@ -184,7 +185,7 @@ impl Search<'_, '_> {
     fn orders(&mut self, candidates: &mut Candidates<'_>) -> Result<(), LayoutError> {
         let mut without_gain = 0;
         while self.report.judged.len() < self.options.candidates && without_gain < self.options.patience {
-            let Some(candidate) = candidates.next(self.monitor)? else { break };
+            let Some(candidate) = candidates.next(&mut self.between())? else { break };
             let detour = candidate.layout.report.detour;
             if self.best.as_ref().is_some_and(|(_, best)| detour > best.layout.report.detour + HOPELESS) {
                 break;
@@ -206,7 +207,8 @@ impl Search<'_, '_> {
             let Some((_, best)) = &self.best else { return Ok(()) };
             let SearchOptions { twist_ratio, ambiguous_ratio, .. } = *self.options;
             let ratio = if self.is_clear() { ambiguous_ratio } else { twist_ratio };
-            let around = candidates.twists(best, (left, ratio), self.monitor)?;
+            let best = best.clone();
+            let around = candidates.twists(&best, (left, ratio), &mut self.between())?;
             let mut better = false;
             for candidate in around {
                 left -= 1;
@@ -230,10 +232,11 @@ impl Search<'_, '_> {
 
     /// Judges a candidate and keeps it where it is better; says whether it is.
     fn judge(&mut self, candidate: Candidate, origin: Origin) -> Result<bool, LayoutError> {
-        let most = (self.options.candidates + self.options.twists) as f64;
         let residual = self.best.as_ref().map(|best| best.0);
-        self.monitor.step(Step { fraction: self.report.judged.len() as f64 / most, residual })?;
-        let mean_log = (self.judge)(&candidate, self.monitor)?;
+        let (from, to) = (self.share(0), self.share(1));
+        let mut portion = Portion::new(self.monitor, from, to);
+        portion.step(Step { fraction: 0.0, residual })?;
+        let mean_log = (self.judge)(&candidate, &mut portion)?;
         let super::LayoutReport { detour, worst_stretch, .. } = candidate.layout.report;
         self.report.judged.push(Judged { origin, detour, worst_stretch, mean_log });
         let least = self.best.as_ref().map_or(f64::INFINITY, |best| best.0);
@@ -246,6 +249,18 @@ impl Search<'_, '_> {
         self.report.best = self.report.judged.len() - 1;
         self.best = Some((mean_log, candidate));
         Ok(gain)
+    }
+
+    /// The share of the layouts that is judged when `more` are.
+    fn share(&self, more: usize) -> f64 {
+        let most = self.options.candidates + self.options.twists;
+        (self.report.judged.len() + more) as f64 / most.max(1) as f64
+    }
+
+    /// A part without a length, for what is done between two layouts.
+    fn between(&mut self) -> Portion<'_> {
+        let share = self.share(0);
+        Portion::new(self.monitor, share, share)
     }
 
     /// Whether a result is wanted now, and there is one.

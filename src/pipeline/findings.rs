@@ -7,7 +7,7 @@ use crate::landmarks::Landmarks;
 use crate::layout::LandmarkDistances;
 use crate::mesh::VertexId;
 use crate::mesh::coarsening::Level;
-use crate::monitor::{Cancelled, Monitor};
+use crate::monitor::{Cancelled, Monitor, Portion, Stage};
 use serde::Serialize;
 
 /// Vertices of the coarse levels, on which distances are measured.
@@ -15,6 +15,7 @@ const COARSE_VERTICES: usize = 1500;
 
 /// What is in doubt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "snake_case")]
 pub enum FindingKind {
     /// The whole set is mirrored.
@@ -29,6 +30,7 @@ pub enum FindingKind {
 
 /// What to do about it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "snake_case")]
 pub enum RepairKind {
     /// Mirror the target mesh, or exchange left and right in all pairs.
@@ -43,6 +45,7 @@ pub enum RepairKind {
 
 /// A doubt about landmark pairs. Numbers that a kind does not have are `null`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct FindingReport {
     /// What is in doubt.
     pub kind: FindingKind,
@@ -62,6 +65,7 @@ pub struct FindingReport {
     /// Of misplaced pairs: the pair whose target is nearest to the best place, 0-based.
     pub near: Option<usize>,
     /// Of limbs: the mesh, 0 the source and 1 the target.
+    #[cfg_attr(all(feature = "web", target_arch = "wasm32"), tsify(type = "0 | 1 | null"))]
     pub side: Option<usize>,
     /// Of limbs: their ends, as vertices of the mesh, the most remote first.
     pub vertices: Vec<usize>,
@@ -159,6 +163,7 @@ pub fn findings(
     labels: &[String],
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<FindingReport>, Cancelled> {
+    monitor.enter(Stage::Findings);
     let Landmarks { source, target } = input.landmarks;
     let numbers =
         |level: &Level, ends: Vec<VertexId>| ends.iter().map(|&v| level.vertices[v].index()).collect();
@@ -171,7 +176,8 @@ pub fn findings(
     for (side, (level, marks)) in
         [(&source, &landmarks.source), (&target, &landmarks.target)].iter().enumerate()
     {
-        let ends: Vec<usize> = numbers(level, unmarked_limbs(&level.mesh, marks, monitor)?);
+        let half = &mut Portion::new(monitor, 0.5 * side as f64, 0.5 * (side + 1) as f64);
+        let ends: Vec<usize> = numbers(level, unmarked_limbs(&level.mesh, marks, half)?);
         if !ends.is_empty() {
             reports.push(limbs(side, ends));
         }

@@ -3,30 +3,30 @@
 pub mod class_search;
 mod error;
 mod findings;
+mod flows;
 mod options;
+mod outcome;
 mod own_cones;
 mod relaxed;
 mod report;
 mod result;
+mod stages;
 mod thesis;
+mod warning;
 
 pub use error::PipelineError;
 pub use findings::{FindingKind, FindingReport, RepairKind, findings};
-pub use options::{Base, ClassChoice, Cones, Method, OwnConeOptions, PipelineOptions};
+pub use options::{Base, Choices, ClassChoice, Cones, Method, OwnConeOptions, PipelineOptions};
 pub use report::{
     BaseDomainReport, CertificateReport, ConeMetricReport, ConeMetricsReport, DistortionReport, FacesReport,
     GroundTruthReport, LayoutSearchReport, PlaceReport, Report, WorstPieceReport,
 };
 pub use result::{MapResult, TriangleDistortion};
+pub use warning::{Warning, WarningReport};
 
-use crate::base_domain::{self, BaseDomain};
-use crate::cone_metric::atlas::{FlatAtlas, flat_atlas};
-use crate::cone_metric::{ConeMetric, FlowError, FlowReport, base_domain_curvature, flow, uniform_curvature};
 use crate::landmarks::Landmarks;
-use crate::layout::{self, BaseLayout};
-use crate::mesh::{SurfaceMesh, VertexId};
-use crate::monitor::{Monitor, Stage};
-use typed_index_collections::TiVec;
+use crate::mesh::SurfaceMesh;
+use crate::monitor::Monitor;
 
 /// What the pipeline starts from: two checked meshes and landmarks that are vertices of both.
 #[derive(Clone, Copy, Debug)]
@@ -68,72 +68,4 @@ pub fn run(
         Method::Relaxed => relaxed::run(input, options, monitor),
         Method::Thesis => thesis::run(input, options, monitor),
     }
-}
-
-/// Draws the base domain on both meshes at full resolution.
-fn draw(
-    input: MapInput<'_>,
-    options: &PipelineOptions,
-    monitor: &mut dyn Monitor,
-) -> Result<BaseLayout, PipelineError> {
-    let meshes = [input.source, input.target];
-    Ok(match options.base {
-        Base::Joint => layout::joint(meshes, input.landmarks, &options.layout, monitor)?,
-        Base::Qem => {
-            let base = base_domain::simplify(input.target, &input.landmarks.target, monitor)?;
-            layout::from_base(meshes, input.landmarks, &base, monitor)?
-        }
-    })
-}
-
-/// The flat cone metrics of both meshes and the target's texture coordinates.
-struct Metrics {
-    source: (ConeMetric, FlowReport),
-    target: (ConeMetric, FlowReport),
-    /// Target curvature of each landmark.
-    cones: Vec<f64>,
-    target_atlas: FlatAtlas,
-}
-
-impl Metrics {
-    fn new(
-        input: MapInput<'_>,
-        base: &BaseDomain,
-        options: &PipelineOptions,
-        monitor: &mut dyn Monitor,
-    ) -> Result<Self, PipelineError> {
-        let Landmarks { source, target } = input.landmarks;
-        monitor.enter(Stage::SourceConeMetric);
-        let source_metric = cone_metric((input.source, source), base, options, monitor)
-            .map_err(PipelineError::source_flow)?;
-        monitor.enter(Stage::TargetConeMetric);
-        let target_metric = cone_metric((input.target, target), base, options, monitor)
-            .map_err(PipelineError::target_flow)?;
-        let target_atlas = flat_atlas(input.target, &target_metric.0, target);
-        let goal = curvature((input.target, target), base, options.cones);
-        let cones = target.iter().map(|&v| goal[v]).collect();
-        Ok(Self { source: source_metric, target: target_metric, cones, target_atlas })
-    }
-}
-
-/// Target curvature of each vertex.
-fn curvature(
-    (mesh, landmarks): (&SurfaceMesh, &[VertexId]),
-    base: &BaseDomain,
-    cones: Cones,
-) -> TiVec<VertexId, f64> {
-    match cones {
-        Cones::BaseDomain => base_domain_curvature(mesh.vertex_count(), landmarks, base),
-        Cones::Uniform => uniform_curvature(mesh.vertex_count(), landmarks),
-    }
-}
-
-/// The flat cone metric of a mesh with its landmarks.
-fn cone_metric(
-    side: (&SurfaceMesh, &[VertexId]),
-    base: &BaseDomain,
-    options: &PipelineOptions,
-    monitor: &mut dyn Monitor,
-) -> Result<(ConeMetric, FlowReport), FlowError> {
-    flow(side.0, &curvature(side, base, options.cones), &options.flow, monitor)
 }

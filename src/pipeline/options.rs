@@ -3,9 +3,13 @@
 use crate::cone_metric::FlowOptions;
 use crate::layout::{LayoutOptions, SearchOptions};
 use crate::surface_map::multilevel::MultilevelOptions;
+use serde::{Deserialize, Serialize};
 
 /// How the map is made.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
+#[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// Two seamless parametrisations onto one flat cone surface, relaxed: bijective.
     #[default]
@@ -15,7 +19,10 @@ pub enum Method {
 }
 
 /// Where the base domain's triangles come from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
+#[serde(rename_all = "kebab-case")]
 pub enum Base {
     /// Planned on both meshes at once.
     #[default]
@@ -25,7 +32,10 @@ pub enum Base {
 }
 
 /// Curvature at the landmarks.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
+#[serde(rename_all = "kebab-case")]
 pub enum Cones {
     /// The base domain's angle defects.
     #[default]
@@ -35,7 +45,10 @@ pub enum Cones {
 }
 
 /// Which class of maps is taken where several are close.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
+#[serde(rename_all = "kebab-case")]
 pub enum ClassChoice {
     /// The one of least mean log density.
     #[default]
@@ -44,7 +57,40 @@ pub enum ClassChoice {
     RunnerUp,
 }
 
-/// Everything the pipeline lets a user choose.
+/// What a user chooses of a run, on the command line and in the page alike. A name or a value that is not known is an error.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::Args))]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
+#[serde(default, deny_unknown_fields, rename_all = "camelCase")]
+pub struct Choices {
+    /// How the map is made.
+    #[cfg_attr(feature = "cli", arg(long, value_enum, default_value_t))]
+    pub method: Method,
+    /// Where the base domain comes from.
+    #[cfg_attr(feature = "cli", arg(long, value_enum, default_value_t))]
+    pub base: Base,
+    /// Curvature at the landmarks.
+    #[cfg_attr(feature = "cli", arg(long, value_enum, default_value_t))]
+    pub cones: Cones,
+    /// Which class of maps, where several are nearly as good.
+    #[cfg_attr(feature = "cli", arg(long, value_enum, default_value_t))]
+    pub class: ClassChoice,
+    /// Points that are added as cones of the program's own where there are few landmarks; 0 for none, as many as usual where
+    /// nothing is said.
+    #[cfg_attr(feature = "cli", arg(long, value_name = "N"))]
+    pub own_cones: Option<usize>,
+}
+
+impl From<Choices> for PipelineOptions {
+    fn from(choices: Choices) -> Self {
+        let Choices { method, base, cones, class, own_cones } = choices;
+        let usual = OwnConeOptions::default();
+        let own_cones = OwnConeOptions { count: own_cones.unwrap_or(usual.count), ..usual };
+        Self { method, base, cones, class, own_cones, ..Self::default() }
+    }
+}
+
+/// Everything that can be set of the pipeline; a user sets [`Choices`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PipelineOptions {
     /// How the map is made.

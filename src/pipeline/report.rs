@@ -1,6 +1,7 @@
 //! The numbers of a run, stable as JSON.
 
-use super::{FindingReport, MapInput, Metrics};
+use super::flows::Flows;
+use super::{FindingReport, MapInput, Warning};
 use crate::base_domain::BaseDomain;
 use crate::cone_metric::FlowReport;
 use crate::mesh::SurfacePoint;
@@ -11,6 +12,7 @@ use std::collections::BTreeMap;
 
 /// The numbers of a run. Fields that a method does not have are `null`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct Report {
     /// Size of the base domain.
     pub base_domain: BaseDomainReport,
@@ -36,14 +38,17 @@ pub struct Report {
     pub faces: FacesReport,
     /// Landmark pairs that do not fit, as found before the map was made; filled by whoever asks for them.
     pub findings: Vec<FindingReport>,
-    /// What the user should know about the quality of the result, as sentences.
-    pub warnings: Vec<String>,
+    /// What the user should know about the result.
+    #[cfg_attr(all(feature = "web", target_arch = "wasm32"), tsify(type = "WarningReport[]"))]
+    pub warnings: Vec<Warning>,
     /// Wall-clock seconds by stage, and `total`; filled by whoever holds a clock.
+    #[cfg_attr(all(feature = "web", target_arch = "wasm32"), tsify(type = "Record<string, number>"))]
     pub seconds: BTreeMap<String, f64>,
 }
 
 /// Size of the base domain.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct BaseDomainReport {
     /// One vertex per landmark.
     pub vertices: usize,
@@ -53,6 +58,7 @@ pub struct BaseDomainReport {
 
 /// The search for the class of the map among the ways to draw the base domain.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct LayoutSearchReport {
     /// Layouts that were judged by their coarse map.
     pub judged: usize,
@@ -71,15 +77,17 @@ pub struct LayoutSearchReport {
 
 /// Both flows.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct ConeMetricsReport {
-    /// The source's flow.
-    pub source: ConeMetricReport,
-    /// The target's flow.
-    pub target: ConeMetricReport,
+    /// The source's flow; `null` where it could not begin.
+    pub source: Option<ConeMetricReport>,
+    /// The target's flow; `null` where it could not begin.
+    pub target: Option<ConeMetricReport>,
 }
 
 /// One flow.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct ConeMetricReport {
     /// Accepted Newton steps.
     pub newton_steps: usize,
@@ -97,6 +105,7 @@ pub struct ConeMetricReport {
 
 /// The independent check of bijectivity.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct CertificateReport {
     /// Whether both parametrisations are homeomorphisms.
     pub bijective: bool,
@@ -112,6 +121,7 @@ pub struct CertificateReport {
 
 /// Distortion of the map, both areas scaled to 1.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct DistortionReport {
     /// Integral of |J|^2 over the source plus |J^-1|^2 over the target; 4 for an isometry.
     pub energy: f64,
@@ -130,12 +140,13 @@ pub struct DistortionReport {
     pub dented: f64,
     /// Where the density is largest: at most ten pieces of the overlay, the worst first; none for the thesis' method.
     pub worst: Vec<WorstPieceReport>,
-    /// L2 stretch of the target's texture coordinates (Sander et al. 2001); 1 for an isometry.
-    pub l2_stretch: f64,
+    /// L2 stretch of the target's texture coordinates (Sander et al. 2001); 1 for an isometry, `null` where there is no texture.
+    pub l2_stretch: Option<f64>,
 }
 
 /// A piece of the overlay of large density.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct WorstPieceReport {
     /// Its density.
     pub density: f64,
@@ -149,6 +160,7 @@ pub struct WorstPieceReport {
 
 /// A point of one of the input meshes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct PlaceReport {
     /// Face, 0-based.
     pub face: usize,
@@ -185,7 +197,7 @@ impl DistortionReport {
         }
     }
 
-    pub(super) fn new(measured: &Distortion, metrics: &Metrics) -> Self {
+    pub(super) fn new(measured: &Distortion, l2_stretch: Option<f64>) -> Self {
         Self {
             energy: measured.energy,
             mean: measured.mean,
@@ -195,13 +207,14 @@ impl DistortionReport {
             max: measured.max,
             dented: measured.dented,
             worst: measured.worst.iter().map(WorstPieceReport::from).collect(),
-            l2_stretch: metrics.target_atlas.l2_stretch,
+            l2_stretch,
         }
     }
 }
 
 /// Distance to the true images, in units of sqrt(target area).
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct GroundTruthReport {
     /// Mean over the source's vertices.
     pub mean: f64,
@@ -213,6 +226,7 @@ pub struct GroundTruthReport {
 
 /// Triangles of the two input meshes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct FacesReport {
     /// Of the source.
     pub source: usize,
@@ -224,22 +238,25 @@ impl Report {
     /// Takes over wall-clock seconds by stage and `total`.
     pub fn set_seconds(&mut self, seconds: BTreeMap<String, f64>) {
         let of = |stage: Stage| seconds.get(&stage.to_string()).copied().unwrap_or_default();
-        self.cone_metric.source.seconds = of(Stage::SourceConeMetric);
-        self.cone_metric.target.seconds = of(Stage::TargetConeMetric);
+        let ConeMetricsReport { source, target } = &mut self.cone_metric;
+        for (flow, stage) in [(source, Stage::SourceConeMetric), (target, Stage::TargetConeMetric)] {
+            if let Some(flow) = flow {
+                flow.seconds = of(stage);
+            }
+        }
         self.seconds = seconds;
     }
 
     /// What is known before the map.
-    pub(super) fn of_inputs(input: MapInput<'_>, base: &BaseDomain, metrics: &Metrics) -> Self {
+    pub(super) fn of_inputs(input: MapInput<'_>, base: &BaseDomain, flows: &Flows) -> Self {
+        let [source, target] =
+            flows.reports.each_ref().map(|report| report.as_ref().map(ConeMetricReport::from));
         Self {
             base_domain: BaseDomainReport {
                 vertices: base.mesh.vertex_count(),
                 faces: base.mesh.face_count(),
             },
-            cone_metric: ConeMetricsReport {
-                source: ConeMetricReport::from(&metrics.source.1),
-                target: ConeMetricReport::from(&metrics.target.1),
-            },
+            cone_metric: ConeMetricsReport { source, target },
             faces: FacesReport { source: input.source.face_count(), target: input.target.face_count() },
             ..Self::default()
         }

@@ -1,12 +1,12 @@
 //! The thesis' map: from a layout to the images of the vertices, with what is missing told.
 
+use super::flows::{Flows, cone_metric};
 use super::report::{DistortionReport, GroundTruthReport};
-use super::{
-    GroundTruth, MapInput, MapResult, Metrics, PipelineError, PipelineOptions, Report, cone_metric, draw,
-};
-use crate::layout::{BaseLayout, PatchedMesh};
+use super::{Base, GroundTruth, MapInput, MapResult, PipelineError, PipelineOptions, Report, Warning};
+use crate::base_domain;
+use crate::layout::{self, BaseLayout, PatchedMesh};
 use crate::mesh::{SurfaceMesh, VertexId};
-use crate::monitor::{Monitor, Stage};
+use crate::monitor::{Monitor, Portion, Stage};
 use crate::surface_map::distortion::image_distortion;
 use crate::surface_map::ground_truth::same_connectivity_error;
 use crate::surface_map::thesis::{ThesisMap, thesis_map};
@@ -14,7 +14,8 @@ use crate::surface_map::transfer::mapped_mesh;
 use glam::DVec3;
 use typed_index_collections::TiVec;
 
-/// The flows run again on the refined meshes, where the paths between landmarks are chains of edges.
+/// The flows run on the meshes as given, for the texture, and again on the refined ones, where the paths between landmarks are
+/// chains of edges.
 pub(super) fn run(
     input: MapInput<'_>,
     options: &PipelineOptions,
@@ -22,21 +23,39 @@ pub(super) fn run(
 ) -> Result<MapResult, PipelineError> {
     monitor.enter(Stage::BaseDomain);
     let layout = draw(input, options, monitor)?;
-    let metrics = Metrics::new(input, &layout.base, options, monitor)?;
     let refined = |side: &PatchedMesh, monitor: &mut dyn Monitor| {
         cone_metric((&side.mesh, &side.landmark_vertices.raw), &layout.base, options, monitor)
     };
-    monitor.enter(Stage::SourceConeMetric);
-    let source = refined(&layout.source, monitor).map_err(PipelineError::source_flow)?;
-    monitor.enter(Stage::TargetConeMetric);
-    let target = refined(&layout.target, monitor).map_err(PipelineError::target_flow)?;
-    monitor.enter(Stage::Composition);
-    let map = thesis_map(&layout, [input.source, input.target], [&source.0, &target.0], monitor)?;
+    let flows = Flows::new(input, &layout.base, options, monitor)?;
+    monitor.enter(Stage::PatchwiseMap);
+    let source =
+        refined(&layout.source, &mut Portion::new(monitor, 0.0, 0.4)).map_err(PipelineError::source_flow)?;
+    let target =
+        refined(&layout.target, &mut Portion::new(monitor, 0.4, 0.8)).map_err(PipelineError::target_flow)?;
+    let metrics = [&source.0, &target.0];
+    let last = &mut Portion::new(monitor, 0.8, 1.0);
+    let map = thesis_map(&layout, [input.source, input.target], metrics, last)?;
     monitor.enter(Stage::Transfer);
-    Ok(result(input, layout, &metrics, map))
+    Ok(result(input, layout, &flows, map))
 }
 
-fn result(input: MapInput<'_>, layout: BaseLayout, metrics: &Metrics, map: ThesisMap) -> MapResult {
+/// Draws the base domain on both meshes at full resolution.
+fn draw(
+    input: MapInput<'_>,
+    options: &PipelineOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<BaseLayout, PipelineError> {
+    let meshes = [input.source, input.target];
+    Ok(match options.base {
+        Base::Joint => layout::joint(meshes, input.landmarks, &options.layout, monitor)?,
+        Base::Qem => {
+            let base = base_domain::simplify(input.target, &input.landmarks.target, monitor)?;
+            layout::from_base(meshes, input.landmarks, &base, monitor)?
+        }
+    })
+}
+
+fn result(input: MapInput<'_>, layout: BaseLayout, flows: &Flows, map: ThesisMap) -> MapResult {
     let images = &map.target_from_source;
     let mapped = || images.iter_enumerated().filter_map(|(v, image)| Some((v, (*image)?)));
     let ground_truth = (input.ground_truth == GroundTruth::SameConnectivity).then(|| {
@@ -47,14 +66,14 @@ fn result(input: MapInput<'_>, layout: BaseLayout, metrics: &Metrics, map: Thesi
     let report = Report {
         certificate: None,
         unmapped_share: map.unmapped_share,
-        distortion: DistortionReport::new(&measured, metrics),
+        distortion: DistortionReport::new(&measured, flows.l2_stretch()),
         ground_truth,
         warnings: warnings(&map),
-        ..Report::of_inputs(input, &layout.base, metrics)
+        ..Report::of_inputs(input, &layout.base, flows)
     };
     MapResult {
-        cone_curvatures: metrics.cones.clone(),
-        common: mapped_mesh(input.source, input.target, images, &metrics.target_atlas.corner_uvs),
+        cone_curvatures: flows.cones.clone(),
+        common: mapped_mesh(input.source, input.target, images, &flows.texture()),
         patch_lines: [patch_lines(&layout.source, input.source), patch_lines(&layout.target, input.target)],
         vertex_distortion: TiVec::new(),
         triangle_distortion: Vec::new(),
@@ -72,20 +91,14 @@ fn patch_lines(side: &PatchedMesh, input: &SurfaceMesh) -> Vec<Vec<DVec3>> {
     once.map(|path| path.iter().map(place).collect()).collect()
 }
 
-fn warnings(map: &ThesisMap) -> Vec<String> {
-    let mut warnings = vec!["This method does not guarantee a bijection; the relaxed map does.".to_owned()];
+fn warnings(map: &ThesisMap) -> Vec<Warning> {
+    let mut warnings = vec![Warning::NoBijection];
     let [source, target] = map.inverted_patches;
     if source + target > 0 {
-        warnings.push(format!(
-            "Triangles of the base domain that come out inverted in the flat metrics: {source} on the source, {target} on \
-             the target."
-        ));
+        warnings.push(Warning::InvertedPatches { source, target });
     }
     if map.unmapped_share > 0.0 {
-        warnings.push(format!(
-            "{:.2} % of the source's vertices have no image: no straight triangle with a counterpart lies over them.",
-            100.0 * map.unmapped_share
-        ));
+        warnings.push(Warning::Unmapped { share: map.unmapped_share });
     }
     warnings
 }

@@ -1,52 +1,12 @@
 //! The pipeline in the worker.
 
 use super::failure;
-use super::files::checked;
-use crate::export;
-use crate::io::landmark_file;
-use crate::landmarks::{PlacedLandmarks, place};
-use crate::monitor::{Cancelled, Monitor, Stage, Step};
-use crate::pipeline::{
-    Base, ClassChoice, Cones, GroundTruth, MapInput, MapResult, Method, OwnConeOptions, PipelineError,
-    PipelineOptions, findings, run,
-};
+use crate::job::{Job, JobError, JobFiles, TargetImage};
+use crate::monitor::{Cancelled, Monitor, PlannedStage, Progress, Stage, Step};
+use crate::pipeline::{Choices, MapResult, PipelineOptions};
 use glam::{DVec2, DVec3};
-use serde::Deserialize;
 use std::collections::BTreeMap;
 use wasm_bindgen::prelude::*;
-
-/// Options as the page sends them.
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct Options {
-    #[serde(default)]
-    method: String,
-    #[serde(default)]
-    base: String,
-    #[serde(default)]
-    cones: String,
-    #[serde(default)]
-    map_class: String,
-    /// Points of the program's own; none for as many as usual.
-    #[serde(default)]
-    own_cones: Option<usize>,
-}
-
-impl From<Options> for PipelineOptions {
-    fn from(options: Options) -> Self {
-        Self {
-            method: if options.method == "thesis" { Method::Thesis } else { Method::Relaxed },
-            base: if options.base == "qem" { Base::Qem } else { Base::Joint },
-            cones: if options.cones == "uniform" { Cones::Uniform } else { Cones::BaseDomain },
-            class: if options.map_class == "runner-up" { ClassChoice::RunnerUp } else { ClassChoice::Best },
-            own_cones: match options.own_cones {
-                Some(count) => OwnConeOptions { count, ..OwnConeOptions::default() },
-                None => OwnConeOptions::default(),
-            },
-            ..Self::default()
-        }
-    }
-}
 
 #[wasm_bindgen(typescript_custom_section)]
 const LISTENER: &str = r"
@@ -54,8 +14,11 @@ const LISTENER: &str = r"
 export interface RunListener {
   /** In the stage `relaxation`: a map is relaxed, or is on a finer level; energies do not compare with those before. */
   relaxes(): void;
-  /** A stage begins or goes on, at most 30 times a second; `energy` is that of the map being relaxed, 4 for an isometry. */
-  progress(stage: string, fraction: number, residual: number, energy: number): void;
+  /**
+   * A stage begins or goes on, at most 30 times a second: its name and what the program does meanwhile in words, the share of
+   * the whole run that is done (0 to 1, never falling), and the energy of the map being relaxed (4 for an isometry).
+   */
+  progress(stage: string, sentence: string, share: number, residual: number, energy: number): void;
   /** Landmark pairs that do not fit, before the map is made. */
   found(json: string): void;
   /** Whether to finish now with a whole map, only less relaxed; asked at most ten times a second. */
@@ -72,7 +35,8 @@ extern "C" {
     fn progress(
         this: &RunListener,
         stage: &str,
-        fraction: f64,
+        sentence: &str,
+        share: f64,
         residual: f64,
         energy: f64,
     ) -> Result<(), JsValue>;
@@ -102,9 +66,28 @@ struct Messenger<'a> {
     /// When the page was last told.
     told: f64,
     seconds: BTreeMap<String, f64>,
+    progress: Progress,
 }
 
-impl Messenger<'_> {
+impl<'a> Messenger<'a> {
+    fn new(listener: &'a RunListener) -> Self {
+        Self {
+            listener,
+            energy: f64::NAN,
+            asked: 0.0,
+            wants_result: false,
+            stage: None,
+            told: 0.0,
+            seconds: BTreeMap::new(),
+            progress: Progress::new(Vec::new()),
+        }
+    }
+
+    /// The stages that the run will pass.
+    fn plan(&mut self, stages: Vec<PlannedStage>) {
+        self.progress = Progress::new(stages);
+    }
+
     fn leave(&mut self) {
         if let Some((stage, begun)) = self.stage.take() {
             *self.seconds.entry(stage.to_string()).or_default() += (js_sys::Date::now() - begun) / 1000.0;
@@ -115,7 +98,8 @@ impl Messenger<'_> {
         self.told = js_sys::Date::now();
         let residual = step.residual.unwrap_or(f64::NAN);
         // A page that does not listen is not a reason to stop.
-        let _ = self.listener.progress(&stage.to_string(), step.fraction, residual, self.energy);
+        let share = self.progress.at(stage, step.fraction);
+        let _ = self.listener.progress(&stage.to_string(), stage.sentence(), share, residual, self.energy);
     }
 }
 
@@ -159,8 +143,8 @@ impl Monitor for Messenger<'_> {
 /// A finished map.
 #[wasm_bindgen]
 pub struct MapOutput {
+    job: Job,
     result: MapResult,
-    csv: Vec<u8>,
 }
 
 /// Runs the pipeline; the listener hears how it goes on and may ask for the result.
@@ -175,47 +159,25 @@ pub fn run_map(
     options: &str,
     listener: &RunListener,
 ) -> Result<MapOutput, JsValue> {
-    let mut messenger = Messenger {
-        listener,
-        energy: f64::NAN,
-        asked: 0.0,
-        wants_result: false,
-        stage: None,
-        told: 0.0,
-        seconds: BTreeMap::new(),
-    };
+    let mut messenger = Messenger::new(listener);
     let begun = js_sys::Date::now();
-    messenger.enter(Stage::Landmarks);
-    let options: Options = serde_json::from_str(options).map_err(|e| failure("options", e))?;
-    let (source, target) = (checked(source)?, checked(target)?);
-    let file = landmark_file::read(landmarks.as_bytes()).map_err(|e| failure("landmarks", e))?;
-    let numbers = [source.file_from_vertex(), target.file_from_vertex()];
-    let same = source.mesh.triangles() == target.mesh.triangles() && file.ground_truth.is_some();
-    let ground_truth = if same { GroundTruth::SameConnectivity } else { GroundTruth::Unknown };
-    let placed = place([&source, &target], &file.pairs).map_err(|e| failure("landmarks", e))?;
-    let PlacedLandmarks { source: inserted, target: on_target, landmarks } = &placed;
-    let input = MapInput { source: &inserted.mesh, target: &on_target.mesh, landmarks, ground_truth };
-    let number = |side: usize, v: usize| numbers[side].get(v).copied().unwrap_or(v);
-    let doubts: Vec<_> = findings(input, &file.labels.unwrap_or_default(), &mut messenger)
-        .map_err(|e| failure(PipelineError::from(e).code(), e))?
-        .into_iter()
-        .map(|finding| finding.renumbered(number))
-        .collect();
-    let json = serde_json::to_string(&doubts).unwrap_or_default();
+    let choices: Choices = serde_json::from_str(options).map_err(|e| failure("options", e))?;
+    let options = PipelineOptions::from(choices);
+    let failed = |error: JobError| failure(error.code(), error);
+    let files = JobFiles { source, target, landmarks: landmarks.as_bytes() };
+    let job = Job::read(files, TargetImage::AsGiven, &mut messenger).map_err(failed)?;
+    messenger.plan(options.stages(job.landmark_count()));
+    let findings = job.findings(&mut messenger).map_err(|stop| failed(stop.into()))?;
+    let json = serde_json::to_string(&findings).unwrap_or_default();
     // A page that does not listen is not a reason to stop.
     let _ = listener.found(&json);
-    let mut result = run(input, &options.into(), &mut messenger).map_err(|e| failure(e.code(), e))?;
+    let mut result = job.run(&options, &mut messenger).map_err(|error| failed(error.into()))?;
     messenger.leave();
     let mut seconds = messenger.seconds;
     seconds.insert("total".into(), (js_sys::Date::now() - begun) / 1000.0);
     result.report.set_seconds(seconds);
-    result.report.findings = doubts;
-    let as_given = |p| target.with_file_corners(on_target.on_original(p));
-    let on_source_file = |p| source.with_file_corners(inserted.on_original(p));
-    result.report.distortion.replace_worst([&on_source_file, &as_given]);
-    let images = source.by_file_vertex(&result.target_from_source.raw);
-    let images: Vec<_> = images.into_iter().map(|image| image.flatten().map(as_given)).collect();
-    Ok(MapOutput { csv: export::csv::vertex_images(&images), result })
+    result.report.findings = findings;
+    Ok(MapOutput { job, result })
 }
 
 fn flat3(points: &[DVec3]) -> Vec<f32> {
@@ -284,18 +246,17 @@ impl MapOutput {
     /// # Errors
     /// `{"code": "export", "message"}`.
     pub fn glb(&self) -> Result<Vec<u8>, JsValue> {
-        export::glb::textured_source(&self.result.common, &self.result.common_vertex_distortion())
-            .map_err(|e| failure("export", e))
+        self.job.textured_source(&self.result).map_err(|e| failure("export", e))
     }
 
     /// The vertex images.
     pub fn csv(&self) -> Vec<u8> {
-        self.csv.clone()
+        self.job.vertex_images(&self.result)
     }
 
     /// The base domain.
     #[wasm_bindgen(js_name = baseObj)]
     pub fn base_obj(&self) -> Vec<u8> {
-        export::obj::mesh(&self.result.base.mesh)
+        self.job.base_domain(&self.result)
     }
 }

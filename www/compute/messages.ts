@@ -1,17 +1,6 @@
 /** What the page and the worker say to each other. */
 
-import type { Finding } from '../report.ts';
-
-/** The choices of a run. */
-export interface RunOptions {
-  readonly method: 'relaxed' | 'thesis';
-  readonly base: 'joint' | 'qem';
-  readonly cones: 'base-domain' | 'uniform';
-  /** Which class of maps, where several are close. */
-  readonly mapClass: 'best' | 'runner-up';
-  /** Points that the program adds where there are few landmarks; `null` for as many as usual. */
-  readonly ownCones: number | null;
-}
+import type { Finding, RunOptions } from '../report.ts';
 
 /** Everything one run needs. */
 export interface RunRequest {
@@ -50,7 +39,10 @@ export interface RunOutput {
 /** Where a run is; numbers that a step does not have are `null`. */
 export interface Progress {
   readonly stage: string;
-  readonly fraction: number;
+  /** What the program does, in words. */
+  readonly sentence: string;
+  /** Share of the whole run that is done, 0 to 1; it never falls. */
+  readonly share: number;
   readonly residual: number | null;
   /** Of the map that is being relaxed, 4 for an isometry. */
   readonly energy: number | null;

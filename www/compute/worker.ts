@@ -81,8 +81,8 @@ async function run(request: RunRequest): Promise<void> {
       request.landmarks,
       JSON.stringify(request.options),
       {
-        progress: (stage, fraction, residual, energy) => {
-          post({ kind: 'progress', stage, fraction, residual: finite(residual), energy: finite(energy) });
+        progress: (stage, sentence, share, residual, energy) => {
+          post({ kind: 'progress', stage, sentence, share, residual: finite(residual), energy: finite(energy) });
         },
         relaxes: () => {
           post({ kind: 'relaxes' });

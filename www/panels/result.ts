@@ -1,6 +1,6 @@
 /** The result in words and its downloads. */
 import { stageName } from '../messages.ts';
-import type { LayoutSearch, Report } from '../report.ts';
+import type { ConeMetricReport, LayoutSearchReport, Report } from '../report.ts';
 import type { Result, State } from '../state.ts';
 import { isStale } from '../state.ts';
 import { byId, button, download, figure, integer, make } from './dom.ts';
@@ -24,7 +24,7 @@ function verdict(report: Report): HTMLElement {
 }
 
 /** The search among the layouts in words. */
-function layoutSentence(layout: LayoutSearch): string {
+function layoutSentence(layout: LayoutSearchReport): string {
   const judged = layout.judged === 1 ? 'one class tried' : `best of ${integer(layout.judged)} classes tried`;
   const words = [layout.judged === 0 ? 'drawn from the base domain' : judged];
   if (layout.mean_log !== null && layout.runner_up !== null) {
@@ -35,6 +35,11 @@ function layoutSentence(layout: LayoutSearch): string {
   }
   words.push(`longest path ${layout.path_stretch.toFixed(2)} times its shortest`);
   return words.join('; ');
+}
+
+/** How far a flow ended from its cone angles. */
+function curvatureError(flow: ConeMetricReport | null): string {
+  return flow === null ? 'none' : `${figure(flow.max_curvature_error)} rad`;
 }
 
 function facts(report: Report): (readonly [string, string, string])[] {
@@ -48,7 +53,7 @@ function facts(report: Report): (readonly [string, string, string])[] {
     ],
     [
       'Curvature error',
-      `source ${figure(flows.source.max_curvature_error)}, target ${figure(flows.target.max_curvature_error)} rad`,
+      `source ${curvatureError(flows.source)}, target ${curvatureError(flows.target)}`,
       'Largest difference from the wanted cone angles',
     ],
     ['Base domain', `${integer(report.base_domain.vertices)} vertices, ${integer(report.base_domain.faces)} triangles`, ''],
@@ -132,7 +137,7 @@ export function resultPanel(): Panel {
         make('h2', {}, 'Result'),
         verdict(report),
         stale,
-        ...report.warnings.map((warning) => make('p', { class: 'warning' }, warning)),
+        ...report.warnings.map(({ sentence }) => make('p', { class: 'warning' }, sentence)),
         make('dl', {}, ...rows),
         times(report),
         downloads(state.result),

@@ -1,5 +1,5 @@
 /** Start, progress and cancel; the page's errors. */
-import { hint, overallShare, stageSentence } from '../messages.ts';
+import { hint } from '../messages.ts';
 import type { Progress } from '../compute/messages.ts';
 import type { Running, State } from '../state.ts';
 import { canRun, isStale, MIN_PAIRS } from '../state.ts';
@@ -44,7 +44,7 @@ function idleSentence(state: State): string {
 
 /** What a run does. */
 function runningSentence({ progress, finish }: Running): string {
-  const stage = progress === null ? 'Starting' : stageSentence(progress.stage);
+  const stage = progress === null ? 'Starting' : progress.sentence;
   return finish === 'asked' ? `Finishing with the best map so far: ${stage.toLowerCase()}…` : `${stage}…`;
 }
 
@@ -110,7 +110,7 @@ export function runPanel(actions: Actions): Panel {
       ['runner-up', 'The runner-up'],
     ] as const,
     (value) => {
-      actions.dispatch({ kind: 'options', options: { mapClass: value } });
+      actions.dispatch({ kind: 'options', options: { class: value } });
     },
   );
   mapClass.select.title = 'Maps of different classes go different ways round a limb';
@@ -166,7 +166,7 @@ export function runPanel(actions: Actions): Panel {
       method.select.value = state.options.method;
       base.select.value = state.options.base;
       cones.select.value = state.options.cones;
-      mapClass.select.value = state.options.mapClass;
+      mapClass.select.value = state.options.class;
       ownCones.select.value = state.options.ownCones === null ? 'usual' : String(state.options.ownCones);
       for (const select of [method.select, base.select, cones.select]) {
         select.disabled = running;
@@ -179,7 +179,7 @@ export function runPanel(actions: Actions): Panel {
         const { progress } = state.job;
         sentence = runningSentence(state.job);
         number = progress === null ? '' : progressNumber(progress, state.job.energies.length);
-        bar.value = progress === null ? 0 : Math.max(bar.value, overallShare(progress));
+        bar.value = progress === null ? 0 : progress.share;
       } else if (state.job.kind === 'error') {
         sentence = state.result === null ? 'No map was made.' : 'No new map was made; the last one is shown.';
       }

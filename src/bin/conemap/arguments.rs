@@ -1,6 +1,7 @@
 //! What the user types.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use conemap::pipeline::Choices;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -36,21 +37,9 @@ pub struct MapArguments {
     /// Landmark file: JSON with `pairs: [[source, target], ...]`, each side a 0-based vertex or `{"face", "barycentric"}`.
     #[arg(long)]
     pub landmarks: PathBuf,
-    /// How the map is made.
-    #[arg(long, value_enum, default_value_t = MethodArgument::Relaxed)]
-    pub method: MethodArgument,
-    /// Where the base domain comes from.
-    #[arg(long, value_enum, default_value_t = BaseArgument::Joint)]
-    pub base: BaseArgument,
-    /// Curvature at the landmarks.
-    #[arg(long, value_enum, default_value_t = ConesArgument::BaseDomain)]
-    pub cones: ConesArgument,
-    /// Which class of maps, where several are nearly as good.
-    #[arg(long, value_enum, default_value_t = ClassArgument::Best)]
-    pub class: ClassArgument,
-    /// Points that are added as cones of the program's own where there are few landmarks; 0 for none.
-    #[arg(long, value_name = "N")]
-    pub own_cones: Option<usize>,
+    /// What is chosen of the run.
+    #[command(flatten)]
+    pub choices: Choices,
     /// Finish from then on with the best map so far: less relaxed, but whole and certified. Ctrl-C does the same; pressed
     /// twice it ends without a map.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
@@ -124,42 +113,6 @@ pub struct RemeshArguments {
 fn degrees(text: &str) -> Result<f64, String> {
     let degrees = text.parse().map_err(|_| format!("`{text}` is no number of degrees"))?;
     if (0.0..=180.0).contains(&degrees) { Ok(degrees) } else { Err("it must be from 0 to 180".to_owned()) }
-}
-
-/// How the map is made.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum MethodArgument {
-    /// Two seamless parametrisations onto one flat cone surface, relaxed: bijective.
-    Relaxed,
-    /// The thesis' patchwise map, with its unmapped share.
-    Thesis,
-}
-
-/// Where the base domain comes from.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum BaseArgument {
-    /// Planned on both meshes at once.
-    Joint,
-    /// Quadric error simplification of the target.
-    Qem,
-}
-
-/// Curvature at the landmarks.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum ConesArgument {
-    /// The base domain's angle defects.
-    BaseDomain,
-    /// 4 pi divided by the number of landmarks.
-    Uniform,
-}
-
-/// Which class of maps is taken where several are close.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum ClassArgument {
-    /// The one of least mean log distortion.
-    Best,
-    /// The next best.
-    RunnerUp,
 }
 
 /// The discrete conformal structure of the flow.

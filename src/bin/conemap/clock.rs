@@ -1,7 +1,10 @@
 //! A monitor that tells progress on standard error, takes the time of each stage, and asks for the result when the time is
 //! up or the user wants it.
+//!
+//! On a terminal a bar moves with the usual times of the stages; elsewhere each stage that is over is a line.
 
-use conemap::monitor::{Cancelled, Monitor, Stage, Step};
+use conemap::monitor::{Cancelled, Monitor, PlannedStage, Progress, Stage, Step};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::collections::BTreeMap;
 use std::io::{IsTerminal, Write};
 use std::sync::Arc;
@@ -19,13 +22,30 @@ pub struct Clock {
     begun: Instant,
     stage: Option<(Stage, Instant)>,
     seconds: BTreeMap<String, f64>,
-    terminal: bool,
+    /// Hidden where there is no terminal.
+    bar: ProgressBar,
+    progress: Progress,
 }
 
+/// The bar's steps: a tenth of a percent each.
+const BAR_STEPS: u64 = 1000;
+
+/// How often the bar is drawn, in times a second, at most.
+const BAR_RATE: u8 = 15;
+
 impl Clock {
-    /// Starts now.
+    /// Starts now, with a bar where standard error is a terminal.
     pub fn start() -> Self {
-        let terminal = std::io::stderr().is_terminal();
+        let target = if std::io::stderr().is_terminal() {
+            ProgressDrawTarget::stderr_with_hz(BAR_RATE)
+        } else {
+            ProgressDrawTarget::hidden()
+        };
+        let bar = ProgressBar::with_draw_target(Some(BAR_STEPS), target);
+        // The words are ours, so that the style is as good as a constant.
+        if let Ok(style) = ProgressStyle::with_template("{bar:24} {percent:>3} %  {msg}") {
+            bar.set_style(style);
+        }
         Self {
             time_limit: None,
             interrupt: None,
@@ -33,8 +53,21 @@ impl Clock {
             begun: Instant::now(),
             stage: None,
             seconds: BTreeMap::new(),
-            terminal,
+            bar,
+            progress: Progress::new(Vec::new()),
         }
+    }
+
+    /// Starts a run of one stage now.
+    pub fn start_only(stage: Stage) -> Self {
+        let mut clock = Self::start();
+        clock.plan(vec![PlannedStage { stage, time: 1.0 }]);
+        clock
+    }
+
+    /// The stages that the run will pass, by which the bar moves.
+    pub fn plan(&mut self, stages: Vec<PlannedStage>) {
+        self.progress = Progress::new(stages);
     }
 
     /// Asks for the result from `time_limit` on, counted from the start, or when `interrupt` is set.
@@ -42,33 +75,45 @@ impl Clock {
         (self.time_limit, self.interrupt) = (time_limit, interrupt);
     }
 
-    /// Seconds by stage and `total`, up to now.
+    /// Seconds by stage and `total`, up to now; the bar goes.
     pub fn stop(mut self) -> BTreeMap<String, f64> {
         self.leave();
         self.seconds.insert("total".into(), self.begun.elapsed().as_secs_f64());
-        self.seconds
+        std::mem::take(&mut self.seconds)
+    }
+
+    /// Lets others write to the terminal, the bar out of their way.
+    pub fn suspend(&self, write: impl FnOnce()) {
+        self.bar.suspend(write);
     }
 
     fn leave(&mut self) {
         if let Some((stage, begun)) = self.stage.take() {
             let seconds = begun.elapsed().as_secs_f64();
             *self.seconds.entry(stage.to_string()).or_default() += seconds;
-            self.line(&format!("{stage:<20} {seconds:8.3} s\n"));
+            // Progress that nobody can read is not worth failing for.
+            let told = || drop(writeln!(std::io::stderr(), "{stage:<20} {seconds:8.3} s"));
+            self.bar.suspend(told);
         }
     }
 
-    /// Takes the line of progress away, before others are written.
-    pub fn clear(&self) {
-        if self.terminal {
-            self.line("");
-        }
+    /// The stage, and the number that it brings down.
+    fn tell(&mut self, stage: Stage, step: Step) {
+        let number = match (self.energy, step.residual) {
+            (Some(energy), _) => format!(", energy {energy:.3}"),
+            (None, Some(residual)) => format!(", residual {residual:.3e}"),
+            (None, None) => String::new(),
+        };
+        self.bar.set_message(format!("{}{number}", stage.sentence()));
+        let share = self.progress.at(stage, step.fraction);
+        self.bar.set_position((share * BAR_STEPS as f64) as u64);
     }
+}
 
-    fn line(&self, text: &str) {
-        let start = if self.terminal { "\r\x1b[K" } else { "" };
-        let mut stderr = std::io::stderr();
-        // Progress that nobody can read is not worth failing for.
-        let _ = write!(stderr, "{start}{text}").and_then(|()| stderr.flush());
+impl Drop for Clock {
+    /// No bar stays behind, also where the run ends in an error.
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
     }
 }
 
@@ -77,6 +122,7 @@ impl Monitor for Clock {
         self.leave();
         self.stage = Some((stage, Instant::now()));
         self.energy = None;
+        self.tell(stage, Step::default());
     }
 
     fn map_energy(&mut self, energy: f64) {
@@ -89,15 +135,10 @@ impl Monitor for Clock {
     }
 
     fn step(&mut self, step: Step) -> Result<(), Cancelled> {
-        if self.terminal
+        if !self.bar.is_hidden()
             && let Some((stage, _)) = self.stage
         {
-            let residual = match (self.energy, step.residual) {
-                (Some(energy), _) => format!("  energy {energy:.3}"),
-                (None, Some(residual)) => format!("  {residual:.3e}"),
-                (None, None) => String::new(),
-            };
-            self.line(&format!("{stage:<20} {:5.1} %{residual}", 100.0 * step.fraction));
+            self.tell(stage, step);
         }
         Ok(())
     }

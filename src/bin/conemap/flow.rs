@@ -15,7 +15,7 @@ pub fn run(arguments: &FlowArguments) -> Result<(), Failure> {
     let cones = cones(arguments, &checked.vertex_from_file)?;
     let curvature = listed_curvature(mesh.vertex_count(), &cones)?;
     let options = FlowOptions { scheme: scheme(arguments.scheme), ..FlowOptions::default() };
-    let mut clock = Clock::start();
+    let mut clock = Clock::start_only(Stage::SourceConeMetric);
     clock.enter(Stage::SourceConeMetric);
     let outcome = flow(mesh, &curvature, &options, &mut clock);
     let seconds = clock.stop();

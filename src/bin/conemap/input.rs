@@ -1,6 +1,6 @@
 //! Meshes and landmarks from files, with errors that name the file.
 
-use conemap::io::{self, landmark_file};
+use conemap::io;
 use conemap::mesh::check::{CheckedMesh, closed_genus_zero};
 use std::error::Error;
 use std::path::Path;
@@ -17,11 +17,6 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
 pub fn mesh(path: &Path) -> Result<CheckedMesh, Failure> {
     let soup = io::read_mesh(&bytes(path)?).map_err(|e| format!("{}: {e}", path.display()))?;
     closed_genus_zero(&soup).map_err(|e| format!("{}: {e}", path.display()).into())
-}
-
-/// Reads a landmark file.
-pub fn landmarks(path: &Path) -> Result<landmark_file::LandmarkFile, Failure> {
-    landmark_file::read(&bytes(path)?).map_err(|e| format!("{}: {e}", path.display()).into())
 }
 
 /// Writes a file, with the folder above it.

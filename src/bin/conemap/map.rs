@@ -1,61 +1,32 @@
 //! `conemap map`.
 
-use crate::arguments::{BaseArgument, ClassArgument, ConesArgument, MapArguments, MethodArgument};
+use crate::arguments::MapArguments;
 use crate::clock::Clock;
 use crate::input::{self, Failure};
-use crate::{interrupt, outputs};
-use conemap::landmarks::{PlacedLandmarks, place};
-use conemap::mesh::SurfacePoint;
-use conemap::mesh::check::CheckedMesh;
-use conemap::mesh::mirror::mirrored;
-use conemap::monitor::{Monitor, Stage};
-use conemap::pipeline::{
-    Base, ClassChoice, Cones, FindingReport, GroundTruth, MapInput, MapResult, Method, OwnConeOptions,
-    PipelineOptions, RepairKind, findings, run as run_pipeline,
-};
+use crate::interrupt;
+use conemap::job::{Job, JobError, JobFile, JobFiles, TargetImage};
+use conemap::pipeline::{FindingReport, MapResult, Method, PipelineOptions, RepairKind};
 
 /// Maps, writes what was asked for, and tells the certificate; an error where there is no certified map.
 pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
     let mut clock = Clock::start();
-    clock.enter(Stage::Landmarks);
-    let source = input::mesh(&arguments.source)?;
-    let mut target = input::mesh(&arguments.target)?;
-    let mut file = input::landmarks(&arguments.landmarks)?;
-    if arguments.mirror_target {
-        target.mesh = mirrored(&target.mesh)?;
-        file.pairs.iter_mut().for_each(|[_, point]| *point = point.mirrored());
-    }
-    let placed = place([&source, &target], &file.pairs)
-        .map_err(|e| format!("{}: {e}", arguments.landmarks.display()))?;
-    let ground_truth = match file.ground_truth {
-        Some(_) if same_connectivity(&source, &target) => GroundTruth::SameConnectivity,
-        _ => GroundTruth::Unknown,
-    };
-    let checked = [&source, &target];
-    let numbers = checked.map(CheckedMesh::file_from_vertex);
-    let PlacedLandmarks { source, target, landmarks } = &placed;
-    let map_input = MapInput { source: &source.mesh, target: &target.mesh, landmarks, ground_truth };
-    let number = |side: usize, v: usize| numbers[side].get(v).copied().unwrap_or(v);
-    let found: Vec<_> = findings(map_input, &file.labels.unwrap_or_default(), &mut clock)?
-        .into_iter()
-        .map(|finding| finding.renumbered(number))
-        .collect();
-    clock.clear();
-    found.iter().for_each(tell_finding);
+    let job = read(arguments, &mut clock)?;
+    let options = PipelineOptions::from(arguments.choices);
+    clock.plan(options.stages(job.landmark_count()));
+    let findings = job.findings(&mut clock)?;
+    clock.suspend(|| findings.iter().for_each(tell_finding));
     // The thesis' method has nothing to shorten.
-    if matches!(arguments.method, MethodArgument::Relaxed) {
+    if options.method == Method::Relaxed {
         clock.ask_for_result(arguments.time_limit, interrupt::listen());
     }
-    let mut result = run_pipeline(map_input, &options(arguments), &mut clock)?;
+    let mut result = job.run(&options, &mut clock)?;
     result.report.set_seconds(clock.stop());
-    result.report.findings = found;
+    result.report.findings = findings;
     tell(&result);
-    let inputs = outputs::Inputs { insertions: [source, target], checked, arguments };
-    let in_files: [&dyn Fn(SurfacePoint) -> SurfacePoint; 2] =
-        [&|p| inputs.on_source_file(p), &|p| inputs.on_target_file(p)];
-    result.report.distortion.replace_worst(in_files);
     if let Some(folder) = &arguments.out {
-        outputs::write(folder, &result, &inputs)?;
+        for file in job.outputs(&result)? {
+            input::write(&folder.join(file.name), &file.bytes)?;
+        }
     }
     if let Some(path) = &arguments.report {
         input::write(path, &serde_json::to_vec_pretty(&result.report)?)?;
@@ -63,34 +34,20 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-fn same_connectivity(source: &CheckedMesh, target: &CheckedMesh) -> bool {
-    source.mesh.triangles() == target.mesh.triangles()
-}
-
-fn options(arguments: &MapArguments) -> PipelineOptions {
-    PipelineOptions {
-        method: match arguments.method {
-            MethodArgument::Relaxed => Method::Relaxed,
-            MethodArgument::Thesis => Method::Thesis,
-        },
-        base: match arguments.base {
-            BaseArgument::Joint => Base::Joint,
-            BaseArgument::Qem => Base::Qem,
-        },
-        cones: match arguments.cones {
-            ConesArgument::BaseDomain => Cones::BaseDomain,
-            ConesArgument::Uniform => Cones::Uniform,
-        },
-        class: match arguments.class {
-            ClassArgument::Best => ClassChoice::Best,
-            ClassArgument::RunnerUp => ClassChoice::RunnerUp,
-        },
-        own_cones: OwnConeOptions {
-            count: arguments.own_cones.unwrap_or(OwnConeOptions::default().count),
-            ..OwnConeOptions::default()
-        },
-        ..PipelineOptions::default()
-    }
+/// Reads the files; a fault is told with the file's name.
+fn read(arguments: &MapArguments, clock: &mut Clock) -> Result<Job, Failure> {
+    let [source, target, landmarks] = [&arguments.source, &arguments.target, &arguments.landmarks];
+    let bytes = [input::bytes(source)?, input::bytes(target)?, input::bytes(landmarks)?];
+    let files = JobFiles { source: &bytes[0], target: &bytes[1], landmarks: &bytes[2] };
+    let target_image = if arguments.mirror_target { TargetImage::Mirrored } else { TargetImage::AsGiven };
+    Job::read(files, target_image, clock).map_err(|error: JobError| {
+        let file = error.file().map(|file| match file {
+            JobFile::Source => source,
+            JobFile::Target => target,
+            JobFile::Landmarks => landmarks,
+        });
+        file.map_or_else(|| error.to_string(), |path| format!("{}: {error}", path.display())).into()
+    })
 }
 
 fn tell_finding(finding: &FindingReport) {

@@ -4,6 +4,7 @@ use crate::arguments::RemeshArguments;
 use crate::clock::Clock;
 use crate::input::{self, Failure};
 use conemap::export::MeshFormat;
+use conemap::monitor::Stage;
 use conemap::remesh::{Options, remesh};
 use serde_json::json;
 
@@ -18,7 +19,7 @@ pub fn run(arguments: &RemeshArguments) -> Result<(), Failure> {
     let checked = input::mesh(&arguments.mesh)?;
     let crease_angle = arguments.crease_angle.to_radians();
     let options = Options { crease_angle, ..Options::to_faces(arguments.faces) };
-    let mut clock = Clock::start();
+    let mut clock = Clock::start_only(Stage::Remeshing);
     let outcome = remesh(&checked.mesh, &options, &mut clock);
     let seconds = clock.stop();
     let remeshed = outcome.map_err(|e| format!("{}: {e}", arguments.mesh.display()))?;

@@ -10,8 +10,8 @@ use serde_json::json;
 
 /// Prints vertices of a mesh that are worth a landmark, as JSON.
 pub fn run(arguments: &SuggestArguments) -> Result<(), Failure> {
-    let mut clock = Clock::start();
-    clock.enter(Stage::Landmarks);
+    let mut clock = Clock::start_only(Stage::Suggestion);
+    clock.enter(Stage::Suggestion);
     let checked = input::mesh(&arguments.mesh)?;
     let numbers = checked.file_from_vertex();
     let mut marked = Vec::new();

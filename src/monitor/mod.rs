@@ -1,40 +1,14 @@
 //! Progress, cancellation and the wish to finish now: the only upward call of the core.
 
-use serde::Serialize;
+mod portion;
+mod progress;
+mod stage;
+
+pub use portion::Portion;
+pub use progress::{PlannedStage, Progress};
+pub use stage::Stage;
+
 use std::fmt;
-
-/// The stages a user waits for, in the order of the pipeline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Stage {
-    /// Landmarks are inserted and checked.
-    Landmarks,
-    /// The base domain and its embedding on both meshes.
-    BaseDomain,
-    /// The discrete Ricci flow of the source.
-    SourceConeMetric,
-    /// The discrete Ricci flow of the target.
-    TargetConeMetric,
-    /// Both surfaces onto the flat cone surface.
-    InitialMap,
-    /// Both parametrisations to least distortion.
-    Relaxation,
-    /// Source vertices located in the target's triangles.
-    Composition,
-    /// The independent check of bijectivity.
-    Certificate,
-    /// Textures, attributes and measures.
-    Transfer,
-    /// A mesh gets new triangles.
-    Remeshing,
-}
-
-impl fmt::Display for Stage {
-    /// The name as in reports.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.serialize(f)
-    }
-}
 
 /// One report of an algorithm's progress.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -1,0 +1,84 @@
+//! Why a job has no result, and which of its files is at fault.
+
+use crate::io::ReadError;
+use crate::io::landmark_file::LandmarkFileError;
+use crate::landmarks::{LandmarkError, MeshSide};
+use crate::mesh::MeshError;
+use crate::mesh::check::MeshFault;
+use crate::monitor::Cancelled;
+use crate::pipeline::PipelineError;
+
+/// Why a job has no result.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum JobError {
+    /// A mesh file cannot be read.
+    #[error("{error}")]
+    Read {
+        /// The mesh.
+        side: MeshSide,
+        /// Why.
+        error: ReadError,
+    },
+    /// A mesh is not one closed surface of genus 0.
+    #[error("{fault}")]
+    Mesh {
+        /// The mesh.
+        side: MeshSide,
+        /// What is wrong with it.
+        fault: MeshFault,
+    },
+    /// The landmark file cannot be read.
+    #[error(transparent)]
+    LandmarkFile(#[from] LandmarkFileError),
+    /// The landmarks do not belong to the meshes.
+    #[error(transparent)]
+    Landmarks(#[from] LandmarkError),
+    /// The target has no mirror image.
+    #[error("the mirror image of the target: {0}")]
+    Mirror(#[from] MeshError),
+    /// There is no map.
+    #[error(transparent)]
+    Pipeline(#[from] PipelineError),
+}
+
+impl From<Cancelled> for JobError {
+    fn from(stop: Cancelled) -> Self {
+        Self::Pipeline(stop.into())
+    }
+}
+
+/// One of the files of a job.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JobFile {
+    /// The source mesh.
+    Source,
+    /// The target mesh.
+    Target,
+    /// The landmarks.
+    Landmarks,
+}
+
+impl JobError {
+    /// The file at fault; `None` where it is no file's fault.
+    pub fn file(&self) -> Option<JobFile> {
+        match self {
+            Self::Read { side, .. } | Self::Mesh { side, .. } => Some(match side {
+                MeshSide::Source => JobFile::Source,
+                MeshSide::Target => JobFile::Target,
+            }),
+            Self::LandmarkFile(_) | Self::Landmarks(_) => Some(JobFile::Landmarks),
+            Self::Mirror(_) | Self::Pipeline(_) => None,
+        }
+    }
+
+    /// A stable code for programs and for the page's sentences.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Read { .. } => "file",
+            Self::Mesh { .. } | Self::Mirror(_) => "mesh",
+            Self::LandmarkFile(_) | Self::Landmarks(_) => "landmarks",
+            Self::Pipeline(error) => error.code(),
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! One job: two mesh files and a landmark file in, a map out, told in the files' own numbers.
+//!
+//! The pipeline knows checked meshes and landmarks that are vertices. A user has files: with vertices that no face uses, faces
+//! that were turned, landmarks inside faces. A job goes from the ones to the others and back; the command line, the page and
+//! other bindings go through it.
+
+mod error;
+mod outputs;
+
+pub use error::{JobError, JobFile};
+pub use outputs::OutputFile;
+
+use crate::io;
+use crate::io::landmark_file::{self, LandmarkFile};
+use crate::landmarks::{MeshSide, PlacedLandmarks, place};
+use crate::mesh::SurfacePoint;
+use crate::mesh::check::{CheckedMesh, closed_genus_zero};
+use crate::mesh::mirror::{mirrored, mirrored_point};
+use crate::monitor::{Cancelled, Monitor, Stage};
+use crate::pipeline::{
+    self, FindingReport, GroundTruth, MapInput, MapResult, PipelineError, PipelineOptions, findings,
+};
+
+/// The contents of the files of a job.
+#[derive(Clone, Copy, Debug)]
+pub struct JobFiles<'a> {
+    /// A mesh of any known format.
+    pub source: &'a [u8],
+    /// A mesh of any known format.
+    pub target: &'a [u8],
+    /// A landmark file.
+    pub landmarks: &'a [u8],
+}
+
+/// Which target is mapped onto.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TargetImage {
+    /// The target as it is in its file.
+    #[default]
+    AsGiven,
+    /// Its mirror image, for landmarks whose left and right are exchanged; results are told of the target as given.
+    Mirrored,
+}
+
+/// Checked meshes with their landmarks, ready for the pipeline.
+#[derive(Clone, Debug)]
+pub struct Job {
+    meshes: [CheckedMesh; 2],
+    placed: PlacedLandmarks,
+    labels: Vec<String>,
+    ground_truth: GroundTruth,
+    target_image: TargetImage,
+}
+
+impl Job {
+    /// Reads and checks the files, and places the landmarks.
+    ///
+    /// # Errors
+    /// [`JobError`] with the file at fault.
+    pub fn read(
+        files: JobFiles<'_>,
+        target_image: TargetImage,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self, JobError> {
+        monitor.enter(Stage::Landmarks);
+        let source = checked_mesh(MeshSide::Source, files.source)?;
+        let mut target = checked_mesh(MeshSide::Target, files.target)?;
+        let mut file: LandmarkFile = landmark_file::read(files.landmarks)?;
+        if target_image == TargetImage::Mirrored {
+            target.mesh = mirrored(&target.mesh)?;
+            file.pairs.iter_mut().for_each(|[_, point]| *point = point.mirrored());
+        }
+        let placed = place([&source, &target], &file.pairs)?;
+        let is_same = source.mesh.triangles() == target.mesh.triangles();
+        let ground_truth = match file.ground_truth {
+            Some(_) if is_same => GroundTruth::SameConnectivity,
+            _ => GroundTruth::Unknown,
+        };
+        let labels = file.labels.unwrap_or_default();
+        Ok(Self { meshes: [source, target], placed, labels, ground_truth, target_image })
+    }
+
+    /// Number of landmark pairs.
+    pub fn landmark_count(&self) -> usize {
+        self.placed.landmarks.len()
+    }
+
+    /// Landmark pairs that do not fit and limbs without one, with the numbers of the files.
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn findings(&self, monitor: &mut dyn Monitor) -> Result<Vec<FindingReport>, Cancelled> {
+        let numbers = self.meshes.each_ref().map(CheckedMesh::file_from_vertex);
+        let number = |side: usize, v: usize| numbers[side].get(v).copied().unwrap_or(v);
+        let found = findings(self.input(), &self.labels, monitor)?;
+        Ok(found.into_iter().map(|finding| finding.renumbered(number)).collect())
+    }
+
+    /// Makes the map. The places in its report are those of the files; its other fields refer to the meshes with their
+    /// landmarks, and [`Job::outputs`] tells them of the files.
+    ///
+    /// # Errors
+    /// As [`pipeline::run`].
+    pub fn run(
+        &self,
+        options: &PipelineOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<MapResult, PipelineError> {
+        let mut result = pipeline::run(self.input(), options, monitor)?;
+        let on_files: [&dyn Fn(SurfacePoint) -> SurfacePoint; 2] =
+            [&|p| self.on_source_file(p), &|p| self.on_target_file(p)];
+        result.report.distortion.replace_worst(on_files);
+        Ok(result)
+    }
+
+    fn input(&self) -> MapInput<'_> {
+        let PlacedLandmarks { source, target, landmarks } = &self.placed;
+        let ground_truth = self.ground_truth;
+        MapInput { source: &source.mesh, target: &target.mesh, landmarks, ground_truth }
+    }
+
+    /// A point of the mapped source as one of the source's file.
+    fn on_source_file(&self, point: SurfacePoint) -> SurfacePoint {
+        self.meshes[0].with_file_corners(self.placed.source.on_original(point))
+    }
+
+    /// A point of the mapped target as one of the target's file, also where it was mirrored.
+    fn on_target_file(&self, point: SurfacePoint) -> SurfacePoint {
+        let point = self.placed.target.on_original(point);
+        let as_given = match self.target_image {
+            TargetImage::AsGiven => point,
+            TargetImage::Mirrored => mirrored_point(point),
+        };
+        self.meshes[1].with_file_corners(as_given)
+    }
+}
+
+fn checked_mesh(side: MeshSide, bytes: &[u8]) -> Result<CheckedMesh, JobError> {
+    let soup = io::read_mesh(bytes).map_err(|error| JobError::Read { side, error })?;
+    closed_genus_zero(&soup).map_err(|fault| JobError::Mesh { side, fault })
+}

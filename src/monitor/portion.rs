@@ -1,0 +1,71 @@
+//! A part of a stage that tells its own progress from 0 to 1.
+
+use super::{Cancelled, Monitor, Stage, Step};
+
+/// Passes everything on, with the fractions of a part as fractions of the stage that it belongs to. They never fall, also where the
+/// part is made of parts that each tell their own.
+pub struct Portion<'a> {
+    monitor: &'a mut dyn Monitor,
+    from: f64,
+    to: f64,
+    /// The largest fraction of the part so far.
+    done: f64,
+}
+
+impl<'a> Portion<'a> {
+    /// The part of the present stage of `monitor` that leads from the share `from` to the share `to` (0 to 1).
+    pub fn new(monitor: &'a mut dyn Monitor, from: f64, to: f64) -> Self {
+        Self { monitor, from, to, done: 0.0 }
+    }
+}
+
+impl Monitor for Portion<'_> {
+    fn enter(&mut self, stage: Stage) {
+        self.monitor.enter(stage);
+    }
+
+    fn relaxation_begins(&mut self) {
+        self.monitor.relaxation_begins();
+    }
+
+    fn map_energy(&mut self, energy: f64) {
+        self.monitor.map_energy(energy);
+    }
+
+    fn wants_result(&self) -> bool {
+        self.monitor.wants_result()
+    }
+
+    fn step(&mut self, step: Step) -> Result<(), Cancelled> {
+        self.done = self.done.max(step.fraction.min(1.0));
+        let fraction = self.from + (self.to - self.from) * self.done;
+        self.monitor.step(Step { fraction, ..step })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Remembers fractions.
+    #[derive(Default)]
+    struct Recorder(Vec<f64>);
+
+    impl Monitor for Recorder {
+        fn step(&mut self, step: Step) -> Result<(), Cancelled> {
+            self.0.push(step.fraction);
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn portions_of_portions_nest() {
+        let mut recorder = Recorder::default();
+        let mut outer = Portion::new(&mut recorder, 0.5, 1.0);
+        let mut inner = Portion::new(&mut outer, 0.0, 0.5);
+        for fraction in [0.0, 0.5, 0.2, 1.0, 9.0] {
+            inner.step(Step { fraction, residual: None }).expect("nobody stops");
+        }
+        assert_eq!(recorder.0, [0.5, 0.625, 0.625, 0.75, 0.75]);
+    }
+}

@@ -1,0 +1,140 @@
+//! The cone metrics of both meshes and the texture coordinates that come from the target's.
+
+use super::{Cones, MapInput, PipelineError, PipelineOptions, Warning};
+use crate::base_domain::BaseDomain;
+use crate::cone_metric::atlas::{FlatAtlas, flat_atlas};
+use crate::cone_metric::{ConeMetric, FlowError, FlowReport, base_domain_curvature, flow, uniform_curvature};
+use crate::landmarks::MeshSide;
+use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
+use crate::monitor::{Cancelled, Monitor, Stage};
+use glam::DVec2;
+use typed_index_collections::{TiVec, ti_vec};
+
+/// What both flows gave.
+pub(super) struct Flows {
+    /// Curvature of each landmark's cone, in radians.
+    pub cones: Vec<f64>,
+    /// By mesh how its flow went; `None` where it could not begin.
+    pub reports: [Option<FlowReport>; 2],
+    /// The flat target; `None` where its flow did not converge.
+    target_atlas: Option<FlatAtlas>,
+    faces: usize,
+}
+
+impl Flows {
+    /// Runs both flows.
+    ///
+    /// # Errors
+    /// The first flow that fails, or cancellation.
+    pub fn new(
+        input: MapInput<'_>,
+        base: &BaseDomain,
+        options: &PipelineOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self, PipelineError> {
+        let source =
+            metric_of(MeshSide::Source, input, base, options, monitor).map_err(PipelineError::source_flow)?;
+        let target =
+            metric_of(MeshSide::Target, input, base, options, monitor).map_err(PipelineError::target_flow)?;
+        Ok(Self {
+            cones: cones(input, base, options),
+            target_atlas: Some(flat_atlas(input.target, &target.0, &input.landmarks.target)),
+            reports: [Some(source.1), Some(target.1)],
+            faces: input.target.face_count(),
+        })
+    }
+
+    /// Runs both flows beside a map that stands already: one that fails costs the texture and becomes a warning.
+    ///
+    /// # Errors
+    /// Cancellation only.
+    pub fn beside_a_map(
+        input: MapInput<'_>,
+        base: &BaseDomain,
+        options: &PipelineOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(Self, Vec<Warning>), Cancelled> {
+        let mut warnings = Vec::new();
+        let mut tried = |side, monitor: &mut dyn Monitor| {
+            match metric_of(side, input, base, options, monitor) {
+                Ok((metric, report)) => return Ok((Some(metric), Some(report))),
+                Err(FlowError::Cancelled(stop)) => return Err(stop),
+                Err(error) => {
+                    warnings.push(Warning::NoConeMetric { side, reason: error.to_string() });
+                    if let FlowError::NotConverged { report, .. } = error {
+                        return Ok((None, Some(*report)));
+                    }
+                }
+            }
+            Ok((None, None))
+        };
+        let (_, source) = tried(MeshSide::Source, &mut *monitor)?;
+        let (metric, target) = tried(MeshSide::Target, monitor)?;
+        let atlas = |metric: &ConeMetric| flat_atlas(input.target, metric, &input.landmarks.target);
+        let flows = Self {
+            cones: cones(input, base, options),
+            target_atlas: metric.as_ref().map(atlas),
+            reports: [source, target],
+            faces: input.target.face_count(),
+        };
+        Ok((flows, warnings))
+    }
+
+    /// Texture coordinates by corner of the target; all 0 where there are none.
+    pub fn texture(&self) -> TiVec<HalfedgeId, DVec2> {
+        match &self.target_atlas {
+            Some(atlas) => atlas.corner_uvs.clone(),
+            None => ti_vec![DVec2::ZERO; 3 * self.faces],
+        }
+    }
+
+    /// L2 stretch of the texture coordinates; 1 for an isometry.
+    pub fn l2_stretch(&self) -> Option<f64> {
+        self.target_atlas.as_ref().map(|atlas| atlas.l2_stretch)
+    }
+}
+
+/// The flat cone metric of one of both meshes.
+fn metric_of(
+    side: MeshSide,
+    input: MapInput<'_>,
+    base: &BaseDomain,
+    options: &PipelineOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<(ConeMetric, FlowReport), FlowError> {
+    let (stage, mesh, landmarks) = match side {
+        MeshSide::Source => (Stage::SourceConeMetric, input.source, &input.landmarks.source),
+        MeshSide::Target => (Stage::TargetConeMetric, input.target, &input.landmarks.target),
+    };
+    monitor.enter(stage);
+    cone_metric((mesh, landmarks), base, options, monitor)
+}
+
+/// Curvature of each landmark's cone.
+fn cones(input: MapInput<'_>, base: &BaseDomain, options: &PipelineOptions) -> Vec<f64> {
+    let target = &input.landmarks.target;
+    let goal = curvature((input.target, target), base, options.cones);
+    target.iter().map(|&v| goal[v]).collect()
+}
+
+/// Target curvature of each vertex.
+fn curvature(
+    (mesh, landmarks): (&SurfaceMesh, &[VertexId]),
+    base: &BaseDomain,
+    cones: Cones,
+) -> TiVec<VertexId, f64> {
+    match cones {
+        Cones::BaseDomain => base_domain_curvature(mesh.vertex_count(), landmarks, base),
+        Cones::Uniform => uniform_curvature(mesh.vertex_count(), landmarks),
+    }
+}
+
+/// The flat cone metric of a mesh with its landmarks.
+pub(super) fn cone_metric(
+    marked: (&SurfaceMesh, &[VertexId]),
+    base: &BaseDomain,
+    options: &PipelineOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<(ConeMetric, FlowReport), FlowError> {
+    flow(marked.0, &curvature(marked, base, options.cones), &options.flow, monitor)
+}

@@ -1,0 +1,173 @@
+//! What is told of a certified map: images, common mesh, measures, report.
+//!
+//! The map stands before any of this begins. So what fails here costs only itself, and becomes a warning.
+
+use super::flows::Flows;
+use super::relaxed::Parametrisation;
+use super::report::{CertificateReport, DistortionReport, GroundTruthReport, LayoutSearchReport};
+use super::{GroundTruth, MapInput, MapResult, Report, TriangleDistortion, Warning};
+use crate::base_domain::BaseDomain;
+use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use crate::surface_map::base_lines::base_line;
+use crate::surface_map::compose::Locations;
+use crate::surface_map::distortion::{Distortion, distortion, image_distortion};
+use crate::surface_map::ground_truth::same_connectivity_error;
+use crate::surface_map::overlay::{Overlay, OverlayError};
+use crate::surface_map::transfer::{CommonMesh, Surface, common_mesh, mapped_mesh, vertex_images};
+use glam::DVec3;
+use typed_index_collections::TiVec;
+
+/// A certified map with what was made beside it.
+pub(super) struct Outcome<'a> {
+    pub(super) input: MapInput<'a>,
+    pub(super) map: &'a Parametrisation,
+    /// The base domain in the target's input coordinates.
+    pub(super) base: &'a BaseDomain,
+    pub(super) flows: &'a Flows,
+    pub(super) locations: &'a Locations,
+}
+
+/// The map as one triangulation of both surfaces, with its measures.
+struct Shown {
+    common: CommonMesh,
+    measured: Distortion,
+    triangle_distortion: Vec<TriangleDistortion>,
+}
+
+impl Outcome<'_> {
+    /// Everything that is told; what is missing of it is among the warnings.
+    pub(super) fn result(
+        &self,
+        overlay: Result<Overlay, OverlayError>,
+        mut missing: Vec<Warning>,
+    ) -> MapResult {
+        let Self { input, map, .. } = *self;
+        let vertices = input.source.vertex_count();
+        let images = vertex_images(map.sides(), self.surfaces()[1], self.locations, vertices);
+        let true_error = (input.ground_truth == GroundTruth::SameConnectivity).then(|| {
+            let error =
+                same_connectivity_error(input.target, images.iter().enumerate().map(|(v, p)| (v.into(), *p)));
+            GroundTruthReport { mean: error.mean, p95: error.p95, max: error.max }
+        });
+        let images: TiVec<VertexId, Option<SurfacePoint>> = images.into_iter().map(Some).collect();
+        let shown = match overlay {
+            Ok(overlay) => self.shown_on(&overlay),
+            Err(error) => {
+                missing.push(Warning::NoOverlay { reason: error.to_string() });
+                self.shown_at_vertices(&images)
+            }
+        };
+        let warnings = warnings(map, &shown.measured);
+        let report = Report {
+            ground_truth: true_error,
+            warnings: missing.into_iter().chain(warnings).collect(),
+            ..self.report(&shown.measured)
+        };
+        MapResult {
+            base: self.base.clone(),
+            cone_curvatures: self.flows.cones.clone(),
+            triangle_distortion: shown.triangle_distortion,
+            common: shown.common,
+            patch_lines: [patch_lines(map, 0, input.source), patch_lines(map, 1, input.target)],
+            target_from_source: images,
+            vertex_distortion: shown.measured.by_vertex.into_iter().take(vertices).collect(),
+            report,
+        }
+    }
+
+    fn surfaces(&self) -> [Surface<'_>; 2] {
+        let [source, target] = &self.map.sides;
+        [
+            Surface { input: self.input.source, refined: &source.refined },
+            Surface { input: self.input.target, refined: &target.refined },
+        ]
+    }
+
+    /// The map on the pieces of its overlay, where it is affine: exact.
+    fn shown_on(&self, overlay: &Overlay) -> Shown {
+        let [source, target] = self.map.sides();
+        let measured = distortion(source, target, overlay);
+        let [source, target] = self.surfaces();
+        let common = common_mesh(source, target, overlay, &self.flows.texture());
+        let local = |&piece: &u32| {
+            let (number, piece) = (piece as usize, &overlay.pieces[piece as usize]);
+            TriangleDistortion {
+                source_face: source.refined.face_origin[piece.source_face],
+                target_face: target.refined.face_origin[piece.target_face],
+                local: measured.by_piece[number],
+            }
+        };
+        Shown { triangle_distortion: common.pieces.iter().map(local).collect(), common, measured }
+    }
+
+    /// The map on the source's triangles, as if it were affine there: where there is no overlay.
+    fn shown_at_vertices(&self, images: &TiVec<VertexId, Option<SurfacePoint>>) -> Shown {
+        let MapInput { source, target, .. } = self.input;
+        Shown {
+            common: mapped_mesh(source, target, images, &self.flows.texture()),
+            measured: image_distortion(source, target, images),
+            triangle_distortion: Vec::new(),
+        }
+    }
+
+    fn report(&self, measured: &Distortion) -> Report {
+        let Self { input, map, .. } = *self;
+        let mut distortion = DistortionReport::new(measured, self.flows.l2_stretch());
+        let [source, target] = self.surfaces();
+        distortion.replace_worst([&|p| source.refined.on_input(input.source, p), &|p| {
+            target.refined.on_input(input.target, p)
+        }]);
+        Report {
+            layout: Some(LayoutSearchReport {
+                judged: map.search.judged.len(),
+                rival: map.search.rival,
+                twists: map.search.twists_made,
+                mean_log: map.search.mean_log(),
+                runner_up: map.search.runner_up(),
+                path_stretch: map.layout.report.worst_stretch,
+            }),
+            own_landmarks: map.sides[0].landmarks.len() - input.landmarks.len(),
+            certificate: Some(certificate_report(map)),
+            distortion,
+            stopped_early: map.stopped_early,
+            ..Report::of_inputs(input, &map.layout.base, self.flows)
+        }
+    }
+}
+
+fn certificate_report(map: &Parametrisation) -> CertificateReport {
+    let certificate = &map.certificate;
+    CertificateReport {
+        bijective: certificate.bijective,
+        triangles: map.sides.iter().map(|side| side.refined.mesh.face_count()).sum(),
+        flipped_triangles: certificate.flipped_triangles,
+        max_angle_sum_error: certificate.max_angle_sum_error,
+        max_landmark_error: certificate.max_landmark_error,
+    }
+}
+
+/// A rival's mean log density, relative to that of the class chosen, below which the user is told.
+const AS_GOOD: f64 = 1.03;
+/// The ratio of a path's length to the shortest one above which the user is told.
+const LONG_PATH: f64 = 1.3;
+/// The 95 % quantile of the density above which the user is told.
+const DISTORTED: f64 = 5.0;
+
+fn warnings(map: &Parametrisation, measured: &Distortion) -> Vec<Warning> {
+    let early = map.stopped_early.then_some(Warning::FinishedEarly { energy: measured.energy });
+    let rival = map.search.rival.filter(|ratio| *ratio < AS_GOOD).map(|ratio| Warning::RivalClass { ratio });
+    let stretch = map.layout.report.worst_stretch;
+    let long = (stretch > LONG_PATH).then_some(Warning::LongPath { stretch });
+    let distorted = (measured.p95 > DISTORTED).then_some(Warning::Distorted { p95: measured.p95 });
+    [early, rival, long, distorted].into_iter().flatten().collect()
+}
+
+/// The sides of the base faces on one of both meshes, in its input coordinates.
+fn patch_lines(map: &Parametrisation, side: usize, input: &SurfaceMesh) -> Vec<Vec<DVec3>> {
+    let base = &map.surface.base.mesh;
+    let refined = &map.sides[side].refined;
+    let line = |h| base_line(map.sides()[side], &map.surface, h).points;
+    base.edges()
+        .map(|h| line(h).iter().map(|&p| refined.on_input(input, p).position(input)).collect())
+        .collect()
+}

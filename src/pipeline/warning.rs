@@ -1,0 +1,183 @@
+//! What a user should know about a result.
+
+use crate::landmarks::MeshSide;
+use serde::Serialize;
+use std::fmt;
+
+/// What a user should know about a result; in reports a [`WarningReport`].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(into = "WarningReport")]
+#[non_exhaustive]
+pub enum Warning {
+    /// The result was asked for before the map was relaxed as far as usual.
+    FinishedEarly {
+        /// Its energy; 4 for an isometry.
+        energy: f64,
+    },
+    /// Another class of maps is nearly as good.
+    RivalClass {
+        /// Its mean log density relative to that of the class chosen.
+        ratio: f64,
+    },
+    /// A path of the layout is much longer than the shortest one.
+    LongPath {
+        /// The ratio of both lengths.
+        stretch: f64,
+    },
+    /// 5 % of the surface is strongly distorted.
+    Distorted {
+        /// The 95 % quantile of the density; 1 for an isometry.
+        p95: f64,
+    },
+    /// A flow failed: the map stands, its cone metric and what comes from it (the texture, of the target's) is missing.
+    NoConeMetric {
+        /// The mesh.
+        side: MeshSide,
+        /// Why.
+        reason: String,
+    },
+    /// Both meshes could not be laid over each other: the map is shown and measured at the source's vertices only.
+    NoOverlay {
+        /// Why.
+        reason: String,
+    },
+    /// The method guarantees no bijection.
+    NoBijection,
+    /// Triangles of the base domain are inverted in the flat metrics (the thesis' method).
+    InvertedPatches {
+        /// On the source.
+        source: usize,
+        /// On the target.
+        target: usize,
+    },
+    /// Vertices of the source have no image (the thesis' method).
+    Unmapped {
+        /// Their share.
+        share: f64,
+    },
+}
+
+impl Warning {
+    /// A stable name for programs.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::FinishedEarly { .. } => "finished_early",
+            Self::RivalClass { .. } => "rival_class",
+            Self::LongPath { .. } => "long_path",
+            Self::Distorted { .. } => "distorted",
+            Self::NoConeMetric { .. } => "no_cone_metric",
+            Self::NoOverlay { .. } => "no_overlay",
+            Self::NoBijection => "no_bijection",
+            Self::InvertedPatches { .. } => "inverted_patches",
+            Self::Unmapped { .. } => "unmapped",
+        }
+    }
+}
+
+impl fmt::Display for Warning {
+    /// A sentence for the user, with what to do.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::FinishedEarly { energy } => write!(
+                f,
+                "Finished early on request, at energy {energy:.3} (4 is an isometry): the map is whole and certified, but a \
+                 full run would lower its distortion."
+            ),
+            Self::RivalClass { ratio } => write!(
+                f,
+                "Another class of maps, which goes another way round some limb, is nearly as good: its mean log distortion is \
+                 {ratio:.3} times that of this one. The option for the runner-up (--class runner-up) makes it; one more pair \
+                 of landmarks beside the limb decides."
+            ),
+            Self::LongPath { stretch } => write!(
+                f,
+                "A path between two landmarks is {stretch:.1} times its shortest length: the map may wind around a limb. \
+                 Landmarks nearby, or a look at pairs that could be swapped, may help."
+            ),
+            Self::Distorted { p95 } => write!(
+                f,
+                "5 % of the surface is distorted by more than {p95:.1} (1 is none): landmarks on unmarked limbs may help."
+            ),
+            Self::NoConeMetric { side, reason } => {
+                let missing = match side {
+                    MeshSide::Source => "its numbers are",
+                    MeshSide::Target => "the texture of the target is",
+                };
+                write!(
+                    f,
+                    "The map is whole and certified, but the {side} has no cone metric, so {missing} missing: {reason}. Very \
+                     thin triangles are a common cause; remeshing the {side} helps."
+                )
+            }
+            Self::NoOverlay { reason } => write!(
+                f,
+                "The map is whole and certified, but both meshes could not be laid over each other, so it is shown and measured \
+                 at the vertices of the source only: {reason}."
+            ),
+            Self::NoBijection => {
+                f.write_str("This method does not guarantee a bijection; the relaxed map does.")
+            }
+            Self::InvertedPatches { source, target } => write!(
+                f,
+                "Triangles of the base domain that come out inverted in the flat metrics: {source} on the source, {target} on \
+                 the target."
+            ),
+            Self::Unmapped { share } => write!(
+                f,
+                "{:.2} % of the source's vertices have no image: no straight triangle with a counterpart lies over them.",
+                100.0 * share
+            ),
+        }
+    }
+}
+
+/// A warning as reports tell it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
+pub struct WarningReport {
+    /// Its stable name.
+    pub kind: &'static str,
+    /// A sentence for the user, with what to do.
+    pub sentence: String,
+    /// The number of the kind, in the unit that the sentence says; `null` where it has none.
+    pub value: Option<f64>,
+    /// The mesh; `null` where it is none in particular.
+    pub side: Option<MeshSide>,
+}
+
+impl From<Warning> for WarningReport {
+    fn from(warning: Warning) -> Self {
+        let (kind, sentence) = (warning.kind(), warning.to_string());
+        let (mut value, mut side) = (None, None);
+        match warning {
+            Warning::FinishedEarly { energy: x }
+            | Warning::RivalClass { ratio: x }
+            | Warning::LongPath { stretch: x }
+            | Warning::Distorted { p95: x }
+            | Warning::Unmapped { share: x } => value = Some(x),
+            Warning::NoConeMetric { side: of, .. } => side = Some(of),
+            Warning::NoOverlay { .. } | Warning::NoBijection | Warning::InvertedPatches { .. } => {}
+        }
+        Self { kind, sentence, value, side }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reports_tell_kind_sentence_and_numbers() {
+        let value = serde_json::to_value(Warning::RivalClass { ratio: 1.02 }).unwrap();
+        assert_eq!((&value["kind"], &value["value"]), (&"rival_class".into(), &1.02.into()));
+        assert!(value["sentence"].as_str().unwrap().contains("1.020 times"), "{value}");
+        let reason = "the flow did not converge".to_owned();
+        let value = serde_json::to_value(Warning::NoConeMetric { side: MeshSide::Target, reason }).unwrap();
+        assert_eq!((&value["side"], &value["value"]), (&"target".into(), &serde_json::Value::Null));
+        let sentence = value["sentence"].as_str().unwrap();
+        assert!(
+            sentence.contains("the texture of the target is missing: the flow did not converge."),
+            "{sentence}"
+        );
+    }
+}

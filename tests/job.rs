@@ -1,0 +1,189 @@
+//! A job from files to a map: the stages it passes, and what is left where something beside the map fails. On the program's own
+//! demos, so that it runs everywhere.
+#![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
+
+use conemap::cone_metric::FlowOptions;
+use conemap::demo;
+use conemap::export;
+use conemap::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
+use conemap::job::{Job, JobError, JobFile, JobFiles, TargetImage};
+use conemap::landmarks::MeshSide;
+use conemap::mesh::SurfaceMesh;
+use conemap::monitor::{Cancelled, Monitor, Progress, Silent, Stage, Step};
+use conemap::pipeline::{Base, Choices, MapResult, Method, PipelineOptions, Warning};
+
+/// Files of a job.
+struct Files {
+    source: Vec<u8>,
+    target: Vec<u8>,
+    landmarks: Vec<u8>,
+}
+
+impl Files {
+    /// Those of a demo, with its first landmarks.
+    fn of_demo(id: &str, landmarks: usize) -> Self {
+        let demo = demo::build(id).unwrap();
+        let pairs = demo.landmarks.iter().take(landmarks);
+        let file = LandmarkFile {
+            pairs: pairs.map(|pair| pair.map(LandmarkPoint::Vertex)).collect(),
+            ..LandmarkFile::default()
+        };
+        let obj = |mesh: &SurfaceMesh| export::obj::mesh(mesh);
+        let (source, target) = (obj(&demo.source), obj(&demo.target));
+        Self { source, target, landmarks: landmark_file::write(&file) }
+    }
+
+    fn read(&self, monitor: &mut dyn Monitor) -> Result<Job, JobError> {
+        let Self { source, target, landmarks } = self;
+        Job::read(JobFiles { source, target, landmarks }, TargetImage::AsGiven, monitor)
+    }
+}
+
+/// Remembers each stage once, as often as it is begun anew, with the fractions told in it.
+#[derive(Default)]
+struct Recorder {
+    stages: Vec<(Stage, Vec<f64>)>,
+}
+
+impl Monitor for Recorder {
+    fn enter(&mut self, stage: Stage) {
+        if self.stages.last().is_none_or(|last| last.0 != stage) {
+            self.stages.push((stage, vec![0.0]));
+        }
+    }
+
+    fn step(&mut self, step: Step) -> Result<(), Cancelled> {
+        let (_, fractions) = self.stages.last_mut().expect("a step belongs to a stage");
+        fractions.push(step.fraction);
+        Ok(())
+    }
+}
+
+/// Runs a job as the command line and the page do.
+fn run(files: &Files, options: &PipelineOptions, monitor: &mut dyn Monitor) -> (Job, MapResult) {
+    let job = files.read(monitor).unwrap();
+    job.findings(monitor).unwrap();
+    let result = job.run(options, monitor).unwrap();
+    (job, result)
+}
+
+#[test]
+fn a_run_passes_the_stages_that_are_told_in_their_order() {
+    let methods = [
+        ("relaxed", 8, PipelineOptions::default()),
+        ("relaxed, no own cones", 8, Choices { own_cones: Some(0), ..Choices::default() }.into()),
+        ("relaxed, many landmarks", usize::MAX, PipelineOptions::default()),
+        ("on a simplified base", usize::MAX, Choices { base: Base::Qem, ..Choices::default() }.into()),
+        ("thesis", usize::MAX, Choices { method: Method::Thesis, ..Choices::default() }.into()),
+    ];
+    for (name, landmarks, options) in methods {
+        let files = Files::of_demo("horse-cat", landmarks);
+        let mut recorder = Recorder::default();
+        let (job, _) = run(&files, &options, &mut recorder);
+        let plan = options.stages(job.landmark_count());
+        let passed: Vec<Stage> = recorder.stages.iter().map(|stage| stage.0).collect();
+        assert_eq!(passed, plan.iter().map(|planned| planned.stage).collect::<Vec<_>>(), "{name}");
+        assert!(plan.is_sorted_by_key(|planned| planned.stage), "{name}: {plan:?}");
+        assert!(plan.iter().all(|planned| planned.time > 0.0), "{name}: {plan:?}");
+
+        // The bar never rests for long: no step of any stage takes it back, or far ahead.
+        let mut progress = Progress::new(plan);
+        let mut before = 0.0;
+        for (stage, fractions) in &recorder.stages {
+            assert!(fractions.is_sorted(), "{name}: {stage} goes back: {fractions:?}");
+            for &fraction in fractions {
+                let share = progress.at(*stage, fraction);
+                assert!((before..=1.0).contains(&share), "{name}: {stage} at {fraction}");
+                before = share;
+            }
+        }
+    }
+}
+
+/// A flow that may take no step does not converge.
+fn without_flow() -> PipelineOptions {
+    let options = PipelineOptions::default();
+    PipelineOptions { flow: FlowOptions { max_steps: 0, ..options.flow }, ..options }
+}
+
+#[test]
+fn a_map_stands_where_no_texture_can_be_made() {
+    let files = Files::of_demo("sphere-tetrahedron", usize::MAX);
+    let (_, whole) = run(&files, &PipelineOptions::default(), &mut Silent);
+    let (job, bare) = run(&files, &without_flow(), &mut Silent);
+
+    let missing = |side: MeshSide| {
+        bare.report
+            .warnings
+            .iter()
+            .any(|w| matches!(w, Warning::NoConeMetric { side: of, .. } if *of == side))
+    };
+    assert!(missing(MeshSide::Source) && missing(MeshSide::Target), "{:?}", bare.report.warnings);
+    assert!(whole.report.warnings.iter().all(|w| !matches!(w, Warning::NoConeMetric { .. })));
+    // All but the flows' numbers and the texture is the same.
+    assert!(bare.report.certificate.as_ref().unwrap().bijective);
+    assert_eq!(bare.target_from_source, whole.target_from_source);
+    assert_eq!(bare.report.distortion.energy, whole.report.distortion.energy);
+    assert_eq!(bare.report.distortion.l2_stretch, None);
+    let flow = bare.report.cone_metric.target.as_ref().unwrap();
+    assert!(
+        flow.max_curvature_error > FlowOptions::default().tolerance && flow.newton_steps == 0,
+        "{flow:?}"
+    );
+    let json = serde_json::to_value(&bare.report).unwrap();
+    let warning = json["warnings"].as_array().unwrap().iter().find(|w| w["side"] == "target").unwrap();
+    assert!(warning["sentence"].as_str().unwrap().contains("did not converge"), "{warning}");
+
+    let names: Vec<_> = job.outputs(&bare).unwrap().into_iter().map(|file| file.name).collect();
+    assert!(
+        names.contains(&"source-with-target-texture.glb") && names.contains(&"vertex-images.csv"),
+        "{names:?}"
+    );
+}
+
+/// The thesis' method has nothing without its flows.
+#[test]
+fn the_patchwise_map_needs_its_flows() {
+    let files = Files::of_demo("sphere-tetrahedron", usize::MAX);
+    let options = PipelineOptions { method: Method::Thesis, ..without_flow() };
+    let job = files.read(&mut Silent).unwrap();
+    let error = job.run(&options, &mut Silent).unwrap_err();
+    assert_eq!(error.code(), "cone-metric", "{error}");
+}
+
+#[test]
+fn faults_name_their_file() {
+    let good = Files::of_demo("sphere-tetrahedron", usize::MAX);
+    let fault = |files: Files| files.read(&mut Silent).unwrap_err();
+    let of = |source: &[u8], target: &[u8], landmarks: &[u8]| Files {
+        source: source.to_vec(),
+        target: target.to_vec(),
+        landmarks: landmarks.to_vec(),
+    };
+    let open = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    for (files, file, code) in [
+        (of(b"nothing", &good.target, &good.landmarks), JobFile::Source, "file"),
+        (of(&good.source, b"", &good.landmarks), JobFile::Target, "file"),
+        (of(open, &good.target, &good.landmarks), JobFile::Source, "mesh"),
+        (of(&good.source, open, &good.landmarks), JobFile::Target, "mesh"),
+        (of(&good.source, &good.target, b"{"), JobFile::Landmarks, "landmarks"),
+        (of(&good.source, &good.target, br#"{"pairs": [[0, 0]]}"#), JobFile::Landmarks, "landmarks"),
+    ] {
+        let error = fault(files);
+        assert_eq!((error.file(), error.code()), (Some(file), code), "{error}");
+    }
+}
+
+/// What the page sends: a name that is not known is no default.
+#[test]
+fn unknown_choices_are_errors() {
+    let read = |json: &str| serde_json::from_str::<Choices>(json);
+    assert_eq!(read("{}").unwrap(), Choices::default());
+    let chosen = read(r#"{"method": "thesis", "class": "runner-up", "ownCones": 7}"#).unwrap();
+    assert_eq!((chosen.method, chosen.own_cones), (Method::Thesis, Some(7)));
+    for json in
+        [r#"{"method": "best"}"#, r#"{"metod": "thesis"}"#, r#"{"ownCones": -1}"#, r#"{"base": 1}"#, "[]x"]
+    {
+        assert!(read(json).is_err(), "{json}");
+    }
+}
