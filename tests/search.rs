@@ -9,9 +9,9 @@ use conemap::mesh::coarsening::Level;
 use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::{Cancelled, Monitor, Silent, Step};
 use conemap::surface_map::composed::{self, ComposedOptions};
+use conemap::surface_map::energy::map_energy::MapEnergy;
 use conemap::surface_map::flat_problem::RelaxOptions;
 use conemap::surface_map::initial::{InitialOptions, embed, relax};
-use conemap::surface_map::two_sided::TwoSided;
 use conemap::surface_map::{ConeSurface, MapError};
 use std::sync::Arc;
 
@@ -26,7 +26,7 @@ fn mean_log(layout: &BaseLayout, monitor: &mut dyn Monitor) -> Result<Option<f64
         let embeddings = [side(&layout.source)?, side(&layout.target)?];
         let sides = [layout.source.parametrised(&embeddings[0]), layout.target.parametrised(&embeddings[1])];
         let options =
-            ComposedOptions { max_rounds: 3, energy: TwoSided::JUDGE, ..ComposedOptions::default() };
+            ComposedOptions { max_rounds: 3, energy: MapEnergy::JUDGE, ..ComposedOptions::default() };
         let relaxed = composed::relax(sides, &surface, &options, monitor)?;
         Ok(relaxed.mean_log())
     };

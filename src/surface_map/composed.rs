@@ -9,10 +9,10 @@ use super::compose::{Locations, Locator, Parametrised};
 use super::cone_surface::ConeSurface;
 use super::distortion::quantile;
 use super::embedding::Embedding;
+use super::energy::map_energy::MapEnergy;
+use super::energy::point_constraint::PointConstraint;
 use super::flat_problem::{FaceHessian, FlatProblem, rest_jacobian, unrotate};
 use super::overlay::{Measure, SideOf};
-use super::pull::Pull;
-use super::two_sided::TwoSided;
 use super::unknowns::Unknowns;
 use crate::math::scalar::ln;
 use crate::math::triangle::hat_gradients;
@@ -31,12 +31,12 @@ pub struct ComposedOptions {
     /// Weight of the flat energy.
     pub barrier: f64,
     /// What is lowered.
-    pub energy: TwoSided,
+    pub energy: MapEnergy,
 }
 
 impl Default for ComposedOptions {
     fn default() -> Self {
-        Self { max_rounds: 20, relative_decrease: 5e-4, barrier: 0.03, energy: TwoSided::SMOOTH }
+        Self { max_rounds: 20, relative_decrease: 5e-4, barrier: 0.03, energy: MapEnergy::SMOOTH }
     }
 }
 
@@ -63,10 +63,10 @@ impl Relaxed<'_> {
         }
     }
 
-    /// Half of both surfaces is distorted by no more than this ([`TwoSided::distortion`] with equal areas); not a number
+    /// Half of both surfaces is distorted by no more than this ([`MapEnergy::distortion`] with equal areas); not a number
     /// without an overlay.
     pub fn median(&self) -> f64 {
-        self.relaxation.present.median(TwoSided::POSES)
+        self.relaxation.present.median(MapEnergy::POSES)
     }
 }
 
@@ -101,7 +101,7 @@ pub fn relax<'a>(
 /// [`Cancelled`].
 pub fn relax_pulled<'a>(
     sides: [Parametrised<'a>; 2],
-    (surface, pulls): (&'a ConeSurface, [&'a [(VertexId, Pull)]; 2]),
+    (surface, pulls): (&'a ConeSurface, [&'a [(VertexId, PointConstraint)]; 2]),
     options: &'a ComposedOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Relaxed<'a>, Cancelled> {
@@ -139,9 +139,9 @@ pub fn relax_pulled<'a>(
 struct Relaxation<'a> {
     sides: [Parametrised<'a>; 2],
     surface: &'a ConeSurface,
-    pulls: [&'a [(VertexId, Pull)]; 2],
+    pulls: [&'a [(VertexId, PointConstraint)]; 2],
     options: &'a ComposedOptions,
-    two_sided: TwoSided,
+    map_energy: MapEnergy,
     unknowns: [Unknowns<'a>; 2],
     problems: [FlatProblem; 2],
     /// Where both sides are.
@@ -192,7 +192,7 @@ impl FaceDerivatives {
 impl<'a> Relaxation<'a> {
     fn new(
         sides: [Parametrised<'a>; 2],
-        (surface, pulls): (&'a ConeSurface, [&'a [(VertexId, Pull)]; 2]),
+        (surface, pulls): (&'a ConeSurface, [&'a [(VertexId, PointConstraint)]; 2]),
         options: &'a ComposedOptions,
     ) -> Self {
         let unknowns = sides.map(Unknowns::new);
@@ -205,7 +205,7 @@ impl<'a> Relaxation<'a> {
             surface,
             pulls,
             options,
-            two_sided: options.energy,
+            map_energy: options.energy,
             unknowns,
             problems,
             trials: embeddings.clone(),
@@ -244,7 +244,7 @@ impl<'a> Relaxation<'a> {
         if located.is_err() || self.trial.overlay.fill([from, onto], &self.locations).is_err() {
             return false;
         }
-        self.trial.measure((&self.problems[moving], z), &self.inverses[1 - moving], self.two_sided);
+        self.trial.measure((&self.problems[moving], z), &self.inverses[1 - moving], self.map_energy);
         self.trial.pull([from, onto], (&self.unknowns[moving], self.pulls[moving]), &self.locations);
         self.trial.total = self.trial.energy + self.trial.pulled + self.options.barrier * flat;
         true
@@ -294,7 +294,7 @@ impl<'a> Relaxation<'a> {
         self.present.overlay.exchange_roles();
         let problem = &self.problems[self.moving];
         let z = self.unknowns[self.moving].points(&self.embeddings[self.moving]);
-        self.present.measure((problem, &z), &self.inverses[1 - self.moving], self.two_sided);
+        self.present.measure((problem, &z), &self.inverses[1 - self.moving], self.map_energy);
         let flat = problem.energy(&z).unwrap_or(f64::INFINITY);
         self.locate_pulled();
         self.present.total = self.present.energy + self.present.pulled + self.options.barrier * flat;
@@ -314,7 +314,7 @@ impl<'a> Relaxation<'a> {
 
     /// What is lowered, without the barrier; 4 for an isometry.
     fn energy(&self) -> f64 {
-        (self.present.energy + self.present.pulled) / self.two_sided.unit()
+        (self.present.energy + self.present.pulled) / self.map_energy.unit()
     }
 
     /// The gradient of the energy and the barrier.
@@ -344,12 +344,12 @@ impl<'a> Relaxation<'a> {
             let t = piece.source_face.index();
             let a = &jacobians[t];
             let (det, j) = (a.determinant(), *c * *a);
-            let density = self.two_sided.density(&j) / det;
+            let density = self.map_energy.density(&j) / det;
             densities.push(density);
             // d(h / det A) at fixed area on the cone surface.
             let cofactor =
                 DMat2::from_cols(DVec2::new(a.y_axis.y, -a.y_axis.x), DVec2::new(-a.x_axis.y, a.x_axis.x));
-            let own = c.transpose() * self.two_sided.gradient(&j);
+            let own = c.transpose() * self.map_energy.gradient(&j);
             faces[t].by_jacobian += (own - cofactor * density) * (piece.area / det);
         }
         self.add_sweeps(&densities, &mut faces);
@@ -377,7 +377,7 @@ impl<'a> Relaxation<'a> {
         for (piece, c) in overlay.pieces().iter().zip(onto_rest) {
             let t = piece.source_face.index();
             let area = piece.area / jacobians[t].determinant();
-            for term in self.two_sided.hessian(&(*c * jacobians[t])) {
+            for term in self.map_energy.hessian(&(*c * jacobians[t])) {
                 hessians[t].add(area * term.weight, &(c.transpose() * term.matrix()));
             }
         }
@@ -391,7 +391,7 @@ impl Evaluation {
         &mut self,
         (problem, z): (&FlatProblem, &[DVec2]),
         fixed_inverses: &TiVec<FaceId, DMat2>,
-        two_sided: TwoSided,
+        map_energy: MapEnergy,
     ) {
         self.jacobians.clear();
         self.jacobians.extend(problem.jacobians(z));
@@ -399,14 +399,14 @@ impl Evaluation {
         self.onto_rest.extend(self.overlay.pieces().iter().map(|piece| {
             fixed_inverses[piece.target_face] * DMat2::from_cols(piece.rotation, piece.rotation.perp())
         }));
-        self.energy = self.integral(two_sided);
+        self.energy = self.integral(map_energy);
     }
 
     /// The pulls of the moving side, the first one; its vertices have been located.
     fn pull(
         &mut self,
         [from, onto]: [Parametrised<'_>; 2],
-        (unknowns, pulls): (&Unknowns<'_>, &[(VertexId, Pull)]),
+        (unknowns, pulls): (&Unknowns<'_>, &[(VertexId, PointConstraint)]),
         locations: &Locations,
     ) {
         self.pulled = 0.0;
@@ -428,11 +428,11 @@ impl Evaluation {
         }
     }
 
-    fn integral(&self, two_sided: TwoSided) -> f64 {
+    fn integral(&self, map_energy: MapEnergy) -> f64 {
         let pieces = self.overlay.pieces().iter().zip(&self.onto_rest);
         let part = pieces.map(|(piece, c)| {
             let a = &self.jacobians[piece.source_face.index()];
-            piece.area / a.determinant() * two_sided.density(&(*c * *a))
+            piece.area / a.determinant() * map_energy.density(&(*c * *a))
         });
         part.sum()
     }
@@ -445,7 +445,7 @@ impl Evaluation {
             let j = *c * *a;
             let area = piece.area / a.determinant();
             // With equal areas the distortion is the density.
-            let log = ln(TwoSided::POSES.distortion(&j));
+            let log = ln(MapEnergy::POSES.distortion(&j));
             for (k, area) in [area, area * j.determinant()].into_iter().enumerate() {
                 sums[k] += log * area;
                 areas[k] += area;
@@ -455,12 +455,12 @@ impl Evaluation {
     }
 
     /// The median distortion, each piece counted by its areas on both surfaces.
-    fn median(&self, two_sided: TwoSided) -> f64 {
+    fn median(&self, map_energy: MapEnergy) -> f64 {
         let pieces = self.overlay.pieces().iter().zip(&self.onto_rest);
         let local = pieces.map(|(piece, c)| {
             let a = &self.jacobians[piece.source_face.index()];
             let j = *c * *a;
-            (two_sided.distortion(&j), piece.area / a.determinant() * (1.0 + j.determinant()))
+            (map_energy.distortion(&j), piece.area / a.determinant() * (1.0 + j.determinant()))
         });
         let mut local: Vec<(f64, f64)> = local.collect();
         local.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -511,7 +511,7 @@ pub(super) mod tests {
     fn the_gradient_with_its_transport_term_is_the_difference_quotient() {
         let (layout, surface, embeddings) = example();
         let options =
-            ComposedOptions { energy: TwoSided { balance: 0.1, knee: 0.2 }, ..ComposedOptions::default() };
+            ComposedOptions { energy: MapEnergy { balance: 0.1, knee: 0.2 }, ..ComposedOptions::default() };
         let mut relaxation = Relaxation::new(sides(&layout, &embeddings), (&surface, [&[], &[]]), &options);
         assert!(relaxation.begin());
         let z = relaxation.unknowns[0].points(&embeddings[0]);

@@ -11,9 +11,9 @@
 use super::cone_surface::ConeSurface;
 use super::distortion::{self, LocalDistortion};
 use super::embedding::{Embedding, Parametrised};
+use super::energy::map_energy::MapEnergy;
 use super::flat_problem::{Corner, FlatTriangle, rest_jacobian};
 use super::overlay::{Overlay, Piece};
-use super::two_sided::TwoSided;
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::{ln, max, min};
 use crate::math::triangle::signed_double_area;
@@ -56,7 +56,7 @@ const DEEP: f64 = 10.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DentEnergy {
     /// The energy of the map.
-    pub energy: TwoSided,
+    pub energy: MapEnergy,
     /// Pieces with a density above this are dents.
     pub brink: f64,
 }
@@ -509,7 +509,7 @@ mod tests {
     use crate::surface_map::distortion::{Distortion, distortion};
     use crate::surface_map::overlay::overlay;
 
-    const ENERGY: DentEnergy = DentEnergy { energy: TwoSided::SMOOTH, brink: 20.0 };
+    const ENERGY: DentEnergy = DentEnergy { energy: MapEnergy::SMOOTH, brink: 20.0 };
 
     fn overlaid(sides: [Parametrised<'_>; 2], surface: &ConeSurface) -> (Overlay, Distortion) {
         let overlay = overlay(sides[0], sides[1], &locate(sides[0], sides[1], surface).unwrap()).unwrap();
@@ -582,7 +582,7 @@ mod tests {
         let sides = sides(&layout, &start);
         let (overlay, measured) = overlaid(sides, &surface);
         let sheets = sheets(sides, &overlay);
-        let energy = DentEnergy { brink: f64::INFINITY, energy: TwoSided::PLAIN };
+        let energy = DentEnergy { brink: f64::INFINITY, energy: MapEnergy::PLAIN };
         for v in free_vertices(sides[0]) {
             let star = Star::around(&sheets[0], &sheets[1], v);
             assert!(star.is_covered(), "{v:?}");

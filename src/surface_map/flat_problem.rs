@@ -1,11 +1,11 @@
 //! The flat relaxation: least symmetric Dirichlet energy of a parametrisation onto the cone surface.
 //!
 //! Unknown is one point z per free vertex in a reference chart; every corner sees it through a fixed rigid motion.
-//! Newton with the projected Hessian of [`super::energy`], conjugate gradients, a step that keeps every triangle positive
+//! Newton with the projected Hessian of [`super::energy::symmetric_dirichlet`], conjugate gradients, a step that keeps every triangle positive
 //! (Smith & Schaefer 2015) and an Armijo line search.
 
 use super::embedding::Parametrised;
-use super::energy;
+use super::energy::symmetric_dirichlet;
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::{max, min};
 use crate::math::triangle;
@@ -187,7 +187,7 @@ impl FlatProblem {
     pub fn energy(&self, z: &[DVec2]) -> Option<f64> {
         let mut sum = 0.0;
         for t in &self.triangles {
-            sum += t.area * energy::density(&t.jacobian(&t.positions(z)))?;
+            sum += t.area * symmetric_dirichlet::density(&t.jacobian(&t.positions(z)))?;
         }
         Some(sum / self.total_area)
     }
@@ -196,7 +196,7 @@ impl FlatProblem {
     pub fn gradient(&self, z: &[DVec2], gradient: &mut [DVec2]) {
         gradient.fill(DVec2::ZERO);
         for t in &self.triangles {
-            let slope = energy::gradient(&t.jacobian(&t.positions(z)));
+            let slope = symmetric_dirichlet::gradient(&t.jacobian(&t.positions(z)));
             for (corner, hat) in t.corners.iter().zip(&t.hats) {
                 if let Corner::Free(v, motion) = corner {
                     let pull = slope * *hat * (t.area / self.total_area);
@@ -218,7 +218,7 @@ impl FlatProblem {
             let triangle = &self.triangles[t];
             let weight = scale * triangle.area / self.total_area;
             let mut hessian = FaceHessian::ZERO;
-            for term in energy::hessian(&triangle.jacobian(&triangle.positions(z))) {
+            for term in symmetric_dirichlet::hessian(&triangle.jacobian(&triangle.positions(z))) {
                 hessian.add(weight * term.weight, &term.matrix());
             }
             self.add_face(t, &hessian);

@@ -21,13 +21,11 @@ pub mod overlay;
 pub mod patch_fit;
 mod placement;
 mod progressive;
-pub mod pull;
 pub mod queries;
 pub mod relief;
 pub mod seamless;
 pub mod thesis;
 pub mod transfer;
-pub mod two_sided;
 mod unknowns;
 
 pub use certificate::{Certificate, certify};

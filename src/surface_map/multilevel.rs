@@ -12,14 +12,14 @@ use super::composed::{self, ComposedOptions, Relaxed};
 use super::cone_surface::ConeSurface;
 use super::dents::{self, DentEnergy, DentOptions};
 use super::embedding::{Embedding, Parametrised};
+use super::energy::map_energy::MapEnergy;
+use super::energy::point_constraint::PointConstraint;
 use super::flat_problem::RelaxOptions;
 use super::initial::{self, InitialOptions};
 use super::overlay::overlay;
 use super::patch_fit::Skin;
-use super::pull::Pull;
 use super::relief::{self, ReliefOptions, Seen};
 use super::seamless::{RestTriangle, Seamless};
-use super::two_sided::TwoSided;
 use crate::landmarks::Landmarks;
 use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::coarsening::{Level, coarsen_around};
@@ -57,7 +57,7 @@ pub struct MultilevelOptions {
     /// The relaxation of the map of the coarse level that was chosen.
     pub coarse: ComposedOptions,
     /// A coarse map with a median distortion below this is between two poses of one body: it is relaxed by
-    /// [`TwoSided::POSES`] from then on.
+    /// [`MapEnergy::POSES`] from then on.
     pub pose_median: f64,
     /// The relaxation of the map on every finer level.
     pub fine: ComposedOptions,
@@ -74,12 +74,12 @@ impl Default for MultilevelOptions {
             growth: 2.0,
             initial: InitialOptions::default(),
             relax: RelaxOptions::default(),
-            judge: ComposedOptions { max_rounds: 1, energy: TwoSided::JUDGE, ..ComposedOptions::default() },
+            judge: ComposedOptions { max_rounds: 1, energy: MapEnergy::JUDGE, ..ComposedOptions::default() },
             finalists: 4,
             close: 1.3,
             undecided: 1.1,
             finer: 1,
-            decide: ComposedOptions { max_rounds: 5, energy: TwoSided::JUDGE, ..ComposedOptions::default() },
+            decide: ComposedOptions { max_rounds: 5, energy: MapEnergy::JUDGE, ..ComposedOptions::default() },
             // A round costs little here, and what is left undone shows on every finer level.
             coarse: ComposedOptions { max_rounds: 60, relative_decrease: 2e-5, ..ComposedOptions::default() },
             pose_median: 1.09,
@@ -134,9 +134,9 @@ pub struct CoarseMap<'a> {
     /// Half of both coarse levels is distorted by no more than this.
     pub median: f64,
     /// What is lowered on finer levels.
-    energy: TwoSided,
+    energy: MapEnergy,
     /// By side the vertices of the full mesh that are drawn to places on the other side.
-    pulls: [Vec<(VertexId, Pull)>; 2],
+    pulls: [Vec<(VertexId, PointConstraint)>; 2],
     full: [&'a SurfaceMesh; 2],
     /// By side the full mesh's vertex of each landmark.
     landmarks: [&'a TiSlice<VertexId, VertexId>; 2],
@@ -183,7 +183,7 @@ impl CoarseMap<'_> {
     ) -> Result<(), MapError> {
         self.relax((&options.coarse, &mut *monitor))?;
         if self.median < options.pose_median {
-            self.energy = TwoSided::POSES;
+            self.energy = MapEnergy::POSES;
             self.relax((&ComposedOptions { energy: self.energy, ..options.coarse }, monitor))?;
         }
         Ok(())
@@ -231,7 +231,7 @@ impl CoarseMap<'_> {
     ) -> Result<(), MapError> {
         let [least, most] = options.vertices;
         let fits = |level: &Seamless<'_>| (least..=most).contains(&level.mesh().live_vertices());
-        if self.energy != TwoSided::POSES || !self.levels.iter().all(fits) {
+        if self.energy != MapEnergy::POSES || !self.levels.iter().all(fits) {
             return Ok(());
         }
         let skins = [0, 1].map(|k| Skin::new(self.full[k]));
@@ -293,7 +293,7 @@ impl CoarseMap<'_> {
         let [source, target] = [0, 1].map(|k| present[k].parametrised());
         let Ok(locations) = locate(source, target, &self.surface) else { return };
         let Ok(overlay) = overlay(source, target, &locations) else { return };
-        let brink = if self.energy == TwoSided::POSES { options.pose_brink } else { options.brink };
+        let brink = if self.energy == MapEnergy::POSES { options.pose_brink } else { options.brink };
         let energy = DentEnergy { energy: self.energy, brink };
         let healed = dents::heal([source, target], (&overlay, &self.surface), (options, energy));
         for (k, embedding) in healed.iter().flatten().enumerate() {
@@ -302,7 +302,7 @@ impl CoarseMap<'_> {
     }
 
     /// Shows each side's level with its images, and its pulls.
-    fn look(&mut self, mut show: impl FnMut(usize, &Seen<'_>, &mut Vec<(VertexId, Pull)>)) {
+    fn look(&mut self, mut show: impl FnMut(usize, &Seen<'_>, &mut Vec<(VertexId, PointConstraint)>)) {
         let present = self.present();
         for k in 0..2 {
             let [from, onto] = [k, 1 - k].map(|k| present[k].parametrised());
@@ -335,8 +335,9 @@ impl CoarseMap<'_> {
 }
 
 /// The pulls of those vertices that are in a level, by its numbers.
-fn on_level(pulls: &[(VertexId, Pull)], level: &Level) -> Vec<(VertexId, Pull)> {
-    let number = |(v, pull): &(VertexId, Pull)| Some((level.vertices.binary_search(v).ok()?, *pull));
+fn on_level(pulls: &[(VertexId, PointConstraint)], level: &Level) -> Vec<(VertexId, PointConstraint)> {
+    let number =
+        |(v, pull): &(VertexId, PointConstraint)| Some((level.vertices.binary_search(v).ok()?, *pull));
     pulls.iter().filter_map(number).collect()
 }
 

@@ -3,12 +3,12 @@
 //! An energy knows lengths only, and between two poses the known map has not the least one. But most of the skin moves
 //! rigidly: a patch of it fits its true image exactly, and nowhere else around, as far as muscles and bones show. So patches
 //! are laid onto the other surface by rigid motions, from where the map takes them ([`super::patch_fit`]); where one comes to
-//! lie is where its centre is drawn to ([`Pull`]), in each direction as much as relief holds it there. Patches that bend do
+//! lie is where its centre is drawn to ([`PointConstraint`]), in each direction as much as relief holds it there. Patches that bend do
 //! not fit well, and count by the square of noise / (noise + misfit). Found anew after the map has followed, the places
 //! settle.
 
+use super::energy::point_constraint::PointConstraint;
 use super::patch_fit::{FitOptions, Fitter, PatchFit, PatchPoint, Skin};
-use super::pull::Pull;
 use crate::math::scalar::max;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use glam::{DMat2, DVec2, DVec3};
@@ -84,7 +84,11 @@ impl<'a> Seen<'a> {
 }
 
 /// The pulls of one side's level vertices to where patches around them fit the other side. Both areas are 1.
-pub fn pulls([own, onto]: [&Skin<'_>; 2], seen: &Seen<'_>, options: &ReliefOptions) -> Vec<(VertexId, Pull)> {
+pub fn pulls(
+    [own, onto]: [&Skin<'_>; 2],
+    seen: &Seen<'_>,
+    options: &ReliefOptions,
+) -> Vec<(VertexId, PointConstraint)> {
     let weights = spread(own, seen, options.spacing);
     // Every vertex is in many patches, which all start from here.
     let near = seen.mesh.vertices().map(|v| onto.nearest(seen.near[v], seen.images[v])).collect();
@@ -202,7 +206,7 @@ impl Knowledge {
     }
 
     /// The pull; `None` where nothing is known.
-    fn pull(&self, image: DVec3, area: f64, options: &ReliefOptions) -> Option<Pull> {
+    fn pull(&self, image: DVec3, area: f64, options: &ReliefOptions) -> Option<PointConstraint> {
         let (form, [first, second]) = (self.form, self.frame);
         let shift = form.inverse() * self.slope;
         let scale = options.strength * area;
@@ -211,7 +215,7 @@ impl Knowledge {
         let b = scale * form.x_axis.y / a;
         let c = max(scale * form.y_axis.y - b * b, 0.0).sqrt();
         let known = form.determinant() > 0.0 && shift.is_finite() && a > 0.0 && b.is_finite();
-        known.then(|| Pull {
+        known.then(|| PointConstraint {
             place: image + first * shift.x + second * shift.y,
             rows: [first * a + second * b, second * c],
             knee: options.knee * area,

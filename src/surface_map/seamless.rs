@@ -7,7 +7,7 @@
 
 use super::cone_surface::ConeSurface;
 use super::embedding::{Anchor, Embedding};
-use super::energy;
+use super::energy::symmetric_dirichlet;
 use super::fan::Fan;
 use super::flat_problem::{Corner, FlatProblem, FlatTriangle, RelaxOptions, RelaxReport};
 use super::placement::Kernel;
@@ -402,7 +402,7 @@ impl Star {
         let energy_at = |z: DVec2| {
             self.triangles
                 .iter()
-                .try_fold(0.0, |sum, t| Some(sum + t.area * energy::density(&t.jacobian_at(z))?))
+                .try_fold(0.0, |sum, t| Some(sum + t.area * symmetric_dirichlet::density(&t.jacobian_at(z))?))
         };
         let (mut z, Some(mut least)) = (start, energy_at(start)) else { return start };
         for _ in 0..3 {
@@ -426,8 +426,8 @@ impl Star {
         let (mut slope, mut curvature) = (DVec2::ZERO, DMat2::ZERO);
         for t in &self.triangles {
             let j = t.jacobian_at(z);
-            slope += energy::gradient(&j) * t.hats[0] * t.area;
-            for term in energy::hessian(&j) {
+            slope += symmetric_dirichlet::gradient(&j) * t.hats[0] * t.area;
+            for term in symmetric_dirichlet::hessian(&j) {
                 let pull = term.apply(t.hats[0]);
                 curvature += DMat2::from_cols(pull * pull.x, pull * pull.y) * (term.weight * t.area);
             }

@@ -1,6 +1,5 @@
 //! Theorems of the overlay on generated pairs.
 
-use super::*;
 use crate::landmarks::Landmarks;
 use crate::layout::{self, BaseLayout, LayoutOptions};
 use crate::mesh::generators::{icosphere, midpoint_subdivision, octahedron};
@@ -8,6 +7,7 @@ use crate::mesh::{SurfaceMesh, SurfacePoint};
 use crate::monitor::Silent;
 use crate::surface_map::compose::{Locator, locate};
 use crate::surface_map::initial::{self, InitialOptions};
+use crate::surface_map::overlay::*;
 use crate::surface_map::queries::PointMap;
 use crate::surface_map::{ConeSurface, Embedding};
 use glam::DVec3;

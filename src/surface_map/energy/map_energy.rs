@@ -17,26 +17,26 @@
 //!
 //! which is 1 + y far below the knee k and grows like the stretch itself above it (pseudo-Huber; Charbonnier et al. 1997).
 
-use super::energy::{HessianTerm, Signed};
+use super::symmetric_dirichlet::{HessianTerm, Signed};
 use crate::math::scalar::max;
 use glam::{DMat2, DVec2};
 
 /// Which energy of a map is lowered, per unit of source area: 2 (1 + b) (1 + q) rho(x).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TwoSided {
+pub struct MapEnergy {
     /// The weight b of equal areas.
     pub balance: f64,
     /// The knee k: distortion above 1 from which on it counts like the stretch, not like its square.
     pub knee: f64,
 }
 
-impl TwoSided {
+impl MapEnergy {
     /// E itself.
     pub const PLAIN: Self = Self { balance: 0.0, knee: f64::INFINITY };
-    /// E with as much of the second part as keeps regions from collapsing.
+    /// E plus 0.02 times the second part, which keeps regions from collapsing.
     pub const SMOOTH: Self = Self { balance: 0.02, knee: f64::INFINITY };
-    /// By which maps of different classes are compared: what collapses or stretches counts, but not so much that one limb
-    /// decides.
+    /// Compares maps of different classes: the energy of a collapsed or stretched region grows slowly enough that no single
+    /// limb decides.
     pub const JUDGE: Self = Self { balance: 0.2, knee: 0.1 };
     /// For poses of one body: isometric wherever that can be had.
     pub const POSES: Self = Self { balance: 1.0, knee: 0.1 };
@@ -132,22 +132,24 @@ fn squares(j: &DMat2) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::surface_map::energy::tests::{assembled, assert_dominates, samples, unit};
+    use crate::surface_map::energy::symmetric_dirichlet::tests::{
+        assembled, assert_dominates, samples, unit,
+    };
 
-    const KINDS: [TwoSided; 5] = [
-        TwoSided::PLAIN,
-        TwoSided::SMOOTH,
-        TwoSided::JUDGE,
-        TwoSided::POSES,
-        TwoSided { balance: 0.3, knee: 0.5 },
+    const KINDS: [MapEnergy; 5] = [
+        MapEnergy::PLAIN,
+        MapEnergy::SMOOTH,
+        MapEnergy::JUDGE,
+        MapEnergy::POSES,
+        MapEnergy { balance: 0.3, knee: 0.5 },
     ];
 
     #[test]
     fn the_energy_is_that_of_the_inverse() {
         for j in samples() {
             let (det, inverse) = (j.determinant(), j.inverse());
-            for two_sided in KINDS {
-                let (there, back) = (two_sided.density(&j), det * two_sided.density(&inverse));
+            for kind in KINDS {
+                let (there, back) = (kind.density(&j), det * kind.density(&inverse));
                 assert!((there - back).abs() < 1e-9 * there.max(1.0));
             }
         }
@@ -157,32 +159,32 @@ mod tests {
     fn plain_is_the_sum_of_both_dirichlet_energies() {
         for j in samples() {
             let inverse = squares(&j.inverse()) * j.determinant();
-            let plain = TwoSided::PLAIN.density(&j);
+            let plain = MapEnergy::PLAIN.density(&j);
             assert!((plain - squares(&j) - inverse).abs() < 1e-12 * plain, "{plain}");
         }
-        assert!((TwoSided::PLAIN.density(&DMat2::IDENTITY) - 4.0).abs() < 1e-15);
+        assert!((MapEnergy::PLAIN.density(&DMat2::IDENTITY) - 4.0).abs() < 1e-15);
     }
 
     #[test]
     fn an_isometry_is_the_minimum() {
-        for two_sided in KINDS {
+        for kind in KINDS {
             let turn = DMat2::from_angle(0.7);
-            assert!((two_sided.distortion(&turn) - 1.0).abs() < 1e-15);
+            assert!((kind.distortion(&turn) - 1.0).abs() < 1e-15);
             // The image grows with J, so of one density only what keeps the area may be compared.
             let sheared = turn * DMat2::from_cols_array(&[1.1, 0.0, 0.0, 1.0 / 1.1]);
-            assert!(two_sided.density(&sheared) > two_sided.density(&turn));
+            assert!(kind.density(&sheared) > kind.density(&turn));
         }
     }
 
     #[test]
     fn the_gradient_is_the_difference_quotient() {
-        for two_sided in KINDS {
+        for kind in KINDS {
             for j in samples() {
                 for k in 0..4 {
                     let h = 1e-6;
-                    let at = |h: f64| two_sided.density(&(j + unit(k) * h));
+                    let at = |h: f64| kind.density(&(j + unit(k) * h));
                     let quotient = (at(h) - at(-h)) / (2.0 * h);
-                    let exact = two_sided.gradient(&j).to_cols_array()[k];
+                    let exact = kind.gradient(&j).to_cols_array()[k];
                     assert!((quotient - exact).abs() < 1e-5 * exact.abs().max(1.0), "{quotient} {exact}");
                 }
             }
@@ -191,14 +193,14 @@ mod tests {
 
     #[test]
     fn without_a_knee_the_hessian_is_the_difference_quotient() {
-        for two_sided in KINDS.into_iter().filter(|kind| kind.knee == f64::INFINITY) {
+        for kind in KINDS.into_iter().filter(|kind| kind.knee == f64::INFINITY) {
             // Where nothing is projected.
             for j in [[1.1, 0.1, -0.1, 0.9], [1.5, 0.2, 0.1, 1.6]].map(|c| DMat2::from_cols_array(&c)) {
-                let exact = assembled(&two_sided.hessian(&j));
+                let exact = assembled(&kind.hessian(&j));
                 for k in 0..4 {
                     let h = 1e-5;
-                    let plus = two_sided.gradient(&(j + unit(k) * h)).to_cols_array();
-                    let minus = two_sided.gradient(&(j - unit(k) * h)).to_cols_array();
+                    let plus = kind.gradient(&(j + unit(k) * h)).to_cols_array();
+                    let minus = kind.gradient(&(j - unit(k) * h)).to_cols_array();
                     for r in 0..4 {
                         let quotient = (plus[r] - minus[r]) / (2.0 * h);
                         assert!((quotient - exact[r][k]).abs() < 1e-5, "{quotient} {}", exact[r][k]);
@@ -210,9 +212,9 @@ mod tests {
 
     #[test]
     fn the_projected_hessian_dominates_the_true_one() {
-        for two_sided in KINDS {
+        for kind in KINDS {
             for j in samples() {
-                assert_dominates(j, &two_sided.hessian(&j), |j| two_sided.gradient(j));
+                assert_dominates(j, &kind.hessian(&j), |j| kind.gradient(j));
             }
         }
     }

@@ -1,6 +1,6 @@
-//! Pulls: vertices drawn to places on the other surface.
+//! Soft point constraints: an energy that draws a vertex to a place on the other surface.
 //!
-//! A pull of a vertex whose image is the point f is 2 K (sqrt(1 + Q / K) - 1) with Q = |B (f - a)|^2, where a is where it
+//! The energy of a vertex whose image is the point f is 2 K (sqrt(1 + Q / K) - 1) with Q = |B (f - a)|^2, where a is where it
 //! should be and B, two rows in the tangent plane there, says how sure that is in each direction. Beyond the knee K it counts
 //! like the distance, not like its square, so that one mistaken place does no harm.
 
@@ -8,7 +8,7 @@ use glam::{DMat2, DVec2, DVec3};
 
 /// Where a vertex should be on the other surface, and how sure that is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pull {
+pub struct PointConstraint {
     /// The place a.
     pub place: DVec3,
     /// The rows of B, in units of the root of an energy by length.
@@ -17,9 +17,9 @@ pub struct Pull {
     pub knee: f64,
 }
 
-/// A pull with its derivatives by the vertex' place in a plane.
+/// The energy of a constraint with its derivatives by the vertex' place in a plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PullTerm {
+pub struct PointConstraintTerm {
     /// Its value.
     pub energy: f64,
     /// Its gradient.
@@ -28,10 +28,10 @@ pub struct PullTerm {
     pub hessian: DMat2,
 }
 
-impl Pull {
-    /// The pull of a vertex at barycentric coordinates of a triangle with these corners in space; `hats` are the gradients of
+impl PointConstraint {
+    /// The constraint's energy for a vertex at barycentric coordinates of a triangle with these corners in space; `hats` are the gradients of
     /// the coordinates in the plane.
-    pub fn term(&self, corners: [DVec3; 3], barycentric: [f64; 3], hats: [DVec2; 3]) -> PullTerm {
+    pub fn term(&self, corners: [DVec3; 3], barycentric: [f64; 3], hats: [DVec2; 3]) -> PointConstraintTerm {
         let at = (0..3).map(|k| corners[k] * barycentric[k]).sum::<DVec3>() - self.place;
         let misses = self.rows.map(|row| row.dot(at));
         let square = misses[0] * misses[0] + misses[1] * misses[1];
@@ -42,7 +42,7 @@ impl Pull {
             gradient += slope * (2.0 * miss / root);
             hessian += DMat2::from_cols(slope * slope.x, slope * slope.y) * (2.0 / root);
         }
-        PullTerm { energy: 2.0 * square / (1.0 + root), gradient, hessian }
+        PointConstraintTerm { energy: 2.0 * square / (1.0 + root), gradient, hessian }
     }
 }
 
@@ -54,13 +54,13 @@ mod tests {
         [DVec3::new(0.0, 0.1, 0.0), DVec3::new(1.1, 0.0, 0.2), DVec3::new(0.1, 0.9, -0.1)];
     const HATS: [DVec2; 3] = [DVec2::new(-1.0, -1.0), DVec2::X, DVec2::Y];
 
-    fn pull(knee: f64) -> Pull {
+    fn constraint(knee: f64) -> PointConstraint {
         let rows = [DVec3::new(1.0, 0.2, 0.1), DVec3::new(-0.3, 0.6, 0.0)];
-        Pull { place: DVec3::new(0.7, 0.4, 0.3), rows, knee }
+        PointConstraint { place: DVec3::new(0.7, 0.4, 0.3), rows, knee }
     }
 
-    fn at(knee: f64, [x, y]: [f64; 2]) -> PullTerm {
-        pull(knee).term(CORNERS, [1.0 - x - y, x, y], HATS)
+    fn at(knee: f64, [x, y]: [f64; 2]) -> PointConstraintTerm {
+        constraint(knee).term(CORNERS, [1.0 - x - y, x, y], HATS)
     }
 
     #[test]
@@ -86,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn far_beyond_the_knee_the_pull_grows_like_the_distance() {
+    fn far_beyond_the_knee_the_energy_grows_like_the_distance() {
         let far = |x: f64| at(1e-9, [x, 0.0]).energy;
         let steps = [far(100.0) - far(90.0), far(110.0) - far(100.0)];
         assert!((steps[0] / steps[1] - 1.0).abs() < 1e-2, "{steps:?}");
