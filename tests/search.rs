@@ -10,8 +10,8 @@ use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::{Cancelled, Monitor, Silent, Step};
 use conemap::surface_map::composed::{self, ComposedOptions};
 use conemap::surface_map::energy::map_energy::MapEnergy;
-use conemap::surface_map::flat_problem::RelaxOptions;
-use conemap::surface_map::initial::{InitialOptions, embed, relax};
+use conemap::surface_map::parametrisation::initial::{InitialOptions, embed, relax};
+use conemap::surface_map::parametrisation::problem::RelaxOptions;
 use conemap::surface_map::{ConeSurface, MapError};
 use std::sync::Arc;
 

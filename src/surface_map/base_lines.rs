@@ -5,9 +5,9 @@
 //! line starts at its angle and must arrive at its landmark after its length.
 
 use super::compose::exit_edge;
-use super::cone_surface::ConeSurface;
-use super::embedding::{Anchor, Embedding, Parametrised};
-use super::fan::{Fan, Wedge};
+use super::parametrisation::cone_surface::ConeSurface;
+use super::parametrisation::embedding::{Anchor, Embedding, Parametrised};
+use super::parametrisation::fan::{Fan, Wedge};
 use crate::math::rigid2::{Rigid2, complex_mul};
 use crate::math::scalar::{cos, sin};
 use crate::mesh::{HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};

@@ -6,8 +6,8 @@
 //! result alone, independently of the optimiser.
 
 use super::base_lines::base_line;
-use super::cone_surface::ConeSurface;
-use super::embedding::{Embedding, Parametrised};
+use super::parametrisation::cone_surface::ConeSurface;
+use super::parametrisation::embedding::{Embedding, Parametrised};
 use crate::math::scalar::atan2;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use glam::DVec2;
@@ -121,7 +121,7 @@ mod tests {
     use crate::mesh::SurfaceMesh;
     use crate::mesh::generators::{midpoint_subdivision, octahedron};
     use crate::monitor::Silent;
-    use crate::surface_map::initial::{InitialOptions, embed};
+    use crate::surface_map::parametrisation::initial::{InitialOptions, embed};
     use std::sync::Arc;
 
     /// A sphere of 512 triangles mapped onto the octahedron's cone surface.

@@ -4,10 +4,10 @@
 //! the landmarks, where the angle around the cone is known on both sides, and carried from vertex to vertex by walking
 //! straight along source edges through target triangles: crossing an edge applies its transition.
 
-use super::cone_surface::ConeSurface;
-pub use super::embedding::Parametrised;
-use super::embedding::{Anchor, Embedding};
-use super::fan::{Fan, Wedge};
+use super::parametrisation::cone_surface::ConeSurface;
+pub use super::parametrisation::embedding::Parametrised;
+use super::parametrisation::embedding::{Anchor, Embedding};
+use super::parametrisation::fan::{Fan, Wedge};
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::max;
 use crate::math::triangle::signed_double_area;

@@ -6,14 +6,15 @@
 //! areas change too, which adds the jump of the density over each edge to the gradient (Reynolds' transport theorem).
 
 use super::compose::{Locations, Locator, Parametrised};
-use super::cone_surface::ConeSurface;
 use super::distortion::quantile;
-use super::embedding::Embedding;
 use super::energy::map_energy::MapEnergy;
 use super::energy::point_constraint::PointConstraint;
-use super::flat_problem::{FaceHessian, FlatProblem, rest_jacobian, unrotate};
 use super::overlay::{Measure, SideOf};
-use super::unknowns::Unknowns;
+use super::parametrisation::cone_surface::ConeSurface;
+use super::parametrisation::embedding::Embedding;
+use super::parametrisation::problem::{FaceHessian, FlatProblem, unrotate};
+use super::parametrisation::rest_triangle::rest_jacobian;
+use super::parametrisation::unknowns::Unknowns;
 use crate::math::scalar::ln;
 use crate::math::triangle::hat_gradients;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
@@ -478,7 +479,7 @@ pub(super) mod tests {
     use crate::mesh::generators::icosphere;
     use crate::monitor::Silent;
     use crate::surface_map::certify;
-    use crate::surface_map::initial::{self, InitialOptions};
+    use crate::surface_map::parametrisation::initial::{self, InitialOptions};
     use glam::DVec3;
     use std::sync::Arc;
 

@@ -8,12 +8,12 @@
 //! method in two unknowns, from difference quotients of the logarithm. The worst come first; what does not move any more
 //! rests until something moves beside it. Triangles stay positive, and all else stays as it is.
 
-use super::cone_surface::ConeSurface;
 use super::distortion::{self, LocalDistortion};
-use super::embedding::{Embedding, Parametrised};
 use super::energy::map_energy::MapEnergy;
-use super::flat_problem::{Corner, FlatTriangle, rest_jacobian};
 use super::overlay::{Overlay, Piece};
+use super::parametrisation::cone_surface::ConeSurface;
+use super::parametrisation::embedding::{Embedding, Parametrised};
+use super::parametrisation::rest_triangle::{Corner, FlatTriangle, rest_jacobian};
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::{ln, max, min};
 use crate::math::triangle::signed_double_area;

@@ -3,8 +3,8 @@
 //! On each piece of the overlay the map is affine with singular values s1, s2 (both surfaces scaled to area 1).
 
 use super::compose::Parametrised;
-use super::flat_problem::rest_jacobian;
 use super::overlay::{Overlay, OverlayPoint, Piece};
+use super::parametrisation::rest_triangle::rest_jacobian;
 use crate::math::scalar::{ln, max, min};
 use crate::math::triangle::lay_out;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};

@@ -5,21 +5,22 @@
 //! level, while the energy of the map itself is lowered on every level. So the full meshes start near the optimum, and are
 //! never cut along the drawing.
 
-use super::MapError;
 use super::base_lines::mend_anchors;
 use super::compose::{barycentric, locate};
 use super::composed::{self, ComposedOptions, Relaxed};
-use super::cone_surface::ConeSurface;
 use super::dents::{self, DentEnergy, DentOptions};
-use super::embedding::{Embedding, Parametrised};
 use super::energy::map_energy::MapEnergy;
 use super::energy::point_constraint::PointConstraint;
-use super::flat_problem::RelaxOptions;
-use super::initial::{self, InitialOptions};
+use super::error::MapError;
 use super::overlay::overlay;
+use super::parametrisation::cone_surface::ConeSurface;
+use super::parametrisation::embedding::{Embedding, Parametrised};
+use super::parametrisation::initial::{self, InitialOptions};
+use super::parametrisation::level::ParametrisedLevel;
+use super::parametrisation::problem::RelaxOptions;
+use super::parametrisation::rest_triangle::RestTriangle;
 use super::patch_fit::Skin;
 use super::relief::{self, ReliefOptions, Seen};
-use super::seamless::{RestTriangle, Seamless};
 use crate::landmarks::Landmarks;
 use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::coarsening::{Level, coarsen_around};
@@ -128,7 +129,7 @@ pub fn coarse_landmarks(sides: &[Side<'_>; 2]) -> Landmarks {
 pub struct CoarseMap<'a> {
     /// The cone surface of its layout.
     pub surface: Arc<ConeSurface>,
-    levels: [Seamless<'a>; 2],
+    levels: [ParametrisedLevel<'a>; 2],
     /// Half the sum of the means over both coarse levels of the logarithm of the distortion density; 0 for an isometry.
     pub mean_log: f64,
     /// Half of both coarse levels is distorted by no more than this.
@@ -230,7 +231,7 @@ impl CoarseMap<'_> {
         (options, fine, monitor): (&ReliefOptions, &ComposedOptions, &mut dyn Monitor),
     ) -> Result<(), MapError> {
         let [least, most] = options.vertices;
-        let fits = |level: &Seamless<'_>| (least..=most).contains(&level.mesh().live_vertices());
+        let fits = |level: &ParametrisedLevel<'_>| (least..=most).contains(&level.mesh().live_vertices());
         if self.energy != MapEnergy::POSES || !self.levels.iter().all(fits) {
             return Ok(());
         }
@@ -377,7 +378,7 @@ pub fn solve_fine(
     while map.grow((options, &mut *monitor))? {
         let fine = ComposedOptions { energy: map.energy, ..options.fine };
         // The finest level has room for what pulls have dented, and hardly moves otherwise.
-        let is_finest = map.levels.iter().all(Seamless::is_full);
+        let is_finest = map.levels.iter().all(ParametrisedLevel::is_full);
         if is_finest {
             map.pulls = Default::default();
         }
@@ -405,12 +406,12 @@ fn without_layout_points<'a>(
     patched: &PatchedMesh,
     (surface, embedding): (&Arc<ConeSurface>, &Embedding),
     (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
-) -> Result<Seamless<'a>, MapError> {
+) -> Result<ParametrisedLevel<'a>, MapError> {
     let coarse = &side.coarse.mesh;
     let first = coarse.vertex_count();
     let added: Vec<Added> =
         (first..patched.mesh.vertex_count()).map(|v| origin(patched, coarse, v.into())).collect();
-    let mut refined = Seamless::on_level(
+    let mut refined = ParametrisedLevel::on_level(
         (CollapsibleMesh::new(&patched.mesh), patched.mesh.positions()),
         &patched.landmark_vertices,
         surface.clone(),
@@ -437,7 +438,7 @@ fn without_layout_points<'a>(
         let own = coarse.halfedge_between(tail, head).unwrap_or(h);
         HalfedgeId::of(side.coarse.faces[own.face()], own.corner())
     };
-    Ok(Seamless::on_level(
+    Ok(ParametrisedLevel::on_level(
         (side.mesh.clone(), side.full.positions()),
         side.landmarks,
         surface.clone(),
@@ -482,7 +483,7 @@ fn is_along(v: VertexId, w: VertexId, added: impl Fn(VertexId) -> Option<Added>)
 /// Rest shapes in which each point that is left lies near a neighbour on its edge, at `pull` of the distance. The triangles
 /// beside count as much as others, so that they really draw the two together.
 fn pulled_together(
-    level: &Seamless<'_>,
+    level: &ParametrisedLevel<'_>,
     positions: &TiSlice<VertexId, DVec3>,
     (left, pull): (&[VertexId], f64),
     added: impl Fn(VertexId) -> Option<Added>,
@@ -517,7 +518,11 @@ fn pulled_together(
 }
 
 /// Takes out what can be taken out: a point on an edge along its edge, a point inside a face into any neighbour.
-fn take_out(level: &mut Seamless<'_>, left: &mut Vec<VertexId>, added: impl Fn(VertexId) -> Option<Added>) {
+fn take_out(
+    level: &mut ParametrisedLevel<'_>,
+    left: &mut Vec<VertexId>,
+    added: impl Fn(VertexId) -> Option<Added>,
+) {
     let mut before = usize::MAX;
     while left.len() < before {
         before = left.len();

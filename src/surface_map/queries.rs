@@ -5,8 +5,8 @@
 //! rounding.
 
 use super::compose::{Parametrised, barycentric_in};
-use super::embedding::Embedding;
 use super::overlay::{Overlay, OverlayPoint, Piece};
+use super::parametrisation::embedding::Embedding;
 use crate::mesh::{FaceId, HalfedgeId, SurfacePoint};
 use glam::DVec2;
 use typed_index_collections::{TiVec, ti_vec};

@@ -1,99 +1,16 @@
 //! The flat relaxation: least symmetric Dirichlet energy of a parametrisation onto the cone surface.
 //!
 //! Unknown is one point z per free vertex in a reference chart; every corner sees it through a fixed rigid motion.
-//! Newton with the projected Hessian of [`super::energy::symmetric_dirichlet`], conjugate gradients, a step that keeps every triangle positive
-//! (Smith & Schaefer 2015) and an Armijo line search.
+//! Newton with the projected Hessian of [`crate::surface_map::energy::symmetric_dirichlet`], conjugate gradients, a step that
+//! keeps every triangle positive (Smith & Schaefer 2015) and an Armijo line search.
 
-use super::embedding::Parametrised;
-use super::energy::symmetric_dirichlet;
+use super::rest_triangle::{Corner, FlatTriangle};
 use crate::math::rigid2::Rigid2;
-use crate::math::scalar::{max, min};
-use crate::math::triangle;
-use crate::mesh::{FaceId, HalfedgeId};
+use crate::math::scalar::min;
 use crate::monitor::{Cancelled, Monitor, Step};
 use crate::numerics::block_csr::{BlockCg, BlockCsr};
-use glam::{DMat2, DVec2, DVec3};
-
-/// The corner of a triangle: a free vertex seen through a rigid motion, or a fixed point.
-#[derive(Clone, Copy, Debug)]
-pub enum Corner {
-    /// The image of free vertex `.0` under motion `.1`.
-    Free(u32, Rigid2),
-    /// A cone: stays where it is.
-    Fixed(DVec2),
-}
-
-impl Corner {
-    /// Where the corner is when the free vertices are at `z`.
-    #[inline]
-    pub fn position(&self, z: &[DVec2]) -> DVec2 {
-        match self {
-            Self::Free(v, motion) => motion.apply(z[*v as usize]),
-            Self::Fixed(p) => *p,
-        }
-    }
-}
-
-/// One triangle with its rest shape.
-#[derive(Clone, Copy, Debug)]
-pub struct FlatTriangle {
-    /// Corners, counter-clockwise, in the plane of the triangle's chart.
-    pub corners: [Corner; 3],
-    /// Rest area.
-    pub area: f64,
-    /// Gradients of the corners' hat functions in the rest plane.
-    pub hats: [DVec2; 3],
-}
-
-impl FlatTriangle {
-    /// The triangle with rest positions in space.
-    ///
-    /// A rest triangle thinner than 1e-10 of its longest edge is widened, so that its energy stays finite.
-    pub fn with_rest(corners: [Corner; 3], rest: [DVec3; 3]) -> Self {
-        let lengths = [0, 1, 2].map(|k| rest[k].distance(rest[(k + 1) % 3]));
-        let mut flat = triangle::lay_out(lengths);
-        let longest = max(max(max(lengths[0], lengths[1]), lengths[2]), 1e-150);
-        if lengths[0] < 1e-10 * longest {
-            flat = [DVec2::ZERO, DVec2::new(1e-10 * longest, 0.0), DVec2::new(0.0, longest)];
-        } else if flat[2].y < 1e-10 * longest {
-            flat[2].y = 1e-10 * longest;
-        }
-        let area = 0.5 * triangle::signed_double_area(flat[0], flat[1], flat[2]);
-        Self { corners, area, hats: triangle::hat_gradients(flat) }
-    }
-
-    /// The Jacobian when corner 0 is at `z` and the other corners are fixed.
-    pub fn jacobian_at(&self, z: DVec2) -> DMat2 {
-        self.jacobian(&self.positions(&[z]))
-    }
-
-    #[inline]
-    fn positions(&self, z: &[DVec2]) -> [DVec2; 3] {
-        self.corners.map(|corner| corner.position(z))
-    }
-
-    #[inline]
-    fn displacements(&self, dz: &[DVec2]) -> [DVec2; 3] {
-        self.corners.map(|corner| match corner {
-            Corner::Free(v, motion) => motion.rotate(dz[v as usize]),
-            Corner::Fixed(_) => DVec2::ZERO,
-        })
-    }
-
-    /// The Jacobian from the rest plane to the chart.
-    #[inline]
-    fn jacobian(&self, p: &[DVec2; 3]) -> DMat2 {
-        let column =
-            |c: fn(DVec2) -> f64| p[0] * c(self.hats[0]) + p[1] * c(self.hats[1]) + p[2] * c(self.hats[2]);
-        DMat2::from_cols(column(|g| g.x), column(|g| g.y))
-    }
-}
-
-/// The Jacobian of a parametrisation on one face, from the plane of its rest triangle to its chart.
-pub fn rest_jacobian(side: Parametrised<'_>, f: FaceId) -> DMat2 {
-    let corners = [0, 1, 2].map(|k| side.embedding.corners[HalfedgeId::of(f, k)]);
-    FlatTriangle::with_rest(corners.map(Corner::Fixed), side.mesh.corners(f)).jacobian(&corners)
-}
+use crate::surface_map::energy::symmetric_dirichlet;
+use glam::{DMat2, DVec2};
 
 /// How far a relaxation goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -123,7 +40,7 @@ pub struct RelaxReport {
 
 /// A Hessian with respect to a Jacobian, in blocks by the Jacobian's columns.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct FaceHessian {
+pub(in crate::surface_map) struct FaceHessian {
     xx: DMat2,
     xy: DMat2,
     yy: DMat2,
@@ -255,7 +172,7 @@ impl FlatProblem {
     /// unknown.
     ///
     /// `damping` is added to the diagonal, relative to it.
-    pub(super) fn direction(
+    pub(in crate::surface_map) fn direction(
         &mut self,
         z: &[DVec2],
         (barrier, damping): (f64, f64),
@@ -278,7 +195,7 @@ impl FlatProblem {
     }
 
     /// The triangle's corners as unknowns: number and motion, `None` where fixed.
-    pub(super) fn free_corner(&self, t: usize, k: usize) -> Option<(usize, Rigid2)> {
+    pub(in crate::surface_map) fn free_corner(&self, t: usize, k: usize) -> Option<(usize, Rigid2)> {
         match self.triangles[t].corners[k] {
             Corner::Free(v, motion) => Some((v as usize, motion)),
             Corner::Fixed(_) => None,
@@ -286,12 +203,15 @@ impl FlatProblem {
     }
 
     /// The triangles.
-    pub(super) fn triangles(&self) -> &[FlatTriangle] {
+    pub(in crate::surface_map) fn triangles(&self) -> &[FlatTriangle] {
         &self.triangles
     }
 
     /// The Jacobians of all triangles.
-    pub(super) fn jacobians<'s>(&'s self, z: &'s [DVec2]) -> impl Iterator<Item = DMat2> + 's {
+    pub(in crate::surface_map) fn jacobians<'s>(
+        &'s self,
+        z: &'s [DVec2],
+    ) -> impl Iterator<Item = DMat2> + 's {
         self.triangles.iter().map(|t| t.jacobian(&t.positions(z)))
     }
 
@@ -356,7 +276,7 @@ impl FlatProblem {
     }
 
     /// The smallest positive t at which a triangle of z + t step degenerates.
-    pub(super) fn first_degenerate(&self, z: &[DVec2], step: &[DVec2]) -> f64 {
+    pub(in crate::surface_map) fn first_degenerate(&self, z: &[DVec2], step: &[DVec2]) -> f64 {
         let root = |t: &FlatTriangle| {
             let (p, d) = (t.positions(z), t.displacements(step));
             let (e1, e2, d1, d2) = (p[1] - p[0], p[2] - p[0], d[1] - d[0], d[2] - d[0]);
@@ -366,7 +286,7 @@ impl FlatProblem {
     }
 }
 
-pub(super) fn unrotate(motion: &Rigid2, d: DVec2) -> DVec2 {
+pub(in crate::surface_map) fn unrotate(motion: &Rigid2, d: DVec2) -> DVec2 {
     crate::math::rigid2::conj_mul(motion.rotation, d)
 }
 
@@ -385,6 +305,7 @@ fn smallest_positive_root(a: f64, b: f64, c: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::monitor::Silent;
+    use glam::DVec3;
 
     /// A fan of six triangles around a free centre and a ring of six free vertices inside a fixed hexagon.
     fn problem() -> (FlatProblem, Vec<DVec2>) {

@@ -4,18 +4,18 @@
 //! comes back, each into the kernel of its star, and the level is relaxed whenever the number of vertices has grown
 //! fourfold. Every star is checked: positive triangles and one turn of 2 pi (positive areas alone admit double covers).
 
-use super::MapError;
+use super::coarsen_to_base::coarsen_to_base;
 use super::cone_surface::ConeSurface;
 use super::embedding::{Anchor, Embedding, Parametrised};
-use super::flat_problem::{RelaxOptions, RelaxReport};
-use super::progressive::coarsen_to_base;
-use super::seamless::Seamless;
+use super::level::ParametrisedLevel;
+use super::problem::{RelaxOptions, RelaxReport};
 use super::unknowns::Unknowns;
 use crate::layout::PatchedMesh;
 use crate::math::rigid2::Rigid2;
 use crate::mesh::collapsible::CollapsibleMesh;
 use crate::mesh::{HalfedgeId, VertexId};
 use crate::monitor::{Monitor, Step};
+use crate::surface_map::error::MapError;
 use std::sync::Arc;
 use typed_index_collections::{TiVec, ti_vec};
 
@@ -37,7 +37,7 @@ impl Default for InitialOptions {
     }
 }
 
-/// What it took.
+/// The levels and vertices of a first parametrisation.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InitialReport {
     /// Levels that were relaxed.
@@ -67,7 +67,7 @@ fn on_charts<'a>(
     mesh: CollapsibleMesh,
     patched: &'a PatchedMesh,
     surface: &Arc<ConeSurface>,
-) -> Seamless<'a> {
+) -> ParametrisedLevel<'a> {
     let mut landmark: TiVec<VertexId, VertexId> = ti_vec![VertexId(u32::MAX); patched.mesh.vertex_count()];
     patched.landmark_vertices.iter_enumerated().for_each(|(l, &v)| landmark[v] = l);
     let base = &surface.base.mesh;
@@ -86,8 +86,12 @@ fn on_charts<'a>(
         anchors[landmark[mesh.tail(h)]] = Anchor { corner: h, chart, motion: Rigid2::IDENTITY };
     }
     let places: Vec<HalfedgeId> = halfedges.iter().map(|&h| base_halfedge(&mesh, h)).collect();
-    let mut level =
-        Seamless::new((mesh, patched.mesh.positions()), &patched.landmark_vertices, surface.clone(), anchors);
+    let mut level = ParametrisedLevel::new(
+        (mesh, patched.mesh.positions()),
+        &patched.landmark_vertices,
+        surface.clone(),
+        anchors,
+    );
     for (&h, b) in halfedges.iter().zip(places) {
         level.set(h, surface.charts[b.face()][b.corner()], surface.transitions[b]);
     }
@@ -99,7 +103,7 @@ fn on_charts<'a>(
 /// # Errors
 /// [`MapError::NoStart`] where a vertex finds no place.
 pub fn refine(
-    level: &mut Seamless<'_>,
+    level: &mut ParametrisedLevel<'_>,
     goal: usize,
     options: &InitialOptions,
     monitor: &mut dyn Monitor,

@@ -7,7 +7,7 @@ use glam::DVec2;
 use std::sync::Arc;
 use typed_index_collections::{TiSlice, TiVec};
 
-/// A piecewise linear map from a mesh to a [`super::ConeSurface`].
+/// A piecewise linear map from a mesh to a [`crate::surface_map::ConeSurface`].
 ///
 /// Every face is developed in a plane of its own; rigid motions join the planes of neighbours. At the landmarks, which are
 /// the cones, an anchor joins a plane to a chart of the cone surface.

@@ -1,5 +1,4 @@
-//! A seamless parametrisation of a mesh at some level of coarseness: vertices go and come back one at a time, and the level
-//! is relaxed in between.
+//! A level of a mesh with its parametrisation: vertices go and come back one at a time, and the level is relaxed in between.
 //!
 //! Every face has a plane of its own, so that nothing depends on patches: a vertex that comes back takes its star's planes,
 //! one that goes leaves them. Every star is checked: positive triangles and the right angle (positive areas alone admit
@@ -7,25 +6,23 @@
 
 use super::cone_surface::ConeSurface;
 use super::embedding::{Anchor, Embedding};
-use super::energy::symmetric_dirichlet;
 use super::fan::Fan;
-use super::flat_problem::{Corner, FlatProblem, FlatTriangle, RelaxOptions, RelaxReport};
-use super::placement::Kernel;
+use super::problem::{FlatProblem, RelaxOptions, RelaxReport};
+use super::rest_triangle::{Corner, FlatTriangle, RestTriangle};
+use super::star::{Star, turn_at};
 use crate::math::rigid2::Rigid2;
-use crate::math::scalar::atan2;
-use crate::math::triangle::{self, signed_double_area};
+use crate::math::triangle::signed_double_area;
 use crate::mesh::coarsening::Level;
 use crate::mesh::collapsible::CollapsibleMesh;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::monitor::{Cancelled, Monitor};
-use glam::{DMat2, DVec2, DVec3};
-use std::f64::consts::TAU;
+use glam::{DVec2, DVec3};
 use std::sync::Arc;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 /// A level of a mesh with its parametrisation.
 #[derive(Clone)]
-pub struct Seamless<'a> {
+pub struct ParametrisedLevel<'a> {
     mesh: CollapsibleMesh,
     positions: &'a TiSlice<VertexId, DVec3>,
     surface: Arc<ConeSurface>,
@@ -36,37 +33,9 @@ pub struct Seamless<'a> {
     star: Star,
 }
 
-/// The shape that a face wants to have, and how much it counts.
-#[derive(Clone, Copy, Debug)]
-pub struct RestTriangle {
-    /// Corners in space.
-    pub corners: [DVec3; 3],
-    /// Its area, or more.
-    pub weight: f64,
-}
-
-impl RestTriangle {
-    /// A triangle that counts by its area.
-    pub fn of(corners: [DVec3; 3]) -> Self {
-        Self { corners, weight: triangle::area(corners[0], corners[1], corners[2]).max(1e-30) }
-    }
-}
-
-/// The star of a vertex, seen from the plane of its first face.
-#[derive(Clone, Default)]
-struct Star {
-    halfedges: Vec<HalfedgeId>,
-    /// From the plane of the first face to that of each.
-    motions: Vec<Rigid2>,
-    /// Heads of the halfedges.
-    ring: Vec<DVec2>,
-    triangles: Vec<FlatTriangle>,
-    kernel: Kernel,
-}
-
-impl<'a> Seamless<'a> {
-    /// A level whose live faces are placed by `place` (corners by halfedge and transitions) and whose landmarks are
-    /// anchored.
+impl<'a> ParametrisedLevel<'a> {
+    /// A level with anchored landmarks. Its corners and transitions have no values yet: [`ParametrisedLevel::set`] gives them
+    /// to each live halfedge.
     pub fn new(
         (mesh, positions): (CollapsibleMesh, &'a TiSlice<VertexId, DVec3>),
         landmarks: &TiSlice<VertexId, VertexId>,
@@ -396,64 +365,6 @@ impl<'a> Seamless<'a> {
     }
 }
 
-impl Star {
-    /// Three Newton steps on the star's energy.
-    fn improved(&self, start: DVec2) -> DVec2 {
-        let energy_at = |z: DVec2| {
-            self.triangles
-                .iter()
-                .try_fold(0.0, |sum, t| Some(sum + t.area * symmetric_dirichlet::density(&t.jacobian_at(z))?))
-        };
-        let (mut z, Some(mut least)) = (start, energy_at(start)) else { return start };
-        for _ in 0..3 {
-            let (slope, curvature) = self.derivatives(z);
-            let mut step = -(curvature.inverse() * slope);
-            for _ in 0..12 {
-                if let Some(next) = energy_at(z + step)
-                    && next < least
-                {
-                    z += step;
-                    least = next;
-                    break;
-                }
-                step *= 0.5;
-            }
-        }
-        z
-    }
-
-    fn derivatives(&self, z: DVec2) -> (DVec2, DMat2) {
-        let (mut slope, mut curvature) = (DVec2::ZERO, DMat2::ZERO);
-        for t in &self.triangles {
-            let j = t.jacobian_at(z);
-            slope += symmetric_dirichlet::gradient(&j) * t.hats[0] * t.area;
-            for term in symmetric_dirichlet::hessian(&j) {
-                let pull = term.apply(t.hats[0]);
-                curvature += DMat2::from_cols(pull * pull.x, pull * pull.y) * (term.weight * t.area);
-            }
-        }
-        (slope, curvature)
-    }
-
-    /// Whether the triangles of the star are positive and turn around z once.
-    fn turns_once(&self, z: DVec2) -> bool {
-        let mut turn = 0.0;
-        for k in 0..self.ring.len() {
-            let (p, q) = (self.ring[k], self.ring[(k + 1) % self.ring.len()]);
-            if signed_double_area(z, p, q) <= 0.0 {
-                return false;
-            }
-            turn += turn_at(z, p, q);
-        }
-        (turn - TAU).abs() < 1e-6
-    }
-}
-
 /// The star of a vertex has no kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoPlace;
-
-fn turn_at(apex: DVec2, p: DVec2, q: DVec2) -> f64 {
-    let (p, q) = (p - apex, q - apex);
-    atan2(p.perp_dot(q), p.dot(q))
-}

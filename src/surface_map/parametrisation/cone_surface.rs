@@ -1,11 +1,11 @@
 //! The flat cone surface M: the base domain's triangles made flat.
 
-use super::MapError;
 use crate::base_domain::BaseDomain;
 use crate::layout::{BaseLayout, PatchedMesh};
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::surface_map::error::MapError;
 use glam::DVec2;
 use typed_index_collections::TiVec;
 

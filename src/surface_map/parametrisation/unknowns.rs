@@ -1,7 +1,8 @@
 //! Between embeddings and the unknowns of a relaxation: one point per free vertex.
 
 use super::embedding::{Embedding, Parametrised};
-use super::flat_problem::{Corner, FlatProblem, FlatTriangle};
+use super::problem::FlatProblem;
+use super::rest_triangle::{Corner, FlatTriangle};
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::{cos, sin};
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
