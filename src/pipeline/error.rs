@@ -5,8 +5,8 @@ use crate::cone_metric::FlowError;
 use crate::layout::LayoutError;
 use crate::mesh::MeshError;
 use crate::monitor::Cancelled;
-use crate::surface_map::compose::LocateError;
 use crate::surface_map::overlay::OverlayError;
+use crate::surface_map::overlay::location::LocateError;
 use crate::surface_map::{Certificate, MapError};
 
 /// Why there is no map.

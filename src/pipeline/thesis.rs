@@ -7,10 +7,10 @@ use super::{
 use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Monitor, Stage};
-use crate::surface_map::distortion::image_distortion;
-use crate::surface_map::ground_truth::same_connectivity_error;
+use crate::surface_map::measures::distortion::image_distortion;
+use crate::surface_map::measures::ground_truth::same_connectivity_error;
+use crate::surface_map::measures::transfer::mapped_mesh;
 use crate::surface_map::thesis::{ThesisMap, thesis_map};
-use crate::surface_map::transfer::mapped_mesh;
 use glam::DVec3;
 use typed_index_collections::TiVec;
 

@@ -5,21 +5,21 @@
 //! level, while the energy of the map itself is lowered on every level. So the full meshes start near the optimum, and are
 //! never cut along the drawing.
 
-use super::base_lines::mend_anchors;
-use super::compose::{barycentric, locate};
-use super::composed::{self, ComposedOptions, Relaxed};
-use super::dents::{self, DentEnergy, DentOptions};
+use super::certificate::base_lines::mend_anchors;
 use super::energy::map_energy::MapEnergy;
 use super::energy::point_constraint::PointConstraint;
 use super::error::MapError;
+use super::overlay::location::{barycentric, locate};
 use super::overlay::overlay;
 use super::parametrisation::cone_surface::ConeSurface;
 use super::parametrisation::embedding::{Embedding, Parametrised};
 use super::parametrisation::initial::{self, InitialOptions};
 use super::parametrisation::level::ParametrisedLevel;
-use super::parametrisation::problem::RelaxOptions;
+use super::parametrisation::problem::FlatRelaxOptions;
 use super::parametrisation::rest_triangle::RestTriangle;
 use super::patch_fit::Skin;
+use super::relaxation::dents::{self, DentEnergy, DentOptions};
+use super::relaxation::map_relaxation::{self, MapRelaxationOptions, Relaxed};
 use super::relief::{self, ReliefOptions, Seen};
 use crate::landmarks::Landmarks;
 use crate::layout::{BaseLayout, PatchedMesh};
@@ -41,9 +41,9 @@ pub struct MultilevelOptions {
     /// The first parametrisation of a coarse level.
     pub initial: InitialOptions,
     /// The relaxation of each coarse side on its own.
-    pub relax: RelaxOptions,
+    pub relax: FlatRelaxOptions,
     /// The relaxation of the map of the coarse level by which a layout is judged.
-    pub judge: ComposedOptions,
+    pub judge: MapRelaxationOptions,
     /// So many of the best layouts are judged a second time.
     pub finalists: usize,
     /// Those whose mean log density is at most this many times the least one.
@@ -54,14 +54,14 @@ pub struct MultilevelOptions {
     /// Finer levels on which they are, at most.
     pub finer: usize,
     /// The relaxation for the second judgement.
-    pub decide: ComposedOptions,
+    pub decide: MapRelaxationOptions,
     /// The relaxation of the map of the coarse level that was chosen.
-    pub coarse: ComposedOptions,
+    pub coarse: MapRelaxationOptions,
     /// A coarse map with a median distortion below this is between two poses of one body: it is relaxed by
     /// [`MapEnergy::POSES`] from then on.
     pub pose_median: f64,
     /// The relaxation of the map on every finer level.
-    pub fine: ComposedOptions,
+    pub fine: MapRelaxationOptions,
     /// How the map between two poses follows the relief of the skin.
     pub relief: ReliefOptions,
     /// How the worst places of the full map are healed.
@@ -74,17 +74,33 @@ impl Default for MultilevelOptions {
             coarse_vertices: 500,
             growth: 2.0,
             initial: InitialOptions::default(),
-            relax: RelaxOptions::default(),
-            judge: ComposedOptions { max_rounds: 1, energy: MapEnergy::JUDGE, ..ComposedOptions::default() },
+            relax: FlatRelaxOptions::default(),
+            judge: MapRelaxationOptions {
+                max_rounds: 1,
+                energy: MapEnergy::JUDGE,
+                ..MapRelaxationOptions::default()
+            },
             finalists: 4,
             close: 1.3,
             undecided: 1.1,
             finer: 1,
-            decide: ComposedOptions { max_rounds: 5, energy: MapEnergy::JUDGE, ..ComposedOptions::default() },
+            decide: MapRelaxationOptions {
+                max_rounds: 5,
+                energy: MapEnergy::JUDGE,
+                ..MapRelaxationOptions::default()
+            },
             // A round costs little here, and what is left undone shows on every finer level.
-            coarse: ComposedOptions { max_rounds: 60, relative_decrease: 2e-5, ..ComposedOptions::default() },
+            coarse: MapRelaxationOptions {
+                max_rounds: 60,
+                relative_decrease: 2e-5,
+                ..MapRelaxationOptions::default()
+            },
             pose_median: 1.09,
-            fine: ComposedOptions { max_rounds: 10, relative_decrease: 3e-4, ..ComposedOptions::default() },
+            fine: MapRelaxationOptions {
+                max_rounds: 10,
+                relative_decrease: 3e-4,
+                ..MapRelaxationOptions::default()
+            },
             relief: ReliefOptions::default(),
             dents: DentOptions::default(),
         }
@@ -185,7 +201,7 @@ impl CoarseMap<'_> {
         self.relax((&options.coarse, &mut *monitor))?;
         if self.median < options.pose_median {
             self.energy = MapEnergy::POSES;
-            self.relax((&ComposedOptions { energy: self.energy, ..options.coarse }, monitor))?;
+            self.relax((&MapRelaxationOptions { energy: self.energy, ..options.coarse }, monitor))?;
         }
         Ok(())
     }
@@ -215,7 +231,7 @@ impl CoarseMap<'_> {
     /// [`MapError::Cancelled`].
     pub fn relax(
         &mut self,
-        (options, monitor): (&ComposedOptions, &mut dyn Monitor),
+        (options, monitor): (&MapRelaxationOptions, &mut dyn Monitor),
     ) -> Result<(), MapError> {
         let measure = |relaxed: &Relaxed<'_>| (relaxed.mean_log(), relaxed.median());
         (self.mean_log, self.median) = self.lower((options, monitor), measure)?;
@@ -228,7 +244,7 @@ impl CoarseMap<'_> {
     /// [`MapError::Cancelled`].
     fn follow_relief(
         &mut self,
-        (options, fine, monitor): (&ReliefOptions, &ComposedOptions, &mut dyn Monitor),
+        (options, fine, monitor): (&ReliefOptions, &MapRelaxationOptions, &mut dyn Monitor),
     ) -> Result<(), MapError> {
         let [least, most] = options.vertices;
         let fits = |level: &ParametrisedLevel<'_>| (least..=most).contains(&level.mesh().live_vertices());
@@ -245,7 +261,7 @@ impl CoarseMap<'_> {
                 let found = relief::pulls([skins[k], skins[1 - k]], seen, options);
                 *pulls = found.into_iter().map(|(v, pull)| (seen.vertices[v], pull)).collect();
             });
-            self.lower((&ComposedOptions { max_rounds: 4, ..*fine }, &mut *monitor), |_| ())?;
+            self.lower((&MapRelaxationOptions { max_rounds: 4, ..*fine }, &mut *monitor), |_| ())?;
         }
         // Finer levels hold what has settled: a pull of one of their small triangles would dent the map.
         self.look(|_, seen, pulls| {
@@ -318,14 +334,14 @@ impl CoarseMap<'_> {
     /// Lowers the energy of the map of the present levels; answers with what `look` sees in it.
     fn lower<T>(
         &mut self,
-        (options, monitor): (&ComposedOptions, &mut dyn Monitor),
+        (options, monitor): (&MapRelaxationOptions, &mut dyn Monitor),
         look: impl FnOnce(&Relaxed<'_>) -> T,
     ) -> Result<T, MapError> {
         let present = self.present();
         let parametrised = [0, 1].map(|k| present[k].parametrised());
         let pulls = [0, 1].map(|k| on_level(&self.pulls[k], &present[k].level));
         let pulls = [&pulls[0][..], &pulls[1][..]];
-        let relaxed = composed::relax_pulled(parametrised, (&self.surface, pulls), options, monitor)?;
+        let relaxed = map_relaxation::relax_pulled(parametrised, (&self.surface, pulls), options, monitor)?;
         let seen = look(&relaxed);
         let embeddings = relaxed.into_embeddings();
         for k in 0..2 {
@@ -376,7 +392,7 @@ pub fn solve_fine(
     (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
 ) -> Result<[Embedding; 2], MapError> {
     while map.grow((options, &mut *monitor))? {
-        let fine = ComposedOptions { energy: map.energy, ..options.fine };
+        let fine = MapRelaxationOptions { energy: map.energy, ..options.fine };
         // The finest level has room for what pulls have dented, and hardly moves otherwise.
         let is_finest = map.levels.iter().all(ParametrisedLevel::is_full);
         if is_finest {

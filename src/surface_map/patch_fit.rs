@@ -4,7 +4,7 @@
 //! 1991), less where they do not fit. How the fit worsens when the patch is shifted, all rotations allowed, tells in which
 //! directions relief holds it.
 
-use super::transfer::vertex_normals;
+use super::measures::transfer::vertex_normals;
 use crate::math::rigid3::{Rigid3, nearest_rotation, outer, small_turn};
 use crate::math::scalar::max;
 use crate::mesh::{SurfaceMesh, VertexId};

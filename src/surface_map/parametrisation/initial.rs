@@ -8,7 +8,7 @@ use super::coarsen_to_base::coarsen_to_base;
 use super::cone_surface::ConeSurface;
 use super::embedding::{Anchor, Embedding, Parametrised};
 use super::level::ParametrisedLevel;
-use super::problem::{RelaxOptions, RelaxReport};
+use super::problem::{FlatRelaxOptions, FlatRelaxReport};
 use super::unknowns::Unknowns;
 use crate::layout::PatchedMesh;
 use crate::math::rigid2::Rigid2;
@@ -28,12 +28,12 @@ pub struct InitialOptions {
     /// A level is relaxed when its vertices have grown by this factor.
     pub growth: f64,
     /// How far a level is relaxed.
-    pub level: RelaxOptions,
+    pub level: FlatRelaxOptions,
 }
 
 impl Default for InitialOptions {
     fn default() -> Self {
-        Self { growth: 4.0, level: RelaxOptions::default() }
+        Self { growth: 4.0, level: FlatRelaxOptions::default() }
     }
 }
 
@@ -143,9 +143,9 @@ pub fn refine(
 pub fn relax(
     side: Parametrised<'_>,
     surface: &ConeSurface,
-    options: &RelaxOptions,
+    options: &FlatRelaxOptions,
     monitor: &mut dyn Monitor,
-) -> Result<(Embedding, RelaxReport), MapError> {
+) -> Result<(Embedding, FlatRelaxReport), MapError> {
     let unknowns = Unknowns::new(side);
     let mut z = unknowns.points(side.embedding);
     let report = unknowns.problem().relax(&mut z, options, monitor)?;

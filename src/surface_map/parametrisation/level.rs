@@ -7,7 +7,7 @@
 use super::cone_surface::ConeSurface;
 use super::embedding::{Anchor, Embedding};
 use super::fan::Fan;
-use super::problem::{FlatProblem, RelaxOptions, RelaxReport};
+use super::problem::{FlatProblem, FlatRelaxOptions, FlatRelaxReport};
 use super::rest_triangle::{Corner, FlatTriangle, RestTriangle};
 use super::star::{Star, turn_at};
 use crate::math::rigid2::Rigid2;
@@ -319,9 +319,9 @@ impl<'a> ParametrisedLevel<'a> {
     /// [`Cancelled`].
     pub fn relax(
         &mut self,
-        options: &RelaxOptions,
+        options: &FlatRelaxOptions,
         monitor: &mut dyn Monitor,
-    ) -> Result<RelaxReport, Cancelled> {
+    ) -> Result<FlatRelaxReport, Cancelled> {
         let Self { mesh, positions, .. } = self;
         let rest: Vec<RestTriangle> =
             mesh.faces().map(|f| RestTriangle::of(mesh.corners(f).map(|v| positions[v]))).collect();
@@ -335,9 +335,9 @@ impl<'a> ParametrisedLevel<'a> {
     pub fn relax_to(
         &mut self,
         rest: &[RestTriangle],
-        options: &RelaxOptions,
+        options: &FlatRelaxOptions,
         monitor: &mut dyn Monitor,
-    ) -> Result<RelaxReport, Cancelled> {
+    ) -> Result<FlatRelaxReport, Cancelled> {
         let mut sights: TiVec<HalfedgeId, Corner> = self.corners.iter().map(|&p| Corner::Fixed(p)).collect();
         let mut z = Vec::new();
         for v in self.mesh.vertices().filter(|&v| !self.is_landmark[v]) {

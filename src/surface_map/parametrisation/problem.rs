@@ -14,7 +14,7 @@ use glam::{DMat2, DVec2};
 
 /// How far a relaxation goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RelaxOptions {
+pub struct FlatRelaxOptions {
     /// Stops when a step lowers the energy by less than this share.
     pub relative_decrease: f64,
     /// Newton steps at most.
@@ -23,7 +23,7 @@ pub struct RelaxOptions {
     pub linear_tolerance: f64,
 }
 
-impl Default for RelaxOptions {
+impl Default for FlatRelaxOptions {
     fn default() -> Self {
         Self { relative_decrease: 1e-4, max_steps: 100, linear_tolerance: 0.03 }
     }
@@ -31,7 +31,7 @@ impl Default for RelaxOptions {
 
 /// What a relaxation did.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct RelaxReport {
+pub struct FlatRelaxReport {
     /// Energy before the first and after each step; area-weighted mean, 1 for an isometry.
     pub energies: Vec<f64>,
     /// Conjugate gradient iterations of all steps.
@@ -222,10 +222,10 @@ impl FlatProblem {
     pub fn relax(
         &mut self,
         z: &mut [DVec2],
-        options: &RelaxOptions,
+        options: &FlatRelaxOptions,
         monitor: &mut dyn Monitor,
-    ) -> Result<RelaxReport, Cancelled> {
-        let mut report = RelaxReport::default();
+    ) -> Result<FlatRelaxReport, Cancelled> {
+        let mut report = FlatRelaxReport::default();
         let Some(mut energy) = self.energy(z) else { return Ok(report) };
         report.energies.push(energy);
         let n = z.len();
@@ -368,8 +368,11 @@ mod tests {
     #[test]
     fn newton_ends_where_the_gradient_vanishes() {
         let (mut problem, mut z) = problem();
-        let options =
-            RelaxOptions { relative_decrease: 1e-14, linear_tolerance: 1e-8, ..RelaxOptions::default() };
+        let options = FlatRelaxOptions {
+            relative_decrease: 1e-14,
+            linear_tolerance: 1e-8,
+            ..FlatRelaxOptions::default()
+        };
         let report = problem.relax(&mut z, &options, &mut Silent).unwrap();
         assert!(report.energies.windows(2).all(|e| e[1] <= e[0]));
         let mut slope = vec![DVec2::ZERO; z.len()];

@@ -2,12 +2,12 @@
 //!
 //! On each piece of the overlay the map is affine with singular values s1, s2 (both surfaces scaled to area 1).
 
-use super::compose::Parametrised;
-use super::overlay::{Overlay, OverlayPoint, Piece};
-use super::parametrisation::rest_triangle::rest_jacobian;
 use crate::math::scalar::{ln, max, min};
 use crate::math::triangle::lay_out;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
+use crate::surface_map::overlay::{Overlay, OverlayPoint, Piece};
+use crate::surface_map::parametrisation::embedding::Parametrised;
+use crate::surface_map::parametrisation::rest_triangle::rest_jacobian;
 use glam::{DMat2, DVec2, DVec3};
 use typed_index_collections::{TiVec, ti_vec};
 
@@ -24,7 +24,7 @@ pub struct LocalDistortion {
 
 impl LocalDistortion {
     /// Where the map has the Jacobian `j`, with a positive determinant.
-    pub(super) fn of(j: &DMat2) -> Self {
+    pub(in crate::surface_map) fn of(j: &DMat2) -> Self {
         Self::new(j.x_axis.length_squared() + j.y_axis.length_squared(), j.determinant())
     }
 
@@ -90,7 +90,7 @@ pub struct WorstPiece {
 /// triangles only touch, rounding decides whether they share a piece. Coordinates on the cone surface are of order 1,
 /// and where two ways lead to the same corner they differ by up to 7e-15 (34 test pairs, most by less than 2e-15): that moves
 /// a side of length l by an area of 7e-15 l. Larger pieces are certain. Integrals count them all.
-pub(super) fn is_certain(area: f64, triangles: [&[DVec2; 3]; 2]) -> bool {
+pub(in crate::surface_map) fn is_certain(area: f64, triangles: [&[DVec2; 3]; 2]) -> bool {
     let longest = |t: &[DVec2; 3]| max(max(t[0].distance(t[1]), t[1].distance(t[2])), t[2].distance(t[0]));
     area > 1e-14 * min(longest(triangles[0]), longest(triangles[1]))
 }

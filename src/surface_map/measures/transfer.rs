@@ -1,8 +1,9 @@
 //! What the map carries over: the common subdivision as one mesh with positions on both surfaces, and images of vertices.
 
-use super::compose::{Locations, Parametrised, barycentric};
-use super::overlay::Overlay;
 use crate::mesh::{FaceId, HalfedgeId, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
+use crate::surface_map::overlay::Overlay;
+use crate::surface_map::overlay::location::{Locations, barycentric};
+use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 use typed_index_collections::TiVec;

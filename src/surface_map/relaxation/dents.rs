@@ -8,16 +8,16 @@
 //! method in two unknowns, from difference quotients of the logarithm. The worst come first; what does not move any more
 //! rests until something moves beside it. Triangles stay positive, and all else stays as it is.
 
-use super::distortion::{self, LocalDistortion};
-use super::energy::map_energy::MapEnergy;
-use super::overlay::{Overlay, Piece};
-use super::parametrisation::cone_surface::ConeSurface;
-use super::parametrisation::embedding::{Embedding, Parametrised};
-use super::parametrisation::rest_triangle::{Corner, FlatTriangle, rest_jacobian};
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::{ln, max, min};
 use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::surface_map::energy::map_energy::MapEnergy;
+use crate::surface_map::measures::distortion::{self, LocalDistortion};
+use crate::surface_map::overlay::{Overlay, Piece};
+use crate::surface_map::parametrisation::cone_surface::ConeSurface;
+use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
+use crate::surface_map::parametrisation::rest_triangle::{Corner, FlatTriangle, rest_jacobian};
 use glam::{DMat2, DVec2};
 use std::collections::{BTreeMap, BTreeSet};
 use typed_index_collections::{TiVec, ti_vec};
@@ -503,11 +503,11 @@ mod tests {
     use super::*;
     use crate::monitor::Silent;
     use crate::surface_map::certify;
-    use crate::surface_map::compose::locate;
-    use crate::surface_map::composed::tests::{example, sides};
-    use crate::surface_map::composed::{ComposedOptions, relax};
-    use crate::surface_map::distortion::{Distortion, distortion};
+    use crate::surface_map::measures::distortion::{Distortion, distortion};
+    use crate::surface_map::overlay::location::locate;
     use crate::surface_map::overlay::overlay;
+    use crate::surface_map::relaxation::map_relaxation::tests::{example, sides};
+    use crate::surface_map::relaxation::map_relaxation::{MapRelaxationOptions, relax};
 
     const ENERGY: DentEnergy = DentEnergy { energy: MapEnergy::SMOOTH, brink: 20.0 };
 
@@ -541,7 +541,7 @@ mod tests {
     #[test]
     fn a_dent_is_healed() {
         let (layout, surface, start) = example();
-        let options = ComposedOptions::default();
+        let options = MapRelaxationOptions::default();
         let relaxed =
             relax(sides(&layout, &start), &surface, &options, &mut Silent).unwrap().into_embeddings();
         let (_, smooth) = overlaid(sides(&layout, &relaxed), &surface);

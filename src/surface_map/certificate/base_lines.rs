@@ -4,13 +4,13 @@
 //! lines that correspond under the map, and they show that a parametrisation is one onto this cone surface and no other: each
 //! line starts at its angle and must arrive at its landmark after its length.
 
-use super::compose::exit_edge;
-use super::parametrisation::cone_surface::ConeSurface;
-use super::parametrisation::embedding::{Anchor, Embedding, Parametrised};
-use super::parametrisation::fan::{Fan, Wedge};
 use crate::math::rigid2::{Rigid2, complex_mul};
 use crate::math::scalar::{cos, sin};
 use crate::mesh::{HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
+use crate::surface_map::overlay::location::exit_edge;
+use crate::surface_map::parametrisation::cone_surface::ConeSurface;
+use crate::surface_map::parametrisation::embedding::{Anchor, Embedding, Parametrised};
+use crate::surface_map::parametrisation::fan::{Fan, Wedge};
 use glam::DVec2;
 use std::sync::Arc;
 use typed_index_collections::{TiSlice, TiVec};

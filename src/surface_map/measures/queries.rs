@@ -4,10 +4,10 @@
 //! the piece's face of the other mesh. Both directions use the same pieces, so that one is the inverse of the other up to
 //! rounding.
 
-use super::compose::{Parametrised, barycentric_in};
-use super::overlay::{Overlay, OverlayPoint, Piece};
-use super::parametrisation::embedding::Embedding;
 use crate::mesh::{FaceId, HalfedgeId, SurfacePoint};
+use crate::surface_map::overlay::location::barycentric_in;
+use crate::surface_map::overlay::{Overlay, OverlayPoint, Piece};
+use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
 use glam::DVec2;
 use typed_index_collections::{TiVec, ti_vec};
 

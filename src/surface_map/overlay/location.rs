@@ -1,17 +1,16 @@
-//! Composition: source vertices located in the target's triangles on the cone surface.
+//! Source vertices located in the target's triangles on the cone surface.
 //!
 //! Every face is developed in a plane of its own, so a point of the surface has many names. The names are matched at
 //! the landmarks, where the angle around the cone is known on both sides, and carried from vertex to vertex by walking
 //! straight along source edges through target triangles: crossing an edge applies its transition.
 
-use super::parametrisation::cone_surface::ConeSurface;
-pub use super::parametrisation::embedding::Parametrised;
-use super::parametrisation::embedding::{Anchor, Embedding};
-use super::parametrisation::fan::{Fan, Wedge};
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::max;
 use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, HalfedgeId, SurfacePoint, VertexId};
+use crate::surface_map::parametrisation::cone_surface::ConeSurface;
+use crate::surface_map::parametrisation::embedding::{Anchor, Embedding, Parametrised};
+use crate::surface_map::parametrisation::fan::{Fan, Wedge};
 use glam::DVec2;
 use robust::{Coord, orient2d};
 use typed_index_collections::TiVec;
@@ -287,7 +286,7 @@ fn walk_to(
 }
 
 /// The edge through which the segment p q leaves a triangle; `None` when it ends inside.
-pub(super) fn exit_edge(
+pub(in crate::surface_map) fn exit_edge(
     embedding: &Embedding,
     face: FaceId,
     [p, q]: [DVec2; 2],

@@ -6,10 +6,10 @@
 //! result alone, independently of the optimiser.
 
 use super::base_lines::base_line;
-use super::parametrisation::cone_surface::ConeSurface;
-use super::parametrisation::embedding::{Embedding, Parametrised};
 use crate::math::scalar::atan2;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::surface_map::parametrisation::cone_surface::ConeSurface;
+use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
 use glam::DVec2;
 use robust::{Coord, orient2d};
 use std::f64::consts::TAU;

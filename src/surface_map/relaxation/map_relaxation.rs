@@ -5,26 +5,26 @@
 //! moving triangle and C that of the target's inverse; when the moving side's edges sweep over the other side, the pieces'
 //! areas change too, which adds the jump of the density over each edge to the gradient (Reynolds' transport theorem).
 
-use super::compose::{Locations, Locator, Parametrised};
-use super::distortion::quantile;
-use super::energy::map_energy::MapEnergy;
-use super::energy::point_constraint::PointConstraint;
-use super::overlay::{Measure, SideOf};
-use super::parametrisation::cone_surface::ConeSurface;
-use super::parametrisation::embedding::Embedding;
-use super::parametrisation::problem::{FaceHessian, FlatProblem, unrotate};
-use super::parametrisation::rest_triangle::rest_jacobian;
-use super::parametrisation::unknowns::Unknowns;
 use crate::math::scalar::ln;
 use crate::math::triangle::hat_gradients;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
+use crate::surface_map::energy::map_energy::MapEnergy;
+use crate::surface_map::energy::point_constraint::PointConstraint;
+use crate::surface_map::measures::distortion::quantile;
+use crate::surface_map::overlay::location::{Locations, Locator};
+use crate::surface_map::overlay::{Measure, SideOf};
+use crate::surface_map::parametrisation::cone_surface::ConeSurface;
+use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
+use crate::surface_map::parametrisation::problem::{FaceHessian, FlatProblem, unrotate};
+use crate::surface_map::parametrisation::rest_triangle::rest_jacobian;
+use crate::surface_map::parametrisation::unknowns::Unknowns;
 use glam::{DMat2, DVec2};
 use typed_index_collections::TiVec;
 
 /// How far the true relaxation goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ComposedOptions {
+pub struct MapRelaxationOptions {
     /// Rounds of one step on either side, at most.
     pub max_rounds: usize,
     /// Stops when a round lowers the energy by less than this share.
@@ -35,7 +35,7 @@ pub struct ComposedOptions {
     pub energy: MapEnergy,
 }
 
-impl Default for ComposedOptions {
+impl Default for MapRelaxationOptions {
     fn default() -> Self {
         Self { max_rounds: 20, relative_decrease: 5e-4, barrier: 0.03, energy: MapEnergy::SMOOTH }
     }
@@ -88,7 +88,7 @@ const LINEAR_TOLERANCE: f64 = 0.03;
 pub fn relax<'a>(
     sides: [Parametrised<'a>; 2],
     surface: &'a ConeSurface,
-    options: &'a ComposedOptions,
+    options: &'a MapRelaxationOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Relaxed<'a>, Cancelled> {
     relax_pulled(sides, (surface, [&[], &[]]), options, monitor)
@@ -103,7 +103,7 @@ pub fn relax<'a>(
 pub fn relax_pulled<'a>(
     sides: [Parametrised<'a>; 2],
     (surface, pulls): (&'a ConeSurface, [&'a [(VertexId, PointConstraint)]; 2]),
-    options: &'a ComposedOptions,
+    options: &'a MapRelaxationOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Relaxed<'a>, Cancelled> {
     let mut relaxation = Relaxation::new(sides, (surface, pulls), options);
@@ -141,7 +141,7 @@ struct Relaxation<'a> {
     sides: [Parametrised<'a>; 2],
     surface: &'a ConeSurface,
     pulls: [&'a [(VertexId, PointConstraint)]; 2],
-    options: &'a ComposedOptions,
+    options: &'a MapRelaxationOptions,
     map_energy: MapEnergy,
     unknowns: [Unknowns<'a>; 2],
     problems: [FlatProblem; 2],
@@ -194,7 +194,7 @@ impl<'a> Relaxation<'a> {
     fn new(
         sides: [Parametrised<'a>; 2],
         (surface, pulls): (&'a ConeSurface, [&'a [(VertexId, PointConstraint)]; 2]),
-        options: &'a ComposedOptions,
+        options: &'a MapRelaxationOptions,
     ) -> Self {
         let unknowns = sides.map(Unknowns::new);
         let problems = [unknowns[0].problem(), unknowns[1].problem()];
@@ -511,8 +511,10 @@ pub(super) mod tests {
     #[test]
     fn the_gradient_with_its_transport_term_is_the_difference_quotient() {
         let (layout, surface, embeddings) = example();
-        let options =
-            ComposedOptions { energy: MapEnergy { balance: 0.1, knee: 0.2 }, ..ComposedOptions::default() };
+        let options = MapRelaxationOptions {
+            energy: MapEnergy { balance: 0.1, knee: 0.2 },
+            ..MapRelaxationOptions::default()
+        };
         let mut relaxation = Relaxation::new(sides(&layout, &embeddings), (&surface, [&[], &[]]), &options);
         assert!(relaxation.begin());
         let z = relaxation.unknowns[0].points(&embeddings[0]);
@@ -550,7 +552,7 @@ pub(super) mod tests {
     #[test]
     fn the_energy_falls_and_the_map_stays_certified() {
         let (layout, surface, embeddings) = example();
-        let options = ComposedOptions::default();
+        let options = MapRelaxationOptions::default();
         let mut told = Listener::default();
         let relaxed = relax(sides(&layout, &embeddings), &surface, &options, &mut told).unwrap();
         let expected: Vec<_> =
