@@ -18,7 +18,8 @@ use super::parametrisation::level::ParametrisedLevel;
 use super::parametrisation::problem::FlatRelaxOptions;
 use super::parametrisation::rest_triangle::RestTriangle;
 use super::patch_fit::Skin;
-use super::relaxation::dents::{self, DentEnergy, DentOptions};
+use super::relaxation::dent_energy::DentEnergy;
+use super::relaxation::dents::{self, DentOptions};
 use super::relaxation::map_relaxation::{self, MapRelaxationOptions, Relaxed};
 use super::relief::{self, ReliefOptions, Seen};
 use crate::landmarks::Landmarks;
@@ -341,7 +342,8 @@ impl CoarseMap<'_> {
         let parametrised = [0, 1].map(|k| present[k].parametrised());
         let pulls = [0, 1].map(|k| on_level(&self.pulls[k], &present[k].level));
         let pulls = [&pulls[0][..], &pulls[1][..]];
-        let relaxed = map_relaxation::relax_pulled(parametrised, (&self.surface, pulls), options, monitor)?;
+        let relaxed =
+            map_relaxation::relax_constrained(parametrised, (&self.surface, pulls), options, monitor)?;
         let seen = look(&relaxed);
         let embeddings = relaxed.into_embeddings();
         for k in 0..2 {

@@ -8,19 +8,20 @@
 //! method in two unknowns, from difference quotients of the logarithm. The worst come first; what does not move any more
 //! rests until something moves beside it. Triangles stay positive, and all else stays as it is.
 
-use crate::math::rigid2::Rigid2;
-use crate::math::scalar::{ln, max, min};
+use super::clipping::BoxedTriangle;
+use super::covered_star::{CoveredStar, Partner, Sheet, sheets};
+use super::dent_energy::DentEnergy;
+use crate::math::scalar::{ln, max};
 use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
-use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::measures::distortion::{self, LocalDistortion};
 use crate::surface_map::overlay::{Overlay, Piece};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
 use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
-use crate::surface_map::parametrisation::rest_triangle::{Corner, FlatTriangle, rest_jacobian};
+use crate::surface_map::parametrisation::rest_triangle::rest_jacobian;
 use glam::{DMat2, DVec2};
 use std::collections::{BTreeMap, BTreeSet};
-use typed_index_collections::{TiVec, ti_vec};
+use typed_index_collections::TiVec;
 
 /// How worst places are healed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,74 +52,6 @@ const LEAST: usize = 20;
 
 /// From so many times the brink on dents are deep.
 const DEEP: f64 = 10.0;
-
-/// What is lowered: the energy of the map, and what dents cost.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DentEnergy {
-    /// The energy of the map.
-    pub energy: MapEnergy,
-    /// Pieces with a density above this are dents.
-    pub brink: f64,
-}
-
-impl DentEnergy {
-    /// From so many times the brink on dents are dear: their cost grows with the sixth power of the density, and is 1 there on
-    /// either surface.
-    const DEAR: f64 = 2.5;
-
-    /// The energy per unit of source area.
-    #[inline]
-    fn density(&self, j: &DMat2) -> f64 {
-        let local = LocalDistortion::of(j);
-        let excess = local.density / (Self::DEAR * self.brink);
-        let cube = excess * excess * excess;
-        self.energy.density(j) + (1.0 + local.area) * cube * cube
-    }
-}
-
-/// A face of the other side that overlaps a face.
-#[derive(Clone, Copy)]
-struct Partner {
-    face: FaceId,
-    /// From the plane of the own face to the partner's.
-    motion: Rigid2,
-}
-
-/// One side with what overlaps its faces.
-struct Sheet<'a> {
-    side: Parametrised<'a>,
-    is_landmark: TiVec<VertexId, bool>,
-    corners: TiVec<HalfedgeId, DVec2>,
-    partners: TiVec<FaceId, Vec<Partner>>,
-}
-
-/// A triangle of a star, seen from the place of its vertex.
-struct Ray {
-    halfedge: HalfedgeId,
-    /// From the star's plane to the face's.
-    motion: Rigid2,
-    ring: [DVec2; 2],
-    /// Gradients of the hat functions in the rest plane, that of the star's vertex first.
-    hats: [DVec2; 3],
-}
-
-/// A triangle of the other side over a star.
-struct Cover {
-    face: FaceId,
-    /// From the star's plane to the face's.
-    motion: Rigid2,
-    triangle: Boxed,
-    /// From the star's plane to the rest plane.
-    onto_rest: DMat2,
-}
-
-/// A vertex with the triangles around it and those over them, in a plane whose origin is the vertex.
-struct Star {
-    rays: Vec<Ray>,
-    covers: Vec<Cover>,
-    /// Where the origin is in the plane of the first face.
-    origin: DVec2,
-}
 
 /// Moves the vertices of the worst pieces; `overlay` is that of both sides. `None` where there is no dent, or nothing helps.
 ///
@@ -174,21 +107,6 @@ fn dented(sides: [Parametrised<'_>; 2], overlay: &Overlay, brink: f64) -> BTreeS
     pieces.map(|piece| piece.source_face).collect()
 }
 
-fn sheets<'a>(sides: [Parametrised<'a>; 2], overlay: &Overlay) -> [Sheet<'a>; 2] {
-    let mut sheets = sides.map(|side| {
-        let mut is_landmark = ti_vec![false; side.mesh.vertex_count()];
-        side.landmark_vertices.iter().for_each(|&v| is_landmark[v] = true);
-        let partners = ti_vec![Vec::new(); side.mesh.face_count()];
-        Sheet { side, is_landmark, corners: side.embedding.corners.clone(), partners }
-    });
-    for piece in &overlay.pieces {
-        let (s, t) = (piece.source_face, piece.target_face);
-        sheets[0].partners[s].push(Partner { face: t, motion: piece.motion });
-        sheets[1].partners[t].push(Partner { face: s, motion: piece.motion.inverse() });
-    }
-    sheets
-}
-
 struct Healer<'a> {
     sheets: [Sheet<'a>; 2],
     energy: DentEnergy,
@@ -234,7 +152,7 @@ impl Healer<'_> {
     }
 
     /// What lies around a vertex that has moved may move again.
-    fn wake(&mut self, k: usize, star: &Star) {
+    fn wake(&mut self, k: usize, star: &CoveredStar) {
         let own = star.rays.iter().map(|ray| (k, ray.halfedge.face()));
         for (k, f) in own.chain(star.covers.iter().map(|cover| (1 - k, cover.face))) {
             for v in self.sheets[k].side.mesh.triangles()[f] {
@@ -246,13 +164,13 @@ impl Healer<'_> {
     /// Whether a source face and its partner share more than rounding can make.
     fn is_certain(&self, s: FaceId, partner: &Partner) -> bool {
         let [p, q] = [self.sheets[0].triangle(s), self.sheets[1].triangle(partner.face)];
-        let seen = Boxed::new(p.map(|corner| partner.motion.apply(corner)));
-        distortion::is_certain(seen.overlap(&Boxed::new(q)), [&p, &q])
+        let seen = BoxedTriangle::new(p.map(|corner| partner.motion.apply(corner)));
+        distortion::is_certain(seen.overlap(&BoxedTriangle::new(q)), [&p, &q])
     }
 
     /// Moves one vertex to lower the cost of its star; the star where it moved.
-    fn settled(&mut self, (k, v): (usize, VertexId)) -> Option<Star> {
-        let star = Star::around(&self.sheets[k], &self.sheets[1 - k], v);
+    fn settled(&mut self, (k, v): (usize, VertexId)) -> Option<CoveredStar> {
+        let star = CoveredStar::around(&self.sheets[k], &self.sheets[1 - k], v);
         if !star.is_covered() {
             return None;
         }
@@ -273,7 +191,7 @@ impl Healer<'_> {
     }
 
     /// Moves the vertex in the middle of a star; `false`, unchanged, where rounding turns a triangle over.
-    fn place(&mut self, k: usize, star: &Star, z: DVec2) -> bool {
+    fn place(&mut self, k: usize, star: &CoveredStar, z: DVec2) -> bool {
         let corners = &mut self.sheets[k].corners;
         let before: Vec<DVec2> = star.rays.iter().map(|ray| corners[ray.halfedge]).collect();
         for ray in &star.rays {
@@ -291,7 +209,7 @@ impl Healer<'_> {
     }
 
     /// Writes down what overlaps what now.
-    fn pair_anew(&mut self, k: usize, star: &Star, z: DVec2) {
+    fn pair_anew(&mut self, k: usize, star: &CoveredStar, z: DVec2) {
         let own: Vec<FaceId> = star.rays.iter().map(|ray| ray.halfedge.face()).collect();
         for cover in &star.covers {
             self.sheets[1 - k].partners[cover.face].retain(|partner| !own.contains(&partner.face));
@@ -299,7 +217,7 @@ impl Healer<'_> {
         for ray in &star.rays {
             let face = ray.halfedge.face();
             self.sheets[k].partners[face].clear();
-            let own = Boxed::new([z, ray.ring[0], ray.ring[1]]);
+            let own = BoxedTriangle::new([z, ray.ring[0], ray.ring[1]]);
             for cover in star.covers.iter().filter(|cover| own.overlap(&cover.triangle) > 0.0) {
                 let motion = cover.motion.after(&ray.motion.inverse());
                 self.sheets[k].partners[face].push(Partner { face: cover.face, motion });
@@ -309,203 +227,16 @@ impl Healer<'_> {
     }
 }
 
-impl Sheet<'_> {
-    /// The face with its rest shape.
-    fn rest(&self, f: FaceId) -> FlatTriangle {
-        FlatTriangle::with_rest(self.triangle(f).map(Corner::Fixed), self.side.mesh.corners(f))
-    }
-
-    /// The face in its plane.
-    fn triangle(&self, f: FaceId) -> [DVec2; 3] {
-        [0, 1, 2].map(|k| self.corners[HalfedgeId::of(f, k)])
-    }
-
-    /// From the face's rest plane to its plane.
-    fn jacobian(&self, f: FaceId) -> DMat2 {
-        self.rest(f).jacobian_at(DVec2::ZERO)
-    }
-}
-
-impl Star {
-    /// The star of a free vertex.
-    fn around(own: &Sheet<'_>, other: &Sheet<'_>, v: VertexId) -> Self {
-        let mesh = own.side.mesh;
-        let origin = own.corners[mesh.outgoing(v)];
-        let mut star = Self { rays: Vec::new(), covers: Vec::new(), origin };
-        let mut motion = Rigid2::IDENTITY;
-        for h in mesh.star(v) {
-            let (f, back) = (h.face(), motion.inverse());
-            let hats = own.rest(f).hats;
-            let k = h.corner();
-            star.rays.push(Ray {
-                halfedge: h,
-                motion,
-                ring: [h.next(), h.prev()].map(|h| back.apply(own.corners[h]) - origin),
-                hats: [hats[k], hats[(k + 1) % 3], hats[(k + 2) % 3]],
-            });
-            for partner in &own.partners[f] {
-                star.cover(other, partner.face, partner.motion.after(&motion));
-            }
-            motion = own.side.embedding.transitions[h.prev()].after(&motion);
-        }
-        star
-    }
-
-    /// Adds a triangle of the other side, unless it is there.
-    fn cover(&mut self, other: &Sheet<'_>, face: FaceId, motion: Rigid2) {
-        let back = motion.inverse();
-        let corners = [0, 1, 2].map(|k| back.apply(other.corners[HalfedgeId::of(face, k)]) - self.origin);
-        let size = corners[0].distance(corners[1]);
-        let is_same = |cover: &Cover| {
-            cover.face == face && cover.triangle.corners[0].distance(corners[0]) < 1e-6 * size
-        };
-        if self.covers.iter().any(is_same) {
-            return;
-        }
-        let rest = other.jacobian(face).inverse();
-        let onto_rest = rest * DMat2::from_cols(motion.rotation, motion.rotation.perp());
-        self.covers.push(Cover { face, motion, triangle: Boxed::new(corners), onto_rest });
-    }
-
-    /// Whether the covers' shares add up to the star.
-    fn is_covered(&self) -> bool {
-        let (mut area, mut covered) = (0.0, 0.0);
-        for ray in &self.rays {
-            let [p, q] = ray.ring;
-            let own = Boxed::new([DVec2::ZERO, p, q]);
-            area += 0.5 * p.perp_dot(q);
-            covered += self.covers.iter().map(|cover| own.overlap(&cover.triangle)).sum::<f64>();
-        }
-        (covered - area).abs() < 1e-7 * area
-    }
-
-    /// What is lowered; `None` where a triangle is not positive.
-    fn cost(&self, z: DVec2, energy: &DentEnergy) -> Option<f64> {
-        let mut cost = 0.0;
-        for ray in &self.rays {
-            let [p, q] = ray.ring;
-            if signed_double_area(z, p, q) <= 0.0 {
-                return None;
-            }
-            let column = |c: fn(DVec2) -> f64| z * c(ray.hats[0]) + p * c(ray.hats[1]) + q * c(ray.hats[2]);
-            let jacobian = DMat2::from_cols(column(|g| g.x), column(|g| g.y));
-            let scale = 1.0 / jacobian.determinant();
-            let own = Boxed::new([z, p, q]);
-            for cover in &self.covers {
-                let area = own.overlap(&cover.triangle);
-                if area > 0.0 {
-                    cost += area * scale * energy.density(&(cover.onto_rest * jacobian));
-                }
-            }
-        }
-        Some(cost)
-    }
-
-    /// A better place with its cost's logarithm, by one step of Newton's method.
-    fn improved(&self, z: DVec2, least: f64, energy: &DentEnergy) -> Option<(DVec2, f64)> {
-        let at = |z: DVec2| self.cost(z, energy).map(ln);
-        let height = |ray: &Ray| {
-            let [p, q] = ray.ring;
-            signed_double_area(z, p, q) / p.distance(q)
-        };
-        let room = self.rays.iter().map(height).fold(f64::INFINITY, min);
-        let h = 1e-3 * room;
-        let [e, w] = [at(z + DVec2::new(h, 0.0))?, at(z - DVec2::new(h, 0.0))?];
-        let [n, s] = [at(z + DVec2::new(0.0, h))?, at(z - DVec2::new(0.0, h))?];
-        let corner = at(z + DVec2::new(h, h))?;
-        let slope = DVec2::new(e - w, n - s) / (2.0 * h);
-        let [xx, yy] = [(e + w - 2.0 * least), (n + s - 2.0 * least)].map(|sum| sum / (h * h));
-        let xy = (corner - e - n + least) / (h * h);
-        let mut step = newton(slope, [xx, xy, yy], 10.0 * room)?;
-        for _ in 0..6 {
-            if let Some(cost) = at(z + step)
-                && cost < least
-            {
-                return Some((z + step, cost));
-            }
-            step *= 0.3;
-        }
-        None
-    }
-}
-
-/// Newton's step with the Hessian's eigenvalues made positive, no longer than `longest`.
-fn newton(slope: DVec2, [xx, xy, yy]: [f64; 3], longest: f64) -> Option<DVec2> {
-    let (mean, difference) = (0.5 * (xx + yy), 0.5 * (xx - yy));
-    let root = (difference * difference + xy * xy).sqrt();
-    let first = DVec2::new(xy, mean + root - xx).normalize_or(DVec2::X);
-    let least = slope.length() / longest;
-    let [a, b] = [mean + root, mean - root].map(|eigenvalue| max(eigenvalue.abs(), least));
-    let step = -(first * (first.dot(slope) / a) + first.perp() * (first.perp().dot(slope) / b));
-    step.is_finite().then_some(step)
-}
-
-/// A counter-clockwise triangle with its bounding box.
-struct Boxed {
-    corners: [DVec2; 3],
-    low: DVec2,
-    high: DVec2,
-}
-
-/// Room for the corners of a triangle that was clipped three times, also where rounding makes it a little concave.
-type Polygon = [DVec2; 12];
-
-impl Boxed {
-    fn new(corners: [DVec2; 3]) -> Self {
-        let [p, q, r] = corners;
-        Self { corners, low: p.min(q).min(r), high: p.max(q).max(r) }
-    }
-
-    /// The area that two triangles share: one is clipped by the other's sides (Sutherland & Hodgman 1974).
-    fn overlap(&self, clip: &Self) -> f64 {
-        if !(self.low.cmple(clip.high).all() && clip.low.cmple(self.high).all()) {
-            return 0.0;
-        }
-        let mut polygon: Polygon = [DVec2::ZERO; 12];
-        polygon[..3].copy_from_slice(&self.corners);
-        let mut count = 3;
-        for k in 0..3 {
-            let from = clip.corners[k];
-            let along = clip.corners[(k + 1) % 3] - from;
-            count = clipped(&mut polygon, count, |p| along.perp_dot(p - from));
-            if count < 3 {
-                return 0.0;
-            }
-        }
-        let fan = (1..count - 1).map(|i| signed_double_area(polygon[0], polygon[i], polygon[i + 1]));
-        0.5 * max(fan.sum(), 0.0)
-    }
-}
-
-/// Cuts off the part of a polygon where `side` is negative; the number of corners that are left.
-fn clipped(polygon: &mut Polygon, count: usize, side: impl Fn(DVec2) -> f64) -> usize {
-    let before = *polygon;
-    let mut kept = 0;
-    let mut here = side(before[0]);
-    for i in 0..count {
-        let (a, b) = (before[i], before[if i + 1 == count { 0 } else { i + 1 }]);
-        let there = side(b);
-        if here >= 0.0 {
-            polygon[kept] = a;
-            kept += 1;
-        }
-        if (here >= 0.0) != (there >= 0.0) {
-            polygon[kept] = a + (b - a) * (here / (here - there));
-            kept += 1;
-        }
-        here = there;
-    }
-    kept
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::monitor::Silent;
     use crate::surface_map::certify;
+    use crate::surface_map::energy::map_energy::MapEnergy;
     use crate::surface_map::measures::distortion::{Distortion, distortion};
     use crate::surface_map::overlay::location::locate;
     use crate::surface_map::overlay::overlay;
+    use crate::surface_map::relaxation::covered_star::Ray;
     use crate::surface_map::relaxation::map_relaxation::tests::{example, sides};
     use crate::surface_map::relaxation::map_relaxation::{MapRelaxationOptions, relax};
 
@@ -521,7 +252,7 @@ mod tests {
     /// there is none.
     fn dent(side: Parametrised<'_>, embedding: &mut Embedding, v: VertexId, distance: f64) -> bool {
         let sheet = &sheets([side, side], &Overlay::default())[0];
-        let star = Star::around(sheet, sheet, v);
+        let star = CoveredStar::around(sheet, sheet, v);
         let middle = |ray: &Ray| (ray.ring[0] + ray.ring[1]) * 0.5 * (1.0 - distance);
         let places: Vec<DVec2> = star.rays.iter().map(middle).collect();
         let is_free =
@@ -584,7 +315,7 @@ mod tests {
         let sheets = sheets(sides, &overlay);
         let energy = DentEnergy { brink: f64::INFINITY, energy: MapEnergy::PLAIN };
         for v in free_vertices(sides[0]) {
-            let star = Star::around(&sheets[0], &sheets[1], v);
+            let star = CoveredStar::around(&sheets[0], &sheets[1], v);
             assert!(star.is_covered(), "{v:?}");
             let faces: Vec<FaceId> = star.rays.iter().map(|ray| ray.halfedge.face()).collect();
             let pieces = overlay.pieces.iter().zip(&measured.by_piece);
@@ -602,35 +333,12 @@ mod tests {
     }
 
     #[test]
-    fn a_bowl_is_left_for_its_bottom_in_one_step() {
-        let (bottom, [xx, xy, yy]) = (DVec2::new(0.3, -0.2), [2.0, 0.5, 1.0]);
-        let slope = -DVec2::new(xx * bottom.x + xy * bottom.y, xy * bottom.x + yy * bottom.y);
-        assert!(newton(slope, [xx, xy, yy], 10.0).unwrap().abs_diff_eq(bottom, 1e-14));
-        // Where it bends down, the step goes down still.
-        assert!(newton(slope, [-xx, xy, yy], 10.0).unwrap().dot(slope) < 0.0);
-    }
-
-    #[test]
-    fn shared_areas_of_known_triangles() {
-        let at = |p: [f64; 2], size: f64| {
-            let p = DVec2::from(p);
-            Boxed::new([p, p + DVec2::new(size, 0.0), p + DVec2::new(0.0, size)])
-        };
-        let unit = at([0.0, 0.0], 1.0);
-        assert_eq!(unit.overlap(&unit), 0.5);
-        assert_eq!(unit.overlap(&at([0.25, 0.25], 0.25)), 0.03125);
-        assert_eq!(unit.overlap(&at([0.5, 0.0], 1.0)), 0.125);
-        assert_eq!(at([0.5, 0.0], 1.0).overlap(&unit), 0.125);
-        assert_eq!(unit.overlap(&at([1.0, 1.0], 1.0)), 0.0);
-    }
-
-    #[test]
     fn the_ring_of_a_star_closes() {
         let (layout, _, start) = example();
         let side = sides(&layout, &start)[1];
         let sheet = &sheets([side, side], &Overlay::default())[0];
         for v in free_vertices(side) {
-            let star = Star::around(sheet, sheet, v);
+            let star = CoveredStar::around(sheet, sheet, v);
             for (k, ray) in star.rays.iter().enumerate() {
                 let next = &star.rays[(k + 1) % star.rays.len()];
                 assert!(ray.ring[1].distance(next.ring[0]) < 1e-9, "{v:?}");

@@ -1,19 +1,17 @@
-//! The true relaxation: least distortion of the map itself, source to target.
+//! The relaxation of the map: its own energy from source to target is lowered.
 //!
 //! The energy is that of the composed map on its overlay, E = sum over pieces of |J|^2 dA_S + |J^-1|^2 dA_T, with a small
 //! share of the flat energy as a barrier. One side moves at a time. On a piece the map is C A with A the Jacobian of the
 //! moving triangle and C that of the target's inverse; when the moving side's edges sweep over the other side, the pieces'
 //! areas change too, which adds the jump of the density over each edge to the gradient (Reynolds' transport theorem).
 
-use crate::math::scalar::ln;
-use crate::math::triangle::hat_gradients;
-use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use super::evaluation::Evaluation;
+use crate::mesh::{FaceId, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::energy::point_constraint::PointConstraint;
-use crate::surface_map::measures::distortion::quantile;
 use crate::surface_map::overlay::location::{Locations, Locator};
-use crate::surface_map::overlay::{Measure, SideOf};
+use crate::surface_map::overlay::SideOf;
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
 use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
 use crate::surface_map::parametrisation::problem::{FaceHessian, FlatProblem, unrotate};
@@ -22,7 +20,7 @@ use crate::surface_map::parametrisation::unknowns::Unknowns;
 use glam::{DMat2, DVec2};
 use typed_index_collections::TiVec;
 
-/// How far the true relaxation goes.
+/// How far the energy of the map is lowered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapRelaxationOptions {
     /// Rounds of one step on either side, at most.
@@ -44,7 +42,7 @@ impl Default for MapRelaxationOptions {
 /// A relaxed map.
 pub struct Relaxed<'a> {
     relaxation: Relaxation<'a>,
-    /// What is lowered, before the first and after each step, without the barrier; 4 for an isometry without pulls. Empty where source and
+    /// What is lowered, before the first and after each step, without the barrier; 4 for an isometry without constraints. Empty where source and
     /// target have no overlay.
     pub energies: Vec<f64>,
 }
@@ -91,22 +89,22 @@ pub fn relax<'a>(
     options: &'a MapRelaxationOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Relaxed<'a>, Cancelled> {
-    relax_pulled(sides, (surface, [&[], &[]]), options, monitor)
+    relax_constrained(sides, (surface, [&[], &[]]), options, monitor)
 }
 
 /// The same with vertices of either side that are drawn to places on the other.
 ///
-/// While a side moves its own pulls count, so what is lowered is not quite the same for both.
+/// While a side moves its own constraints count, so what is lowered is not quite the same for both.
 ///
 /// # Errors
 /// [`Cancelled`].
-pub fn relax_pulled<'a>(
+pub fn relax_constrained<'a>(
     sides: [Parametrised<'a>; 2],
-    (surface, pulls): (&'a ConeSurface, [&'a [(VertexId, PointConstraint)]; 2]),
+    (surface, constraints): (&'a ConeSurface, [&'a [(VertexId, PointConstraint)]; 2]),
     options: &'a MapRelaxationOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Relaxed<'a>, Cancelled> {
-    let mut relaxation = Relaxation::new(sides, (surface, pulls), options);
+    let mut relaxation = Relaxation::new(sides, (surface, constraints), options);
     let mut energies = Vec::new();
     if !relaxation.begin() {
         return Ok(Relaxed { relaxation, energies });
@@ -140,7 +138,7 @@ pub fn relax_pulled<'a>(
 struct Relaxation<'a> {
     sides: [Parametrised<'a>; 2],
     surface: &'a ConeSurface,
-    pulls: [&'a [(VertexId, PointConstraint)]; 2],
+    constraints: [&'a [(VertexId, PointConstraint)]; 2],
     options: &'a MapRelaxationOptions,
     map_energy: MapEnergy,
     unknowns: [Unknowns<'a>; 2],
@@ -159,26 +157,6 @@ struct Relaxation<'a> {
     trial: Evaluation,
 }
 
-/// The overlay at some state with what derivatives need, seen from the moving side, which is the overlay's source.
-#[derive(Default)]
-struct Evaluation {
-    overlay: Measure,
-    /// Jacobians of the moving faces, from their rest planes.
-    jacobians: Vec<DMat2>,
-    /// Of each piece the Jacobian from the plane of the moving face to the rest plane of the fixed face.
-    onto_rest: Vec<DMat2>,
-    /// What is lowered, without the barrier and the pulls.
-    energy: f64,
-    /// The energy of the pulls.
-    pulled: f64,
-    /// Their gradients by unknown.
-    pull_slopes: Vec<(u32, DVec2)>,
-    /// Their Hessians by unknown.
-    pull_hessians: Vec<(u32, DMat2)>,
-    /// The energy, the pulls and the barrier.
-    total: f64,
-}
-
 /// The derivatives of the energy by the Jacobian and the corners of one moving face.
 #[derive(Clone, Copy)]
 struct FaceDerivatives {
@@ -193,7 +171,7 @@ impl FaceDerivatives {
 impl<'a> Relaxation<'a> {
     fn new(
         sides: [Parametrised<'a>; 2],
-        (surface, pulls): (&'a ConeSurface, [&'a [(VertexId, PointConstraint)]; 2]),
+        (surface, constraints): (&'a ConeSurface, [&'a [(VertexId, PointConstraint)]; 2]),
         options: &'a MapRelaxationOptions,
     ) -> Self {
         let unknowns = sides.map(Unknowns::new);
@@ -204,7 +182,7 @@ impl<'a> Relaxation<'a> {
         Self {
             sides,
             surface,
-            pulls,
+            constraints,
             options,
             map_energy: options.energy,
             unknowns,
@@ -246,8 +224,12 @@ impl<'a> Relaxation<'a> {
             return false;
         }
         self.trial.measure((&self.problems[moving], z), &self.inverses[1 - moving], self.map_energy);
-        self.trial.pull([from, onto], (&self.unknowns[moving], self.pulls[moving]), &self.locations);
-        self.trial.total = self.trial.energy + self.trial.pulled + self.options.barrier * flat;
+        self.trial.constrain(
+            [from, onto],
+            (&self.unknowns[moving], self.constraints[moving]),
+            &self.locations,
+        );
+        self.trial.total = self.trial.energy + self.trial.constrained + self.options.barrier * flat;
         true
     }
 
@@ -259,7 +241,7 @@ impl<'a> Relaxation<'a> {
         let hessians = self.hessians();
         let problem = &mut self.problems[moving];
         let weights = (self.options.barrier, self.damping[moving]);
-        let hessians = (&hessians[..], &self.present.pull_hessians[..]);
+        let hessians = (&hessians[..], &self.present.constraint_hessians[..]);
         let step = problem.direction(&z, weights, hessians, (&slope, LINEAR_TOLERANCE));
         let descent: f64 = -slope.iter().zip(&step).map(|(g, d)| g.dot(*d)).sum::<f64>();
         if descent.is_nan() || descent <= 0.0 {
@@ -297,25 +279,25 @@ impl<'a> Relaxation<'a> {
         let z = self.unknowns[self.moving].points(&self.embeddings[self.moving]);
         self.present.measure((problem, &z), &self.inverses[1 - self.moving], self.map_energy);
         let flat = problem.energy(&z).unwrap_or(f64::INFINITY);
-        self.locate_pulled();
-        self.present.total = self.present.energy + self.present.pulled + self.options.barrier * flat;
+        self.locate_constrained();
+        self.present.total = self.present.energy + self.present.constrained + self.options.barrier * flat;
     }
 
-    /// The pulls at the present state, where there are any.
-    fn locate_pulled(&mut self) {
+    /// The constraints at the present state, where there are any.
+    fn locate_constrained(&mut self) {
         let moving = self.moving;
         let sides =
             [moving, 1 - moving].map(|k| Parametrised { embedding: &self.embeddings[k], ..self.sides[k] });
-        let mut pulls = self.pulls[moving];
-        if !pulls.is_empty() && self.locator.fill(sides, self.surface, &mut self.locations).is_err() {
-            pulls = &[];
+        let mut constraints = self.constraints[moving];
+        if !constraints.is_empty() && self.locator.fill(sides, self.surface, &mut self.locations).is_err() {
+            constraints = &[];
         }
-        self.present.pull(sides, (&self.unknowns[moving], pulls), &self.locations);
+        self.present.constrain(sides, (&self.unknowns[moving], constraints), &self.locations);
     }
 
     /// What is lowered, without the barrier; 4 for an isometry.
     fn energy(&self) -> f64 {
-        (self.present.energy + self.present.pulled) / self.map_energy.unit()
+        (self.present.energy + self.present.constrained) / self.map_energy.unit()
     }
 
     /// The gradient of the energy and the barrier.
@@ -324,7 +306,7 @@ impl<'a> Relaxation<'a> {
         let mut slope = vec![DVec2::ZERO; z.len()];
         problem.gradient(z, &mut slope);
         slope.iter_mut().for_each(|g| *g *= self.options.barrier);
-        self.present.pull_slopes.iter().for_each(|(v, pull)| slope[*v as usize] += *pull);
+        self.present.constraint_slopes.iter().for_each(|(v, own)| slope[*v as usize] += *own);
         for (t, face) in self.face_derivatives().iter().enumerate() {
             let triangle = &problem.triangles()[t];
             for k in 0..3 {
@@ -383,89 +365,6 @@ impl<'a> Relaxation<'a> {
             }
         }
         hessians
-    }
-}
-
-impl Evaluation {
-    /// Jacobians and energy of an overlay whose moving side is at z.
-    fn measure(
-        &mut self,
-        (problem, z): (&FlatProblem, &[DVec2]),
-        fixed_inverses: &TiVec<FaceId, DMat2>,
-        map_energy: MapEnergy,
-    ) {
-        self.jacobians.clear();
-        self.jacobians.extend(problem.jacobians(z));
-        self.onto_rest.clear();
-        self.onto_rest.extend(self.overlay.pieces().iter().map(|piece| {
-            fixed_inverses[piece.target_face] * DMat2::from_cols(piece.rotation, piece.rotation.perp())
-        }));
-        self.energy = self.integral(map_energy);
-    }
-
-    /// The pulls of the moving side, the first one; its vertices have been located.
-    fn pull(
-        &mut self,
-        [from, onto]: [Parametrised<'_>; 2],
-        (unknowns, pulls): (&Unknowns<'_>, &[(VertexId, PointConstraint)]),
-        locations: &Locations,
-    ) {
-        self.pulled = 0.0;
-        self.pull_slopes.clear();
-        self.pull_hessians.clear();
-        for (v, pull) in pulls {
-            let at = &locations.by_vertex[*v];
-            let Some((unknown, sight)) = unknowns.sight(at.corner) else { continue };
-            let q = at.motion.apply(from.embedding.corners[at.corner]);
-            let p = [0, 1, 2].map(|k| onto.embedding.corners[HalfedgeId::of(at.face, k)]);
-            let hats = hat_gradients(p);
-            let [second, third] = [1, 2].map(|k| (q - p[0]).dot(hats[k]));
-            let barycentric = [1.0 - second - third, second, third];
-            let turned = hats.map(|hat| unrotate(&sight, unrotate(&at.motion, hat)));
-            let term = pull.term(onto.mesh.corners(at.face), barycentric, turned);
-            self.pulled += term.energy;
-            self.pull_slopes.push((unknown, term.gradient));
-            self.pull_hessians.push((unknown, term.hessian));
-        }
-    }
-
-    fn integral(&self, map_energy: MapEnergy) -> f64 {
-        let pieces = self.overlay.pieces().iter().zip(&self.onto_rest);
-        let part = pieces.map(|(piece, c)| {
-            let a = &self.jacobians[piece.source_face.index()];
-            piece.area / a.determinant() * map_energy.density(&(*c * *a))
-        });
-        part.sum()
-    }
-
-    /// Half the sum of the means of the density's logarithm over both surfaces.
-    fn mean_log(&self) -> f64 {
-        let (mut sums, mut areas) = ([0.0; 2], [0.0; 2]);
-        for (piece, c) in self.overlay.pieces().iter().zip(&self.onto_rest) {
-            let a = &self.jacobians[piece.source_face.index()];
-            let j = *c * *a;
-            let area = piece.area / a.determinant();
-            // With equal areas the distortion is the density.
-            let log = ln(MapEnergy::POSES.distortion(&j));
-            for (k, area) in [area, area * j.determinant()].into_iter().enumerate() {
-                sums[k] += log * area;
-                areas[k] += area;
-            }
-        }
-        0.5 * (sums[0] / areas[0] + sums[1] / areas[1])
-    }
-
-    /// The median distortion, each piece counted by its areas on both surfaces.
-    fn median(&self, map_energy: MapEnergy) -> f64 {
-        let pieces = self.overlay.pieces().iter().zip(&self.onto_rest);
-        let local = pieces.map(|(piece, c)| {
-            let a = &self.jacobians[piece.source_face.index()];
-            let j = *c * *a;
-            (map_energy.distortion(&j), piece.area / a.determinant() * (1.0 + j.determinant()))
-        });
-        let mut local: Vec<(f64, f64)> = local.collect();
-        local.sort_by(|a, b| a.0.total_cmp(&b.0));
-        quantile(&local, 0.5)
     }
 }
 
