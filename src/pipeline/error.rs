@@ -1,6 +1,7 @@
 //! Which stage failed, and why.
 
 use crate::base_domain::SimplifyError;
+use crate::coarse_map::CoarseMapError;
 use crate::cone_metric::FlowError;
 use crate::layout::LayoutError;
 use crate::mesh::MeshError;
@@ -65,6 +66,16 @@ macro_rules! from_stage {
 from_stage!(SimplifyError, BaseDomain);
 from_stage!(LayoutError, Layout);
 from_stage!(MapError, Map);
+
+impl From<CoarseMapError> for PipelineError {
+    fn from(error: CoarseMapError) -> Self {
+        match error {
+            CoarseMapError::Cancelled(stop) => Self::Cancelled(stop),
+            CoarseMapError::Layout(error) => Self::Layout(error),
+            CoarseMapError::Map(error) => Self::Map(error),
+        }
+    }
+}
 
 impl From<Cancelled> for PipelineError {
     fn from(stop: Cancelled) -> Self {

@@ -7,10 +7,10 @@ use super::{
 use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Monitor, Stage};
+use crate::patchwise::{PatchwiseMap, patchwise_map};
 use crate::surface_map::measures::distortion::image_distortion;
 use crate::surface_map::measures::ground_truth::same_connectivity_error;
 use crate::surface_map::measures::transfer::mapped_mesh;
-use crate::surface_map::thesis::{ThesisMap, thesis_map};
 use glam::DVec3;
 use typed_index_collections::TiVec;
 
@@ -31,12 +31,12 @@ pub(super) fn run(
     monitor.enter(Stage::TargetConeMetric);
     let target = refined(&layout.target, monitor).map_err(PipelineError::target_flow)?;
     monitor.enter(Stage::Composition);
-    let map = thesis_map(&layout, [input.source, input.target], [&source.0, &target.0], monitor)?;
+    let map = patchwise_map(&layout, [input.source, input.target], [&source.0, &target.0], monitor)?;
     monitor.enter(Stage::Transfer);
     Ok(result(input, layout, &metrics, map))
 }
 
-fn result(input: MapInput<'_>, layout: BaseLayout, metrics: &Metrics, map: ThesisMap) -> MapResult {
+fn result(input: MapInput<'_>, layout: BaseLayout, metrics: &Metrics, map: PatchwiseMap) -> MapResult {
     let images = &map.target_from_source;
     let mapped = || images.iter_enumerated().filter_map(|(v, image)| Some((v, (*image)?)));
     let ground_truth = (input.ground_truth == GroundTruth::SameConnectivity).then(|| {
@@ -72,7 +72,7 @@ fn patch_lines(side: &PatchedMesh, input: &SurfaceMesh) -> Vec<Vec<DVec3>> {
     once.map(|path| path.iter().map(place).collect()).collect()
 }
 
-fn warnings(map: &ThesisMap) -> Vec<String> {
+fn warnings(map: &PatchwiseMap) -> Vec<String> {
     let mut warnings = vec!["This method does not guarantee a bijection; the relaxed map does.".to_owned()];
     let [source, target] = map.inverted_patches;
     if source + target > 0 {

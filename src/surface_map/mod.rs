@@ -7,13 +7,9 @@ pub mod certificate;
 pub mod energy;
 mod error;
 pub mod measures;
-pub mod multilevel;
 pub mod overlay;
 pub mod parametrisation;
-pub mod patch_fit;
 pub mod relaxation;
-pub mod relief;
-pub mod thesis;
 
 pub use certificate::certify::{Certificate, certify};
 pub use error::MapError;

@@ -1,5 +1,6 @@
 //! What the map carries over: the common subdivision as one mesh with positions on both surfaces, and images of vertices.
 
+use crate::mesh::normals::vertex_normals;
 use crate::mesh::{FaceId, HalfedgeId, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
 use crate::surface_map::overlay::Overlay;
 use crate::surface_map::overlay::location::{Locations, barycentric};
@@ -72,17 +73,6 @@ pub fn vertex_images(
         target_surface.refined.on_input(target_surface.input, point)
     };
     (0..vertices).map(image).collect()
-}
-
-/// Smooth unit normals, weighted by area.
-pub fn vertex_normals(mesh: &SurfaceMesh) -> TiVec<VertexId, DVec3> {
-    let mut normals: TiVec<VertexId, DVec3> = mesh.vertices().map(|_| DVec3::ZERO).collect();
-    for (f, corners) in mesh.triangles().iter_enumerated() {
-        let [p, q, r] = mesh.corners(f);
-        let normal = (q - p).cross(r - p);
-        corners.iter().for_each(|&v| normals[v] += normal);
-    }
-    normals.iter().map(|n| n.normalize_or(DVec3::Z)).collect()
 }
 
 /// What a refined face carries at its corners.

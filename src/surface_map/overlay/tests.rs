@@ -1,13 +1,13 @@
 //! Theorems of the overlay on generated pairs.
 
+use super::location::{Locations, Locator, locate};
+use super::pieces::corners_of;
 use crate::landmarks::Landmarks;
 use crate::layout::{self, BaseLayout, LayoutOptions};
 use crate::mesh::generators::{icosphere, midpoint_subdivision, octahedron};
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint};
 use crate::monitor::Silent;
 use crate::surface_map::measures::queries::PointMap;
-use crate::surface_map::overlay::location::{Locations, Locator, locate};
-use crate::surface_map::overlay::pieces::corners_of;
 use crate::surface_map::overlay::*;
 use crate::surface_map::parametrisation::initial::{self, InitialOptions};
 use crate::surface_map::{ConeSurface, Embedding, Parametrised};

@@ -1,10 +1,33 @@
 //! The class of the map: layouts of different isotopy classes, each judged by the coarse map that it leads to.
 
-use super::{ClassChoice, PipelineError};
+use super::error::CoarseMapError;
+use super::mesh_with_coarse::{MeshWithCoarse, coarse_landmarks};
+use super::multilevel::{CoarseMap, solve_coarse};
+use super::options::MultilevelOptions;
 use crate::layout::{self, Candidate, Candidates, LayoutError, SearchOptions, SearchReport};
 use crate::monitor::{Cancelled, Monitor};
 use crate::surface_map::MapError;
-use crate::surface_map::multilevel::{CoarseMap, MultilevelOptions, Side, coarse_landmarks, solve_coarse};
+
+/// Which class of maps is taken where several are close.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ClassChoice {
+    /// The one of least mean log density.
+    #[default]
+    Best,
+    /// The next best, where there is one that is close.
+    RunnerUp,
+}
+
+/// How the class of the map is chosen.
+#[derive(Clone, Copy, Debug)]
+pub struct ClassSearchOptions<'a> {
+    /// How coarse maps are made, judged and relaxed.
+    pub multilevel: &'a MultilevelOptions,
+    /// How layouts are searched.
+    pub search: &'a SearchOptions,
+    /// Which of the classes is taken.
+    pub choice: ClassChoice,
+}
 
 /// The class that was chosen with its coarse map, judged but not yet relaxed to the end.
 pub struct Chosen<'a> {
@@ -22,19 +45,24 @@ pub struct Chosen<'a> {
 /// still as good they are compared on finer levels, whose triangles distort less by their size.
 ///
 /// # Errors
-/// [`PipelineError::Layout`] where no layout has a map, [`PipelineError::Cancelled`].
+/// [`CoarseMapError::Layout`] where no layout has a map, [`CoarseMapError::Cancelled`].
 pub fn choose_class<'a>(
-    sides: &'a [Side<'a>; 2],
-    (options, search_options, choice): (&MultilevelOptions, &SearchOptions, ClassChoice),
+    levels: &'a [MeshWithCoarse<'a>; 2],
+    options: ClassSearchOptions<'_>,
     monitor: &mut dyn Monitor,
-) -> Result<Chosen<'a>, PipelineError> {
-    let landmarks = coarse_landmarks(sides);
-    let meshes = [&sides[0].coarse.mesh, &sides[1].coarse.mesh];
+) -> Result<Chosen<'a>, CoarseMapError> {
+    let landmarks = coarse_landmarks(levels);
+    let meshes = [&levels[0].coarse.mesh, &levels[1].coarse.mesh];
     let mut candidates = Candidates::new(meshes, &landmarks);
-    let mut finalists =
-        Finalists { sides, options, maps: Vec::new(), judged: 0, blame: vec![0; landmarks.len()] };
+    let mut finalists = Finalists {
+        levels,
+        options: options.multilevel,
+        maps: Vec::new(),
+        judged: 0,
+        blame: vec![0; landmarks.len()],
+    };
     let mut judge = |candidate: &Candidate, monitor: &mut dyn Monitor| finalists.judge(candidate, monitor);
-    let searched = layout::search(&mut candidates, &mut judge, search_options, monitor);
+    let searched = layout::search(&mut candidates, &mut judge, options.search, monitor);
     let (_, mut search) = searched.map_err(|error| match error {
         LayoutError::NoMap { layouts, .. } => LayoutError::NoMap { layouts, near: finalists.blamed() },
         other => other,
@@ -49,11 +77,11 @@ pub fn choose_class<'a>(
         let around = finalists.maps[0].candidate.clone();
         let mut judge =
             |candidate: &Candidate, monitor: &mut dyn Monitor| finalists.judge(candidate, monitor);
-        let more = layout::neighbours((&mut candidates, &around), &mut judge, search_options, monitor)?;
+        let more = layout::neighbours((&mut candidates, &around), &mut judge, options.search, monitor)?;
         search.judged.extend(more);
     }
     search.rival = finalists.compare_finer(monitor)?;
-    if choice == ClassChoice::RunnerUp && finalists.maps.len() > 1 {
+    if options.choice == ClassChoice::RunnerUp && finalists.maps.len() > 1 {
         finalists.maps.swap(0, 1);
         search.rival = search.rival.map(|rival| 1.0 / rival);
     }
@@ -66,7 +94,7 @@ pub fn choose_class<'a>(
     Ok(Chosen { candidate: best.candidate, search, map: best.map })
 }
 
-/// So many winners' twists are judged at most.
+/// Winners whose twists are judged, at most.
 const MOST_WINNERS: usize = 4;
 
 /// One of the best maps of a search.
@@ -82,7 +110,7 @@ struct Finalist<'a> {
 
 /// The best maps so far, the best first.
 struct Finalists<'a, 'o> {
-    sides: &'a [Side<'a>; 2],
+    levels: &'a [MeshWithCoarse<'a>; 2],
     options: &'o MultilevelOptions,
     maps: Vec<Finalist<'a>>,
     judged: usize,
@@ -95,7 +123,7 @@ impl Finalists<'_, '_> {
     fn judge(&mut self, candidate: &Candidate, monitor: &mut dyn Monitor) -> Result<Option<f64>, Cancelled> {
         let number = self.judged;
         self.judged += 1;
-        match solve_coarse(self.sides, &candidate.layout, (self.options, monitor)) {
+        match solve_coarse(self.levels, &candidate.layout, self.options, monitor) {
             Ok(map) => {
                 let first_look = map.mean_log;
                 let candidate = candidate.clone();
@@ -118,12 +146,12 @@ impl Finalists<'_, '_> {
     }
 
     /// Relaxes those further that are close after the first look, and puts the best first; its number.
-    fn decide(&mut self, monitor: &mut dyn Monitor) -> Result<usize, PipelineError> {
+    fn decide(&mut self, monitor: &mut dyn Monitor) -> Result<usize, CoarseMapError> {
         let least = self.maps.iter().map(|map| map.first_look).fold(f64::INFINITY, f64::min);
         self.maps.retain(|map| map.first_look <= self.options.close * least);
         if self.maps.len() > 1 && !monitor.wants_result() {
             for finalist in self.maps.iter_mut().filter(|map| !map.is_relaxed) {
-                finalist.map.relax((&self.options.decide, &mut *monitor))?;
+                finalist.map.relax(&self.options.decide, monitor)?;
                 finalist.is_relaxed = true;
             }
         }
@@ -134,10 +162,11 @@ impl Finalists<'_, '_> {
             .ok_or(LayoutError::NoMap { layouts: 0, near: Vec::new() }.into())
     }
 
-    /// Compares those that are as good as the best on finer levels and puts the best first. Only copies are refined: the map
-    /// that is chosen goes on from its coarse level.
-    /// The next best relative to the best on the finest level on which both were judged, where any is close.
-    fn compare_finer(&mut self, monitor: &mut dyn Monitor) -> Result<Option<f64>, PipelineError> {
+    /// Compares those that are as good as the best on finer levels and puts the best first; the next best relative to the best
+    /// on the finest level on which both were judged, where any is close.
+    ///
+    /// Only copies are refined: the map that is chosen goes on from its coarse level.
+    fn compare_finer(&mut self, monitor: &mut dyn Monitor) -> Result<Option<f64>, CoarseMapError> {
         let is_close = |mean_log: f64, least: f64| mean_log <= self.options.undecided * least;
         let least = self.maps.first().map_or(0.0, |best| best.map.mean_log);
         let close = self.maps.iter().filter(|finalist| is_close(finalist.map.mean_log, least));
@@ -148,7 +177,7 @@ impl Finalists<'_, '_> {
                 break;
             }
             for (_, map) in &mut rivals {
-                match map.judge_finer((self.options, &mut *monitor)) {
+                match map.judge_finer(self.options, monitor) {
                     Ok(true) => {}
                     Ok(false) => return Ok(None),
                     Err(MapError::Cancelled(stop)) => return Err(stop.into()),

@@ -1,25 +1,26 @@
-//! Poses of one body: where the relief of the skin says that the map slides.
+//! Rigid registration of small patches of one surface to the other, for two poses of one body.
 //!
-//! An energy knows lengths only, and between two poses the known map has not the least one. But most of the skin moves
+//! An energy knows lengths only, and between two poses the known map has not the least one. But most of the surface moves
 //! rigidly: a patch of it fits its true image exactly, and nowhere else around, as far as muscles and bones show. So patches
-//! are laid onto the other surface by rigid motions, from where the map takes them ([`super::patch_fit`]); where one comes to
-//! lie is where its centre is drawn to ([`PointConstraint`]), in each direction as much as relief holds it there. Patches that bend do
-//! not fit well, and count by the square of noise / (noise + misfit). Found anew after the map has followed, the places
-//! settle.
+//! are laid onto the other surface by rigid motions, from where the map takes them ([`super::patch_fit`]). The place of the
+//! patch's centre becomes a soft constraint of the vertex there ([`PointConstraint`]), in each direction as strong as relief
+//! holds the patch. Patches that bend fit badly: with the mean square distance m a patch has the weight
+//! (noise^2 / (noise^2 + m))^2. The patches are registered again after the map has followed.
 
-use super::energy::point_constraint::PointConstraint;
-use super::patch_fit::{FitOptions, Fitter, PatchFit, PatchPoint, Skin};
+use super::patch_fit::{FitOptions, Fitter, OrientedSurface, PatchFit, PatchPoint};
 use crate::math::scalar::max;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use crate::surface_map::energy::point_constraint::PointConstraint;
 use glam::{DMat2, DVec2, DVec3};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-/// How places are found; lengths in units of the root of the area.
+/// How patches are registered; lengths in units of the root of the area.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ReliefOptions {
-    /// Levels of at least and at most so many vertices are drawn to new places: where relief shows, and costs little.
+pub struct RigidPatchOptions {
+    /// Least and largest number of vertices of a level on which patches are registered: coarser levels have no relief, finer
+    /// ones cost more.
     pub vertices: [usize; 2],
-    /// How often on every such level.
+    /// Registrations on every such level, each followed by a relaxation.
     pub rounds: usize,
     /// Distance of the points that make up the patches.
     pub spacing: f64,
@@ -27,13 +28,14 @@ pub struct ReliefOptions {
     pub radii: [f64; 2],
     /// How a patch is laid onto the other surface.
     pub fit: FitOptions,
-    /// Energy by area of a miss as large as what makes the mean square distance of a patch grow by the noise.
+    /// Energy, per unit of area, of a vertex that lies so far from its patch's fit that a shift of the patch by as much raises
+    /// the mean square of its distances by noise^2.
     pub strength: f64,
-    /// Energy by area from which on a miss counts like the distance.
+    /// Energy, per unit of area, above which a constraint grows like the distance, not like its square.
     pub knee: f64,
 }
 
-impl Default for ReliefOptions {
+impl Default for RigidPatchOptions {
     fn default() -> Self {
         Self {
             vertices: [1000, 5000],
@@ -47,14 +49,14 @@ impl Default for ReliefOptions {
     }
 }
 
-/// Patches of fewer points hold nothing.
+/// Points of a patch, at least.
 const LEAST_POINTS: usize = 12;
 
-/// A place farther off than this is not believed.
+/// Largest distance of a patch's fitted centre from its image by the map, in units of the root of the area.
 const FARTHEST: f64 = 0.06;
 
-/// One side's level with its images on the other side's.
-pub struct Seen<'a> {
+/// A level of one mesh with the images of its vertices on the other.
+pub struct MappedLevel<'a> {
     /// The level.
     pub mesh: &'a SurfaceMesh,
     /// Its vertices on the full mesh.
@@ -65,63 +67,64 @@ pub struct Seen<'a> {
     pub near: TiVec<VertexId, VertexId>,
 }
 
-impl<'a> Seen<'a> {
+impl<'a> MappedLevel<'a> {
     /// A level by its images on the other level.
     pub fn new(
         (mesh, vertices): (&'a SurfaceMesh, &'a TiSlice<VertexId, VertexId>),
         (onto, onto_vertices): (&SurfaceMesh, &TiSlice<VertexId, VertexId>),
         points: impl Iterator<Item = SurfacePoint>,
     ) -> Self {
-        let mut seen = Self { mesh, vertices, images: TiVec::new(), near: TiVec::new() };
+        let mut level = Self { mesh, vertices, images: TiVec::new(), near: TiVec::new() };
         for point in points {
             let weight = |k: &usize| point.barycentric[*k];
             let corner = (0..3).max_by(|a, b| weight(a).total_cmp(&weight(b))).unwrap_or(0);
-            seen.images.push(point.position(onto));
-            seen.near.push(onto_vertices[onto.triangles()[point.face][corner]]);
+            level.images.push(point.position(onto));
+            level.near.push(onto_vertices[onto.triangles()[point.face][corner]]);
         }
-        seen
+        level
     }
 }
 
-/// The pulls of one side's level vertices to where patches around them fit the other side. Both areas are 1.
-pub fn pulls(
-    [own, onto]: [&Skin<'_>; 2],
-    seen: &Seen<'_>,
-    options: &ReliefOptions,
+/// Constraints that draw vertices of a level to where the patches around them fit the other surface. Both areas are 1.
+pub fn point_constraints(
+    [own, onto]: [&OrientedSurface<'_>; 2],
+    level: &MappedLevel<'_>,
+    options: &RigidPatchOptions,
 ) -> Vec<(VertexId, PointConstraint)> {
-    let weights = spread(own, seen, options.spacing);
+    let weights = spread(own, level, options.spacing);
     // Every vertex is in many patches, which all start from here.
-    let near = seen.mesh.vertices().map(|v| onto.nearest(seen.near[v], seen.images[v])).collect();
-    let mut patches = Patches { own, seen, weights: &weights, near, reached: ti_vec![None; weights.len()] };
+    let near = level.mesh.vertices().map(|v| onto.nearest(level.near[v], level.images[v])).collect();
+    let mut patches = Patches { own, level, weights: &weights, near, reached: ti_vec![None; weights.len()] };
     let (mut fitter, mut patch) = (Fitter::default(), Vec::new());
-    let mut pulls = Vec::new();
-    for v in seen.mesh.vertices().filter(|&v| weights[v] > 0.0) {
+    let mut constraints = Vec::new();
+    for v in level.mesh.vertices().filter(|&v| weights[v] > 0.0) {
         let mut sum = Knowledge::new(onto.normals[patches.near[v]]);
         for radius in options.radii {
             patches.around(v, radius, &mut patch);
             let fit =
                 if patch.len() < LEAST_POINTS { None } else { fitter.fit(&mut patch, onto, &options.fit) };
-            if let Some(fit) = fit.filter(|fit| fit.centre.distance(seen.images[v]) < FARTHEST) {
-                sum.add(&fit, seen.images[v], options.fit.noise);
+            if let Some(fit) = fit.filter(|fit| fit.centre.distance(level.images[v]) < FARTHEST) {
+                sum.add(&fit, level.images[v], options.fit.noise);
             }
         }
-        pulls.extend(sum.pull(seen.images[v], weights[v], options).map(|pull| (v, pull)));
+        constraints
+            .extend(sum.constraint(level.images[v], weights[v], options).map(|constraint| (v, constraint)));
     }
-    pulls
+    constraints
 }
 
 /// Vertices about `spacing` apart, or as far as the level's are, with the areas that they stand for; the other vertices
 /// have none. One of each cell of a grid and main direction of the normal is taken.
-fn spread(own: &Skin<'_>, seen: &Seen<'_>, spacing: f64) -> TiVec<VertexId, f64> {
-    let areas = seen.mesh.vertex_areas();
+fn spread(own: &OrientedSurface<'_>, level: &MappedLevel<'_>, spacing: f64) -> TiVec<VertexId, f64> {
+    let areas = level.mesh.vertex_areas();
     let cell = |v: VertexId| {
-        let at = (seen.mesh.positions()[v] / spacing).floor();
-        let normal = own.normals[seen.vertices[v]];
+        let at = (level.mesh.positions()[v] / spacing).floor();
+        let normal = own.normals[level.vertices[v]];
         let main = normal.abs().max_position();
         let direction = 2 * main + usize::from(normal[main] > 0.0);
         (at.to_array().map(|c| c as i64), direction, v)
     };
-    let mut cells: Vec<_> = seen.mesh.vertices().map(cell).collect();
+    let mut cells: Vec<_> = level.mesh.vertices().map(cell).collect();
     cells.sort_unstable();
     let mut weights: TiVec<VertexId, f64> = ti_vec![0.0; areas.len()];
     for group in cells.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
@@ -132,8 +135,8 @@ fn spread(own: &Skin<'_>, seen: &Seen<'_>, spacing: f64) -> TiVec<VertexId, f64>
 
 /// Patches of one side.
 struct Patches<'a> {
-    own: &'a Skin<'a>,
-    seen: &'a Seen<'a>,
+    own: &'a OrientedSurface<'a>,
+    level: &'a MappedLevel<'a>,
     weights: &'a TiSlice<VertexId, f64>,
     /// By vertex the vertex of the other full mesh that is nearest to its image.
     near: TiVec<VertexId, VertexId>,
@@ -145,19 +148,19 @@ impl Patches<'_> {
     /// Fills `patch` with the points connected to `centre` within the radius, the centre first. Points whose images are far
     /// away or that face the other way are left out.
     fn around(&mut self, centre: VertexId, radius: f64, patch: &mut Vec<PatchPoint>) {
-        let Self { own, seen, weights, .. } = *self;
-        let positions = seen.mesh.positions();
+        let Self { own, level, weights, .. } = *self;
+        let positions = level.mesh.positions();
         let distance = |v: VertexId| positions[v].distance(positions[centre]);
         let mark = Some((centre, radius.to_bits()));
         let mut queue = vec![centre];
         self.reached[centre] = mark;
-        let normal = own.normals[seen.vertices[centre]];
+        let normal = own.normals[level.vertices[centre]];
         let mut next = 0;
         patch.clear();
         while let Some(&v) = queue.get(next) {
             next += 1;
-            let own_normal = own.normals[seen.vertices[v]];
-            let near = seen.images[v].distance(seen.images[centre]) < 1.6 * radius;
+            let own_normal = own.normals[level.vertices[v]];
+            let near = level.images[v].distance(level.images[centre]) < 1.6 * radius;
             if weights[v] > 0.0 && near && own_normal.dot(normal) > -0.3 {
                 let share = distance(v) / radius;
                 let fading = (1.0 - share * share) * (1.0 - share * share);
@@ -165,11 +168,11 @@ impl Patches<'_> {
                     position: positions[v],
                     normal: own_normal,
                     weight: weights[v] * fading,
-                    image: seen.images[v],
+                    image: level.images[v],
                     near: self.near[v],
                 });
             }
-            for w in seen.mesh.star(v).map(|h| seen.mesh.head(h)) {
+            for w in level.mesh.star(v).map(|h| level.mesh.head(h)) {
                 if self.reached[w] != mark && distance(w) < radius {
                     self.reached[w] = mark;
                     queue.push(w);
@@ -205,8 +208,8 @@ impl Knowledge {
         self.form += form;
     }
 
-    /// The pull; `None` where nothing is known.
-    fn pull(&self, image: DVec3, area: f64, options: &ReliefOptions) -> Option<PointConstraint> {
+    /// The constraint; `None` where no patch has a fit.
+    fn constraint(&self, image: DVec3, area: f64, options: &RigidPatchOptions) -> Option<PointConstraint> {
         let (form, [first, second]) = (self.form, self.frame);
         let shift = form.inverse() * self.slope;
         let scale = options.strength * area;
@@ -239,20 +242,24 @@ mod tests {
     }
 
     /// All vertices, with images turned by a small angle about z.
-    fn slid<'a>(mesh: &'a SurfaceMesh, all: &'a TiSlice<VertexId, VertexId>, skin: &Skin<'_>) -> Seen<'a> {
+    fn slid<'a>(
+        mesh: &'a SurfaceMesh,
+        all: &'a TiSlice<VertexId, VertexId>,
+        surface: &OrientedSurface<'_>,
+    ) -> MappedLevel<'a> {
         let (c, s) = (cos(0.02), sin(0.02));
         let turn = |p: DVec3| DVec3::new(c * p.x - s * p.y, s * p.x + c * p.y, p.z);
         let images: TiVec<VertexId, DVec3> = mesh.positions().iter().map(|p| turn(*p)).collect();
-        let near = images.iter_enumerated().map(|(v, p)| skin.nearest(v, *p)).collect();
-        Seen { mesh, vertices: all, images, near }
+        let near = images.iter_enumerated().map(|(v, p)| surface.nearest(v, *p)).collect();
+        MappedLevel { mesh, vertices: all, images, near }
     }
 
     #[test]
     fn points_stand_for_the_whole_area() {
         let mesh = hilly();
         let all: TiVec<VertexId, VertexId> = mesh.vertices().collect();
-        let skin = Skin::new(&mesh);
-        let weights = spread(&skin, &slid(&mesh, &all, &skin), 0.04);
+        let surface = OrientedSurface::new(&mesh);
+        let weights = spread(&surface, &slid(&mesh, &all, &surface), 0.04);
         assert!((weights.iter().sum::<f64>() - mesh.area()).abs() < 1e-12);
         let taken = weights.iter().filter(|w| **w > 0.0).count();
         assert!(taken > 300 && taken < 1500, "{taken}");
@@ -262,15 +269,15 @@ mod tests {
     fn relief_draws_vertices_back_to_where_they_belong() {
         let mesh = hilly();
         let all: TiVec<VertexId, VertexId> = mesh.vertices().collect();
-        let skin = Skin::new(&mesh);
-        let seen = slid(&mesh, &all, &skin);
-        let found = pulls([&skin, &skin], &seen, &ReliefOptions::default());
+        let surface = OrientedSurface::new(&mesh);
+        let level = slid(&mesh, &all, &surface);
+        let found = point_constraints([&surface, &surface], &level, &RigidPatchOptions::default());
         assert!(found.len() > 500, "{}", found.len());
         let mut errors: Vec<[f64; 2]> = found
             .iter()
-            .map(|(v, pull)| {
+            .map(|(v, constraint)| {
                 let truth = mesh.positions()[*v];
-                [pull.place.distance(truth), seen.images[*v].distance(truth)]
+                [constraint.place.distance(truth), level.images[*v].distance(truth)]
             })
             .collect();
         let mean = |k: usize| errors.iter().map(|e| e[k]).sum::<f64>() / errors.len() as f64;
@@ -286,13 +293,16 @@ mod tests {
         let hold = glam::DMat3::from_diagonal(DVec3::new(0.1, 0.02, 0.7));
         let centre = DVec3::new(0.01, 0.02, 0.0);
         sum.add(&PatchFit { centre, misfit: 0.0, hold }, DVec3::ZERO, 1e-3);
-        let pull =
-            sum.pull(DVec3::ZERO, 0.5, &ReliefOptions { strength: 2.0, ..Default::default() }).unwrap();
-        assert!(pull.place.distance(centre) < 1e-12);
+        let constraint = sum
+            .constraint(DVec3::ZERO, 0.5, &RigidPatchOptions { strength: 2.0, ..Default::default() })
+            .unwrap();
+        assert!(constraint.place.distance(centre) < 1e-12);
         for (axis, held) in [(DVec3::X, 0.1), (DVec3::Y, 0.02), (DVec3::Z, 0.0)] {
-            let square: f64 = pull.rows.iter().map(|row| row.dot(axis) * row.dot(axis)).sum();
+            let square: f64 = constraint.rows.iter().map(|row| row.dot(axis) * row.dot(axis)).sum();
             assert!((square - held * 1e6).abs() < 1e-3, "{square}");
         }
-        assert!(Knowledge::new(DVec3::Z).pull(DVec3::ZERO, 1.0, &ReliefOptions::default()).is_none());
+        assert!(
+            Knowledge::new(DVec3::Z).constraint(DVec3::ZERO, 1.0, &RigidPatchOptions::default()).is_none()
+        );
     }
 }

@@ -4,34 +4,70 @@
 //! and carried to the target by the present map; the map is solved again with all as cones. Every round takes fresh points,
 //! so that those of the round before are free to move.
 
-use super::class_search::choose_class;
-use super::options::PipelineOptions;
-use super::relaxed::{Full, parametrised};
-use super::{ClassChoice, PipelineError};
+use super::class_search::{ClassChoice, ClassSearchOptions, choose_class};
+use super::error::CoarseMapError;
+use super::landmarked_mesh::LandmarkedMesh;
+use super::mesh_with_coarse::MeshWithCoarse;
+use super::multilevel::{CoarseMap, LevelImages, solve_fine};
+use super::options::MultilevelOptions;
 use crate::geodesic::distances;
 use crate::landmark_suggestion::farthest_points;
+use crate::layout::SearchOptions;
 use crate::mesh::closest_point::closest_point;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor};
-use crate::surface_map::multilevel::{CoarseMap, LevelImages, MultilevelOptions, Side, solve_fine};
 use crate::surface_map::{ConeSurface, Embedding, MapError, certify};
 use glam::DVec3;
 use std::cell::OnceCell;
 use std::sync::Arc;
 
+/// Cones of the program's own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OwnConeOptions {
+    /// Points that are added; 0 turns them off.
+    pub count: usize,
+    /// With more landmarks than this none are added.
+    pub most_landmarks: usize,
+    /// A coarse map of less mean log density needs no help; 0 for an isometry.
+    pub least_mean_log: f64,
+    /// Sets of points, one after the other, at most.
+    pub rounds: usize,
+    /// Stops after this many sets without a gain.
+    pub patience: usize,
+    /// A gain lowers the mean log density by this share.
+    pub least_gain: f64,
+    /// The search for the layout with own points.
+    pub search: SearchOptions,
+}
+
+impl Default for OwnConeOptions {
+    fn default() -> Self {
+        let search = SearchOptions { candidates: 2, twists: 2, ..SearchOptions::default() };
+        Self {
+            count: 20,
+            most_landmarks: 16,
+            least_mean_log: 0.0025,
+            rounds: 6,
+            patience: 2,
+            least_gain: 0.02,
+            search,
+        }
+    }
+}
+
 /// What the rounds make and their maps borrow: each round fills a cell.
-pub(super) struct Rounds<T>(Vec<OnceCell<[T; 2]>>);
+pub struct Rounds<T>(Vec<OnceCell<[T; 2]>>);
 
 impl<T> Rounds<T> {
     /// Room for all rounds.
-    pub(super) fn new(options: &PipelineOptions) -> Self {
-        Self((0..options.own_cones.rounds).map(|_| OnceCell::new()).collect())
+    pub fn new(options: &OwnConeOptions) -> Self {
+        Self((0..options.rounds).map(|_| OnceCell::new()).collect())
     }
 }
 
 /// Both meshes with own landmarks after the user's, and the coarse map of all.
-pub(super) struct OwnCones<'a> {
-    full: &'a [Full; 2],
+pub struct OwnCones<'a> {
+    full: &'a [LandmarkedMesh; 2],
     map: CoarseMap<'a>,
 }
 
@@ -40,28 +76,45 @@ impl OwnCones<'_> {
     ///
     /// # Errors
     /// Cancellation only.
-    pub(super) fn refined(
+    pub fn refined(
         self,
-        (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
+        options: &MultilevelOptions,
+        monitor: &mut dyn Monitor,
     ) -> Result<Option<Refined>, Cancelled> {
         let Self { full, map } = self;
         let surface = map.surface.clone();
-        let embeddings = match solve_fine(map, (options, monitor)) {
+        let embeddings = match solve_fine(map, options, monitor) {
             Ok(embeddings) => embeddings,
             Err(MapError::Cancelled(stop)) => return Err(stop),
             Err(_) => return Ok(None),
         };
-        let certified = |k: usize| certify(parametrised(&full[k], &embeddings[k]), &surface).bijective;
+        let certified = |k: usize| certify(full[k].parametrised(&embeddings[k]), &surface).bijective;
         let bijective = certified(0) && certified(1);
         Ok(bijective.then(|| Refined { surface, embeddings, full: full.clone() }))
     }
 }
 
 /// The map of the full meshes with own landmarks.
-pub(super) struct Refined {
-    pub(super) surface: Arc<ConeSurface>,
-    pub(super) embeddings: [Embedding; 2],
-    pub(super) full: [Full; 2],
+pub struct Refined {
+    /// The cone surface.
+    pub surface: Arc<ConeSurface>,
+    /// Both parametrisations.
+    pub embeddings: [Embedding; 2],
+    /// Both meshes with own landmarks after the user's.
+    pub full: [LandmarkedMesh; 2],
+}
+
+/// What own cones are added to.
+#[derive(Clone, Copy)]
+pub struct Start<'a> {
+    /// The meshes that the user gave.
+    pub inputs: [&'a SurfaceMesh; 2],
+    /// The same with the user's landmarks.
+    pub full: &'a [LandmarkedMesh; 2],
+    /// The coarse map with the user's landmarks alone.
+    pub map: &'a CoarseMap<'a>,
+    /// Vertices of the coarse levels.
+    pub vertices: usize,
 }
 
 /// Adds own landmarks round by round, as long as they lower the mean log density of the coarse map; `None` where they do not.
@@ -70,13 +123,13 @@ pub(super) struct Refined {
 ///
 /// # Errors
 /// Cancellation only.
-pub(super) fn add<'a>(
-    (inputs, full, map): ([&SurfaceMesh; 2], &[Full; 2], &CoarseMap<'_>),
-    (fulls, all_sides): (&'a Rounds<Full>, &'a Rounds<Side<'a>>),
-    (vertices, options): (usize, &PipelineOptions),
+pub fn add<'a>(
+    start: Start<'_>,
+    (fulls, all_levels): (&'a Rounds<LandmarkedMesh>, &'a Rounds<MeshWithCoarse<'a>>),
+    (multilevel, own): (&MultilevelOptions, &OwnConeOptions),
     monitor: &mut dyn Monitor,
 ) -> Result<Option<OwnCones<'a>>, Cancelled> {
-    let own = &options.own_cones;
+    let Start { inputs, full, map, vertices } = start;
     if own.count == 0 || full[0].landmarks.len() > own.most_landmarks || map.mean_log < own.least_mean_log {
         return Ok(None);
     }
@@ -84,7 +137,7 @@ pub(super) fn add<'a>(
     let mut best: Option<OwnCones<'a>> = None;
     let mut before: Vec<VertexId> = Vec::new();
     let mut without_gain = 0;
-    for (full_cell, sides_cell) in fulls.0.iter().zip(&all_sides.0) {
+    for (full_cell, levels_cell) in fulls.0.iter().zip(&all_levels.0) {
         if monitor.wants_result() {
             break;
         }
@@ -95,12 +148,13 @@ pub(super) fn add<'a>(
         without_gain += 1;
         before = pairs.iter().map(|pair| pair.0).collect();
         let with_own = full_cell.get_or_init(|| with_own);
-        let sides = sides_cell.get_or_init(|| {
-            [0, 1].map(|k| Side::new(&with_own[k].refined.mesh, &with_own[k].landmarks, vertices))
+        let levels = levels_cell.get_or_init(|| {
+            [0, 1].map(|k| MeshWithCoarse::new(&with_own[k].refined.mesh, &with_own[k].landmarks, vertices))
         });
-        let next = match choose_class(sides, (&options.multilevel, &own.search, ClassChoice::Best), monitor) {
-            Ok(chosen) => finished(chosen.map, (&options.multilevel, &mut *monitor))?,
-            Err(PipelineError::Cancelled(stop)) => return Err(stop),
+        let options = ClassSearchOptions { multilevel, search: &own.search, choice: ClassChoice::Best };
+        let next = match choose_class(levels, options, monitor) {
+            Ok(chosen) => finished(chosen.map, multilevel, monitor)?,
+            Err(CoarseMapError::Cancelled(stop)) => return Err(stop),
             // No map with these points: others may do.
             Err(_) => continue,
         };
@@ -118,9 +172,10 @@ pub(super) fn add<'a>(
 /// The chosen map relaxed to the end of its level.
 fn finished<'a>(
     mut map: CoarseMap<'a>,
-    (options, monitor): (&MultilevelOptions, &mut dyn Monitor),
+    options: &MultilevelOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<CoarseMap<'a>, Cancelled> {
-    match map.finish((options, monitor)) {
+    match map.finish(options, monitor) {
         Err(MapError::Cancelled(stop)) => Err(stop),
         _ => Ok(map),
     }
@@ -135,7 +190,7 @@ const SNAP: f64 = 0.15;
 /// At most `count` points of the source, far from the landmarks and from those of the round before, with their images on the
 /// target.
 fn pairs(
-    full: &[Full; 2],
+    full: &[LandmarkedMesh; 2],
     images: &LevelImages,
     (before, count): (&[VertexId], usize),
     monitor: &mut dyn Monitor,
@@ -179,16 +234,16 @@ fn snapped(point: SurfacePoint) -> SurfacePoint {
 /// Both meshes with the pairs as landmarks after the user's; `None` where there are no pairs.
 fn with(
     inputs: [&SurfaceMesh; 2],
-    full: &[Full; 2],
+    full: &[LandmarkedMesh; 2],
     pairs: &[(VertexId, SurfacePoint)],
-) -> Option<[Full; 2]> {
+) -> Option<[LandmarkedMesh; 2]> {
     if pairs.is_empty() {
         return None;
     }
     let at = |pair: &(VertexId, SurfacePoint)| SurfacePoint::at_vertex(&full[0].refined.mesh, pair.0);
     let points: [Vec<SurfacePoint>; 2] =
         [pairs.iter().map(at).collect(), pairs.iter().map(|pair| pair.1).collect()];
-    let side = |k: usize| full[k].with_landmarks(inputs[k], &points[k]).ok();
+    let side = |k: usize| full[k].with_room_at(inputs[k], &points[k]).ok();
     let ((mut source, from), (mut target, onto)) = (side(0)?, side(1)?);
     for (s, t) in from.into_iter().zip(onto) {
         if !target.landmarks.contains(&t) {

@@ -4,15 +4,15 @@
 //! 1991), less where they do not fit. How the fit worsens when the patch is shifted, all rotations allowed, tells in which
 //! directions relief holds it.
 
-use super::measures::transfer::vertex_normals;
 use crate::math::rigid3::{Rigid3, nearest_rotation, outer, small_turn};
 use crate::math::scalar::max;
+use crate::mesh::normals::vertex_normals;
 use crate::mesh::{SurfaceMesh, VertexId};
 use glam::{DMat3, DVec3};
 use typed_index_collections::TiVec;
 
-/// A surface with its normals.
-pub struct Skin<'a> {
+/// A surface with its unit normals and how they turn along it.
+pub struct OrientedSurface<'a> {
     mesh: &'a SurfaceMesh,
     /// Unit normals.
     pub normals: TiVec<VertexId, DVec3>,
@@ -20,7 +20,7 @@ pub struct Skin<'a> {
     bends: TiVec<VertexId, DMat3>,
 }
 
-impl<'a> Skin<'a> {
+impl<'a> OrientedSurface<'a> {
     /// A mesh with smooth normals.
     pub fn new(mesh: &'a SurfaceMesh) -> Self {
         let normals = vertex_normals(mesh);
@@ -124,9 +124,11 @@ pub struct PatchFit {
 pub struct FitOptions {
     /// Steps at most.
     pub max_steps: usize,
-    /// The square of a shift by d, times this, is added to the mean square of the distances.
+    /// Weight of the squared distance of the patch's centre from its image by the map, relative to the mean square of the
+    /// distances from the tangent planes.
     pub damping: f64,
-    /// Distances below this count in full, whatever the others.
+    /// Least knee of the robust weights 1 / (1 + (distance / knee)^2)^2; the knee is 1.5 times the median distance where that
+    /// is larger.
     pub noise: f64,
 }
 
@@ -155,7 +157,7 @@ impl Fitter {
     pub fn fit(
         &mut self,
         points: &mut [PatchPoint],
-        onto: &Skin<'_>,
+        onto: &OrientedSurface<'_>,
         options: &FitOptions,
     ) -> Option<PatchFit> {
         let centre = *points.first()?;
@@ -190,7 +192,7 @@ impl Fitter {
         &mut self,
         points: &mut [PatchPoint],
         (motion, at): (&Rigid3, DVec3),
-        (onto, options): (&Skin<'_>, &FitOptions),
+        (onto, options): (&OrientedSurface<'_>, &FitOptions),
         total: f64,
     ) -> Normal {
         self.distances.clear();
@@ -235,7 +237,7 @@ impl Fitter {
 }
 
 /// The rigid motion that takes the points nearest to their images.
-fn start(points: &[PatchPoint], total: f64, onto: &Skin<'_>) -> Option<Rigid3> {
+fn start(points: &[PatchPoint], total: f64, onto: &OrientedSurface<'_>) -> Option<Rigid3> {
     let centre = points[0];
     let (mut mean, mut image) = (DVec3::ZERO, DVec3::ZERO);
     for p in points {
@@ -274,14 +276,14 @@ mod tests {
     }
 
     /// A disc around a vertex; its images have slid by `slid` over the surface.
-    fn patch(skin: &Skin<'_>, slid: DVec3) -> Vec<PatchPoint> {
-        let positions = skin.mesh.positions();
-        let centre = skin.nearest(VertexId(0), DVec3::new(0.6, 0.5, 0.6));
-        let inside = skin.mesh.vertices().filter(|&v| positions[v].distance(positions[centre]) < 0.3);
+    fn patch(surface: &OrientedSurface<'_>, slid: DVec3) -> Vec<PatchPoint> {
+        let positions = surface.mesh.positions();
+        let centre = surface.nearest(VertexId(0), DVec3::new(0.6, 0.5, 0.6));
+        let inside = surface.mesh.vertices().filter(|&v| positions[v].distance(positions[centre]) < 0.3);
         let point = |v: VertexId| {
             let image = positions[v] + slid;
-            let near = skin.nearest(v, image);
-            PatchPoint { position: positions[v], normal: skin.normals[v], weight: 1.0, image, near }
+            let near = surface.nearest(v, image);
+            PatchPoint { position: positions[v], normal: surface.normals[v], weight: 1.0, image, near }
         };
         std::iter::once(centre).chain(inside.filter(|&v| v != centre)).map(point).collect()
     }
@@ -289,9 +291,9 @@ mod tests {
     #[test]
     fn hills_bring_a_patch_back_to_where_it_belongs() {
         let mesh = hilly();
-        let skin = Skin::new(&mesh);
-        let mut points = patch(&skin, DVec3::new(0.02, -0.03, 0.01));
-        let fit = Fitter::default().fit(&mut points, &skin, &OPTIONS).unwrap();
+        let surface = OrientedSurface::new(&mesh);
+        let mut points = patch(&surface, DVec3::new(0.02, -0.03, 0.01));
+        let fit = Fitter::default().fit(&mut points, &surface, &OPTIONS).unwrap();
         assert!(fit.centre.distance(points[0].position) < 2e-3, "{fit:?}");
         assert!(fit.misfit < 1e-6, "{fit:?}");
     }
@@ -299,18 +301,18 @@ mod tests {
     #[test]
     fn on_a_ball_a_paraboloid_is_nearer_than_a_tangent_plane() {
         let ball = icosphere(3);
-        let skin = Skin::new(&ball);
+        let surface = OrientedSurface::new(&ball);
         // Largest errors of distance and normal, by paraboloid and by plane.
         let (mut bent, mut flat) = ([0.0_f64; 2], [0.0_f64; 2]);
         for f in ball.faces() {
             let [p, q, r] = ball.corners(f);
             let outwards = (p + q * 0.7 + r * 0.8).normalize();
-            let near = skin.nearest(ball.triangles()[f][0], outwards * 1.003);
-            let (distance, normal) = skin.distance(near, outwards * 1.003);
-            let plane = (ball.positions()[near] - outwards * 1.003).dot(skin.normals[near]);
+            let near = surface.nearest(ball.triangles()[f][0], outwards * 1.003);
+            let (distance, normal) = surface.distance(near, outwards * 1.003);
+            let plane = (ball.positions()[near] - outwards * 1.003).dot(surface.normals[near]);
             let errors = |distance: f64, normal: DVec3| [(distance + 0.003).abs(), normal.distance(outwards)];
             for (worst, found) in
-                [(&mut bent, errors(distance, normal)), (&mut flat, errors(plane, skin.normals[near]))]
+                [(&mut bent, errors(distance, normal)), (&mut flat, errors(plane, surface.normals[near]))]
             {
                 (0..2).for_each(|k| worst[k] = worst[k].max(found[k]));
             }
@@ -321,16 +323,16 @@ mod tests {
     #[test]
     fn a_plain_ball_holds_no_patch() {
         let ball = icosphere(5);
-        let skin = Skin::new(&ball);
-        let mut points = patch(&skin, DVec3::ZERO);
+        let surface = OrientedSurface::new(&ball);
+        let mut points = patch(&surface, DVec3::ZERO);
         let held = |mesh: &SurfaceMesh| {
-            let skin = Skin::new(mesh);
-            let fit = Fitter::default().fit(&mut patch(&skin, DVec3::ZERO), &skin, &OPTIONS).unwrap();
-            let normal = skin.normals[skin.nearest(VertexId(0), fit.centre)];
+            let surface = OrientedSurface::new(mesh);
+            let fit = Fitter::default().fit(&mut patch(&surface, DVec3::ZERO), &surface, &OPTIONS).unwrap();
+            let normal = surface.normals[surface.nearest(VertexId(0), fit.centre)];
             let along = normal.any_orthonormal_vector();
             along.dot(fit.hold * along)
         };
         assert!(held(&ball) < 0.02 * held(&hilly()), "{} {}", held(&ball), held(&hilly()));
-        assert!(Fitter::default().fit(&mut points[..0], &skin, &OPTIONS).is_none());
+        assert!(Fitter::default().fit(&mut points[..0], &surface, &OPTIONS).is_none());
     }
 }
