@@ -6,9 +6,9 @@ mod common;
 use conemap::layout::{self, LayoutOptions};
 use conemap::monitor::Silent;
 use conemap::pipeline::{self, GroundTruth, MapInput, PipelineOptions};
-use conemap::surface_map::compose::locate;
-use conemap::surface_map::flat_problem::RelaxOptions;
-use conemap::surface_map::initial::{InitialOptions, embed, relax};
+use conemap::surface_map::overlay::location::locate;
+use conemap::surface_map::parametrisation::initial::{InitialOptions, embed, relax};
+use conemap::surface_map::parametrisation::problem::FlatRelaxOptions;
 use conemap::surface_map::{ConeSurface, overlay};
 use criterion::Criterion;
 use std::path::Path;
@@ -45,7 +45,7 @@ fn cat_to_lion(criterion: &mut Criterion, data: &Path) {
     criterion.bench_function("cat-lion/initial map, both sides", |bencher| bencher.iter(start));
 
     let starts = start();
-    let options = RelaxOptions::default();
+    let options = FlatRelaxOptions::default();
     let relaxed = || {
         let side = |k: usize| {
             relax(sides[k].parametrised(&starts[k]), &surface, &options, &mut Silent).expect("runs").0

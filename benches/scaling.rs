@@ -13,7 +13,7 @@ use conemap::mesh::generators::midpoint_subdivision;
 use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::Silent;
 use conemap::pipeline::{self, GroundTruth, MapInput, PipelineOptions, Report};
-use conemap::surface_map::composed::ComposedOptions;
+use conemap::surface_map::relaxation::map_relaxation::MapRelaxationOptions;
 use std::time::Instant;
 
 /// No larger meshes are mapped.
@@ -81,6 +81,6 @@ fn timed(input: MapInput<'_>, options: &PipelineOptions) -> (Report, f64) {
 fn until_nothing_moves() -> PipelineOptions {
     let mut options = PipelineOptions::default();
     let fine = options.multilevel.fine;
-    options.multilevel.fine = ComposedOptions { max_rounds: 200, relative_decrease: 1e-6, ..fine };
+    options.multilevel.fine = MapRelaxationOptions { max_rounds: 200, relative_decrease: 1e-6, ..fine };
     options
 }

@@ -6,6 +6,7 @@
 //! from a user's files to the pipeline and back. The core knows no browser, no GPU, no clock and no printing.
 
 pub mod base_domain;
+pub mod coarse_map;
 pub mod cone_metric;
 pub mod demo;
 pub mod export;
@@ -21,7 +22,9 @@ pub mod math;
 pub mod mesh;
 pub mod monitor;
 pub mod numerics;
+pub mod patchwise;
 pub mod pipeline;
+pub mod registration;
 pub mod remesh;
 pub mod scene;
 pub mod surface_map;

@@ -6,11 +6,12 @@ mod common;
 use conemap::layout::{self, LayoutOptions};
 use conemap::mesh::{FaceId, SurfaceMesh, SurfacePoint};
 use conemap::monitor::Silent;
-use conemap::surface_map::compose::{self, Parametrised};
-use conemap::surface_map::flat_problem::RelaxOptions;
-use conemap::surface_map::initial::{self, InitialOptions};
-use conemap::surface_map::queries::PointMap;
-use conemap::surface_map::{ConeSurface, certify, distortion, overlay};
+use conemap::surface_map::measures::distortion;
+use conemap::surface_map::measures::queries::PointMap;
+use conemap::surface_map::overlay::location;
+use conemap::surface_map::parametrisation::initial::{self, InitialOptions};
+use conemap::surface_map::parametrisation::problem::FlatRelaxOptions;
+use conemap::surface_map::{ConeSurface, Parametrised, certify, overlay};
 use std::sync::Arc;
 
 /// Poses of one animal, cats and lions, landmarks few and many, slivers, long limbs.
@@ -42,7 +43,7 @@ fn is_certified(pair: &common::Pair) {
         let before = certify(side.parametrised(&start), &surface);
         assert!(before.bijective, "{name}: the start: {before:?}");
         let (end, report) =
-            initial::relax(side.parametrised(&start), &surface, &RelaxOptions::default(), &mut Silent)
+            initial::relax(side.parametrised(&start), &surface, &FlatRelaxOptions::default(), &mut Silent)
                 .unwrap();
         let after = certify(side.parametrised(&end), &surface);
         assert!(after.bijective && after.flipped_triangles == 0, "{name}: {after:?}");
@@ -51,7 +52,7 @@ fn is_certified(pair: &common::Pair) {
     });
     let source = layout.source.parametrised(&source);
     let target = layout.target.parametrised(&target);
-    let locations = compose::locate(source, target, &surface).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let locations = location::locate(source, target, &surface).unwrap_or_else(|e| panic!("{name}: {e}"));
     let overlay = overlay::overlay(source, target, &locations).unwrap_or_else(|e| panic!("{name}: {e}"));
     let measured = distortion::distortion(source, target, &overlay);
     // The pieces of the overlay cover both surfaces once, face by face.

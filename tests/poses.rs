@@ -5,7 +5,7 @@ mod common;
 
 use conemap::monitor::Silent;
 use conemap::pipeline::{DistortionReport, GroundTruth, PipelineOptions, run};
-use conemap::surface_map::relief::ReliefOptions;
+use conemap::registration::rigid_patches::RigidPatchOptions;
 
 /// Hardly any dents, and the worst places told in order, at points of the meshes.
 fn no_dents(distortion: &DistortionReport, faces: [usize; 2]) {
@@ -32,17 +32,17 @@ fn the_relief_of_the_skin_brings_the_map_nearer_to_the_known_one() {
     let pair = common::read_pair(&data, "horse-horse01");
     let landmarks = common::landmarks(&pair);
     let input = pair.input(&landmarks, GroundTruth::SameConnectivity);
-    let error = |relief: ReliefOptions| {
+    let error = |relief: RigidPatchOptions| {
         let mut options = PipelineOptions::default();
-        options.multilevel.relief = relief;
+        options.multilevel.rigid_patches = relief;
         let result = run(input, &options, &mut Silent).unwrap();
         assert!(result.report.certificate.as_ref().unwrap().bijective);
-        if relief == ReliefOptions::default() {
+        if relief == RigidPatchOptions::default() {
             no_dents(&result.report.distortion, [pair.source.face_count(), pair.target.face_count()]);
         }
         result.report.ground_truth.unwrap().mean
     };
-    let with = error(ReliefOptions::default());
-    let without = error(ReliefOptions { rounds: 0, ..ReliefOptions::default() });
+    let with = error(RigidPatchOptions::default());
+    let without = error(RigidPatchOptions { rounds: 0, ..RigidPatchOptions::default() });
     assert!(with < 0.0037 && with < 0.85 * without, "{with} of the root of the area, {without} without");
 }

@@ -8,10 +8,10 @@ use conemap::layout::{self, BaseLayout, Candidate, Candidates, PatchedMesh, Sear
 use conemap::mesh::coarsening::Level;
 use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::{Cancelled, Monitor, Silent, Step};
-use conemap::surface_map::composed::{self, ComposedOptions};
-use conemap::surface_map::flat_problem::RelaxOptions;
-use conemap::surface_map::initial::{InitialOptions, embed, relax};
-use conemap::surface_map::two_sided::TwoSided;
+use conemap::surface_map::energy::map_energy::MapEnergy;
+use conemap::surface_map::parametrisation::initial::{InitialOptions, embed, relax};
+use conemap::surface_map::parametrisation::problem::FlatRelaxOptions;
+use conemap::surface_map::relaxation::map_relaxation::{self, MapRelaxationOptions};
 use conemap::surface_map::{ConeSurface, MapError};
 use std::sync::Arc;
 
@@ -21,13 +21,16 @@ fn mean_log(layout: &BaseLayout, monitor: &mut dyn Monitor) -> Result<Option<f64
         let surface = Arc::new(ConeSurface::of_layout(layout)?);
         let mut side = |patched: &PatchedMesh| -> Result<_, MapError> {
             let (start, _) = embed(patched, &surface, &InitialOptions::default(), monitor)?;
-            Ok(relax(patched.parametrised(&start), &surface, &RelaxOptions::default(), monitor)?.0)
+            Ok(relax(patched.parametrised(&start), &surface, &FlatRelaxOptions::default(), monitor)?.0)
         };
         let embeddings = [side(&layout.source)?, side(&layout.target)?];
         let sides = [layout.source.parametrised(&embeddings[0]), layout.target.parametrised(&embeddings[1])];
-        let options =
-            ComposedOptions { max_rounds: 3, energy: TwoSided::JUDGE, ..ComposedOptions::default() };
-        let relaxed = composed::relax(sides, &surface, &options, monitor)?;
+        let options = MapRelaxationOptions {
+            max_rounds: 3,
+            energy: MapEnergy::JUDGE,
+            ..MapRelaxationOptions::default()
+        };
+        let relaxed = map_relaxation::relax(sides, &surface, &options, monitor)?;
         Ok(relaxed.mean_log())
     };
     match map(monitor) {

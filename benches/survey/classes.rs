@@ -2,12 +2,12 @@
 
 use crate::arguments::Arguments;
 use crate::common;
+use conemap::coarse_map::class_search::{ClassChoice, ClassSearchOptions, choose_class};
+use conemap::coarse_map::multilevel::solve_coarse;
+use conemap::coarse_map::{MeshWithCoarse, coarse_landmarks};
 use conemap::layout::{Candidate, Candidates};
 use conemap::mesh::{RefinedMesh, SurfaceMesh, VertexId};
 use conemap::monitor::Silent;
-use conemap::pipeline::ClassChoice;
-use conemap::pipeline::class_search::choose_class;
-use conemap::surface_map::multilevel::{Side, coarse_landmarks, solve_coarse};
 use cpu_time::ThreadTime;
 use typed_index_collections::TiVec;
 
@@ -47,9 +47,13 @@ fn one(arguments: &Arguments, name: &str, vertices: usize) -> String {
     let full = [refined(&pair.source, &landmarks.source), refined(&pair.target, &landmarks.target)];
     let held: [TiVec<VertexId, VertexId>; 2] =
         [landmarks.source.iter().copied().collect(), landmarks.target.iter().copied().collect()];
-    let sides = [0, 1].map(|k| Side::new(&full[k], &held[k], vertices));
+    let sides = [0, 1].map(|k| MeshWithCoarse::new(&full[k], &held[k], vertices));
     let coarse = coarse_landmarks(&sides);
-    let options = (&arguments.options.multilevel, &arguments.options.search, ClassChoice::Best);
+    let options = ClassSearchOptions {
+        multilevel: &arguments.options.multilevel,
+        search: &arguments.options.search,
+        choice: ClassChoice::Best,
+    };
     let begun = ThreadTime::now();
     let chosen = match choose_class(&sides, options, &mut Silent) {
         Ok(chosen) => chosen,
@@ -58,9 +62,9 @@ fn one(arguments: &Arguments, name: &str, vertices: usize) -> String {
     let searched = begun.elapsed().as_secs_f64();
     // As the pipeline judges the finalists.
     let judge = |candidate: &Candidate| {
-        let map = solve_coarse(&sides, &candidate.layout, (options.0, &mut Silent));
+        let map = solve_coarse(&sides, &candidate.layout, options.multilevel, &mut Silent);
         map.ok().map_or(f64::INFINITY, |mut map| {
-            map.relax((&options.0.decide, &mut Silent)).expect("nobody stops");
+            map.relax(&options.multilevel.decide, &mut Silent).expect("nobody stops");
             map.mean_log
         })
     };

@@ -47,7 +47,7 @@ pub fn vertex_distortion(densities: &[Option<f64>]) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::surface_map::distortion::LocalDistortion;
+    use crate::surface_map::measures::distortion::LocalDistortion;
 
     #[test]
     fn numbers_come_back() {

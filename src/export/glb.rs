@@ -1,6 +1,6 @@
 //! Textured meshes as binary glTF 2.0, with a checkerboard inside.
 
-use crate::surface_map::transfer::CommonMesh;
+use crate::surface_map::measures::transfer::CommonMesh;
 use glam::{DVec2, DVec3};
 use serde_json::json;
 

@@ -8,6 +8,7 @@ pub mod generators;
 mod ids;
 pub mod insertion;
 pub mod mirror;
+pub mod normals;
 mod refined;
 pub mod soup;
 pub mod surface_index;

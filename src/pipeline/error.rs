@@ -1,12 +1,13 @@
 //! Which stage failed, and why.
 
 use crate::base_domain::SimplifyError;
+use crate::coarse_map::CoarseMapError;
 use crate::cone_metric::FlowError;
 use crate::layout::LayoutError;
 use crate::mesh::MeshError;
 use crate::monitor::Cancelled;
-use crate::surface_map::compose::LocateError;
 use crate::surface_map::overlay::OverlayError;
+use crate::surface_map::overlay::location::LocateError;
 use crate::surface_map::{Certificate, MapError};
 
 /// Why there is no map.
@@ -65,6 +66,16 @@ macro_rules! from_stage {
 from_stage!(SimplifyError, BaseDomain);
 from_stage!(LayoutError, Layout);
 from_stage!(MapError, Map);
+
+impl From<CoarseMapError> for PipelineError {
+    fn from(error: CoarseMapError) -> Self {
+        match error {
+            CoarseMapError::Cancelled(stop) => Self::Cancelled(stop),
+            CoarseMapError::Layout(error) => Self::Layout(error),
+            CoarseMapError::Map(error) => Self::Map(error),
+        }
+    }
+}
 
 impl From<Cancelled> for PipelineError {
     fn from(stop: Cancelled) -> Self {

@@ -1,12 +1,10 @@
 //! Options, the order of the stages, the report: the only place that knows the whole way.
 
-pub mod class_search;
 mod error;
 mod findings;
 mod flows;
 mod options;
 mod outcome;
-mod own_cones;
 mod relaxed;
 mod report;
 mod result;

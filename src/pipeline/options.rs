@@ -1,8 +1,10 @@
 //! What a user may choose.
 
+use crate::coarse_map::MultilevelOptions;
+pub use crate::coarse_map::class_search::ClassChoice;
+pub use crate::coarse_map::own_cones::OwnConeOptions;
 use crate::cone_metric::FlowOptions;
 use crate::layout::{LayoutOptions, SearchOptions};
-use crate::surface_map::multilevel::MultilevelOptions;
 use serde::{Deserialize, Serialize};
 
 /// How the map is made.
@@ -42,19 +44,6 @@ pub enum Cones {
     BaseDomain,
     /// 4 pi divided by the number of landmarks.
     Uniform,
-}
-
-/// Which class of maps is taken where several are close.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
-#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
-#[serde(rename_all = "kebab-case")]
-pub enum ClassChoice {
-    /// The one of least mean log density.
-    #[default]
-    Best,
-    /// The next best, where there is one that is close.
-    RunnerUp,
 }
 
 /// What a user chooses of a run, on the command line and in the page alike. A name or a value that is not known is an error.
@@ -111,38 +100,4 @@ pub struct PipelineOptions {
     pub multilevel: MultilevelOptions,
     /// Cones of the program's own where the landmarks are few.
     pub own_cones: OwnConeOptions,
-}
-
-/// Cones of the program's own, for [`Method::Relaxed`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OwnConeOptions {
-    /// Points that are added; 0 turns them off.
-    pub count: usize,
-    /// With more landmarks than this none are added.
-    pub most_landmarks: usize,
-    /// A coarse map of less mean log density needs no help; 0 for an isometry.
-    pub least_mean_log: f64,
-    /// Sets of points, one after the other, at most.
-    pub rounds: usize,
-    /// Stops after this many sets without a gain.
-    pub patience: usize,
-    /// A gain lowers the mean log density by this share.
-    pub least_gain: f64,
-    /// The search for the layout with own points.
-    pub search: SearchOptions,
-}
-
-impl Default for OwnConeOptions {
-    fn default() -> Self {
-        let search = SearchOptions { candidates: 2, twists: 2, ..SearchOptions::default() };
-        Self {
-            count: 20,
-            most_landmarks: 16,
-            least_mean_log: 0.0025,
-            rounds: 6,
-            patience: 2,
-            least_gain: 0.02,
-            search,
-        }
-    }
 }

@@ -1,59 +1,29 @@
 //! The relaxed map: from landmarks to certified parametrisations of both meshes, and what is told of them.
 
-use super::class_search::{Chosen, choose_class};
 use super::flows::Flows;
 use super::outcome::Outcome;
-use super::own_cones::{self, Refined, Rounds};
 use super::{Base, MapInput, MapResult, PipelineError, PipelineOptions};
 use crate::base_domain::{self, BaseDomain};
+use crate::coarse_map::class_search::{Chosen, ClassSearchOptions, choose_class};
+use crate::coarse_map::multilevel::{CoarseMap, solve_coarse, solve_fine};
+use crate::coarse_map::own_cones::{self, Refined, Rounds, Start};
+use crate::coarse_map::{LandmarkedMesh, MeshWithCoarse, coarse_landmarks};
 use crate::landmarks::Landmarks;
 use crate::layout::{self, BaseLayout, LayoutError, SearchReport};
-use crate::mesh::{MeshError, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
+use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Monitor, Stage};
-use crate::surface_map::compose::{Locations, locate};
-use crate::surface_map::multilevel::{CoarseMap, Side, coarse_landmarks, solve_coarse, solve_fine};
+use crate::surface_map::overlay::location::{Locations, locate};
 use crate::surface_map::overlay::{Overlay, OverlayError, overlay};
 use crate::surface_map::{Certificate, ConeSurface, Embedding, MapError, Parametrised, certify};
 use std::cmp::Ordering;
 use std::sync::Arc;
-use typed_index_collections::TiVec;
-
-/// One of both meshes, scaled to area 1, with its landmarks.
-#[derive(Clone)]
-pub(super) struct Full {
-    pub(super) refined: RefinedMesh,
-    pub(super) landmarks: TiVec<VertexId, VertexId>,
-}
-
-/// Edges at a landmark, at least. Around a landmark of degree 3, such as one inside a face, no layout's points can be taken
-/// out again: with three edges straight there is no room for the paths between them.
-const LEAST_DEGREE: usize = 6;
-
-impl Full {
-    fn new(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> Result<Self, MeshError> {
-        let refined = RefinedMesh::unrefined(mesh);
-        let refined = refined.with_degrees(mesh, landmarks.iter().copied(), LEAST_DEGREE)?;
-        Ok(Self { refined, landmarks: landmarks.iter().copied().collect() })
-    }
-
-    /// The same with more landmarks: points of the refined mesh.
-    pub(super) fn with_landmarks(
-        &self,
-        input: &SurfaceMesh,
-        points: &[SurfacePoint],
-    ) -> Result<(Self, Vec<VertexId>), MeshError> {
-        let (refined, vertices) = self.refined.with_points(input, points)?;
-        let refined = refined.with_degrees(input, vertices.iter().copied(), LEAST_DEGREE)?;
-        Ok((Self { refined, landmarks: self.landmarks.clone() }, vertices))
-    }
-}
 
 /// The certified parametrisations of both sides.
 pub(super) struct Parametrisation {
     pub(super) layout: BaseLayout,
     pub(super) search: SearchReport,
     pub(super) surface: Arc<ConeSurface>,
-    pub(super) sides: [Full; 2],
+    pub(super) sides: [LandmarkedMesh; 2],
     embeddings: [Embedding; 2],
     pub(super) certificate: Certificate,
     pub(super) stopped_early: bool,
@@ -70,12 +40,8 @@ impl Parametrisation {
     }
 
     pub(super) fn sides(&self) -> [Parametrised<'_>; 2] {
-        [0, 1].map(|k| parametrised(&self.sides[k], &self.embeddings[k]))
+        [0, 1].map(|k| self.sides[k].parametrised(&self.embeddings[k]))
     }
-}
-
-pub(super) fn parametrised<'a>(full: &'a Full, embedding: &'a Embedding) -> Parametrised<'a> {
-    Parametrised { mesh: &full.refined.mesh, landmark_vertices: &full.landmarks, embedding }
 }
 
 pub(super) fn run(
@@ -162,14 +128,14 @@ fn parametrise(
     (options, monitor): (&PipelineOptions, &mut dyn Monitor),
 ) -> Result<Parametrisation, PipelineError> {
     let Landmarks { source, target } = input.landmarks;
-    let full = [Full::new(input.source, source)?, Full::new(input.target, target)?];
+    let full = [LandmarkedMesh::new(input.source, source)?, LandmarkedMesh::new(input.target, target)?];
     let most = full.iter().map(|side| side.refined.mesh.vertex_count()).max().unwrap_or(0);
     let mut finer_levels = FINER_LEVELS;
     let mut options = options.clone();
     let mut vertices = first_level(input.landmarks.len(), &options);
     let (layout, search, (surface, embeddings, with_own)) = loop {
         monitor.enter(Stage::ClassSearch);
-        let sides = [0, 1].map(|k| Side::new(&full[k].refined.mesh, &full[k].landmarks, vertices));
+        let sides = [0, 1].map(|k| MeshWithCoarse::new(&full[k].refined.mesh, &full[k].landmarks, vertices));
         let options = &mut options;
         match coarse(input, &sides, (options, &mut *monitor)) {
             Err(PipelineError::Layout(LayoutError::NoMap { .. })) if vertices < most && finer_levels > 0 => {
@@ -183,21 +149,18 @@ fn parametrise(
                 if has_own_cones(input.landmarks.len(), options) {
                     monitor.enter(Stage::OwnCones);
                 }
-                let rounds = (Rounds::new(options), Rounds::new(options));
+                let rounds = (Rounds::new(&options.own_cones), Rounds::new(&options.own_cones));
                 let cells = (&rounds.0, &rounds.1);
-                let own = own_cones::add(
-                    ([input.source, input.target], &full, &map),
-                    cells,
-                    (vertices, options),
-                    monitor,
-                )?;
+                let inputs = [input.source, input.target];
+                let start = Start { inputs, full: &full, map: &map, vertices };
+                let own = own_cones::add(start, cells, (&options.multilevel, &options.own_cones), monitor)?;
                 monitor.enter(Stage::Relaxation);
-                let own = own.map_or(Ok(None), |own| own.refined((&options.multilevel, &mut *monitor)))?;
+                let own = own.map_or(Ok(None), |own| own.refined(&options.multilevel, monitor))?;
                 let fine = match own {
                     Some(Refined { surface, embeddings, full }) => (surface, embeddings, Some(full)),
                     None => {
                         let surface = map.surface.clone();
-                        (surface, solve_fine(map, (&options.multilevel, monitor))?, None)
+                        (surface, solve_fine(map, &options.multilevel, monitor)?, None)
                     }
                 };
                 break (layout, search, fine);
@@ -207,7 +170,7 @@ fn parametrise(
     let full = with_own.unwrap_or(full);
     let stopped_early = monitor.wants_result();
     monitor.enter(Stage::Certificate);
-    let [source, target] = [0, 1].map(|k| certify(parametrised(&full[k], &embeddings[k]), &surface));
+    let [source, target] = [0, 1].map(|k| certify(full[k].parametrised(&embeddings[k]), &surface));
     let certificate = source.and(&target);
     if !certificate.bijective {
         return Err(PipelineError::NotCertified(certificate));
@@ -218,15 +181,16 @@ fn parametrise(
 /// The coarse map of least mean log density among the classes of layouts that are tried.
 fn coarse<'a>(
     input: MapInput<'_>,
-    sides: &'a [Side<'a>; 2],
+    sides: &'a [MeshWithCoarse<'a>; 2],
     (options, monitor): (&PipelineOptions, &mut dyn Monitor),
 ) -> Result<(BaseLayout, SearchReport, CoarseMap<'a>), PipelineError> {
     match options.base {
         Base::Joint => {
-            let chosen =
-                choose_class(sides, (&options.multilevel, &options.search, options.class), &mut *monitor)?;
+            let PipelineOptions { multilevel, search, class, .. } = options;
+            let search_options = ClassSearchOptions { multilevel, search, choice: *class };
+            let chosen = choose_class(sides, search_options, monitor)?;
             let Chosen { candidate, search, mut map } = chosen;
-            map.finish((&options.multilevel, monitor))?;
+            map.finish(&options.multilevel, monitor)?;
             Ok((candidate.layout, search, map))
         }
         Base::Qem => {
@@ -234,12 +198,12 @@ fn coarse<'a>(
             let meshes = [&sides[0].coarse.mesh, &sides[1].coarse.mesh];
             let base = base_domain::simplify(input.target, &input.landmarks.target, monitor)?;
             let layout = layout::from_base(meshes, &landmarks, &base, monitor)?;
-            let map = solve_coarse(sides, &layout, (&options.multilevel, &mut *monitor));
+            let map = solve_coarse(sides, &layout, &options.multilevel, monitor);
             let mut map = map.map_err(|error| match error {
                 MapError::Cancelled(stop) => PipelineError::from(stop),
                 _ => LayoutError::NoMap { layouts: 1, near: Vec::new() }.into(),
             })?;
-            map.finish((&options.multilevel, monitor))?;
+            map.finish(&options.multilevel, monitor)?;
             Ok((layout, SearchReport::default(), map))
         }
     }

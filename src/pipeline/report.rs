@@ -6,7 +6,7 @@ use crate::base_domain::BaseDomain;
 use crate::cone_metric::FlowReport;
 use crate::mesh::SurfacePoint;
 use crate::monitor::Stage;
-use crate::surface_map::distortion::{Distortion, WorstPiece};
+use crate::surface_map::measures::distortion::{Distortion, WorstPiece};
 use serde::Serialize;
 use std::collections::BTreeMap;
 

@@ -3,8 +3,8 @@
 use super::Report;
 use crate::base_domain::BaseDomain;
 use crate::mesh::{FaceId, SurfacePoint, VertexId};
-use crate::surface_map::distortion::LocalDistortion;
-use crate::surface_map::transfer::CommonMesh;
+use crate::surface_map::measures::distortion::LocalDistortion;
+use crate::surface_map::measures::transfer::CommonMesh;
 use glam::DVec3;
 use typed_index_collections::TiVec;
 

@@ -7,10 +7,10 @@ use crate::base_domain;
 use crate::layout::{self, BaseLayout, PatchedMesh};
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Monitor, Portion, Stage};
-use crate::surface_map::distortion::image_distortion;
-use crate::surface_map::ground_truth::same_connectivity_error;
-use crate::surface_map::thesis::{ThesisMap, thesis_map};
-use crate::surface_map::transfer::mapped_mesh;
+use crate::patchwise::{PatchwiseMap, patchwise_map};
+use crate::surface_map::measures::distortion::image_distortion;
+use crate::surface_map::measures::ground_truth::same_connectivity_error;
+use crate::surface_map::measures::transfer::mapped_mesh;
 use glam::DVec3;
 use typed_index_collections::TiVec;
 
@@ -34,7 +34,7 @@ pub(super) fn run(
         refined(&layout.target, &mut Portion::new(monitor, 0.4, 0.8)).map_err(PipelineError::target_flow)?;
     let metrics = [&source.0, &target.0];
     let last = &mut Portion::new(monitor, 0.8, 1.0);
-    let map = thesis_map(&layout, [input.source, input.target], metrics, last)?;
+    let map = patchwise_map(&layout, [input.source, input.target], metrics, last)?;
     monitor.enter(Stage::Transfer);
     Ok(result(input, layout, &flows, map))
 }
@@ -55,7 +55,7 @@ fn draw(
     })
 }
 
-fn result(input: MapInput<'_>, layout: BaseLayout, flows: &Flows, map: ThesisMap) -> MapResult {
+fn result(input: MapInput<'_>, layout: BaseLayout, flows: &Flows, map: PatchwiseMap) -> MapResult {
     let images = &map.target_from_source;
     let mapped = || images.iter_enumerated().filter_map(|(v, image)| Some((v, (*image)?)));
     let ground_truth = (input.ground_truth == GroundTruth::SameConnectivity).then(|| {
@@ -91,7 +91,7 @@ fn patch_lines(side: &PatchedMesh, input: &SurfaceMesh) -> Vec<Vec<DVec3>> {
     once.map(|path| path.iter().map(place).collect()).collect()
 }
 
-fn warnings(map: &ThesisMap) -> Vec<Warning> {
+fn warnings(map: &PatchwiseMap) -> Vec<Warning> {
     let mut warnings = vec![Warning::NoBijection];
     let [source, target] = map.inverted_patches;
     if source + target > 0 {

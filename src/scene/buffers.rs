@@ -2,7 +2,7 @@
 
 use crate::mesh::SurfaceMesh;
 use crate::mesh::generators::icosphere;
-use crate::surface_map::transfer::vertex_normals;
+use crate::mesh::normals::vertex_normals;
 use glam::{DVec3, Vec3};
 
 /// A vertex of a surface.

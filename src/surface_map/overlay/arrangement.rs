@@ -3,11 +3,11 @@
 //! A dart is a piece of a halfedge between two neighbouring crossings or ends. The next dart around the cell on its left
 //! follows from the crossing's orientation alone; at a landmark the source's star is merged into the target's wedges.
 
+use super::pieces::{OverlayError, SideOf};
 use super::seats::Seats;
 use super::trace::Traces;
-use super::{OverlayError, SideOf};
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
-use crate::surface_map::compose::Parametrised;
+use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::DVec2;
 use typed_index_collections::TiVec;
 

@@ -1,12 +1,13 @@
 //! The cells of the arrangement as pieces: walked, given coordinates on both meshes, and checked.
 
 use super::arrangement::{Arrangement, Side};
+use super::location::barycentric_in;
+use super::pieces::{Overlay, OverlayError, OverlayPoint, Piece, SideOf, corners_of, face_area};
 use super::seats::Seats;
 use super::trace::Traces;
-use super::{Overlay, OverlayError, OverlayPoint, Piece, SideOf, corners_of, face_area};
 use crate::math::rigid2::Rigid2;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
-use crate::surface_map::compose::{Parametrised, barycentric_in};
+use crate::surface_map::parametrisation::embedding::Parametrised;
 use typed_index_collections::TiVec;
 
 const NONE: u32 = u32::MAX;

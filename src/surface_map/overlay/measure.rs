@@ -5,12 +5,13 @@
 //! of the target's sides only the one opposite does. They add up exactly, whatever the order of the cells.
 
 use super::arrangement::Arrangement;
+use super::location::Locations;
+use super::pieces::{OverlayError, SideOf, face_area};
 use super::seats::Seats;
 use super::trace::Traces;
-use super::{OverlayError, SideOf, face_area};
 use crate::math::rigid2::{Rigid2, complex_mul};
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh};
-use crate::surface_map::compose::{Locations, Parametrised};
+use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::DVec2;
 
 const NONE: u32 = u32::MAX;
@@ -60,7 +61,7 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// Measures the overlay of source and target; `locations` are those of [`crate::surface_map::compose::locate`] for the
+    /// Measures the overlay of source and target; `locations` are those of [`super::location::locate`] for the
     /// same sides.
     ///
     /// The pieces are those of [`super::Overlayer::fill`] without shifts, in the same order; where that would shift the

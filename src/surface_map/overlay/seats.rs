@@ -1,10 +1,11 @@
 //! Where every source corner sits: the target face of the vertex and the motion from the corner's own source face.
 
-use super::OverlayError;
+use super::location::{Location, Locations};
+use super::pieces::OverlayError;
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::{cos, sin};
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
-use crate::surface_map::compose::{Location, Locations, Parametrised};
+use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::DVec2;
 use robust::{Coord, orient2d};
 use typed_index_collections::TiVec;

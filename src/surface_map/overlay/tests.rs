@@ -1,16 +1,17 @@
 //! Theorems of the overlay on generated pairs.
 
-use super::*;
+use super::location::{Locations, Locator, locate};
+use super::pieces::corners_of;
 use crate::landmarks::Landmarks;
 use crate::layout::{self, BaseLayout, LayoutOptions};
 use crate::mesh::generators::{icosphere, midpoint_subdivision, octahedron};
-use crate::mesh::{SurfaceMesh, SurfacePoint};
+use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint};
 use crate::monitor::Silent;
-use crate::surface_map::compose::{Locator, locate};
-use crate::surface_map::initial::{self, InitialOptions};
-use crate::surface_map::queries::PointMap;
-use crate::surface_map::{ConeSurface, Embedding};
-use glam::DVec3;
+use crate::surface_map::measures::queries::PointMap;
+use crate::surface_map::overlay::*;
+use crate::surface_map::parametrisation::initial::{self, InitialOptions};
+use crate::surface_map::{ConeSurface, Embedding, Parametrised};
+use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

@@ -3,12 +3,12 @@
 //! A trace goes from the seat of its tail to the seat of its head. Between them each step takes one exact predicate: on
 //! which side of the source edge lies the corner opposite the edge that was entered.
 
-use super::OverlayError;
+use super::pieces::OverlayError;
 use super::seats::{Seat, Seats, side};
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, HalfedgeId};
-use crate::surface_map::compose::Parametrised;
+use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::DVec2;
 use typed_index_collections::TiVec;
 

@@ -1,0 +1,216 @@
+//! The class of the map: layouts of different isotopy classes, each judged by the coarse map that it leads to.
+
+use super::error::CoarseMapError;
+use super::mesh_with_coarse::{MeshWithCoarse, coarse_landmarks};
+use super::multilevel::{CoarseMap, solve_coarse};
+use super::options::MultilevelOptions;
+use crate::layout::{self, Candidate, Candidates, LayoutError, SearchOptions, SearchReport};
+use crate::monitor::{Cancelled, Monitor};
+use crate::surface_map::MapError;
+use serde::{Deserialize, Serialize};
+
+/// Which class of maps is taken where several are close.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
+#[serde(rename_all = "kebab-case")]
+pub enum ClassChoice {
+    /// The one of least mean log density.
+    #[default]
+    Best,
+    /// The next best, where there is one that is close.
+    RunnerUp,
+}
+
+/// How the class of the map is chosen.
+#[derive(Clone, Copy, Debug)]
+pub struct ClassSearchOptions<'a> {
+    /// How coarse maps are made, judged and relaxed.
+    pub multilevel: &'a MultilevelOptions,
+    /// How layouts are searched.
+    pub search: &'a SearchOptions,
+    /// Which of the classes is taken.
+    pub choice: ClassChoice,
+}
+
+/// The class that was chosen with its coarse map, judged but not yet relaxed to the end.
+pub struct Chosen<'a> {
+    /// Its layout, drawn on the coarse levels.
+    pub candidate: Candidate,
+    /// What was judged.
+    pub search: SearchReport,
+    /// The coarse map.
+    pub map: CoarseMap<'a>,
+}
+
+/// The class whose coarse map has the least mean log density, among layouts planned on both coarse levels.
+///
+/// The best after a first look are relaxed further before one is taken, its own twists are judged, and where several are
+/// still as good they are compared on finer levels, whose triangles distort less by their size.
+///
+/// # Errors
+/// [`CoarseMapError::Layout`] where no layout has a map, [`CoarseMapError::Cancelled`].
+pub fn choose_class<'a>(
+    levels: &'a [MeshWithCoarse<'a>; 2],
+    options: ClassSearchOptions<'_>,
+    monitor: &mut dyn Monitor,
+) -> Result<Chosen<'a>, CoarseMapError> {
+    let landmarks = coarse_landmarks(levels);
+    let meshes = [&levels[0].coarse.mesh, &levels[1].coarse.mesh];
+    let mut candidates = Candidates::new(meshes, &landmarks);
+    let mut finalists = Finalists {
+        levels,
+        options: options.multilevel,
+        maps: Vec::new(),
+        judged: 0,
+        blame: vec![0; landmarks.len()],
+    };
+    let mut judge = |candidate: &Candidate, monitor: &mut dyn Monitor| finalists.judge(candidate, monitor);
+    let searched = layout::search(&mut candidates, &mut judge, options.search, monitor);
+    let (_, mut search) = searched.map_err(|error| match error {
+        LayoutError::NoMap { layouts, .. } => LayoutError::NoMap { layouts, near: finalists.blamed() },
+        other => other,
+    })?;
+    let mut explored = vec![search.best];
+    for _ in 0..MOST_WINNERS {
+        let winner = finalists.decide(monitor)?;
+        if explored.contains(&winner) || monitor.wants_result() {
+            break;
+        }
+        explored.push(winner);
+        let around = finalists.maps[0].candidate.clone();
+        let mut judge =
+            |candidate: &Candidate, monitor: &mut dyn Monitor| finalists.judge(candidate, monitor);
+        let more = layout::neighbours((&mut candidates, &around), &mut judge, options.search, monitor)?;
+        search.judged.extend(more);
+    }
+    search.rival = finalists.compare_finer(monitor)?;
+    if options.choice == ClassChoice::RunnerUp && finalists.maps.len() > 1 {
+        finalists.maps.swap(0, 1);
+        search.rival = search.rival.map(|rival| 1.0 / rival);
+    }
+    for finalist in &finalists.maps {
+        search.judged[finalist.number].mean_log = Some(finalist.map.mean_log);
+    }
+    let best =
+        finalists.maps.into_iter().next().ok_or(LayoutError::NoMap { layouts: 0, near: Vec::new() })?;
+    search.best = best.number;
+    Ok(Chosen { candidate: best.candidate, search, map: best.map })
+}
+
+/// Winners whose twists are judged, at most.
+const MOST_WINNERS: usize = 4;
+
+/// One of the best maps of a search.
+struct Finalist<'a> {
+    /// Among the judged layouts.
+    number: usize,
+    candidate: Candidate,
+    map: CoarseMap<'a>,
+    /// Mean log density after the first look.
+    first_look: f64,
+    is_relaxed: bool,
+}
+
+/// The best maps so far, the best first.
+struct Finalists<'a, 'o> {
+    levels: &'a [MeshWithCoarse<'a>; 2],
+    options: &'o MultilevelOptions,
+    maps: Vec<Finalist<'a>>,
+    judged: usize,
+    /// By landmark in how many layouts points around it could not be taken out.
+    blame: Vec<usize>,
+}
+
+impl Finalists<'_, '_> {
+    /// Judges a layout by a first look at its map.
+    fn judge(&mut self, candidate: &Candidate, monitor: &mut dyn Monitor) -> Result<Option<f64>, Cancelled> {
+        let number = self.judged;
+        self.judged += 1;
+        match solve_coarse(self.levels, &candidate.layout, self.options, monitor) {
+            Ok(map) => {
+                let first_look = map.mean_log;
+                let candidate = candidate.clone();
+                self.maps.push(Finalist { number, candidate, map, first_look, is_relaxed: false });
+                self.maps.sort_by(|a, b| a.first_look.total_cmp(&b.first_look));
+                self.maps.truncate(self.options.finalists);
+                Ok(Some(first_look))
+            }
+            Err(MapError::Cancelled(stop)) => Err(stop),
+            Err(MapError::LayoutPoints { near, .. }) => {
+                near.into_iter().for_each(|landmark| self.blame[landmark] += 1);
+                Ok(None)
+            }
+            Err(MapError::DegenerateBase { landmarks }) => {
+                landmarks.into_iter().for_each(|landmark| self.blame[landmark] += 1);
+                Ok(None)
+            }
+            Err(_) => Ok(None),
+        }
+    }
+
+    /// Relaxes those further that are close after the first look, and puts the best first; its number.
+    fn decide(&mut self, monitor: &mut dyn Monitor) -> Result<usize, CoarseMapError> {
+        let least = self.maps.iter().map(|map| map.first_look).fold(f64::INFINITY, f64::min);
+        self.maps.retain(|map| map.first_look <= self.options.close * least);
+        if self.maps.len() > 1 && !monitor.wants_result() {
+            for finalist in self.maps.iter_mut().filter(|map| !map.is_relaxed) {
+                finalist.map.relax(&self.options.decide, monitor)?;
+                finalist.is_relaxed = true;
+            }
+        }
+        self.sort();
+        self.maps
+            .first()
+            .map(|map| map.number)
+            .ok_or(LayoutError::NoMap { layouts: 0, near: Vec::new() }.into())
+    }
+
+    /// Compares those that are as good as the best on finer levels and puts the best first; the next best relative to the best
+    /// on the finest level on which both were judged, where any is close.
+    ///
+    /// Only copies are refined: the map that is chosen goes on from its coarse level.
+    fn compare_finer(&mut self, monitor: &mut dyn Monitor) -> Result<Option<f64>, CoarseMapError> {
+        let is_close = |mean_log: f64, least: f64| mean_log <= self.options.undecided * least;
+        let least = self.maps.first().map_or(0.0, |best| best.map.mean_log);
+        let close = self.maps.iter().filter(|finalist| is_close(finalist.map.mean_log, least));
+        let mut rivals: Vec<(usize, CoarseMap<'_>)> = close.map(|f| (f.number, f.map.clone())).collect();
+        let (mut ratio, mut order) = (None, Vec::new());
+        for _ in 0..self.options.finer {
+            if rivals.len() < 2 || monitor.wants_result() {
+                break;
+            }
+            for (_, map) in &mut rivals {
+                match map.judge_finer(self.options, monitor) {
+                    Ok(true) => {}
+                    Ok(false) => return Ok(None),
+                    Err(MapError::Cancelled(stop)) => return Err(stop.into()),
+                    // A vertex without a place: the others do better.
+                    Err(_) => map.mean_log = f64::INFINITY,
+                }
+            }
+            rivals.sort_by(|a, b| a.1.mean_log.total_cmp(&b.1.mean_log));
+            let least = rivals[0].1.mean_log;
+            ratio = Some(rivals[1].1.mean_log / least).filter(|ratio| ratio.is_finite());
+            order = rivals.iter().map(|rival| rival.0).collect();
+            rivals.retain(|(_, map)| is_close(map.mean_log, least));
+        }
+        let place = |finalist: &Finalist<'_>| order.iter().position(|number| *number == finalist.number);
+        // Stable: those that were not compared keep their order.
+        self.maps.sort_by_key(|finalist| place(finalist).unwrap_or(usize::MAX));
+        Ok(ratio)
+    }
+
+    /// Landmarks around which at least half as many layouts failed as around the worst, the worst first; at most four.
+    fn blamed(&self) -> Vec<usize> {
+        let most = self.blame.iter().copied().max().unwrap_or(0);
+        let mut near: Vec<usize> = (0..self.blame.len()).filter(|&k| 2 * self.blame[k] > most).collect();
+        near.sort_by_key(|&k| std::cmp::Reverse(self.blame[k]));
+        near.truncate(4);
+        near
+    }
+
+    fn sort(&mut self) {
+        self.maps.sort_by(|a, b| a.map.mean_log.total_cmp(&b.map.mean_log));
+    }
+}

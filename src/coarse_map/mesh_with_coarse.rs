@@ -1,0 +1,40 @@
+//! A mesh with its coarse level.
+
+use crate::landmarks::Landmarks;
+use crate::mesh::coarsening::{Level, coarsen_around};
+use crate::mesh::collapsible::CollapsibleMesh;
+use crate::mesh::{SurfaceMesh, VertexId};
+use typed_index_collections::{TiSlice, ti_vec};
+
+/// A mesh with its coarse level.
+pub struct MeshWithCoarse<'a> {
+    /// Area 1.
+    pub(super) full: &'a SurfaceMesh,
+    pub(super) landmarks: &'a TiSlice<VertexId, VertexId>,
+    pub(super) mesh: CollapsibleMesh,
+    /// The coarse level.
+    pub coarse: Level,
+}
+
+impl<'a> MeshWithCoarse<'a> {
+    /// Coarsens a mesh of area 1 to about `goal` vertices, the landmarks among them.
+    pub fn new(full: &'a SurfaceMesh, landmarks: &'a TiSlice<VertexId, VertexId>, goal: usize) -> Self {
+        let mut is_landmark = ti_vec![false; full.vertex_count()];
+        landmarks.iter().for_each(|&v| is_landmark[v] = true);
+        let mut mesh = CollapsibleMesh::new(full);
+        coarsen_around(&mut mesh, full.positions(), goal, &is_landmark);
+        let coarse = Level::of(&mesh, full.positions());
+        Self { full, landmarks, mesh, coarse }
+    }
+
+    /// The coarse level's vertex of each landmark.
+    fn coarse_landmarks(&self) -> Vec<VertexId> {
+        self.coarse.numbers(self.landmarks).collect()
+    }
+}
+
+/// The landmarks on both coarse levels.
+pub fn coarse_landmarks(meshes: &[MeshWithCoarse<'_>; 2]) -> Landmarks {
+    let [source, target] = [0, 1].map(|k| meshes[k].coarse_landmarks());
+    Landmarks { source, target }
+}

@@ -1,0 +1,15 @@
+//! Coarse first: the class of the map chosen among maps of two coarse levels, and the chosen one refined to the full meshes.
+
+pub mod class_search;
+mod error;
+mod landmarked_mesh;
+mod layout_points;
+mod mesh_with_coarse;
+pub mod multilevel;
+mod options;
+pub mod own_cones;
+
+pub use error::CoarseMapError;
+pub use landmarked_mesh::LandmarkedMesh;
+pub use mesh_with_coarse::{MeshWithCoarse, coarse_landmarks};
+pub use options::MultilevelOptions;

@@ -1,0 +1,309 @@
+//! Coarse first: the map of two coarse meshes, refined to the full meshes.
+//!
+//! The base domain is drawn on coarse levels of both meshes, where everything costs milliseconds. Their parametrisations are
+//! relaxed, the points that the drawing added are taken out again, and the vertices of the full meshes come back level by
+//! level, while the energy of the map itself is lowered on every level. So the full meshes start near the optimum, and are
+//! never cut along the drawing.
+
+use super::layout_points::{PatchedParametrisation, without_layout_points};
+use super::mesh_with_coarse::MeshWithCoarse;
+use super::options::MultilevelOptions;
+use crate::layout::{BaseLayout, PatchedMesh};
+use crate::mesh::coarsening::Level;
+use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use crate::monitor::Monitor;
+use crate::registration::patch_fit::OrientedSurface;
+use crate::registration::rigid_patches::{self, MappedLevel, RigidPatchOptions};
+use crate::surface_map::MapError;
+use crate::surface_map::certificate::base_lines::mend_anchors;
+use crate::surface_map::energy::map_energy::MapEnergy;
+use crate::surface_map::energy::point_constraint::PointConstraint;
+use crate::surface_map::overlay::location::{barycentric, locate};
+use crate::surface_map::overlay::overlay;
+use crate::surface_map::parametrisation::cone_surface::ConeSurface;
+use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
+use crate::surface_map::parametrisation::initial::{self, InitialOptions};
+use crate::surface_map::parametrisation::level::ParametrisedLevel;
+use crate::surface_map::relaxation::dent_energy::DentEnergy;
+use crate::surface_map::relaxation::dents::{self, DentOptions};
+use crate::surface_map::relaxation::map_relaxation::{self, MapRelaxationOptions, Relaxed};
+use std::sync::Arc;
+use typed_index_collections::{TiSlice, TiVec};
+
+/// Both coarse levels with their parametrisations.
+#[derive(Clone)]
+pub struct CoarseMap<'a> {
+    /// The cone surface of its layout.
+    pub surface: Arc<ConeSurface>,
+    levels: [ParametrisedLevel<'a>; 2],
+    /// Half the sum of the means over both coarse levels of the logarithm of the distortion density; 0 for an isometry.
+    pub mean_log: f64,
+    /// Half of both coarse levels is distorted by no more than this.
+    pub median: f64,
+    /// The energy that is lowered on finer levels.
+    energy: MapEnergy,
+    /// By mesh, source first: the constrained vertices of the full mesh, each with its place on the other mesh.
+    constraints: [Vec<(VertexId, PointConstraint)>; 2],
+    full: [&'a SurfaceMesh; 2],
+    /// By mesh: the full mesh's vertex of each landmark.
+    landmarks: [&'a TiSlice<VertexId, VertexId>; 2],
+}
+
+/// A map of two coarse levels, from a layout drawn on them, relaxed as far as a judgement needs.
+///
+/// # Errors
+/// [`MapError::NoStart`], [`MapError::LayoutPoints`]: another layout or a finer level may help.
+pub fn solve_coarse<'a>(
+    meshes: &'a [MeshWithCoarse<'a>; 2],
+    layout: &BaseLayout,
+    options: &MultilevelOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<CoarseMap<'a>, MapError> {
+    let surface = Arc::new(ConeSurface::of_layout(layout)?);
+    let mut level = |mesh: &'a MeshWithCoarse<'a>, patched: &PatchedMesh| {
+        let (start, _) = initial::embed(patched, &surface, &options.initial, monitor)?;
+        let (relaxed, _) = initial::relax(patched.parametrised(&start), &surface, &options.relax, monitor)?;
+        let parametrisation = PatchedParametrisation { surface: &surface, embedding: &relaxed };
+        without_layout_points(mesh, patched, parametrisation, &options.relax, monitor)
+    };
+    let levels = [level(&meshes[0], &layout.source)?, level(&meshes[1], &layout.target)?];
+    let mut map = CoarseMap {
+        surface,
+        levels,
+        mean_log: f64::INFINITY,
+        median: f64::INFINITY,
+        energy: options.fine.energy,
+        constraints: Default::default(),
+        full: [meshes[0].full, meshes[1].full],
+        landmarks: [meshes[0].landmarks, meshes[1].landmarks],
+    };
+    map.relax(&options.judge, monitor)?;
+    Ok(map)
+}
+
+impl CoarseMap<'_> {
+    /// Relaxes the coarse map that was chosen, and finds out whether it is between two poses of one body.
+    ///
+    /// # Errors
+    /// [`MapError::Cancelled`].
+    pub fn finish(&mut self, options: &MultilevelOptions, monitor: &mut dyn Monitor) -> Result<(), MapError> {
+        self.relax(&options.coarse, monitor)?;
+        if self.median < options.pose_median {
+            self.energy = MapEnergy::POSES;
+            self.relax(&MapRelaxationOptions { energy: self.energy, ..options.coarse }, monitor)?;
+        }
+        Ok(())
+    }
+
+    /// The present levels with the images of the source level's vertices; `None` where a vertex is not found on the target.
+    pub fn images(&self) -> Option<LevelImages> {
+        let present = self.present();
+        let [source, target] = [0, 1].map(|k| present[k].parametrised());
+        let locations = locate(source, target, &self.surface).ok()?;
+        let target_from_source =
+            locations.by_vertex.iter().map(|at| barycentric(source, target, at)).collect();
+        Some(LevelImages { levels: present.map(|p| p.level), target_from_source })
+    }
+
+    fn present(&self) -> [PresentLevel; 2] {
+        [0, 1].map(|k| {
+            let (level, mut embedding) = self.levels[k].snapshot();
+            let landmarks: TiVec<VertexId, VertexId> = level.numbers(self.landmarks[k]).collect();
+            mend_anchors(&mut embedding, (&level.mesh, &landmarks), &self.surface);
+            PresentLevel { level, landmarks, embedding }
+        })
+    }
+
+    /// Lowers the energy of the map of the coarse levels and measures it.
+    ///
+    /// # Errors
+    /// [`MapError::Cancelled`].
+    pub fn relax(
+        &mut self,
+        options: &MapRelaxationOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(), MapError> {
+        let measure = |relaxed: &Relaxed<'_>| (relaxed.mean_log(), relaxed.median());
+        (self.mean_log, self.median) = self.lower(options, monitor, measure)?;
+        Ok(())
+    }
+
+    /// Between two poses, on levels of the right size, registers patches and lowers the energy with their constraints.
+    ///
+    /// # Errors
+    /// [`MapError::Cancelled`].
+    fn register_patches(
+        &mut self,
+        options: &RigidPatchOptions,
+        fine: &MapRelaxationOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(), MapError> {
+        let [least, most] = options.vertices;
+        let fits = |level: &ParametrisedLevel<'_>| (least..=most).contains(&level.mesh().live_vertices());
+        if self.energy != MapEnergy::POSES || !self.levels.iter().all(fits) {
+            return Ok(());
+        }
+        let surfaces = [0, 1].map(|k| OrientedSurface::new(self.full[k]));
+        let surfaces = [&surfaces[0], &surfaces[1]];
+        for _ in 0..options.rounds {
+            if monitor.wants_result() {
+                break;
+            }
+            self.look(|k, seen, constraints| {
+                let found = rigid_patches::point_constraints([surfaces[k], surfaces[1 - k]], seen, options);
+                *constraints =
+                    found.into_iter().map(|(v, constraint)| (seen.vertices[v], constraint)).collect();
+            });
+            self.lower(&MapRelaxationOptions { max_rounds: 4, ..*fine }, monitor, |_| ())?;
+        }
+        // Finer levels hold their vertices where they are now: another place for one of their small triangles would dent the map.
+        self.look(|_, seen, constraints| {
+            for (v, constraint) in constraints {
+                if let Ok(v) = seen.vertices.binary_search(v) {
+                    constraint.place = seen.images[v];
+                }
+            }
+        });
+        Ok(())
+    }
+
+    /// Brings vertices back on both sides, as many times more as a level has; `false` where none is missing.
+    fn grow(&mut self, options: &MultilevelOptions, monitor: &mut dyn Monitor) -> Result<bool, MapError> {
+        let mut grown = false;
+        for level in &mut self.levels {
+            let (live, full) = (level.mesh().live_vertices(), level.full_vertices());
+            let next = (live as f64 * options.growth) as usize;
+            // No level that is only a little coarser than the full mesh.
+            let goal = if 2 * next > full { full } else { next };
+            grown |= goal > live;
+            let quiet = InitialOptions { growth: f64::INFINITY, ..options.initial };
+            initial::refine(level, goal, &quiet, monitor)?;
+        }
+        Ok(grown)
+    }
+
+    /// Goes to the next finer level and judges the map there; `false` where there is none.
+    ///
+    /// # Errors
+    /// [`MapError::NoStart`], [`MapError::Cancelled`].
+    pub fn judge_finer(
+        &mut self,
+        options: &MultilevelOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<bool, MapError> {
+        let grown = self.grow(options, monitor)?;
+        if grown {
+            self.relax(&options.decide, monitor)?;
+        }
+        Ok(grown)
+    }
+
+    /// Heals the worst places of the present levels.
+    fn heal(&mut self, options: &DentOptions) {
+        let present = self.present();
+        let [source, target] = [0, 1].map(|k| present[k].parametrised());
+        let Ok(locations) = locate(source, target, &self.surface) else { return };
+        let Ok(overlay) = overlay(source, target, &locations) else { return };
+        let brink = if self.energy == MapEnergy::POSES { options.pose_brink } else { options.brink };
+        let energy = DentEnergy { energy: self.energy, brink };
+        let healed = dents::heal([source, target], (&overlay, &self.surface), (options, energy));
+        for (k, embedding) in healed.iter().flatten().enumerate() {
+            self.levels[k].adopt(&present[k].level, embedding);
+        }
+    }
+
+    /// Shows each mesh's level with its images, and its constraints.
+    fn look(&mut self, mut show: impl FnMut(usize, &MappedLevel<'_>, &mut Vec<(VertexId, PointConstraint)>)) {
+        let present = self.present();
+        for k in 0..2 {
+            let [from, onto] = [k, 1 - k].map(|k| present[k].parametrised());
+            let [level, other] = [k, 1 - k].map(|k| &present[k].level);
+            let Ok(locations) = locate(from, onto, &self.surface) else { continue };
+            let points = locations.by_vertex.iter().map(|at| barycentric(from, onto, at));
+            let seen =
+                MappedLevel::new((&level.mesh, &level.vertices), (&other.mesh, &other.vertices), points);
+            show(k, &seen, &mut self.constraints[k]);
+        }
+    }
+
+    /// Lowers the energy of the map of the present levels; answers with what `look` sees in it.
+    fn lower<T>(
+        &mut self,
+        options: &MapRelaxationOptions,
+        monitor: &mut dyn Monitor,
+        look: impl FnOnce(&Relaxed<'_>) -> T,
+    ) -> Result<T, MapError> {
+        let present = self.present();
+        let parametrised = [0, 1].map(|k| present[k].parametrised());
+        let constraints = [0, 1].map(|k| on_level(&self.constraints[k], &present[k].level));
+        let constraints = [&constraints[0][..], &constraints[1][..]];
+        let relaxed =
+            map_relaxation::relax_constrained(parametrised, (&self.surface, constraints), options, monitor)?;
+        let seen = look(&relaxed);
+        let embeddings = relaxed.into_embeddings();
+        for k in 0..2 {
+            self.levels[k].adopt(&present[k].level, &embeddings[k]);
+        }
+        Ok(seen)
+    }
+}
+
+/// The constraints of those vertices that are in a level, by its numbers.
+fn on_level(constraints: &[(VertexId, PointConstraint)], level: &Level) -> Vec<(VertexId, PointConstraint)> {
+    let number = |(v, constraint): &(VertexId, PointConstraint)| {
+        Some((level.vertices.binary_search(v).ok()?, *constraint))
+    };
+    constraints.iter().filter_map(number).collect()
+}
+
+/// The present level of one mesh with its parametrisation.
+struct PresentLevel {
+    level: Level,
+    landmarks: TiVec<VertexId, VertexId>,
+    embedding: Embedding,
+}
+
+impl PresentLevel {
+    fn parametrised(&self) -> Parametrised<'_> {
+        Parametrised {
+            mesh: &self.level.mesh,
+            landmark_vertices: &self.landmarks,
+            embedding: &self.embedding,
+        }
+    }
+}
+
+/// The map of two levels, read off at the source level's vertices.
+pub struct LevelImages {
+    /// Source and target level.
+    pub levels: [Level; 2],
+    /// The point of the target level that belongs to each vertex of the source level.
+    pub target_from_source: TiVec<VertexId, SurfacePoint>,
+}
+
+/// Brings all vertices back, relaxing level by level.
+///
+/// # Errors
+/// [`MapError::NoStart`].
+pub fn solve_fine(
+    mut map: CoarseMap<'_>,
+    options: &MultilevelOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<[Embedding; 2], MapError> {
+    while map.grow(options, monitor)? {
+        let fine = MapRelaxationOptions { energy: map.energy, ..options.fine };
+        // Without constraints on the finest level their dents relax, and the map hardly moves otherwise.
+        let is_finest = map.levels.iter().all(ParametrisedLevel::is_full);
+        if is_finest {
+            map.constraints = Default::default();
+        }
+        map.lower(&fine, monitor, |_| ())?;
+        map.register_patches(&options.rigid_patches, &fine, monitor)?;
+        if is_finest && map.constraints.iter().any(|constraints| !constraints.is_empty()) {
+            map.constraints = Default::default();
+            map.lower(&fine, monitor, |_| ())?;
+        }
+    }
+    map.heal(&options.dents);
+    Ok(map.levels.map(|level| level.snapshot().1))
+}

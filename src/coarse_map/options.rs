@@ -1,0 +1,84 @@
+//! How a map is solved from coarse to fine.
+
+use crate::registration::rigid_patches::RigidPatchOptions;
+use crate::surface_map::energy::map_energy::MapEnergy;
+use crate::surface_map::parametrisation::initial::InitialOptions;
+use crate::surface_map::parametrisation::problem::FlatRelaxOptions;
+use crate::surface_map::relaxation::dents::DentOptions;
+use crate::surface_map::relaxation::map_relaxation::MapRelaxationOptions;
+
+/// How a map is solved from coarse to fine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MultilevelOptions {
+    /// Vertices of the coarse level.
+    pub coarse_vertices: usize,
+    /// Growth from level to level.
+    pub growth: f64,
+    /// The first parametrisation of a coarse level.
+    pub initial: InitialOptions,
+    /// The relaxation of each coarse parametrisation on its own.
+    pub relax: FlatRelaxOptions,
+    /// The relaxation of the map of the coarse level by which a layout is judged.
+    pub judge: MapRelaxationOptions,
+    /// Layouts that are judged a second time: those of least mean log density.
+    pub finalists: usize,
+    /// Largest mean log density of a layout that is judged a second time, relative to the least one.
+    pub close: f64,
+    /// Maps whose mean log density is within this factor of the least one after the second judgement are judged again on
+    /// finer levels.
+    pub undecided: f64,
+    /// Finer levels on which they are, at most.
+    pub finer: usize,
+    /// The relaxation for the second judgement.
+    pub decide: MapRelaxationOptions,
+    /// The relaxation of the map of the coarse level that was chosen.
+    pub coarse: MapRelaxationOptions,
+    /// A coarse map with a median distortion below this is between two poses of one body: it is relaxed by
+    /// [`MapEnergy::POSES`] from then on.
+    pub pose_median: f64,
+    /// The relaxation of the map on every finer level.
+    pub fine: MapRelaxationOptions,
+    /// How patches are registered between two poses of one body.
+    pub rigid_patches: RigidPatchOptions,
+    /// How the worst places of the full map are healed.
+    pub dents: DentOptions,
+}
+
+impl Default for MultilevelOptions {
+    fn default() -> Self {
+        Self {
+            coarse_vertices: 500,
+            growth: 2.0,
+            initial: InitialOptions::default(),
+            relax: FlatRelaxOptions::default(),
+            judge: MapRelaxationOptions {
+                max_rounds: 1,
+                energy: MapEnergy::JUDGE,
+                ..MapRelaxationOptions::default()
+            },
+            finalists: 4,
+            close: 1.3,
+            undecided: 1.1,
+            finer: 1,
+            decide: MapRelaxationOptions {
+                max_rounds: 5,
+                energy: MapEnergy::JUDGE,
+                ..MapRelaxationOptions::default()
+            },
+            // A round costs little here, and what is left undone shows on every finer level.
+            coarse: MapRelaxationOptions {
+                max_rounds: 60,
+                relative_decrease: 2e-5,
+                ..MapRelaxationOptions::default()
+            },
+            pose_median: 1.09,
+            fine: MapRelaxationOptions {
+                max_rounds: 10,
+                relative_decrease: 3e-4,
+                ..MapRelaxationOptions::default()
+            },
+            rigid_patches: RigidPatchOptions::default(),
+            dents: DentOptions::default(),
+        }
+    }
+}

@@ -1,0 +1,255 @@
+//! Cones of the program's own where the user gave few landmarks.
+//!
+//! A cone surface with few cones is a poor image of a body with many limbs, and a map over it gets stuck. So points are added
+//! and carried to the target by the present map; the map is solved again with all as cones. Every round takes fresh points,
+//! so that those of the round before are free to move.
+
+use super::class_search::{ClassChoice, ClassSearchOptions, choose_class};
+use super::error::CoarseMapError;
+use super::landmarked_mesh::LandmarkedMesh;
+use super::mesh_with_coarse::MeshWithCoarse;
+use super::multilevel::{CoarseMap, LevelImages, solve_fine};
+use super::options::MultilevelOptions;
+use crate::geodesic::distances;
+use crate::landmark_suggestion::farthest_points;
+use crate::layout::SearchOptions;
+use crate::mesh::closest_point::closest_point;
+use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use crate::monitor::{Cancelled, Monitor};
+use crate::surface_map::{ConeSurface, Embedding, MapError, certify};
+use glam::DVec3;
+use std::cell::OnceCell;
+use std::sync::Arc;
+
+/// Cones of the program's own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OwnConeOptions {
+    /// Points that are added; 0 turns them off.
+    pub count: usize,
+    /// With more landmarks than this none are added.
+    pub most_landmarks: usize,
+    /// A coarse map of less mean log density needs no help; 0 for an isometry.
+    pub least_mean_log: f64,
+    /// Sets of points, one after the other, at most.
+    pub rounds: usize,
+    /// Stops after this many sets without a gain.
+    pub patience: usize,
+    /// A gain lowers the mean log density by this share.
+    pub least_gain: f64,
+    /// The search for the layout with own points.
+    pub search: SearchOptions,
+}
+
+impl Default for OwnConeOptions {
+    fn default() -> Self {
+        let search = SearchOptions { candidates: 2, twists: 2, ..SearchOptions::default() };
+        Self {
+            count: 20,
+            most_landmarks: 16,
+            least_mean_log: 0.0025,
+            rounds: 6,
+            patience: 2,
+            least_gain: 0.02,
+            search,
+        }
+    }
+}
+
+/// What the rounds make and their maps borrow: each round fills a cell.
+pub struct Rounds<T>(Vec<OnceCell<[T; 2]>>);
+
+impl<T> Rounds<T> {
+    /// Room for all rounds.
+    pub fn new(options: &OwnConeOptions) -> Self {
+        Self((0..options.rounds).map(|_| OnceCell::new()).collect())
+    }
+}
+
+/// Both meshes with own landmarks after the user's, and the coarse map of all.
+pub struct OwnCones<'a> {
+    full: &'a [LandmarkedMesh; 2],
+    map: CoarseMap<'a>,
+}
+
+impl OwnCones<'_> {
+    /// The map of the full meshes; `None` where it is not found or not certified.
+    ///
+    /// # Errors
+    /// Cancellation only.
+    pub fn refined(
+        self,
+        options: &MultilevelOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Option<Refined>, Cancelled> {
+        let Self { full, map } = self;
+        let surface = map.surface.clone();
+        let embeddings = match solve_fine(map, options, monitor) {
+            Ok(embeddings) => embeddings,
+            Err(MapError::Cancelled(stop)) => return Err(stop),
+            Err(_) => return Ok(None),
+        };
+        let certified = |k: usize| certify(full[k].parametrised(&embeddings[k]), &surface).bijective;
+        let bijective = certified(0) && certified(1);
+        Ok(bijective.then(|| Refined { surface, embeddings, full: full.clone() }))
+    }
+}
+
+/// The map of the full meshes with own landmarks.
+pub struct Refined {
+    /// The cone surface.
+    pub surface: Arc<ConeSurface>,
+    /// Both parametrisations.
+    pub embeddings: [Embedding; 2],
+    /// Both meshes with own landmarks after the user's.
+    pub full: [LandmarkedMesh; 2],
+}
+
+/// What own cones are added to.
+#[derive(Clone, Copy)]
+pub struct Start<'a> {
+    /// The meshes that the user gave.
+    pub inputs: [&'a SurfaceMesh; 2],
+    /// The same with the user's landmarks.
+    pub full: &'a [LandmarkedMesh; 2],
+    /// The coarse map with the user's landmarks alone.
+    pub map: &'a CoarseMap<'a>,
+    /// Vertices of the coarse levels.
+    pub vertices: usize,
+}
+
+/// Adds own landmarks round by round, as long as they lower the mean log density of the coarse map; `None` where they do not.
+///
+/// Every round takes fresh points at their images under the best map so far.
+///
+/// # Errors
+/// Cancellation only.
+pub fn add<'a>(
+    start: Start<'_>,
+    (fulls, all_levels): (&'a Rounds<LandmarkedMesh>, &'a Rounds<MeshWithCoarse<'a>>),
+    (multilevel, own): (&MultilevelOptions, &OwnConeOptions),
+    monitor: &mut dyn Monitor,
+) -> Result<Option<OwnCones<'a>>, Cancelled> {
+    let Start { inputs, full, map, vertices } = start;
+    if own.count == 0 || full[0].landmarks.len() > own.most_landmarks || map.mean_log < own.least_mean_log {
+        return Ok(None);
+    }
+    let Some(mut images) = map.images() else { return Ok(None) };
+    let mut best: Option<OwnCones<'a>> = None;
+    let mut before: Vec<VertexId> = Vec::new();
+    let mut without_gain = 0;
+    for (full_cell, levels_cell) in fulls.0.iter().zip(&all_levels.0) {
+        if monitor.wants_result() {
+            break;
+        }
+        let pairs = pairs(full, &images, (&before, own.count), monitor)?;
+        let Some(with_own) = with(inputs, full, &pairs).filter(|_| without_gain < own.patience) else {
+            break;
+        };
+        without_gain += 1;
+        before = pairs.iter().map(|pair| pair.0).collect();
+        let with_own = full_cell.get_or_init(|| with_own);
+        let levels = levels_cell.get_or_init(|| {
+            [0, 1].map(|k| MeshWithCoarse::new(&with_own[k].refined.mesh, &with_own[k].landmarks, vertices))
+        });
+        let options = ClassSearchOptions { multilevel, search: &own.search, choice: ClassChoice::Best };
+        let next = match choose_class(levels, options, monitor) {
+            Ok(chosen) => finished(chosen.map, multilevel, monitor)?,
+            Err(CoarseMapError::Cancelled(stop)) => return Err(stop),
+            // No map with these points: others may do.
+            Err(_) => continue,
+        };
+        let (mean_log, least) = (next.mean_log, best.as_ref().map_or(map.mean_log, |best| best.map.mean_log));
+        let Some(next_images) = next.images().filter(|_| mean_log < least) else { continue };
+        if mean_log < (1.0 - own.least_gain) * least {
+            without_gain = 0;
+        }
+        images = next_images;
+        best = Some(OwnCones { full: with_own, map: next });
+    }
+    Ok(best)
+}
+
+/// The chosen map relaxed to the end of its level.
+fn finished<'a>(
+    mut map: CoarseMap<'a>,
+    options: &MultilevelOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<CoarseMap<'a>, Cancelled> {
+    match map.finish(options, monitor) {
+        Err(MapError::Cancelled(stop)) => Err(stop),
+        _ => Ok(map),
+    }
+}
+
+/// Own points are at least this far from all others; the area is 1.
+const LEAST_DISTANCE: f64 = 0.03;
+
+/// Nearer than this (in barycentric coordinates) to a side, an own point is put onto it.
+const SNAP: f64 = 0.15;
+
+/// At most `count` points of the source, far from the landmarks and from those of the round before, with their images on the
+/// target.
+fn pairs(
+    full: &[LandmarkedMesh; 2],
+    images: &LevelImages,
+    (before, count): (&[VertexId], usize),
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<(VertexId, SurfacePoint)>, Cancelled> {
+    let [source, target] = &images.levels;
+    let mesh = &source.mesh;
+    let user: Vec<VertexId> = source.numbers(&full[0].landmarks).collect();
+    let avoid: Vec<VertexId> = user
+        .iter()
+        .copied()
+        .chain(before.iter().filter_map(|v| source.vertices.binary_search(v).ok()))
+        .collect();
+    let mut free = vec![true; mesh.vertex_count()];
+    avoid.iter().for_each(|&v| free[v.index()] = false);
+    let wanted = (count, LEAST_DISTANCE);
+    let chosen = farthest_points((mesh, distances(mesh, &avoid)), wanted, |v| free[v.index()], monitor)?;
+    let mut places: Vec<DVec3> =
+        full[1].landmarks.iter().map(|&v| full[1].refined.mesh.positions()[v]).collect();
+    let mut pairs = Vec::new();
+    for v in chosen {
+        let image = images.target_from_source[v];
+        let place = image.position(&target.mesh);
+        if places.iter().any(|p| p.distance(place) < LEAST_DISTANCE) {
+            continue;
+        }
+        let [a, b, c] = target.mesh.corners(image.face);
+        let point = snapped(closest_point(&full[1].refined.mesh, place, (b - a).cross(c - a)));
+        places.push(place);
+        pairs.push((source.vertices[v], point));
+    }
+    Ok(pairs)
+}
+
+/// The same point on a corner or a side that is near, so that no needles are made.
+fn snapped(point: SurfacePoint) -> SurfacePoint {
+    let kept = point.barycentric.map(|w| if w < SNAP { 0.0 } else { w });
+    let sum: f64 = kept.iter().sum();
+    SurfacePoint { barycentric: kept.map(|w| w / sum), ..point }
+}
+
+/// Both meshes with the pairs as landmarks after the user's; `None` where there are no pairs.
+fn with(
+    inputs: [&SurfaceMesh; 2],
+    full: &[LandmarkedMesh; 2],
+    pairs: &[(VertexId, SurfacePoint)],
+) -> Option<[LandmarkedMesh; 2]> {
+    if pairs.is_empty() {
+        return None;
+    }
+    let at = |pair: &(VertexId, SurfacePoint)| SurfacePoint::at_vertex(&full[0].refined.mesh, pair.0);
+    let points: [Vec<SurfacePoint>; 2] =
+        [pairs.iter().map(at).collect(), pairs.iter().map(|pair| pair.1).collect()];
+    let side = |k: usize| full[k].with_room_at(inputs[k], &points[k]).ok();
+    let ((mut source, from), (mut target, onto)) = (side(0)?, side(1)?);
+    for (s, t) in from.into_iter().zip(onto) {
+        if !target.landmarks.contains(&t) {
+            source.landmarks.push(s);
+            target.landmarks.push(t);
+        }
+    }
+    Some([source, target])
+}

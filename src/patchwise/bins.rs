@@ -1,0 +1,69 @@
+//! Point location among developed faces.
+
+use super::development::{Placed, bounds};
+use crate::math::triangle::signed_double_area;
+use crate::mesh::SurfacePoint;
+use glam::DVec2;
+
+/// Barycentric coordinates down to minus this are inside a developed face; the flow leaves some curvature, which moves the
+/// faces.
+const INSIDE_FACE: f64 = 1e-6;
+
+/// Developed faces in square bins over a triangle.
+pub struct Bins {
+    faces: Vec<Placed>,
+    low: DVec2,
+    /// Bins per unit of length.
+    density: DVec2,
+    side: usize,
+    bins: Vec<Vec<u32>>,
+}
+
+impl Bins {
+    /// Sorts developed faces into bins over a triangle.
+    pub fn new(faces: Vec<Placed>, triangle: &[DVec2; 3]) -> Self {
+        let [low, high] = bounds(triangle);
+        let side = ((faces.len() as f64).sqrt() as usize).clamp(1, 512);
+        let density = DVec2::splat(side as f64) / (high - low);
+        let mut result = Self { faces, low, density, side, bins: vec![Vec::new(); side * side] };
+        for number in 0..result.faces.len() {
+            let [low, high] = bounds(&result.faces[number].corners);
+            let ([x0, y0], [x1, y1]) = (result.bin(low), result.bin(high));
+            for y in y0..=y1 {
+                (x0..=x1).for_each(|x| result.bins[y * side + x].push(number as u32));
+            }
+        }
+        result
+    }
+
+    fn bin(&self, p: DVec2) -> [usize; 2] {
+        let scaled = (p - self.low) * self.density;
+        scaled.to_array().map(|x| (x.max(0.0) as usize).min(self.side - 1))
+    }
+
+    /// The face, not inverted, that contains a point best.
+    pub fn locate(&self, q: DVec2) -> Option<SurfacePoint> {
+        let [x, y] = self.bin(q);
+        let mut best: Option<(f64, SurfacePoint)> = None;
+        for &number in &self.bins[y * self.side + x] {
+            let Placed { face, corners } = self.faces[number as usize];
+            if signed_double_area(corners[0], corners[1], corners[2]) <= 0.0 {
+                continue;
+            }
+            let weights = weights(&corners, q);
+            let least = weights.into_iter().fold(f64::INFINITY, f64::min);
+            if least >= -INSIDE_FACE && best.is_none_or(|(other, _)| least > other) {
+                let clamped = weights.map(|w| w.max(0.0));
+                let sum: f64 = clamped.iter().sum();
+                best = Some((least, SurfacePoint { face, barycentric: clamped.map(|w| w / sum) }));
+            }
+        }
+        best.map(|(_, point)| point)
+    }
+}
+
+/// Barycentric coordinates of p in a triangle that is not degenerate.
+pub fn weights(&[a, b, c]: &[DVec2; 3], p: DVec2) -> [f64; 3] {
+    let whole = signed_double_area(a, b, c);
+    [signed_double_area(p, b, c), signed_double_area(p, c, a), signed_double_area(p, a, b)].map(|w| w / whole)
+}

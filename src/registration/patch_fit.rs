@@ -1,0 +1,338 @@
+//! A patch of one surface laid onto another one by a rigid motion.
+//!
+//! The points of the patch slide over the other surface: only their distances from its tangent planes count (Chen & Medioni
+//! 1991), less where they do not fit. How the fit worsens when the patch is shifted, all rotations allowed, tells in which
+//! directions relief holds it.
+
+use crate::math::rigid3::{Rigid3, nearest_rotation, outer, small_turn};
+use crate::math::scalar::max;
+use crate::mesh::normals::vertex_normals;
+use crate::mesh::{SurfaceMesh, VertexId};
+use glam::{DMat3, DVec3};
+use typed_index_collections::TiVec;
+
+/// A surface with its unit normals and how they turn along it.
+pub struct OrientedSurface<'a> {
+    mesh: &'a SurfaceMesh,
+    /// Unit normals.
+    pub normals: TiVec<VertexId, DVec3>,
+    /// How the normal turns along the surface: it changes by minus this matrix times a step in the tangent plane.
+    bends: TiVec<VertexId, DMat3>,
+}
+
+impl<'a> OrientedSurface<'a> {
+    /// A mesh with smooth normals.
+    pub fn new(mesh: &'a SurfaceMesh) -> Self {
+        let normals = vertex_normals(mesh);
+        let bends = mesh.vertices().map(|v| bend(mesh, &normals, v)).collect();
+        Self { mesh, normals, bends }
+    }
+
+    /// The way along the normal from a point to the surface near a vertex, and the unit normal there: the surface is taken
+    /// for a paraboloid, so that it matters little which vertex of which triangulation is the nearest.
+    fn distance(&self, near: VertexId, p: DVec3) -> (f64, DVec3) {
+        let normal = self.normals[near];
+        let away = p - self.mesh.positions()[near];
+        let along = away - normal * away.dot(normal);
+        let turn = self.bends[near] * along;
+        // Where the normal turns by much within a step, it is an edge and no paraboloid.
+        if turn.length_squared() > LARGEST_TURN * LARGEST_TURN {
+            return (-away.dot(normal), normal);
+        }
+        // Its height above the tangent plane is half the bend, the normal its gradient's.
+        (0.5 * along.dot(turn) - away.dot(normal), (normal - turn).normalize_or(normal))
+    }
+
+    /// The vertex nearest to p among its neighbours, downhill from a vertex.
+    pub fn nearest(&self, from: VertexId, p: DVec3) -> VertexId {
+        let distance = |v: VertexId| self.mesh.positions()[v].distance_squared(p);
+        let (mut best, mut least) = (from, distance(from));
+        loop {
+            let v = best;
+            for w in self.mesh.star(v).map(|h| self.mesh.head(h)) {
+                let d = distance(w);
+                if d < least {
+                    (best, least) = (w, d);
+                }
+            }
+            if best == v {
+                return v;
+            }
+        }
+    }
+}
+
+/// Largest turn of the normal, in radians, from a vertex to the point that is nearest to it.
+const LARGEST_TURN: f64 = 0.5;
+
+/// The bend of the surface at a vertex: fits minus the change of the normals to all neighbours by least squares.
+fn bend(mesh: &SurfaceMesh, normals: &TiVec<VertexId, DVec3>, v: VertexId) -> DMat3 {
+    let normal = normals[v];
+    let first = normal.any_orthonormal_vector();
+    let second = normal.cross(first);
+    // Unknowns a, b, c of the symmetric matrix (a b; b c).
+    let (mut matrix, mut right) = (DMat3::ZERO, DVec3::ZERO);
+    for w in mesh.star(v).map(|h| mesh.head(h)) {
+        let step = mesh.positions()[w] - mesh.positions()[v];
+        let change = normal - normals[w];
+        let (x, y) = (step.dot(first), step.dot(second));
+        // Far neighbours say less about this place.
+        let weight = 1.0 / max(x * x + y * y, 1e-30);
+        for (row, value) in
+            [(DVec3::new(x, y, 0.0), change.dot(first)), (DVec3::new(0.0, x, y), change.dot(second))]
+        {
+            matrix += outer(row, row) * weight;
+            right += row * (weight * value);
+        }
+    }
+    let found = matrix.inverse() * right;
+    if !found.is_finite() {
+        return DMat3::ZERO;
+    }
+    let mixed = outer(first, second) + outer(second, first);
+    outer(first, first) * found.x + mixed * found.y + outer(second, second) * found.z
+}
+
+/// A point of a patch.
+#[derive(Clone, Copy, Debug)]
+pub struct PatchPoint {
+    /// Where it is.
+    pub position: DVec3,
+    /// Unit normal there.
+    pub normal: DVec3,
+    /// How much it counts.
+    pub weight: f64,
+    /// Its image by the present map.
+    pub image: DVec3,
+    /// The vertex of the other surface nearest to its image.
+    pub near: VertexId,
+}
+
+/// A patch laid onto the other surface.
+#[derive(Clone, Copy, Debug)]
+pub struct PatchFit {
+    /// Where its first point came to lie.
+    pub centre: DVec3,
+    /// Mean square of the distances from the tangent planes.
+    pub misfit: f64,
+    /// The mean square of the distances grows by d^T H d when the patch is shifted by d: the matrix H.
+    pub hold: DMat3,
+}
+
+/// How a patch is laid onto the other surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FitOptions {
+    /// Steps at most.
+    pub max_steps: usize,
+    /// Weight of the squared distance of the patch's centre from its image by the map, relative to the mean square of the
+    /// distances from the tangent planes.
+    pub damping: f64,
+    /// Least knee of the robust weights 1 / (1 + (distance / knee)^2)^2; the knee is 1.5 times the median distance where that
+    /// is larger.
+    pub noise: f64,
+}
+
+/// The sums of one step: rotations and shifts about the centre.
+struct Normal {
+    turns: DMat3,
+    mixed: DMat3,
+    shifts: DMat3,
+    torque: DVec3,
+    force: DVec3,
+    misfit: f64,
+}
+
+/// Fits of patches; keeps its working memory from one to the next.
+#[derive(Default)]
+pub struct Fitter {
+    distances: Vec<f64>,
+    sorted: Vec<f64>,
+    normals: Vec<DVec3>,
+    arms: Vec<DVec3>,
+}
+
+impl Fitter {
+    /// Lays a patch onto the other surface, from where the map takes it; the first point is its centre. `None` where there is
+    /// no fit.
+    pub fn fit(
+        &mut self,
+        points: &mut [PatchPoint],
+        onto: &OrientedSurface<'_>,
+        options: &FitOptions,
+    ) -> Option<PatchFit> {
+        let centre = *points.first()?;
+        let total: f64 = points.iter().map(|p| p.weight).sum();
+        let mut motion = start(points, total, onto)?;
+        let mut fit = None;
+        for _ in 0..options.max_steps {
+            let at = motion.apply(centre.position);
+            let sums = self.sums(points, (&motion, at), (onto, options), total);
+            // A flat patch resists no turn about its normal.
+            let unturn = (sums.turns + DMat3::from_diagonal(DVec3::splat(1e-9))).inverse();
+            let hold = sums.shifts - sums.mixed.transpose() * unturn * sums.mixed;
+            let damped = hold + DMat3::from_diagonal(DVec3::splat(options.damping));
+            let back = (centre.image - at) * options.damping;
+            let shift =
+                damped.inverse() * (sums.force + back - sums.mixed.transpose() * unturn * sums.torque);
+            let turn = unturn * (sums.torque - sums.mixed * shift);
+            if !shift.is_finite() || !turn.is_finite() || turn.length_squared() > 1.0 {
+                return None;
+            }
+            let rotation = small_turn(turn) * motion.rotation;
+            motion = Rigid3::with_point(rotation, centre.position, at + shift);
+            fit = Some(PatchFit { centre: at + shift, misfit: sums.misfit, hold });
+            if turn.length() + shift.length() < 3e-5 {
+                break;
+            }
+        }
+        fit
+    }
+
+    fn sums(
+        &mut self,
+        points: &mut [PatchPoint],
+        (motion, at): (&Rigid3, DVec3),
+        (onto, options): (&OrientedSurface<'_>, &FitOptions),
+        total: f64,
+    ) -> Normal {
+        self.distances.clear();
+        self.normals.clear();
+        self.arms.clear();
+        for p in points.iter_mut() {
+            let y = motion.apply(p.position);
+            p.near = onto.nearest(p.near, y);
+            let (distance, normal) = onto.distance(p.near, y);
+            self.distances.push(distance);
+            let agrees = (motion.rotation * p.normal).dot(normal) > 0.5;
+            self.normals.push(if agrees { normal } else { DVec3::ZERO });
+            self.arms.push(y - at);
+        }
+        self.sorted.clear();
+        self.sorted.extend(self.distances.iter().map(|d| d.abs()));
+        self.sorted.sort_unstable_by(f64::total_cmp);
+        let knee = max(1.5 * self.sorted[self.sorted.len() / 2], options.noise);
+        let mut sums = Normal {
+            turns: DMat3::ZERO,
+            mixed: DMat3::ZERO,
+            shifts: DMat3::ZERO,
+            torque: DVec3::ZERO,
+            force: DVec3::ZERO,
+            misfit: 0.0,
+        };
+        for (k, p) in points.iter().enumerate() {
+            let (distance, n) = (self.distances[k], self.normals[k]);
+            let share = p.weight / total;
+            let square = (distance / knee) * (distance / knee);
+            let weight = share / ((1.0 + square) * (1.0 + square));
+            let lever = self.arms[k].cross(n);
+            sums.turns += outer(lever, lever) * weight;
+            sums.mixed += outer(lever, n) * weight;
+            sums.shifts += outer(n, n) * weight;
+            sums.torque += lever * (weight * distance);
+            sums.force += n * (weight * distance);
+            sums.misfit += share * square.min(9.0) * knee * knee;
+        }
+        sums
+    }
+}
+
+/// The rigid motion that takes the points nearest to their images.
+fn start(points: &[PatchPoint], total: f64, onto: &OrientedSurface<'_>) -> Option<Rigid3> {
+    let centre = points[0];
+    let (mut mean, mut image) = (DVec3::ZERO, DVec3::ZERO);
+    for p in points {
+        mean += p.position * (p.weight / total);
+        image += p.image * (p.weight / total);
+    }
+    let moment: DMat3 = points
+        .iter()
+        .map(|p| outer((p.image - image) * (p.weight / total), p.position - mean))
+        .fold(DMat3::ZERO, |sum, m| sum + m);
+    let distance = |p: &PatchPoint| p.position.distance_squared(centre.position);
+    let far = points.iter().max_by(|p, q| distance(p).total_cmp(&distance(q)))?;
+    let frame = |normal: DVec3, d: DVec3| {
+        let along = d.reject_from_normalized(normal).normalize_or(normal.any_orthonormal_vector());
+        DMat3::from_cols(along, normal.cross(along), normal)
+    };
+    let onto_normal = onto.normals[centre.near];
+    let guess = frame(onto_normal, far.image - centre.image)
+        * frame(centre.normal, far.position - centre.position).transpose();
+    Some(Rigid3::with_point(nearest_rotation(&moment, guess), mean, image))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::scalar::{cos, sin};
+    use crate::mesh::generators::icosphere;
+
+    const OPTIONS: FitOptions = FitOptions { max_steps: 20, damping: 1e-6, noise: 1e-4 };
+
+    /// A ball with hills.
+    fn hilly() -> SurfaceMesh {
+        let ball = icosphere(5);
+        let hill = |p: &DVec3| *p * (1.0 + 0.03 * sin(7.0 * p.x) * cos(6.0 * p.y) + 0.02 * sin(8.0 * p.z));
+        ball.with_positions(ball.positions().iter().map(hill).collect())
+    }
+
+    /// A disc around a vertex; its images have slid by `slid` over the surface.
+    fn patch(surface: &OrientedSurface<'_>, slid: DVec3) -> Vec<PatchPoint> {
+        let positions = surface.mesh.positions();
+        let centre = surface.nearest(VertexId(0), DVec3::new(0.6, 0.5, 0.6));
+        let inside = surface.mesh.vertices().filter(|&v| positions[v].distance(positions[centre]) < 0.3);
+        let point = |v: VertexId| {
+            let image = positions[v] + slid;
+            let near = surface.nearest(v, image);
+            PatchPoint { position: positions[v], normal: surface.normals[v], weight: 1.0, image, near }
+        };
+        std::iter::once(centre).chain(inside.filter(|&v| v != centre)).map(point).collect()
+    }
+
+    #[test]
+    fn hills_bring_a_patch_back_to_where_it_belongs() {
+        let mesh = hilly();
+        let surface = OrientedSurface::new(&mesh);
+        let mut points = patch(&surface, DVec3::new(0.02, -0.03, 0.01));
+        let fit = Fitter::default().fit(&mut points, &surface, &OPTIONS).unwrap();
+        assert!(fit.centre.distance(points[0].position) < 2e-3, "{fit:?}");
+        assert!(fit.misfit < 1e-6, "{fit:?}");
+    }
+
+    #[test]
+    fn on_a_ball_a_paraboloid_is_nearer_than_a_tangent_plane() {
+        let ball = icosphere(3);
+        let surface = OrientedSurface::new(&ball);
+        // Largest errors of distance and normal, by paraboloid and by plane.
+        let (mut bent, mut flat) = ([0.0_f64; 2], [0.0_f64; 2]);
+        for f in ball.faces() {
+            let [p, q, r] = ball.corners(f);
+            let outwards = (p + q * 0.7 + r * 0.8).normalize();
+            let near = surface.nearest(ball.triangles()[f][0], outwards * 1.003);
+            let (distance, normal) = surface.distance(near, outwards * 1.003);
+            let plane = (ball.positions()[near] - outwards * 1.003).dot(surface.normals[near]);
+            let errors = |distance: f64, normal: DVec3| [(distance + 0.003).abs(), normal.distance(outwards)];
+            for (worst, found) in
+                [(&mut bent, errors(distance, normal)), (&mut flat, errors(plane, surface.normals[near]))]
+            {
+                (0..2).for_each(|k| worst[k] = worst[k].max(found[k]));
+            }
+        }
+        assert!(bent[0] < 0.35 * flat[0] && bent[1] < 0.35 * flat[1], "{bent:?} {flat:?}");
+    }
+
+    #[test]
+    fn a_plain_ball_holds_no_patch() {
+        let ball = icosphere(5);
+        let surface = OrientedSurface::new(&ball);
+        let mut points = patch(&surface, DVec3::ZERO);
+        let held = |mesh: &SurfaceMesh| {
+            let surface = OrientedSurface::new(mesh);
+            let fit = Fitter::default().fit(&mut patch(&surface, DVec3::ZERO), &surface, &OPTIONS).unwrap();
+            let normal = surface.normals[surface.nearest(VertexId(0), fit.centre)];
+            let along = normal.any_orthonormal_vector();
+            along.dot(fit.hold * along)
+        };
+        assert!(held(&ball) < 0.02 * held(&hilly()), "{} {}", held(&ball), held(&hilly()));
+        assert!(Fitter::default().fit(&mut points[..0], &surface, &OPTIONS).is_none());
+    }
+}

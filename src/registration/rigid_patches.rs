@@ -1,0 +1,308 @@
+//! Rigid registration of small patches of one surface to the other, for two poses of one body.
+//!
+//! An energy knows lengths only, and between two poses the known map has not the least one. But most of the surface moves
+//! rigidly: a patch of it fits its true image exactly, and nowhere else around, as far as muscles and bones show. So patches
+//! are laid onto the other surface by rigid motions, from where the map takes them ([`super::patch_fit`]). The place of the
+//! patch's centre becomes a soft constraint of the vertex there ([`PointConstraint`]), in each direction as strong as relief
+//! holds the patch. Patches that bend fit badly: with the mean square distance m a patch has the weight
+//! (noise^2 / (noise^2 + m))^2. The patches are registered again after the map has followed.
+
+use super::patch_fit::{FitOptions, Fitter, OrientedSurface, PatchFit, PatchPoint};
+use crate::math::scalar::max;
+use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use crate::surface_map::energy::point_constraint::PointConstraint;
+use glam::{DMat2, DVec2, DVec3};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
+
+/// How patches are registered; lengths in units of the root of the area.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidPatchOptions {
+    /// Least and largest number of vertices of a level on which patches are registered: coarser levels have no relief, finer
+    /// ones cost more.
+    pub vertices: [usize; 2],
+    /// Registrations on every such level, each followed by a relaxation.
+    pub rounds: usize,
+    /// Distance of the points that make up the patches.
+    pub spacing: f64,
+    /// Radii of the patches around every point.
+    pub radii: [f64; 2],
+    /// How a patch is laid onto the other surface.
+    pub fit: FitOptions,
+    /// Energy, per unit of area, of a vertex that lies so far from its patch's fit that a shift of the patch by as much raises
+    /// the mean square of its distances by noise^2.
+    pub strength: f64,
+    /// Energy, per unit of area, above which a constraint grows like the distance, not like its square.
+    pub knee: f64,
+}
+
+impl Default for RigidPatchOptions {
+    fn default() -> Self {
+        Self {
+            vertices: [1000, 5000],
+            rounds: 2,
+            spacing: 0.02,
+            radii: [0.05, 0.08],
+            fit: FitOptions { max_steps: 5, damping: 5e-5, noise: 3e-4 },
+            strength: 20.0,
+            knee: 0.2,
+        }
+    }
+}
+
+/// Points of a patch, at least.
+const LEAST_POINTS: usize = 12;
+
+/// Largest distance of a patch's fitted centre from its image by the map, in units of the root of the area.
+const FARTHEST: f64 = 0.06;
+
+/// A level of one mesh with the images of its vertices on the other.
+pub struct MappedLevel<'a> {
+    /// The level.
+    pub mesh: &'a SurfaceMesh,
+    /// Its vertices on the full mesh.
+    pub vertices: &'a TiSlice<VertexId, VertexId>,
+    /// By vertex its image.
+    pub images: TiVec<VertexId, DVec3>,
+    /// By vertex a vertex of the other full mesh near its image.
+    pub near: TiVec<VertexId, VertexId>,
+}
+
+impl<'a> MappedLevel<'a> {
+    /// A level by its images on the other level.
+    pub fn new(
+        (mesh, vertices): (&'a SurfaceMesh, &'a TiSlice<VertexId, VertexId>),
+        (onto, onto_vertices): (&SurfaceMesh, &TiSlice<VertexId, VertexId>),
+        points: impl Iterator<Item = SurfacePoint>,
+    ) -> Self {
+        let mut level = Self { mesh, vertices, images: TiVec::new(), near: TiVec::new() };
+        for point in points {
+            let weight = |k: &usize| point.barycentric[*k];
+            let corner = (0..3).max_by(|a, b| weight(a).total_cmp(&weight(b))).unwrap_or(0);
+            level.images.push(point.position(onto));
+            level.near.push(onto_vertices[onto.triangles()[point.face][corner]]);
+        }
+        level
+    }
+}
+
+/// Constraints that draw vertices of a level to where the patches around them fit the other surface. Both areas are 1.
+pub fn point_constraints(
+    [own, onto]: [&OrientedSurface<'_>; 2],
+    level: &MappedLevel<'_>,
+    options: &RigidPatchOptions,
+) -> Vec<(VertexId, PointConstraint)> {
+    let weights = spread(own, level, options.spacing);
+    // Every vertex is in many patches, which all start from here.
+    let near = level.mesh.vertices().map(|v| onto.nearest(level.near[v], level.images[v])).collect();
+    let mut patches = Patches { own, level, weights: &weights, near, reached: ti_vec![None; weights.len()] };
+    let (mut fitter, mut patch) = (Fitter::default(), Vec::new());
+    let mut constraints = Vec::new();
+    for v in level.mesh.vertices().filter(|&v| weights[v] > 0.0) {
+        let mut sum = Knowledge::new(onto.normals[patches.near[v]]);
+        for radius in options.radii {
+            patches.around(v, radius, &mut patch);
+            let fit =
+                if patch.len() < LEAST_POINTS { None } else { fitter.fit(&mut patch, onto, &options.fit) };
+            if let Some(fit) = fit.filter(|fit| fit.centre.distance(level.images[v]) < FARTHEST) {
+                sum.add(&fit, level.images[v], options.fit.noise);
+            }
+        }
+        constraints
+            .extend(sum.constraint(level.images[v], weights[v], options).map(|constraint| (v, constraint)));
+    }
+    constraints
+}
+
+/// Vertices about `spacing` apart, or as far as the level's are, with the areas that they stand for; the other vertices
+/// have none. One of each cell of a grid and main direction of the normal is taken.
+fn spread(own: &OrientedSurface<'_>, level: &MappedLevel<'_>, spacing: f64) -> TiVec<VertexId, f64> {
+    let areas = level.mesh.vertex_areas();
+    let cell = |v: VertexId| {
+        let at = (level.mesh.positions()[v] / spacing).floor();
+        let normal = own.normals[level.vertices[v]];
+        let main = normal.abs().max_position();
+        let direction = 2 * main + usize::from(normal[main] > 0.0);
+        (at.to_array().map(|c| c as i64), direction, v)
+    };
+    let mut cells: Vec<_> = level.mesh.vertices().map(cell).collect();
+    cells.sort_unstable();
+    let mut weights: TiVec<VertexId, f64> = ti_vec![0.0; areas.len()];
+    for group in cells.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+        weights[group[0].2] = group.iter().map(|c| areas[c.2]).sum();
+    }
+    weights
+}
+
+/// Patches of one side.
+struct Patches<'a> {
+    own: &'a OrientedSurface<'a>,
+    level: &'a MappedLevel<'a>,
+    weights: &'a TiSlice<VertexId, f64>,
+    /// By vertex the vertex of the other full mesh that is nearest to its image.
+    near: TiVec<VertexId, VertexId>,
+    /// The centre of the last patch that reached a vertex, with its radius.
+    reached: TiVec<VertexId, Option<(VertexId, u64)>>,
+}
+
+impl Patches<'_> {
+    /// Fills `patch` with the points connected to `centre` within the radius, the centre first. Points whose images are far
+    /// away or that face the other way are left out.
+    fn around(&mut self, centre: VertexId, radius: f64, patch: &mut Vec<PatchPoint>) {
+        let Self { own, level, weights, .. } = *self;
+        let positions = level.mesh.positions();
+        let distance = |v: VertexId| positions[v].distance(positions[centre]);
+        let mark = Some((centre, radius.to_bits()));
+        let mut queue = vec![centre];
+        self.reached[centre] = mark;
+        let normal = own.normals[level.vertices[centre]];
+        let mut next = 0;
+        patch.clear();
+        while let Some(&v) = queue.get(next) {
+            next += 1;
+            let own_normal = own.normals[level.vertices[v]];
+            let near = level.images[v].distance(level.images[centre]) < 1.6 * radius;
+            if weights[v] > 0.0 && near && own_normal.dot(normal) > -0.3 {
+                let share = distance(v) / radius;
+                let fading = (1.0 - share * share) * (1.0 - share * share);
+                patch.push(PatchPoint {
+                    position: positions[v],
+                    normal: own_normal,
+                    weight: weights[v] * fading,
+                    image: level.images[v],
+                    near: self.near[v],
+                });
+            }
+            for w in level.mesh.star(v).map(|h| level.mesh.head(h)) {
+                if self.reached[w] != mark && distance(w) < radius {
+                    self.reached[w] = mark;
+                    queue.push(w);
+                }
+            }
+        }
+    }
+}
+
+/// What fits of several patches know about the place of their centre: a quadratic form in a tangent plane.
+struct Knowledge {
+    frame: [DVec3; 2],
+    form: DMat2,
+    slope: DVec2,
+}
+
+impl Knowledge {
+    fn new(normal: DVec3) -> Self {
+        let first = normal.any_orthonormal_vector();
+        Self { frame: [first, normal.cross(first)], form: DMat2::ZERO, slope: DVec2::ZERO }
+    }
+
+    fn in_plane(&self, d: DVec3) -> DVec2 {
+        DVec2::from(self.frame.map(|axis| axis.dot(d)))
+    }
+
+    fn add(&mut self, fit: &PatchFit, image: DVec3, noise: f64) {
+        let square = noise * noise;
+        let trust = square / (square + fit.misfit);
+        let column = |axis: DVec3| self.in_plane(fit.hold * axis) * (trust * trust / square);
+        let form = DMat2::from_cols(column(self.frame[0]), column(self.frame[1]));
+        self.slope += form * self.in_plane(fit.centre - image);
+        self.form += form;
+    }
+
+    /// The constraint; `None` where no patch has a fit.
+    fn constraint(&self, image: DVec3, area: f64, options: &RigidPatchOptions) -> Option<PointConstraint> {
+        let (form, [first, second]) = (self.form, self.frame);
+        let shift = form.inverse() * self.slope;
+        let scale = options.strength * area;
+        // Cholesky's factor of the form.
+        let a = (scale * form.x_axis.x).sqrt();
+        let b = scale * form.x_axis.y / a;
+        let c = max(scale * form.y_axis.y - b * b, 0.0).sqrt();
+        let known = form.determinant() > 0.0 && shift.is_finite() && a > 0.0 && b.is_finite();
+        known.then(|| PointConstraint {
+            place: image + first * shift.x + second * shift.y,
+            rows: [first * a + second * b, second * c],
+            knee: options.knee * area,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::scalar::{cos, sin};
+    use crate::mesh::generators::icosphere;
+
+    fn hilly() -> SurfaceMesh {
+        let ball = icosphere(4);
+        let hill = |p: &DVec3| {
+            // Area near 1.
+            *p * 0.28 * (1.0 + 0.03 * sin(11.0 * p.x) * cos(9.0 * p.y) + 0.03 * sin(10.0 * p.z))
+        };
+        ball.with_positions(ball.positions().iter().map(hill).collect())
+    }
+
+    /// All vertices, with images turned by a small angle about z.
+    fn slid<'a>(
+        mesh: &'a SurfaceMesh,
+        all: &'a TiSlice<VertexId, VertexId>,
+        surface: &OrientedSurface<'_>,
+    ) -> MappedLevel<'a> {
+        let (c, s) = (cos(0.02), sin(0.02));
+        let turn = |p: DVec3| DVec3::new(c * p.x - s * p.y, s * p.x + c * p.y, p.z);
+        let images: TiVec<VertexId, DVec3> = mesh.positions().iter().map(|p| turn(*p)).collect();
+        let near = images.iter_enumerated().map(|(v, p)| surface.nearest(v, *p)).collect();
+        MappedLevel { mesh, vertices: all, images, near }
+    }
+
+    #[test]
+    fn points_stand_for_the_whole_area() {
+        let mesh = hilly();
+        let all: TiVec<VertexId, VertexId> = mesh.vertices().collect();
+        let surface = OrientedSurface::new(&mesh);
+        let weights = spread(&surface, &slid(&mesh, &all, &surface), 0.04);
+        assert!((weights.iter().sum::<f64>() - mesh.area()).abs() < 1e-12);
+        let taken = weights.iter().filter(|w| **w > 0.0).count();
+        assert!(taken > 300 && taken < 1500, "{taken}");
+    }
+
+    #[test]
+    fn relief_draws_vertices_back_to_where_they_belong() {
+        let mesh = hilly();
+        let all: TiVec<VertexId, VertexId> = mesh.vertices().collect();
+        let surface = OrientedSurface::new(&mesh);
+        let level = slid(&mesh, &all, &surface);
+        let found = point_constraints([&surface, &surface], &level, &RigidPatchOptions::default());
+        assert!(found.len() > 500, "{}", found.len());
+        let mut errors: Vec<[f64; 2]> = found
+            .iter()
+            .map(|(v, constraint)| {
+                let truth = mesh.positions()[*v];
+                [constraint.place.distance(truth), level.images[*v].distance(truth)]
+            })
+            .collect();
+        let mean = |k: usize| errors.iter().map(|e| e[k]).sum::<f64>() / errors.len() as f64;
+        let means = [mean(0), mean(1)];
+        errors.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        assert!(means[0] < 0.4 * means[1], "{means:?}");
+        assert!(errors[errors.len() / 2][0] < 0.2 * means[1], "{means:?} {:?}", errors[errors.len() / 2]);
+    }
+
+    #[test]
+    fn a_pull_knows_what_the_fits_know() {
+        let mut sum = Knowledge::new(DVec3::Z);
+        let hold = glam::DMat3::from_diagonal(DVec3::new(0.1, 0.02, 0.7));
+        let centre = DVec3::new(0.01, 0.02, 0.0);
+        sum.add(&PatchFit { centre, misfit: 0.0, hold }, DVec3::ZERO, 1e-3);
+        let constraint = sum
+            .constraint(DVec3::ZERO, 0.5, &RigidPatchOptions { strength: 2.0, ..Default::default() })
+            .unwrap();
+        assert!(constraint.place.distance(centre) < 1e-12);
+        for (axis, held) in [(DVec3::X, 0.1), (DVec3::Y, 0.02), (DVec3::Z, 0.0)] {
+            let square: f64 = constraint.rows.iter().map(|row| row.dot(axis) * row.dot(axis)).sum();
+            assert!((square - held * 1e6).abs() < 1e-3, "{square}");
+        }
+        assert!(
+            Knowledge::new(DVec3::Z).constraint(DVec3::ZERO, 1.0, &RigidPatchOptions::default()).is_none()
+        );
+    }
+}

@@ -1,0 +1,155 @@
+//! The straight sides of the base domain drawn on a parametrised mesh.
+//!
+//! On the cone surface the sides of its charts are straight lines from cone to cone. Followed on source and target they are
+//! lines that correspond under the map, and they show that a parametrisation is one onto this cone surface and no other: each
+//! line starts at its angle and must arrive at its landmark after its length.
+
+use crate::math::rigid2::{Rigid2, complex_mul};
+use crate::math::scalar::{cos, sin};
+use crate::mesh::{HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
+use crate::surface_map::overlay::location::exit_edge;
+use crate::surface_map::parametrisation::cone_surface::ConeSurface;
+use crate::surface_map::parametrisation::embedding::{Anchor, Embedding, Parametrised};
+use crate::surface_map::parametrisation::fan::{Fan, Wedge};
+use glam::DVec2;
+use std::sync::Arc;
+use typed_index_collections::{TiSlice, TiVec};
+
+/// One side of a base face on a mesh.
+#[derive(Clone, Debug)]
+pub struct BaseLine {
+    /// From landmark to landmark, one point on every edge that is crossed.
+    pub points: Vec<SurfacePoint>,
+    /// Distance between the end of the line and its landmark; infinite where the line does not come near it.
+    pub end_error: f64,
+    /// The landmark at the end as the line finds it; `None` where the line misses it.
+    pub arrival: Option<Anchor>,
+}
+
+/// The same embedding with its anchors made to agree.
+///
+/// A plane's angle around a cone is known up to whole turns of the plane, which are not whole turns around the cone; an
+/// anchor that was turned too far in one step is mistaken. Lines that start at right anchors arrive, and tell the others.
+pub fn mend_anchors(
+    embedding: &mut Embedding,
+    (mesh, landmarks): (&SurfaceMesh, &Landmarks),
+    surface: &ConeSurface,
+) {
+    let base = &surface.base.mesh;
+    let all_arrive = |embedding: &Embedding, v: VertexId| {
+        let side = Parametrised { mesh, landmark_vertices: landmarks, embedding };
+        base.star(v).all(|h| base_line(side, surface, h).arrival.is_some())
+    };
+    let mut right: TiVec<VertexId, bool> = base.vertices().map(|v| all_arrive(embedding, v)).collect();
+    let mut queue: Vec<VertexId> = base.vertices().filter(|&v| right[v]).collect();
+    if queue.len() == base.vertex_count() {
+        return;
+    }
+    while let Some(v) = queue.pop() {
+        for h in base.star(v) {
+            let head = base.head(h);
+            let side = Parametrised { mesh, landmark_vertices: landmarks, embedding };
+            if right[head] {
+                continue;
+            }
+            if let Some(anchor) = base_line(side, surface, h).arrival {
+                Arc::make_mut(&mut embedding.anchors)[head] = anchor;
+                right[head] = true;
+                queue.push(head);
+            }
+        }
+    }
+}
+
+/// The mesh's vertex of each landmark.
+type Landmarks = TiSlice<VertexId, VertexId>;
+
+/// Follows base halfedge `h` on a mesh.
+pub fn base_line(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -> BaseLine {
+    let base = &surface.base.mesh;
+    let length = surface.lengths[h];
+    let goal = side.landmark_vertices[base.head(h)];
+    let corners = &side.embedding.corners;
+    let start = begin(side, surface, h);
+    let mut line = BaseLine {
+        points: vec![SurfacePoint::at_vertex(side.mesh, side.landmark_vertices[base.tail(h)])],
+        end_error: f64::INFINITY,
+        arrival: None,
+    };
+    let (mut face, mut motion) = (start.corner.face(), Rigid2::IDENTITY);
+    let ends = [corners[start.corner], corners[start.corner] + start.direction * length];
+    let mut entered = None;
+    for step in 0..side.mesh.face_count() + 1000 {
+        let [p, q] = ends.map(|e| motion.apply(e));
+        let arrival = [0, 1, 2].map(|k| HalfedgeId::of(face, k)).into_iter().find(|&c| {
+            side.mesh.tail(c) == goal
+                && corners[c].distance(q) < 1e-3 * length
+                && (step > 0 || c != start.corner)
+        });
+        if let Some(corner) = arrival {
+            line.end_error = corners[corner].distance(q);
+            if line.end_error < 1e-6 * length {
+                line.arrival = Some(arrived(surface, h, (corner, corners[corner]), [p, q]));
+            }
+            line.points.push(SurfacePoint::at_vertex(side.mesh, goal));
+            break;
+        }
+        let exit = if step == 0 {
+            Some(start.corner.next())
+        } else {
+            exit_edge(side.embedding, face, [p, q], entered)
+        };
+        let Some(exit) = exit else { break };
+        line.points.push(crossing(exit, [corners[exit], corners[exit.next()]], [p, q]));
+        motion = side.embedding.transitions[exit].after(&motion);
+        let twin = side.mesh.twin(exit);
+        face = twin.face();
+        entered = Some(twin);
+    }
+    line
+}
+
+/// The anchor at the end of base halfedge `h`, which arrives at a corner along the segment p q.
+fn arrived(
+    surface: &ConeSurface,
+    h: HalfedgeId,
+    (corner, at): (HalfedgeId, DVec2),
+    [p, q]: [DVec2; 2],
+) -> Anchor {
+    let back = surface.base.mesh.twin(h);
+    let chart = surface.charts[back.face()];
+    let onto = [at, at + (p - q)];
+    let motion = Rigid2::between_segments([chart[back.corner()], chart[back.next().corner()]], onto);
+    Anchor { corner, chart: back.face(), motion }
+}
+
+struct Begin {
+    corner: HalfedgeId,
+    direction: DVec2,
+}
+
+/// The face into which the line starts, with its direction there.
+fn begin(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -> Begin {
+    let landmark = surface.base.mesh.tail(h);
+    let fan = Fan::new(surface, landmark);
+    let angle = fan.halfedges().iter().find(|(b, _)| *b == h).map_or(0.0, |(_, angle)| *angle);
+    let anchor = side.embedding.anchors[landmark];
+    let past = |w: &Wedge| (angle - w.begin).rem_euclid(fan.total);
+    let outside = |w: &Wedge| (past(w) - w.width).max(0.0);
+    let wedge = fan.wedges(side, &anchor).min_by(|v, w| outside(v).total_cmp(&outside(w)));
+    let corner = wedge.map_or(anchor.corner, |w| w.corner);
+    let turn = wedge.map_or(0.0, |w| past(&w).min(w.width));
+    let corners = &side.embedding.corners;
+    let along = (corners[corner.next()] - corners[corner]).normalize_or(DVec2::X);
+    Begin { corner, direction: complex_mul(along, DVec2::new(cos(turn), sin(turn))) }
+}
+
+/// The point where the segment p q crosses the halfedge from a to b.
+fn crossing(h: HalfedgeId, [a, b]: [DVec2; 2], [p, q]: [DVec2; 2]) -> SurfacePoint {
+    let (sa, sb) = ((q - p).perp_dot(a - p), (q - p).perp_dot(b - p));
+    let share = if sa == sb { 0.5 } else { (sa / (sa - sb)).clamp(0.0, 1.0) };
+    let mut barycentric = [0.0; 3];
+    barycentric[h.corner()] = 1.0 - share;
+    barycentric[h.next().corner()] = share;
+    SurfacePoint { face: h.face(), barycentric }
+}

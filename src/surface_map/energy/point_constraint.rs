@@ -1,0 +1,94 @@
+//! Soft point constraints: an energy that draws a vertex to a place on the other surface.
+//!
+//! The energy of a vertex whose image is the point f is 2 K (sqrt(1 + Q / K) - 1) with Q = |B (f - a)|^2, where a is where it
+//! should be and B, two rows in the tangent plane there, says how sure that is in each direction. Beyond the knee K it counts
+//! like the distance, not like its square, so that one mistaken place does no harm.
+
+use glam::{DMat2, DVec2, DVec3};
+
+/// Where a vertex should be on the other surface, and how sure that is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointConstraint {
+    /// The place a.
+    pub place: DVec3,
+    /// The rows of B, in units of the root of an energy by length.
+    pub rows: [DVec3; 2],
+    /// The knee K, an energy.
+    pub knee: f64,
+}
+
+/// The energy of a constraint with its derivatives by the vertex' place in a plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointConstraintTerm {
+    /// Its value.
+    pub energy: f64,
+    /// Its gradient.
+    pub gradient: DVec2,
+    /// Its Hessian without the part with the second derivative of the root, which is never positive.
+    pub hessian: DMat2,
+}
+
+impl PointConstraint {
+    /// The constraint's energy for a vertex at barycentric coordinates of a triangle with these corners in space; `hats` are the gradients of
+    /// the coordinates in the plane.
+    pub fn term(&self, corners: [DVec3; 3], barycentric: [f64; 3], hats: [DVec2; 3]) -> PointConstraintTerm {
+        let at = (0..3).map(|k| corners[k] * barycentric[k]).sum::<DVec3>() - self.place;
+        let misses = self.rows.map(|row| row.dot(at));
+        let square = misses[0] * misses[0] + misses[1] * misses[1];
+        let root = (1.0 + square / self.knee).sqrt();
+        let (mut gradient, mut hessian) = (DVec2::ZERO, DMat2::ZERO);
+        for (row, miss) in self.rows.iter().zip(misses) {
+            let slope: DVec2 = (0..3).map(|k| hats[k] * row.dot(corners[k])).sum();
+            gradient += slope * (2.0 * miss / root);
+            hessian += DMat2::from_cols(slope * slope.x, slope * slope.y) * (2.0 / root);
+        }
+        PointConstraintTerm { energy: 2.0 * square / (1.0 + root), gradient, hessian }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CORNERS: [DVec3; 3] =
+        [DVec3::new(0.0, 0.1, 0.0), DVec3::new(1.1, 0.0, 0.2), DVec3::new(0.1, 0.9, -0.1)];
+    const HATS: [DVec2; 3] = [DVec2::new(-1.0, -1.0), DVec2::X, DVec2::Y];
+
+    fn constraint(knee: f64) -> PointConstraint {
+        let rows = [DVec3::new(1.0, 0.2, 0.1), DVec3::new(-0.3, 0.6, 0.0)];
+        PointConstraint { place: DVec3::new(0.7, 0.4, 0.3), rows, knee }
+    }
+
+    fn at(knee: f64, [x, y]: [f64; 2]) -> PointConstraintTerm {
+        constraint(knee).term(CORNERS, [1.0 - x - y, x, y], HATS)
+    }
+
+    #[test]
+    fn the_gradient_is_the_difference_quotient() {
+        for knee in [1e-3, 0.1, 1e6] {
+            let (h, exact) = (1e-6, at(knee, [0.2, 0.3]).gradient);
+            let quotient = DVec2::new(
+                at(knee, [0.2 + h, 0.3]).energy - at(knee, [0.2 - h, 0.3]).energy,
+                at(knee, [0.2, 0.3 + h]).energy - at(knee, [0.2, 0.3 - h]).energy,
+            ) / (2.0 * h);
+            assert!(quotient.distance(exact) < 1e-7 * exact.length().max(1.0), "{quotient} {exact}");
+        }
+    }
+
+    #[test]
+    fn without_a_knee_the_hessian_is_exact_and_with_one_it_dominates() {
+        let exact = at(1e12, [0.2, 0.3]).hessian;
+        let h = 1e-5;
+        let slopes = [at(1e12, [0.2 + h, 0.3]).gradient, at(1e12, [0.2 - h, 0.3]).gradient];
+        assert!(((slopes[0] - slopes[1]) / (2.0 * h)).distance(exact.x_axis) < 1e-6);
+        let slopes = [at(0.01, [0.2 + h, 0.3]).gradient, at(0.01, [0.2 - h, 0.3]).gradient];
+        assert!((slopes[0] - slopes[1]).x / (2.0 * h) < at(0.01, [0.2, 0.3]).hessian.x_axis.x);
+    }
+
+    #[test]
+    fn far_beyond_the_knee_the_energy_grows_like_the_distance() {
+        let far = |x: f64| at(1e-9, [x, 0.0]).energy;
+        let steps = [far(100.0) - far(90.0), far(110.0) - far(100.0)];
+        assert!((steps[0] / steps[1] - 1.0).abs() < 1e-2, "{steps:?}");
+    }
+}

@@ -1,0 +1,38 @@
+//! Why there is no map.
+
+use crate::monitor::Cancelled;
+
+/// Why there is no map.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MapError {
+    /// The user asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// Landmarks so placed that a base triangle is degenerate.
+    #[error("landmarks {}, {} and {} lie on one line on both meshes: move one of them", landmarks[0], landmarks[1], landmarks[2])]
+    DegenerateBase {
+        /// The landmarks, 0-based.
+        landmarks: [usize; 3],
+    },
+    /// Vertices that could not be collapsed.
+    #[error("{left} vertices could not be simplified away")]
+    NotCoarsened {
+        /// How many.
+        left: usize,
+    },
+    /// Vertices of the layout that could not be taken out of the parametrisation of a coarse mesh.
+    #[error("{left} points of the layout could not be taken out again")]
+    LayoutPoints {
+        /// How many.
+        left: usize,
+        /// The landmarks nearest to them, 0-based, each once.
+        near: Vec<usize>,
+    },
+    /// A vertex that found no place.
+    #[error("no valid start: the parametrisation got stuck at {vertices} vertices")]
+    NoStart {
+        /// Vertices of the level.
+        vertices: usize,
+    },
+}

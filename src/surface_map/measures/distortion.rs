@@ -1,0 +1,282 @@
+//! How far the map is from an isometry.
+//!
+//! On each piece of the overlay the map is affine with singular values s1, s2 (both surfaces scaled to area 1).
+
+use crate::math::scalar::{ln, max, min};
+use crate::math::triangle::lay_out;
+use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
+use crate::surface_map::overlay::{Overlay, OverlayPoint, Piece};
+use crate::surface_map::parametrisation::embedding::Parametrised;
+use crate::surface_map::parametrisation::rest_triangle::rest_jacobian;
+use glam::{DMat2, DVec2, DVec3};
+use typed_index_collections::{TiVec, ti_vec};
+
+/// Distortion where the map is affine, with singular values s1 and s2 and both areas 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LocalDistortion {
+    /// (s1^2 + s2^2 + s1^-2 + s2^-2) / 4; 1 for an isometry, more otherwise.
+    pub density: f64,
+    /// (s1 / s2 + s2 / s1) / 2; 1 where angles are kept, more otherwise.
+    pub angle: f64,
+    /// s1 s2, the image's area over the area; 1 where areas are kept.
+    pub area: f64,
+}
+
+impl LocalDistortion {
+    /// Where the map has the Jacobian `j`, with a positive determinant.
+    pub(in crate::surface_map) fn of(j: &DMat2) -> Self {
+        Self::new(j.x_axis.length_squared() + j.y_axis.length_squared(), j.determinant())
+    }
+
+    /// Of a Jacobian with |J|^2 = `squares` and a positive determinant.
+    fn new(squares: f64, det: f64) -> Self {
+        Self { density: 0.25 * squares * (1.0 + 1.0 / (det * det)), angle: 0.5 * squares / det, area: det }
+    }
+}
+
+/// Distortion of the map source -> target, both areas 1.
+#[derive(Clone, Debug, Default)]
+pub struct Distortion {
+    /// Integral of |J|^2 over the source plus |J^-1|^2 over the target; 4 for an isometry.
+    pub energy: f64,
+    /// Area-weighted mean over the source of (s1^2 + s2^2 + s1^-2 + s2^-2) / 4; 1 for an isometry.
+    pub mean: f64,
+    /// Half the sum of the area-weighted means of the density's logarithm over the source and over the target; 0 for an
+    /// isometry. It says which of two maps is the better one where the energy does not: that is 4 for every conformal map.
+    pub mean_log: f64,
+    /// Its area-weighted median over the source.
+    pub median: f64,
+    /// Its area-weighted 95 % quantile over the source.
+    pub p95: f64,
+    /// Its maximum, without pieces that rounding may have made.
+    pub max: f64,
+    /// The share of the area with a density above [`DENTED`], of the source or of the target, whichever is larger.
+    pub dented: f64,
+    /// The pieces of largest density, the worst first, at most [`WORST`]; without pieces that rounding may have made, and
+    /// empty for maps given by images.
+    pub worst: Vec<WorstPiece>,
+    /// Sum of the pieces' areas on the source (1 up to rounding).
+    pub source_area: f64,
+    /// Sum of the pieces' areas on the target (1 up to rounding).
+    pub target_area: f64,
+    /// The density averaged around each vertex of the refined source.
+    pub by_vertex: TiVec<VertexId, f64>,
+    /// On each piece of the overlay; empty for maps given by images.
+    pub by_piece: Vec<LocalDistortion>,
+}
+
+/// From this density on a texture is seen to be dented.
+pub const DENTED: f64 = 20.0;
+
+/// So many of the worst pieces are told.
+pub const WORST: usize = 10;
+
+/// One of the pieces of the overlay with the largest densities.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorstPiece {
+    /// Its density.
+    pub density: f64,
+    /// Its area on the source, whose area is 1.
+    pub area: f64,
+    /// The middle of the piece on the refined source.
+    pub source: SurfacePoint,
+    /// The same point on the refined target.
+    pub target: SurfacePoint,
+}
+
+/// Whether a piece of area `area` of two triangles on the cone surface is there for certain.
+///
+/// The density of a piece is that of its two triangles' Jacobians, whatever its size, and as exact as these; but where the
+/// triangles only touch, rounding decides whether they share a piece. Coordinates on the cone surface are of order 1,
+/// and where two ways lead to the same corner they differ by up to 7e-15 (34 test pairs, most by less than 2e-15): that moves
+/// a side of length l by an area of 7e-15 l. Larger pieces are certain. Integrals count them all.
+pub(in crate::surface_map) fn is_certain(area: f64, triangles: [&[DVec2; 3]; 2]) -> bool {
+    let longest = |t: &[DVec2; 3]| max(max(t[0].distance(t[1]), t[1].distance(t[2])), t[2].distance(t[0]));
+    area > 1e-14 * min(longest(triangles[0]), longest(triangles[1]))
+}
+
+/// Measures the map on its overlay.
+pub fn distortion(source: Parametrised<'_>, target: Parametrised<'_>, overlay: &Overlay) -> Distortion {
+    let to_source = |f: FaceId| rest_jacobian(source, f);
+    let to_target = |f: FaceId| rest_jacobian(target, f);
+    let source_maps: TiVec<FaceId, DMat2> = source.mesh.faces().map(to_source).collect();
+    let target_inverses: TiVec<FaceId, DMat2> = target.mesh.faces().map(|f| to_target(f).inverse()).collect();
+    let mut result = Distortion::default();
+    let mut densities = Vec::with_capacity(overlay.pieces.len());
+    let mut dented = [0.0; 2];
+    let mut face_sums: TiVec<FaceId, [f64; 2]> = ti_vec![[0.0; 2]; source.mesh.face_count()];
+    for piece in &overlay.pieces {
+        let (a, b) = (&source_maps[piece.source_face], &target_inverses[piece.target_face]);
+        let rotation = DMat2::from_cols(piece.motion.rotation, piece.motion.rotation.perp());
+        let j = *b * rotation * *a;
+        let det = j.determinant();
+        let squares = j.x_axis.length_squared() + j.y_axis.length_squared();
+        let source_area = piece.area / a.determinant();
+        let target_area = piece.area * b.determinant();
+        let inverse_squares = squares / (det * det);
+        let density = 0.25 * (squares + inverse_squares);
+        result.by_piece.push(LocalDistortion::new(squares, det));
+        result.energy += squares * source_area + inverse_squares * target_area;
+        result.source_area += source_area;
+        result.target_area += target_area;
+        result.mean_log += 0.5 * ln(density) * (source_area + target_area);
+        if density > DENTED {
+            dented[0] += source_area;
+            dented[1] += target_area;
+        }
+        densities.push((density, source_area));
+        face_sums[piece.source_face][0] += density * source_area;
+        face_sums[piece.source_face][1] += source_area;
+    }
+    let worst = worst_pieces([source, target], overlay, &densities);
+    result.summarise(densities);
+    result.max = worst.first().map_or(1.0, |piece| piece.density);
+    result.dented = max(dented[0] / result.source_area, dented[1] / result.target_area);
+    result.worst = worst;
+    result.by_vertex = vertex_averages(source, &face_sums);
+    result
+}
+
+/// The [`WORST`] pieces of largest density, given (density, source area) of each piece.
+fn worst_pieces(
+    [source, target]: [Parametrised<'_>; 2],
+    overlay: &Overlay,
+    densities: &[(f64, f64)],
+) -> Vec<WorstPiece> {
+    let triangle =
+        |side: Parametrised<'_>, f| [0, 1, 2].map(|k| side.embedding.corners[HalfedgeId::of(f, k)]);
+    let is_certain = |piece: &Piece| {
+        let triangles = [triangle(source, piece.source_face), triangle(target, piece.target_face)];
+        is_certain(piece.area, [&triangles[0], &triangles[1]])
+    };
+    let mut order: Vec<usize> = (0..densities.len()).collect();
+    order.sort_by(|&a, &b| densities[b].0.total_cmp(&densities[a].0));
+    let worst = order.into_iter().filter(|&k| is_certain(&overlay.pieces[k])).take(WORST);
+    worst
+        .map(|k| {
+            let piece = &overlay.pieces[k];
+            let corners = &overlay.points[piece.points.clone()];
+            let middle = |of: fn(&OverlayPoint) -> [f64; 3]| {
+                let sum = corners.iter().map(|corner| DVec3::from(of(corner))).sum::<DVec3>();
+                (sum / corners.len() as f64).to_array()
+            };
+            let (density, area) = densities[k];
+            WorstPiece {
+                density,
+                area,
+                source: SurfacePoint { face: piece.source_face, barycentric: middle(|corner| corner.source) },
+                target: SurfacePoint { face: piece.target_face, barycentric: middle(|corner| corner.target) },
+            }
+        })
+        .collect()
+}
+
+/// Measures a map given by the images of vertices on the source's faces with three images, each mapped affinely onto the
+/// triangle of its images in space. Images flatter than 1e-7 of the root of the target's area are left out: their shape is
+/// rounding, but the least of them would decide the mean.
+///
+/// Integrals run over the mapped part only: `source_area` and `target_area` tell how much that is. No values by vertex.
+pub fn image_distortion(
+    source: &SurfaceMesh,
+    target: &SurfaceMesh,
+    images: &TiVec<VertexId, Option<SurfacePoint>>,
+) -> Distortion {
+    let scales = [source, target].map(|mesh| 1.0 / mesh.area().sqrt());
+    let mut result = Distortion::default();
+    let (mut logs, mut dented) = ([0.0; 2], [0.0; 2]);
+    let mut densities = Vec::new();
+    for (f, corners) in source.triangles().iter_enumerated() {
+        let [Some(a), Some(b), Some(c)] = corners.map(|v| images[v]) else { continue };
+        let from = in_plane(source.corners(f), scales[0]);
+        let onto = in_plane([a, b, c].map(|p| p.position(target)), scales[1]);
+        let j = onto * from.inverse();
+        let det = j.determinant();
+        let longest =
+            onto.x_axis.length().max(onto.y_axis.length()).max((onto.x_axis - onto.y_axis).length());
+        let flat = onto.determinant() <= 1e-7 * longest;
+        if flat || det.is_nan() {
+            continue;
+        }
+        let squares = j.x_axis.length_squared() + j.y_axis.length_squared();
+        let inverse_squares = squares / (det * det);
+        let areas = [0.5 * from.determinant(), 0.5 * onto.determinant()];
+        let density = 0.25 * (squares + inverse_squares);
+        result.energy += squares * areas[0] + inverse_squares * areas[1];
+        result.source_area += areas[0];
+        result.target_area += areas[1];
+        (0..2).for_each(|k| logs[k] += ln(density) * areas[k]);
+        if density > DENTED {
+            (0..2).for_each(|k| dented[k] += areas[k]);
+        }
+        densities.push((density, areas[0]));
+    }
+    result.dented = max(dented[0] / result.source_area, dented[1] / result.target_area);
+    result.mean_log = 0.5 * (logs[0] / result.source_area + logs[1] / result.target_area);
+    result.summarise(densities);
+    result
+}
+
+/// The edge vectors from corner 0 of a triangle in its own plane.
+fn in_plane([p, q, r]: [DVec3; 3], scale: f64) -> DMat2 {
+    let [_, q, r] = lay_out([p.distance(q), q.distance(r), r.distance(p)].map(|length| length * scale));
+    DMat2::from_cols(q, r)
+}
+
+impl Distortion {
+    /// Mean, quantiles and maximum of (density, source area) pairs.
+    fn summarise(&mut self, mut densities: Vec<(f64, f64)>) {
+        self.mean = densities.iter().map(|(d, a)| d * a).sum::<f64>() / self.source_area;
+        densities.sort_by(|a, b| a.0.total_cmp(&b.0));
+        self.median = quantile(&densities, 0.5);
+        self.p95 = quantile(&densities, 0.95);
+        self.max = densities.last().map_or(1.0, |d| d.0);
+    }
+}
+
+/// The weighted quantile of sorted (value, weight) pairs.
+pub fn quantile(sorted: &[(f64, f64)], share: f64) -> f64 {
+    let total: f64 = sorted.iter().map(|p| p.1).sum();
+    let mut sum = 0.0;
+    for (value, weight) in sorted {
+        sum += weight;
+        if sum >= share * total {
+            return *value;
+        }
+    }
+    sorted.last().map_or(f64::NAN, |p| p.0)
+}
+
+fn vertex_averages(source: Parametrised<'_>, faces: &TiVec<FaceId, [f64; 2]>) -> TiVec<VertexId, f64> {
+    let mesh = source.mesh;
+    let mut sums = ti_vec![[0.0_f64; 2]; mesh.vertex_count()];
+    for (f, corners) in mesh.triangles().iter_enumerated() {
+        for &v in corners {
+            let sum: &mut [f64; 2] = &mut sums[v];
+            sum[0] += faces[f][0];
+            sum[1] += faces[f][1];
+        }
+    }
+    sums.into_iter().map(|[d, a]| d / a).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LocalDistortion, is_certain};
+    use glam::DVec2;
+
+    #[test]
+    fn measures_of_a_diagonal_jacobian() {
+        let (s1, s2) = (2.0, 0.25);
+        let local = LocalDistortion::new(s1 * s1 + s2 * s2, s1 * s2);
+        assert_eq!(local.density, (4.0 + 0.0625 + 0.25 + 16.0) / 4.0);
+        assert_eq!((local.angle, local.area), ((8.0 + 0.125) / 2.0, 0.5));
+        assert_eq!(LocalDistortion::new(2.0, 1.0), LocalDistortion { density: 1.0, angle: 1.0, area: 1.0 });
+    }
+
+    #[test]
+    fn a_piece_as_thin_as_rounding_is_not_certain() {
+        let triangle = [DVec2::ZERO, DVec2::new(0.01, 0.0), DVec2::new(0.0, 0.01)];
+        assert!(!is_certain(0.01 * 5e-15, [&triangle, &triangle]));
+        assert!(is_certain(0.01 * 1e-13, [&triangle, &triangle]));
+    }
+}

@@ -1,0 +1,354 @@
+//! Source vertices located in the target's triangles on the cone surface.
+//!
+//! Every face is developed in a plane of its own, so a point of the surface has many names. The names are matched at
+//! the landmarks, where the angle around the cone is known on both sides, and carried from vertex to vertex by walking
+//! straight along source edges through target triangles: crossing an edge applies its transition.
+
+use crate::math::rigid2::Rigid2;
+use crate::math::scalar::max;
+use crate::math::triangle::signed_double_area;
+use crate::mesh::{FaceId, HalfedgeId, SurfacePoint, VertexId};
+use crate::surface_map::parametrisation::cone_surface::ConeSurface;
+use crate::surface_map::parametrisation::embedding::{Anchor, Embedding, Parametrised};
+use crate::surface_map::parametrisation::fan::{Fan, Wedge};
+use glam::DVec2;
+use robust::{Coord, orient2d};
+use typed_index_collections::TiVec;
+
+/// Where a source corner lies among the target's triangles.
+#[derive(Clone, Copy, Debug)]
+pub struct Location {
+    /// The source halfedge whose start is located; the motion is that of its face.
+    pub corner: HalfedgeId,
+    /// The target face that contains the point.
+    pub face: FaceId,
+    /// From the chart plane of the corner's source face to the chart plane of the target face.
+    pub motion: Rigid2,
+}
+
+/// All source vertices among the target's triangles.
+#[derive(Clone, Debug, Default)]
+pub struct Locations {
+    /// By source vertex.
+    pub by_vertex: TiVec<VertexId, Location>,
+    /// Every source corner at a landmark: the target face is that into which the corner's halfedge points.
+    pub at_landmarks: Vec<Location>,
+}
+
+/// A walk that did not arrive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("source vertex {vertex} was not found on the target: the walk did not arrive")]
+pub struct LocateError {
+    /// The source vertex of the refined mesh.
+    pub vertex: usize,
+}
+
+/// Locates every source vertex on the target; see [`Locator::fill`].
+///
+/// # Errors
+/// [`LocateError`].
+pub fn locate(
+    source: Parametrised<'_>,
+    target: Parametrised<'_>,
+    surface: &ConeSurface,
+) -> Result<Locations, LocateError> {
+    let mut locations = Locations::default();
+    Locator::default().fill([source, target], surface, &mut locations)?;
+    Ok(locations)
+}
+
+/// Locates vertices; keeps its working memory from one time to the next.
+#[derive(Clone, Debug, Default)]
+pub struct Locator {
+    /// By source vertex: of landmarks the target's vertex.
+    apexes: TiVec<VertexId, Option<VertexId>>,
+    /// Vertices in the order in which they are found; at landmarks with the range of their corners.
+    queue: Vec<(VertexId, [u32; 2])>,
+}
+
+/// Of a vertex that has not been found.
+const NOWHERE: Location =
+    Location { corner: HalfedgeId(u32::MAX), face: FaceId(u32::MAX), motion: Rigid2::IDENTITY };
+
+impl Locator {
+    /// Locates every source vertex on the target. Fills `locations`, whose memory is used again.
+    ///
+    /// Both sides must be certified parametrisations onto `surface`.
+    ///
+    /// # Errors
+    /// [`LocateError`] where a walk does not arrive, which certified input rules out but for rounding; `locations` are then
+    /// not complete.
+    pub fn fill(
+        &mut self,
+        [source, target]: [Parametrised<'_>; 2],
+        surface: &ConeSurface,
+        locations: &mut Locations,
+    ) -> Result<(), LocateError> {
+        self.apexes.clear();
+        self.apexes.resize(source.mesh.vertex_count(), None);
+        for (&v, &w) in source.landmark_vertices.iter().zip(target.landmark_vertices) {
+            self.apexes[v] = Some(w);
+        }
+        let mut result = Err(LocateError { vertex: 0 });
+        for seed in surface.base.mesh.vertices() {
+            result = self.fill_from([source, target], (surface, seed), locations);
+            if result.is_ok() {
+                break;
+            }
+        }
+        result
+    }
+
+    /// Locates everything from one landmark.
+    ///
+    /// The angle of an edge around a cone is known up to whole turns of its plane only. Where the turn of the first landmark
+    /// is mistaken, the others are not met and the next one is tried; the turns at all others follow.
+    fn fill_from(
+        &mut self,
+        [source, target]: [Parametrised<'_>; 2],
+        (surface, seed): (&ConeSurface, VertexId),
+        locations: &mut Locations,
+    ) -> Result<(), LocateError> {
+        let mesh = source.mesh;
+        let Locations { by_vertex, at_landmarks } = locations;
+        by_vertex.clear();
+        by_vertex.resize(mesh.vertex_count(), NOWHERE);
+        at_landmarks.clear();
+        self.queue.clear();
+        let fan = Fan::new(surface, seed);
+        let anchors = [source, target].map(|side| side.embedding.anchors[seed]);
+        let wedges: Vec<Wedge> = fan.wedges(target, &anchors[1]).collect();
+        let first = anchored(&fan, anchors, source, &wedges);
+        let mut found = (source.landmark_vertices[seed], first);
+        let mut next = 0;
+        let mut corner = Corners::default();
+        loop {
+            let (v, at) = found;
+            let lost = LocateError { vertex: v.index() };
+            let begin = at_landmarks.len() as u32;
+            if let Some(apex) = self.apexes[v] {
+                turn_around_cone(source, target, (at, apex), at_landmarks).ok_or(lost)?;
+            }
+            by_vertex[v] = at;
+            self.queue.push((v, [begin, at_landmarks.len() as u32]));
+            let is_new = |v: VertexId| by_vertex[v].corner == NOWHERE.corner;
+            let onwards = loop {
+                if let Some(from) = corner.next(source, at_landmarks, is_new) {
+                    break Some(from);
+                }
+                let Some(&(v, range)) = self.queue.get(next) else { break None };
+                corner = Corners::new(by_vertex[v], range);
+                next += 1;
+            };
+            let Some(from) = onwards else { break };
+            let head = mesh.head(from.corner);
+            let arrived = walk(source, target, from).ok_or(LocateError { vertex: head.index() })?;
+            found = (head, arrived);
+        }
+        let missing = by_vertex.iter().position(|at| at.corner == NOWHERE.corner);
+        missing.map_or(Ok(()), |vertex| Err(LocateError { vertex }))
+    }
+}
+
+/// The corners of a vertex that has been found, one after the other: around an ordinary vertex the motions agree all around,
+/// at a landmark all corners are known.
+#[derive(Default)]
+struct Corners {
+    /// Of an ordinary vertex: its first corner, and the next one.
+    around: Option<[HalfedgeId; 2]>,
+    /// The last corner whose motion was asked for.
+    known: Option<Location>,
+    at_landmark: std::ops::Range<u32>,
+}
+
+impl Corners {
+    fn new(at: Location, [begin, end]: [u32; 2]) -> Self {
+        let around = (begin == end).then_some([at.corner; 2]);
+        Self { around, known: Some(at), at_landmark: begin..end }
+    }
+
+    /// The next corner whose edge leads to a vertex with `is_wanted`.
+    fn next(
+        &mut self,
+        source: Parametrised<'_>,
+        at_landmarks: &[Location],
+        is_wanted: impl Fn(VertexId) -> bool,
+    ) -> Option<Location> {
+        let mesh = source.mesh;
+        let of_landmark = |k: u32| at_landmarks.get(k as usize).copied();
+        let wanted = |at: &Location| is_wanted(mesh.head(at.corner));
+        if let Some(at) = self.at_landmark.by_ref().filter_map(of_landmark).find(wanted) {
+            return Some(at);
+        }
+        while let Some([first, corner]) = self.around {
+            let following = mesh.twin(corner.prev());
+            self.around = (following != first).then_some([first, following]);
+            if is_wanted(mesh.head(corner)) {
+                return self.turn_to(source, corner);
+            }
+        }
+        None
+    }
+
+    /// The location of a corner after the last one that was asked for.
+    fn turn_to(&mut self, source: Parametrised<'_>, corner: HalfedgeId) -> Option<Location> {
+        let known = self.known.as_mut()?;
+        while known.corner != corner {
+            let across = known.corner.prev();
+            known.corner = source.mesh.twin(across);
+            // The motion there is the inverse of the one onwards, which lies near.
+            if source.embedding.transitions[across] != Rigid2::IDENTITY {
+                known.motion = known.motion.after(&source.embedding.transitions[known.corner]);
+            }
+        }
+        Some(*known)
+    }
+}
+
+/// The locations of all corners of a landmark, given one of them in any target face around the landmark's image `apex`.
+///
+/// `None` where that face is not at the apex, or the apex is not met after a turn.
+fn turn_around_cone(
+    source: Parametrised<'_>,
+    target: Parametrised<'_>,
+    (at, apex): (Location, VertexId),
+    all: &mut Vec<Location>,
+) -> Option<()> {
+    const MOST: usize = 1000;
+    let [mesh, below] = [source.mesh, target.mesh];
+    let corner = |x: HalfedgeId| target.embedding.corners[x];
+    let mut wedge = (0..3).map(|k| HalfedgeId::of(at.face, k)).find(|&x| below.tail(x) == apex)?;
+    let image = at.motion.apply(source.embedding.corners[at.corner]);
+    if image.distance(corner(wedge)) > 1e-9 {
+        return None;
+    }
+    let mut here = at;
+    let mut hops = 0..MOST;
+    let edge = |x: HalfedgeId| source.embedding.corners[x.next()] - source.embedding.corners[x];
+    let mut cross = |here: &mut Location, across: HalfedgeId| {
+        here.motion = target.embedding.transitions[across].after(&here.motion);
+        here.face = below.twin(across).face();
+        hops.next()
+    };
+    // The edge points less than half a turn away from where the walk came from: first clockwise, then, from edge to edge,
+    // counter-clockwise.
+    while (corner(wedge.next()) - corner(wedge)).perp_dot(here.motion.rotate(edge(here.corner))) < 0.0 {
+        cross(&mut here, wedge)?;
+        wedge = below.twin(wedge).next();
+    }
+    loop {
+        while here.motion.rotate(edge(here.corner)).perp_dot(corner(wedge.prev()) - corner(wedge)) <= 0.0 {
+            cross(&mut here, wedge.prev())?;
+            wedge = below.twin(wedge.prev());
+        }
+        all.push(here);
+        here.corner = mesh.twin(here.corner.prev());
+        here.motion = here.motion.after(&source.embedding.transitions[here.corner]);
+        if here.corner == at.corner {
+            return Some(());
+        }
+    }
+}
+
+/// Walks along the edge of the location's corner to its end.
+fn walk(source: Parametrised<'_>, target: Parametrised<'_>, from: Location) -> Option<Location> {
+    let end = source.embedding.corners[from.corner.next()];
+    let arrived = walk_to(source, target, from, end)?;
+    Some(Location { corner: from.corner.next(), ..arrived })
+}
+
+/// Walks straight from the location to a point in the plane of its source face.
+fn walk_to(
+    source: Parametrised<'_>,
+    target: Parametrised<'_>,
+    from: Location,
+    end: DVec2,
+) -> Option<Location> {
+    let start = source.embedding.corners[from.corner];
+    let mesh = target.mesh;
+    let (mut face, mut motion) = (from.face, from.motion);
+    let mut entered = None;
+    let mut line = [motion.apply(start), motion.apply(end)];
+    for _ in 0..mesh.face_count() + 1000 {
+        let Some(exit) = exit_edge(target.embedding, face, line, entered) else {
+            return Some(Location { corner: from.corner, face, motion });
+        };
+        let transition = &target.embedding.transitions[exit];
+        if *transition != Rigid2::IDENTITY {
+            motion = transition.after(&motion);
+            line = [motion.apply(start), motion.apply(end)];
+        }
+        let twin = mesh.twin(exit);
+        face = twin.face();
+        entered = Some(twin);
+    }
+    None
+}
+
+/// The edge through which the segment p q leaves a triangle; `None` when it ends inside.
+pub(in crate::surface_map) fn exit_edge(
+    embedding: &Embedding,
+    face: FaceId,
+    [p, q]: [DVec2; 2],
+    entered: Option<HalfedgeId>,
+) -> Option<HalfedgeId> {
+    let mut nearest: Option<(f64, HalfedgeId)> = None;
+    for k in 0..3 {
+        let h = HalfedgeId::of(face, k);
+        let (a, b) = (embedding.corners[h], embedding.corners[h.next()]);
+        if Some(h) == entered || !clearly_outside(a, b, q) {
+            continue;
+        }
+        let (right, left) = (side(p, q, a), side(p, q, b));
+        if right <= 0.0 && left >= 0.0 {
+            return Some(h);
+        }
+        // Rounding at a corner: the edge that is missed by least. Any other could lead around a cone.
+        let miss = right.max(-left) / (b - a).length();
+        if nearest.is_none_or(|(least, _)| miss < least) {
+            nearest = Some((miss, h));
+        }
+    }
+    nearest.map(|(_, h)| h)
+}
+
+/// Whether q lies to the right of a b by more than rounding.
+fn clearly_outside(a: DVec2, b: DVec2, q: DVec2) -> bool {
+    let beyond = side(a, b, q);
+    beyond < 0.0 && beyond < -1e-14 * max((b - a).length(), 1e-3)
+}
+
+/// Positive when r lies to the left of p q (robust).
+fn side(p: DVec2, q: DVec2, r: DVec2) -> f64 {
+    let [p, q, r] = [p, q, r].map(|c| Coord { x: c.x, y: c.y });
+    orient2d(p, q, r)
+}
+
+/// The location of a landmark as seen from the source's anchor: the target face into which the anchor's halfedge points.
+fn anchored(fan: &Fan<'_>, anchors: [Anchor; 2], source: Parametrised<'_>, wedges: &[Wedge]) -> Location {
+    let corner = anchors[0].corner;
+    let corners = &source.embedding.corners;
+    let angle = fan.angle(&anchors[0], corners[corner.next()] - corners[corner]);
+    let past = |w: &Wedge| (angle - w.begin).rem_euclid(fan.total);
+    let outside = |w: &Wedge| (past(w) - w.width).max(0.0);
+    let onto = wedges.iter().min_by(|v, w| outside(v).total_cmp(&outside(w))).unwrap_or(&wedges[0]);
+    // The same direction's angle on the target differs from that on the source by whole turns.
+    let turns = ((onto.begin + past(onto) - angle) / fan.total).round() as i64;
+    let motion = onto.motion.after(&fan.between(&anchors[0], &anchors[1], turns));
+    Location { corner, face: onto.corner.face(), motion }
+}
+
+/// The barycentric coordinates of the located corner in its target face, clamped to it.
+pub fn barycentric(source: Parametrised<'_>, target: Parametrised<'_>, at: &Location) -> SurfacePoint {
+    let q = at.motion.apply(source.embedding.corners[at.corner]);
+    let corners = [0, 1, 2].map(|k| target.embedding.corners[HalfedgeId::of(at.face, k)]);
+    SurfacePoint { face: at.face, barycentric: barycentric_in(corners, q) }
+}
+
+/// Barycentric coordinates of q in a triangle, clamped to it.
+pub fn barycentric_in([a, b, c]: [DVec2; 3], q: DVec2) -> [f64; 3] {
+    let weights = [signed_double_area(q, b, c), signed_double_area(q, c, a), signed_double_area(q, a, b)];
+    let clamped = weights.map(|w| w.max(0.0));
+    let sum: f64 = clamped.iter().sum();
+    clamped.map(|w| w / sum)
+}

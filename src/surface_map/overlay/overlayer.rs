@@ -1,0 +1,78 @@
+//! Source and target intersected: the common subdivision from the located source vertices.
+//!
+//! Where source and target coincide, at a vertex or along an edge, the combinatorics of rounded tests need not fit
+//! together. The check finds that, and the overlay is made again with the source's free vertices moved by 1e-10 of their
+//! shortest edge.
+
+use super::arrangement::Arrangement;
+use super::cells::Cells;
+use super::location::Locations;
+use super::pieces::{Overlay, OverlayError};
+use super::seats::Seats;
+use super::trace::Traces;
+use crate::surface_map::parametrisation::embedding::Parametrised;
+
+/// How often the overlay is tried, all but the first time with the source shifted.
+const ATTEMPTS: usize = 6;
+
+/// Makes overlays; keeps its working memory from one to the next.
+#[derive(Clone, Debug, Default)]
+pub struct Overlayer {
+    seats: Seats,
+    traces: Traces,
+    arrangement: Arrangement,
+    cells: Cells,
+}
+
+impl Overlayer {
+    /// Intersects source and target; `locations` are those of [`super::location::locate`] for the same sides.
+    ///
+    /// Fills `overlay`, whose memory is used again. Time grows linearly with faces and crossings.
+    ///
+    /// # Errors
+    /// [`OverlayError`], with `overlay` left in an unfinished state.
+    pub fn fill(
+        &mut self,
+        [source, target]: [Parametrised<'_>; 2],
+        locations: &Locations,
+        overlay: &mut Overlay,
+    ) -> Result<(), OverlayError> {
+        let mut result = Ok(());
+        for attempt in 0..ATTEMPTS {
+            result = self.attempt([source, target], locations, (attempt, overlay));
+            if result.is_ok() {
+                break;
+            }
+        }
+        result
+    }
+
+    fn attempt(
+        &mut self,
+        [source, target]: [Parametrised<'_>; 2],
+        locations: &Locations,
+        (attempt, overlay): (usize, &mut Overlay),
+    ) -> Result<(), OverlayError> {
+        self.seats.fill(source, target, locations, attempt)?;
+        self.traces.fill(source, target, &self.seats)?;
+        self.arrangement.fill(source, target, (&self.seats, &self.traces))?;
+        overlay.shifts = attempt;
+        self.arrangement.describe(source, target, (&self.seats, &self.traces));
+        let parts = (&self.seats, &self.traces, &self.arrangement);
+        self.cells.fill([source, target], parts, overlay)
+    }
+}
+
+/// Intersects source and target; see [`Overlayer::fill`].
+///
+/// # Errors
+/// [`OverlayError`].
+pub fn overlay(
+    source: Parametrised<'_>,
+    target: Parametrised<'_>,
+    locations: &Locations,
+) -> Result<Overlay, OverlayError> {
+    let mut overlay = Overlay::default();
+    Overlayer::default().fill([source, target], locations, &mut overlay)?;
+    Ok(overlay)
+}

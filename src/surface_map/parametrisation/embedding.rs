@@ -1,0 +1,52 @@
+//! A seamless parametrisation of a mesh onto the flat cone surface.
+
+use crate::layout::PatchedMesh;
+use crate::math::rigid2::Rigid2;
+use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
+use glam::DVec2;
+use std::sync::Arc;
+use typed_index_collections::{TiSlice, TiVec};
+
+/// A piecewise linear map from a mesh to a [`crate::surface_map::ConeSurface`].
+///
+/// Every face is developed in a plane of its own; rigid motions join the planes of neighbours. At the landmarks, which are
+/// the cones, an anchor joins a plane to a chart of the cone surface.
+#[derive(Clone, Debug)]
+pub struct Embedding {
+    /// For each halfedge the image of its start, in the plane of its face.
+    pub corners: TiVec<HalfedgeId, DVec2>,
+    /// For each halfedge the rigid motion from the plane of its face to that of its twin's face. Fixed for the life of the
+    /// embedding; around an ordinary vertex they come back to the identity.
+    pub transitions: Arc<TiVec<HalfedgeId, Rigid2>>,
+    /// By landmark.
+    pub anchors: Arc<TiVec<VertexId, Anchor>>,
+}
+
+/// Where a plane of the parametrisation lies on the cone surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anchor {
+    /// A halfedge of the mesh that starts at the landmark.
+    pub corner: HalfedgeId,
+    /// A base face at the landmark.
+    pub chart: FaceId,
+    /// From the chart to the plane of the corner's face, without going around the cone.
+    pub motion: Rigid2,
+}
+
+/// A mesh with its parametrisation onto the common cone surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Parametrised<'a> {
+    /// The mesh, of area 1.
+    pub mesh: &'a SurfaceMesh,
+    /// The mesh's vertex of each landmark.
+    pub landmark_vertices: &'a TiSlice<VertexId, VertexId>,
+    /// Its parametrisation.
+    pub embedding: &'a Embedding,
+}
+
+impl PatchedMesh {
+    /// The patched mesh with a parametrisation.
+    pub fn parametrised<'a>(&'a self, embedding: &'a Embedding) -> Parametrised<'a> {
+        Parametrised { mesh: &self.mesh, landmark_vertices: &self.landmark_vertices, embedding }
+    }
+}

@@ -1,0 +1,156 @@
+//! The first parametrisation of a patched mesh onto the cone surface, coarse to fine.
+//!
+//! The mesh is coarsened down to the base domain, whose parametrisation is the charts themselves; then vertex by vertex
+//! comes back, each into the kernel of its star, and the level is relaxed whenever the number of vertices has grown
+//! fourfold. Every star is checked: positive triangles and one turn of 2 pi (positive areas alone admit double covers).
+
+use super::coarsen_to_base::coarsen_to_base;
+use super::cone_surface::ConeSurface;
+use super::embedding::{Anchor, Embedding, Parametrised};
+use super::level::ParametrisedLevel;
+use super::problem::{FlatRelaxOptions, FlatRelaxReport};
+use super::unknowns::Unknowns;
+use crate::layout::PatchedMesh;
+use crate::math::rigid2::Rigid2;
+use crate::mesh::collapsible::CollapsibleMesh;
+use crate::mesh::{HalfedgeId, VertexId};
+use crate::monitor::{Monitor, Step};
+use crate::surface_map::error::MapError;
+use std::sync::Arc;
+use typed_index_collections::{TiVec, ti_vec};
+
+/// Vertices that come back between two questions to the monitor.
+const ASKED_EVERY: usize = 4096;
+
+/// How the first parametrisation is found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InitialOptions {
+    /// A level is relaxed when its vertices have grown by this factor.
+    pub growth: f64,
+    /// How far a level is relaxed.
+    pub level: FlatRelaxOptions,
+}
+
+impl Default for InitialOptions {
+    fn default() -> Self {
+        Self { growth: 4.0, level: FlatRelaxOptions::default() }
+    }
+}
+
+/// The levels and vertices of a first parametrisation.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct InitialReport {
+    /// Levels that were relaxed.
+    pub levels: usize,
+    /// Vertices whose star had no kernel until its level was relaxed once more.
+    pub rescued_vertices: usize,
+}
+
+/// A parametrisation with every triangle positive.
+///
+/// # Errors
+/// [`MapError::NoStart`] where a vertex finds no place.
+pub fn embed(
+    patched: &PatchedMesh,
+    surface: &Arc<ConeSurface>,
+    options: &InitialOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<(Embedding, InitialReport), MapError> {
+    let mesh = coarsen_to_base(patched, &surface.base).map_err(|left| MapError::NotCoarsened { left })?;
+    let mut level = on_charts(mesh, patched, surface);
+    let report = refine(&mut level, patched.mesh.vertex_count(), options, monitor)?;
+    Ok((level.snapshot().1, report))
+}
+
+/// The base domain's own parametrisation: every live face is its chart.
+fn on_charts<'a>(
+    mesh: CollapsibleMesh,
+    patched: &'a PatchedMesh,
+    surface: &Arc<ConeSurface>,
+) -> ParametrisedLevel<'a> {
+    let mut landmark: TiVec<VertexId, VertexId> = ti_vec![VertexId(u32::MAX); patched.mesh.vertex_count()];
+    patched.landmark_vertices.iter_enumerated().for_each(|(l, &v)| landmark[v] = l);
+    let base = &surface.base.mesh;
+    let base_halfedge = |mesh: &CollapsibleMesh, h: HalfedgeId| {
+        let chart = patched.face_patch[h.face()];
+        let corner = base.triangles()[chart].iter().position(|&l| l == landmark[mesh.tail(h)]);
+        HalfedgeId::of(chart, corner.unwrap_or(0))
+    };
+    let nowhere =
+        Anchor { corner: HalfedgeId(0), chart: base.outgoing(0.into()).face(), motion: Rigid2::IDENTITY };
+    let mut anchors = ti_vec![nowhere; base.vertex_count()];
+    let halfedges: Vec<HalfedgeId> =
+        mesh.faces().flat_map(|f| [0, 1, 2].map(|k| HalfedgeId::of(f, k))).collect();
+    for &h in &halfedges {
+        let chart = patched.face_patch[h.face()];
+        anchors[landmark[mesh.tail(h)]] = Anchor { corner: h, chart, motion: Rigid2::IDENTITY };
+    }
+    let places: Vec<HalfedgeId> = halfedges.iter().map(|&h| base_halfedge(&mesh, h)).collect();
+    let mut level = ParametrisedLevel::new(
+        (mesh, patched.mesh.positions()),
+        &patched.landmark_vertices,
+        surface.clone(),
+        anchors,
+    );
+    for (&h, b) in halfedges.iter().zip(places) {
+        level.set(h, surface.charts[b.face()][b.corner()], surface.transitions[b]);
+    }
+    level
+}
+
+/// Brings vertices back until `goal` are there; the level is relaxed whenever it has grown.
+///
+/// # Errors
+/// [`MapError::NoStart`] where a vertex finds no place.
+pub fn refine(
+    level: &mut ParametrisedLevel<'_>,
+    goal: usize,
+    options: &InitialOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<InitialReport, MapError> {
+    let mut report = InitialReport::default();
+    let mut relaxed_at = level.mesh().live_vertices();
+    while level.mesh().live_vertices() < goal {
+        match level.refine() {
+            None => break,
+            Some(Ok(_)) => {}
+            Some(Err(_)) => {
+                level.relax(&options.level, monitor)?;
+                report.rescued_vertices += 1;
+                if level.refine().is_none_or(|again| again.is_err()) {
+                    return Err(MapError::NoStart { vertices: level.mesh().live_vertices() });
+                }
+            }
+        }
+        let live = level.mesh().live_vertices();
+        if live.is_multiple_of(ASKED_EVERY) {
+            monitor.step(Step { fraction: live as f64 / goal as f64, residual: None })?;
+        }
+        if live as f64 >= options.growth * relaxed_at as f64 && live < goal {
+            monitor.step(Step { fraction: live as f64 / goal as f64, residual: None })?;
+            level.relax(&options.level, monitor)?;
+            relaxed_at = live;
+            report.levels += 1;
+        }
+    }
+    Ok(report)
+}
+
+/// Relaxes a valid parametrisation.
+///
+/// # Errors
+/// [`MapError::Cancelled`].
+pub fn relax(
+    side: Parametrised<'_>,
+    surface: &ConeSurface,
+    options: &FlatRelaxOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<(Embedding, FlatRelaxReport), MapError> {
+    let unknowns = Unknowns::new(side);
+    let mut z = unknowns.points(side.embedding);
+    let report = unknowns.problem().relax(&mut z, options, monitor)?;
+    let mut relaxed = side.embedding.clone();
+    unknowns.place(&z, &mut relaxed.corners);
+    relaxed.normalise_anchors(surface);
+    Ok((relaxed, report))
+}

@@ -1,0 +1,13 @@
+//! A mesh developed onto the flat cone surface: the first parametrisation, levels of coarseness, the flat relaxation.
+
+mod coarsen_to_base;
+pub mod cone_surface;
+pub mod embedding;
+pub mod fan;
+pub mod initial;
+mod kernel;
+pub mod level;
+pub mod problem;
+pub mod rest_triangle;
+mod star;
+pub(super) mod unknowns;

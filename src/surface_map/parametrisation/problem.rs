@@ -1,0 +1,391 @@
+//! The flat relaxation: least symmetric Dirichlet energy of a parametrisation onto the cone surface.
+//!
+//! Unknown is one point z per free vertex in a reference chart; every corner sees it through a fixed rigid motion.
+//! Newton with the projected Hessian of [`crate::surface_map::energy::symmetric_dirichlet`], conjugate gradients, a step that
+//! keeps every triangle positive (Smith & Schaefer 2015) and an Armijo line search.
+
+use super::rest_triangle::{Corner, FlatTriangle};
+use crate::math::rigid2::Rigid2;
+use crate::math::scalar::min;
+use crate::monitor::{Cancelled, Monitor, Step};
+use crate::numerics::block_csr::{BlockCg, BlockCsr};
+use crate::surface_map::energy::symmetric_dirichlet;
+use glam::{DMat2, DVec2};
+
+/// How far a relaxation goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlatRelaxOptions {
+    /// Stops when a step lowers the energy by less than this share.
+    pub relative_decrease: f64,
+    /// Newton steps at most.
+    pub max_steps: usize,
+    /// Relative residual of the linear solves.
+    pub linear_tolerance: f64,
+}
+
+impl Default for FlatRelaxOptions {
+    fn default() -> Self {
+        Self { relative_decrease: 1e-4, max_steps: 100, linear_tolerance: 0.03 }
+    }
+}
+
+/// What a relaxation did.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FlatRelaxReport {
+    /// Energy before the first and after each step; area-weighted mean, 1 for an isometry.
+    pub energies: Vec<f64>,
+    /// Conjugate gradient iterations of all steps.
+    pub cg_iterations: usize,
+}
+
+/// A Hessian with respect to a Jacobian, in blocks by the Jacobian's columns.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::surface_map) struct FaceHessian {
+    xx: DMat2,
+    xy: DMat2,
+    yy: DMat2,
+}
+
+impl FaceHessian {
+    pub const ZERO: Self = Self { xx: DMat2::ZERO, xy: DMat2::ZERO, yy: DMat2::ZERO };
+
+    /// Adds `weight` m (x) m.
+    #[inline]
+    pub fn add(&mut self, weight: f64, m: &DMat2) {
+        let (x, y) = (m.x_axis * weight, m.y_axis * weight);
+        self.xx += DMat2::from_cols(x * m.x_axis.x, x * m.x_axis.y);
+        self.xy += DMat2::from_cols(x * m.y_axis.x, x * m.y_axis.y);
+        self.yy += DMat2::from_cols(y * m.y_axis.x, y * m.y_axis.y);
+    }
+
+    /// The block that belongs to a hat gradient g on the left and column `k` on the right.
+    #[inline]
+    fn row(&self, g: DVec2, k: usize) -> DMat2 {
+        match k {
+            0 => self.xx * g.x + self.xy.transpose() * g.y,
+            _ => self.xy * g.x + self.yy * g.y,
+        }
+    }
+}
+
+/// Triangles, unknowns and the matrix of one relaxation.
+pub struct FlatProblem {
+    triangles: Vec<FlatTriangle>,
+    /// Place in the matrix of block (corner i, corner j) at `9 t + 3 i + j`; unused where a corner is fixed.
+    places: Vec<u32>,
+    matrix: BlockCsr,
+    total_area: f64,
+}
+
+impl FlatProblem {
+    /// A problem of `free` unknown vertices.
+    pub fn new(triangles: Vec<FlatTriangle>, free: usize) -> Self {
+        let free_corner = |t: &FlatTriangle, k: usize| match t.corners[k] {
+            Corner::Free(v, _) => Some(v),
+            Corner::Fixed(_) => None,
+        };
+        let pairs = triangles.iter().flat_map(move |t| {
+            (0..9).filter_map(move |k| Some((free_corner(t, k / 3)?, free_corner(t, k % 3)?)))
+        });
+        let matrix = BlockCsr::with_pattern(free, pairs);
+        let mut places = vec![u32::MAX; triangles.len() * 9];
+        for (t, triangle) in triangles.iter().enumerate() {
+            for k in 0..9 {
+                if let (Some(i), Some(j)) = (free_corner(triangle, k / 3), free_corner(triangle, k % 3)) {
+                    places[9 * t + k] = matrix.place(i, j);
+                }
+            }
+        }
+        let total_area = triangles.iter().map(|t| t.area).sum();
+        Self { triangles, places, matrix, total_area }
+    }
+
+    /// Area-weighted mean energy; `None` where a triangle is not positive.
+    pub fn energy(&self, z: &[DVec2]) -> Option<f64> {
+        let mut sum = 0.0;
+        for t in &self.triangles {
+            sum += t.area * symmetric_dirichlet::density(&t.jacobian(&t.positions(z)))?;
+        }
+        Some(sum / self.total_area)
+    }
+
+    /// Gradient of [`FlatProblem::energy`] with respect to z.
+    pub fn gradient(&self, z: &[DVec2], gradient: &mut [DVec2]) {
+        gradient.fill(DVec2::ZERO);
+        for t in &self.triangles {
+            let slope = symmetric_dirichlet::gradient(&t.jacobian(&t.positions(z)));
+            for (corner, hat) in t.corners.iter().zip(&t.hats) {
+                if let Corner::Free(v, motion) = corner {
+                    let pull = slope * *hat * (t.area / self.total_area);
+                    gradient[*v as usize] += unrotate(motion, pull);
+                }
+            }
+        }
+    }
+
+    fn assemble(&mut self, z: &[DVec2]) {
+        self.matrix.clear();
+        self.add_hessian(z, 1.0);
+        self.matrix.regularise(1e-10);
+    }
+
+    /// Adds the projected Hessian of [`FlatProblem::energy`], scaled.
+    fn add_hessian(&mut self, z: &[DVec2], scale: f64) {
+        for t in 0..self.triangles.len() {
+            let triangle = &self.triangles[t];
+            let weight = scale * triangle.area / self.total_area;
+            let mut hessian = FaceHessian::ZERO;
+            for term in symmetric_dirichlet::hessian(&triangle.jacobian(&triangle.positions(z))) {
+                hessian.add(weight * term.weight, &term.matrix());
+            }
+            self.add_face(t, &hessian);
+        }
+    }
+
+    /// Adds a Hessian with respect to the Jacobian of triangle `t`.
+    #[inline]
+    fn add_face(&mut self, t: usize, hessian: &FaceHessian) {
+        let triangle = &self.triangles[t];
+        let turns = triangle.corners.map(|corner| match corner {
+            Corner::Free(_, motion) => DMat2::from_cols(motion.rotation, motion.rotation.perp()),
+            Corner::Fixed(_) => DMat2::ZERO,
+        });
+        for i in 0..3 {
+            let half = [0, 1].map(|row| hessian.row(triangle.hats[i], row));
+            let unturn = turns[i].transpose();
+            for j in i..3 {
+                let place = self.places[9 * t + 3 * i + j];
+                if place == u32::MAX {
+                    continue;
+                }
+                let g = triangle.hats[j];
+                let block = unturn * (half[0] * g.x + half[1] * g.y) * turns[j];
+                self.matrix.add_at(place, block);
+                if i != j {
+                    self.matrix.add_at(self.places[9 * t + 3 * j + i], block.transpose());
+                }
+            }
+        }
+    }
+
+    /// Newton's direction for a slope, with the Hessian of this energy (scaled) and further Hessians by triangle and by
+    /// unknown.
+    ///
+    /// `damping` is added to the diagonal, relative to it.
+    pub(in crate::surface_map) fn direction(
+        &mut self,
+        z: &[DVec2],
+        (barrier, damping): (f64, f64),
+        (hessians, by_unknown): (&[FaceHessian], &[(u32, DMat2)]),
+        (slope, tolerance): (&[DVec2], f64),
+    ) -> Vec<DVec2> {
+        self.matrix.clear();
+        self.add_hessian(z, barrier);
+        for (t, hessian) in hessians.iter().enumerate() {
+            self.add_face(t, hessian);
+        }
+        for (unknown, hessian) in by_unknown {
+            self.matrix.add_at(self.matrix.place(*unknown, *unknown), *hessian);
+        }
+        self.matrix.regularise(damping);
+        let downhill: Vec<DVec2> = slope.iter().map(|g| -*g).collect();
+        let mut step = vec![DVec2::ZERO; z.len()];
+        BlockCg::default().solve(&mut self.matrix, &downhill, &mut step, (tolerance, 500));
+        step
+    }
+
+    /// The triangle's corners as unknowns: number and motion, `None` where fixed.
+    pub(in crate::surface_map) fn free_corner(&self, t: usize, k: usize) -> Option<(usize, Rigid2)> {
+        match self.triangles[t].corners[k] {
+            Corner::Free(v, motion) => Some((v as usize, motion)),
+            Corner::Fixed(_) => None,
+        }
+    }
+
+    /// The triangles.
+    pub(in crate::surface_map) fn triangles(&self) -> &[FlatTriangle] {
+        &self.triangles
+    }
+
+    /// The Jacobians of all triangles.
+    pub(in crate::surface_map) fn jacobians<'s>(
+        &'s self,
+        z: &'s [DVec2],
+    ) -> impl Iterator<Item = DMat2> + 's {
+        self.triangles.iter().map(|t| t.jacobian(&t.positions(z)))
+    }
+
+    /// Lowers the energy from a valid z (every triangle positive) until a step gains too little.
+    ///
+    /// # Errors
+    /// [`Cancelled`]; z is valid then too.
+    pub fn relax(
+        &mut self,
+        z: &mut [DVec2],
+        options: &FlatRelaxOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<FlatRelaxReport, Cancelled> {
+        let mut report = FlatRelaxReport::default();
+        let Some(mut energy) = self.energy(z) else { return Ok(report) };
+        report.energies.push(energy);
+        let n = z.len();
+        let (mut slope, mut step, mut trial) =
+            (vec![DVec2::ZERO; n], vec![DVec2::ZERO; n], vec![DVec2::ZERO; n]);
+        let mut cg = BlockCg::default();
+        for k in 0..options.max_steps {
+            monitor.step(Step { fraction: k as f64 / (k as f64 + 8.0), residual: Some(energy) })?;
+            self.gradient(z, &mut slope);
+            self.assemble(z);
+            slope.iter_mut().for_each(|g| *g = -*g);
+            report.cg_iterations +=
+                cg.solve(&mut self.matrix, &slope, &mut step, (options.linear_tolerance, 500));
+            let descent: f64 = slope.iter().zip(&step).map(|(g, d)| g.dot(*d)).sum();
+            let Some(next) = self.line_search(z, &step, &mut trial, (energy, descent)) else { break };
+            z.copy_from_slice(&trial);
+            let gained = energy - next;
+            energy = next;
+            report.energies.push(energy);
+            if gained < options.relative_decrease * energy {
+                break;
+            }
+        }
+        Ok(report)
+    }
+
+    /// The energy after an Armijo step, written to `trial`; `None` where no step lowers it.
+    fn line_search(
+        &self,
+        z: &[DVec2],
+        step: &[DVec2],
+        trial: &mut [DVec2],
+        (energy, descent): (f64, f64),
+    ) -> Option<f64> {
+        let mut t = (0.9 * self.first_degenerate(z, step)).min(1.0);
+        for _ in 0..40 {
+            for i in 0..z.len() {
+                trial[i] = z[i] + t * step[i];
+            }
+            if let Some(next) = self.energy(trial)
+                && next <= energy - 1e-4 * t * descent
+            {
+                return Some(next);
+            }
+            t *= 0.5;
+        }
+        None
+    }
+
+    /// The smallest positive t at which a triangle of z + t step degenerates.
+    pub(in crate::surface_map) fn first_degenerate(&self, z: &[DVec2], step: &[DVec2]) -> f64 {
+        let root = |t: &FlatTriangle| {
+            let (p, d) = (t.positions(z), t.displacements(step));
+            let (e1, e2, d1, d2) = (p[1] - p[0], p[2] - p[0], d[1] - d[0], d[2] - d[0]);
+            smallest_positive_root(d1.perp_dot(d2), e1.perp_dot(d2) + d1.perp_dot(e2), e1.perp_dot(e2))
+        };
+        self.triangles.iter().map(root).fold(f64::INFINITY, min)
+    }
+}
+
+pub(in crate::surface_map) fn unrotate(motion: &Rigid2, d: DVec2) -> DVec2 {
+    crate::math::rigid2::conj_mul(motion.rotation, d)
+}
+
+/// The smallest positive root of a t^2 + b t + c, where c > 0; infinite where there is none.
+fn smallest_positive_root(a: f64, b: f64, c: f64) -> f64 {
+    let discriminant = b * b - 4.0 * a * c;
+    if discriminant < 0.0 {
+        return f64::INFINITY;
+    }
+    let q = -0.5 * (b + discriminant.sqrt().copysign(b));
+    let roots = [q / a, c / q];
+    roots.into_iter().filter(|t| *t > 0.0).fold(f64::INFINITY, min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::monitor::Silent;
+    use glam::DVec3;
+
+    /// A fan of six triangles around a free centre and a ring of six free vertices inside a fixed hexagon.
+    fn problem() -> (FlatProblem, Vec<DVec2>) {
+        let ring = |r: f64, k: usize| {
+            let angle = std::f64::consts::TAU * k as f64 / 6.0;
+            DVec2::new(r * crate::math::scalar::cos(angle), r * crate::math::scalar::sin(angle))
+        };
+        let turn = Rigid2 { rotation: DVec2::new(0.6, 0.8), translation: DVec2::new(0.4, -2.0) };
+        let mut z = vec![DVec2::new(0.1, -0.05)];
+        z.extend((0..6).map(|k| turn.inverse().apply(ring(1.0, k) + DVec2::new(0.03 * k as f64, 0.1))));
+        let free = |k: usize| Corner::Free(1 + (k % 6) as u32, turn);
+        let fixed = |k: usize| Corner::Fixed(ring(2.0, k % 6));
+        let lift = |p: DVec2| DVec3::new(p.x, p.y, 0.2 * p.x * p.y);
+        let mut triangles = Vec::new();
+        for k in 0..6 {
+            let (inner, next) = (ring(1.0, k), ring(1.0, k + 1));
+            let (outer, outer_next) = (ring(2.0, k), ring(2.0, k + 1));
+            let centre = Corner::Free(0, Rigid2::IDENTITY);
+            let mut add =
+                |c: [Corner; 3], p: [DVec2; 3]| triangles.push(FlatTriangle::with_rest(c, p.map(lift)));
+            add([centre, free(k), free(k + 1)], [DVec2::ZERO, inner, next]);
+            add([free(k), fixed(k), fixed(k + 1)], [inner, outer, outer_next]);
+            add([free(k), fixed(k + 1), free(k + 1)], [inner, outer_next, next]);
+        }
+        (FlatProblem::new(triangles, 7), z)
+    }
+
+    #[test]
+    fn gradient_and_hessian_are_difference_quotients() {
+        let (mut problem, z) = problem();
+        let n = z.len();
+        let mut slope = vec![DVec2::ZERO; n];
+        problem.gradient(&z, &mut slope);
+        for v in 0..n {
+            for axis in [DVec2::X, DVec2::Y] {
+                let moved = |h: f64| {
+                    let mut y = z.clone();
+                    y[v] += axis * h;
+                    problem.energy(&y).unwrap()
+                };
+                let quotient = (moved(1e-6) - moved(-1e-6)) / 2e-6;
+                assert!((quotient - slope[v].dot(axis)).abs() < 1e-8, "{quotient} {}", slope[v].dot(axis));
+            }
+        }
+        problem.assemble(&z);
+        let direction: Vec<_> =
+            (0..n).map(|i| DVec2::new(0.3 - 0.1 * i as f64, 0.2 * i as f64 - 0.5)).collect();
+        let mut image = vec![DVec2::ZERO; n];
+        problem.matrix.multiply(&direction, &mut image);
+        let model: f64 = image.iter().zip(&direction).map(|(a, b)| a.dot(*b)).sum();
+        let at = |h: f64| {
+            let y: Vec<_> = z.iter().zip(&direction).map(|(p, d)| *p + *d * h).collect();
+            problem.energy(&y).unwrap()
+        };
+        let truth = (at(1e-4) - 2.0 * at(0.0) + at(-1e-4)) / 1e-8;
+        // The projected Hessian is at least the true one, and near it where few terms are projected.
+        assert!(model > truth - 1e-4 && model < 1.5 * truth, "{model} {truth}");
+    }
+
+    #[test]
+    fn newton_ends_where_the_gradient_vanishes() {
+        let (mut problem, mut z) = problem();
+        let options = FlatRelaxOptions {
+            relative_decrease: 1e-14,
+            linear_tolerance: 1e-8,
+            ..FlatRelaxOptions::default()
+        };
+        let report = problem.relax(&mut z, &options, &mut Silent).unwrap();
+        assert!(report.energies.windows(2).all(|e| e[1] <= e[0]));
+        let mut slope = vec![DVec2::ZERO; z.len()];
+        problem.gradient(&z, &mut slope);
+        assert!(slope.iter().all(|g| g.length() < 1e-6), "{slope:?}");
+        assert!(report.energies.len() < 15, "{:?}", report.energies);
+    }
+
+    #[test]
+    fn roots() {
+        assert_eq!(smallest_positive_root(1.0, -3.0, 2.0), 1.0);
+        assert_eq!(smallest_positive_root(0.0, -2.0, 1.0), 0.5);
+        assert_eq!(smallest_positive_root(1.0, 1.0, 1.0), f64::INFINITY);
+        assert_eq!(smallest_positive_root(0.0, 0.0, 1.0), f64::INFINITY);
+    }
+}

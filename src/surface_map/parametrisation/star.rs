@@ -1,0 +1,82 @@
+//! The star of one vertex developed into a plane, and the best place for the vertex in it.
+
+use super::kernel::Kernel;
+use super::rest_triangle::FlatTriangle;
+use crate::math::rigid2::Rigid2;
+use crate::math::scalar::atan2;
+use crate::math::triangle::signed_double_area;
+use crate::mesh::HalfedgeId;
+use crate::surface_map::energy::symmetric_dirichlet;
+use glam::{DMat2, DVec2};
+use std::f64::consts::TAU;
+
+/// The star of a vertex, seen from the plane of its first face.
+#[derive(Clone, Default)]
+pub struct Star {
+    pub halfedges: Vec<HalfedgeId>,
+    /// From the plane of the first face to that of each.
+    pub motions: Vec<Rigid2>,
+    /// Heads of the halfedges.
+    pub ring: Vec<DVec2>,
+    pub triangles: Vec<FlatTriangle>,
+    pub kernel: Kernel,
+}
+
+impl Star {
+    /// Three Newton steps on the star's energy.
+    pub fn improved(&self, start: DVec2) -> DVec2 {
+        let energy_at = |z: DVec2| {
+            self.triangles
+                .iter()
+                .try_fold(0.0, |sum, t| Some(sum + t.area * symmetric_dirichlet::density(&t.jacobian_at(z))?))
+        };
+        let (mut z, Some(mut least)) = (start, energy_at(start)) else { return start };
+        for _ in 0..3 {
+            let (slope, curvature) = self.derivatives(z);
+            let mut step = -(curvature.inverse() * slope);
+            for _ in 0..12 {
+                if let Some(next) = energy_at(z + step)
+                    && next < least
+                {
+                    z += step;
+                    least = next;
+                    break;
+                }
+                step *= 0.5;
+            }
+        }
+        z
+    }
+
+    fn derivatives(&self, z: DVec2) -> (DVec2, DMat2) {
+        let (mut slope, mut curvature) = (DVec2::ZERO, DMat2::ZERO);
+        for t in &self.triangles {
+            let j = t.jacobian_at(z);
+            slope += symmetric_dirichlet::gradient(&j) * t.hats[0] * t.area;
+            for term in symmetric_dirichlet::hessian(&j) {
+                let pull = term.apply(t.hats[0]);
+                curvature += DMat2::from_cols(pull * pull.x, pull * pull.y) * (term.weight * t.area);
+            }
+        }
+        (slope, curvature)
+    }
+
+    /// Whether the triangles of the star are positive and turn around z once.
+    pub fn turns_once(&self, z: DVec2) -> bool {
+        let mut turn = 0.0;
+        for k in 0..self.ring.len() {
+            let (p, q) = (self.ring[k], self.ring[(k + 1) % self.ring.len()]);
+            if signed_double_area(z, p, q) <= 0.0 {
+                return false;
+            }
+            turn += turn_at(z, p, q);
+        }
+        (turn - TAU).abs() < 1e-6
+    }
+}
+
+/// The angle at `apex` from p to q, in radians, positive counter-clockwise.
+pub fn turn_at(apex: DVec2, p: DVec2, q: DVec2) -> f64 {
+    let (p, q) = (p - apex, q - apex);
+    atan2(p.perp_dot(q), p.dot(q))
+}

@@ -1,0 +1,88 @@
+//! Between embeddings and the unknowns of a relaxation: one point per free vertex.
+
+use super::embedding::{Embedding, Parametrised};
+use super::problem::FlatProblem;
+use super::rest_triangle::{Corner, FlatTriangle};
+use crate::math::rigid2::Rigid2;
+use crate::math::scalar::{cos, sin};
+use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
+use glam::DVec2;
+use typed_index_collections::{TiVec, ti_vec};
+
+/// The free vertices of a parametrised mesh with their numbers as unknowns. A vertex has its coordinates in the plane of
+/// its first face.
+pub struct Unknowns<'a> {
+    mesh: &'a SurfaceMesh,
+    /// The free vertices, in order.
+    free: Vec<VertexId>,
+    /// By halfedge: its start as seen from its face.
+    sights: TiVec<HalfedgeId, Corner>,
+}
+
+impl<'a> Unknowns<'a> {
+    /// All vertices but the landmarks, in order.
+    pub fn new(side: Parametrised<'a>) -> Self {
+        let Parametrised { mesh, landmark_vertices, embedding } = side;
+        let mut is_landmark = ti_vec![false; mesh.vertex_count()];
+        landmark_vertices.iter().for_each(|&v| is_landmark[v] = true);
+        let mut sights: TiVec<HalfedgeId, Corner> =
+            embedding.corners.iter().map(|&p| Corner::Fixed(p)).collect();
+        let mut free = Vec::with_capacity(mesh.vertex_count());
+        for v in mesh.vertices().filter(|&v| !is_landmark[v]) {
+            let mut motion = Rigid2::IDENTITY;
+            for h in mesh.star(v) {
+                sights[h] = Corner::Free(free.len() as u32, motion);
+                motion = embedding.transitions[h.prev()].after(&motion);
+            }
+            free.push(v);
+        }
+        Self { mesh, free, sights }
+    }
+
+    /// The flat problem of the whole mesh; its triangles are the mesh's faces in order.
+    pub fn problem(&self) -> FlatProblem {
+        let triangle = |f: FaceId| {
+            let corners = [0, 1, 2].map(|k| self.sights[HalfedgeId::of(f, k)]);
+            FlatTriangle::with_rest(corners, self.mesh.corners(f))
+        };
+        FlatProblem::new(self.mesh.faces().map(triangle).collect(), self.free.len())
+    }
+
+    /// A corner as an unknown: number and motion, `None` where fixed.
+    pub fn sight(&self, h: HalfedgeId) -> Option<(u32, Rigid2)> {
+        match self.sights[h] {
+            Corner::Free(number, motion) => Some((number, motion)),
+            Corner::Fixed(_) => None,
+        }
+    }
+
+    /// The unknowns of an embedding with the same transitions.
+    pub fn points(&self, embedding: &Embedding) -> Vec<DVec2> {
+        self.free.iter().map(|&v| embedding.corners[self.mesh.outgoing(v)]).collect()
+    }
+
+    /// The unknowns of an embedding; from attempt 1 on each is moved by a tiny part of its shortest edge, every time more,
+    /// in a direction that scatters with its number.
+    pub fn nudged(&self, embedding: &Embedding, attempt: usize) -> Vec<DVec2> {
+        const GOLDEN: f64 = 2.399_963_229_728_653;
+        let corners = &embedding.corners;
+        let shortest = |v: VertexId| {
+            let length = |h: HalfedgeId| corners[h].distance(corners[h.next()]);
+            self.mesh.star(v).map(length).fold(f64::INFINITY, f64::min)
+        };
+        let size = (1..attempt).fold(1e-9, |size, _| size * 6.0);
+        let mut z = self.points(embedding);
+        for (k, (point, &v)) in z.iter_mut().zip(&self.free).enumerate().filter(|_| attempt > 0) {
+            let angle = GOLDEN * ((k + 1) % 1_000_003) as f64;
+            *point += DVec2::new(cos(angle), sin(angle)) * (size * shortest(v));
+        }
+        z
+    }
+
+    /// Writes the corners that unknowns mean.
+    pub fn place(&self, z: &[DVec2], corners: &mut TiVec<HalfedgeId, DVec2>) {
+        for (corner, sight) in corners.iter_mut().zip(&self.sights) {
+            *corner = sight.position(z);
+        }
+    }
+}

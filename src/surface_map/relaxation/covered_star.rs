@@ -1,0 +1,222 @@
+//! The star of one vertex with the triangles of the other side over it: the energy of the map there, as a function of the
+//! vertex' place alone.
+//!
+//! While a vertex moves within its star, the star as a whole is overlapped by the same few triangles of the other mesh:
+//! developed into the vertex' plane they share convex polygons with the star's triangles.
+
+use super::clipping::BoxedTriangle;
+use super::dent_energy::DentEnergy;
+use crate::math::rigid2::Rigid2;
+use crate::math::scalar::{ln, max, min};
+use crate::math::triangle::signed_double_area;
+use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::surface_map::overlay::Overlay;
+use crate::surface_map::parametrisation::embedding::Parametrised;
+use crate::surface_map::parametrisation::rest_triangle::{Corner, FlatTriangle};
+use glam::{DMat2, DVec2};
+use typed_index_collections::{TiVec, ti_vec};
+
+/// A face of the other side that overlaps a face.
+#[derive(Clone, Copy)]
+pub struct Partner {
+    pub face: FaceId,
+    /// From the plane of the own face to the partner's.
+    pub motion: Rigid2,
+}
+
+/// One side with what overlaps its faces.
+pub struct Sheet<'a> {
+    pub side: Parametrised<'a>,
+    pub is_landmark: TiVec<VertexId, bool>,
+    pub corners: TiVec<HalfedgeId, DVec2>,
+    pub partners: TiVec<FaceId, Vec<Partner>>,
+}
+
+/// A triangle of a star, seen from the place of its vertex.
+pub struct Ray {
+    pub halfedge: HalfedgeId,
+    /// From the star's plane to the face's.
+    pub motion: Rigid2,
+    pub ring: [DVec2; 2],
+    /// Gradients of the hat functions in the rest plane, that of the star's vertex first.
+    pub hats: [DVec2; 3],
+}
+
+/// A triangle of the other side over a star.
+pub struct Cover {
+    pub face: FaceId,
+    /// From the star's plane to the face's.
+    pub motion: Rigid2,
+    pub triangle: BoxedTriangle,
+    /// From the star's plane to the rest plane.
+    pub onto_rest: DMat2,
+}
+
+/// A vertex with the triangles around it and those over them, in a plane whose origin is the vertex.
+pub struct CoveredStar {
+    pub rays: Vec<Ray>,
+    pub covers: Vec<Cover>,
+    /// Where the origin is in the plane of the first face.
+    pub origin: DVec2,
+}
+
+/// Both sides with what overlaps their faces, by their overlay.
+pub fn sheets<'a>(sides: [Parametrised<'a>; 2], overlay: &Overlay) -> [Sheet<'a>; 2] {
+    let mut sheets = sides.map(|side| {
+        let mut is_landmark = ti_vec![false; side.mesh.vertex_count()];
+        side.landmark_vertices.iter().for_each(|&v| is_landmark[v] = true);
+        let partners = ti_vec![Vec::new(); side.mesh.face_count()];
+        Sheet { side, is_landmark, corners: side.embedding.corners.clone(), partners }
+    });
+    for piece in &overlay.pieces {
+        let (s, t) = (piece.source_face, piece.target_face);
+        sheets[0].partners[s].push(Partner { face: t, motion: piece.motion });
+        sheets[1].partners[t].push(Partner { face: s, motion: piece.motion.inverse() });
+    }
+    sheets
+}
+
+impl Sheet<'_> {
+    /// The face with its rest shape.
+    fn rest(&self, f: FaceId) -> FlatTriangle {
+        FlatTriangle::with_rest(self.triangle(f).map(Corner::Fixed), self.side.mesh.corners(f))
+    }
+
+    /// The face in its plane.
+    pub fn triangle(&self, f: FaceId) -> [DVec2; 3] {
+        [0, 1, 2].map(|k| self.corners[HalfedgeId::of(f, k)])
+    }
+
+    /// From the face's rest plane to its plane.
+    pub fn jacobian(&self, f: FaceId) -> DMat2 {
+        self.rest(f).jacobian_at(DVec2::ZERO)
+    }
+}
+
+impl CoveredStar {
+    /// The star of a free vertex.
+    pub fn around(own: &Sheet<'_>, other: &Sheet<'_>, v: VertexId) -> Self {
+        let mesh = own.side.mesh;
+        let origin = own.corners[mesh.outgoing(v)];
+        let mut star = Self { rays: Vec::new(), covers: Vec::new(), origin };
+        let mut motion = Rigid2::IDENTITY;
+        for h in mesh.star(v) {
+            let (f, back) = (h.face(), motion.inverse());
+            let hats = own.rest(f).hats;
+            let k = h.corner();
+            star.rays.push(Ray {
+                halfedge: h,
+                motion,
+                ring: [h.next(), h.prev()].map(|h| back.apply(own.corners[h]) - origin),
+                hats: [hats[k], hats[(k + 1) % 3], hats[(k + 2) % 3]],
+            });
+            for partner in &own.partners[f] {
+                star.cover(other, partner.face, partner.motion.after(&motion));
+            }
+            motion = own.side.embedding.transitions[h.prev()].after(&motion);
+        }
+        star
+    }
+
+    /// Adds a triangle of the other side, unless it is there.
+    fn cover(&mut self, other: &Sheet<'_>, face: FaceId, motion: Rigid2) {
+        let back = motion.inverse();
+        let corners = [0, 1, 2].map(|k| back.apply(other.corners[HalfedgeId::of(face, k)]) - self.origin);
+        let size = corners[0].distance(corners[1]);
+        let is_same = |cover: &Cover| {
+            cover.face == face && cover.triangle.corners[0].distance(corners[0]) < 1e-6 * size
+        };
+        if self.covers.iter().any(is_same) {
+            return;
+        }
+        let rest = other.jacobian(face).inverse();
+        let onto_rest = rest * DMat2::from_cols(motion.rotation, motion.rotation.perp());
+        self.covers.push(Cover { face, motion, triangle: BoxedTriangle::new(corners), onto_rest });
+    }
+
+    /// Whether the covers' shares add up to the star.
+    pub fn is_covered(&self) -> bool {
+        let (mut area, mut covered) = (0.0, 0.0);
+        for ray in &self.rays {
+            let [p, q] = ray.ring;
+            let own = BoxedTriangle::new([DVec2::ZERO, p, q]);
+            area += 0.5 * p.perp_dot(q);
+            covered += self.covers.iter().map(|cover| own.overlap(&cover.triangle)).sum::<f64>();
+        }
+        (covered - area).abs() < 1e-7 * area
+    }
+
+    /// What is lowered; `None` where a triangle is not positive.
+    pub fn cost(&self, z: DVec2, energy: &DentEnergy) -> Option<f64> {
+        let mut cost = 0.0;
+        for ray in &self.rays {
+            let [p, q] = ray.ring;
+            if signed_double_area(z, p, q) <= 0.0 {
+                return None;
+            }
+            let column = |c: fn(DVec2) -> f64| z * c(ray.hats[0]) + p * c(ray.hats[1]) + q * c(ray.hats[2]);
+            let jacobian = DMat2::from_cols(column(|g| g.x), column(|g| g.y));
+            let scale = 1.0 / jacobian.determinant();
+            let own = BoxedTriangle::new([z, p, q]);
+            for cover in &self.covers {
+                let area = own.overlap(&cover.triangle);
+                if area > 0.0 {
+                    cost += area * scale * energy.density(&(cover.onto_rest * jacobian));
+                }
+            }
+        }
+        Some(cost)
+    }
+
+    /// A better place with its cost's logarithm, by one step of Newton's method.
+    pub fn improved(&self, z: DVec2, least: f64, energy: &DentEnergy) -> Option<(DVec2, f64)> {
+        let at = |z: DVec2| self.cost(z, energy).map(ln);
+        let height = |ray: &Ray| {
+            let [p, q] = ray.ring;
+            signed_double_area(z, p, q) / p.distance(q)
+        };
+        let room = self.rays.iter().map(height).fold(f64::INFINITY, min);
+        let h = 1e-3 * room;
+        let [e, w] = [at(z + DVec2::new(h, 0.0))?, at(z - DVec2::new(h, 0.0))?];
+        let [n, s] = [at(z + DVec2::new(0.0, h))?, at(z - DVec2::new(0.0, h))?];
+        let corner = at(z + DVec2::new(h, h))?;
+        let slope = DVec2::new(e - w, n - s) / (2.0 * h);
+        let [xx, yy] = [(e + w - 2.0 * least), (n + s - 2.0 * least)].map(|sum| sum / (h * h));
+        let xy = (corner - e - n + least) / (h * h);
+        let mut step = newton(slope, [xx, xy, yy], 10.0 * room)?;
+        for _ in 0..6 {
+            if let Some(cost) = at(z + step)
+                && cost < least
+            {
+                return Some((z + step, cost));
+            }
+            step *= 0.3;
+        }
+        None
+    }
+}
+
+/// Newton's step with the Hessian's eigenvalues made positive, no longer than `longest`.
+fn newton(slope: DVec2, [xx, xy, yy]: [f64; 3], longest: f64) -> Option<DVec2> {
+    let (mean, difference) = (0.5 * (xx + yy), 0.5 * (xx - yy));
+    let root = (difference * difference + xy * xy).sqrt();
+    let first = DVec2::new(xy, mean + root - xx).normalize_or(DVec2::X);
+    let least = slope.length() / longest;
+    let [a, b] = [mean + root, mean - root].map(|eigenvalue| max(eigenvalue.abs(), least));
+    let step = -(first * (first.dot(slope) / a) + first.perp() * (first.perp().dot(slope) / b));
+    step.is_finite().then_some(step)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bowl_is_left_for_its_bottom_in_one_step() {
+        let (bottom, [xx, xy, yy]) = (DVec2::new(0.3, -0.2), [2.0, 0.5, 1.0]);
+        let slope = -DVec2::new(xx * bottom.x + xy * bottom.y, xy * bottom.x + yy * bottom.y);
+        assert!(newton(slope, [xx, xy, yy], 10.0).unwrap().abs_diff_eq(bottom, 1e-14));
+        // Where it bends down, the step goes down still.
+        assert!(newton(slope, [-xx, xy, yy], 10.0).unwrap().dot(slope) < 0.0);
+    }
+}

@@ -1,0 +1,29 @@
+//! The energy by which dents are healed: that of the map, and a steep cost of large densities.
+
+use crate::surface_map::energy::map_energy::MapEnergy;
+use crate::surface_map::measures::distortion::LocalDistortion;
+use glam::DMat2;
+
+/// The energy of the map plus the cost of dents.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DentEnergy {
+    /// The energy of the map.
+    pub energy: MapEnergy,
+    /// Pieces with a density above this are dents.
+    pub brink: f64,
+}
+
+impl DentEnergy {
+    /// The density, in units of the brink, at which the cost of a dent is 1 on either surface; it grows with the density's
+    /// sixth power.
+    const DEAR: f64 = 2.5;
+
+    /// The energy per unit of source area.
+    #[inline]
+    pub(super) fn density(&self, j: &DMat2) -> f64 {
+        let local = LocalDistortion::of(j);
+        let excess = local.density / (Self::DEAR * self.brink);
+        let cube = excess * excess * excess;
+        self.energy.density(j) + (1.0 + local.area) * cube * cube
+    }
+}

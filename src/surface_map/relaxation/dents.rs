@@ -1,0 +1,348 @@
+//! The worst places of a map are healed.
+//!
+//! An integral hardly sees a distortion of a thousand on a millionth of the surface, and a Newton step of the whole map is no
+//! longer than such a place allows. So when a map is relaxed, the vertices of its worst pieces, of either mesh, move once
+//! more, one at a time. While a vertex moves within its star, the star as a whole is overlapped by the same few triangles of
+//! the other mesh: developed into the vertex' plane they share convex polygons with the star's triangles. What is lowered is
+//! the energy of the map there and the density's sixth power, which is nearly its maximum and still smooth: by Newton's
+//! method in two unknowns, from difference quotients of the logarithm. The worst come first; what does not move any more
+//! rests until something moves beside it. Triangles stay positive, and all else stays as it is.
+
+use super::clipping::BoxedTriangle;
+use super::covered_star::{CoveredStar, Partner, Sheet, sheets};
+use super::dent_energy::DentEnergy;
+use crate::math::scalar::{ln, max};
+use crate::math::triangle::signed_double_area;
+use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::surface_map::measures::distortion::{self, LocalDistortion};
+use crate::surface_map::overlay::{Overlay, Piece};
+use crate::surface_map::parametrisation::cone_surface::ConeSurface;
+use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
+use crate::surface_map::parametrisation::rest_triangle::rest_jacobian;
+use glam::{DMat2, DVec2};
+use std::collections::{BTreeMap, BTreeSet};
+use typed_index_collections::TiVec;
+
+/// How worst places are healed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DentOptions {
+    /// The brink between two poses of one body: pieces with a density above it are dents.
+    pub pose_brink: f64,
+    /// The brink of other maps, where large distortion may be right.
+    pub brink: f64,
+    /// Sweeps over the vertices of all dents, at most.
+    pub sweeps: usize,
+    /// Further sweeps over those of the deepest, with a density above ten times the brink, at most.
+    pub deep_sweeps: usize,
+    /// The share of all vertices that may move in one sweep: those of the worst pieces.
+    pub share: f64,
+}
+
+impl Default for DentOptions {
+    fn default() -> Self {
+        Self { pose_brink: 20.0, brink: 500.0, sweeps: 12, deep_sweeps: 40, share: 0.006 }
+    }
+}
+
+/// A vertex that lowers the cost of its star by less than this share rests.
+const REST: f64 = 5e-3;
+
+/// So many vertices may move in a sweep over meshes of any size.
+const LEAST: usize = 20;
+
+/// From so many times the brink on dents are deep.
+const DEEP: f64 = 10.0;
+
+/// Moves the vertices of the worst pieces; `overlay` is that of both sides. `None` where there is no dent, or nothing helps.
+///
+/// Triangles that were positive stay so, and what is lowered never grows.
+pub fn heal(
+    sides: [Parametrised<'_>; 2],
+    (overlay, surface): (&Overlay, &ConeSurface),
+    (options, energy): (&DentOptions, DentEnergy),
+) -> Option<[Embedding; 2]> {
+    let mut healer = Healer { sheets: sheets(sides, overlay), energy, at_rest: BTreeSet::new() };
+    let mut faces = dented(sides, overlay, energy.brink);
+    let vertices = sides.iter().map(|side| side.mesh.vertex_count()).sum::<usize>();
+    let most = ((options.share * vertices as f64) as usize).max(LEAST);
+    let mut moved = false;
+    for sweep in 0..options.sweeps + options.deep_sweeps {
+        let depth = if sweep < options.sweeps { 1.0 } else { DEEP };
+        let (mut dented, worst) = healer.worst(&faces, (depth * energy.brink, most));
+        if worst.is_empty() {
+            break;
+        }
+        for vertex in worst {
+            let Some(star) = healer.settled(vertex) else {
+                healer.at_rest.insert(vertex);
+                continue;
+            };
+            moved = true;
+            healer.wake(vertex.0, &star);
+            match vertex.0 {
+                0 => dented.extend(star.rays.iter().map(|ray| ray.halfedge.face())),
+                _ => dented.extend(star.covers.iter().map(|cover| cover.face)),
+            }
+        }
+        faces = dented;
+    }
+    moved.then(|| {
+        healer.sheets.map(|sheet| {
+            let mut embedding = Embedding { corners: sheet.corners, ..sheet.side.embedding.clone() };
+            embedding.normalise_anchors(surface);
+            embedding
+        })
+    })
+}
+
+/// The source faces with dents.
+fn dented(sides: [Parametrised<'_>; 2], overlay: &Overlay, brink: f64) -> BTreeSet<FaceId> {
+    let [a, b] =
+        sides.map(|side| side.mesh.faces().map(|f| rest_jacobian(side, f)).collect::<TiVec<FaceId, DMat2>>());
+    let density = |piece: &Piece| {
+        let turn = DMat2::from_cols(piece.motion.rotation, piece.motion.rotation.perp());
+        LocalDistortion::of(&(b[piece.target_face].inverse() * turn * a[piece.source_face])).density
+    };
+    let pieces = overlay.pieces.iter().filter(|piece| density(piece) > brink);
+    pieces.map(|piece| piece.source_face).collect()
+}
+
+struct Healer<'a> {
+    sheets: [Sheet<'a>; 2],
+    energy: DentEnergy,
+    /// Vertices that do not move any further while nothing moves around them.
+    at_rest: BTreeSet<(usize, VertexId)>,
+}
+
+impl Healer<'_> {
+    /// Which of some source faces have dents, and the vertices of their worst pieces that may move, with their sides: the worst
+    /// first, at most `most`.
+    fn worst(
+        &self,
+        faces: &BTreeSet<FaceId>,
+        (brink, most): (f64, usize),
+    ) -> (BTreeSet<FaceId>, Vec<(usize, VertexId)>) {
+        let [source, target] = &self.sheets;
+        let target_inverse = |t: FaceId| target.jacobian(t).inverse();
+        let mut found: BTreeMap<(usize, VertexId), f64> = BTreeMap::new();
+        let mut dented = BTreeSet::new();
+        for &s in faces {
+            let a = source.jacobian(s);
+            for partner in &source.partners[s] {
+                let turn = DMat2::from_cols(partner.motion.rotation, partner.motion.rotation.perp());
+                let density = LocalDistortion::of(&(target_inverse(partner.face) * turn * a)).density;
+                if density <= brink || !self.is_certain(s, partner) {
+                    continue;
+                }
+                dented.insert(s);
+                let on_source = source.side.mesh.triangles()[s].map(|v| (0, v));
+                let on_target = target.side.mesh.triangles()[partner.face].map(|v| (1, v));
+                for (k, v) in on_source.into_iter().chain(on_target) {
+                    if !self.sheets[k].is_landmark[v] && !self.at_rest.contains(&(k, v)) {
+                        let worst = found.entry((k, v)).or_default();
+                        *worst = max(*worst, density);
+                    }
+                }
+            }
+        }
+        let mut found: Vec<((usize, VertexId), f64)> = found.into_iter().collect();
+        found.sort_by(|a, b| b.1.total_cmp(&a.1));
+        found.truncate(most);
+        (dented, found.into_iter().map(|(vertex, _)| vertex).collect())
+    }
+
+    /// What lies around a vertex that has moved may move again.
+    fn wake(&mut self, k: usize, star: &CoveredStar) {
+        let own = star.rays.iter().map(|ray| (k, ray.halfedge.face()));
+        for (k, f) in own.chain(star.covers.iter().map(|cover| (1 - k, cover.face))) {
+            for v in self.sheets[k].side.mesh.triangles()[f] {
+                self.at_rest.remove(&(k, v));
+            }
+        }
+    }
+
+    /// Whether a source face and its partner share more than rounding can make.
+    fn is_certain(&self, s: FaceId, partner: &Partner) -> bool {
+        let [p, q] = [self.sheets[0].triangle(s), self.sheets[1].triangle(partner.face)];
+        let seen = BoxedTriangle::new(p.map(|corner| partner.motion.apply(corner)));
+        distortion::is_certain(seen.overlap(&BoxedTriangle::new(q)), [&p, &q])
+    }
+
+    /// Moves one vertex to lower the cost of its star; the star where it moved.
+    fn settled(&mut self, (k, v): (usize, VertexId)) -> Option<CoveredStar> {
+        let star = CoveredStar::around(&self.sheets[k], &self.sheets[1 - k], v);
+        if !star.is_covered() {
+            return None;
+        }
+        let start = ln(star.cost(DVec2::ZERO, &self.energy)?);
+        let (mut z, mut least) = (DVec2::ZERO, start);
+        for _ in 0..3 {
+            let Some((next, cost)) = star.improved(z, least, &self.energy) else { break };
+            let gained = least - cost;
+            (z, least) = (next, cost);
+            if gained < 0.01 {
+                break;
+            }
+        }
+        if least > start - REST {
+            return None;
+        }
+        self.place(k, &star, z).then_some(star)
+    }
+
+    /// Moves the vertex in the middle of a star; `false`, unchanged, where rounding turns a triangle over.
+    fn place(&mut self, k: usize, star: &CoveredStar, z: DVec2) -> bool {
+        let corners = &mut self.sheets[k].corners;
+        let before: Vec<DVec2> = star.rays.iter().map(|ray| corners[ray.halfedge]).collect();
+        for ray in &star.rays {
+            corners[ray.halfedge] = ray.motion.apply(star.origin + z);
+        }
+        let area = |h: HalfedgeId| signed_double_area(corners[h], corners[h.next()], corners[h.prev()]);
+        if star.rays.iter().any(|ray| area(ray.halfedge) <= 0.0) {
+            for (ray, corner) in star.rays.iter().zip(before) {
+                corners[ray.halfedge] = corner;
+            }
+            return false;
+        }
+        self.pair_anew(k, star, z);
+        true
+    }
+
+    /// Writes down what overlaps what now.
+    fn pair_anew(&mut self, k: usize, star: &CoveredStar, z: DVec2) {
+        let own: Vec<FaceId> = star.rays.iter().map(|ray| ray.halfedge.face()).collect();
+        for cover in &star.covers {
+            self.sheets[1 - k].partners[cover.face].retain(|partner| !own.contains(&partner.face));
+        }
+        for ray in &star.rays {
+            let face = ray.halfedge.face();
+            self.sheets[k].partners[face].clear();
+            let own = BoxedTriangle::new([z, ray.ring[0], ray.ring[1]]);
+            for cover in star.covers.iter().filter(|cover| own.overlap(&cover.triangle) > 0.0) {
+                let motion = cover.motion.after(&ray.motion.inverse());
+                self.sheets[k].partners[face].push(Partner { face: cover.face, motion });
+                self.sheets[1 - k].partners[cover.face].push(Partner { face, motion: motion.inverse() });
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::monitor::Silent;
+    use crate::surface_map::certify;
+    use crate::surface_map::energy::map_energy::MapEnergy;
+    use crate::surface_map::measures::distortion::{Distortion, distortion};
+    use crate::surface_map::overlay::location::locate;
+    use crate::surface_map::overlay::overlay;
+    use crate::surface_map::relaxation::covered_star::Ray;
+    use crate::surface_map::relaxation::map_relaxation::tests::{example, sides};
+    use crate::surface_map::relaxation::map_relaxation::{MapRelaxationOptions, relax};
+
+    const ENERGY: DentEnergy = DentEnergy { energy: MapEnergy::SMOOTH, brink: 20.0 };
+
+    fn overlaid(sides: [Parametrised<'_>; 2], surface: &ConeSurface) -> (Overlay, Distortion) {
+        let overlay = overlay(sides[0], sides[1], &locate(sides[0], sides[1], surface).unwrap()).unwrap();
+        let measured = distortion(sides[0], sides[1], &overlay);
+        (overlay, measured)
+    }
+
+    /// Puts a free vertex next to the middle of a side of its star that it can see, at `distance` of the way; `false` where
+    /// there is none.
+    fn dent(side: Parametrised<'_>, embedding: &mut Embedding, v: VertexId, distance: f64) -> bool {
+        let sheet = &sheets([side, side], &Overlay::default())[0];
+        let star = CoveredStar::around(sheet, sheet, v);
+        let middle = |ray: &Ray| (ray.ring[0] + ray.ring[1]) * 0.5 * (1.0 - distance);
+        let places: Vec<DVec2> = star.rays.iter().map(middle).collect();
+        let is_free =
+            |z: DVec2| star.rays.iter().all(|ray| signed_double_area(z, ray.ring[0], ray.ring[1]) > 0.0);
+        let Some(z) = places.into_iter().find(|z| is_free(*z)) else { return false };
+        for ray in &star.rays {
+            embedding.corners[ray.halfedge] = ray.motion.apply(star.origin + z);
+        }
+        true
+    }
+
+    fn free_vertices(side: Parametrised<'_>) -> impl Iterator<Item = VertexId> {
+        let is_free = move |v: &VertexId| !side.landmark_vertices.iter().any(|l| l == v);
+        side.mesh.vertices().filter(is_free)
+    }
+
+    #[test]
+    fn a_dent_is_healed() {
+        let (layout, surface, start) = example();
+        let options = MapRelaxationOptions::default();
+        let relaxed =
+            relax(sides(&layout, &start), &surface, &options, &mut Silent).unwrap().into_embeddings();
+        let (_, smooth) = overlaid(sides(&layout, &relaxed), &surface);
+        let mut healed_dents = 0;
+        for k in 0..2 {
+            for v in free_vertices(sides(&layout, &relaxed)[k]).step_by(11) {
+                let mut dented = relaxed.clone();
+                if !dent(sides(&layout, &relaxed)[k], &mut dented[k], v, 1e-3) {
+                    continue;
+                }
+                let (overlay, before) = overlaid(sides(&layout, &dented), &surface);
+                assert!(before.max > 1e3, "{}", before.max);
+                let around = (&overlay, &*surface);
+                let healed =
+                    heal(sides(&layout, &dented), around, (&DentOptions::default(), ENERGY)).unwrap();
+                let (_, after) = overlaid(sides(&layout, &healed), &surface);
+                assert!(after.max < 2.0 * smooth.max.max(ENERGY.brink), "{v:?}: {}", after.max);
+                assert!(after.energy < before.energy);
+                assert!(sides(&layout, &healed).into_iter().all(|side| certify(side, &surface).bijective));
+                healed_dents += 1;
+            }
+        }
+        assert!(healed_dents > 20, "{healed_dents}");
+    }
+
+    #[test]
+    fn without_a_dent_nothing_moves() {
+        let (layout, surface, start) = example();
+        let (overlay, measured) = overlaid(sides(&layout, &start), &surface);
+        let energy = DentEnergy { brink: 1.01 * measured.max, ..ENERGY };
+        let around = (&overlay, &*surface);
+        assert!(heal(sides(&layout, &start), around, (&DentOptions::default(), energy)).is_none());
+    }
+
+    #[test]
+    fn every_star_is_covered_and_its_cost_is_the_integral() {
+        let (layout, surface, start) = example();
+        let sides = sides(&layout, &start);
+        let (overlay, measured) = overlaid(sides, &surface);
+        let sheets = sheets(sides, &overlay);
+        let energy = DentEnergy { brink: f64::INFINITY, energy: MapEnergy::PLAIN };
+        for v in free_vertices(sides[0]) {
+            let star = CoveredStar::around(&sheets[0], &sheets[1], v);
+            assert!(star.is_covered(), "{v:?}");
+            let faces: Vec<FaceId> = star.rays.iter().map(|ray| ray.halfedge.face()).collect();
+            let pieces = overlay.pieces.iter().zip(&measured.by_piece);
+            let there = pieces.filter(|(piece, _)| faces.contains(&piece.source_face));
+            let integral: f64 = there
+                .map(|(piece, local)| {
+                    let area = piece.area / sheets[0].jacobian(piece.source_face).determinant();
+                    // E's density: |J|^2 + |J^-1|^2 det J.
+                    area * 2.0 * local.angle * (1.0 + local.area)
+                })
+                .sum();
+            let cost = star.cost(DVec2::ZERO, &energy).unwrap();
+            assert!((cost - integral).abs() < 1e-6 * integral, "{v:?}: {cost} {integral}");
+        }
+    }
+
+    #[test]
+    fn the_ring_of_a_star_closes() {
+        let (layout, _, start) = example();
+        let side = sides(&layout, &start)[1];
+        let sheet = &sheets([side, side], &Overlay::default())[0];
+        for v in free_vertices(side) {
+            let star = CoveredStar::around(sheet, sheet, v);
+            for (k, ray) in star.rays.iter().enumerate() {
+                let next = &star.rays[(k + 1) % star.rays.len()];
+                assert!(ray.ring[1].distance(next.ring[0]) < 1e-9, "{v:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! The energy of a map at one state, with what its derivatives need.
+
+use crate::math::scalar::ln;
+use crate::math::triangle::hat_gradients;
+use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::surface_map::energy::map_energy::MapEnergy;
+use crate::surface_map::energy::point_constraint::PointConstraint;
+use crate::surface_map::measures::distortion::quantile;
+use crate::surface_map::overlay::Measure;
+use crate::surface_map::overlay::location::Locations;
+use crate::surface_map::parametrisation::embedding::Parametrised;
+use crate::surface_map::parametrisation::problem::{FlatProblem, unrotate};
+use crate::surface_map::parametrisation::unknowns::Unknowns;
+use glam::{DMat2, DVec2};
+use typed_index_collections::TiVec;
+
+/// The overlay at some state with what derivatives need, seen from the moving side, which is the overlay's source.
+#[derive(Default)]
+pub struct Evaluation {
+    pub overlay: Measure,
+    /// Jacobians of the moving faces, from their rest planes.
+    pub jacobians: Vec<DMat2>,
+    /// Of each piece the Jacobian from the plane of the moving face to the rest plane of the fixed face.
+    pub onto_rest: Vec<DMat2>,
+    /// The energy of the map, without the barrier and the constraints.
+    pub energy: f64,
+    /// The energy of the constraints.
+    pub constrained: f64,
+    /// Their gradients by unknown.
+    pub constraint_slopes: Vec<(u32, DVec2)>,
+    /// Their Hessians by unknown.
+    pub constraint_hessians: Vec<(u32, DMat2)>,
+    /// The energy, the constraints and the barrier.
+    pub total: f64,
+}
+
+impl Evaluation {
+    /// Jacobians and energy of an overlay whose moving side is at z.
+    pub fn measure(
+        &mut self,
+        (problem, z): (&FlatProblem, &[DVec2]),
+        fixed_inverses: &TiVec<FaceId, DMat2>,
+        map_energy: MapEnergy,
+    ) {
+        self.jacobians.clear();
+        self.jacobians.extend(problem.jacobians(z));
+        self.onto_rest.clear();
+        self.onto_rest.extend(self.overlay.pieces().iter().map(|piece| {
+            fixed_inverses[piece.target_face] * DMat2::from_cols(piece.rotation, piece.rotation.perp())
+        }));
+        self.energy = self.integral(map_energy);
+    }
+
+    /// The energy of the constraints on the moving side, the first one; its vertices have been located.
+    pub fn constrain(
+        &mut self,
+        [from, onto]: [Parametrised<'_>; 2],
+        (unknowns, constraints): (&Unknowns<'_>, &[(VertexId, PointConstraint)]),
+        locations: &Locations,
+    ) {
+        self.constrained = 0.0;
+        self.constraint_slopes.clear();
+        self.constraint_hessians.clear();
+        for (v, constraint) in constraints {
+            let at = &locations.by_vertex[*v];
+            let Some((unknown, sight)) = unknowns.sight(at.corner) else { continue };
+            let q = at.motion.apply(from.embedding.corners[at.corner]);
+            let p = [0, 1, 2].map(|k| onto.embedding.corners[HalfedgeId::of(at.face, k)]);
+            let hats = hat_gradients(p);
+            let [second, third] = [1, 2].map(|k| (q - p[0]).dot(hats[k]));
+            let barycentric = [1.0 - second - third, second, third];
+            let turned = hats.map(|hat| unrotate(&sight, unrotate(&at.motion, hat)));
+            let term = constraint.term(onto.mesh.corners(at.face), barycentric, turned);
+            self.constrained += term.energy;
+            self.constraint_slopes.push((unknown, term.gradient));
+            self.constraint_hessians.push((unknown, term.hessian));
+        }
+    }
+
+    fn integral(&self, map_energy: MapEnergy) -> f64 {
+        let pieces = self.overlay.pieces().iter().zip(&self.onto_rest);
+        let part = pieces.map(|(piece, c)| {
+            let a = &self.jacobians[piece.source_face.index()];
+            piece.area / a.determinant() * map_energy.density(&(*c * *a))
+        });
+        part.sum()
+    }
+
+    /// Half the sum of the means of the density's logarithm over both surfaces.
+    pub fn mean_log(&self) -> f64 {
+        let (mut sums, mut areas) = ([0.0; 2], [0.0; 2]);
+        for (piece, c) in self.overlay.pieces().iter().zip(&self.onto_rest) {
+            let a = &self.jacobians[piece.source_face.index()];
+            let j = *c * *a;
+            let area = piece.area / a.determinant();
+            // With equal areas the distortion is the density.
+            let log = ln(MapEnergy::POSES.distortion(&j));
+            for (k, area) in [area, area * j.determinant()].into_iter().enumerate() {
+                sums[k] += log * area;
+                areas[k] += area;
+            }
+        }
+        0.5 * (sums[0] / areas[0] + sums[1] / areas[1])
+    }
+
+    /// The median distortion, each piece counted by its areas on both surfaces.
+    pub fn median(&self, map_energy: MapEnergy) -> f64 {
+        let pieces = self.overlay.pieces().iter().zip(&self.onto_rest);
+        let local = pieces.map(|(piece, c)| {
+            let a = &self.jacobians[piece.source_face.index()];
+            let j = *c * *a;
+            (map_energy.distortion(&j), piece.area / a.determinant() * (1.0 + j.determinant()))
+        });
+        let mut local: Vec<(f64, f64)> = local.collect();
+        local.sort_by(|a, b| a.0.total_cmp(&b.0));
+        quantile(&local, 0.5)
+    }
+}

@@ -1,0 +1,469 @@
+//! The relaxation of the map: its own energy from source to target is lowered.
+//!
+//! The energy is that of the composed map on its overlay, E = sum over pieces of |J|^2 dA_S + |J^-1|^2 dA_T, with a small
+//! share of the flat energy as a barrier. One side moves at a time. On a piece the map is C A with A the Jacobian of the
+//! moving triangle and C that of the target's inverse; when the moving side's edges sweep over the other side, the pieces'
+//! areas change too, which adds the jump of the density over each edge to the gradient (Reynolds' transport theorem).
+
+use super::evaluation::Evaluation;
+use crate::mesh::{FaceId, VertexId};
+use crate::monitor::{Cancelled, Monitor, Step};
+use crate::surface_map::energy::map_energy::MapEnergy;
+use crate::surface_map::energy::point_constraint::PointConstraint;
+use crate::surface_map::overlay::SideOf;
+use crate::surface_map::overlay::location::{Locations, Locator};
+use crate::surface_map::parametrisation::cone_surface::ConeSurface;
+use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
+use crate::surface_map::parametrisation::problem::{FaceHessian, FlatProblem, unrotate};
+use crate::surface_map::parametrisation::rest_triangle::rest_jacobian;
+use crate::surface_map::parametrisation::unknowns::Unknowns;
+use glam::{DMat2, DVec2};
+use typed_index_collections::TiVec;
+
+/// How far the energy of the map is lowered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapRelaxationOptions {
+    /// Rounds of one step on either side, at most.
+    pub max_rounds: usize,
+    /// Stops when a round lowers the energy by less than this share.
+    pub relative_decrease: f64,
+    /// Weight of the flat energy.
+    pub barrier: f64,
+    /// What is lowered.
+    pub energy: MapEnergy,
+}
+
+impl Default for MapRelaxationOptions {
+    fn default() -> Self {
+        Self { max_rounds: 20, relative_decrease: 5e-4, barrier: 0.03, energy: MapEnergy::SMOOTH }
+    }
+}
+
+/// A relaxed map.
+pub struct Relaxed<'a> {
+    relaxation: Relaxation<'a>,
+    /// What is lowered, before the first and after each step, without the barrier; 4 for an isometry without constraints. Empty where source and
+    /// target have no overlay.
+    pub energies: Vec<f64>,
+}
+
+impl Relaxed<'_> {
+    /// Both parametrisations.
+    pub fn into_embeddings(self) -> [Embedding; 2] {
+        self.relaxation.embeddings
+    }
+
+    /// Half the sum of the area-weighted means of the density's logarithm over both surfaces: 0 for an isometry, infinite
+    /// without an overlay.
+    pub fn mean_log(&self) -> f64 {
+        match self.energies.is_empty() {
+            true => f64::INFINITY,
+            false => self.relaxation.present.mean_log(),
+        }
+    }
+
+    /// Half of both surfaces is distorted by no more than this ([`MapEnergy::distortion`] with equal areas); not a number
+    /// without an overlay.
+    pub fn median(&self) -> f64 {
+        self.relaxation.present.median(MapEnergy::POSES)
+    }
+}
+
+/// Share of the diagonal that is added to the Hessian at first.
+const FIRST_DAMPING: f64 = 0.03;
+
+/// How often a start without an overlay is nudged.
+const NUDGES: usize = 8;
+
+/// Relative residual of the linear solves.
+const LINEAR_TOLERANCE: f64 = 0.03;
+
+/// Lowers the energy of the map by moving both parametrisations in turn; both stay valid at every step. Ends after
+/// the first round when the monitor wants a result: that takes away most of what new vertices have distorted.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn relax<'a>(
+    sides: [Parametrised<'a>; 2],
+    surface: &'a ConeSurface,
+    options: &'a MapRelaxationOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Relaxed<'a>, Cancelled> {
+    relax_constrained(sides, (surface, [&[], &[]]), options, monitor)
+}
+
+/// The same with vertices of either side that are drawn to places on the other.
+///
+/// While a side moves its own constraints count, so what is lowered is not quite the same for both.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn relax_constrained<'a>(
+    sides: [Parametrised<'a>; 2],
+    (surface, constraints): (&'a ConeSurface, [&'a [(VertexId, PointConstraint)]; 2]),
+    options: &'a MapRelaxationOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Relaxed<'a>, Cancelled> {
+    let mut relaxation = Relaxation::new(sides, (surface, constraints), options);
+    let mut energies = Vec::new();
+    if !relaxation.begin() {
+        return Ok(Relaxed { relaxation, energies });
+    }
+    energies.push(relaxation.energy());
+    monitor.relaxation_begins();
+    monitor.map_energy(relaxation.energy());
+    for round in 0..options.max_rounds {
+        let before = relaxation.energy();
+        for _ in 0..2 {
+            let fraction = round as f64 / options.max_rounds as f64;
+            monitor.step(Step { fraction, residual: Some(relaxation.energy()) })?;
+            if round > 0 && monitor.wants_result() {
+                break;
+            }
+            if relaxation.step() {
+                energies.push(relaxation.energy());
+                monitor.map_energy(relaxation.energy());
+            }
+            relaxation.exchange_roles();
+        }
+        let after = relaxation.energy();
+        if before - after < options.relative_decrease * after {
+            break;
+        }
+    }
+    Ok(Relaxed { relaxation, energies })
+}
+
+/// Both sides; one moves over the other.
+struct Relaxation<'a> {
+    sides: [Parametrised<'a>; 2],
+    surface: &'a ConeSurface,
+    constraints: [&'a [(VertexId, PointConstraint)]; 2],
+    options: &'a MapRelaxationOptions,
+    map_energy: MapEnergy,
+    unknowns: [Unknowns<'a>; 2],
+    problems: [FlatProblem; 2],
+    /// Where both sides are.
+    embeddings: [Embedding; 2],
+    /// Where the moving side may go.
+    trials: [Embedding; 2],
+    /// Of each face the Jacobian from its plane to its rest plane.
+    inverses: [TiVec<FaceId, DMat2>; 2],
+    damping: [f64; 2],
+    moving: usize,
+    locator: Locator,
+    locations: Locations,
+    present: Evaluation,
+    trial: Evaluation,
+}
+
+/// The derivatives of the energy by the Jacobian and the corners of one moving face.
+#[derive(Clone, Copy)]
+struct FaceDerivatives {
+    by_jacobian: DMat2,
+    by_corner: [DVec2; 3],
+}
+
+impl FaceDerivatives {
+    const ZERO: Self = Self { by_jacobian: DMat2::ZERO, by_corner: [DVec2::ZERO; 3] };
+}
+
+impl<'a> Relaxation<'a> {
+    fn new(
+        sides: [Parametrised<'a>; 2],
+        (surface, constraints): (&'a ConeSurface, [&'a [(VertexId, PointConstraint)]; 2]),
+        options: &'a MapRelaxationOptions,
+    ) -> Self {
+        let unknowns = sides.map(Unknowns::new);
+        let problems = [unknowns[0].problem(), unknowns[1].problem()];
+        let embeddings = sides.map(|side| side.embedding.clone());
+        let inverses =
+            sides.map(|side| side.mesh.faces().map(|f| rest_jacobian(side, f).inverse()).collect());
+        Self {
+            sides,
+            surface,
+            constraints,
+            options,
+            map_energy: options.energy,
+            unknowns,
+            problems,
+            trials: embeddings.clone(),
+            embeddings,
+            inverses,
+            damping: [FIRST_DAMPING; 2],
+            moving: 0,
+            locator: Locator::default(),
+            locations: Locations::default(),
+            present: Evaluation::default(),
+            trial: Evaluation::default(),
+        }
+    }
+
+    /// Evaluates the start, nudged where source and target coincide; `false` where it has no overlay.
+    fn begin(&mut self) -> bool {
+        let moving = self.moving;
+        for attempt in 0..NUDGES {
+            let z = self.unknowns[moving].nudged(&self.embeddings[moving], attempt);
+            if self.evaluate(&z) {
+                self.accept();
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Evaluates the moving side at z into `trial`; `false` where a triangle is not positive or there is no overlay.
+    fn evaluate(&mut self, z: &[DVec2]) -> bool {
+        let moving = self.moving;
+        let Some(flat) = self.problems[moving].energy(z) else { return false };
+        self.unknowns[moving].place(z, &mut self.trials[moving].corners);
+        let from = Parametrised { embedding: &self.trials[moving], ..self.sides[moving] };
+        let onto = Parametrised { embedding: &self.embeddings[1 - moving], ..self.sides[1 - moving] };
+        let located = self.locator.fill([from, onto], self.surface, &mut self.locations);
+        if located.is_err() || self.trial.overlay.fill([from, onto], &self.locations).is_err() {
+            return false;
+        }
+        self.trial.measure((&self.problems[moving], z), &self.inverses[1 - moving], self.map_energy);
+        self.trial.constrain(
+            [from, onto],
+            (&self.unknowns[moving], self.constraints[moving]),
+            &self.locations,
+        );
+        self.trial.total = self.trial.energy + self.trial.constrained + self.options.barrier * flat;
+        true
+    }
+
+    /// One damped Newton step of the moving side; `false` where none lowers the energy.
+    fn step(&mut self) -> bool {
+        let moving = self.moving;
+        let z = self.unknowns[moving].points(&self.embeddings[moving]);
+        let slope = self.gradient(&z);
+        let hessians = self.hessians();
+        let problem = &mut self.problems[moving];
+        let weights = (self.options.barrier, self.damping[moving]);
+        let hessians = (&hessians[..], &self.present.constraint_hessians[..]);
+        let step = problem.direction(&z, weights, hessians, (&slope, LINEAR_TOLERANCE));
+        let descent: f64 = -slope.iter().zip(&step).map(|(g, d)| g.dot(*d)).sum::<f64>();
+        if descent.is_nan() || descent <= 0.0 {
+            return false;
+        }
+        let longest = (0.9 * problem.first_degenerate(&z, &step)).min(1.0);
+        let mut t = longest;
+        for _ in 0..8 {
+            let trial: Vec<DVec2> = z.iter().zip(&step).map(|(p, d)| *p + *d * t).collect();
+            if self.evaluate(&trial) && self.trial.total <= self.present.total - 1e-4 * t * descent {
+                let damping = &mut self.damping[moving];
+                *damping = if t == longest { (*damping / 3.0).max(1e-6) } else { *damping * longest / t };
+                self.accept();
+                return true;
+            }
+            t *= 0.5;
+        }
+        false
+    }
+
+    fn accept(&mut self) {
+        let moving = self.moving;
+        std::mem::swap(&mut self.present, &mut self.trial);
+        std::mem::swap(&mut self.embeddings[moving], &mut self.trials[moving]);
+        self.embeddings[moving].normalise_anchors(self.surface);
+        self.trials[moving].anchors = self.embeddings[moving].anchors.clone();
+        self.inverses[moving] = self.present.jacobians.iter().map(DMat2::inverse).collect();
+    }
+
+    /// The other side moves now: the same overlay seen from there.
+    fn exchange_roles(&mut self) {
+        self.moving = 1 - self.moving;
+        self.present.overlay.exchange_roles();
+        let problem = &self.problems[self.moving];
+        let z = self.unknowns[self.moving].points(&self.embeddings[self.moving]);
+        self.present.measure((problem, &z), &self.inverses[1 - self.moving], self.map_energy);
+        let flat = problem.energy(&z).unwrap_or(f64::INFINITY);
+        self.locate_constrained();
+        self.present.total = self.present.energy + self.present.constrained + self.options.barrier * flat;
+    }
+
+    /// The constraints at the present state, where there are any.
+    fn locate_constrained(&mut self) {
+        let moving = self.moving;
+        let sides =
+            [moving, 1 - moving].map(|k| Parametrised { embedding: &self.embeddings[k], ..self.sides[k] });
+        let mut constraints = self.constraints[moving];
+        if !constraints.is_empty() && self.locator.fill(sides, self.surface, &mut self.locations).is_err() {
+            constraints = &[];
+        }
+        self.present.constrain(sides, (&self.unknowns[moving], constraints), &self.locations);
+    }
+
+    /// What is lowered, without the barrier; 4 for an isometry.
+    fn energy(&self) -> f64 {
+        (self.present.energy + self.present.constrained) / self.map_energy.unit()
+    }
+
+    /// The gradient of the energy and the barrier.
+    fn gradient(&self, z: &[DVec2]) -> Vec<DVec2> {
+        let problem = &self.problems[self.moving];
+        let mut slope = vec![DVec2::ZERO; z.len()];
+        problem.gradient(z, &mut slope);
+        slope.iter_mut().for_each(|g| *g *= self.options.barrier);
+        self.present.constraint_slopes.iter().for_each(|(v, own)| slope[*v as usize] += *own);
+        for (t, face) in self.face_derivatives().iter().enumerate() {
+            let triangle = &problem.triangles()[t];
+            for k in 0..3 {
+                if let Some((v, motion)) = problem.free_corner(t, k) {
+                    let pull = face.by_jacobian * triangle.hats[k] + face.by_corner[k];
+                    slope[v] += unrotate(&motion, pull);
+                }
+            }
+        }
+        slope
+    }
+
+    fn face_derivatives(&self) -> Vec<FaceDerivatives> {
+        let Evaluation { overlay, jacobians, onto_rest, .. } = &self.present;
+        let mut faces = vec![FaceDerivatives::ZERO; jacobians.len()];
+        let mut densities = Vec::with_capacity(onto_rest.len());
+        for (piece, c) in overlay.pieces().iter().zip(onto_rest) {
+            let t = piece.source_face.index();
+            let a = &jacobians[t];
+            let (det, j) = (a.determinant(), *c * *a);
+            let density = self.map_energy.density(&j) / det;
+            densities.push(density);
+            // d(h / det A) at fixed area on the cone surface.
+            let cofactor =
+                DMat2::from_cols(DVec2::new(a.y_axis.y, -a.y_axis.x), DVec2::new(-a.x_axis.y, a.x_axis.x));
+            let own = c.transpose() * self.map_energy.gradient(&j);
+            faces[t].by_jacobian += (own - cofactor * density) * (piece.area / det);
+        }
+        self.add_sweeps(&densities, &mut faces);
+        faces
+    }
+
+    /// Adds what the moving edges sweep over: the jump of the density times the area gained per motion of their ends.
+    fn add_sweeps(&self, densities: &[f64], faces: &mut [FaceDerivatives]) {
+        let corners = &self.embeddings[self.moving].corners;
+        for segment in self.present.overlay.segments(self.sides[self.moving].mesh, SideOf::Source) {
+            let h = segment.halfedge;
+            let along = (corners[h.next()] - corners[h]) * (segment.end - segment.begin);
+            let jump = densities[segment.left as usize] - densities[segment.right as usize];
+            let outwards = DVec2::new(along.y, -along.x) * jump;
+            let middle = 0.5 * (segment.begin + segment.end);
+            let by_corner = &mut faces[h.face().index()].by_corner;
+            by_corner[h.corner()] += outwards * (1.0 - middle);
+            by_corner[h.next().corner()] += outwards * middle;
+        }
+    }
+
+    fn hessians(&self) -> Vec<FaceHessian> {
+        let Evaluation { overlay, jacobians, onto_rest, .. } = &self.present;
+        let mut hessians = vec![FaceHessian::ZERO; jacobians.len()];
+        for (piece, c) in overlay.pieces().iter().zip(onto_rest) {
+            let t = piece.source_face.index();
+            let area = piece.area / jacobians[t].determinant();
+            for term in self.map_energy.hessian(&(*c * jacobians[t])) {
+                hessians[t].add(area * term.weight, &(c.transpose() * term.matrix()));
+            }
+        }
+        hessians
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::landmarks::Landmarks;
+    use crate::layout::{self, BaseLayout, LayoutOptions};
+    use crate::math::scalar::sin;
+    use crate::mesh::SurfaceMesh;
+    use crate::mesh::generators::icosphere;
+    use crate::monitor::Silent;
+    use crate::surface_map::certify;
+    use crate::surface_map::parametrisation::initial::{self, InitialOptions};
+    use glam::DVec3;
+    use std::sync::Arc;
+
+    fn nearest(mesh: &SurfaceMesh, p: DVec3) -> u32 {
+        let distance = |v: &crate::mesh::VertexId| mesh.positions()[*v].distance(p);
+        mesh.vertices().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap().0
+    }
+
+    pub fn sides<'a>(layout: &'a BaseLayout, embeddings: &'a [Embedding; 2]) -> [Parametrised<'a>; 2] {
+        [layout.source.parametrised(&embeddings[0]), layout.target.parametrised(&embeddings[1])]
+    }
+
+    /// A ball onto a bent, stretched ball with other connectivity.
+    pub fn example() -> (BaseLayout, Arc<ConeSurface>, [Embedding; 2]) {
+        let (source, ball) = (icosphere(2), icosphere(3));
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
+        let pairs: Vec<_> = axes.iter().map(|&p| [nearest(&source, p), nearest(&ball, p)]).collect();
+        let bend = |p: &DVec3| DVec3::new(1.6 * p.x, p.y + 0.4 * p.x * p.x, p.z * (1.0 + 0.3 * p.y));
+        let target = ball.with_positions(ball.positions().iter().map(bend).collect());
+        let landmarks = Landmarks::from_vertices(&source, &target, &pairs).unwrap();
+        let layout =
+            layout::joint([&source, &target], &landmarks, &LayoutOptions::default(), &mut Silent).unwrap();
+        let surface = Arc::new(ConeSurface::of_layout(&layout).unwrap());
+        let start = |side| initial::embed(side, &surface, &InitialOptions::default(), &mut Silent).unwrap().0;
+        let embeddings = [start(&layout.source), start(&layout.target)];
+        (layout, surface, embeddings)
+    }
+
+    #[test]
+    fn the_gradient_with_its_transport_term_is_the_difference_quotient() {
+        let (layout, surface, embeddings) = example();
+        let options = MapRelaxationOptions {
+            energy: MapEnergy { balance: 0.1, knee: 0.2 },
+            ..MapRelaxationOptions::default()
+        };
+        let mut relaxation = Relaxation::new(sides(&layout, &embeddings), (&surface, [&[], &[]]), &options);
+        assert!(relaxation.begin());
+        let z = relaxation.unknowns[0].points(&embeddings[0]);
+        let slope = relaxation.gradient(&z);
+        for seed in 1..6 {
+            let wave = |k: usize, phase: f64| 0.02 * sin(f64::from(seed) * 1.7 * k as f64 + phase);
+            let direction: Vec<_> = (0..z.len()).map(|k| DVec2::new(wave(k, 0.0), wave(k, 1.0))).collect();
+            let mut at = |h: f64| {
+                let moved: Vec<_> = z.iter().zip(&direction).map(|(p, d)| *p + *d * h).collect();
+                assert!(relaxation.evaluate(&moved));
+                relaxation.trial.total
+            };
+            let quotient = (at(1e-4) - at(-1e-4)) / 2e-4;
+            let exact: f64 = slope.iter().zip(&direction).map(|(g, d)| g.dot(*d)).sum();
+            assert!((quotient - exact).abs() < 1e-3 * exact.abs().max(0.01), "{quotient} {exact}");
+        }
+    }
+
+    /// Writes down what is told of the energy: `None` where a relaxation begins.
+    #[derive(Default)]
+    struct Listener(Vec<Option<f64>>);
+
+    impl Monitor for Listener {
+        fn relaxation_begins(&mut self) {
+            self.0.push(None);
+        }
+        fn map_energy(&mut self, energy: f64) {
+            self.0.push(Some(energy));
+        }
+        fn step(&mut self, _step: Step) -> Result<(), Cancelled> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn the_energy_falls_and_the_map_stays_certified() {
+        let (layout, surface, embeddings) = example();
+        let options = MapRelaxationOptions::default();
+        let mut told = Listener::default();
+        let relaxed = relax(sides(&layout, &embeddings), &surface, &options, &mut told).unwrap();
+        let expected: Vec<_> =
+            std::iter::once(None).chain(relaxed.energies.iter().copied().map(Some)).collect();
+        assert_eq!(told.0, expected);
+        assert!(relaxed.energies.len() > 2, "{:?}", relaxed.energies);
+        let (first, last) = (relaxed.energies[0], relaxed.energies[relaxed.energies.len() - 1]);
+        assert!(last < first && last > 4.0 - 1e-9, "{:?}", relaxed.energies);
+        assert!(
+            sides(&layout, &relaxed.into_embeddings())
+                .into_iter()
+                .all(|side| certify(side, &surface).bijective)
+        );
+    }
+}
