@@ -5,7 +5,7 @@ use super::mesh_with_coarse::{MeshWithCoarse, coarse_landmarks};
 use super::multilevel::{CoarseMap, solve_coarse};
 use super::options::MultilevelOptions;
 use crate::layout::{self, Candidate, Candidates, LayoutError, SearchOptions, SearchReport};
-use crate::monitor::{Cancelled, Monitor};
+use crate::monitor::{Cancelled, Monitor, Portion};
 use crate::surface_map::MapError;
 use serde::{Deserialize, Serialize};
 
@@ -66,14 +66,16 @@ pub fn choose_class<'a>(
         blame: vec![0; landmarks.len()],
     };
     let mut judge = |candidate: &Candidate, monitor: &mut dyn Monitor| finalists.judge(candidate, monitor);
-    let searched = layout::search(&mut candidates, &mut judge, options.search, monitor);
+    let looking = &mut Portion::new(monitor, 0.0, SEARCHED);
+    let searched = layout::search(&mut candidates, &mut judge, options.search, looking);
     let (_, mut search) = searched.map_err(|error| match error {
         LayoutError::NoMap { layouts, .. } => LayoutError::NoMap { layouts, near: finalists.blamed() },
         other => other,
     })?;
     let mut explored = vec![search.best];
-    for _ in 0..MOST_WINNERS {
-        let winner = finalists.decide(monitor)?;
+    for round in 0..MOST_WINNERS {
+        let share = |done: f64| SEARCHED + (DECIDED - SEARCHED) * (round as f64 + done) / MOST_WINNERS as f64;
+        let winner = finalists.decide(&mut Portion::new(monitor, share(0.0), share(0.5)))?;
         if explored.contains(&winner) || monitor.wants_result() {
             break;
         }
@@ -81,10 +83,11 @@ pub fn choose_class<'a>(
         let around = finalists.maps[0].candidate.clone();
         let mut judge =
             |candidate: &Candidate, monitor: &mut dyn Monitor| finalists.judge(candidate, monitor);
-        let more = layout::neighbours((&mut candidates, &around), &mut judge, options.search, monitor)?;
+        let near = &mut Portion::new(monitor, share(0.5), share(1.0));
+        let more = layout::neighbours((&mut candidates, &around), &mut judge, options.search, near)?;
         search.judged.extend(more);
     }
-    search.rival = finalists.compare_finer(monitor)?;
+    search.rival = finalists.compare_finer(&mut Portion::new(monitor, DECIDED, 1.0))?;
     if options.choice == ClassChoice::RunnerUp && finalists.maps.len() > 1 {
         finalists.maps.swap(0, 1);
         search.rival = search.rival.map(|rival| 1.0 / rival);
@@ -97,6 +100,10 @@ pub fn choose_class<'a>(
     search.best = best.number;
     Ok(Chosen { candidate: best.candidate, search, map: best.map })
 }
+
+/// The share of the time after which the search is over, and that after which a winner stands but for finer levels.
+const SEARCHED: f64 = 0.7;
+const DECIDED: f64 = 0.9;
 
 /// Winners whose twists are judged, at most.
 const MOST_WINNERS: usize = 4;

@@ -11,7 +11,7 @@ use super::options::MultilevelOptions;
 use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::coarsening::Level;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Portion};
 use crate::registration::patch_fit::OrientedSurface;
 use crate::registration::rigid_patches::{self, MappedLevel, RigidPatchOptions};
 use crate::surface_map::MapError;
@@ -87,10 +87,11 @@ impl CoarseMap<'_> {
     /// # Errors
     /// [`MapError::Cancelled`].
     pub fn finish(&mut self, options: &MultilevelOptions, monitor: &mut dyn Monitor) -> Result<(), MapError> {
-        self.relax(&options.coarse, monitor)?;
+        self.relax(&options.coarse, &mut Portion::new(monitor, 0.0, 0.5))?;
         if self.median < options.pose_median {
             self.energy = MapEnergy::POSES;
-            self.relax(&MapRelaxationOptions { energy: self.energy, ..options.coarse }, monitor)?;
+            let poses = MapRelaxationOptions { energy: self.energy, ..options.coarse };
+            self.relax(&poses, &mut Portion::new(monitor, 0.5, 1.0))?;
         }
         Ok(())
     }
@@ -145,16 +146,18 @@ impl CoarseMap<'_> {
         }
         let surfaces = [0, 1].map(|k| OrientedSurface::new(self.full[k]));
         let surfaces = [&surfaces[0], &surfaces[1]];
-        for _ in 0..options.rounds {
+        for round in 0..options.rounds {
             if monitor.wants_result() {
                 break;
             }
+            let share = |round: usize| round as f64 / options.rounds as f64;
+            let part = &mut Portion::new(monitor, share(round), share(round + 1));
             self.look(|k, seen, constraints| {
                 let found = rigid_patches::point_constraints([surfaces[k], surfaces[1 - k]], seen, options);
                 *constraints =
                     found.into_iter().map(|(v, constraint)| (seen.vertices[v], constraint)).collect();
             });
-            self.lower(&MapRelaxationOptions { max_rounds: 4, ..*fine }, monitor, |_| ())?;
+            self.lower(&MapRelaxationOptions { max_rounds: 4, ..*fine }, part, |_| ())?;
         }
         // Finer levels hold their vertices where they are now: another place for one of their small triangles would dent the map.
         self.look(|_, seen, constraints| {
@@ -171,15 +174,31 @@ impl CoarseMap<'_> {
     fn grow(&mut self, options: &MultilevelOptions, monitor: &mut dyn Monitor) -> Result<bool, MapError> {
         let mut grown = false;
         for level in &mut self.levels {
-            let (live, full) = (level.mesh().live_vertices(), level.full_vertices());
-            let next = (live as f64 * options.growth) as usize;
-            // No level that is only a little coarser than the full mesh.
-            let goal = if 2 * next > full { full } else { next };
+            let live = level.mesh().live_vertices();
+            let goal = options.next_level(live, level.full_vertices());
             grown |= goal > live;
             let quiet = InitialOptions { growth: f64::INFINITY, ..options.initial };
             initial::refine(level, goal, &quiet, monitor)?;
         }
         Ok(grown)
+    }
+
+    /// By finer level the share of the time of all that is over when it is done: it grows with the vertices.
+    fn level_shares(&self, options: &MultilevelOptions) -> Vec<f64> {
+        let mut live = self.levels.each_ref().map(|level| level.mesh().live_vertices());
+        let full = self.levels.each_ref().map(ParametrisedLevel::full_vertices);
+        let mut sums: Vec<f64> = Vec::new();
+        while live != full {
+            let next = [0, 1].map(|k| options.next_level(live[k], full[k]));
+            // Levels whose vertices are held cannot grow; there is no other end.
+            if next == live {
+                break;
+            }
+            live = next;
+            sums.push(sums.last().copied().unwrap_or(0.0) + (live[0] + live[1]) as f64);
+        }
+        let total = sums.last().copied().unwrap_or(1.0);
+        sums.into_iter().map(|sum| sum / total).collect()
     }
 
     /// Goes to the next finer level and judges the map there; `false` where there is none.
@@ -290,18 +309,26 @@ pub fn solve_fine(
     options: &MultilevelOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<[Embedding; 2], MapError> {
-    while map.grow(options, monitor)? {
+    let mut ends = map.level_shares(options).into_iter();
+    let mut done = 0.0;
+    loop {
+        let from = done;
+        done = ends.next().unwrap_or(1.0);
+        let level = &mut Portion::new(monitor, from, done);
+        if !map.grow(options, &mut Portion::new(level, 0.0, 0.1))? {
+            break;
+        }
         let fine = MapRelaxationOptions { energy: map.energy, ..options.fine };
         // Without constraints on the finest level their dents relax, and the map hardly moves otherwise.
         let is_finest = map.levels.iter().all(ParametrisedLevel::is_full);
         if is_finest {
             map.constraints = Default::default();
         }
-        map.lower(&fine, monitor, |_| ())?;
-        map.register_patches(&options.rigid_patches, &fine, monitor)?;
+        map.lower(&fine, &mut Portion::new(level, 0.1, 0.5), |_| ())?;
+        map.register_patches(&options.rigid_patches, &fine, &mut Portion::new(level, 0.5, 0.9))?;
         if is_finest && map.constraints.iter().any(|constraints| !constraints.is_empty()) {
             map.constraints = Default::default();
-            map.lower(&fine, monitor, |_| ())?;
+            map.lower(&fine, &mut Portion::new(level, 0.9, 1.0), |_| ())?;
         }
     }
     map.heal(&options.dents);

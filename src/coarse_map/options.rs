@@ -44,6 +44,15 @@ pub struct MultilevelOptions {
     pub dents: DentOptions,
 }
 
+impl MultilevelOptions {
+    /// Vertices of the level after one with `live` vertices, of a mesh with `full`.
+    pub(super) fn next_level(&self, live: usize, full: usize) -> usize {
+        let next = (live as f64 * self.growth) as usize;
+        // No level that is only a little coarser than the full mesh.
+        if 2 * next > full { full } else { next }
+    }
+}
+
 impl Default for MultilevelOptions {
     fn default() -> Self {
         Self {

@@ -15,7 +15,7 @@ use crate::landmark_suggestion::farthest_points;
 use crate::layout::SearchOptions;
 use crate::mesh::closest_point::closest_point;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
-use crate::monitor::{Cancelled, Monitor};
+use crate::monitor::{Cancelled, Monitor, Portion};
 use crate::surface_map::{ConeSurface, Embedding, MapError, certify};
 use glam::DVec3;
 use std::cell::OnceCell;
@@ -137,11 +137,13 @@ pub fn add<'a>(
     let mut best: Option<OwnCones<'a>> = None;
     let mut before: Vec<VertexId> = Vec::new();
     let mut without_gain = 0;
-    for (full_cell, levels_cell) in fulls.0.iter().zip(&all_levels.0) {
+    for (round, (full_cell, levels_cell)) in fulls.0.iter().zip(&all_levels.0).enumerate() {
+        let share = |done: f64| (round as f64 + done) / own.rounds as f64;
         if monitor.wants_result() {
             break;
         }
-        let pairs = pairs(full, &images, (&before, own.count), monitor)?;
+        let placing = &mut Portion::new(monitor, share(0.0), share(0.1));
+        let pairs = pairs(full, &images, (&before, own.count), placing)?;
         let Some(with_own) = with(inputs, full, &pairs).filter(|_| without_gain < own.patience) else {
             break;
         };
@@ -152,8 +154,10 @@ pub fn add<'a>(
             [0, 1].map(|k| MeshWithCoarse::new(&with_own[k].refined.mesh, &with_own[k].landmarks, vertices))
         });
         let options = ClassSearchOptions { multilevel, search: &own.search, choice: ClassChoice::Best };
-        let next = match choose_class(levels, options, monitor) {
-            Ok(chosen) => finished(chosen.map, multilevel, monitor)?,
+        let next = match choose_class(levels, options, &mut Portion::new(monitor, share(0.1), share(0.8))) {
+            Ok(chosen) => {
+                finished(chosen.map, multilevel, &mut Portion::new(monitor, share(0.8), share(1.0)))?
+            }
             Err(CoarseMapError::Cancelled(stop)) => return Err(stop),
             // No map with these points: others may do.
             Err(_) => continue,

@@ -11,7 +11,7 @@ use crate::coarse_map::{LandmarkedMesh, MeshWithCoarse, coarse_landmarks};
 use crate::landmarks::Landmarks;
 use crate::layout::{self, BaseLayout, LayoutError, SearchReport};
 use crate::mesh::{SurfaceMesh, VertexId};
-use crate::monitor::{Monitor, Stage};
+use crate::monitor::{Monitor, Portion, Stage};
 use crate::surface_map::overlay::location::{Locations, locate};
 use crate::surface_map::overlay::{Overlay, OverlayError, overlay};
 use crate::surface_map::{Certificate, ConeSurface, Embedding, MapError, Parametrised, certify};
@@ -188,22 +188,25 @@ fn coarse<'a>(
         Base::Joint => {
             let PipelineOptions { multilevel, search, class, .. } = options;
             let search_options = ClassSearchOptions { multilevel, search, choice: *class };
-            let chosen = choose_class(sides, search_options, monitor)?;
+            let chosen = choose_class(sides, search_options, &mut Portion::new(monitor, 0.0, 0.9))?;
             let Chosen { candidate, search, mut map } = chosen;
-            map.finish(&options.multilevel, monitor)?;
+            map.finish(&options.multilevel, &mut Portion::new(monitor, 0.9, 1.0))?;
             Ok((candidate.layout, search, map))
         }
         Base::Qem => {
             let landmarks = coarse_landmarks(sides);
             let meshes = [&sides[0].coarse.mesh, &sides[1].coarse.mesh];
-            let base = base_domain::simplify(input.target, &input.landmarks.target, monitor)?;
-            let layout = layout::from_base(meshes, &landmarks, &base, monitor)?;
-            let map = solve_coarse(sides, &layout, &options.multilevel, monitor);
+            let part = &mut Portion::new(monitor, 0.0, 0.3);
+            let base = base_domain::simplify(input.target, &input.landmarks.target, part)?;
+            let part = &mut Portion::new(monitor, 0.3, 0.5);
+            let layout = layout::from_base(meshes, &landmarks, &base, part)?;
+            let part = &mut Portion::new(monitor, 0.5, 0.8);
+            let map = solve_coarse(sides, &layout, &options.multilevel, part);
             let mut map = map.map_err(|error| match error {
                 MapError::Cancelled(stop) => PipelineError::from(stop),
                 _ => LayoutError::NoMap { layouts: 1, near: Vec::new() }.into(),
             })?;
-            map.finish(&options.multilevel, monitor)?;
+            map.finish(&options.multilevel, &mut Portion::new(monitor, 0.8, 1.0))?;
             Ok((layout, SearchReport::default(), map))
         }
     }

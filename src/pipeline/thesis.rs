@@ -47,10 +47,14 @@ fn draw(
 ) -> Result<BaseLayout, PipelineError> {
     let meshes = [input.source, input.target];
     Ok(match options.base {
-        Base::Joint => layout::joint(meshes, input.landmarks, &options.layout, monitor)?,
+        Base::Joint => {
+            let whole = &mut Portion::new(monitor, 0.0, 1.0);
+            layout::joint(meshes, input.landmarks, &options.layout, whole)?
+        }
         Base::Qem => {
-            let base = base_domain::simplify(input.target, &input.landmarks.target, monitor)?;
-            layout::from_base(meshes, input.landmarks, &base, monitor)?
+            let half = &mut Portion::new(monitor, 0.0, 0.5);
+            let base = base_domain::simplify(input.target, &input.landmarks.target, half)?;
+            layout::from_base(meshes, input.landmarks, &base, &mut Portion::new(monitor, 0.5, 1.0))?
         }
     })
 }
