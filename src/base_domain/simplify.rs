@@ -1,6 +1,6 @@
 //! Quadric error simplification down to exactly the protected vertices.
 
-use super::BaseDomain;
+use super::domain::BaseDomain;
 use crate::math::quadric::Quadric;
 use crate::mesh::coarsening::Entry;
 use crate::mesh::collapsible::{CollapsibleMesh, ShapeLimits};

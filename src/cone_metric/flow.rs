@@ -1,24 +1,14 @@
 //! The discrete Ricci flow, solved by Newton with conjugate gradients.
 
 use super::metric::{ConeMetric, FlipQueue, FlowState};
+use super::scheme::Scheme;
 use super::target::{self, TargetError};
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use crate::numerics::approximate_cholesky::ApproximateCholesky;
-use crate::numerics::laplacian::{Graph, LaplacianCg};
+use crate::numerics::graph::Graph;
+use crate::numerics::laplacian::LaplacianCg;
 use typed_index_collections::TiVec;
-
-/// The discrete conformal structure.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Scheme {
-    /// Inversive distances, kept weighted Delaunay by flips: always converges.
-    #[default]
-    InversiveDistance,
-    /// Vertex scaling, kept Delaunay by flips: always converges.
-    VertexScaling,
-    /// Inversive distances on the mesh's own triangles (the thesis; Yang et al. 2009): breaks down on limbs.
-    FixedTriangulation,
-}
 
 /// How the flow runs.
 #[derive(Clone, Copy, Debug, PartialEq)]

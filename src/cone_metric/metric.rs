@@ -1,6 +1,6 @@
 //! The state of the flow: an intrinsic triangulation with inversive distances and radii.
 
-use super::flow::Scheme;
+use super::scheme::Scheme;
 use crate::intrinsic::IntrinsicTriangulation;
 use crate::math::decorated::{
     flipped_inversive_distance, half_edge_weight, inversive_distance, squared_length, tilt,
@@ -8,7 +8,7 @@ use crate::math::decorated::{
 use crate::math::scalar::{atan2, exp, ln};
 use crate::math::triangle::area_from_lengths;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
-use crate::numerics::laplacian::Graph;
+use crate::numerics::graph::Graph;
 use std::f64::consts::TAU;
 use typed_index_collections::{TiVec, ti_vec};
 

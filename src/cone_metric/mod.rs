@@ -7,8 +7,10 @@
 pub mod atlas;
 mod flow;
 mod metric;
+mod scheme;
 pub mod target;
 
-pub use flow::{FlowError, FlowOptions, FlowReport, Scheme, flow};
+pub use flow::{FlowError, FlowOptions, FlowReport, flow};
 pub use metric::ConeMetric;
+pub use scheme::Scheme;
 pub use target::{TargetError, base_domain_curvature, listed_curvature, uniform_curvature};

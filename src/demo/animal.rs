@@ -1,8 +1,8 @@
 //! Four-legged shapes from one skeleton with different proportions. The nose points to +x, the left side to +z, up is +y.
 
-use super::Shape;
 use super::implicit::{RoundCone, SmoothUnion};
 use super::polygonise::polygonise;
+use super::shape::Shape;
 use glam::{DVec2, DVec3};
 
 /// Proportions; the body is about 2 long.

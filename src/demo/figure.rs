@@ -1,8 +1,8 @@
 //! A figure with two arms and two legs in two poses. It looks along +z; its left side is +x, up is +y.
 
-use super::Shape;
 use super::implicit::{RoundCone, SmoothUnion};
 use super::polygonise::polygonise;
+use super::shape::Shape;
 use glam::{DVec2, DVec3};
 
 /// Directions of the bones of one side; lengths are the same in all poses.

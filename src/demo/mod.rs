@@ -5,9 +5,11 @@ mod figure;
 mod implicit;
 mod polygonise;
 mod round;
+mod shape;
 
 use crate::mesh::{SurfaceMesh, VertexId};
 use glam::DVec3;
+use shape::Shape;
 
 /// A demo that can be built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,12 +62,6 @@ pub fn build(id: &str) -> Option<Demo> {
         "sphere-tetrahedron" => Some(pair(round::sphere(), round::tetrahedron())),
         _ => None,
     }
-}
-
-/// A shape with named points on it.
-struct Shape {
-    mesh: SurfaceMesh,
-    points: Vec<(&'static str, DVec3)>,
 }
 
 /// Pairs the points of equal place in both lists.

@@ -1,7 +1,7 @@
 //! A ball and a rounded tetrahedron, with the tetrahedron's corners, edges and faces as landmarks.
 
-use super::Shape;
 use super::polygonise::polygonise;
+use super::shape::Shape;
 use crate::math::scalar::{exp, ln};
 use crate::mesh::generators::{self, icosphere};
 use glam::DVec3;

@@ -3,7 +3,8 @@
 //!
 //! Buffers are the binary part of a GLB or data URIs. Accessors are read here with their bounds checked in u64.
 
-use super::{Place, Problem, weld};
+use super::problem::{Place, Problem};
+use super::reading::weld;
 use crate::mesh::soup::PolygonSoup;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;

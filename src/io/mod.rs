@@ -7,9 +7,14 @@ pub mod landmark_file;
 mod obj;
 mod off;
 mod ply;
+mod problem;
+mod reading;
 mod stl;
 
+pub use problem::Place;
+
 use crate::mesh::soup::PolygonSoup;
+use problem::Problem;
 use std::fmt;
 
 /// Files larger than this are refused.
@@ -39,30 +44,6 @@ impl fmt::Display for Format {
             Self::Stl => "STL",
             Self::Gltf => "glTF",
         })
-    }
-}
-
-/// Where in a file something is wrong.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
-    /// A line, 1-based.
-    Line(usize),
-    /// A vertex, 0-based.
-    Vertex(usize),
-    /// A face, 0-based.
-    Face(usize),
-    /// The file as a whole or its header.
-    Header,
-}
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Line(n) => write!(f, "line {n}"),
-            Self::Vertex(n) => write!(f, "vertex {n}"),
-            Self::Face(n) => write!(f, "face {n}"),
-            Self::Header => f.write_str("header"),
-        }
     }
 }
 
@@ -112,9 +93,6 @@ pub fn read_mesh(bytes: &[u8]) -> Result<PolygonSoup, ReadError> {
     check_numbers(&soup).map_err(malformed)?;
     Ok(soup)
 }
-
-/// What a reader says is wrong.
-type Problem = (Place, String);
 
 /// Tells the format by content.
 pub fn detect(bytes: &[u8]) -> Option<Format> {
@@ -171,38 +149,6 @@ fn check_numbers(soup: &PolygonSoup) -> Result<(), Problem> {
         }
     }
     Ok(())
-}
-
-/// The text of a file.
-fn text(bytes: &[u8]) -> Result<&str, Problem> {
-    let text = std::str::from_utf8(bytes).map_err(|e| {
-        let line = 1 + bytes[..e.valid_up_to()].iter().filter(|b| **b == b'\n').count();
-        (Place::Line(line), "it holds bytes that are not text: the file may be damaged".to_owned())
-    })?;
-    Ok(text.trim_start_matches('\u{feff}'))
-}
-
-/// A number of a text file.
-fn number<T: std::str::FromStr>(token: Option<&str>, line: usize, what: &str) -> Result<T, Problem> {
-    let token =
-        token.ok_or_else(|| (Place::Line(line), format!("{what} is missing: the file may be cut off")))?;
-    let short: String = token.chars().take(20).collect();
-    token.parse().map_err(|_| (Place::Line(line), format!("\"{short}\" should be {what}")))
-}
-
-/// Polygons name the first of the vertices with exactly equal coordinates; formats without shared vertices need it.
-fn weld(mut soup: PolygonSoup) -> PolygonSoup {
-    let mut first_at = rustc_hash::FxHashMap::default();
-    let joined = |(number, p): (u32, &glam::DVec3)| {
-        // Adding 0 makes -0 and 0 the same bits.
-        let key = (*p + glam::DVec3::ZERO).to_array().map(f64::to_bits);
-        *first_at.entry(key).or_insert(number)
-    };
-    soup.joined_with = (0..).zip(&soup.positions).map(joined).collect();
-    for v in soup.polygons.iter_mut().flatten() {
-        *v = soup.joined_with.get(*v as usize).copied().unwrap_or(u32::MAX);
-    }
-    soup
 }
 
 #[cfg(test)]

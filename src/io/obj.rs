@@ -1,6 +1,7 @@
 //! Wavefront OBJ: vertices and faces; the vertex order of the file is kept.
 
-use super::{Place, Problem, number, text};
+use super::problem::{Place, Problem};
+use super::reading::{number, text};
 use crate::mesh::soup::PolygonSoup;
 use glam::DVec3;
 

@@ -1,6 +1,7 @@
 //! OFF (also COFF and NOFF: colours and normals are passed over); the vertex order of the file is kept.
 
-use super::{Place, Problem, number, text};
+use super::problem::{Place, Problem};
+use super::reading::{number, text};
 use crate::mesh::soup::PolygonSoup;
 use glam::DVec3;
 

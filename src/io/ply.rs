@@ -1,6 +1,6 @@
 //! PLY, text and binary; the vertex order of the file is kept.
 
-use super::{Place, Problem};
+use super::problem::{Place, Problem};
 use crate::mesh::soup::PolygonSoup;
 use glam::DVec3;
 

@@ -1,6 +1,7 @@
 //! STL, text and binary: loose triangles, joined at equal coordinates. Vertex 3 t + k is corner k of triangle t.
 
-use super::{Place, Problem, number, text, weld};
+use super::problem::{Place, Problem};
+use super::reading::{number, text, weld};
 use crate::mesh::soup::PolygonSoup;
 use glam::DVec3;
 

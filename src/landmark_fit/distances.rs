@@ -1,6 +1,6 @@
 //! Distances between landmarks on the source against those on the target, by logarithm.
 
-use super::Finding;
+use super::finding::Finding;
 use crate::landmarks::Landmarks;
 use crate::layout::LandmarkDistances;
 use crate::math::scalar::{exp, ln, max, min};

@@ -5,9 +5,9 @@
 //! on the target, however near a and b are; and it reverses the orders around a and b that contain the other. So both
 //! votes, weighed, tell whether the targets fit as they are or exchanged.
 
-use super::Finding;
 use super::directions::Directions;
 use super::distances::Fit;
+use super::finding::Finding;
 use super::orders::pair_agreement;
 use crate::layout::LandmarkDistances;
 use crate::math::scalar::{max, min};

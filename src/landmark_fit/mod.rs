@@ -11,17 +11,18 @@ mod chirality;
 mod directions;
 mod distances;
 mod exchange;
+mod finding;
 mod orders;
 
+pub use finding::{Finding, Repair};
 pub use orders::order_agreement;
 
 use crate::landmarks::Landmarks;
 use crate::layout::LandmarkDistances;
-use crate::mesh::{SurfaceMesh, VertexId};
+use crate::mesh::SurfaceMesh;
 use directions::Directions;
 use distances::Fit;
 use exchange::Exchange;
-use std::fmt;
 
 /// Fewer landmarks than these say too little about orders, or about places.
 const LEAST_FOR_ORDERS: usize = 6;
@@ -32,101 +33,6 @@ const LEAST_FOR_PLACES: usize = 8;
 /// front and back are equally long, places in bent poses), the other one keeps the mean above: none of 1190 correct sets, 510
 /// of them bent, is below. Unbent mirror images are below in 96 %, all of them where all landmarks are used.
 const MIRRORED: f64 = -0.4;
-
-/// A doubt about landmark pairs; pairs are numbered from 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Finding {
-    /// The whole set is mirrored: left on one mesh is right on the other.
-    Mirrored {
-        /// Agreement of the orders around the landmarks and of their places in space, from -1 (all reversed) to 1.
-        agreement: f64,
-    },
-    /// Two pairs have each other's target.
-    Swapped {
-        /// The pairs.
-        pairs: [usize; 2],
-        /// From -1, where all others say that the targets are exchanged, to 1, where all say that they fit.
-        agreement: f64,
-        /// Mean misfit of both pairs' distances (absolute log ratio) as it is and with the targets exchanged; of near
-        /// pairs, such as eyes, it is small both ways.
-        misfit: [f64; 2],
-    },
-    /// One pair is far from where the others want it.
-    Misplaced {
-        /// The pair.
-        pair: usize,
-        /// Mean misfit of its distances (absolute log ratio) as it is and at the best place.
-        misfit: [f64; 2],
-        /// Distance of its target to the best place, in units of the root of the target's area.
-        distance: f64,
-        /// The best place: a vertex of the (coarse) target.
-        place: VertexId,
-        /// The pair whose target is nearest to that place, itself apart.
-        near: usize,
-    },
-}
-
-/// What to do about a finding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Repair {
-    /// Exchange the targets of two pairs.
-    Swap {
-        /// The pairs.
-        pairs: [usize; 2],
-    },
-    /// Mirror the target mesh, or exchange left and right in all pairs.
-    MirrorTarget,
-    /// Look at a pair.
-    Check {
-        /// The pair.
-        pair: usize,
-    },
-}
-
-impl Finding {
-    /// The repair to offer.
-    pub fn repair(&self) -> Repair {
-        match *self {
-            Self::Mirrored { .. } => Repair::MirrorTarget,
-            Self::Swapped { pairs, .. } => Repair::Swap { pairs },
-            Self::Misplaced { pair, .. } => Repair::Check { pair },
-        }
-    }
-
-    /// One sentence for the user, with the pairs by name; pairs without a name are counted from 1.
-    pub fn sentence(&self, labels: &[String]) -> String {
-        let name = |pair: usize| match labels.get(pair).filter(|label| !label.is_empty()) {
-            Some(label) => format!("{} ({label})", pair + 1),
-            None => (pair + 1).to_string(),
-        };
-        match *self {
-            Self::Mirrored { .. } => {
-                "The landmarks are mirrored: left on one mesh is right on the other. Mirror the \
-                                      target, or exchange left and right."
-                    .into()
-            }
-            Self::Swapped { pairs: [a, b], .. } => format!(
-                "The targets of the pairs {} and {} look swapped: exchanged, they lie among the others as on the source. \
-                 Exchange them.",
-                name(a),
-                name(b)
-            ),
-            Self::Misplaced { pair, near, .. } => format!(
-                "Pair {} does not fit the others: its target is expected elsewhere, near that of pair {}.",
-                name(pair),
-                name(near)
-            ),
-        }
-    }
-}
-
-impl fmt::Display for Finding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.sentence(&[]))
-    }
-}
 
 /// Checks whether landmark pairs can belong to a map of low distortion; no findings when all fit.
 ///

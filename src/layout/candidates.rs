@@ -1,11 +1,14 @@
 //! Layouts of one pair of meshes, one of each isotopy class, the most promising first.
 
+use super::base_layout::{BaseLayout, LayoutReport};
 use super::drawing::{Drawing, Planner};
-use super::geodesics::LandmarkDistances;
+use super::error::LayoutError;
 use super::isotopy::Class;
 use super::joint::{self, Ground};
+use super::landmark_distances::LandmarkDistances;
+use super::patches;
 use super::twists::{self, Twist};
-use super::{BaseLayout, LayoutError, VARIANTS, patches, report};
+use super::variants::VARIANTS;
 use crate::landmarks::Landmarks;
 use crate::mesh::SurfaceMesh;
 use crate::monitor::Monitor;
@@ -51,7 +54,7 @@ impl<'a> Candidates<'a> {
     /// Measures the distances between the landmarks. Nothing is drawn yet.
     pub fn new(meshes: [&'a SurfaceMesh; 2], landmarks: &'a Landmarks) -> Self {
         let empty = Drawing::new(meshes[0], meshes[1], landmarks);
-        let distances = LandmarkDistances::of_drawing(&empty);
+        let distances = empty.distances();
         Self {
             meshes,
             landmarks,
@@ -146,7 +149,7 @@ impl<'a> Candidates<'a> {
     }
 
     pub(super) fn candidate(&self, drawing: Drawing) -> Result<Candidate, LayoutError> {
-        let report = report(&drawing, &self.distances);
+        let report = LayoutReport::of(&drawing, &self.distances);
         let base = patches::base_of(&drawing, self.meshes[1], self.landmarks)?;
         let layout = patches::finish(drawing.clone(), base, self.meshes, report)?;
         Ok(Candidate { layout, drawing })

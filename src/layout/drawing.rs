@@ -1,6 +1,6 @@
 //! The growing drawing of one graph on two meshes: the same rotation system at every landmark.
 
-use super::geodesics::LandmarkDistances;
+use super::landmark_distances::LandmarkDistances;
 use super::path_search::{Bounded, EndStep, FoundPath, Node, PathSearch, Query, Sector};
 use super::refinable::RefinableMesh;
 use crate::landmarks::Landmarks;
@@ -67,6 +67,12 @@ impl Drawing {
             ends: Vec::new(),
             rotation: vec![Vec::new(); landmarks.len()],
         }
+    }
+
+    /// Distances on both meshes; nothing is drawn yet.
+    pub fn distances(&self) -> LandmarkDistances {
+        let [source, target] = &self.sides;
+        LandmarkDistances::without_paths([&source.mesh, &target.mesh], [&source.landmarks, &target.landmarks])
     }
 
     /// Plans a path: searched freely on one mesh, its sectors imposed on the other; both ways round, the shorter kept.

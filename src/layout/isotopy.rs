@@ -6,7 +6,7 @@
 //! layout is of the same class when every path of it crosses the same base edges of the first, in the same order, on both
 //! meshes. Paths are pushed to their left, which decides all coincidences.
 
-use super::{BaseLayout, PatchedMesh};
+use super::base_layout::{BaseLayout, PatchedMesh};
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use std::collections::VecDeque;
 use typed_index_collections::{TiVec, ti_vec};

@@ -1,35 +1,13 @@
 //! Which paths to draw, in which order: tree first, then the shortest and straightest.
 
 use super::drawing::{Drawing, Plan, Planner, SlotPairs};
-use super::geodesics::LandmarkDistances;
-use super::{LayoutError, TreeOrder};
+use super::error::LayoutError;
+use super::landmark_distances::LandmarkDistances;
+use super::variants::{PLAIN, TreeOrder, Variant};
 use crate::base_domain::BaseDomain;
 use crate::monitor::{Monitor, Step};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
-
-/// How one attempt draws.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Variant {
-    pub order: TreeOrder,
-    pub midpoint_penalty: f64,
-    /// Distances and keys are multiplied by up to 1 + this, by a hash of the pair and the seed.
-    pub perturbation: f64,
-    pub seed: u64,
-}
-
-impl Variant {
-    /// The factor of a pair of landmarks, from 1 to 1 + the perturbation.
-    fn factor(&self, [i, j]: [usize; 2]) -> f64 {
-        // splitmix64 (Steele, Lea, Flood 2014) of the pair and the seed.
-        let pair = ((i as u64) << 32) | j as u64;
-        let mut x = pair.wrapping_add(self.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
-        for multiplier in [0xbf58_476d_1ce4_e5b9_u64, 0x94d0_49bb_1331_11eb] {
-            x = (x ^ (x >> 30)).wrapping_mul(multiplier);
-        }
-        1.0 + self.perturbation * ((x >> 11) as f64 / (1_u64 << 53) as f64)
-    }
-}
 
 /// What an attempt needs beside its variant.
 pub(super) struct Ground<'a> {
@@ -76,9 +54,6 @@ pub(super) fn complete(
     Ok(())
 }
 
-/// Without perturbation; the order does not matter once a tree is drawn.
-pub(super) const PLAIN: Variant =
-    Variant { order: TreeOrder::LongestFirst, midpoint_penalty: 1.0, perturbation: 0.0, seed: 0 };
 /// Paths longer than this, relative to the shortest, are drawn anew.
 const BENT: f64 = 1.2;
 

@@ -1,7 +1,7 @@
 //! From a finished drawing to patches: the base domain's faces, flood filled, with a validator.
 
+use super::base_layout::{BaseLayout, LayoutReport, PatchedMesh};
 use super::drawing::{Drawing, Side};
-use super::{BaseLayout, LayoutReport, PatchedMesh};
 use crate::base_domain::BaseDomain;
 use crate::landmarks::Landmarks;
 use crate::mesh::{FaceId, HalfedgeId, MeshError, RefinedMesh, SurfaceMesh, VertexId};

@@ -3,8 +3,8 @@
 //! The judge is the mean logarithm of the distortion density, not the energy: that is 4 for every conformal map, and tells
 //! little about which of several ways round a limb is the right one.
 
-use super::LayoutError;
 use super::candidates::{Candidate, Candidates};
+use super::error::LayoutError;
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
 
 /// How long the class of the map is searched.

@@ -5,10 +5,11 @@
 //! e goes round it once more than e: exchanging e for it on one mesh alone is a Dehn twist. Both ends must have other
 //! tree edges, or the turn is about a single landmark and changes nothing.
 
-use super::LayoutError;
 use super::drawing::{Drawing, Planner};
-use super::joint::{DisjointSets, PLAIN, complete, straighten};
+use super::error::LayoutError;
+use super::joint::{DisjointSets, complete, straighten};
 use super::path_search::FoundPath;
+use super::variants::PLAIN;
 use crate::monitor::Monitor;
 
 /// A way to turn one group of landmarks against the other.

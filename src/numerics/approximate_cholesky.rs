@@ -4,7 +4,7 @@
 //! random tree with the same mean (Kyng & Sachdeva 2016; Gao, Kyng & Spielman 2023), so that the factor stays sparse. The
 //! seed is fixed: the same graph has the same factor.
 
-use super::laplacian::Graph;
+use super::graph::Graph;
 use crate::math::random::SplitMix;
 
 const NONE: u32 = u32::MAX;

@@ -2,4 +2,5 @@
 
 pub mod approximate_cholesky;
 pub mod block_csr;
+pub mod graph;
 pub mod laplacian;

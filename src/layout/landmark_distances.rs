@@ -1,6 +1,5 @@
 //! Distances on both meshes without paths: between all landmarks, and from every vertex to every landmark.
 
-use super::drawing::Drawing;
 use super::path_search::{for_each_link, position};
 use super::refinable::RefinableMesh;
 use crate::landmarks::Landmarks;
@@ -20,17 +19,18 @@ pub struct LandmarkDistances {
 impl LandmarkDistances {
     /// Measures both meshes.
     pub fn new(meshes: [&SurfaceMesh; 2], landmarks: &Landmarks) -> Self {
-        Self::of_drawing(&Drawing::new(meshes[0], meshes[1], landmarks))
+        let vertices = [&landmarks.source[..], &landmarks.target[..]];
+        let refinable = [0, 1].map(|s| RefinableMesh::new(meshes[s], vertices[s]));
+        Self::without_paths([&refinable[0], &refinable[1]], vertices)
     }
 
-    /// Measures on a drawing without paths.
-    pub(super) fn of_drawing(empty: &Drawing) -> Self {
+    /// Measures on meshes without paths.
+    pub(super) fn without_paths(meshes: [&RefinableMesh; 2], landmarks: [&[VertexId]; 2]) -> Self {
         let fields = [0, 1].map(|s| {
-            let side = &empty.sides[s];
-            let links = Links::new(&side.mesh);
-            side.landmarks.iter().map(|&v| links.distances_to(&side.mesh, v)).collect()
+            let links = Links::new(meshes[s]);
+            landmarks[s].iter().map(|&v| links.distances_to(meshes[s], v)).collect()
         });
-        Self { fields, landmarks: [0, 1].map(|s| empty.sides[s].landmarks.clone()) }
+        Self { fields, landmarks: landmarks.map(<[VertexId]>::to_vec) }
     }
 
     /// Number of landmarks.

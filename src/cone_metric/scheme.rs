@@ -1,0 +1,13 @@
+//! The discrete conformal structures.
+
+/// The discrete conformal structure.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scheme {
+    /// Inversive distances, kept weighted Delaunay by flips: always converges.
+    #[default]
+    InversiveDistance,
+    /// Vertex scaling, kept Delaunay by flips: always converges.
+    VertexScaling,
+    /// Inversive distances on the mesh's own triangles (the thesis; Yang et al. 2009): breaks down on limbs.
+    FixedTriangulation,
+}

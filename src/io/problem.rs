@@ -1,0 +1,30 @@
+//! What is wrong in a file, and where.
+
+use std::fmt;
+
+/// Where in a file something is wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A line, 1-based.
+    Line(usize),
+    /// A vertex, 0-based.
+    Vertex(usize),
+    /// A face, 0-based.
+    Face(usize),
+    /// The file as a whole or its header.
+    Header,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Line(n) => write!(f, "line {n}"),
+            Self::Vertex(n) => write!(f, "vertex {n}"),
+            Self::Face(n) => write!(f, "face {n}"),
+            Self::Header => f.write_str("header"),
+        }
+    }
+}
+
+/// What a reader says is wrong.
+pub type Problem = (Place, String);

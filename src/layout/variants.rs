@@ -1,0 +1,68 @@
+//! The ways to draw a layout: in which order the spanning tree is drawn, and what the orders weigh.
+
+/// In which order the spanning tree is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TreeOrder {
+    /// Longest edge first.
+    LongestFirst,
+    /// Layer by layer from the leaves.
+    LeavesFirst,
+    /// Shortest edge first.
+    ShortestFirst,
+}
+
+/// How one attempt draws.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Variant {
+    pub order: TreeOrder,
+    pub midpoint_penalty: f64,
+    /// Distances and keys are multiplied by up to 1 + this, by a hash of the pair and the seed.
+    pub perturbation: f64,
+    pub seed: u64,
+}
+
+impl Variant {
+    /// The factor of a pair of landmarks, from 1 to 1 + the perturbation.
+    pub fn factor(&self, [i, j]: [usize; 2]) -> f64 {
+        // splitmix64 (Steele, Lea, Flood 2014) of the pair and the seed.
+        let pair = ((i as u64) << 32) | j as u64;
+        let mut x = pair.wrapping_add(self.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        for multiplier in [0xbf58_476d_1ce4_e5b9_u64, 0x94d0_49bb_1331_11eb] {
+            x = (x ^ (x >> 30)).wrapping_mul(multiplier);
+        }
+        1.0 + self.perturbation * ((x >> 11) as f64 / (1_u64 << 53) as f64)
+    }
+}
+
+/// Without perturbation; the order does not matter once a tree is drawn.
+pub(super) const PLAIN: Variant =
+    Variant { order: TreeOrder::LongestFirst, midpoint_penalty: 1.0, perturbation: 0.0, seed: 0 };
+
+/// The orders of drawing, the best on average first.
+pub(super) const VARIANTS: [Variant; 16] = {
+    use TreeOrder::{LeavesFirst, LongestFirst, ShortestFirst};
+    const fn plain(order: TreeOrder, midpoint_penalty: f64) -> Variant {
+        Variant { order, midpoint_penalty, perturbation: 0.0, seed: 0 }
+    }
+    const fn perturbed(order: TreeOrder, perturbation: f64, seed: u64) -> Variant {
+        Variant { order, midpoint_penalty: 1.0, perturbation, seed }
+    }
+    [
+        plain(LongestFirst, 1.0),
+        plain(LeavesFirst, 1.0),
+        plain(LongestFirst, 1.3),
+        plain(LeavesFirst, 1.3),
+        plain(ShortestFirst, 1.0),
+        plain(ShortestFirst, 1.3),
+        perturbed(LongestFirst, 0.3, 1),
+        perturbed(LeavesFirst, 0.3, 2),
+        perturbed(ShortestFirst, 0.3, 3),
+        perturbed(LongestFirst, 0.3, 4),
+        perturbed(LeavesFirst, 0.6, 5),
+        perturbed(LongestFirst, 0.6, 6),
+        perturbed(ShortestFirst, 0.6, 7),
+        perturbed(LeavesFirst, 0.6, 8),
+        perturbed(LongestFirst, 1.0, 9),
+        perturbed(LeavesFirst, 1.0, 10),
+    ]
+};
