@@ -1,6 +1,6 @@
 /** The only place that turns codes into sentences. */
 import type { Failure, Progress } from './compute/messages.ts';
-import type { Suggestion } from './state.ts';
+import type { Suggestion } from './landmarks.ts';
 
 const STAGES: readonly (readonly [string, string, number])[] = [
   ['landmarks', 'Placing the landmarks', 0.02],
