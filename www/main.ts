@@ -54,7 +54,7 @@ const views = new Views(store.state, {
   pickDropped: () => {
     store.dispatch({ kind: 'pick-dropped' });
   },
-  // What the views say they say while a change is being shown: it comes after that change.
+  // The views may say this while they show a change; it is the next change then, not one within.
   failed: (sentence) => {
     queueMicrotask(() => {
       fail(sentence);

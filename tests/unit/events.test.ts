@@ -16,7 +16,7 @@ interface Case<K extends Event['kind']> {
 
 const TASK = { sentence: 'Reading the files…' };
 const PROGRESS = { stage: 'relaxation', fraction: 0.5, residual: null, energy: 5 };
-const [NOT_YET, A, B] = [mesh('horse.off'), suggestion(5, 'A'), suggestion(6, 'B')];
+const [HORSE, A, B] = [mesh('horse.off'), suggestion(5, 'A'), suggestion(6, 'B')];
 const PENDING = { side: 0, point: 7 } as const;
 const OPTIONS: RunOptions = { method: 'thesis', base: 'qem', cones: 'uniform', mapClass: 'runner-up', ownCones: 10 };
 const STYLE: Style = { surface: 'colours', patchLines: false, cones: false, markers: false };
@@ -51,9 +51,9 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
       findings: [SWAPPED],
       style: STYLE,
     },
-    event: { side: 0, file: NOT_YET },
+    event: { side: 0, file: HORSE },
     changes: {
-      meshes: [NOT_YET, DONE.meshes[1]],
+      meshes: [HORSE, DONE.meshes[1]],
       demo: null,
       pairs: [],
       named: [null, null],

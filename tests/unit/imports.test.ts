@@ -1,6 +1,6 @@
-/** The page's files and folders import each other in one direction. */
+/** The page's files import each other in one direction, and its parts as ARCHITECTURE.md says. */
 import { readdirSync, readFileSync } from 'node:fs';
-import { dirname, join, relative } from 'node:path';
+import { dirname, join, relative, sep } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import ts from 'typescript';
 import { expect, test } from 'vitest';
@@ -23,21 +23,12 @@ function imports(): Graph {
   );
 }
 
-/** The same between folders; a file beside them stands for itself. */
-function folders(graph: Graph): Graph {
-  const folderOf = (file: string): string => (dirname(file) === '.' ? file : dirname(file));
-  const between = new Map<string, Set<string>>();
-  for (const [file, targets] of graph) {
-    const from = folderOf(file);
-    const found = between.get(from) ?? new Set();
-    between.set(from, found);
-    for (const target of targets) {
-      if (folderOf(target) !== from) {
-        found.add(folderOf(target));
-      }
-    }
-  }
-  return between;
+/** The page's parts from the list in ARCHITECTURE.md, each with its line: folders, and files beside them. */
+function parts(): ReadonlyMap<string, number> {
+  const text = readFileSync(join(WWW, '../ARCHITECTURE.md'), 'utf8');
+  const list = /(?<=each only with what stands above it:\n\n)(?:- .*\n)+/.exec(text)?.[0] ?? '';
+  const names = (line: string): string[] => [...(line.split(': ')[0] ?? '').matchAll(/`(\w+)/g)].map(([, name]) => name ?? '');
+  return new Map(list.split('\n').flatMap((line, rank) => names(line).map((name) => [name, rank] as const)));
 }
 
 /** A way through the graph that comes back to its beginning; `null` where there is none. */
@@ -87,6 +78,22 @@ test('files import each other in one direction', () => {
   expect(circle(graph)).toBeNull();
 });
 
-test('folders import each other in one direction', () => {
-  expect(circle(folders(imports()))).toBeNull();
+test('each part imports only what stands above it in ARCHITECTURE.md', () => {
+  const ranks = parts();
+  const partOf = (file: string): string => (file.split(sep)[0] ?? '').replace(/\.ts$/, '');
+  const wrong: string[] = [];
+  for (const [file, targets] of imports()) {
+    const rank = ranks.get(partOf(file));
+    if (rank === undefined) {
+      wrong.push(`${file} is in no part`);
+      continue;
+    }
+    for (const target of targets) {
+      const above = ranks.get(partOf(target)) ?? -1;
+      if (partOf(file) !== partOf(target) && !target.startsWith('wasm') && above >= rank) {
+        wrong.push(`${file} imports ${target}`);
+      }
+    }
+  }
+  expect(wrong).toEqual([]);
 });
