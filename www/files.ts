@@ -1,9 +1,13 @@
 /** Tells meshes from landmark files and finds each mesh's side. */
 import { failureOf } from './compute/messages.ts';
 import type { Failure } from './compute/messages.ts';
+import type { LandmarkFile, Side } from './landmarks.ts';
+import { SIDES } from './landmarks.ts';
 import { failureSentence, fileSentence, SENTENCES } from './messages.ts';
-import type { Event, LandmarkFile, MeshFile, Side, State } from './state.ts';
-import { baseName, landmarkFileOf, SIDES, update } from './state.ts';
+import type { Event } from './store/events.ts';
+import { baseName, landmarkFileOf } from './store/landmark-file.ts';
+import { update } from './store/reducer.ts';
+import type { MeshFile, State } from './store/state.ts';
 import { checkLandmarks, mirrorTarget, readLandmarks, readMesh } from './wasm/conemap.js';
 
 /** Some named bytes. */

@@ -1,6 +1,6 @@
 /** The only place that turns codes into sentences. */
 import type { Failure } from './compute/messages.ts';
-import type { Suggestion } from './state.ts';
+import type { Suggestion } from './landmarks.ts';
 
 /** A name for each stage of the report's seconds. */
 export function stageName(stage: string): string {

@@ -13,6 +13,12 @@ use serde::Deserialize;
 use serde_json::json;
 use wasm_bindgen::prelude::*;
 
+/// The colour of landmark `k` in the views, linear RGB from 0 to 1.
+#[wasm_bindgen(js_name = landmarkColour)]
+pub fn colour_of_landmark(k: usize) -> Vec<f32> {
+    landmark_colour(k).to_vec()
+}
+
 /// What the page wants to see.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]

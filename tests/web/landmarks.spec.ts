@@ -100,3 +100,14 @@ test('a point that is picked twice is named', async ({ page }) => {
   await expect(pending).toHaveCount(0);
   await expect(pairs).toHaveCount(1);
 });
+
+test('the list has the colours of the markers, each another', async ({ page }) => {
+  await open(page);
+  const colours = await page
+    .locator('#landmark-list .swatch')
+    .evaluateAll((swatches) => swatches.map((swatch) => getComputedStyle(swatch).backgroundColor));
+  expect(colours.length).toBeGreaterThan(3);
+  expect(new Set(colours).size).toBe(colours.length);
+  // The first landmark is red, as its marker.
+  expect(colours[0]).toMatch(/^color\(srgb-linear 0\.81\d* 0\.006\d* 0\.006\d*\)$/);
+});

@@ -1,7 +1,7 @@
 /** Starts runs in a worker and ends them. The module is compiled once and shared. */
 import { failureOf } from './messages.ts';
 import type { Finding } from '../report.ts';
-import type { Failure, Progress, RunOutput, RunRequest, WorkerMessage } from './messages.ts';
+import type { Failure, Progress, RunOutput, RunRequest, WarmUpRequest, WorkerMessage } from './messages.ts';
 
 /** Compiles the core; the same module serves the page and every worker. */
 export async function compileCore(): Promise<WebAssembly.Module> {
@@ -20,12 +20,12 @@ export async function compileCore(): Promise<WebAssembly.Module> {
  * Lets the browser optimise the core while the user is still choosing, so that the first run is as fast as later ones;
  * the returned function ends that at once. Nothing depends on it.
  */
-export function warmUp(module: WebAssembly.Module): () => void {
+export function warmUp(request: WarmUpRequest): () => void {
   const worker = new Worker(new URL('./warmer.ts', import.meta.url), { type: 'module' });
   worker.addEventListener('error', (event) => {
     event.preventDefault();
   });
-  worker.postMessage(module);
+  worker.postMessage(request);
   return () => {
     worker.terminate();
   };

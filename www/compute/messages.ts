@@ -13,6 +13,13 @@ export interface RunRequest {
   readonly finishUrl: string;
 }
 
+/** What the worker needs that makes a small map before the first run. */
+export interface WarmUpRequest {
+  readonly module: WebAssembly.Module;
+  /** The demo whose map is made: its id. */
+  readonly demo: string;
+}
+
 /** One view's share of the result. */
 export interface SideOutput {
   readonly positions: Float32Array;

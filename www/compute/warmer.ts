@@ -1,13 +1,12 @@
 /** Makes a small map and throws it away: the browser optimises code that has run, for all workers with the same module. */
 import init, { buildDemo, runMap } from '../wasm/conemap.js';
+import type { WarmUpRequest } from './messages.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
 
-const SMALL = 'sphere-tetrahedron';
-
-async function warm(module: WebAssembly.Module): Promise<void> {
-  await init({ module_or_path: module });
-  const demo = buildDemo(SMALL);
+async function warm(request: WarmUpRequest): Promise<void> {
+  await init({ module_or_path: request.module });
+  const demo = buildDemo(request.demo);
   if (demo !== undefined) {
     const landmarks = new TextDecoder().decode(demo.landmarks());
     const nothing = (): void => undefined;
@@ -16,7 +15,7 @@ async function warm(module: WebAssembly.Module): Promise<void> {
   }
 }
 
-self.addEventListener('message', (event: MessageEvent<WebAssembly.Module>) => {
+self.addEventListener('message', (event: MessageEvent<WarmUpRequest>) => {
   void warm(event.data).finally(() => {
     self.close();
   });

@@ -1,6 +1,6 @@
 /** What the views show. */
-import type { State, Style } from '../state.ts';
-import { byId, button, make } from './dom.ts';
+import { byId, button, make } from '../dom.ts';
+import type { State, Style } from '../store/state.ts';
 import type { Actions, Panel } from './panel.ts';
 
 const SURFACES: readonly (readonly [Style['surface'], string])[] = [

@@ -1,5 +1,5 @@
 /** The falling energy of a run as a small curve, a piece for each relaxation. */
-import { make } from './dom.ts';
+import { make } from '../dom.ts';
 
 const NAMESPACE = 'http://www.w3.org/2000/svg';
 const WIDTH = 240;

@@ -1,7 +1,9 @@
 /** Files and demos: buttons, the menu, and dropping anywhere on the page. */
-import type { Side, State } from '../state.ts';
-import { SIDES } from '../state.ts';
-import { byId, button, integer, make } from './dom.ts';
+import { byId, button, make } from '../dom.ts';
+import type { Side } from '../landmarks.ts';
+import { SIDES } from '../landmarks.ts';
+import { integer } from '../numbers.ts';
+import type { State } from '../store/state.ts';
 import type { Actions, Panel } from './panel.ts';
 
 const MESH_TYPES = '.obj,.off,.ply,.stl,.glb,.gltf';

@@ -1,7 +1,7 @@
 /** Landmark pairs that do not fit and limbs without one, each with its repair. They stop nothing: the user knows the shapes. */
+import { byId, button, make } from '../dom.ts';
 import type { Finding } from '../report.ts';
-import type { State } from '../state.ts';
-import { byId, button, make } from './dom.ts';
+import type { State } from '../store/state.ts';
 import type { Actions, Panel } from './panel.ts';
 
 const REPAIRS: Readonly<Record<Finding['repair'], string>> = {

@@ -1,7 +1,7 @@
 /** The list of landmark pairs. */
-import type { State } from '../state.ts';
-import { landmarkFileOf } from '../state.ts';
-import { byId, button, download, landmarkColour, make } from './dom.ts';
+import { byId, button, download, make } from '../dom.ts';
+import { landmarkFileOf } from '../store/landmark-file.ts';
+import type { State } from '../store/state.ts';
 import type { Actions, Panel } from './panel.ts';
 import { SuggestionsBlock } from './suggestions.ts';
 
@@ -12,8 +12,8 @@ export function lookAtPair(index: number): void {
   row?.querySelector('input')?.focus();
 }
 
-/** Makes the panel. */
-export function landmarksPanel(actions: Actions): Panel {
+/** Makes the panel; `colourOf` gives the colour of a landmark's marker, linear RGB from 0 to 1. */
+export function landmarksPanel(actions: Actions, colourOf: (index: number) => Iterable<number>): Panel {
   const root = byId('landmarks');
   const count = make('span', { class: 'count' });
   const list = make('ol', { id: 'landmark-list' });
@@ -57,7 +57,7 @@ export function landmarksPanel(actions: Actions): Panel {
 
   function item(index: number, label: string, pending: boolean): HTMLLIElement {
     const swatch = make('span', { class: 'swatch', 'aria-hidden': 'true' }, String(index + 1));
-    swatch.style.backgroundColor = landmarkColour(index);
+    swatch.style.backgroundColor = `color(srgb-linear ${[...colourOf(index)].join(' ')})`;
     if (pending) {
       return make('li', { class: 'pending' }, swatch, make('span', { class: 'quiet' }, label));
     }

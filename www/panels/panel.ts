@@ -1,6 +1,8 @@
 /** What every panel is. */
+import type { Side } from '../landmarks.ts';
 import type { Finding } from '../report.ts';
-import type { Event, Side, State } from '../state.ts';
+import type { Event } from '../store/events.ts';
+import type { State } from '../store/state.ts';
 
 /** Shows a part of the state; `previous` is `null` the first time. */
 export interface Panel {

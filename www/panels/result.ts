@@ -1,9 +1,10 @@
 /** The result in words and its downloads. */
 import { stageName } from '../messages.ts';
 import type { ConeMetricReport, LayoutSearchReport, Report } from '../report.ts';
-import type { Result, State } from '../state.ts';
-import { isStale } from '../state.ts';
-import { byId, button, download, figure, integer, make } from './dom.ts';
+import { figure, integer } from '../numbers.ts';
+import { isStale } from '../store/staleness.ts';
+import type { Result, State } from '../store/state.ts';
+import { byId, button, download, make } from '../dom.ts';
 import type { Panel } from './panel.ts';
 
 function verdict(report: Report): HTMLElement {

@@ -1,9 +1,12 @@
 /** Start, progress and cancel; the page's errors. */
 import { hint } from '../messages.ts';
 import type { Progress } from '../compute/messages.ts';
-import type { Running, State } from '../state.ts';
-import { canRun, isStale, MIN_PAIRS } from '../state.ts';
-import { byId, button, figure, make } from './dom.ts';
+import { byId, button, make } from '../dom.ts';
+import { figure } from '../numbers.ts';
+import type { Running } from '../store/job.ts';
+import { canRun, MIN_PAIRS } from '../store/readiness.ts';
+import { isStale } from '../store/staleness.ts';
+import type { State } from '../store/state.ts';
 import { EnergyCurve } from './energy.ts';
 import type { Actions, Panel } from './panel.ts';
 
@@ -24,8 +27,8 @@ function selectOf<T extends string>(
 
 /** What the run panel says when nothing runs. */
 function idleSentence(state: State): string {
-  if (state.busy !== null) {
-    return state.busy;
+  if (state.job.kind === 'busy') {
+    return state.job.task.sentence;
   }
   if (!state.ready) {
     return 'Loading…';

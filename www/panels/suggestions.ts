@@ -1,8 +1,9 @@
 /** Suggested landmarks: asked for by a button, taken one by one or all at once. */
+import { button, make } from '../dom.ts';
+import type { Side } from '../landmarks.ts';
+import { SIDES } from '../landmarks.ts';
 import { suggestionName } from '../messages.ts';
-import type { Side, State } from '../state.ts';
-import { SIDES } from '../state.ts';
-import { button, make } from './dom.ts';
+import type { State } from '../store/state.ts';
 import type { Actions } from './panel.ts';
 
 const NAMES = ['source', 'target'] as const;

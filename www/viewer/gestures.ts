@@ -1,6 +1,6 @@
 /** Mouse, pen, touch and keys become camera moves and picks. */
-import type { Side } from '../state.ts';
-import { SIDES } from '../state.ts';
+import type { Side } from '../landmarks.ts';
+import { SIDES } from '../landmarks.ts';
 
 /** A view's box in the window, in CSS pixels. */
 export interface Box {
@@ -27,8 +27,21 @@ interface Finger {
   y: number;
 }
 
+/** How far a pointer may travel between press and release and still click, in CSS pixels: hands and fingers tremble. */
 const CLICK_SLACK = 5;
+/** An arrow key's step in heights of the view. A height turns by 4 rad, so that this is 14°: 26 presses go round. */
 const KEY_STEP = 0.06;
+/** A zoom key's factor: five presses double the size. */
+const KEY_ZOOM = 1.15;
+/** What a wheel tells for one notch: 100 pixels (Chromium), or 3 lines (Firefox). */
+const NOTCH_PIXELS = 100;
+const NOTCH_LINES = 3;
+/** Events bring more notches where the page was late or the wheel spins freely; more than these would lose the mesh. */
+const MOST_NOTCHES = 3;
+/** The logarithm of a notch's factor: a little more than a key, as a notch is made more quickly. */
+const NOTCH_ZOOM = 0.16;
+/** A pinch on a touchpad comes as a wheel with Ctrl, in steps of some pixels: five times as strong, the mesh follows the fingers. */
+const PINCH_ZOOM = 5 * NOTCH_ZOOM;
 
 /** Listens on the canvas; the views' own elements give the boxes and take the keys. */
 export function listen(canvas: HTMLCanvasElement, views: readonly [HTMLElement, HTMLElement], target: GestureTarget): void {
@@ -130,9 +143,9 @@ export function listen(canvas: HTMLCanvasElement, views: readonly [HTMLElement, 
         return;
       }
       event.preventDefault();
-      const lines = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY / 100 : event.deltaY / 3;
-      const bounded = Math.max(-3, Math.min(3, lines));
-      target.zoom(under, Math.exp(-bounded * (event.ctrlKey ? 0.8 : 0.16)));
+      const notches = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY / NOTCH_PIXELS : event.deltaY / NOTCH_LINES;
+      const bounded = Math.max(-MOST_NOTCHES, Math.min(MOST_NOTCHES, notches));
+      target.zoom(under, Math.exp(-bounded * (event.ctrlKey ? PINCH_ZOOM : NOTCH_ZOOM)));
     },
     { passive: false },
   );
@@ -169,10 +182,10 @@ function keyMove(target: GestureTarget, side: Side, event: KeyboardEvent): boole
       return move(0, -KEY_STEP);
     case '+':
     case '=':
-      target.zoom(side, 1.15);
+      target.zoom(side, KEY_ZOOM);
       return true;
     case '-':
-      target.zoom(side, 1 / 1.15);
+      target.zoom(side, 1 / KEY_ZOOM);
       return true;
     case '0':
     case 'Home':

@@ -1,5 +1,5 @@
 /** The landmarks' numbers over a view. */
-import { make } from '../panels/dom.ts';
+import { make } from '../dom.ts';
 
 /** One view's numbers. */
 export class Labels {

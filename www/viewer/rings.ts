@@ -1,6 +1,6 @@
 /** Suggested points over a view: hollow rings, taken as a landmark by a click or a key. */
-import { make } from '../panels/dom.ts';
-import type { Suggestion } from '../state.ts';
+import { make } from '../dom.ts';
+import type { Suggestion } from '../landmarks.ts';
 import { suggestionName } from '../messages.ts';
 
 /** One view's rings. */

@@ -1,9 +1,12 @@
 /** Both views on one canvas: drawn on demand, kept in step with the state, rebuilt after a lost context. */
-import { failureSentence, SENTENCES } from '../messages.ts';
 import { failureOf } from '../compute/messages.ts';
-import type { Side, State, SurfacePoint } from '../state.ts';
-import { pointsOf, SIDES } from '../state.ts';
-import { byId } from '../panels/dom.ts';
+import { byId } from '../dom.ts';
+import type { Side, SurfacePoint } from '../landmarks.ts';
+import { SIDES } from '../landmarks.ts';
+import { failureSentence, SENTENCES } from '../messages.ts';
+import { pointsOf } from '../store/points.ts';
+import { hasItsCones } from '../store/staleness.ts';
+import type { State } from '../store/state.ts';
 import { Viewer } from '../wasm/conemap.js';
 import type { Box } from './gestures.ts';
 import { listen } from './gestures.ts';
@@ -15,15 +18,12 @@ export interface ViewListener {
   picked(side: Side, point: SurfacePoint): void;
   pickDropped(): void;
   failed(sentence: string): void;
+  /** The views are back: what they said is void. */
+  recovered(): void;
 }
 
 const HELP =
   'Arrow keys turn, with Shift they move; plus and minus zoom; 0 resets; Enter picks the point in the middle.';
-
-/** Whether cone k of the result still belongs to landmark k. */
-function hasItsCones(state: State): boolean {
-  return state.result?.pairs.every((pair, index) => pair.points === state.pairs[index]?.points) ?? false;
-}
 
 /** Samples a pixel: four, but one where a processor draws in place of a graphics card. */
 function samplesOf(): number {
@@ -381,7 +381,7 @@ export class Views {
       cameras.forEach((camera, side) => {
         viewer.setCamera(side, camera);
       });
-      this.#listener.failed('');
+      this.#listener.recovered();
     } catch (thrown) {
       console.error(thrown);
       this.#listener.failed(SENTENCES.contextGone);

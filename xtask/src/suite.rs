@@ -75,7 +75,8 @@ fn node() -> Result<(), String> {
 fn checks() -> Result<(), String> {
     page::build()?;
     run("npm", &["run", "--silent", "check"])?;
-    run("npm", &["run", "--silent", "lint"])
+    run("npm", &["run", "--silent", "lint"])?;
+    run("npm", &["run", "--silent", "unit"])
 }
 
 fn browser_tests() -> Result<(), String> {

@@ -40,6 +40,9 @@ export function byId(id: string): HTMLElement {
   return element;
 }
 
+/** How long a download's bytes are kept, in ms: browsers give no sign when they have read them, but begin at once. */
+const DOWNLOAD_KEPT = 60_000;
+
 /** Offers bytes as a file. */
 export function download(name: string, type: string, data: BlobPart): void {
   const url = URL.createObjectURL(new Blob([data], { type }));
@@ -49,39 +52,5 @@ export function download(name: string, type: string, data: BlobPart): void {
   link.remove();
   setTimeout(() => {
     URL.revokeObjectURL(url);
-  }, 60_000);
-}
-
-/** The colour of a landmark's marker, as the renderer makes it: hues by the golden angle. */
-export function landmarkColour(index: number): string {
-  const hue = ((index * 0.618_034) % 1) * 6;
-  const channel = (shift: number): number => {
-    const level = Math.abs(((hue + shift) % 6) - 3) - 1;
-    const linear = (0.08 + 0.82 * Math.min(1, Math.max(0, level))) ** 2;
-    return Math.round(255 * (linear <= 0.003_130_8 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055));
-  };
-  return `rgb(${channel(0)} ${channel(4)} ${channel(2)})`;
-}
-
-const INTEGER = new Intl.NumberFormat('en');
-
-/** 12,345 */
-export function integer(value: number): string {
-  return INTEGER.format(value);
-}
-
-/** A number to read: three or four figures, powers of ten where very small or large. */
-export function figure(value: number): string {
-  const size = Math.abs(value);
-  if (!Number.isFinite(value)) {
-    return '–';
-  }
-  if (size !== 0 && (size < 1e-3 || size >= 1e5)) {
-    return value.toExponential(1).replace('e-', '·10⁻').replace('e+', '·10').replace(/(?<=10⁻?)\d+$/, superscript);
-  }
-  return value.toPrecision(4).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '');
-}
-
-function superscript(digits: string): string {
-  return digits.replace(/\d/g, (digit) => '⁰¹²³⁴⁵⁶⁷⁸⁹'.charAt(Number(digit)));
+  }, DOWNLOAD_KEPT);
 }

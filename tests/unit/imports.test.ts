@@ -1,0 +1,99 @@
+/** The page's files import each other in one direction, and its parts as ARCHITECTURE.md says. */
+import { readdirSync, readFileSync } from 'node:fs';
+import { dirname, join, relative, sep } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import ts from 'typescript';
+import { expect, test } from 'vitest';
+
+const WWW = fileURLToPath(new URL('../../www', import.meta.url));
+
+type Graph = ReadonlyMap<string, ReadonlySet<string>>;
+
+/** The imports of every file of the page but the built core, types included. */
+function imports(): Graph {
+  const files = readdirSync(WWW, { recursive: true, encoding: 'utf8' }).filter(
+    (file) => file.endsWith('.ts') && !file.startsWith('wasm'),
+  );
+  return new Map(
+    files.map((file) => {
+      const { importedFiles } = ts.preProcessFile(readFileSync(join(WWW, file), 'utf8'));
+      const paths = importedFiles.map(({ fileName }) => fileName).filter((path) => path.startsWith('.'));
+      return [file, new Set(paths.map((path) => relative(WWW, join(WWW, dirname(file), path))))];
+    }),
+  );
+}
+
+/** The page's parts from the list in ARCHITECTURE.md, each with its line: folders, and files beside them. */
+function parts(): ReadonlyMap<string, number> {
+  const text = readFileSync(join(WWW, '../ARCHITECTURE.md'), 'utf8');
+  const list = /(?<=each only with what stands above it:\n\n)(?:- .*\n)+/.exec(text)?.[0] ?? '';
+  const names = (line: string): string[] => [...(line.split(': ')[0] ?? '').matchAll(/`(\w+)/g)].map(([, name]) => name ?? '');
+  return new Map(list.split('\n').flatMap((line, rank) => names(line).map((name) => [name, rank] as const)));
+}
+
+/** A way through the graph that comes back to its beginning; `null` where there is none. */
+function circle(graph: Graph): string[] | null {
+  const done = new Set<string>();
+  const visit = (node: string, path: readonly string[]): string[] | null => {
+    if (path.includes(node)) {
+      return [...path.slice(path.indexOf(node)), node];
+    }
+    if (done.has(node)) {
+      return null;
+    }
+    for (const next of graph.get(node) ?? []) {
+      const found = visit(next, [...path, node]);
+      if (found !== null) {
+        return found;
+      }
+    }
+    done.add(node);
+    return null;
+  };
+  for (const node of graph.keys()) {
+    const found = visit(node, []);
+    if (found !== null) {
+      return found;
+    }
+  }
+  return null;
+}
+
+test('a circle is found where there is one', () => {
+  const graph = (edges: Record<string, string[]>): Graph =>
+    new Map(Object.entries(edges).map(([from, to]) => [from, new Set(to)]));
+  expect(circle(graph({ a: ['b', 'c'], b: ['d'], c: ['d'], d: [] }))).toBeNull();
+  expect(circle(graph({ a: ['b'], b: ['c', 'd'], c: [], d: ['b'] }))).toEqual(['b', 'd', 'b']);
+  expect(circle(graph({ a: ['a'] }))).toEqual(['a', 'a']);
+});
+
+test('files import each other in one direction', () => {
+  const graph = imports();
+  // What is imported is there, so that no path was misread.
+  const missing = [...graph.values()].flatMap((targets) =>
+    [...targets].filter((target) => !target.startsWith('wasm') && !graph.has(target)),
+  );
+  expect(missing).toEqual([]);
+  expect(graph.get('main.ts')).toContain(join('store', 'store.ts'));
+  expect(circle(graph)).toBeNull();
+});
+
+test('each part imports only what stands above it in ARCHITECTURE.md', () => {
+  const ranks = parts();
+  const partOf = (file: string): string => (file.split(sep)[0] ?? '').replace(/\.ts$/, '');
+  const wrong: string[] = [];
+  for (const [file, targets] of imports()) {
+    const rank = ranks.get(partOf(file));
+    if (rank === undefined) {
+      wrong.push(`${file} is in no part`);
+      continue;
+    }
+    for (const target of targets) {
+      const above = ranks.get(partOf(target)) ?? -1;
+      if (partOf(file) !== partOf(target) && !target.startsWith('wasm') && above >= rank) {
+        wrong.push(`${file} imports ${target}`);
+      }
+    }
+  }
+  expect(wrong).toEqual([]);
+});

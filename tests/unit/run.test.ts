@@ -1,0 +1,118 @@
+/** The run of the page with a worker that only listens. */
+import { beforeEach, expect, test, vi } from 'vitest';
+import { Runner } from '../../www/app/run.ts';
+import type { RunRequest, WarmUpRequest, WorkerMessage } from '../../www/compute/messages.ts';
+import { Store } from '../../www/store/store.ts';
+import { FOUR, mesh, OUTPUT, SWAPPED } from './fixtures.ts';
+
+class FakeWorker extends EventTarget {
+  static made: FakeWorker[] = [];
+  readonly posted: unknown[] = [];
+  ended = false;
+
+  constructor() {
+    super();
+    FakeWorker.made.push(this);
+  }
+
+  postMessage(message: unknown): void {
+    this.posted.push(message);
+  }
+
+  terminate(): void {
+    this.ended = true;
+  }
+
+  says(data: WorkerMessage): void {
+    this.dispatchEvent(new MessageEvent('message', { data }));
+  }
+}
+
+const CORE = {} as WebAssembly.Module;
+let store: Store;
+let runner: Runner;
+
+/** The worker of the run. */
+function started(): FakeWorker {
+  runner.start();
+  const worker = FakeWorker.made.at(-1);
+  if (worker === undefined) {
+    throw new Error('no worker was made');
+  }
+  return worker;
+}
+
+beforeEach(() => {
+  FakeWorker.made = [];
+  vi.stubGlobal('Worker', FakeWorker);
+  vi.spyOn(console, 'error').mockReturnValue();
+  store = new Store();
+  runner = new Runner(store);
+  runner.use(CORE);
+  store.dispatch(
+    { kind: 'ready', demos: [] },
+    { kind: 'mesh', side: 0, file: mesh('cat.off') },
+    { kind: 'mesh', side: 1, file: mesh('lion.off') },
+    { kind: 'landmarks', file: { pairs: FOUR.map(({ points }) => points) } },
+  );
+});
+
+test('gets the meshes, landmarks and options of the page', () => {
+  const request = started().posted[0] as RunRequest;
+  const text = (bytes: Uint8Array): string => new TextDecoder().decode(bytes);
+  expect([text(request.source), text(request.target)]).toEqual(['cat.off', 'lion.off']);
+  expect(JSON.parse(request.landmarks)).toMatchObject({ pairs: FOUR.map(({ points }) => points) });
+  expect(request.options).toEqual(store.state.options);
+  expect(request.module).toBe(CORE);
+  expect(store.state.job.kind).toBe('running');
+});
+
+test('does not start twice, nor while the page is busy, nor without the core', () => {
+  started();
+  runner.start();
+  expect(FakeWorker.made).toHaveLength(1);
+  runner.cancel();
+  store.dispatch({ kind: 'task-begun', task: { sentence: 'Reading…' } });
+  runner.start();
+  expect(FakeWorker.made).toHaveLength(1);
+  new Runner(new Store()).start();
+  expect(FakeWorker.made).toHaveLength(1);
+});
+
+test('brings what the worker says into the state, up to the map', () => {
+  const worker = started();
+  worker.says({ kind: 'finishable' });
+  worker.says({ kind: 'found', findings: [SWAPPED] });
+  worker.says({ kind: 'relaxes' });
+  worker.says({ kind: 'progress', stage: 'relaxation', sentence: 'Relaxing the map', share: 0.5, residual: null, energy: 5 });
+  expect(store.state).toMatchObject({ findings: [SWAPPED], job: { finish: 'possible', energies: [[5]] } });
+  runner.finish();
+  expect(store.state.job).toMatchObject({ finish: 'asked' });
+  worker.says({ kind: 'done', output: { ...OUTPUT, report: '{"warnings":["few"]}' } });
+  expect(store.state).toMatchObject({ job: { kind: 'done' }, result: { report: { warnings: ['few'] } } });
+  expect(worker.ended).toBe(true);
+});
+
+test('that fails says why', () => {
+  started().says({ kind: 'failed', failure: { code: 'none', message: 'no map was found' } });
+  expect(store.state).toMatchObject({ job: { kind: 'error' }, error: 'No map was found.' });
+});
+
+test('that is cancelled ends its worker and hears nothing more', () => {
+  const worker = started();
+  runner.cancel();
+  expect(worker.ended).toBe(true);
+  worker.says({ kind: 'done', output: OUTPUT });
+  expect(store.state).toMatchObject({ job: { kind: 'idle' }, result: null });
+});
+
+test('ends the warming of the core, which does not begin during a run', () => {
+  runner.warmUp('ball');
+  const warmer = FakeWorker.made[0];
+  expect((warmer?.posted[0] as WarmUpRequest).demo).toBe('ball');
+  expect(warmer?.ended).toBe(false);
+  started();
+  expect(warmer?.ended).toBe(true);
+  runner.warmUp('ball');
+  expect(FakeWorker.made).toHaveLength(2);
+});

@@ -1,0 +1,62 @@
+/** Work that keeps the page busy. */
+import { beforeEach, expect, test, vi } from 'vitest';
+import { perform } from '../../www/app/task.ts';
+import { FileRefused } from '../../www/files.ts';
+import { Store } from '../../www/store/store.ts';
+
+let store: Store;
+
+beforeEach(() => {
+  store = new Store();
+  // Every frame comes at once.
+  vi.stubGlobal('requestAnimationFrame', (draw: () => void) => {
+    queueMicrotask(draw);
+    return 0;
+  });
+});
+
+test('is told while it lasts, and is over afterwards', async () => {
+  const told: unknown[] = [];
+  const work = perform(store, 'Reading…', () => 7, (prepared) => told.push([prepared, store.state.job]));
+  expect(store.state.job).toMatchObject({ kind: 'busy', task: { sentence: 'Reading…' } });
+  await work;
+  expect(told).toEqual([[7, expect.objectContaining({ kind: 'busy' })]]);
+  expect(store.state.job).toEqual({ kind: 'idle' });
+});
+
+test('is left out where later work has begun, whichever is ready first', async () => {
+  const done: string[] = [];
+  let release = (): void => undefined;
+  const slow = perform(store, 'Slow…', () => new Promise<void>((resolve) => (release = resolve)), () => done.push('slow'));
+  const quick = perform(store, 'Quick…', () => null, () => done.push('quick'));
+  await quick;
+  release();
+  await slow;
+  expect(done).toEqual(['quick']);
+  expect(store.state.job).toEqual({ kind: 'idle' });
+});
+
+test('does not end later work', async () => {
+  let release = (): void => undefined;
+  const early = perform(store, 'Early…', () => null, () => undefined);
+  const late = perform(store, 'Late…', () => new Promise<void>((resolve) => (release = resolve)), () => undefined);
+  await early;
+  expect(store.state.job).toMatchObject({ kind: 'busy', task: { sentence: 'Late…' } });
+  release();
+  await late;
+});
+
+const REFUSED = new FileRefused('cat.off is empty.');
+const nothing = (): void => undefined;
+const refuse = (): never => {
+  throw REFUSED;
+};
+
+test.each([
+  ['in its preparation', refuse, nothing],
+  ['later in its preparation', () => Promise.reject(REFUSED), nothing],
+  ['itself', nothing, refuse],
+])('that fails %s is over and says why', async (_, prepare, work) => {
+  await perform(store, 'Reading…', prepare, work);
+  expect(store.state).toMatchObject({ job: { kind: 'idle' }, error: 'cat.off is empty.' });
+});

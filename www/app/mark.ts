@@ -1,0 +1,9 @@
+/** Says on the body where the page is, for styles and tests. */
+import type { State } from '../store/state.ts';
+
+export function mark(state: State): void {
+  const { dataset } = document.body;
+  dataset['ready'] = String(state.ready);
+  dataset['state'] = state.job.kind;
+  dataset['demo'] = state.demo?.id ?? '';
+}

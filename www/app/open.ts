@@ -1,0 +1,110 @@
+/** Brings meshes and landmarks onto the page: files that were chosen or dropped, demos, links to demos. */
+import type { NamedBytes } from '../files.ts';
+import { eventsOf, FileRefused, landmarkFile, meshFile } from '../files.ts';
+import type { Side } from '../landmarks.ts';
+import { SIDES } from '../landmarks.ts';
+import { SENTENCES } from '../messages.ts';
+import type { Event } from '../store/events.ts';
+import type { Demo, State } from '../store/state.ts';
+import type { Store } from '../store/store.ts';
+import { buildDemo } from '../wasm/conemap.js';
+import { perform } from './task.ts';
+
+/** In bytes. The core's memory ends at 4 GiB, and holds a file beside the mesh that is made of it. */
+const LARGEST_FILE = 2 ** 30;
+
+async function bytesOf(file: File): Promise<NamedBytes> {
+  if (file.size > LARGEST_FILE) {
+    throw new FileRefused(`${file.name} ${SENTENCES.tooLarge}`);
+  }
+  if (file.size === 0) {
+    throw new FileRefused(`${file.name} ${SENTENCES.empty}`);
+  }
+  try {
+    return { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) };
+  } catch {
+    throw new FileRefused(`${file.name}: ${SENTENCES.unreadable}`);
+  }
+}
+
+/** Opens files; `side` is the view they were dropped on or chosen for. */
+export async function openFiles(store: Store, files: readonly File[], side: Side | null): Promise<void> {
+  const { ready, job } = store.state;
+  if (!ready) {
+    return;
+  }
+  if (job.kind === 'running') {
+    store.dispatch({ kind: 'error', sentence: SENTENCES.whileRunning });
+    return;
+  }
+  store.dispatch({ kind: 'error-closed' });
+  await perform(
+    store,
+    'Reading the files…',
+    () => Promise.all(files.map(bytesOf)),
+    (named) => {
+      store.dispatch(...eventsOf(named, side, store.state));
+    },
+  );
+}
+
+function demoEvents(demo: Demo): Event[] {
+  const built = buildDemo(demo.id);
+  if (built === undefined) {
+    throw new FileRefused(SENTENCES.noDemo);
+  }
+  const source = meshFile({ name: `${demo.id}-source.obj`, bytes: built.source() });
+  const target = meshFile({ name: `${demo.id}-target.obj`, bytes: built.target() });
+  const landmarks = landmarkFile({ name: `${demo.id}.json`, bytes: built.landmarks() });
+  built.free();
+  return [
+    { kind: 'mesh', side: 0, file: source },
+    { kind: 'mesh', side: 1, file: target },
+    { kind: 'landmarks', file: landmarks },
+    { kind: 'demo', demo },
+  ];
+}
+
+/** Opens a demo and puts its link into the address. */
+export async function openDemo(store: Store, id: string): Promise<void> {
+  const demo = store.state.demos.find((candidate) => candidate.id === id);
+  if (demo === undefined) {
+    store.dispatch({ kind: 'error', sentence: SENTENCES.noDemo });
+    return;
+  }
+  if (store.state.job.kind === 'running') {
+    store.dispatch({ kind: 'error', sentence: SENTENCES.whileRunning });
+    return;
+  }
+  await perform(
+    store,
+    `Building the demo “${demo.title}”…`,
+    () => demo,
+    () => {
+      store.dispatch(...demoEvents(demo));
+      history.replaceState(null, '', `#demo=${encodeURIComponent(id)}`);
+    },
+  );
+}
+
+/** The demo that the page's address names. */
+export function linkedDemo(): string | null {
+  return new URLSearchParams(location.hash.slice(1)).get('demo');
+}
+
+/** Takes the demo's link out of the address when other meshes have come. */
+export function dropLink(state: State, previous: State): void {
+  if (previous.demo !== null && state.demo === null) {
+    history.replaceState(null, '', location.pathname + location.search);
+  }
+}
+
+/** Gives back the core's memory of meshes that are shown no more. */
+export function freeReplaced(state: State, previous: State): void {
+  for (const side of SIDES) {
+    const old = previous.meshes[side];
+    if (old !== null && old !== state.meshes[side]) {
+      old.mesh.free();
+    }
+  }
+}

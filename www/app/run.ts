@@ -1,0 +1,96 @@
+/** The run of the page: starts it, ends it, asks it for its result. */
+import { startRun, warmUp } from '../compute/client.ts';
+import type { Run, RunListener } from '../compute/client.ts';
+import { failureSentence } from '../messages.ts';
+import type { Report } from '../report.ts';
+import { landmarkFileOf } from '../store/landmark-file.ts';
+import { canRun } from '../store/readiness.ts';
+import type { Store } from '../store/store.ts';
+
+/** Holds the workers: beside the store the only thing of the page that changes. */
+export class Runner {
+  readonly #store: Store;
+  #core: WebAssembly.Module | null = null;
+  #run: Run | null = null;
+  #endWarmUp = (): void => undefined;
+
+  constructor(store: Store) {
+    this.#store = store;
+  }
+
+  /** Takes the compiled core, without which no run starts. */
+  use(core: WebAssembly.Module): void {
+    this.#core = core;
+  }
+
+  /** Has the browser optimise the core by a small map, this demo's; a run that begins ends it. */
+  warmUp(demo: string): void {
+    if (this.#core !== null && this.#run === null) {
+      this.#endWarmUp();
+      this.#endWarmUp = warmUp({ module: this.#core, demo });
+    }
+  }
+
+  /** Computes the map of the meshes and landmarks on the page. */
+  start(): void {
+    const { state, dispatch } = this.#store;
+    const [source, target] = state.meshes;
+    if (this.#core === null || source === null || target === null || !canRun(state)) {
+      return;
+    }
+    this.#endWarmUp();
+    dispatch({ kind: 'run-started' });
+    this.#run = startRun(
+      {
+        module: this.#core,
+        source: source.bytes,
+        target: target.bytes,
+        landmarks: JSON.stringify(landmarkFileOf(state)),
+        options: state.options,
+      },
+      this.#listener(),
+    );
+  }
+
+  /** Ends the run at once. */
+  cancel(): void {
+    this.#run?.cancel();
+    this.#run = null;
+    if (this.#store.state.job.kind === 'running') {
+      this.#store.dispatch({ kind: 'run-cancelled' });
+    }
+  }
+
+  /** Asks the run for its result. */
+  finish(): void {
+    this.#run?.finish();
+    this.#store.dispatch({ kind: 'run-finish' });
+  }
+
+  #listener(): RunListener {
+    const { dispatch } = this.#store;
+    return {
+      progress: (progress) => {
+        dispatch({ kind: 'run-progress', progress });
+      },
+      relaxes: () => {
+        dispatch({ kind: 'run-relaxes' });
+      },
+      finishable: () => {
+        dispatch({ kind: 'run-finishable' });
+      },
+      found: (findings) => {
+        dispatch({ kind: 'run-found', findings });
+      },
+      done: (output) => {
+        this.#run = null;
+        dispatch({ kind: 'run-done', output, report: JSON.parse(output.report) as Report });
+      },
+      failed: (failure) => {
+        this.#run = null;
+        console.error(failure);
+        dispatch({ kind: 'run-failed', sentence: failureSentence(failure) });
+      },
+    };
+  }
+}

@@ -1,0 +1,57 @@
+/** Marks places of a mesh that are worth a landmark. */
+import type { Side, Suggestion } from '../landmarks.ts';
+import { SENTENCES } from '../messages.ts';
+import { pointsOf } from '../store/points.ts';
+import type { Store } from '../store/store.ts';
+import { suggestLandmarks } from '../wasm/conemap.js';
+import { perform } from './task.ts';
+
+/** A suggestion as the core gives it; `partner` is a number in the list. */
+interface Found {
+  readonly point: number;
+  readonly reason: Suggestion['reason'];
+  readonly partner: number | null;
+}
+
+/** How many places are asked for, as on the command line: the tips of a body with limbs, and a few places between. */
+const SUGGESTIONS = 12;
+
+/** Suggestions with letters for names, in their order; after Z comes A again. */
+export function lettered(found: readonly Found[]): Suggestion[] {
+  const letter = (index: number): string => String.fromCharCode(65 + (index % 26));
+  return found.map(({ point, reason, partner }, index) => ({
+    point,
+    reason,
+    letter: letter(index),
+    partner: partner === null ? null : letter(partner),
+  }));
+}
+
+/** Marks places of one mesh, away from the landmarks that there are. */
+export async function suggest(store: Store, side: Side): Promise<void> {
+  const { job, meshes } = store.state;
+  const file = meshes[side];
+  // A mesh that is being read is not given up for suggestions.
+  if (file === null || job.kind === 'running' || job.kind === 'busy') {
+    return;
+  }
+  store.dispatch({ kind: 'error-closed' });
+  await perform(
+    store,
+    'Looking for places that are worth a landmark…',
+    () => file,
+    () => {
+      const { state } = store;
+      if (file !== state.meshes[side]) {
+        return;
+      }
+      const marked = pointsOf(state, side).concat(state.pending?.side === side ? state.queue : []);
+      const json = suggestLandmarks(file.mesh, JSON.stringify(marked.filter((point) => point !== null)), SUGGESTIONS);
+      const suggestions = lettered(JSON.parse(json) as Found[]);
+      store.dispatch({ kind: 'suggested', side, suggestions });
+      if (suggestions.length === 0) {
+        store.dispatch({ kind: 'error', sentence: SENTENCES.nothingToSuggest });
+      }
+    },
+  );
+}

@@ -1,0 +1,78 @@
+/** What the page does: one thing at a time, so that no run starts while files are being read. */
+import type { Progress } from '../compute/messages.ts';
+
+/** How the last run ended; `idle` before the first one and after the meshes changed. */
+export interface Rest {
+  readonly kind: 'idle' | 'done' | 'error';
+}
+
+/** Work other than a run, with what the page says meanwhile. Two works are told apart by their objects. */
+export interface Task {
+  readonly sentence: string;
+}
+
+/** Files are being read, a demo is being built, or places are being looked for. */
+export interface Busy {
+  readonly kind: 'busy';
+  readonly task: Task;
+  /** What follows. */
+  readonly then: Rest;
+}
+
+/** A run under way. */
+export interface Running {
+  readonly kind: 'running';
+  readonly progress: Progress | null;
+  /** Whether it can be asked to finish, and whether it was. */
+  readonly finish: 'no' | 'possible' | 'asked';
+  /** Falling energies of each relaxation, the first first. */
+  readonly energies: readonly (readonly number[])[];
+}
+
+export type Job = Rest | Busy | Running;
+
+export const STARTED: Running = { kind: 'running', progress: null, finish: 'no', energies: [] };
+
+/** A task begins, in place of another one; during a run none does. */
+export function begun(job: Job, task: Task): Job {
+  switch (job.kind) {
+    case 'running':
+      return job;
+    case 'busy':
+      return { ...job, task };
+    case 'idle':
+    case 'done':
+    case 'error':
+      return { kind: 'busy', task, then: job };
+  }
+}
+
+/** A task is over, unless another one has taken its place. */
+export function ended(job: Job, task: Task): Job {
+  return job.kind === 'busy' && job.task === task ? job.then : job;
+}
+
+/** What was made is gone: nothing is left of the last run. */
+export function forgotten(job: Job): Job {
+  const idle = { kind: 'idle' } as const;
+  switch (job.kind) {
+    case 'running':
+      return job;
+    case 'busy':
+      return { ...job, then: idle };
+    case 'idle':
+    case 'done':
+    case 'error':
+      return idle;
+  }
+}
+
+/** A run after a report of its progress. */
+export function advanced(job: Running, progress: Progress): Running {
+  const { energy, stage } = progress;
+  // After the relaxation there is nothing left to shorten.
+  const finish = stage === 'certificate' && job.finish === 'possible' ? 'no' : job.finish;
+  const present = job.energies.at(-1) ?? [];
+  const falls = stage === 'relaxation' && energy !== null && energy < (present.at(-1) ?? Infinity);
+  return { ...job, progress, finish, energies: falls ? [...job.energies.slice(0, -1), [...present, energy]] : job.energies };
+}

@@ -1,0 +1,34 @@
+/** Holds the state and tells its listeners of every change. It is the only thing on the page that holds it. */
+import type { Event } from './events.ts';
+import { update } from './reducer.ts';
+import type { State } from './state.ts';
+import { INITIAL } from './state.ts';
+
+/** Hears of a change. */
+export type Listener = (state: State, previous: State) => void;
+
+export class Store {
+  #state = INITIAL;
+  readonly #listeners: Listener[] = [];
+
+  get state(): State {
+    return this.#state;
+  }
+
+  /** From now on the listener hears of every change, after those that came before it. */
+  subscribe(listener: Listener): void {
+    this.#listeners.push(listener);
+  }
+
+  /** Changes the state; several events are one change. */
+  readonly dispatch = (...events: readonly Event[]): void => {
+    const previous = this.#state;
+    this.#state = events.reduce(update, previous);
+    if (this.#state === previous) {
+      return;
+    }
+    for (const listener of this.#listeners) {
+      listener(this.#state, previous);
+    }
+  };
+}
