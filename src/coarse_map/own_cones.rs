@@ -126,7 +126,8 @@ pub struct Start<'a> {
 pub fn add<'a>(
     start: Start<'_>,
     (fulls, all_levels): (&'a Rounds<LandmarkedMesh>, &'a Rounds<MeshWithCoarse<'a>>),
-    (multilevel, own): (&MultilevelOptions, &OwnConeOptions),
+    multilevel: &MultilevelOptions,
+    own: &OwnConeOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Option<OwnCones<'a>>, Cancelled> {
     let Start { inputs, full, map, vertices } = start;

@@ -39,6 +39,9 @@ impl Default for MapRelaxationOptions {
     }
 }
 
+/// By mesh, source first: constrained vertices, each with its place on the other mesh.
+pub type Constraints<'a> = [&'a [(VertexId, PointConstraint)]; 2];
+
 /// A relaxed map.
 pub struct Relaxed<'a> {
     relaxation: Relaxation<'a>,
@@ -89,7 +92,7 @@ pub fn relax<'a>(
     options: &'a MapRelaxationOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Relaxed<'a>, Cancelled> {
-    relax_constrained(sides, (surface, [&[], &[]]), options, monitor)
+    relax_constrained(sides, surface, [&[], &[]], options, monitor)
 }
 
 /// The same with vertices of either side that are drawn to places on the other.
@@ -100,11 +103,12 @@ pub fn relax<'a>(
 /// [`Cancelled`].
 pub fn relax_constrained<'a>(
     sides: [Parametrised<'a>; 2],
-    (surface, constraints): (&'a ConeSurface, [&'a [(VertexId, PointConstraint)]; 2]),
+    surface: &'a ConeSurface,
+    constraints: Constraints<'a>,
     options: &'a MapRelaxationOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Relaxed<'a>, Cancelled> {
-    let mut relaxation = Relaxation::new(sides, (surface, constraints), options);
+    let mut relaxation = Relaxation::new(sides, surface, constraints, options);
     let mut energies = Vec::new();
     if !relaxation.begin() {
         return Ok(Relaxed { relaxation, energies });
@@ -138,7 +142,7 @@ pub fn relax_constrained<'a>(
 struct Relaxation<'a> {
     sides: [Parametrised<'a>; 2],
     surface: &'a ConeSurface,
-    constraints: [&'a [(VertexId, PointConstraint)]; 2],
+    constraints: Constraints<'a>,
     options: &'a MapRelaxationOptions,
     map_energy: MapEnergy,
     unknowns: [Unknowns<'a>; 2],
@@ -171,7 +175,8 @@ impl FaceDerivatives {
 impl<'a> Relaxation<'a> {
     fn new(
         sides: [Parametrised<'a>; 2],
-        (surface, constraints): (&'a ConeSurface, [&'a [(VertexId, PointConstraint)]; 2]),
+        surface: &'a ConeSurface,
+        constraints: Constraints<'a>,
         options: &'a MapRelaxationOptions,
     ) -> Self {
         let unknowns = sides.map(Unknowns::new);
@@ -414,7 +419,7 @@ pub(super) mod tests {
             energy: MapEnergy { balance: 0.1, knee: 0.2 },
             ..MapRelaxationOptions::default()
         };
-        let mut relaxation = Relaxation::new(sides(&layout, &embeddings), (&surface, [&[], &[]]), &options);
+        let mut relaxation = Relaxation::new(sides(&layout, &embeddings), &surface, [&[], &[]], &options);
         assert!(relaxation.begin());
         let z = relaxation.unknowns[0].points(&embeddings[0]);
         let slope = relaxation.gradient(&z);
