@@ -180,7 +180,7 @@ impl Patches<'_> {
     }
 }
 
-/// What fits of several patches know about the place of their centre: a quadratic form in a tangent plane.
+/// The sum of several patches' fits around one centre: a quadratic form of the centre's place in a tangent plane.
 struct Knowledge {
     frame: [DVec3; 2],
     form: DMat2,

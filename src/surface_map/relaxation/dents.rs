@@ -47,10 +47,10 @@ impl Default for DentOptions {
 /// A vertex that lowers the cost of its star by less than this share rests.
 const REST: f64 = 5e-3;
 
-/// So many vertices may move in a sweep over meshes of any size.
+/// Number of vertices that may move in one sweep over a mesh of any size.
 const LEAST: usize = 20;
 
-/// From so many times the brink on dents are deep.
+/// Density above which a dent is deep, in units of the brink.
 const DEEP: f64 = 10.0;
 
 /// Moves the vertices of the worst pieces; `overlay` is that of both sides. `None` where there is no dent, or nothing helps.

@@ -29,7 +29,7 @@ pub struct MapRelaxationOptions {
     pub relative_decrease: f64,
     /// Weight of the flat energy.
     pub barrier: f64,
-    /// What is lowered.
+    /// The energy of the map.
     pub energy: MapEnergy,
 }
 
@@ -45,8 +45,8 @@ pub type Constraints<'a> = [&'a [(VertexId, PointConstraint)]; 2];
 /// A relaxed map.
 pub struct Relaxed<'a> {
     relaxation: Relaxation<'a>,
-    /// What is lowered, before the first and after each step, without the barrier; 4 for an isometry without constraints. Empty where source and
-    /// target have no overlay.
+    /// The energy of the map and its constraints before the first and after each step; 4 for an isometry without constraints.
+    /// Empty where source and target have no overlay.
     pub energies: Vec<f64>,
 }
 
@@ -75,7 +75,7 @@ impl Relaxed<'_> {
 /// Share of the diagonal that is added to the Hessian at first.
 const FIRST_DAMPING: f64 = 0.03;
 
-/// How often a start without an overlay is nudged.
+/// Nudges of a start without an overlay, at most.
 const NUDGES: usize = 8;
 
 /// Relative residual of the linear solves.
@@ -95,9 +95,9 @@ pub fn relax<'a>(
     relax_constrained(sides, surface, [&[], &[]], options, monitor)
 }
 
-/// The same with vertices of either side that are drawn to places on the other.
+/// Lowers the energy of the map with soft constraints on vertices of both meshes.
 ///
-/// While a side moves its own constraints count, so what is lowered is not quite the same for both.
+/// While one mesh moves only its own constraints count, so both lower slightly different energies.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -300,7 +300,7 @@ impl<'a> Relaxation<'a> {
         self.present.constrain(sides, (&self.unknowns[moving], constraints), &self.locations);
     }
 
-    /// What is lowered, without the barrier; 4 for an isometry.
+    /// The energy of the map and its constraints, without the barrier; 4 for an isometry.
     fn energy(&self) -> f64 {
         (self.present.energy + self.present.constrained) / self.map_energy.unit()
     }
