@@ -37,7 +37,7 @@ pub struct ClassSearchOptions<'a> {
 pub struct Chosen<'a> {
     /// Its layout, drawn on the coarse levels.
     pub candidate: Candidate,
-    /// What was judged.
+    /// The layouts that were judged.
     pub search: SearchReport,
     /// The coarse map.
     pub map: CoarseMap<'a>,

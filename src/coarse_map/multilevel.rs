@@ -225,7 +225,7 @@ impl CoarseMap<'_> {
         let Ok(overlay) = overlay(source, target, &locations) else { return };
         let brink = if self.energy == MapEnergy::POSES { options.pose_brink } else { options.brink };
         let energy = DentEnergy { energy: self.energy, brink };
-        let healed = dents::heal([source, target], (&overlay, &self.surface), (options, energy));
+        let healed = dents::heal([source, target], &self.surface, &overlay, options, energy);
         for (k, embedding) in healed.iter().flatten().enumerate() {
             self.levels[k].adopt(&present[k].level, embedding);
         }
@@ -239,8 +239,7 @@ impl CoarseMap<'_> {
             let [level, other] = [k, 1 - k].map(|k| &present[k].level);
             let Ok(locations) = locate(from, onto, &self.surface) else { continue };
             let points = locations.by_vertex.iter().map(|at| barycentric(from, onto, at));
-            let seen =
-                MappedLevel::new((&level.mesh, &level.vertices), (&other.mesh, &other.vertices), points);
+            let seen = MappedLevel::new(level, other, points);
             show(k, &seen, &mut self.constraints[k]);
         }
     }
@@ -257,7 +256,7 @@ impl CoarseMap<'_> {
         let constraints = [0, 1].map(|k| on_level(&self.constraints[k], &present[k].level));
         let constraints = [&constraints[0][..], &constraints[1][..]];
         let relaxed =
-            map_relaxation::relax_constrained(parametrised, (&self.surface, constraints), options, monitor)?;
+            map_relaxation::relax_constrained(parametrised, &self.surface, constraints, options, monitor)?;
         let seen = look(&relaxed);
         let embeddings = relaxed.into_embeddings();
         for k in 0..2 {

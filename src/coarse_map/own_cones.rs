@@ -55,7 +55,7 @@ impl Default for OwnConeOptions {
     }
 }
 
-/// What the rounds make and their maps borrow: each round fills a cell.
+/// Owner of what the rounds make, which their maps borrow: each round fills a cell.
 pub struct Rounds<T>(Vec<OnceCell<[T; 2]>>);
 
 impl<T> Rounds<T> {
@@ -104,12 +104,12 @@ pub struct Refined {
     pub full: [LandmarkedMesh; 2],
 }
 
-/// What own cones are added to.
+/// Both meshes and their coarse map before own cones are added.
 #[derive(Clone, Copy)]
 pub struct Start<'a> {
     /// The meshes that the user gave.
     pub inputs: [&'a SurfaceMesh; 2],
-    /// The same with the user's landmarks.
+    /// The meshes with the user's landmarks.
     pub full: &'a [LandmarkedMesh; 2],
     /// The coarse map with the user's landmarks alone.
     pub map: &'a CoarseMap<'a>,
@@ -126,7 +126,8 @@ pub struct Start<'a> {
 pub fn add<'a>(
     start: Start<'_>,
     (fulls, all_levels): (&'a Rounds<LandmarkedMesh>, &'a Rounds<MeshWithCoarse<'a>>),
-    (multilevel, own): (&MultilevelOptions, &OwnConeOptions),
+    multilevel: &MultilevelOptions,
+    own: &OwnConeOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Option<OwnCones<'a>>, Cancelled> {
     let Start { inputs, full, map, vertices } = start;

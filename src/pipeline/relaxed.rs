@@ -153,7 +153,7 @@ fn parametrise(
                 let cells = (&rounds.0, &rounds.1);
                 let inputs = [input.source, input.target];
                 let start = Start { inputs, full: &full, map: &map, vertices };
-                let own = own_cones::add(start, cells, (&options.multilevel, &options.own_cones), monitor)?;
+                let own = own_cones::add(start, cells, &options.multilevel, &options.own_cones, monitor)?;
                 monitor.enter(Stage::Relaxation);
                 let own = own.map_or(Ok(None), |own| own.refined(&options.multilevel, monitor))?;
                 let fine = match own {

@@ -9,6 +9,7 @@
 
 use super::patch_fit::{FitOptions, Fitter, OrientedSurface, PatchFit, PatchPoint};
 use crate::math::scalar::max;
+use crate::mesh::coarsening::Level;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use crate::surface_map::energy::point_constraint::PointConstraint;
 use glam::{DMat2, DVec2, DVec3};
@@ -68,18 +69,15 @@ pub struct MappedLevel<'a> {
 }
 
 impl<'a> MappedLevel<'a> {
-    /// A level by its images on the other level.
-    pub fn new(
-        (mesh, vertices): (&'a SurfaceMesh, &'a TiSlice<VertexId, VertexId>),
-        (onto, onto_vertices): (&SurfaceMesh, &TiSlice<VertexId, VertexId>),
-        points: impl Iterator<Item = SurfacePoint>,
-    ) -> Self {
-        let mut level = Self { mesh, vertices, images: TiVec::new(), near: TiVec::new() };
+    /// A level by the points of the other mesh's level that are its vertices' images.
+    pub fn new(own: &'a Level, other: &Level, points: impl Iterator<Item = SurfacePoint>) -> Self {
+        let mut level =
+            Self { mesh: &own.mesh, vertices: &own.vertices, images: TiVec::new(), near: TiVec::new() };
         for point in points {
             let weight = |k: &usize| point.barycentric[*k];
             let corner = (0..3).max_by(|a, b| weight(a).total_cmp(&weight(b))).unwrap_or(0);
-            level.images.push(point.position(onto));
-            level.near.push(onto_vertices[onto.triangles()[point.face][corner]]);
+            level.images.push(point.position(&other.mesh));
+            level.near.push(other.vertices[other.mesh.triangles()[point.face][corner]]);
         }
         level
     }
@@ -182,7 +180,7 @@ impl Patches<'_> {
     }
 }
 
-/// What fits of several patches know about the place of their centre: a quadratic form in a tangent plane.
+/// The sum of several patches' fits around one centre: a quadratic form of the centre's place in a tangent plane.
 struct Knowledge {
     frame: [DVec3; 2],
     form: DMat2,

@@ -68,7 +68,7 @@ pub struct Distortion {
 /// From this density on a texture is seen to be dented.
 pub const DENTED: f64 = 20.0;
 
-/// So many of the worst pieces are told.
+/// Number of worst pieces in the result, at most.
 pub const WORST: usize = 10;
 
 /// One of the pieces of the overlay with the largest densities.

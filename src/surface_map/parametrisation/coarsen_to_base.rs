@@ -10,7 +10,7 @@ use crate::mesh::collapsible::CollapsibleMesh;
 use crate::mesh::{HalfedgeId, VertexId};
 use typed_index_collections::{TiVec, ti_vec};
 
-/// What holds a vertex.
+/// Where a vertex lies, which says where it may be collapsed to.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Hold {
     Landmark,

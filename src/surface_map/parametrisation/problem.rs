@@ -29,7 +29,7 @@ impl Default for FlatRelaxOptions {
     }
 }
 
-/// What a relaxation did.
+/// The energies and the work of a flat relaxation.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FlatRelaxReport {
     /// Energy before the first and after each step; area-weighted mean, 1 for an isometry.

@@ -146,7 +146,7 @@ impl CoveredStar {
         (covered - area).abs() < 1e-7 * area
     }
 
-    /// What is lowered; `None` where a triangle is not positive.
+    /// The integral of the dents' energy over the star with its vertex at `z`; `None` where a triangle is not positive.
     pub fn cost(&self, z: DVec2, energy: &DentEnergy) -> Option<f64> {
         let mut cost = 0.0;
         for ray in &self.rays {

@@ -47,10 +47,10 @@ impl Default for DentOptions {
 /// A vertex that lowers the cost of its star by less than this share rests.
 const REST: f64 = 5e-3;
 
-/// So many vertices may move in a sweep over meshes of any size.
+/// Number of vertices that may move in one sweep over a mesh of any size.
 const LEAST: usize = 20;
 
-/// From so many times the brink on dents are deep.
+/// Density above which a dent is deep, in units of the brink.
 const DEEP: f64 = 10.0;
 
 /// Moves the vertices of the worst pieces; `overlay` is that of both sides. `None` where there is no dent, or nothing helps.
@@ -58,8 +58,10 @@ const DEEP: f64 = 10.0;
 /// Triangles that were positive stay so, and what is lowered never grows.
 pub fn heal(
     sides: [Parametrised<'_>; 2],
-    (overlay, surface): (&Overlay, &ConeSurface),
-    (options, energy): (&DentOptions, DentEnergy),
+    surface: &ConeSurface,
+    overlay: &Overlay,
+    options: &DentOptions,
+    energy: DentEnergy,
 ) -> Option<[Embedding; 2]> {
     let mut healer = Healer { sheets: sheets(sides, overlay), energy, at_rest: BTreeSet::new() };
     let mut faces = dented(sides, overlay, energy.brink);
@@ -285,9 +287,9 @@ mod tests {
                 }
                 let (overlay, before) = overlaid(sides(&layout, &dented), &surface);
                 assert!(before.max > 1e3, "{}", before.max);
-                let around = (&overlay, &*surface);
                 let healed =
-                    heal(sides(&layout, &dented), around, (&DentOptions::default(), ENERGY)).unwrap();
+                    heal(sides(&layout, &dented), &surface, &overlay, &DentOptions::default(), ENERGY)
+                        .unwrap();
                 let (_, after) = overlaid(sides(&layout, &healed), &surface);
                 assert!(after.max < 2.0 * smooth.max.max(ENERGY.brink), "{v:?}: {}", after.max);
                 assert!(after.energy < before.energy);
@@ -303,8 +305,7 @@ mod tests {
         let (layout, surface, start) = example();
         let (overlay, measured) = overlaid(sides(&layout, &start), &surface);
         let energy = DentEnergy { brink: 1.01 * measured.max, ..ENERGY };
-        let around = (&overlay, &*surface);
-        assert!(heal(sides(&layout, &start), around, (&DentOptions::default(), energy)).is_none());
+        assert!(heal(sides(&layout, &start), &surface, &overlay, &DentOptions::default(), energy).is_none());
     }
 
     #[test]

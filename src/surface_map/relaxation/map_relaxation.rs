@@ -29,7 +29,7 @@ pub struct MapRelaxationOptions {
     pub relative_decrease: f64,
     /// Weight of the flat energy.
     pub barrier: f64,
-    /// What is lowered.
+    /// The energy of the map.
     pub energy: MapEnergy,
 }
 
@@ -39,11 +39,14 @@ impl Default for MapRelaxationOptions {
     }
 }
 
+/// By mesh, source first: constrained vertices, each with its place on the other mesh.
+pub type Constraints<'a> = [&'a [(VertexId, PointConstraint)]; 2];
+
 /// A relaxed map.
 pub struct Relaxed<'a> {
     relaxation: Relaxation<'a>,
-    /// What is lowered, before the first and after each step, without the barrier; 4 for an isometry without constraints. Empty where source and
-    /// target have no overlay.
+    /// The energy of the map and its constraints before the first and after each step; 4 for an isometry without constraints.
+    /// Empty where source and target have no overlay.
     pub energies: Vec<f64>,
 }
 
@@ -72,7 +75,7 @@ impl Relaxed<'_> {
 /// Share of the diagonal that is added to the Hessian at first.
 const FIRST_DAMPING: f64 = 0.03;
 
-/// How often a start without an overlay is nudged.
+/// Nudges of a start without an overlay, at most.
 const NUDGES: usize = 8;
 
 /// Relative residual of the linear solves.
@@ -89,22 +92,23 @@ pub fn relax<'a>(
     options: &'a MapRelaxationOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Relaxed<'a>, Cancelled> {
-    relax_constrained(sides, (surface, [&[], &[]]), options, monitor)
+    relax_constrained(sides, surface, [&[], &[]], options, monitor)
 }
 
-/// The same with vertices of either side that are drawn to places on the other.
+/// Lowers the energy of the map with soft constraints on vertices of both meshes.
 ///
-/// While a side moves its own constraints count, so what is lowered is not quite the same for both.
+/// While one mesh moves only its own constraints count, so both lower slightly different energies.
 ///
 /// # Errors
 /// [`Cancelled`].
 pub fn relax_constrained<'a>(
     sides: [Parametrised<'a>; 2],
-    (surface, constraints): (&'a ConeSurface, [&'a [(VertexId, PointConstraint)]; 2]),
+    surface: &'a ConeSurface,
+    constraints: Constraints<'a>,
     options: &'a MapRelaxationOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Relaxed<'a>, Cancelled> {
-    let mut relaxation = Relaxation::new(sides, (surface, constraints), options);
+    let mut relaxation = Relaxation::new(sides, surface, constraints, options);
     let mut energies = Vec::new();
     if !relaxation.begin() {
         return Ok(Relaxed { relaxation, energies });
@@ -138,7 +142,7 @@ pub fn relax_constrained<'a>(
 struct Relaxation<'a> {
     sides: [Parametrised<'a>; 2],
     surface: &'a ConeSurface,
-    constraints: [&'a [(VertexId, PointConstraint)]; 2],
+    constraints: Constraints<'a>,
     options: &'a MapRelaxationOptions,
     map_energy: MapEnergy,
     unknowns: [Unknowns<'a>; 2],
@@ -171,7 +175,8 @@ impl FaceDerivatives {
 impl<'a> Relaxation<'a> {
     fn new(
         sides: [Parametrised<'a>; 2],
-        (surface, constraints): (&'a ConeSurface, [&'a [(VertexId, PointConstraint)]; 2]),
+        surface: &'a ConeSurface,
+        constraints: Constraints<'a>,
         options: &'a MapRelaxationOptions,
     ) -> Self {
         let unknowns = sides.map(Unknowns::new);
@@ -295,7 +300,7 @@ impl<'a> Relaxation<'a> {
         self.present.constrain(sides, (&self.unknowns[moving], constraints), &self.locations);
     }
 
-    /// What is lowered, without the barrier; 4 for an isometry.
+    /// The energy of the map and its constraints, without the barrier; 4 for an isometry.
     fn energy(&self) -> f64 {
         (self.present.energy + self.present.constrained) / self.map_energy.unit()
     }
@@ -414,7 +419,7 @@ pub(super) mod tests {
             energy: MapEnergy { balance: 0.1, knee: 0.2 },
             ..MapRelaxationOptions::default()
         };
-        let mut relaxation = Relaxation::new(sides(&layout, &embeddings), (&surface, [&[], &[]]), &options);
+        let mut relaxation = Relaxation::new(sides(&layout, &embeddings), &surface, [&[], &[]], &options);
         assert!(relaxation.begin());
         let z = relaxation.unknowns[0].points(&embeddings[0]);
         let slope = relaxation.gradient(&z);
