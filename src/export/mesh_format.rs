@@ -1,10 +1,11 @@
 //! The format of a mesh file by the ending of its name.
 
 use super::{obj, off, ply};
+use crate::io::Format;
 use crate::mesh::SurfaceMesh;
 use std::path::Path;
 
-/// A format in which meshes are written.
+/// A format in which meshes are written: one of those that are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeshFormat {
     /// Wavefront OBJ, text.
@@ -19,19 +20,25 @@ impl MeshFormat {
     /// All formats.
     pub const ALL: [Self; 3] = [Self::Obj, Self::Off, Self::Ply];
 
-    /// The ending of its files' names, with the dot.
-    pub fn ending(self) -> &'static str {
+    /// The format as it is read.
+    pub fn format(self) -> Format {
         match self {
-            Self::Obj => ".obj",
-            Self::Off => ".off",
-            Self::Ply => ".ply",
+            Self::Obj => Format::Obj,
+            Self::Off => Format::Off,
+            Self::Ply => Format::Ply,
         }
+    }
+
+    /// The usual ending of its files' names, without the dot.
+    pub fn ending(self) -> &'static str {
+        self.format().endings()[0]
     }
 
     /// The format that a file's name ends with, in capitals or not; `None` where it is none of these.
     pub fn of(file: &Path) -> Option<Self> {
         let ending = file.extension()?.to_str()?;
-        Self::ALL.into_iter().find(|format| format.ending()[1..].eq_ignore_ascii_case(ending))
+        let is_its = |format: &Self| format.format().endings().iter().any(|e| e.eq_ignore_ascii_case(ending));
+        Self::ALL.into_iter().find(is_its)
     }
 
     /// The contents of a file of this format.
@@ -65,7 +72,7 @@ mod tests {
     #[test]
     fn names_say_their_format() {
         for format in MeshFormat::ALL {
-            let name = format!("folder.stl/mesh{}", format.ending());
+            let name = format!("folder.stl/mesh.{}", format.ending());
             assert_eq!(MeshFormat::of(Path::new(&name)), Some(format));
             assert_eq!(MeshFormat::of(Path::new(&name.to_uppercase())), Some(format));
         }

@@ -2,6 +2,7 @@
 //!
 //! Everything is hostile until checked: sizes are compared with the file before anything is allocated.
 
+mod format;
 mod gltf_file;
 pub mod landmark_file;
 mod obj;
@@ -11,48 +12,21 @@ mod problem;
 mod reading;
 mod stl;
 
+pub use format::Format;
 pub use problem::Place;
 
 use crate::mesh::soup::PolygonSoup;
 use problem::Problem;
-use std::fmt;
 
 /// Files larger than this are refused.
 pub const MAX_BYTES: usize = 1 << 30;
-
-/// Mesh file formats.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// Wavefront OBJ.
-    Obj,
-    /// Object File Format.
-    Off,
-    /// Stanford PLY, text or binary.
-    Ply,
-    /// Stereolithography, text or binary.
-    Stl,
-    /// glTF 2.0, binary or text with embedded buffers.
-    Gltf,
-}
-
-impl fmt::Display for Format {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Obj => "OBJ",
-            Self::Off => "OFF",
-            Self::Ply => "PLY",
-            Self::Stl => "STL",
-            Self::Gltf => "glTF",
-        })
-    }
-}
 
 /// Why a file cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
     /// No known format.
-    #[error("this is not a mesh file that can be read: use OBJ, OFF, PLY, STL, GLB or glTF")]
+    #[error("this is not a mesh file that can be read: use {}", Format::NAMES)]
     UnknownFormat,
     /// Too large.
     #[error("the file has {bytes} bytes; the limit is {MAX_BYTES}")]

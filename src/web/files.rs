@@ -53,6 +53,19 @@ pub fn read_mesh(bytes: &[u8]) -> Result<LoadedMesh, JsValue> {
     Ok(LoadedMesh { checked: checked(bytes)? })
 }
 
+/// The mesh formats in words.
+#[wasm_bindgen(js_name = meshFormats)]
+pub fn mesh_formats() -> String {
+    io::Format::NAMES.to_owned()
+}
+
+/// The endings of mesh files' names, with their dots, apart by commas: as a file chooser takes them.
+#[wasm_bindgen(js_name = meshEndings)]
+pub fn mesh_endings() -> String {
+    let endings = io::Format::ALL.into_iter().flat_map(io::Format::endings);
+    endings.map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(",")
+}
+
 /// Reads a landmark file and gives it back as normalised JSON.
 ///
 /// # Errors

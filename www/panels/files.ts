@@ -4,9 +4,9 @@ import type { Side } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
 import { integer } from '../numbers.ts';
 import type { State } from '../store/state.ts';
+import { meshEndings, meshFormats } from '../wasm/conemap.js';
 import type { Actions, Panel } from './panel.ts';
 
-const MESH_TYPES = '.obj,.off,.ply,.stl,.glb,.gltf';
 const NAMES = ['Source', 'Target'] as const;
 
 function chooser(accept: string, onFiles: (files: File[]) => void): HTMLInputElement {
@@ -74,15 +74,16 @@ export function filesPanel(actions: Actions): Panel {
     }
   });
   const meshButtons = SIDES.map((side) => {
-    const input = chooser(MESH_TYPES, (files) => {
+    // What is accepted is known when the core is there.
+    const input = chooser('', (files) => {
       actions.openFiles(files.slice(0, 1), side);
     });
     input.id = side === 0 ? 'source-file' : 'target-file';
     const choose = button(`${NAMES[side]}…`, () => {
       input.click();
-    }, { title: `Choose the ${NAMES[side].toLowerCase()} mesh: OBJ, OFF, PLY, STL, GLB or glTF` });
+    });
     root.append(choose, input);
-    return choose;
+    return { choose, input };
   });
   const landmarkInput = chooser('.json', (files) => {
     actions.openFiles(files.slice(0, 1), null);
@@ -113,7 +114,13 @@ export function filesPanel(actions: Actions): Panel {
         select.value = state.demo?.id ?? '';
       }
       const running = state.job.kind === 'running';
-      for (const element of [select, landmarkButton, ...meshButtons]) {
+      if (state.ready && previous?.ready !== true) {
+        meshButtons.forEach(({ choose, input }, side) => {
+          input.accept = meshEndings();
+          choose.title = `Choose the ${NAMES[side]?.toLowerCase()} mesh: ${meshFormats()}`;
+        });
+      }
+      for (const element of [select, landmarkButton, ...meshButtons.map(({ choose }) => choose)]) {
         element.disabled = !state.ready || running;
       }
       if (previous?.meshes !== state.meshes) {

@@ -1,6 +1,8 @@
 //! What the user types.
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
+use conemap::cone_metric::Scheme;
+use conemap::io::Format;
 use conemap::pipeline::Choices;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -30,7 +32,8 @@ pub enum Command {
 /// `conemap map`.
 #[derive(Debug, Args)]
 pub struct MapArguments {
-    /// Source mesh: OBJ, OFF, PLY, STL, GLB or glTF; closed, genus 0.
+    /// Source mesh.
+    #[arg(help = mesh_help("Source mesh"))]
     pub source: PathBuf,
     /// Target mesh, likewise.
     pub target: PathBuf,
@@ -58,7 +61,8 @@ pub struct MapArguments {
 /// `conemap suggest`.
 #[derive(Debug, Args)]
 pub struct SuggestArguments {
-    /// Mesh: OBJ, OFF, PLY, STL, GLB or glTF; closed, genus 0.
+    /// Mesh.
+    #[arg(help = mesh_help("Mesh"))]
     pub mesh: PathBuf,
     /// How many at most.
     #[arg(long, default_value_t = 12)]
@@ -66,6 +70,11 @@ pub struct SuggestArguments {
     /// Vertices (0-based) that are landmarks already: the suggestions keep away from them.
     #[arg(long, value_name = "VERTEX", value_delimiter = ',')]
     pub beside: Vec<usize>,
+}
+
+/// What a mesh must be.
+fn mesh_help(name: &str) -> String {
+    format!("{name}: {}; closed, genus 0", Format::NAMES)
 }
 
 /// A time of zero or more seconds.
@@ -77,14 +86,15 @@ fn seconds(text: &str) -> Result<Duration, String> {
 /// `conemap flow`.
 #[derive(Debug, Args)]
 pub struct FlowArguments {
-    /// Mesh: OBJ, OFF, PLY, STL, GLB or glTF; closed, genus 0.
+    /// Mesh.
+    #[arg(help = mesh_help("Mesh"))]
     pub mesh: PathBuf,
     /// Text file of lines `vertex angle_defect` (0-based, radians); all other vertices become flat. The sum must be 4 pi.
     #[arg(long)]
     pub cones: PathBuf,
     /// The discrete conformal structure.
-    #[arg(long, value_enum, default_value_t = SchemeArgument::Inversive)]
-    pub scheme: SchemeArgument,
+    #[arg(long, value_enum, default_value_t)]
+    pub scheme: Scheme,
     /// File for the report (JSON).
     #[arg(long)]
     pub report: Option<PathBuf>,
@@ -93,7 +103,8 @@ pub struct FlowArguments {
 /// `conemap remesh`.
 #[derive(Debug, Args)]
 pub struct RemeshArguments {
-    /// Mesh: OBJ, OFF, PLY, STL, GLB or glTF; closed, genus 0.
+    /// Mesh.
+    #[arg(help = mesh_help("Mesh"))]
     pub mesh: PathBuf,
     /// The wanted number of triangles; the result is within 5 % of it.
     #[arg(long, value_name = "N")]
@@ -113,15 +124,4 @@ pub struct RemeshArguments {
 fn degrees(text: &str) -> Result<f64, String> {
     let degrees = text.parse().map_err(|_| format!("`{text}` is no number of degrees"))?;
     if (0.0..=180.0).contains(&degrees) { Ok(degrees) } else { Err("it must be from 0 to 180".to_owned()) }
-}
-
-/// The discrete conformal structure of the flow.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum SchemeArgument {
-    /// Inversive distances, weighted Delaunay flips.
-    Inversive,
-    /// Vertex scaling, Delaunay flips.
-    VertexScaling,
-    /// Inversive distances without flips, as in the thesis.
-    FixedTriangulation,
 }

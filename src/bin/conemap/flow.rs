@@ -1,9 +1,9 @@
 //! `conemap flow`.
 
-use crate::arguments::{FlowArguments, SchemeArgument};
+use crate::arguments::FlowArguments;
 use crate::clock::Clock;
 use crate::input::{self, Failure};
-use conemap::cone_metric::{FlowError, FlowOptions, Scheme, flow, listed_curvature};
+use conemap::cone_metric::{FlowError, FlowOptions, flow, listed_curvature};
 use conemap::monitor::{Monitor, Stage};
 use conemap::pipeline::ConeMetricReport;
 use serde_json::json;
@@ -14,7 +14,7 @@ pub fn run(arguments: &FlowArguments) -> Result<(), Failure> {
     let mesh = &checked.mesh;
     let cones = cones(arguments, &checked.vertex_from_file)?;
     let curvature = listed_curvature(mesh.vertex_count(), &cones)?;
-    let options = FlowOptions { scheme: scheme(arguments.scheme), ..FlowOptions::default() };
+    let options = FlowOptions { scheme: arguments.scheme, ..FlowOptions::default() };
     let mut clock = Clock::start_only(Stage::SourceConeMetric);
     clock.enter(Stage::SourceConeMetric);
     let outcome = flow(mesh, &curvature, &options, &mut clock);
@@ -35,14 +35,6 @@ pub fn run(arguments: &FlowArguments) -> Result<(), Failure> {
         input::write(path, &serde_json::to_vec_pretty(&value)?)?;
     }
     failure.map_or(Ok(()), |error| Err(error.into()))
-}
-
-fn scheme(argument: SchemeArgument) -> Scheme {
-    match argument {
-        SchemeArgument::Inversive => Scheme::InversiveDistance,
-        SchemeArgument::VertexScaling => Scheme::VertexScaling,
-        SchemeArgument::FixedTriangulation => Scheme::FixedTriangulation,
-    }
 }
 
 /// Reads lines `vertex angle_defect`.

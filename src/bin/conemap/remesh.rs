@@ -13,7 +13,7 @@ pub fn run(arguments: &RemeshArguments) -> Result<(), Failure> {
     let out = &arguments.out;
     // Asked before the work is done.
     let format = MeshFormat::of(out).ok_or_else(|| {
-        let known = MeshFormat::ALL.map(MeshFormat::ending).join(", ");
+        let known = MeshFormat::ALL.map(|format| format!(".{}", format.ending())).join(", ");
         format!("{}: the name must end in one of {known}", out.display())
     })?;
     let checked = input::mesh(&arguments.mesh)?;
