@@ -157,6 +157,7 @@ impl CoarseMap<'_> {
                 *constraints =
                     found.into_iter().map(|(v, constraint)| (seen.vertices[v], constraint)).collect();
             });
+            // A few steps before patches are registered again. Chosen by hand, not measured at half and double.
             self.lower(&MapRelaxationOptions { max_rounds: 4, ..*fine }, part, |_| ())?;
         }
         // Finer levels hold their vertices where they are now: another place for one of their small triangles would dent the map.

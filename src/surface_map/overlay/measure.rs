@@ -311,6 +311,7 @@ impl Measure {
             let (s, t) = (piece.source_face, piece.target_face);
             let sizes = [(&self.seats.corners, s), (&target.embedding.corners, t)];
             let [on_source, on_target] = sizes.map(|(corners, f)| face_area(corners, f));
+            // As in `cells`: rounding of shares, and of coordinates of order 1 along a side.
             let slack = 1e-9 * on_source.min(on_target) + 1e-14 * on_source.max(on_target).sqrt();
             if area.is_nan() || area < -slack {
                 let (source_face, target_face) = (s.index(), t.index());

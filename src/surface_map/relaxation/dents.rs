@@ -40,11 +40,13 @@ pub struct DentOptions {
 
 impl Default for DentOptions {
     fn default() -> Self {
+        // The brinks: a density of 20 is seen in a texture; other maps may have to distort a limb without a partner. The
+        // sweeps take 2 to 6 % of a map's time.
         Self { pose_brink: 20.0, brink: 500.0, sweeps: 12, deep_sweeps: 40, share: 0.006 }
     }
 }
 
-/// A vertex that lowers the cost of its star by less than this share rests.
+/// A vertex that lowers the cost of its star by less than this share rests. Chosen by hand.
 const REST: f64 = 5e-3;
 
 /// Number of vertices that may move in one sweep over a mesh of any size.
