@@ -30,7 +30,7 @@ impl Default for FlowOptions {
     }
 }
 
-/// What the flow did.
+/// Steps, iterations and residuals of a flow.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FlowReport {
     /// Accepted Newton steps.

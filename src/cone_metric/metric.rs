@@ -59,8 +59,8 @@ impl ConeMetric {
 
     /// Flips until every edge is weighted Delaunay; returns the number of flips.
     ///
-    /// Flips lower an energy, so they end; where rounding makes them go round in circles they are ended here. What is left is
-    /// a triangulation all the same, and the flow judges it by its curvatures.
+    /// Flips lower an energy, so they end; where rounding makes them repeat, a bound ends them. The result is a triangulation all
+    /// the same, and the flow judges it by its curvatures.
     pub(super) fn restore_delaunay(&mut self, queue: &mut FlipQueue) -> usize {
         let inverse: TiVec<VertexId, f64> = self.log_radii.iter().map(|&u| exp(-u)).collect();
         queue.fill(&self.triangulation);

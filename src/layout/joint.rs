@@ -60,7 +60,7 @@ const BENT: f64 = 1.2;
 
 /// Takes bent paths away, the worst first, and puts the better diagonal of the quadrilateral in; the class stays.
 ///
-/// What is drawn early is straight but may be in the way of what comes later, or may have been turned round by a twist.
+/// A path drawn early is straight but may block later ones, and a twist may have wound it.
 pub(super) fn straighten(
     drawing: &mut Drawing,
     planner: &mut Planner<'_>,

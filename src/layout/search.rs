@@ -7,7 +7,7 @@ use super::candidates::{Candidate, Candidates};
 use super::error::LayoutError;
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
 
-/// How long the class of the map is searched.
+/// Limits of the search for the class of the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchOptions {
     /// Layouts from different orders of drawing that are judged at most.
@@ -23,7 +23,7 @@ pub struct SearchOptions {
     pub twists: usize,
     /// A twist is considered when the path that goes round is at most this many times the one that it replaces.
     pub twist_ratio: f64,
-    /// The same for clear layouts: near 1 the path might as well go the other way.
+    /// The same bound for clear layouts: with a ratio near 1 both ways round are plausible.
     pub ambiguous_ratio: f64,
     /// The least relative decrease of the mean log density for which a layout is changed.
     pub least_gain: f64,

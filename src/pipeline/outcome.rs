@@ -1,6 +1,6 @@
-//! What is told of a certified map: images, common mesh, measures, report.
+//! The result of a certified map: images, common mesh, measures, report.
 //!
-//! The map stands before any of this begins. So what fails here costs only itself, and becomes a warning.
+//! The map is certified before any of this begins, so a failure here costs only the part that failed and becomes a warning.
 
 use super::flows::Flows;
 use super::relaxed::Parametrisation;
@@ -17,7 +17,7 @@ use crate::surface_map::overlay::{Overlay, OverlayError};
 use glam::DVec3;
 use typed_index_collections::TiVec;
 
-/// A certified map with what was made beside it.
+/// A certified map with its texture and locations.
 pub(super) struct Outcome<'a> {
     pub(super) input: MapInput<'a>,
     pub(super) map: &'a Parametrisation,
@@ -35,7 +35,7 @@ struct Shown {
 }
 
 impl Outcome<'_> {
-    /// Everything that is told; what is missing of it is among the warnings.
+    /// The result; `missing` are the warnings of parts that failed before.
     pub(super) fn result(
         &self,
         overlay: Result<Overlay, OverlayError>,

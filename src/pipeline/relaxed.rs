@@ -1,4 +1,4 @@
-//! The relaxed map: from landmarks to certified parametrisations of both meshes, and what is told of them.
+//! The relaxed map: from landmarks to certified parametrisations of both meshes, and to the result.
 
 use super::flows::Flows;
 use super::outcome::Outcome;

@@ -92,12 +92,12 @@ fn is_positive(corners: [DVec2; 3]) -> bool {
     orient2d(p, q, r) > 0.0
 }
 
-/// How far the sides of the base faces, followed from their landmarks, end from their other landmarks.
+/// Largest distance between the end of a base side, followed from its landmark, and its other landmark.
 fn landmark_error(side: Parametrised<'_>, surface: &ConeSurface) -> f64 {
     surface.base.mesh.halfedges().map(|h| base_line(side, surface, h).end_error).fold(0.0, nan_max)
 }
 
-/// How far an edge seen from one side, carried over by its transition, is from the same edge seen from the other.
+/// Largest distance between an edge in one face's plane, carried over by its transition, and the same edge in the other's.
 fn transition_error(side: Parametrised<'_>) -> f64 {
     let Parametrised { mesh, embedding, .. } = side;
     let error = |h: HalfedgeId| {

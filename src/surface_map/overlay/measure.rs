@@ -300,7 +300,7 @@ impl Measure {
         lone.map_or(Ok(()), |piece| Err(mixed(piece.source_face, piece.target_face)))
     }
 
-    /// Areas from what was swept; negative ones only by rounding.
+    /// Areas from the swept triangles; a negative one is rounding or an error.
     fn finish(&mut self, target: Parametrised<'_>) -> Result<(), OverlayError> {
         for piece in &mut self.pieces {
             let area = 0.5 * piece.area;

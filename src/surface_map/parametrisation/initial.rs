@@ -38,7 +38,7 @@ impl Default for InitialOptions {
     }
 }
 
-/// The levels and vertices of a first parametrisation.
+/// Numbers of levels and vertices of a first parametrisation.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InitialReport {
     /// Levels that were relaxed.

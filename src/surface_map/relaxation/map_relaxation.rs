@@ -67,8 +67,8 @@ impl Relaxed<'_> {
         }
     }
 
-    /// Half of both surfaces is distorted by no more than this ([`MapEnergy::distortion`] with equal areas); not a number
-    /// without an overlay.
+    /// Median over both surfaces of the distortion ([`MapEnergy::distortion`] with equal areas), by area; not a number without an
+    /// overlay.
     pub fn median(&self) -> f64 {
         self.relaxation.present.median(MapEnergy::POSES)
     }
@@ -85,7 +85,7 @@ const NUDGES: usize = 8;
 const LINEAR_TOLERANCE: f64 = 0.03;
 
 /// Lowers the energy of the map by moving both parametrisations in turn; both stay valid at every step. Ends after
-/// the first round when the monitor wants a result: that takes away most of what new vertices have distorted.
+/// the first round when the monitor wants a result: one round removes most of the distortion that new vertices brought.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -350,7 +350,8 @@ impl<'a> Relaxation<'a> {
         faces
     }
 
-    /// Adds what the moving edges sweep over: the jump of the density times the area gained per motion of their ends.
+    /// Adds the derivative of the pieces' areas: the jump of the density over each moving edge, times the area that the edge sweeps
+    /// per motion of its ends.
     fn add_sweeps(&self, densities: &[f64], faces: &mut [FaceDerivatives]) {
         let corners = &self.embeddings[self.moving].corners;
         for segment in self.present.overlay.segments(self.sides[self.moving].mesh, SideOf::Source) {
