@@ -6,6 +6,7 @@
 //! from a user's files to the pipeline and back. The core knows no browser, no GPU, no clock and no printing.
 
 pub mod base_domain;
+pub mod certificate;
 pub mod coarse_map;
 pub mod cone_metric;
 pub mod demo;

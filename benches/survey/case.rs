@@ -5,8 +5,8 @@ use crate::common;
 use conemap::landmarks::{Landmarks, PlacedLandmarks};
 use conemap::mesh::insertion::insert;
 use conemap::mesh::{SurfaceMesh, SurfacePoint};
-use conemap::monitor::{Cancelled, Monitor, Step};
-use conemap::pipeline::{GroundTruth, MapInput, MapResult, run};
+use conemap::monitor::{Cancelled, Monitor, Stage, Step};
+use conemap::pipeline::{GroundTruth, MapInput, MapResult, PipelineOptions, findings, run};
 use cpu_time::ThreadTime;
 use glam::DVec3;
 use std::time::Instant;
@@ -95,17 +95,32 @@ impl Case {
         Outcome { name: self.name.clone(), variant: self.variant.clone(), reached, seconds }
     }
 
-    fn reached(&self, arguments: &Arguments) -> Result<Reached, String> {
+    /// Compares the landmark pairs and makes the map, as a job does after its files are read.
+    pub fn run(&self, options: &PipelineOptions, monitor: &mut dyn Monitor) -> Result<(), String> {
+        monitor.enter(Stage::Landmarks);
+        let placed = self.placed()?;
+        let input = Self::input(&placed);
+        findings(input, &[], monitor).map_err(|e| e.to_string())?;
+        run(input, options, monitor).map_err(|e| e.to_string())?;
+        Ok(())
+    }
+
+    fn placed(&self) -> Result<PlacedLandmarks, String> {
         let side = |k: usize| insert(&self.meshes[k], &self.points[k]).map_err(|e| e.to_string());
         let (source, target) = (side(0)?, side(1)?);
         let landmarks = Landmarks { source: source.vertices.clone(), target: target.vertices.clone() };
-        let placed = PlacedLandmarks { source, target, landmarks };
-        let input = MapInput {
-            source: &placed.source.mesh,
-            target: &placed.target.mesh,
-            landmarks: &placed.landmarks,
-            ground_truth: GroundTruth::Unknown,
-        };
+        Ok(PlacedLandmarks { source, target, landmarks })
+    }
+
+    fn input(placed: &PlacedLandmarks) -> MapInput<'_> {
+        let PlacedLandmarks { source, target, landmarks } = placed;
+        let ground_truth = GroundTruth::Unknown;
+        MapInput { source: &source.mesh, target: &target.mesh, landmarks, ground_truth }
+    }
+
+    fn reached(&self, arguments: &Arguments) -> Result<Reached, String> {
+        let placed = self.placed()?;
+        let input = Self::input(&placed);
         let mut limit = Limit { begun: ThreadTime::now(), seconds: arguments.time_limit };
         let result = run(input, &arguments.options, &mut limit).map_err(|e| e.to_string())?;
         Ok(self.measured(&result, &placed))

@@ -18,6 +18,7 @@ mod fit_faults;
 mod pairs;
 mod remesh;
 mod remeshed;
+mod stages;
 mod table;
 
 use arguments::Arguments;
@@ -61,6 +62,11 @@ const SURVEYS: &[Survey] = &[
         name: "truth",
         about: "poses with a known truth, the same connectivity or remeshed, 33, 12 and 6 landmarks; --pairs horse-horse,cat-cat",
         run: remeshed::truth,
+    },
+    Survey {
+        name: "stages",
+        about: "the share of each stage, measured and told; --landmarks 12 for few landmarks",
+        run: stages::shares,
     },
     Survey {
         name: "fit",

@@ -42,11 +42,7 @@ pub enum PipelineError {
     #[error("overlay: {0}")]
     Overlay(#[from] OverlayError),
     /// The result is not a bijection; it is not returned as a map.
-    #[error(
-        "the map is not certified: {} flipped triangles, largest angle sum error {:.3e} rad",
-        .0.flipped_triangles,
-        .0.max_angle_sum_error
-    )]
+    #[error("the map is not certified: {0}")]
     NotCertified(Certificate),
 }
 

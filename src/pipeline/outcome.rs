@@ -8,10 +8,10 @@ use super::report::{CertificateReport, DistortionReport, GroundTruthReport, Layo
 use super::{GroundTruth, MapInput, MapResult, Report, TriangleDistortion, Warning};
 use crate::base_domain::BaseDomain;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
-use crate::surface_map::certificate::base_lines::base_line;
 use crate::surface_map::measures::distortion::{Distortion, distortion, image_distortion};
 use crate::surface_map::measures::ground_truth::same_connectivity_error;
 use crate::surface_map::measures::transfer::{CommonMesh, Surface, common_mesh, mapped_mesh, vertex_images};
+use crate::surface_map::overlay::base_lines::base_line;
 use crate::surface_map::overlay::location::Locations;
 use crate::surface_map::overlay::{Overlay, OverlayError};
 use glam::DVec3;

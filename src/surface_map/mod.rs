@@ -3,7 +3,7 @@
 //! Source -> M and target -> M are homeomorphisms that keep the landmarks at the cones; the map is one after the
 //! inverse of the other.
 
-pub mod certificate;
+mod certify;
 pub mod energy;
 mod error;
 pub mod measures;
@@ -11,7 +11,8 @@ pub mod overlay;
 pub mod parametrisation;
 pub mod relaxation;
 
-pub use certificate::certify::{Certificate, certify};
+pub use crate::certificate::Certificate;
+pub use certify::certify;
 pub use error::MapError;
 pub use parametrisation::cone_surface::ConeSurface;
 pub use parametrisation::embedding::{Anchor, Embedding, Parametrised};

@@ -6,6 +6,7 @@
 //! areas that sum to those of all source and all target faces.
 
 mod arrangement;
+pub mod base_lines;
 mod cells;
 pub mod location;
 mod measure;

@@ -1,113 +1,24 @@
-//! The certificate: a parametrisation onto the cone surface is a homeomorphism.
-//!
-//! Every triangle positively oriented, the angle sum 2 pi at every ordinary vertex and the cone angle at every landmark,
-//! the corners' copies joined by rigid transitions, and every side of the base faces followed from landmark to landmark: then
-//! the parametrised mesh is the cone surface, and the map a homeomorphism. Positive triangles alone prove nothing (double covers), nor does the total area. Computed from the
-//! result alone, independently of the optimiser.
+//! A parametrisation as its certificate takes it.
 
-use super::base_lines::base_line;
-use crate::math::scalar::atan2;
-use crate::mesh::{FaceId, HalfedgeId, VertexId};
-use crate::surface_map::parametrisation::cone_surface::ConeSurface;
-use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
-use glam::DVec2;
-use robust::{Coord, orient2d};
-use std::f64::consts::TAU;
-use typed_index_collections::{TiVec, ti_vec};
+use super::overlay::base_lines::start;
+use super::parametrisation::cone_surface::ConeSurface;
+use super::parametrisation::embedding::Parametrised;
+use crate::certificate::{self, Certificate, Judged, Prescribed, Start};
+use crate::mesh::HalfedgeId;
+use typed_index_collections::TiVec;
 
-/// Largest angle sum error, in radians, and largest position error, in units of sqrt(area), of a homeomorphism.
-///
-/// A wrong angle sum is off by 2 pi at least, so the bound only has to be above rounding.
-const TOLERANCE: f64 = 1e-6;
-
-/// Whether a parametrisation is a homeomorphism, with the numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Certificate {
-    /// Whether it is.
-    pub bijective: bool,
-    /// Triangles that are not positively oriented (robust predicate).
-    pub flipped_triangles: usize,
-    /// Largest |angle sum - 2 pi| (minus the cone angle at landmarks), in radians.
-    pub max_angle_sum_error: f64,
-    /// Largest distance of a landmark from the end of a straight base side that leads to it; NaN where a triangle or an angle
-    /// is wrong, so that nothing can be followed.
-    pub max_landmark_error: f64,
-    /// Largest distance between an edge seen from one side, carried over by the transition, and from the other.
-    pub max_transition_error: f64,
-}
-
-impl Certificate {
-    /// Both parametrisations together.
-    pub fn and(&self, other: &Self) -> Self {
-        Self {
-            bijective: self.bijective && other.bijective,
-            flipped_triangles: self.flipped_triangles + other.flipped_triangles,
-            max_angle_sum_error: self.max_angle_sum_error.max(other.max_angle_sum_error),
-            max_landmark_error: self.max_landmark_error.max(other.max_landmark_error),
-            max_transition_error: self.max_transition_error.max(other.max_transition_error),
-        }
-    }
-}
-
-/// Checks a parametrisation.
+/// Checks that a parametrisation is a homeomorphism onto a cone surface; what that proves is said in [`crate::certificate`].
 pub fn certify(side: Parametrised<'_>, surface: &ConeSurface) -> Certificate {
-    let Parametrised { mesh, landmark_vertices, embedding } = side;
-    let flipped_triangles = mesh.faces().filter(|&f| !is_positive(corners(embedding, f))).count();
-    let mut sums: TiVec<VertexId, f64> = ti_vec![0.0; mesh.vertex_count()];
-    for h in mesh.halfedges() {
-        let [p, q, r] = [h, h.next(), h.prev()].map(|c| embedding.corners[c]);
-        sums[mesh.tail(h)] += atan2((q - p).perp_dot(r - p), (q - p).dot(r - p));
-    }
-    let mut full = ti_vec![TAU; mesh.vertex_count()];
-    for (landmark, &v) in landmark_vertices.iter_enumerated() {
-        full[v] = surface.cone_angles[landmark];
-    }
-    let errors = sums.iter().zip(&full).map(|(sum, full)| (sum - full).abs());
-    let max_angle_sum_error = errors.fold(0.0, nan_max);
-    let max_transition_error = transition_error(side);
-    let sound = flipped_triangles == 0 && nan_max(max_angle_sum_error, max_transition_error) <= TOLERANCE;
-    // Lines can be followed only on a sound surface.
-    let max_landmark_error = if sound { landmark_error(side, surface) } else { f64::NAN };
-    let bijective = sound && max_landmark_error <= TOLERANCE;
-    Certificate {
-        bijective,
-        flipped_triangles,
-        max_angle_sum_error,
-        max_landmark_error,
-        max_transition_error,
-    }
-}
-
-/// The larger one; NaN wins, so that it is never taken for a small error.
-fn nan_max(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
-}
-
-fn corners(embedding: &Embedding, f: FaceId) -> [DVec2; 3] {
-    [0, 1, 2].map(|k| embedding.corners[HalfedgeId::of(f, k)])
-}
-
-fn is_positive(corners: [DVec2; 3]) -> bool {
-    let [p, q, r] = corners.map(|c| Coord { x: c.x, y: c.y });
-    orient2d(p, q, r) > 0.0
-}
-
-/// Largest distance between the end of a base side, followed from its landmark, and its other landmark.
-fn landmark_error(side: Parametrised<'_>, surface: &ConeSurface) -> f64 {
-    surface.base.mesh.halfedges().map(|h| base_line(side, surface, h).end_error).fold(0.0, nan_max)
-}
-
-/// Largest distance between an edge in one face's plane, carried over by its transition, and the same edge in the other's.
-fn transition_error(side: Parametrised<'_>) -> f64 {
-    let Parametrised { mesh, embedding, .. } = side;
-    let error = |h: HalfedgeId| {
-        let t = mesh.twin(h);
-        let motion = &embedding.transitions[h];
-        let ends = [(h, t.next()), (h.next(), t)];
-        let gap = ends.map(|(a, b)| motion.apply(embedding.corners[a]).distance(embedding.corners[b]));
-        nan_max(nan_max(gap[0], gap[1]), (motion.rotation.length() - 1.0).abs())
+    let base = &surface.base.mesh;
+    let starts: TiVec<HalfedgeId, Start> = base.halfedges().map(|h| start(side, surface, h)).collect();
+    let judged = Judged {
+        mesh: side.mesh,
+        corners: &side.embedding.corners,
+        transitions: &side.embedding.transitions,
+        landmark_vertices: &side.landmark_vertices.raw,
+        starts: &starts,
     };
-    mesh.halfedges().map(error).fold(0.0, nan_max)
+    certificate::certify(&judged, &Prescribed { base, lengths: &surface.lengths })
 }
 
 #[cfg(test)]
@@ -119,10 +30,14 @@ mod tests {
     use crate::math::rigid2::Rigid2;
     use crate::mesh::FaceId;
     use crate::mesh::SurfaceMesh;
+    use crate::mesh::VertexId;
     use crate::mesh::generators::{midpoint_subdivision, octahedron};
     use crate::monitor::Silent;
+    use crate::surface_map::parametrisation::embedding::{Anchor, Embedding};
     use crate::surface_map::parametrisation::initial::{InitialOptions, embed};
+    use std::f64::consts::TAU;
     use std::sync::Arc;
+    use typed_index_collections::ti_vec;
 
     /// A sphere of 512 triangles mapped onto the octahedron's cone surface.
     fn example() -> (PatchedMesh, Arc<ConeSurface>, Embedding) {
@@ -174,6 +89,49 @@ mod tests {
         let certificate = certify(patched.parametrised(&embedding), &surface);
         assert!(!certificate.bijective && certificate.flipped_triangles > 0, "{certificate:?}");
         assert!(certificate.max_transition_error < 1e-9, "{certificate:?}");
+    }
+
+    #[test]
+    fn exchanged_landmarks_are_refused() {
+        let (mut patched, surface, embedding) = example();
+        patched.landmark_vertices.raw.swap(0, 3);
+        let certificate = certify(patched.parametrised(&embedding), &surface);
+        assert!(!certificate.bijective && certificate.max_transition_error < 1e-9, "{certificate:?}");
+    }
+
+    #[test]
+    fn lines_that_start_elsewhere_are_refused() {
+        let (patched, surface, embedding) = example();
+        // The octahedron looks alike after a turn about an axis: all lines from that landmark arrive at landmarks, but at others.
+        let landmark = VertexId(0);
+        let fan: Vec<_> = surface.base.mesh.star(landmark).collect();
+        let mut turned = embedding.clone();
+        let anchor = turned.anchors[landmark];
+        let next = surface.base.mesh.twin(fan[0].prev());
+        let other = if anchor.chart == fan[0].face() { next.face() } else { fan[0].face() };
+        let chart_corner = |f: FaceId| fan.iter().copied().find(|h| h.face() == f).unwrap();
+        let [from, onto] = [other, anchor.chart].map(chart_corner);
+        let side = |h: HalfedgeId| {
+            let chart = surface.charts[h.face()];
+            [chart[h.corner()], chart[h.next().corner()]]
+        };
+        let motion = anchor.motion.after(&Rigid2::between_segments(side(from), side(onto)));
+        Arc::make_mut(&mut turned.anchors)[landmark] = Anchor { chart: other, motion, ..anchor };
+        let certificate = certify(patched.parametrised(&turned), &surface);
+        assert!(!certificate.bijective && certificate.flipped_triangles == 0, "{certificate:?}");
+    }
+
+    #[test]
+    fn another_cone_surface_is_refused() {
+        let (patched, surface, embedding) = example();
+        let mut lengths = surface.lengths.clone();
+        let h = HalfedgeId(0);
+        for h in [h, surface.base.mesh.twin(h)] {
+            lengths[h] *= 1.001;
+        }
+        let other = ConeSurface::from_lengths(surface.base.clone(), lengths);
+        let certificate = certify(patched.parametrised(&embedding), &other);
+        assert!(!certificate.bijective && certificate.flipped_triangles == 0, "{certificate:?}");
     }
 
     /// Two sheets, cut along the path of edges p, m, q and glued crosswise: branched over p and q.

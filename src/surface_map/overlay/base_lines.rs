@@ -1,13 +1,14 @@
 //! The straight sides of the base domain drawn on a parametrised mesh.
 //!
 //! On the cone surface the sides of its charts are straight lines from cone to cone. Followed on source and target they are
-//! lines that correspond under the map, and they show that a parametrisation is one onto this cone surface and no other: each
-//! line starts at its angle and must arrive at its landmark after its length.
+//! lines that correspond under the map. Each starts at its angle and arrives at its landmark after its length, where the anchors
+//! are right; those that are not are found and mended by lines that arrive.
 
+use super::location::exit_edge;
+use crate::certificate::Start;
 use crate::math::rigid2::{Rigid2, complex_mul};
 use crate::math::scalar::{cos, sin};
 use crate::mesh::{HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
-use crate::surface_map::overlay::location::exit_edge;
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
 use crate::surface_map::parametrisation::embedding::{Anchor, Embedding, Parametrised};
 use crate::surface_map::parametrisation::fan::{Fan, Wedge};
@@ -70,7 +71,7 @@ pub fn base_line(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -
     let length = surface.lengths[h];
     let goal = side.landmark_vertices[base.head(h)];
     let corners = &side.embedding.corners;
-    let start = begin(side, surface, h);
+    let start = start(side, surface, h);
     let mut line = BaseLine {
         points: vec![SurfacePoint::at_vertex(side.mesh, side.landmark_vertices[base.tail(h)])],
         end_error: f64::INFINITY,
@@ -126,13 +127,8 @@ fn arrived(
     Anchor { corner, chart: back.face(), motion }
 }
 
-struct Begin {
-    corner: HalfedgeId,
-    direction: DVec2,
-}
-
-/// The face into which the line starts, with its direction there.
-fn begin(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -> Begin {
+/// Where base halfedge `h` starts on a mesh, by the anchor of its landmark.
+pub fn start(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -> Start {
     let landmark = surface.base.mesh.tail(h);
     let fan = Fan::new(surface, landmark);
     let angle = fan.halfedges().iter().find(|(b, _)| *b == h).map_or(0.0, |(_, angle)| *angle);
@@ -144,7 +140,7 @@ fn begin(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -> Begin 
     let turn = wedge.map_or(0.0, |w| past(&w).min(w.width));
     let corners = &side.embedding.corners;
     let along = (corners[corner.next()] - corners[corner]).normalize_or(DVec2::X);
-    Begin { corner, direction: complex_mul(along, DVec2::new(cos(turn), sin(turn))) }
+    Start { corner, direction: complex_mul(along, DVec2::new(cos(turn), sin(turn))) }
 }
 
 /// The point where the segment p q crosses the halfedge from a to b.

@@ -1,0 +1,167 @@
+//! The checks, and the verdict.
+
+use super::crossings;
+use super::directions::Around;
+use super::judged::{Judged, Prescribed};
+use super::tracer::{Line, trace};
+use crate::math::scalar::atan2;
+use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use robust::{Coord, orient2d};
+use std::f64::consts::TAU;
+use std::fmt;
+use typed_index_collections::{TiVec, ti_vec};
+
+/// Largest error of an angle sum, in radians, and of a position, in units of sqrt(area), of a homeomorphism.
+const TOLERANCE: f64 = 1e-6;
+
+/// Largest error of the direction of a line, in radians: it is known as exactly as its ends, and lines can be short.
+pub(super) const ANGLE_TOLERANCE: f64 = 1e-5;
+
+/// Whether a parametrisation is a homeomorphism onto the prescribed cone surface, with the numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Certificate {
+    /// Whether it is.
+    pub bijective: bool,
+    /// Triangles that are not positively oriented.
+    pub flipped_triangles: usize,
+    /// Largest |angle sum - 2 pi| (minus the cone angle at landmarks), in radians.
+    pub max_angle_sum_error: f64,
+    /// Largest distance between an edge seen from one side, carried over by the transition, and from the other.
+    pub max_transition_error: f64,
+    /// Largest distance of a landmark from the end of a straight base edge that leads to it; infinite where one misses it, NaN
+    /// where a triangle or an angle is wrong, so that nothing can be followed.
+    pub max_landmark_error: f64,
+    /// Largest error of an angle between base edges, at their starts or between an arrival and the twin's start, in radians; NaN
+    /// as for landmarks.
+    pub max_direction_error: f64,
+    /// Pairs of base edges' parts that cross in a triangle.
+    pub crossings: usize,
+}
+
+impl Certificate {
+    /// Both parametrisations together.
+    pub fn and(&self, other: &Self) -> Self {
+        Self {
+            bijective: self.bijective && other.bijective,
+            flipped_triangles: self.flipped_triangles + other.flipped_triangles,
+            max_angle_sum_error: nan_max(self.max_angle_sum_error, other.max_angle_sum_error),
+            max_transition_error: nan_max(self.max_transition_error, other.max_transition_error),
+            max_landmark_error: nan_max(self.max_landmark_error, other.max_landmark_error),
+            max_direction_error: nan_max(self.max_direction_error, other.max_direction_error),
+            crossings: self.crossings + other.crossings,
+        }
+    }
+}
+
+impl fmt::Display for Certificate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} flipped triangles, largest errors {:.3e} rad of angle sums, {:.3e} of edges, {:.3e} of landmarks, {:.3e} rad of \
+             directions, {} crossings of base edges",
+            self.flipped_triangles,
+            self.max_angle_sum_error,
+            self.max_transition_error,
+            self.max_landmark_error,
+            self.max_direction_error,
+            self.crossings
+        )
+    }
+}
+
+/// Checks a parametrised mesh against the cone surface that it is to be.
+pub fn certify(judged: &Judged<'_>, prescribed: &Prescribed<'_>) -> Certificate {
+    let flipped_triangles = judged.mesh.faces().filter(|&f| !is_positive(judged, f)).count();
+    let max_angle_sum_error = angle_sum_error(judged, prescribed);
+    let max_transition_error = transition_error(judged);
+    let is_flat = flipped_triangles == 0 && nan_max(max_angle_sum_error, max_transition_error) <= TOLERANCE;
+    let measured = Certificate {
+        flipped_triangles,
+        max_angle_sum_error,
+        max_transition_error,
+        max_landmark_error: f64::NAN,
+        max_direction_error: f64::NAN,
+        ..Certificate::default()
+    };
+    // Lines can be followed only on a flat surface.
+    if is_flat { with_lines(measured, judged, prescribed) } else { measured }
+}
+
+/// The certificate of a flat surface: its base edges followed.
+fn with_lines(flat: Certificate, judged: &Judged<'_>, prescribed: &Prescribed<'_>) -> Certificate {
+    let base = prescribed.base;
+    let around: TiVec<VertexId, Around> =
+        base.vertices().map(|l| Around::new(judged, judged.landmark_vertices[l.index()])).collect();
+    let start_angle = |h: HalfedgeId| around[base.tail(h)].angle(judged, &judged.starts[h]);
+    let between = |h: HalfedgeId| {
+        let next = base.twin(h.prev());
+        let turned = start_angle(next) - start_angle(h);
+        around[base.tail(h)].difference(turned, prescribed.angle(h))
+    };
+    let mut max_direction_error = base.halfedges().map(between).fold(0.0, nan_max);
+    let mut max_landmark_error: f64 = 0.0;
+    let mut lines: Vec<Line> = Vec::new();
+    for h in base.edges() {
+        let goal = judged.landmark_vertices[base.head(h).index()];
+        let line = trace(judged, &judged.starts[h], (prescribed.lengths[h], goal, TOLERANCE));
+        match &line.end {
+            Some(end) => {
+                let around = &around[base.head(h)];
+                let arrival = around.angle(judged, &end.back);
+                let turned = around.difference(arrival, start_angle(base.twin(h)));
+                max_direction_error = nan_max(max_direction_error, turned);
+                max_landmark_error = nan_max(max_landmark_error, end.error);
+            }
+            None => max_landmark_error = f64::INFINITY,
+        }
+        lines.push(line);
+    }
+    let crossings = crossings::count(judged, &lines);
+    let spheres = [judged.mesh, base].into_iter().all(|mesh| mesh.euler_characteristic() == 2);
+    let bijective = spheres
+        && max_landmark_error <= TOLERANCE
+        && max_direction_error <= ANGLE_TOLERANCE
+        && crossings == 0;
+    Certificate { bijective, max_landmark_error, max_direction_error, crossings, ..flat }
+}
+
+/// The larger one; NaN wins, so that it is never taken for a small error.
+fn nan_max(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+}
+
+fn is_positive(judged: &Judged<'_>, f: FaceId) -> bool {
+    let [p, q, r] = [0, 1, 2].map(|k| {
+        let corner = judged.corners[HalfedgeId::of(f, k)];
+        Coord { x: corner.x, y: corner.y }
+    });
+    orient2d(p, q, r) > 0.0
+}
+
+/// How far the sum of the angles around a vertex is from 2 pi, or from the prescribed cone angle at a landmark.
+fn angle_sum_error(judged: &Judged<'_>, prescribed: &Prescribed<'_>) -> f64 {
+    let mesh = judged.mesh;
+    let mut sums: TiVec<VertexId, f64> = ti_vec![0.0; mesh.vertex_count()];
+    for h in mesh.halfedges() {
+        let [p, q, r] = [h, h.next(), h.prev()].map(|c| judged.corners[c]);
+        sums[mesh.tail(h)] += atan2((q - p).perp_dot(r - p), (q - p).dot(r - p));
+    }
+    let mut full = ti_vec![TAU; mesh.vertex_count()];
+    for landmark in prescribed.base.vertices() {
+        let angles = prescribed.base.star(landmark).map(|h| prescribed.angle(h));
+        full[judged.landmark_vertices[landmark.index()]] = angles.sum();
+    }
+    sums.iter().zip(&full).map(|(sum, full)| (sum - full).abs()).fold(0.0, nan_max)
+}
+
+/// How far an edge seen from one side, carried over by its transition, is from the same edge seen from the other.
+fn transition_error(judged: &Judged<'_>) -> f64 {
+    let error = |h: HalfedgeId| {
+        let t = judged.mesh.twin(h);
+        let motion = &judged.transitions[h];
+        let ends = [(h, t.next()), (h.next(), t)];
+        let gap = ends.map(|(a, b)| motion.apply(judged.corners[a]).distance(judged.corners[b]));
+        nan_max(nan_max(gap[0], gap[1]), (motion.rotation.length() - 1.0).abs())
+    };
+    judged.mesh.halfedges().map(error).fold(0.0, nan_max)
+}

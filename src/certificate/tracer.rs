@@ -1,0 +1,89 @@
+//! A straight line over the planes of a parametrised mesh.
+
+use super::judged::{Judged, Start};
+use crate::math::rigid2::Rigid2;
+use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use glam::DVec2;
+use robust::{Coord, orient2d};
+
+/// A straight line from vertex to vertex.
+#[derive(Clone, Debug)]
+pub(super) struct Line {
+    /// The corner at which it begins.
+    pub begin: HalfedgeId,
+    /// The halfedges by which it leaves faces, each with the place where it crosses: 0 at the halfedge's start, 1 at its end.
+    pub crossings: Vec<(HalfedgeId, f64)>,
+    /// Where it ends; `None` where it misses its goal.
+    pub end: Option<End>,
+}
+
+/// The end of a line.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct End {
+    /// The corner at which it arrives, with the direction back.
+    pub back: Start,
+    /// The distance between the end of the line and the corner.
+    pub error: f64,
+}
+
+/// Follows the line of a length from `start`; it ends at `goal` where it comes within `tolerance` of it.
+pub(super) fn trace(
+    judged: &Judged<'_>,
+    start: &Start,
+    (length, goal, tolerance): (f64, VertexId, f64),
+) -> Line {
+    let mut line = Line { begin: start.corner, crossings: Vec::new(), end: None };
+    let origin = judged.corners[start.corner];
+    let ends = [origin, origin + start.direction * length];
+    let (mut face, mut motion) = (start.corner.face(), Rigid2::IDENTITY);
+    let mut exit = start.corner.next();
+    // A line crosses a triangle more than once only where the surface is thin.
+    for _ in 0..4 * judged.mesh.face_count() {
+        let [p, q] = ends.map(|end| motion.apply(end));
+        if let Some(corner) = corner_near(judged, face, goal, (q, tolerance)) {
+            let back = Start { corner, direction: (p - q).normalize_or_zero() };
+            line.end = Some(End { back, error: judged.corners[corner].distance(q) });
+            return line;
+        }
+        let [a, b] = [judged.corners[exit], judged.corners[exit.next()]];
+        // Beyond the end there is nothing to follow.
+        if (q - a).dot((b - a).perp()) > 0.0 {
+            return line;
+        }
+        line.crossings.push((exit, place([p, q], [a, b])));
+        motion = judged.transitions[exit].after(&motion);
+        let entered = judged.mesh.twin(exit);
+        face = entered.face();
+        let [p, q] = ends.map(|end| motion.apply(end));
+        let opposite = judged.corners[entered.prev()];
+        // A line that passes the opposite corner on its right leaves by the edge before it.
+        exit = if is_left(p, q, opposite) { entered.next() } else { entered.prev() };
+    }
+    line
+}
+
+/// The corner of a face at the vertex `goal` within a distance of a point.
+fn corner_near(
+    judged: &Judged<'_>,
+    face: FaceId,
+    goal: VertexId,
+    (point, distance): (DVec2, f64),
+) -> Option<HalfedgeId> {
+    let corners = [0, 1, 2].map(|k| HalfedgeId::of(face, k));
+    let is_near =
+        |c: &HalfedgeId| judged.mesh.tail(*c) == goal && judged.corners[*c].distance(point) <= distance;
+    corners.into_iter().find(is_near)
+}
+
+/// Whether a point lies to the left of the line from p to q.
+fn is_left(p: DVec2, q: DVec2, point: DVec2) -> bool {
+    let [p, q, point] = [p, q, point].map(|p| Coord { x: p.x, y: p.y });
+    orient2d(p, q, point) > 0.0
+}
+
+/// The place, from 0 to 1, at which the line through p and q crosses the segment a b.
+fn place([p, q]: [DVec2; 2], [a, b]: [DVec2; 2]) -> f64 {
+    let (from_a, from_b) = ((q - p).perp_dot(a - p), (q - p).perp_dot(b - p));
+    let share = from_a / (from_a - from_b);
+    if share.is_nan() { 0.5 } else { share.clamp(0.0, 1.0) }
+}
