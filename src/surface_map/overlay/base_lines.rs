@@ -91,7 +91,7 @@ pub fn base_line(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -
         });
         if let Some(corner) = arrival {
             line.end_error = corners[corner].distance(q);
-            // As the certificate's tolerance: far above rounding, far below any other landmark.
+            // Far above rounding, and far below the distance of any other landmark.
             if line.end_error < 1e-6 * length {
                 line.arrival = Some(arrived(surface, h, (corner, corners[corner]), [p, q]));
             }
