@@ -66,6 +66,7 @@ fn suggest_here(
     count: usize,
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<Suggestion>, Cancelled> {
+    // Nearer points would mark one limb twice. Chosen by hand.
     let least = 0.1 * mesh.area().sqrt();
     let mut distance = distances(mesh, landmarks);
     let mut found = Vec::new();
