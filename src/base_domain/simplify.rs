@@ -27,7 +27,8 @@ pub enum SimplifyError {
     NotManifold(#[from] MeshError),
 }
 
-/// First refuse collapses that turn a normal by more than 80 degrees.
+/// First refuse collapses that turn a normal by more than 80 degrees or make a triangle flatter than 1/100 of its longest edge.
+/// Chosen by hand: looser than between levels, since only the landmarks are left in the end.
 const STRICT: ShapeLimits = ShapeLimits { normal_cosine: 0.17, double_area: 0.01 };
 
 /// Collapses a mesh to its landmarks (Garland & Heckbert 1997; thesis section 3.2).

@@ -101,7 +101,7 @@ pub fn choose_class<'a>(
     Ok(Chosen { candidate: best.candidate, search, map: best.map })
 }
 
-/// The share of the time after which the search is over, and that after which a winner stands but for finer levels.
+/// Shares of the time of a search: when all layouts have been judged, and when the winner is known but for finer levels.
 const SEARCHED: f64 = 0.7;
 const DECIDED: f64 = 0.9;
 
@@ -125,7 +125,7 @@ struct Finalists<'a, 'o> {
     options: &'o MultilevelOptions,
     maps: Vec<Finalist<'a>>,
     judged: usize,
-    /// By landmark in how many layouts points around it could not be taken out.
+    /// By landmark: the number of layouts whose points around it could not be taken out.
     blame: Vec<usize>,
 }
 
@@ -156,7 +156,7 @@ impl Finalists<'_, '_> {
         }
     }
 
-    /// Relaxes those further that are close after the first look, and puts the best first; its number.
+    /// Relaxes the maps that are close after the first look further, and sorts them. Returns the number of the best.
     fn decide(&mut self, monitor: &mut dyn Monitor) -> Result<usize, CoarseMapError> {
         let least = self.maps.iter().map(|map| map.first_look).fold(f64::INFINITY, f64::min);
         self.maps.retain(|map| map.first_look <= self.options.close * least);
@@ -173,8 +173,8 @@ impl Finalists<'_, '_> {
             .ok_or(LayoutError::NoMap { layouts: 0, near: Vec::new() }.into())
     }
 
-    /// Compares those that are as good as the best on finer levels and puts the best first; the next best relative to the best
-    /// on the finest level on which both were judged, where any is close.
+    /// Compares the maps that are nearly as good as the best on finer levels, and sorts them. Returns the mean log density of the
+    /// next best relative to the best, on the finest level on which both were judged; `None` where no other is close.
     ///
     /// Only copies are refined: the map that is chosen goes on from its coarse level.
     fn compare_finer(&mut self, monitor: &mut dyn Monitor) -> Result<Option<f64>, CoarseMapError> {

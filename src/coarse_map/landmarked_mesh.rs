@@ -28,8 +28,7 @@ impl LandmarkedMesh {
         Ok(Self { refined, landmarks: landmarks.iter().copied().collect() })
     }
 
-    /// The same with room around further landmarks, points of the refined mesh, whose vertices are told; they are not among
-    /// `landmarks` yet.
+    /// The same mesh with room around further points of the refined mesh, and the vertex of each; `landmarks` stay as they are.
     ///
     /// # Errors
     /// [`MeshError`] where a point cannot be inserted.

@@ -38,7 +38,7 @@ pub struct CoarseMap<'a> {
     levels: [ParametrisedLevel<'a>; 2],
     /// Half the sum of the means over both coarse levels of the logarithm of the distortion density; 0 for an isometry.
     pub mean_log: f64,
-    /// Half of both coarse levels is distorted by no more than this.
+    /// Median distortion of both coarse levels by area; 1 for an isometry.
     pub median: f64,
     /// The energy that is lowered on finer levels.
     energy: MapEnergy,
@@ -157,6 +157,7 @@ impl CoarseMap<'_> {
                 *constraints =
                     found.into_iter().map(|(v, constraint)| (seen.vertices[v], constraint)).collect();
             });
+            // A few steps before patches are registered again. Chosen by hand, not measured at half and double.
             self.lower(&MapRelaxationOptions { max_rounds: 4, ..*fine }, part, |_| ())?;
         }
         // Finer levels hold their vertices where they are now: another place for one of their small triangles would dent the map.
@@ -170,7 +171,7 @@ impl CoarseMap<'_> {
         Ok(())
     }
 
-    /// Brings vertices back on both sides, as many times more as a level has; `false` where none is missing.
+    /// Brings vertices back on both meshes until each level has grown by `growth`; `false` where none is missing.
     fn grow(&mut self, options: &MultilevelOptions, monitor: &mut dyn Monitor) -> Result<bool, MapError> {
         let mut grown = false;
         for level in &mut self.levels {
@@ -183,7 +184,7 @@ impl CoarseMap<'_> {
         Ok(grown)
     }
 
-    /// By finer level the share of the time of all that is over when it is done: it grows with the vertices.
+    /// By finer level the share of the whole time that has passed when it is done; a level takes time in proportion to its vertices.
     fn level_shares(&self, options: &MultilevelOptions) -> Vec<f64> {
         let mut live = self.levels.each_ref().map(|level| level.mesh().live_vertices());
         let full = self.levels.each_ref().map(ParametrisedLevel::full_vertices);
@@ -231,7 +232,7 @@ impl CoarseMap<'_> {
         }
     }
 
-    /// Shows each mesh's level with its images, and its constraints.
+    /// Calls `show` for each mesh, 0 the source: its number, its level with the images of its vertices, and its constraints.
     fn look(&mut self, mut show: impl FnMut(usize, &MappedLevel<'_>, &mut Vec<(VertexId, PointConstraint)>)) {
         let present = self.present();
         for k in 0..2 {
@@ -244,7 +245,7 @@ impl CoarseMap<'_> {
         }
     }
 
-    /// Lowers the energy of the map of the present levels; answers with what `look` sees in it.
+    /// Lowers the energy of the map of the present levels. Returns what `look` reads off the relaxed map.
     fn lower<T>(
         &mut self,
         options: &MapRelaxationOptions,

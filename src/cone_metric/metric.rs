@@ -59,8 +59,8 @@ impl ConeMetric {
 
     /// Flips until every edge is weighted Delaunay; returns the number of flips.
     ///
-    /// Flips lower an energy, so they end; where rounding makes them go round in circles they are ended here. What is left is
-    /// a triangulation all the same, and the flow judges it by its curvatures.
+    /// Flips lower an energy, so they end; where rounding makes them repeat, a bound ends them. The result is a triangulation all
+    /// the same, and the flow judges it by its curvatures.
     pub(super) fn restore_delaunay(&mut self, queue: &mut FlipQueue) -> usize {
         let inverse: TiVec<VertexId, f64> = self.log_radii.iter().map(|&u| exp(-u)).collect();
         queue.fill(&self.triangulation);
@@ -95,6 +95,7 @@ impl ConeMetric {
         let sum = self.tilt_at(h, inverse) + self.tilt_at(t, inverse);
         let ends = inverse[self.triangulation.tail(h)] + inverse[self.triangulation.tail(t)];
         // NaN counts as Delaunay: a flip could not mend it.
+        // Above rounding: of a cocircular diamond neither diagonal is flipped for the other again and again.
         sum.is_nan() || sum >= -1e-11 * ends
     }
 
@@ -150,6 +151,7 @@ impl ConeMetric {
             if h < t && i != j {
                 let weight = state.weights[h.index()] + state.weights[t.index()];
                 // Never below 0 on a weighted Delaunay triangulation but for rounding.
+                // 1e-12 keeps the graph connected; weights are cotangents, of order 1.
                 graph.edges.push((i.0, j.0, if weight.is_finite() { weight.max(1e-12) } else { 1e-12 }));
             }
         }

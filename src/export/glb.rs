@@ -28,6 +28,8 @@ pub fn textured_source(common: &CommonMesh, distortion: &[f64]) -> Result<Vec<u8
     let (low, high) = bounds(&positions);
     let vertices = common.source_positions.len();
     let mut body = Body::default();
+    // glTF 2.0 numbers things as OpenGL: 34962 ARRAY_BUFFER, 34963 ELEMENT_ARRAY_BUFFER, 5126 FLOAT, 5125 UNSIGNED_INT,
+    // 10497 REPEAT, 9729 LINEAR, 9987 LINEAR_MIPMAP_LINEAR.
     let mut views = vec![
         body.push(&floats(&positions), Some(34962)),
         body.push(&floats(&normals), Some(34962)),

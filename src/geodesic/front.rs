@@ -8,23 +8,24 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use typed_index_collections::TiVec;
 
-/// Faces through which the front is followed from every settled edge: what it still knows of its centre is lost by and by when
-/// it is told anew by each edge.
+/// Faces through which the front is unfolded from every settled edge: each edge that computes the front's centre anew loses
+/// some accuracy.
 const FREE_FACES: u32 = 2;
 
-/// Faces through which it is followed where that is needed: a fan of slivers.
+/// Faces through which it is unfolded in fans of slivers, at most.
 const MOST_FACES: u32 = 16;
 
 /// An edge shorter than this, relative to its distance from the centre, may have lost its direction.
 const SHORT: f64 = 1e-5;
 
-/// Relative error of lengths in the plane, generously.
+/// Relative error of lengths in the plane; a generous bound.
 const ROUNDING: f64 = 1e-9;
 
 /// Vertices whose distances may still fall wait in a queue.
 pub(super) struct Front<'a> {
     mesh: &'a SurfaceMesh,
-    /// No more than `here`: settled. More: what is offered so far, or the distance to seeds of an earlier front.
+    /// By vertex: its distance where that is at most `here` (it is settled), else the least offer so far or the distance to the
+    /// seeds of an earlier front.
     distance: &'a mut TiVec<VertexId, f64>,
     queue: BinaryHeap<(Reverse<u64>, VertexId)>,
     /// The distance of the vertex that was settled last. It never falls.
@@ -112,9 +113,9 @@ impl<'a> Front<'a> {
         self.follow(edge, window, (1, f64::INFINITY));
     }
 
-    /// Offers the corner beyond an edge its distance and goes on through the face's other sides, after the first faces only as
-    /// long as what lies behind is nearer than `bound`, the least distance at which an edge on the way will be settled: what is
-    /// farther is reached from there.
+    /// Offers the corner beyond an edge its distance and goes on through the face's other sides. After the first faces it goes on
+    /// only to corners nearer than `bound`, the least distance at which an edge on the way will be settled: farther ones are
+    /// reached from that edge.
     fn follow(&mut self, edge: Edge, window: Window, (crossed, bound): (u32, f64)) {
         let (mesh, h) = (self.mesh, edge.beyond);
         let corner = mesh.tail(h.prev());

@@ -5,7 +5,7 @@ use std::mem::size_of;
 
 pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth24Plus;
 
-/// What every view tells the shaders; the layout of `View` in `shaders.wgsl`.
+/// Uniforms of a view, in the layout of `View` in `shaders.wgsl`.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C)]
 pub(super) struct ViewUniform {

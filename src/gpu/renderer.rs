@@ -65,7 +65,7 @@ pub struct Renderer {
     samples: u32,
 }
 
-/// What the shaders are told of one view: for its surface, and for the plain one behind.
+/// Uniform buffers of one view: for its surface, and for the plain one behind.
 struct ViewUniforms {
     front: (wgpu::Buffer, wgpu::BindGroup),
     under: (wgpu::Buffer, wgpu::BindGroup),

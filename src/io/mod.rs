@@ -79,6 +79,7 @@ pub fn detect(bytes: &[u8]) -> Option<Format> {
     if stl::is_binary(bytes) {
         return Some(Format::Stl);
     }
+    // Long enough for a header with comments.
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
     let head = head.trim_start_matches('\u{feff}');
     let mut lines = head.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with('#'));
@@ -98,11 +99,13 @@ pub fn detect(bytes: &[u8]) -> Option<Format> {
         let word = l.split_whitespace().next().unwrap_or_default();
         matches!(word, "v" | "vn" | "vt" | "f" | "o" | "g" | "s" | "mtllib" | "usemtl")
     };
+    // OBJ has no magic word: its first six lines must all be of its kinds.
     (is_obj(first) && lines.take(5).all(is_obj)).then_some(Format::Obj)
 }
 
 /// Every coordinate finite and of sane size, every polygon with at least three existing vertices.
 fn check_numbers(soup: &PolygonSoup) -> Result<(), Problem> {
+    // Products of three coordinates stay finite up to 1e100.
     let sane = |p: &glam::DVec3| p.is_finite() && p.abs().max_element() < 1e100;
     if let Some(v) = soup.positions.iter().position(|p| !sane(p)) {
         return Err((

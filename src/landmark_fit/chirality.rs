@@ -10,8 +10,8 @@ use crate::math::scalar::ln;
 use crate::mesh::SurfaceMesh;
 use glam::DVec3;
 
-/// Spread of the log ratios of a group's six distances at which it counts half: what a joint bends has 0.3 and more, two
-/// animals' heads differ by 0.1.
+/// Spread of the log ratios of a group's six distances at which the group counts half. Groups across a bent joint have 0.3 and
+/// more, those of two animals' heads 0.1.
 const RIGID: f64 = 0.2;
 /// The corners of a group, two by two.
 const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];

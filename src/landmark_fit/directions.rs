@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 use typed_index_collections::TiSlice;
 
 /// Places on each edge of a landmark's ring through which paths are tried.
+/// Chosen by hand.
 const SHARES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
 /// Directions by side, landmark and goal: angles around the landmark, counter-clockwise, scaled to 2 pi.

@@ -8,13 +8,15 @@ use crate::mesh::VertexId;
 
 /// Added to distances before ratios are taken, in units of the root of the area: nearer landmarks say little.
 const SOFTENING: f64 = 0.08;
-/// An exchange of two targets may make neither pair fit worse than by this: of left and right partners both stay about as
-/// they are, while a misplaced target moves its partner of the exchange away by more.
+/// An exchange of two targets may raise the misfit (mean absolute log ratio) of either pair by no more than this. Left and
+/// right partners keep theirs; the partner of a misplaced pair gets more.
 const WORSE: f64 = 0.05;
-/// Where it lowers the misfit to this share, places that are better still do not matter: on another animal, feet have some.
+/// An exchange that lowers the misfit to this share is taken even where other places fit better still: feet of two different
+/// animals have such places.
 const SWAP_SHARE: f64 = 0.6;
-/// Another place must lower the misfit by this and the next over the number of landmarks, to this share, and be this far
-/// away. With 0.2 alone 4 of 14 slightly bent sets of 8 landmarks had a false alarm, with both 0 of 34.
+/// A pair is misplaced where another place lowers its misfit by `PLACE_GAIN` + `PLACE_GAIN_OF_FEW` / (number of landmarks), to
+/// the share `PLACE_SHARE`, and is `PLACE_DISTANCE` away (units of the root of the area). With `PLACE_GAIN` alone 4 of 14
+/// slightly bent sets of 8 landmarks had a false alarm, with both gains 0 of 34.
 const PLACE_GAIN: f64 = 0.2;
 const PLACE_GAIN_OF_FEW: f64 = 1.0;
 const PLACE_SHARE: f64 = 0.3;

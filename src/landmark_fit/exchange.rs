@@ -14,23 +14,23 @@ use crate::math::scalar::{max, min};
 
 /// Added to the lesser distance of a landmark x to a and b in its weight, in units of d(a, b).
 const SOFTENING: f64 = 0.3;
-/// Mean product of both sides' u at which the votes of distances count half; feet of one animal against another's have
-/// 0.005 to 0.03, everything nearer together 0.1 to 0.4. With 0.01 more
-/// partners among feet are missed, and no fewer correct pairs are doubted.
+/// Mean product of both sides' u at which the votes of distances count half. It is 0.005 to 0.03 for the feet of two animals
+/// and 0.1 to 0.4 for landmarks nearer together. A value of 0.01 misses more partners among feet and doubts no fewer correct
+/// pairs.
 const WEAK_SIDES: f64 = 0.003;
-/// Mean weight of the triples, in radians, at which the votes of orders count half. It is 0.3 among near landmarks;
-/// from feet all paths leave together, and it is 0.
+/// Mean weight of the triples, in radians, at which the votes of orders count half. It is 0.3 among near landmarks and 0 at feet,
+/// from which all paths leave together.
 const WEAK_ORDERS: f64 = 0.1;
 
-/// An exchange must be confirmed: by orders that are reversed, as of left and right eyes, by sides that nearly all disagree,
-/// as of left and right feet, or by a misfit that falls to this share. Chest and throat of the horse and cat of the demo
-/// have sides of which 0.75 disagree, and nothing else.
+/// An exchange must be confirmed: by a vote of the orders below `REVERSED` (left and right eyes), by a vote of the sides below
+/// `UNANIMOUS` (left and right feet), or by a misfit that falls to the share `LESS`. Chest and throat of the demo's horse and
+/// cat have a vote of the sides of -0.75 and no other sign, and are not exchanged.
 const REVERSED: f64 = -0.1;
 const UNANIMOUS: f64 = -0.85;
 const LESS: f64 = 0.95;
 
-/// Exchanges that are tried before one is taken: where one pair is in two of them, what they leave
-/// behind decides.
+/// Exchanges that are tried before one is taken, at most: where a pair is in two of them, the one that leaves fewer doubts is
+/// taken.
 const TRIED: usize = 4;
 /// Agreement below which doubts are summed up.
 const DOUBTFUL: f64 = -0.1;
@@ -45,7 +45,7 @@ struct Opinion {
     unanimity: f64,
 }
 
-/// What both votes are taken from.
+/// Distances and directions, from which both votes are taken.
 pub(super) struct Exchange<'a> {
     /// By side.
     distances: [Vec<Vec<f64>>; 2],

@@ -89,7 +89,7 @@ impl Votes {
         self.count += 1;
     }
 
-    /// From -1 to 1; `None` where nothing was told.
+    /// From -1 to 1; `None` without any triple.
     pub(super) fn agreement(&self) -> Option<f64> {
         (self.total > 0.0).then(|| self.sum / self.total)
     }

@@ -36,7 +36,7 @@ pub struct Suggestion {
     pub partner: Option<usize>,
 }
 
-/// Vertices of the level on which large meshes are looked at.
+/// Vertices of the level on which large meshes are looked at: distances there are 0.3 to 0.6 % off in the mean.
 const COARSE_VERTICES: usize = 4000;
 
 /// At most `count` vertices that are worth a landmark beside those that there are, the best first: tips, the most remote
@@ -66,6 +66,7 @@ fn suggest_here(
     count: usize,
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<Suggestion>, Cancelled> {
+    // Nearer points would mark one limb twice. Chosen by hand.
     let least = 0.1 * mesh.area().sqrt();
     let mut distance = distances(mesh, landmarks);
     let mut found = Vec::new();

@@ -55,6 +55,7 @@ impl LayoutReport {
         for (path, &ends) in drawing.ends.iter().enumerate() {
             for (side, geodesic) in drawing.sides.iter().zip(distances.between(ends)) {
                 let stretch = side.lengths[path] / geodesic;
+                // 10 % is left to paths over vertices and midpoints for giving way. Chosen by hand.
                 report.detour += (stretch - 1.1).max(0.0);
                 report.worst_stretch = report.worst_stretch.max(stretch);
             }

@@ -14,6 +14,7 @@ use crate::mesh::SurfaceMesh;
 use crate::monitor::Monitor;
 
 /// Orders of drawing tried together; the straightest of them comes first.
+/// Chosen by hand; a drawing takes 5 to 10 ms.
 const BATCH: usize = 4;
 /// With a detour above this, more orders are tried before the straightest is given: judging costs more than drawing.
 const STRAIGHT: f64 = 0.1;
@@ -126,6 +127,7 @@ impl<'a> Candidates<'a> {
         let mut planner = Planner::new(&self.distances, 1.0);
         let plausible: Vec<Twist> = twists::plausible(&of.drawing, &mut planner, largest_ratio);
         let mut drawings = Vec::new();
+        // Twice as many as are wanted: some cannot be drawn, some are of a class that is known.
         for twist in plausible.iter().take(2 * count) {
             match twists::twisted(&of.drawing, &mut planner, twist, monitor) {
                 Ok(drawing) => drawings.extend(drawing),

@@ -91,8 +91,8 @@ impl PartialOrd for Entry {
 
 const NONE: u32 = u32::MAX;
 
-/// Turns of a search, by nodes. The estimate is that of a mesh without paths, interpolated: nodes may be settled before their
-/// distances are the least, and come up again, mostly once or twice.
+/// Turns of a search per node, at most. The estimate of A* is interpolated from a mesh without paths, so a node may be settled
+/// before its distance is the least and come up again, mostly once or twice.
 const MOST_TURNS: usize = 100;
 
 /// Reusable search memory.

@@ -7,7 +7,7 @@ use super::candidates::{Candidate, Candidates};
 use super::error::LayoutError;
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
 
-/// How long the class of the map is searched.
+/// Limits of the search for the class of the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchOptions {
     /// Layouts from different orders of drawing that are judged at most.
@@ -23,7 +23,7 @@ pub struct SearchOptions {
     pub twists: usize,
     /// A twist is considered when the path that goes round is at most this many times the one that it replaces.
     pub twist_ratio: f64,
-    /// The same for clear layouts: near 1 the path might as well go the other way.
+    /// The same bound for clear layouts: with a ratio near 1 both ways round are plausible.
     pub ambiguous_ratio: f64,
     /// The least relative decrease of the mean log density for which a layout is changed.
     pub least_gain: f64,
@@ -32,6 +32,8 @@ pub struct SearchOptions {
 impl Default for SearchOptions {
     fn default() -> Self {
         Self {
+            // The counts bound the time of a run, since each layout costs a coarse map. All of them were chosen by hand;
+            // `cargo xtask survey classes` compares the class that is found with all its twists.
             candidates: 8,
             clear_detour: 0.1,
             clear_mean_log: 0.14,
@@ -168,7 +170,8 @@ pub fn neighbours(
 /// The mean log density of a layout's map; `None` where there is no map.
 pub type Judge<'a> = dyn FnMut(&Candidate, &mut dyn Monitor) -> Result<Option<f64>, Cancelled> + 'a;
 
-/// A layout whose detour is larger than the best one's by this is not judged.
+/// A layout whose detour ([`super::LayoutReport::detour`]) is larger than the best one's by this is not judged: its paths wind.
+/// Chosen by hand.
 const HOPELESS: f64 = 4.0;
 
 const NOTHING: LayoutError = LayoutError::NoMap { layouts: 0, near: Vec::new() };

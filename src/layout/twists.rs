@@ -18,8 +18,8 @@ pub(super) struct Twist {
     /// Which landmarks are in the first group.
     pub inside: Vec<bool>,
     pub turn: Turn,
-    /// How much longer the path between the groups becomes, on the mesh where that is least: near 1 the layout might as
-    /// well have gone the other way.
+    /// Length of the path between the groups after the turn, relative to before, on the mesh where that is least: near 1 both
+    /// ways round are plausible.
     pub ratio: f64,
 }
 

@@ -254,6 +254,7 @@ fn cut_ears(soup: &PolygonSoup, polygon: &[u32], triangles: &mut Vec<Triangle>) 
             }
         };
         // For long rings the first good ear is enough: trying all would be cubic.
+        // Few polygons have more than 64 corners.
         let candidates = 0..n.min(64);
         let best = candidates.max_by(|&i, &j| quality(i).total_cmp(&quality(j))).unwrap_or(0);
         triangles.push([ring[(best + n - 1) % n], ring[best], ring[(best + 1) % n]]);
@@ -270,6 +271,7 @@ fn check_degenerate(
     let degenerate = |t: &Triangle| {
         let [p, q, r] = t.map(|v| soup.positions[v as usize]);
         let longest = p.distance_squared(q).max(q.distance_squared(r)).max(r.distance_squared(p));
+        // Height below 2e-14 of the longest edge: rounding of the coordinates.
         t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || triangle::area(p, q, r) <= 1e-14 * longest
     };
     let found = triangles.iter().enumerate().filter(|(_, t)| degenerate(t)).map(|(k, _)| polygon_of[k]);

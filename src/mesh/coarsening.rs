@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-/// Normals turn by less than 78 degrees and no new triangle is a needle.
+/// Normals turn by less than 78 degrees, and no new triangle is flatter than 1/20 of its longest edge. Chosen by hand.
 const SHAPE: ShapeLimits = ShapeLimits { normal_cosine: 0.2, double_area: 0.05 };
 
 /// Collapses vertices into neighbours until `goal` are left or none may go; `may` says whether the start of a halfedge may
@@ -31,6 +31,8 @@ pub fn coarsen(
         queue: BinaryHeap::new(),
         strictness: Strictness::Shape,
     };
+    // What one round refuses may be possible when others have gone: three rounds with shapes, then three without.
+    // Chosen by hand.
     for round in 0..6 {
         if coarsening.mesh.live_vertices() <= goal {
             break;
@@ -128,6 +130,7 @@ impl<M: Fn(&CollapsibleMesh, HalfedgeId) -> bool> Coarsening<'_, M> {
     fn cost(&self, h: HalfedgeId) -> f64 {
         let quadric = &self.quadrics[self.mesh.tail(h)];
         let (a, b) = (self.positions[self.mesh.tail(h)], self.positions[self.mesh.head(h)]);
+        // The second part prefers short edges where the surface is flat and the quadric says nothing. Chosen by hand.
         quadric.at(b) + 0.01 * quadric.area * a.distance_squared(b)
     }
 

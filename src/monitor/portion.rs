@@ -1,9 +1,9 @@
-//! A part of a stage that tells its own progress from 0 to 1.
+//! A part of a stage that reports its own progress from 0 to 1.
 
 use super::{Cancelled, Monitor, Stage, Step};
 
-/// Passes everything on, with the fractions of a part as fractions of the stage that it belongs to. They never fall, also where the
-/// part is made of parts that each tell their own.
+/// The monitor of a part of a stage: it passes the part's fractions on as fractions of the stage. They never fall, also where
+/// nested parts each begin at 0.
 pub struct Portion<'a> {
     monitor: &'a mut dyn Monitor,
     from: f64,

@@ -23,6 +23,7 @@ impl Bins {
     /// Sorts developed faces into bins over a triangle.
     pub fn new(faces: Vec<Placed>, triangle: &[DVec2; 3]) -> Self {
         let [low, high] = bounds(triangle);
+        // About one face a bin; 512^2 bins take a few megabytes.
         let side = ((faces.len() as f64).sqrt() as usize).clamp(1, 512);
         let density = DVec2::splat(side as f64) / (high - low);
         let mut result = Self { faces, low, density, side, bins: vec![Vec::new(); side * side] };

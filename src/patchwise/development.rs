@@ -162,6 +162,7 @@ fn overlap(triangle: &[DVec2; 3], other: &[DVec2; 3]) -> bool {
     };
     // Faces near a cone can be smaller than the triangle by many orders: the tolerance is relative to both, beyond rounding.
     let (large, small) = (size(triangle), size(other));
+    // 1e-15 is the rounding of coordinates of the larger one's size; 1e-9 was chosen by hand.
     let grain = 1e-9 * large * small + 1e-15 * large * large;
     let apart = |of: &[DVec2; 3], from: &[DVec2; 3], sign: f64| {
         (0..3).any(|k| from.iter().all(|&p| sign * signed_double_area(of[k], of[(k + 1) % 3], p) <= grain))

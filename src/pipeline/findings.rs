@@ -10,7 +10,7 @@ use crate::mesh::coarsening::Level;
 use crate::monitor::{Cancelled, Monitor, Portion, Stage};
 use serde::Serialize;
 
-/// Vertices of the coarse levels, on which distances are measured.
+/// Vertices of the coarse levels, on which distances are measured. Chosen by hand.
 const COARSE_VERTICES: usize = 1500;
 
 /// What is in doubt.

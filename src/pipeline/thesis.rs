@@ -1,4 +1,4 @@
-//! The thesis' map: from a layout to the images of the vertices, with what is missing told.
+//! The thesis' map: from a layout to the images of the vertices, with warnings about what is missing.
 
 use super::flows::{Flows, cone_metric};
 use super::report::{DistortionReport, GroundTruthReport};

@@ -167,7 +167,7 @@ impl Fitter {
         for _ in 0..options.max_steps {
             let at = motion.apply(centre.position);
             let sums = self.sums(points, (&motion, at), (onto, options), total);
-            // A flat patch resists no turn about its normal.
+            // A flat patch resists no turn about its normal; 1e-9 is far below what relief adds. Chosen by hand.
             let unturn = (sums.turns + DMat3::from_diagonal(DVec3::splat(1e-9))).inverse();
             let hold = sums.shifts - sums.mixed.transpose() * unturn * sums.mixed;
             let damped = hold + DMat3::from_diagonal(DVec3::splat(options.damping));
@@ -175,12 +175,14 @@ impl Fitter {
             let shift =
                 damped.inverse() * (sums.force + back - sums.mixed.transpose() * unturn * sums.torque);
             let turn = unturn * (sums.torque - sums.mixed * shift);
+            // A turn of more than a radian in one step is no small correction.
             if !shift.is_finite() || !turn.is_finite() || turn.length_squared() > 1.0 {
                 return None;
             }
             let rotation = small_turn(turn) * motion.rotation;
             motion = Rigid3::with_point(rotation, centre.position, at + shift);
             fit = Some(PatchFit { centre: at + shift, misfit: sums.misfit, hold });
+            // A tenth of the noise, in radians and in units of the root of the area.
             if turn.length() + shift.length() < 3e-5 {
                 break;
             }
@@ -203,6 +205,7 @@ impl Fitter {
             p.near = onto.nearest(p.near, y);
             let (distance, normal) = onto.distance(p.near, y);
             self.distances.push(distance);
+            // Normals within 60 degrees.
             let agrees = (motion.rotation * p.normal).dot(normal) > 0.5;
             self.normals.push(if agrees { normal } else { DVec3::ZERO });
             self.arms.push(y - at);
@@ -210,6 +213,7 @@ impl Fitter {
         self.sorted.clear();
         self.sorted.extend(self.distances.iter().map(|d| d.abs()));
         self.sorted.sort_unstable_by(f64::total_cmp);
+        // The robust scale is the median distance. Chosen by hand.
         let knee = max(1.5 * self.sorted[self.sorted.len() / 2], options.noise);
         let mut sums = Normal {
             turns: DMat3::ZERO,
@@ -230,6 +234,7 @@ impl Fitter {
             sums.shifts += outer(n, n) * weight;
             sums.torque += lever * (weight * distance);
             sums.force += n * (weight * distance);
+            // Points that do not fit at all count like those at three knees.
             sums.misfit += share * square.min(9.0) * knee * knee;
         }
         sums

@@ -39,6 +39,8 @@ pub struct RigidPatchOptions {
 impl Default for RigidPatchOptions {
     fn default() -> Self {
         Self {
+            // Where the true stretch of cat-cat1 is below 2 %, a rigid fit of patches of radius 0.08 has a median error of 0.1 %
+            // of the root of the area. The other numbers were chosen by hand, not measured at half and double.
             vertices: [1000, 5000],
             rounds: 2,
             spacing: 0.02,
@@ -50,10 +52,11 @@ impl Default for RigidPatchOptions {
     }
 }
 
-/// Points of a patch, at least.
+/// Points of a patch, at least: twice the six unknowns of a rigid motion.
 const LEAST_POINTS: usize = 12;
 
-/// Largest distance of a patch's fitted centre from its image by the map, in units of the root of the area.
+/// Largest distance of a patch's fitted centre from its image by the map, in units of the root of the area: about the radius of a
+/// patch. Chosen by hand.
 const FARTHEST: f64 = 0.06;
 
 /// A level of one mesh with the images of its vertices on the other.
@@ -158,6 +161,7 @@ impl Patches<'_> {
         while let Some(&v) = queue.get(next) {
             next += 1;
             let own_normal = own.normals[level.vertices[v]];
+            // A map of two poses stretches little: farther images lie across a fold, like normals more than 107 degrees apart.
             let near = level.images[v].distance(level.images[centre]) < 1.6 * radius;
             if weights[v] > 0.0 && near && own_normal.dot(normal) > -0.3 {
                 let share = distance(v) / radius;

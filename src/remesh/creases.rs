@@ -13,7 +13,7 @@ use parry3d_f64::query::PointQuery;
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Lines are at least so many new edges long.
+/// Shortest line of sharp edges that is kept, in new edges.
 const SHORTEST: f64 = 3.0;
 /// A line turns by less than this at a vertex (45 degrees) that is no corner.
 const BEND: f64 = std::f64::consts::FRAC_PI_4;

@@ -74,7 +74,7 @@ impl Working<'_> {
         }
     }
 
-    /// How far the vertex at the start of `h` would lie from the surface if it went into the end; infinite where it must not.
+    /// Distance of the start of `h` from the surface after it has gone into the end; infinite where it must not go.
     fn deviation(&self, h: HalfedgeId, longest: f64) -> f64 {
         let (v, into) = (self.mesh.tail(h), self.mesh.head(h));
         if !self.keeps_creases(h) || !self.mesh.link_condition(h) {

@@ -1,4 +1,4 @@
-//! What a new mesh is like.
+//! The quality of a new mesh.
 
 use crate::math::scalar::{max, min};
 use crate::math::triangle::angle_at;
@@ -7,7 +7,7 @@ use crate::mesh::{FaceId, SurfaceMesh};
 use glam::DVec3;
 use serde::Serialize;
 
-/// What a new mesh is like, in the units of the given one.
+/// The quality of a new mesh; lengths in the given mesh's unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
     /// Number of triangles.

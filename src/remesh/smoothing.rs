@@ -8,7 +8,7 @@ use crate::mesh::{HalfedgeId, VertexId};
 use glam::DVec3;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// A vertex leaves its place only where the surface stays within this share of an edge of it: rims and valleys stay.
+/// A vertex moves only where its old place stays within this share of an edge of the new triangles: rims and valleys stay.
 const DEVIATION: f64 = 0.1;
 
 impl Working<'_> {
@@ -45,7 +45,7 @@ impl Working<'_> {
         }
     }
 
-    /// How far a vertex is from the triangles around it as they would be with it elsewhere.
+    /// Distance of a vertex' present place from the triangles around it, were it moved.
     fn distance_around(&self, v: VertexId, place: Place) -> f64 {
         let away = |h: HalfedgeId| {
             let across = [self.mesh.head(h), self.mesh.tail(h.prev())].map(|w| self.places[w].position);

@@ -5,10 +5,10 @@ use crate::mesh::{SurfaceMesh, VertexId};
 use glam::DVec3;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-/// How far a vertex looks around, in new edges.
+/// Radius of the surface around a vertex by which it is judged a tip, in new edges.
 const REACH: f64 = 1.5;
-/// Directions to the surface around have a mean this long at a tip: the cosine of half the angle of a cone, 0.74 at the corner of
-/// a cube, 0.45 on its edges, 0 in the plane.
+/// Length of the mean unit direction from a tip to the surface around it, at least. It is the cosine of half the angle of a cone:
+/// 0.74 at the corner of a cube, 0.45 on its edges, 0 in the plane.
 const POINTED: f64 = 0.65;
 
 /// The vertices at tips of a surface, as they are seen with edges of a length: those where all of the surface around lies on one

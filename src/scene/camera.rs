@@ -2,6 +2,7 @@
 
 use glam::{Mat4, Vec2, Vec3, Vec4};
 
+/// Vertical angle of a wide view, in radians: 34 degrees, with little perspective.
 const FIELD_OF_VIEW: f32 = 0.6;
 
 /// Looks at a target from a direction given by two angles.
@@ -19,6 +20,7 @@ pub struct Camera {
 
 impl Default for Camera {
     fn default() -> Self {
+        // From ahead, a little from the right and from above; from 4 radii the whole unit ball is seen.
         Self { yaw: 0.6, pitch: 0.25, distance: 4.0, target: Vec3::ZERO }
     }
 }
@@ -35,6 +37,7 @@ impl Camera {
     pub fn view_projection(&self, aspect: f32) -> Mat4 {
         // A tall view must still hold the whole surface.
         let field = 2.0 * ((0.5 * FIELD_OF_VIEW).tan() / aspect.min(1.0)).atan();
+        // The far plane lies behind the surface, of radius 1, wherever the target is moved (3 at most).
         let near = 0.02 * self.distance;
         let projection =
             glam::camera::rh::proj::directx::perspective(field, aspect, near, self.distance + 10.0);
@@ -43,6 +46,7 @@ impl Camera {
 
     /// Moves and comes near enough that the points fill the given share of the view; the direction stays.
     pub fn fit(&mut self, points: &[Vec3], aspect: f32, share: f32) {
+        // Each pass brings the size nearer to the wanted share; perspective makes it no more than nearly exact.
         for _ in 0..20 {
             let seen = points.iter().filter_map(|p| self.project(*p, aspect));
             let start = (Vec2::INFINITY, Vec2::NEG_INFINITY);
@@ -73,7 +77,7 @@ impl Camera {
         self.target = self.target.clamp_length_max(3.0);
     }
 
-    /// Multiplies the distance.
+    /// Multiplies the distance, between 0.15 radii, where triangles are large, and 20, where the surface is small.
     pub fn zoom(&mut self, factor: f32) {
         self.distance = (self.distance * factor).clamp(0.15, 20.0);
     }

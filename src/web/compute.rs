@@ -57,7 +57,7 @@ const QUESTION_INTERVAL: f64 = 100.0;
 /// Tells the page how the run goes on and takes the time of each stage.
 struct Messenger<'a> {
     listener: &'a RunListener,
-    /// Of the map that is being relaxed.
+    /// Energy of the map that is being relaxed.
     energy: f64,
     /// When the page was last asked, and whether it wants a result.
     asked: f64,
@@ -147,7 +147,7 @@ pub struct MapOutput {
     result: MapResult,
 }
 
-/// Runs the pipeline; the listener hears how it goes on and may ask for the result.
+/// Runs the pipeline; the listener receives progress and may ask for the result.
 ///
 /// # Errors
 /// `{"code", "message"}` with the stage's code.

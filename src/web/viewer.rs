@@ -296,6 +296,7 @@ impl Viewer {
 
     /// Draws a frame.
     pub fn render(&mut self) {
+        // Colours are linear RGB, chosen by eye; widths are in pixels of the page.
         let background = if self.style.dark { [0.011, 0.013, 0.018] } else { [0.84, 0.86, 0.88] };
         let balls = [0, 1].map(|k: usize| self.balls(&self.sides[k]));
         let style = &self.style;
@@ -344,6 +345,7 @@ impl Viewer {
             let centre = (*p)?.to_array();
             match cones.and_then(|c| c.get(k)) {
                 Some(curvature) => {
+                    // A ball's radius is 0.014 to 0.036 of the surface's and grows with the root of the curvature.
                     let size = (curvature.abs() as f32 / std::f32::consts::TAU).min(1.0).sqrt();
                     let colour = if *curvature >= 0.0 { [0.78, 0.04, 0.03] } else { [0.03, 0.16, 0.80] };
                     Some(MarkerInstance { centre, radius: 0.014 + 0.022 * size, colour })
@@ -374,6 +376,7 @@ impl Side {
         self.look = Look::Whole;
         let Some(mesh) = &self.mesh else { return };
         let positions = mesh.checked.mesh.positions();
+        // Some 2000 points tell the size of a mesh well enough; 0.82 leaves a margin around it.
         let stride = positions.len() / 2000 + 1;
         let points: Vec<Vec3> = positions.iter().step_by(stride).map(|p| mesh.frame.place(*p)).collect();
         self.camera.fit(&points, self.aspect(), 0.82);
@@ -398,6 +401,7 @@ impl Side {
             .as_ref()
             .and_then(|picker| picker.pick(&mesh.checked.mesh, eye, (at - eye).normalize()));
         let distance = eye.distance(at);
+        // 1 % of the distance: no point is hidden by its own face.
         hit.is_some_and(|h| h.position(&mesh.checked.mesh).distance(eye) < distance - 0.01 * distance)
     }
 }

@@ -13,11 +13,11 @@ use std::time::{Duration, Instant};
 
 /// Tells progress and takes times.
 pub struct Clock {
-    /// From then on the run is to finish.
+    /// Time from the start after which the run is to finish.
     time_limit: Option<Duration>,
     /// Whether the user wants the result now.
     interrupt: Option<Arc<AtomicBool>>,
-    /// Of the map that is being relaxed.
+    /// Energy of the map that is being relaxed.
     energy: Option<f64>,
     begun: Instant,
     stage: Option<(Stage, Instant)>,

@@ -33,12 +33,14 @@ pub struct MapEnergy {
 impl MapEnergy {
     /// E itself.
     pub const PLAIN: Self = Self { balance: 0.0, knee: f64::INFINITY };
-    /// E plus 0.02 times the second part, which keeps regions from collapsing.
+    /// E plus 0.02 times the second part, which keeps regions from collapsing: the mean distortion of nine SHREC07 pairs fell from
+    /// 11 to 22 to below 3, for 2 % of E.
     pub const SMOOTH: Self = Self { balance: 0.02, knee: f64::INFINITY };
     /// Compares maps of different classes: the energy of a collapsed or stretched region grows slowly enough that no single
-    /// limb decides.
+    /// limb decides. Weight and knee were chosen by hand.
     pub const JUDGE: Self = Self { balance: 0.2, knee: 0.1 };
-    /// For poses of one body: isometric wherever that can be had.
+    /// For poses of one body: isometric wherever that can be had. With both numbers the distance to the known map fell from 0.49 to
+    /// 0.28 % of the root of the area (horse-horse05) and from 0.92 to 0.45 (horse-horse01).
     pub const POSES: Self = Self { balance: 1.0, knee: 0.1 };
 
     /// h / S with its first and second derivative by q.

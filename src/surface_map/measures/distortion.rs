@@ -1,4 +1,4 @@
-//! How far the map is from an isometry.
+//! Distortion: measures of how far the map is from an isometry.
 //!
 //! On each piece of the overlay the map is affine with singular values s1, s2 (both surfaces scaled to area 1).
 

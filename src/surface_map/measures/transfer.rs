@@ -123,6 +123,7 @@ pub fn common_mesh(
         for point in &overlay.points[piece.points.clone()] {
             let position = blend3(s.positions, point.source);
             let uv = blend3(t.uvs, point.target);
+            // Texture coordinates that differ by less than 1e-8 are copies of one corner, up to rounding.
             let key = (point.vertex, (uv * 1e8).round().to_array().map(|x| x as i64));
             let next = mesh.uvs.len() as u32;
             let index = *shared.entry(key).or_insert(next);

@@ -80,15 +80,18 @@ pub fn base_line(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -
     let (mut face, mut motion) = (start.corner.face(), Rigid2::IDENTITY);
     let ends = [corners[start.corner], corners[start.corner] + start.direction * length];
     let mut entered = None;
+    // A straight line crosses no face twice but around cones; the bound ends one that rounding keeps from arriving.
     for step in 0..side.mesh.face_count() + 1000 {
         let [p, q] = ends.map(|e| motion.apply(e));
         let arrival = [0, 1, 2].map(|k| HalfedgeId::of(face, k)).into_iter().find(|&c| {
             side.mesh.tail(c) == goal
+                // Near enough to be its end, if only a bad one: then the distance is told.
                 && corners[c].distance(q) < 1e-3 * length
                 && (step > 0 || c != start.corner)
         });
         if let Some(corner) = arrival {
             line.end_error = corners[corner].distance(q);
+            // Far above rounding, and far below the distance of any other landmark.
             if line.end_error < 1e-6 * length {
                 line.arrival = Some(arrived(surface, h, (corner, corners[corner]), [p, q]));
             }

@@ -199,6 +199,7 @@ impl Cells {
             let on_target = share(ring, |p| &p.target) * self.areas[1][t];
             let area = on_source;
             let size = self.areas[0][s].min(self.areas[1][t]);
+            // Rounding: of the barycentric coordinates, and of coordinates of order 1 (up to 7e-15) along a side.
             let slack = 1e-9 * size + 1e-14 * size.sqrt();
             if !(on_source >= -slack && on_target >= -slack) {
                 let (source_face, target_face) = (s.index(), t.index());
@@ -206,6 +207,7 @@ impl Cells {
                 return Err(OverlayError::Negative { source_face, target_face, area });
             }
             piece.area = area.max(0.0);
+            // Only counted: a share of the area that rounding alone can make.
             *degenerate += usize::from(area < 1e-12 * size);
             self.covered[0][s] += piece.area;
             self.covered[1][t] += piece.area;

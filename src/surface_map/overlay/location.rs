@@ -214,11 +214,13 @@ fn turn_around_cone(
     (at, apex): (Location, VertexId),
     all: &mut Vec<Location>,
 ) -> Option<()> {
+    /// Faces around a landmark, at most: a walk that rounding keeps from arriving ends there.
     const MOST: usize = 1000;
     let [mesh, below] = [source.mesh, target.mesh];
     let corner = |x: HalfedgeId| target.embedding.corners[x];
     let mut wedge = (0..3).map(|k| HalfedgeId::of(at.face, k)).find(|&x| below.tail(x) == apex)?;
     let image = at.motion.apply(source.embedding.corners[at.corner]);
+    // Both are the landmark, up to rounding; the area of the cone surface is 1.
     if image.distance(corner(wedge)) > 1e-9 {
         return None;
     }
@@ -269,6 +271,7 @@ fn walk_to(
     let (mut face, mut motion) = (from.face, from.motion);
     let mut entered = None;
     let mut line = [motion.apply(start), motion.apply(end)];
+    // A straight line crosses no face twice but around cones: more steps than that are a walk that rounding keeps from arriving.
     for _ in 0..mesh.face_count() + 1000 {
         let Some(exit) = exit_edge(target.embedding, face, line, entered) else {
             return Some(Location { corner: from.corner, face, motion });
@@ -312,7 +315,8 @@ pub(in crate::surface_map) fn exit_edge(
     nearest.map(|(_, h)| h)
 }
 
-/// Whether q lies to the right of a b by more than rounding.
+/// Whether q lies to the right of a b by more than rounding: of coordinates of order 1 it is up to 1e-15. On edges shorter than
+/// 1e-3 the bound is that of 1e-3, since the rounding does not shrink with them.
 fn clearly_outside(a: DVec2, b: DVec2, q: DVec2) -> bool {
     let beyond = side(a, b, q);
     beyond < 0.0 && beyond < -1e-14 * max((b - a).length(), 1e-3)

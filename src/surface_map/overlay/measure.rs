@@ -300,7 +300,7 @@ impl Measure {
         lone.map_or(Ok(()), |piece| Err(mixed(piece.source_face, piece.target_face)))
     }
 
-    /// Areas from what was swept; negative ones only by rounding.
+    /// Areas from the swept triangles; a negative one is rounding or an error.
     fn finish(&mut self, target: Parametrised<'_>) -> Result<(), OverlayError> {
         for piece in &mut self.pieces {
             let area = 0.5 * piece.area;
@@ -311,6 +311,7 @@ impl Measure {
             let (s, t) = (piece.source_face, piece.target_face);
             let sizes = [(&self.seats.corners, s), (&target.embedding.corners, t)];
             let [on_source, on_target] = sizes.map(|(corners, f)| face_area(corners, f));
+            // As in `cells`: rounding of shares, and of coordinates of order 1 along a side.
             let slack = 1e-9 * on_source.min(on_target) + 1e-14 * on_source.max(on_target).sqrt();
             if area.is_nan() || area < -slack {
                 let (source_face, target_face) = (s.index(), t.index());

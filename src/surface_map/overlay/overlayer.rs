@@ -12,7 +12,7 @@ use super::seats::Seats;
 use super::trace::Traces;
 use crate::surface_map::parametrisation::embedding::Parametrised;
 
-/// How often the overlay is tried, all but the first time with the source shifted.
+/// Attempts at an overlay, all but the first with the source shifted.
 const ATTEMPTS: usize = 6;
 
 /// Makes overlays; keeps its working memory from one to the next.

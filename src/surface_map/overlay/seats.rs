@@ -12,9 +12,11 @@ use typed_index_collections::TiVec;
 
 /// Size of the first shift of a source vertex that ends coincidences, in units of its shortest edge on the cone surface.
 const SHIFT: f64 = 1e-10;
-/// Growth of the shift from attempt to attempt: beside the shortest edges the first is lost in rounding.
+/// Growth of the shift from attempt to attempt: beside the shortest edges the first is lost in rounding. The last of six attempts
+/// shifts by 1e-4 of the shortest edge.
 const SHIFT_GROWTH: f64 = 30.0;
-/// Faces that a point is passed on to, at most, until it lies in one by the exact predicate.
+/// Faces that a point is passed on to, at most, until it lies in one by the exact predicate: those around a vertex. Chosen by
+/// hand.
 const HOPS: usize = 64;
 
 /// A place among the target's faces.
@@ -164,6 +166,7 @@ impl Seats {
 fn direction(v: VertexId, attempt: usize) -> f64 {
     const GOLDEN: f64 = 2.399_963_229_728_653;
     let step = (v.index() + 1) * attempt;
+    // A prime keeps the angle exact for large numbers; neighbours still get different ones.
     GOLDEN * (step % 1_000_003) as f64
 }
 

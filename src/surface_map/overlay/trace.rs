@@ -77,7 +77,7 @@ struct Tracer<'a> {
     source: Parametrised<'a>,
     target: Parametrised<'a>,
     seats: &'a Seats,
-    /// Crossings of one edge, at most.
+    /// Crossings of one edge, at most: a straight line crosses no face twice but around cones.
     most: usize,
 }
 
@@ -249,7 +249,8 @@ impl Tracer<'_> {
 }
 
 /// Whether a walk is in the face of its goal, on the same way around the cones: `distance` is the square of the distance
-/// between the goal's two images in the face's plane.
+/// between the goal's two images in the face's plane. Ways around a cone differ by its angle, those that are equal by rounding:
+/// 1e-9 of the root of the area and 1e-6 rad lie between.
 fn is_there(here: &Seat, end: &Seat, distance: f64) -> bool {
     here.face == end.face
         && distance < 1e-18

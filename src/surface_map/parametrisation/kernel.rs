@@ -21,6 +21,7 @@ impl Kernel {
             self.clip(star[k], star[(k + 1) % star.len()]);
         }
         let size = high - low;
+        // Double areas below this share of the bounding box are rounding.
         centroid(&self.polygon, 1e-14 * size.x * size.y)
     }
 

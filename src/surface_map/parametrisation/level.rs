@@ -134,6 +134,7 @@ impl<'a> ParametrisedLevel<'a> {
         let mut angle = 0.0;
         for k in 1..count - 1 {
             let (p, q) = (self.star.ring[k], self.star.ring[k + 1]);
+            // The sine of the angle at the end: a triangle flatter than that may be turned over by rounding.
             if signed_double_area(end, p, q) <= 1e-12 * (p - end).length() * (q - end).length() {
                 return false;
             }
@@ -141,6 +142,7 @@ impl<'a> ParametrisedLevel<'a> {
         }
         let start = self.corners[h];
         let before = turn_at(end, self.star.ring[1], start) + turn_at(end, start, self.star.ring[count - 1]);
+        // Another angle differs by a whole turn; the bound only has to be above rounding.
         if (angle - before).abs() > 1e-6 {
             return false;
         }

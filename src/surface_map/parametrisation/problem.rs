@@ -25,6 +25,8 @@ pub struct FlatRelaxOptions {
 
 impl Default for FlatRelaxOptions {
     fn default() -> Self {
+        // Only a start for the relaxation of the map: less than converged is enough.
+        // Chosen by hand, not measured at half and double.
         Self { relative_decrease: 1e-4, max_steps: 100, linear_tolerance: 0.03 }
     }
 }
@@ -126,6 +128,7 @@ impl FlatProblem {
     fn assemble(&mut self, z: &[DVec2]) {
         self.matrix.clear();
         self.add_hessian(z, 1.0);
+        // Above rounding, so that the matrix is positive definite.
         self.matrix.regularise(1e-10);
     }
 
@@ -190,6 +193,7 @@ impl FlatProblem {
         self.matrix.regularise(damping);
         let downhill: Vec<DVec2> = slope.iter().map(|g| -*g).collect();
         let mut step = vec![DVec2::ZERO; z.len()];
+        // 500 iterations bound what an ill-conditioned matrix costs; a direction that is not solved to the end still goes down.
         BlockCg::default().solve(&mut self.matrix, &downhill, &mut step, (tolerance, 500));
         step
     }
@@ -233,6 +237,7 @@ impl FlatProblem {
             (vec![DVec2::ZERO; n], vec![DVec2::ZERO; n], vec![DVec2::ZERO; n]);
         let mut cg = BlockCg::default();
         for k in 0..options.max_steps {
+            // The number of steps is not known before: half of the stage is told after eight.
             monitor.step(Step { fraction: k as f64 / (k as f64 + 8.0), residual: Some(energy) })?;
             self.gradient(z, &mut slope);
             self.assemble(z);
@@ -260,6 +265,8 @@ impl FlatProblem {
         trial: &mut [DVec2],
         (energy, descent): (f64, f64),
     ) -> Option<f64> {
+        // At most 0.9 of the way to the first triangle without area, then halvings until the energy falls by 1e-4 of what the
+        // slope promises (Armijo). 2^-40 of a step gains nothing.
         let mut t = (0.9 * self.first_degenerate(z, step)).min(1.0);
         for _ in 0..40 {
             for i in 0..z.len() {

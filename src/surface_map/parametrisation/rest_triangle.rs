@@ -17,7 +17,7 @@ pub struct RestTriangle {
 }
 
 impl RestTriangle {
-    /// A triangle that counts by its area.
+    /// A triangle that counts by its area; one without area by 1e-30, so that no weight is 0.
     pub fn of(corners: [DVec3; 3]) -> Self {
         Self { corners, weight: triangle::area(corners[0], corners[1], corners[2]).max(1e-30) }
     }
@@ -61,6 +61,7 @@ impl FlatTriangle {
     pub fn with_rest(corners: [Corner; 3], rest: [DVec3; 3]) -> Self {
         let lengths = [0, 1, 2].map(|k| rest[k].distance(rest[(k + 1) % 3]));
         let mut flat = triangle::lay_out(lengths);
+        // The square of 1e-150 is still above the least double.
         let longest = max(max(max(lengths[0], lengths[1]), lengths[2]), 1e-150);
         if lengths[0] < 1e-10 * longest {
             flat = [DVec2::ZERO, DVec2::new(1e-10 * longest, 0.0), DVec2::new(0.0, longest)];

@@ -31,6 +31,7 @@ impl Star {
                 .try_fold(0.0, |sum, t| Some(sum + t.area * symmetric_dirichlet::density(&t.jacobian_at(z))?))
         };
         let (mut z, Some(mut least)) = (start, energy_at(start)) else { return start };
+        // The level is relaxed as a whole later, so three steps with up to eleven halvings each are enough. Chosen by hand.
         for _ in 0..3 {
             let (slope, curvature) = self.derivatives(z);
             let mut step = -(curvature.inverse() * slope);
@@ -71,6 +72,7 @@ impl Star {
             }
             turn += turn_at(z, p, q);
         }
+        // A star that turns otherwise is off by 2 pi; the bound only has to be above rounding.
         (turn - TAU).abs() < 1e-6
     }
 }

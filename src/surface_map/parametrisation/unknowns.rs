@@ -70,9 +70,11 @@ impl<'a> Unknowns<'a> {
             let length = |h: HalfedgeId| corners[h].distance(corners[h.next()]);
             self.mesh.star(v).map(length).fold(f64::INFINITY, f64::min)
         };
+        // 1e-9 is far above rounding (1e-16) and too small to be seen; a factor of 30 from nudge to nudge moved vertices too far.
         let size = (1..attempt).fold(1e-9, |size, _| size * 6.0);
         let mut z = self.points(embedding);
         for (k, (point, &v)) in z.iter_mut().zip(&self.free).enumerate().filter(|_| attempt > 0) {
+            // A prime keeps the angle exact for large numbers; neighbours still get different ones.
             let angle = GOLDEN * ((k + 1) % 1_000_003) as f64;
             *point += DVec2::new(cos(angle), sin(angle)) * (size * shortest(v));
         }
