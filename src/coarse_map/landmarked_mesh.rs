@@ -17,13 +17,18 @@ pub struct LandmarkedMesh {
 /// out again: with three edges straight there is no room for the paths between them.
 const LEAST_DEGREE: usize = 6;
 
+/// Vertices for each landmark, at least: a base domain of n landmarks has 2 n - 4 triangles, and each needs some vertices of
+/// its own. With 42 vertices for 16 landmarks and 162 for 60 no layout had a map.
+pub const LEAST_PER_LANDMARK: usize = 18;
+
 impl LandmarkedMesh {
     /// A mesh with its landmarks.
     ///
     /// # Errors
     /// [`MeshError`] where a face cannot be bisected.
     pub fn new(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> Result<Self, MeshError> {
-        let refined = RefinedMesh::unrefined(mesh);
+        let refined =
+            RefinedMesh::unrefined(mesh).with_vertices(mesh, LEAST_PER_LANDMARK * landmarks.len())?;
         let refined = refined.with_degrees(mesh, landmarks.iter().copied(), LEAST_DEGREE)?;
         Ok(Self { refined, landmarks: landmarks.iter().copied().collect() })
     }

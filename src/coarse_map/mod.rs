@@ -10,6 +10,6 @@ mod options;
 pub mod own_cones;
 
 pub use error::CoarseMapError;
-pub use landmarked_mesh::LandmarkedMesh;
+pub use landmarked_mesh::{LEAST_PER_LANDMARK, LandmarkedMesh};
 pub use mesh_with_coarse::{MeshWithCoarse, coarse_landmarks};
 pub use options::MultilevelOptions;

@@ -50,6 +50,25 @@ impl RefinedMesh {
         Ok((refined, inserted.vertices))
     }
 
+    /// The same with at least `least` vertices: as long as there are fewer, every edge is bisected.
+    ///
+    /// # Errors
+    /// As [`Self::with_points`].
+    pub fn with_vertices(&self, input: &SurfaceMesh, least: usize) -> Result<Self, MeshError> {
+        let mut refined = self.clone();
+        while refined.mesh.vertex_count() < least {
+            let middle = |h: HalfedgeId| {
+                let mut barycentric = [0.0; 3];
+                barycentric[h.corner()] = 0.5;
+                barycentric[h.next().corner()] = 0.5;
+                SurfacePoint { face: h.face(), barycentric }
+            };
+            let points: Vec<SurfacePoint> = refined.mesh.edges().map(middle).collect();
+            refined = refined.with_points(input, &points)?.0;
+        }
+        Ok(refined)
+    }
+
     /// The same with at least `degree` edges at each of some vertices: the widest faces there are bisected.
     ///
     /// # Errors
@@ -141,6 +160,23 @@ mod tests {
             let corners = refined.origins_in_face(&ball, f);
             assert!(corners.iter().all(|w| (w.iter().sum::<f64>() - 1.0).abs() < 1e-9), "{corners:?}");
         }
+    }
+
+    #[test]
+    fn few_vertices_become_many_on_the_same_surface() {
+        let ball = icosphere(0);
+        let refined = RefinedMesh::unrefined(&ball).with_vertices(&ball, 100).unwrap();
+        // Each round bisects every edge: 12, 42, 162 vertices.
+        assert_eq!((refined.mesh.vertex_count(), refined.mesh.face_count()), (162, 320));
+        assert_eq!(refined.mesh.euler_characteristic(), 2);
+        assert!((refined.mesh.area() - 1.0).abs() < 1e-12);
+        let scale = 1.0 / ball.area().sqrt();
+        for v in refined.mesh.vertices() {
+            let there = refined.vertex_origin[v].position(&ball) * scale;
+            assert!(there.distance(refined.mesh.positions()[v]) < 1e-12);
+        }
+        let same = refined.with_vertices(&ball, 162).unwrap();
+        assert_eq!(same.mesh.triangles(), refined.mesh.triangles());
     }
 
     #[test]

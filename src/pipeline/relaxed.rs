@@ -7,7 +7,7 @@ use crate::base_domain::{self, BaseDomain};
 use crate::coarse_map::class_search::{Chosen, ClassSearchOptions, choose_class};
 use crate::coarse_map::multilevel::{CoarseMap, solve_coarse, solve_fine};
 use crate::coarse_map::own_cones::{self, Refined, Rounds, Start};
-use crate::coarse_map::{LandmarkedMesh, MeshWithCoarse, coarse_landmarks};
+use crate::coarse_map::{LEAST_PER_LANDMARK, LandmarkedMesh, MeshWithCoarse, coarse_landmarks};
 use crate::landmarks::Landmarks;
 use crate::layout::{self, BaseLayout, LayoutError, SearchReport};
 use crate::mesh::{SurfaceMesh, VertexId};
@@ -98,10 +98,7 @@ fn precedes(a: &SurfaceMesh, b: &SurfaceMesh) -> bool {
     size(a).cmp(&size(b)).then_with(by_coordinates).is_lt()
 }
 
-/// Vertices of the coarse level per landmark, at least: a base domain of n landmarks has 2 n - 4 triangles, so each has about nine
-/// vertices of its own. Chosen by hand; with too few the points of a layout cannot be taken out.
-const PER_LANDMARK: usize = 18;
-/// The same where cones of the program's own are added: with 500 vertices in place of 640 for 12 landmarks and 20 own ones the
+/// Vertices of the coarse level for each landmark and each cone of the program's own, where these are added: with 500 vertices in place of 640 for 12 landmarks and 20 own ones the
 /// classes that were chosen on two poses of a horse left a limb turned (0.5 and 0.6 % from the truth in place of 0.2 and 0.3).
 const PER_OWN_CONE: usize = 20;
 
@@ -114,7 +111,7 @@ pub(super) fn has_own_cones(landmarks: usize, options: &PipelineOptions) -> bool
 fn first_level(landmarks: usize, options: &PipelineOptions) -> usize {
     let own = &options.own_cones;
     let with_own = if has_own_cones(landmarks, options) { landmarks + own.count } else { 0 };
-    options.multilevel.coarse_vertices.max(PER_LANDMARK * landmarks).max(PER_OWN_CONE * with_own)
+    options.multilevel.coarse_vertices.max(LEAST_PER_LANDMARK * landmarks).max(PER_OWN_CONE * with_own)
 }
 
 /// How often coarse levels grow fourfold where no layout has a map, and how many layouts are tried then: so the user has the
