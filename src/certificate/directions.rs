@@ -6,6 +6,9 @@ use crate::mesh::{HalfedgeId, VertexId};
 use glam::DVec2;
 use std::f64::consts::PI;
 
+/// Largest error of the direction of a line, in radians: it is known as exactly as its ends, and lines can be short.
+pub(super) const ANGLE_TOLERANCE: f64 = 1e-5;
+
 /// The corners around a vertex, counter-clockwise, each with the angle at which it begins.
 pub(super) struct Around {
     corners: Vec<(HalfedgeId, f64)>,
@@ -32,7 +35,7 @@ impl Around {
         let along = judged.corners[start.corner.next()] - judged.corners[start.corner];
         let turn = signed_angle(along, start.direction);
         let excess = max(-turn, turn - corner_angle(judged, start.corner));
-        if excess <= super::proof::ANGLE_TOLERANCE { begin + turn } else { f64::NAN }
+        if excess <= ANGLE_TOLERANCE { begin + turn } else { f64::NAN }
     }
 
     /// The difference of two angles around the vertex, at most half of the total.

@@ -1,7 +1,7 @@
 //! The checks, and the verdict.
 
 use super::crossings;
-use super::directions::Around;
+use super::directions::{ANGLE_TOLERANCE, Around};
 use super::judged::{Judged, Prescribed};
 use super::tracer::{Line, trace};
 use crate::math::scalar::atan2;
@@ -13,9 +13,6 @@ use typed_index_collections::{TiVec, ti_vec};
 
 /// Largest error of an angle sum, in radians, and of a position, in units of sqrt(area), of a homeomorphism.
 const TOLERANCE: f64 = 1e-6;
-
-/// Largest error of the direction of a line, in radians: it is known as exactly as its ends, and lines can be short.
-pub(super) const ANGLE_TOLERANCE: f64 = 1e-5;
 
 /// Whether a parametrisation is a homeomorphism onto the prescribed cone surface, with the numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

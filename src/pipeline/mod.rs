@@ -3,8 +3,10 @@
 mod error;
 mod findings;
 mod flows;
+mod input;
 mod options;
 mod outcome;
+mod parametrise;
 mod relaxed;
 mod report;
 mod result;
@@ -14,6 +16,7 @@ mod warning;
 
 pub use error::PipelineError;
 pub use findings::{FindingKind, FindingReport, RepairKind, findings};
+pub use input::{GroundTruth, MapInput};
 pub use options::{Base, Choices, ClassChoice, Cones, Method, OwnConeOptions, PipelineOptions};
 pub use report::{
     BaseDomainReport, CertificateReport, ConeMetricReport, ConeMetricsReport, DistortionReport, FacesReport,
@@ -22,32 +25,7 @@ pub use report::{
 pub use result::{MapResult, TriangleDistortion};
 pub use warning::{Warning, WarningReport};
 
-use crate::landmarks::Landmarks;
-use crate::mesh::SurfaceMesh;
 use crate::monitor::Monitor;
-
-/// What the pipeline starts from: two checked meshes and landmarks that are vertices of both.
-#[derive(Clone, Copy, Debug)]
-pub struct MapInput<'a> {
-    /// Closed, oriented, one component, genus 0.
-    pub source: &'a SurfaceMesh,
-    /// Closed, oriented, one component, genus 0.
-    pub target: &'a SurfaceMesh,
-    /// At least four corresponding vertices.
-    pub landmarks: &'a Landmarks,
-    /// What is known of the true map.
-    pub ground_truth: GroundTruth,
-}
-
-/// What is known of the true map.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum GroundTruth {
-    /// Nothing.
-    #[default]
-    Unknown,
-    /// Both meshes share their connectivity: vertex i corresponds to vertex i.
-    SameConnectivity,
-}
 
 /// Maps the source onto the target.
 ///

@@ -3,7 +3,7 @@
 //! The map is certified before any of this begins, so a failure here costs only the part that failed and becomes a warning.
 
 use super::flows::Flows;
-use super::relaxed::Parametrisation;
+use super::parametrise::Parametrisation;
 use super::report::{CertificateReport, DistortionReport, GroundTruthReport, LayoutSearchReport};
 use super::{GroundTruth, MapInput, MapResult, Report, TriangleDistortion, Warning};
 use crate::base_domain::BaseDomain;

@@ -1,6 +1,6 @@
 //! The stages of a run, in their order, with their usual times.
 
-use super::relaxed::has_own_cones;
+use super::parametrise::has_own_cones;
 use super::{Base, Method, PipelineOptions};
 use crate::monitor::{PlannedStage, Stage};
 

@@ -1,0 +1,27 @@
+//! What the pipeline starts from.
+
+use crate::landmarks::Landmarks;
+use crate::mesh::SurfaceMesh;
+
+/// What the pipeline starts from: two checked meshes and landmarks that are vertices of both.
+#[derive(Clone, Copy, Debug)]
+pub struct MapInput<'a> {
+    /// Closed, oriented, one component, genus 0.
+    pub source: &'a SurfaceMesh,
+    /// Closed, oriented, one component, genus 0.
+    pub target: &'a SurfaceMesh,
+    /// At least four corresponding vertices.
+    pub landmarks: &'a Landmarks,
+    /// What is known of the true map.
+    pub ground_truth: GroundTruth,
+}
+
+/// What is known of the true map.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GroundTruth {
+    /// Nothing.
+    #[default]
+    Unknown,
+    /// Both meshes share their connectivity: vertex i corresponds to vertex i.
+    SameConnectivity,
+}
