@@ -56,6 +56,11 @@ impl Relaxed<'_> {
         self.relaxation.embeddings
     }
 
+    /// Steps tried whose linear system was not solved to its tolerance.
+    pub fn inexact_steps(&self) -> usize {
+        self.relaxation.problems.iter().map(FlatProblem::inexact_steps).sum()
+    }
+
     /// Half the sum of the area-weighted means of the density's logarithm over both surfaces: 0 for an isometry, infinite
     /// without an overlay.
     pub fn mean_log(&self) -> f64 {
@@ -463,6 +468,7 @@ pub(super) mod tests {
             std::iter::once(None).chain(relaxed.energies.iter().copied().map(Some)).collect();
         assert_eq!(told.0, expected);
         assert!(relaxed.energies.len() > 2, "{:?}", relaxed.energies);
+        assert_eq!(relaxed.inexact_steps(), 0);
         let (first, last) = (relaxed.energies[0], relaxed.energies[relaxed.energies.len() - 1]);
         assert!(last < first && last > 4.0 - 1e-9, "{:?}", relaxed.energies);
         assert!(
