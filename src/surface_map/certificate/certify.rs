@@ -6,12 +6,12 @@
 //! result alone, independently of the optimiser.
 
 use super::base_lines::base_line;
+use crate::math::predicates::orient2d;
 use crate::math::scalar::atan2;
-use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::mesh::{HalfedgeId, VertexId};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
-use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
+use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::DVec2;
-use robust::{Coord, orient2d};
 use std::f64::consts::TAU;
 use typed_index_collections::{TiVec, ti_vec};
 
@@ -52,7 +52,7 @@ impl Certificate {
 /// Checks a parametrisation.
 pub fn certify(side: Parametrised<'_>, surface: &ConeSurface) -> Certificate {
     let Parametrised { mesh, landmark_vertices, embedding } = side;
-    let flipped_triangles = mesh.faces().filter(|&f| !is_positive(corners(embedding, f))).count();
+    let flipped_triangles = mesh.faces().filter(|&f| !is_positive(embedding.triangle(f))).count();
     let mut sums: TiVec<VertexId, f64> = ti_vec![0.0; mesh.vertex_count()];
     for h in mesh.halfedges() {
         let [p, q, r] = [h, h.next(), h.prev()].map(|c| embedding.corners[c]);
@@ -83,12 +83,7 @@ fn nan_max(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
-fn corners(embedding: &Embedding, f: FaceId) -> [DVec2; 3] {
-    [0, 1, 2].map(|k| embedding.corners[HalfedgeId::of(f, k)])
-}
-
-fn is_positive(corners: [DVec2; 3]) -> bool {
-    let [p, q, r] = corners.map(|c| Coord { x: c.x, y: c.y });
+fn is_positive([p, q, r]: [DVec2; 3]) -> bool {
     orient2d(p, q, r) > 0.0
 }
 
@@ -121,6 +116,7 @@ mod tests {
     use crate::mesh::SurfaceMesh;
     use crate::mesh::generators::{midpoint_subdivision, octahedron};
     use crate::monitor::Silent;
+    use crate::surface_map::parametrisation::embedding::Embedding;
     use crate::surface_map::parametrisation::initial::{InitialOptions, embed};
     use std::sync::Arc;
 

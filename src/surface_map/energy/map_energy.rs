@@ -18,8 +18,9 @@
 //! which is 1 + y far below the knee k and grows like the stretch itself above it (pseudo-Huber; Charbonnier et al. 1997).
 
 use super::symmetric_dirichlet::{HessianTerm, Signed};
+use crate::math::matrix2::{cofactor, squares, symmetric_eigen};
 use crate::math::scalar::max;
-use glam::{DMat2, DVec2};
+use glam::DMat2;
 
 /// Which energy of a map is lowered, per unit of source area: 2 (1 + b) (1 + q) rho(x).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,10 +91,8 @@ impl MapEnergy {
         let [f, slope, _] = self.factor(q);
         let x = squares * f / (self.scale() * (1.0 + q));
         let [rho, weight] = self.counted(x);
-        let cofactor =
-            DMat2::from_cols(DVec2::new(j.y_axis.y, -j.y_axis.x), DVec2::new(-j.x_axis.y, j.x_axis.x));
         let by_area = weight * squares * slope + self.scale() * (rho - weight * x);
-        *j * (2.0 * weight * f) + cofactor * by_area
+        *j * (2.0 * weight * f) + cofactor(j) * by_area
     }
 
     /// The Hessian of the density at J as four rank-one terms, projected to positive semidefinite after the part with rho'',
@@ -110,23 +109,16 @@ impl MapEnergy {
         let own = 2.0 * f + 4.0 * q * slope;
         let (h11, h22) = (own + squares * bend * s2 * s2, own + squares * bend * s1 * s1);
         let h12 = squares * (3.0 * slope + q * bend) + by_area;
-        // Eigenvalues of the 2 x 2 block of stretches.
-        let (mean, difference) = (0.5 * (h11 + h22), 0.5 * (h11 - h22));
-        let root = (difference * difference + h12 * h12).sqrt();
-        let first = DVec2::new(h12, mean + root - h11).normalize_or(DVec2::X);
+        // Those of the 2 x 2 block of stretches.
+        let ([larger, smaller], first) = symmetric_eigen([h11, h12, h22]);
         let turning = squares * slope + by_area;
         [
-            svd.stretch(max(mean + root, 0.0), [first.x, first.y]),
-            svd.stretch(max(mean - root, 0.0), [-first.y, first.x]),
+            svd.stretch(max(larger, 0.0), [first.x, first.y]),
+            svd.stretch(max(smaller, 0.0), [-first.y, first.x]),
             svd.twist(max(2.0 * f - turning, 0.0), 1.0),
             svd.twist(max(2.0 * f + turning, 0.0), -1.0),
         ]
     }
-}
-
-#[inline]
-fn squares(j: &DMat2) -> f64 {
-    j.x_axis.length_squared() + j.y_axis.length_squared()
 }
 
 #[cfg(test)]

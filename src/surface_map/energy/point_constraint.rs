@@ -4,6 +4,7 @@
 //! should be and B, two rows in the tangent plane there, says how sure that is in each direction. Beyond the knee K it counts
 //! like the distance, not like its square, so that one mistaken place does no harm.
 
+use crate::math::matrix2::outer;
 use glam::{DMat2, DVec2, DVec3};
 
 /// Where a vertex should be on the other surface, and how sure that is.
@@ -40,7 +41,7 @@ impl PointConstraint {
         for (row, miss) in self.rows.iter().zip(misses) {
             let slope: DVec2 = (0..3).map(|k| hats[k] * row.dot(corners[k])).sum();
             gradient += slope * (2.0 * miss / root);
-            hessian += DMat2::from_cols(slope * slope.x, slope * slope.y) * (2.0 / root);
+            hessian += outer(slope) * (2.0 / root);
         }
         PointConstraintTerm { energy: 2.0 * square / (1.0 + root), gradient, hessian }
     }

@@ -5,6 +5,7 @@
 //! Hessian are known from the singular vectors of J, so the projection to positive semidefinite costs nothing
 //! (Shtengel et al. 2017; Smith, de Goes & Kim 2019).
 
+use crate::math::matrix2::{cofactor, squares};
 use crate::math::scalar::max;
 use glam::{DMat2, DVec2};
 
@@ -12,17 +13,14 @@ use glam::{DMat2, DVec2};
 #[inline]
 pub fn density(j: &DMat2) -> Option<f64> {
     let det = j.determinant();
-    let squares = j.x_axis.length_squared() + j.y_axis.length_squared();
-    (det > 0.0).then(|| 0.25 * squares * (1.0 + 1.0 / (det * det)))
+    (det > 0.0).then(|| 0.25 * squares(j) * (1.0 + 1.0 / (det * det)))
 }
 
 /// de/dJ = (J (1 + 1/det^2) / 2) - |J|^2 cof(J) / (2 det^3), as a matrix of the shape of J.
 #[inline]
 pub fn gradient(j: &DMat2) -> DMat2 {
     let det = j.determinant();
-    let squares = j.x_axis.length_squared() + j.y_axis.length_squared();
-    let cofactor = DMat2::from_cols(DVec2::new(j.y_axis.y, -j.y_axis.x), DVec2::new(-j.x_axis.y, j.x_axis.x));
-    *j * (0.5 * (1.0 + 1.0 / (det * det))) - cofactor * (0.5 * squares / (det * det * det))
+    *j * (0.5 * (1.0 + 1.0 / (det * det))) - cofactor(j) * (0.5 * squares(j) / (det * det * det))
 }
 
 /// One term `weight M (x) M` of the projected Hessian.

@@ -31,7 +31,7 @@ impl ConeSurface {
     /// Every base face must satisfy the triangle inequality strictly.
     pub fn from_lengths(base: BaseDomain, mut lengths: TiVec<HalfedgeId, f64>) -> Self {
         let mesh = &base.mesh;
-        let sides = |lengths: &TiVec<HalfedgeId, f64>, f| [0, 1, 2].map(|k| lengths[HalfedgeId::of(f, k)]);
+        let sides = |lengths: &TiVec<HalfedgeId, f64>, f: FaceId| f.halfedges().map(|h| lengths[h]);
         let area_of = |f| {
             let [a, b, c] = sides(&lengths, f);
             triangle::area_from_lengths(a, b, c)
@@ -72,7 +72,7 @@ impl ConeSurface {
         let mean = |h| 0.5 * (chord(&layout.source, h) + chord(&layout.target, h));
         let lengths: TiVec<HalfedgeId, f64> = mesh.halfedges().map(mean).collect();
         for f in mesh.faces() {
-            let [a, b, c] = [0, 1, 2].map(|k| lengths[HalfedgeId::of(f, k)]);
+            let [a, b, c] = f.halfedges().map(|h| lengths[h]);
             let longest = a.max(b).max(c);
             if triangle::area_from_lengths(a, b, c) < 1e-7 * longest * longest {
                 return Err(MapError::DegenerateBase { landmarks: mesh.triangles()[f].map(usize::from) });

@@ -22,6 +22,20 @@ pub struct Embedding {
     pub anchors: Arc<TiVec<VertexId, Anchor>>,
 }
 
+impl Embedding {
+    /// The corners of a face in its plane.
+    #[inline]
+    pub fn triangle(&self, f: FaceId) -> [DVec2; 3] {
+        triangle(&self.corners, f)
+    }
+}
+
+/// The corners of a face in its plane, where `corners` has those of all faces.
+#[inline]
+pub fn triangle(corners: &TiSlice<HalfedgeId, DVec2>, f: FaceId) -> [DVec2; 3] {
+    f.halfedges().map(|h| corners[h])
+}
+
 /// Where a plane of the parametrisation lies on the cone surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Anchor {

@@ -79,8 +79,7 @@ fn on_charts<'a>(
     let nowhere =
         Anchor { corner: HalfedgeId(0), chart: base.outgoing(0.into()).face(), motion: Rigid2::IDENTITY };
     let mut anchors = ti_vec![nowhere; base.vertex_count()];
-    let halfedges: Vec<HalfedgeId> =
-        mesh.faces().flat_map(|f| [0, 1, 2].map(|k| HalfedgeId::of(f, k))).collect();
+    let halfedges: Vec<HalfedgeId> = mesh.faces().flat_map(|f| f.halfedges()).collect();
     for &h in &halfedges {
         let chart = patched.face_patch[h.face()];
         anchors[landmark[mesh.tail(h)]] = Anchor { corner: h, chart, motion: Rigid2::IDENTITY };

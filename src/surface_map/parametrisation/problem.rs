@@ -182,7 +182,7 @@ impl FlatProblem {
     fn add_face(&mut self, t: usize, hessian: &FaceHessian) {
         let triangle = &self.triangles[t];
         let turns = triangle.corners.map(|corner| match corner {
-            Corner::Free(_, motion) => DMat2::from_cols(motion.rotation, motion.rotation.perp()),
+            Corner::Free(_, motion) => motion.turn(),
             Corner::Fixed(_) => DMat2::ZERO,
         });
         for i in 0..3 {

@@ -2,6 +2,7 @@
 
 use super::kernel::Kernel;
 use super::rest_triangle::FlatTriangle;
+use crate::math::matrix2::outer;
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::atan2;
 use crate::math::triangle::signed_double_area;
@@ -55,7 +56,7 @@ impl Star {
             slope += symmetric_dirichlet::gradient(&j) * t.hats[0] * t.area;
             for term in symmetric_dirichlet::hessian(&j) {
                 let pull = term.apply(t.hats[0]);
-                curvature += DMat2::from_cols(pull * pull.x, pull * pull.y) * (term.weight * t.area);
+                curvature += outer(pull) * (term.weight * t.area);
             }
         }
         (slope, curvature)

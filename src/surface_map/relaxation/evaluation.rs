@@ -1,11 +1,12 @@
 //! The energy of a map at one state, with what its derivatives need.
 
+use crate::math::quantile::quantile;
+use crate::math::rigid2;
 use crate::math::scalar::ln;
 use crate::math::triangle::hat_gradients;
-use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::mesh::{FaceId, VertexId};
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::energy::point_constraint::PointConstraint;
-use crate::surface_map::measures::distortion::quantile;
 use crate::surface_map::overlay::Measure;
 use crate::surface_map::overlay::location::Locations;
 use crate::surface_map::parametrisation::embedding::Parametrised;
@@ -45,9 +46,12 @@ impl Evaluation {
         self.jacobians.clear();
         self.jacobians.extend(problem.jacobians(z));
         self.onto_rest.clear();
-        self.onto_rest.extend(self.overlay.pieces().iter().map(|piece| {
-            fixed_inverses[piece.target_face] * DMat2::from_cols(piece.rotation, piece.rotation.perp())
-        }));
+        self.onto_rest.extend(
+            self.overlay
+                .pieces()
+                .iter()
+                .map(|piece| fixed_inverses[piece.target_face] * rigid2::turn(piece.rotation)),
+        );
         self.energy = self.integral(map_energy);
     }
 
@@ -65,7 +69,7 @@ impl Evaluation {
             let at = &locations.by_vertex[*v];
             let Some((unknown, sight)) = unknowns.sight(at.corner) else { continue };
             let q = at.motion.apply(from.embedding.corners[at.corner]);
-            let p = [0, 1, 2].map(|k| onto.embedding.corners[HalfedgeId::of(at.face, k)]);
+            let p = onto.embedding.triangle(at.face);
             let hats = hat_gradients(p);
             let [second, third] = [1, 2].map(|k| (q - p[0]).dot(hats[k]));
             let barycentric = [1.0 - second - third, second, third];

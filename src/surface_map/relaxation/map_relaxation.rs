@@ -6,6 +6,7 @@
 //! areas change too, which adds the jump of the density over each edge to the gradient (Reynolds' transport theorem).
 
 use super::evaluation::Evaluation;
+use crate::math::matrix2::cofactor;
 use crate::mesh::{FaceId, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use crate::surface_map::energy::map_energy::MapEnergy;
@@ -340,10 +341,8 @@ impl<'a> Relaxation<'a> {
             let density = self.map_energy.density(&j) / det;
             densities.push(density);
             // d(h / det A) at fixed area on the cone surface.
-            let cofactor =
-                DMat2::from_cols(DVec2::new(a.y_axis.y, -a.y_axis.x), DVec2::new(-a.x_axis.y, a.x_axis.x));
             let own = c.transpose() * self.map_energy.gradient(&j);
-            faces[t].by_jacobian += (own - cofactor * density) * (piece.area / det);
+            faces[t].by_jacobian += (own - cofactor(a) * density) * (piece.area / det);
         }
         self.add_sweeps(&densities, &mut faces);
         faces
