@@ -4,6 +4,7 @@
 //! lines that correspond under the map, and they show that a parametrisation is one onto this cone surface and no other: each
 //! line starts at its angle and must arrive at its landmark after its length.
 
+use crate::landmarks::LandmarkId;
 use crate::math::rigid2::{Rigid2, complex_mul};
 use crate::math::scalar::{cos, sin};
 use crate::mesh::{HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
@@ -35,18 +36,18 @@ pub fn mend_anchors(
     (mesh, landmarks): (&SurfaceMesh, &Landmarks),
     surface: &ConeSurface,
 ) {
-    let base = &surface.base.mesh;
-    let all_arrive = |embedding: &Embedding, v: VertexId| {
+    let base = &surface.base;
+    let all_arrive = |embedding: &Embedding, l: LandmarkId| {
         let side = Parametrised { mesh, landmark_vertices: landmarks, embedding };
-        base.star(v).all(|h| base_line(side, surface, h).arrival.is_some())
+        base.star(l).all(|h| base_line(side, surface, h).arrival.is_some())
     };
-    let mut right: TiVec<VertexId, bool> = base.vertices().map(|v| all_arrive(embedding, v)).collect();
-    let mut queue: Vec<VertexId> = base.vertices().filter(|&v| right[v]).collect();
-    if queue.len() == base.vertex_count() {
+    let mut right: TiVec<LandmarkId, bool> = base.landmarks().map(|l| all_arrive(embedding, l)).collect();
+    let mut queue: Vec<LandmarkId> = base.landmarks().filter(|&l| right[l]).collect();
+    if queue.len() == right.len() {
         return;
     }
-    while let Some(v) = queue.pop() {
-        for h in base.star(v) {
+    while let Some(l) = queue.pop() {
+        for h in base.star(l) {
             let head = base.head(h);
             let side = Parametrised { mesh, landmark_vertices: landmarks, embedding };
             if right[head] {
@@ -62,11 +63,11 @@ pub fn mend_anchors(
 }
 
 /// The mesh's vertex of each landmark.
-type Landmarks = TiSlice<VertexId, VertexId>;
+type Landmarks = TiSlice<LandmarkId, VertexId>;
 
 /// Follows base halfedge `h` on a mesh.
 pub fn base_line(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -> BaseLine {
-    let base = &surface.base.mesh;
+    let base = &surface.base;
     let length = surface.lengths[h];
     let goal = side.landmark_vertices[base.head(h)];
     let corners = &side.embedding.corners;
@@ -130,7 +131,7 @@ struct Begin {
 
 /// The face into which the line starts, with its direction there.
 fn begin(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -> Begin {
-    let landmark = surface.base.mesh.tail(h);
+    let landmark = surface.base.tail(h);
     let fan = Fan::new(surface, landmark);
     let angle = fan.halfedges().iter().find(|(b, _)| *b == h).map_or(0.0, |(_, angle)| *angle);
     let anchor = side.embedding.anchors[landmark];

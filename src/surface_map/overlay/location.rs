@@ -4,6 +4,7 @@
 //! the landmarks, where the angle around the cone is known on both sides, and carried from vertex to vertex by walking
 //! straight along source edges through target triangles: crossing an edge applies its transition.
 
+use crate::landmarks::LandmarkId;
 use crate::math::barycentric;
 use crate::math::predicates::orient2d;
 use crate::math::rigid2::Rigid2;
@@ -90,7 +91,7 @@ impl Locator {
             self.apexes[v] = Some(w);
         }
         let mut result = Err(LocateError { vertex: 0 });
-        for seed in surface.base.mesh.vertices() {
+        for seed in surface.base.landmarks() {
             result = self.fill_from([source, target], (surface, seed), locations);
             if result.is_ok() {
                 break;
@@ -106,7 +107,7 @@ impl Locator {
     fn fill_from(
         &mut self,
         [source, target]: [Parametrised<'_>; 2],
-        (surface, seed): (&ConeSurface, VertexId),
+        (surface, seed): (&ConeSurface, LandmarkId),
         locations: &mut Locations,
     ) -> Result<(), LocateError> {
         let mesh = source.mesh;

@@ -1,10 +1,11 @@
 //! The flat cone surface M: the base domain's triangles made flat.
 
 use crate::base_domain::BaseDomain;
+use crate::landmarks::LandmarkId;
 use crate::layout::{BaseLayout, PatchedMesh};
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle;
-use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::mesh::{FaceId, HalfedgeId};
 use crate::surface_map::error::MapError;
 use glam::DVec2;
 use typed_index_collections::TiVec;
@@ -22,7 +23,7 @@ pub struct ConeSurface {
     /// side h of the first onto the side `twin(h)` of the second.
     pub transitions: TiVec<HalfedgeId, Rigid2>,
     /// Angle around each cone, in radians.
-    pub cone_angles: TiVec<VertexId, f64>,
+    pub cone_angles: TiVec<LandmarkId, f64>,
 }
 
 impl ConeSurface {
@@ -65,8 +66,8 @@ impl ConeSurface {
     pub fn of_layout(layout: &BaseLayout) -> Result<Self, MapError> {
         let mesh = &layout.base.mesh;
         let chord = |side: &PatchedMesh, h: HalfedgeId| {
-            let [p, q] =
-                [mesh.tail(h), mesh.head(h)].map(|l| side.mesh.positions()[side.landmark_vertices[l]]);
+            let [p, q] = [layout.base.tail(h), layout.base.head(h)]
+                .map(|l| side.mesh.positions()[side.landmark_vertices[l]]);
             p.distance(q)
         };
         let mean = |h| 0.5 * (chord(&layout.source, h) + chord(&layout.target, h));

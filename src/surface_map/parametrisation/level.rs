@@ -11,6 +11,7 @@ use super::problem::{FlatProblem, FlatRelaxOptions, FlatRelaxReport};
 use super::rest_triangle::{Corner, FlatTriangle, RestTriangle};
 use super::star::{Star, turn_at};
 use super::unknowns::sights;
+use crate::landmarks::LandmarkId;
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle::signed_double_area;
 use crate::mesh::coarsening::Level;
@@ -30,7 +31,7 @@ pub struct ParametrisedLevel<'a> {
     is_landmark: TiVec<VertexId, bool>,
     corners: TiVec<HalfedgeId, DVec2>,
     transitions: TiVec<HalfedgeId, Rigid2>,
-    anchors: TiVec<VertexId, Anchor>,
+    anchors: TiVec<LandmarkId, Anchor>,
     star: Star,
 }
 
@@ -39,9 +40,9 @@ impl<'a> ParametrisedLevel<'a> {
     /// to each live halfedge.
     pub fn new(
         (mesh, positions): (CollapsibleMesh, &'a TiSlice<VertexId, DVec3>),
-        landmarks: &TiSlice<VertexId, VertexId>,
+        landmarks: &TiSlice<LandmarkId, VertexId>,
         surface: Arc<ConeSurface>,
-        anchors: TiVec<VertexId, Anchor>,
+        anchors: TiVec<LandmarkId, Anchor>,
     ) -> Self {
         let slots = mesh.face_slots() * 3;
         let mut is_landmark = ti_vec![false; positions.len()];
@@ -61,7 +62,7 @@ impl<'a> ParametrisedLevel<'a> {
     /// The same parametrisation on a level of a finer mesh whose faces correspond.
     pub fn on_level(
         (mesh, positions): (CollapsibleMesh, &'a TiSlice<VertexId, DVec3>),
-        landmarks: &TiSlice<VertexId, VertexId>,
+        landmarks: &TiSlice<LandmarkId, VertexId>,
         surface: Arc<ConeSurface>,
         (embedding, halfedge): (&Embedding, impl Fn(HalfedgeId) -> HalfedgeId),
     ) -> Self {
@@ -191,12 +192,12 @@ impl<'a> ParametrisedLevel<'a> {
         }
     }
 
-    fn landmark_at(&self, v: VertexId) -> Option<VertexId> {
-        self.anchors.iter().position(|a| self.mesh.tail(a.corner) == v).map(VertexId::from)
+    fn landmark_at(&self, v: VertexId) -> Option<LandmarkId> {
+        self.anchors.position(|a| self.mesh.tail(a.corner) == v)
     }
 
     /// The angle of an anchor's halfedge around its cone.
-    fn angle(&self, landmark: VertexId, anchor: &Anchor) -> f64 {
+    fn angle(&self, landmark: LandmarkId, anchor: &Anchor) -> f64 {
         let edge = self.corners[anchor.corner.next()] - self.corners[anchor.corner];
         Fan::new(&self.surface, landmark).angle(anchor, edge)
     }
