@@ -10,7 +10,8 @@ use crate::math::scalar::min;
 use crate::monitor::{Cancelled, Monitor, Step};
 use crate::numerics::block_csr::BlockCsr;
 use crate::numerics::conjugate_gradients::{CgOptions, CgWorkspace};
-use crate::surface_map::energy::symmetric_dirichlet;
+use crate::surface_map::energy::density::Density;
+use crate::surface_map::energy::symmetric_dirichlet::SymmetricDirichlet;
 use glam::{DMat2, DVec2};
 
 /// How far a relaxation goes.
@@ -139,7 +140,11 @@ impl FlatProblem {
     pub fn energy(&self, z: &[DVec2]) -> Option<f64> {
         let mut sum = 0.0;
         for t in &self.triangles {
-            sum += t.area * symmetric_dirichlet::density(&t.jacobian(&t.positions(z)))?;
+            let density = SymmetricDirichlet.density(&t.jacobian(&t.positions(z)));
+            if density == f64::INFINITY {
+                return None;
+            }
+            sum += t.area * density;
         }
         Some(sum / self.total_area)
     }
@@ -148,7 +153,7 @@ impl FlatProblem {
     pub fn gradient(&self, z: &[DVec2], gradient: &mut [DVec2]) {
         gradient.fill(DVec2::ZERO);
         for t in &self.triangles {
-            let slope = symmetric_dirichlet::gradient(&t.jacobian(&t.positions(z)));
+            let slope = SymmetricDirichlet.gradient(&t.jacobian(&t.positions(z)));
             for (corner, hat) in t.corners.iter().zip(&t.hats) {
                 if let Corner::Free(v, motion) = corner {
                     let pull = slope * *hat * (t.area / self.total_area);
@@ -170,7 +175,7 @@ impl FlatProblem {
             let triangle = &self.triangles[t];
             let weight = scale * triangle.area / self.total_area;
             let mut hessian = FaceHessian::ZERO;
-            for term in symmetric_dirichlet::hessian(&triangle.jacobian(&triangle.positions(z))) {
+            for term in SymmetricDirichlet.hessian(&triangle.jacobian(&triangle.positions(z))) {
                 hessian.add(weight * term.weight, &term.matrix());
             }
             self.add_face(t, &hessian);

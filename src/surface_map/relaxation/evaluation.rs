@@ -5,8 +5,9 @@ use crate::math::rigid2;
 use crate::math::scalar::ln;
 use crate::math::triangle::hat_gradients;
 use crate::mesh::{FaceId, VertexId};
+use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
-use crate::surface_map::energy::point_constraint::PointConstraint;
+use crate::surface_map::energy::vertex_energy::VertexEnergy;
 use crate::surface_map::overlay::Measure;
 use crate::surface_map::overlay::location::Locations;
 use crate::surface_map::parametrisation::embedding::Parametrised;
@@ -41,7 +42,7 @@ impl Evaluation {
         &mut self,
         (problem, z): (&FlatProblem, &[DVec2]),
         fixed_inverses: &TiVec<FaceId, DMat2>,
-        map_energy: MapEnergy,
+        map_energy: &impl Density,
     ) {
         self.jacobians.clear();
         self.jacobians.extend(problem.jacobians(z));
@@ -59,7 +60,7 @@ impl Evaluation {
     pub fn constrain(
         &mut self,
         [from, onto]: [Parametrised<'_>; 2],
-        (unknowns, constraints): (&Unknowns<'_>, &[(VertexId, PointConstraint)]),
+        (unknowns, constraints): (&Unknowns<'_>, &[(VertexId, impl VertexEnergy)]),
         locations: &Locations,
     ) {
         self.constrained = 0.0;
@@ -81,7 +82,7 @@ impl Evaluation {
         }
     }
 
-    fn integral(&self, map_energy: MapEnergy) -> f64 {
+    fn integral(&self, map_energy: &impl Density) -> f64 {
         let pieces = self.overlay.pieces().iter().zip(&self.onto_rest);
         let part = pieces.map(|(piece, c)| {
             let a = &self.jacobians[piece.source_face.index()];

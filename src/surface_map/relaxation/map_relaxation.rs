@@ -9,6 +9,7 @@ use super::evaluation::Evaluation;
 use crate::math::matrix2::cofactor;
 use crate::mesh::{FaceId, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
+use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::energy::point_constraint::PointConstraint;
 use crate::surface_map::overlay::SideOf;
@@ -234,7 +235,7 @@ impl<'a> Relaxation<'a> {
         if located.is_err() || self.trial.overlay.fill([from, onto], &self.locations).is_err() {
             return false;
         }
-        self.trial.measure((&self.problems[moving], z), &self.inverses[1 - moving], self.map_energy);
+        self.trial.measure((&self.problems[moving], z), &self.inverses[1 - moving], &self.map_energy);
         self.trial.constrain(
             [from, onto],
             (&self.unknowns[moving], self.constraints[moving]),
@@ -288,7 +289,7 @@ impl<'a> Relaxation<'a> {
         self.present.overlay.exchange_roles();
         let problem = &self.problems[self.moving];
         let z = self.unknowns[self.moving].points(&self.embeddings[self.moving]);
-        self.present.measure((problem, &z), &self.inverses[1 - self.moving], self.map_energy);
+        self.present.measure((problem, &z), &self.inverses[1 - self.moving], &self.map_energy);
         let flat = problem.energy(&z).unwrap_or(f64::INFINITY);
         self.locate_constrained();
         self.present.total = self.present.energy + self.present.constrained + self.options.barrier * flat;
