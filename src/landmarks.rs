@@ -191,10 +191,7 @@ fn point(
             if !on_face.is_sound() {
                 return Err(LandmarkError::Barycentric { side, pair, weights: barycentric });
             }
-            let clamped = barycentric.map(|w| w.max(0.0));
-            let sum: f64 = clamped.iter().sum();
-            let point = SurfacePoint { face: FaceId(face), barycentric: clamped.map(|w| w / sum) };
-            Ok(checked.with_file_corners(point))
+            Ok(checked.with_file_corners(SurfacePoint::clamped(FaceId(face), barycentric)))
         }
     }
 }

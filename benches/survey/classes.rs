@@ -5,6 +5,7 @@ use crate::common;
 use conemap::coarse_map::class_search::{ClassChoice, ClassSearchOptions, choose_class};
 use conemap::coarse_map::multilevel::solve_coarse;
 use conemap::coarse_map::{MeshWithCoarse, coarse_landmarks};
+use conemap::landmarks::LandmarkId;
 use conemap::layout::{Candidate, Candidates};
 use conemap::mesh::{RefinedMesh, SurfaceMesh, VertexId};
 use conemap::monitor::Silent;
@@ -45,7 +46,7 @@ fn one(arguments: &Arguments, name: &str, vertices: usize) -> String {
             .mesh
     };
     let full = [refined(&pair.source, &landmarks.source), refined(&pair.target, &landmarks.target)];
-    let held: [TiVec<VertexId, VertexId>; 2] =
+    let held: [TiVec<LandmarkId, VertexId>; 2] =
         [landmarks.source.iter().copied().collect(), landmarks.target.iter().copied().collect()];
     let sides = [0, 1].map(|k| MeshWithCoarse::new(&full[k], &held[k], vertices));
     let coarse = coarse_landmarks(&sides);

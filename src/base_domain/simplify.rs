@@ -1,12 +1,12 @@
 //! Quadric error simplification down to exactly the protected vertices.
 
 use super::domain::BaseDomain;
+use crate::math::min_queue::Queued;
 use crate::math::quadric::Quadric;
-use crate::mesh::coarsening::Entry;
+use crate::mesh::coarsening::CollapseQueue;
 use crate::mesh::collapsible::{CollapsibleMesh, ShapeLimits};
-use crate::mesh::{MeshError, SurfaceMesh, VertexId};
+use crate::mesh::{HalfedgeId, MeshError, SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
-use std::collections::BinaryHeap;
 use typed_index_collections::{TiVec, ti_vec};
 
 /// Why there is no base domain.
@@ -54,6 +54,9 @@ pub fn simplify(
     simplification.base(landmarks)
 }
 
+/// A collapse that waits for its turn.
+type Collapse = Queued<(VertexId, u32), HalfedgeId>;
+
 struct Simplification<'a> {
     input: &'a SurfaceMesh,
     mesh: CollapsibleMesh,
@@ -74,23 +77,23 @@ impl<'a> Simplification<'a> {
     }
 
     fn round(&mut self, limits: Option<&ShapeLimits>, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
-        let mut queue = BinaryHeap::new();
+        let mut queue = CollapseQueue::default();
         let mut version: TiVec<VertexId, u32> = ti_vec![0; self.input.vertex_count()];
         let vertices: Vec<_> = self.mesh.vertices().collect();
         vertices.into_iter().for_each(|v| queue.extend(self.best(v, limits, version[v])));
         let (begin, mut touched) = (self.mesh.live_vertices(), Vec::new());
-        while let Some(entry) = queue.pop() {
-            if !self.mesh.is_alive(entry.vertex) || version[entry.vertex] != entry.version {
+        while let Some(Queued { key: (vertex, of_version), value: halfedge, .. }) = queue.pop() {
+            if !self.mesh.is_alive(vertex) || version[vertex] != of_version {
                 continue;
             }
             if self.mesh.live_vertices().is_multiple_of(4096) {
                 let fraction = 1.0 - self.mesh.live_vertices() as f64 / begin as f64;
                 monitor.step(Step { fraction, residual: None })?;
             }
-            let kept = self.mesh.head(entry.halfedge);
-            let absorbed = self.quadrics[entry.vertex];
+            let kept = self.mesh.head(halfedge);
+            let absorbed = self.quadrics[vertex];
             self.quadrics[kept].add(&absorbed);
-            self.mesh.collapse(entry.halfedge);
+            self.mesh.collapse(halfedge);
             touched.clear();
             touched.push(kept);
             touched.extend(self.mesh.star(kept).map(|h| self.mesh.head(h)));
@@ -103,12 +106,12 @@ impl<'a> Simplification<'a> {
     }
 
     /// The cheapest allowed collapse of a vertex.
-    fn best(&self, v: VertexId, limits: Option<&ShapeLimits>, version: u32) -> Option<Entry> {
+    fn best(&self, v: VertexId, limits: Option<&ShapeLimits>, version: u32) -> Option<Collapse> {
         if self.protected[v] {
             return None;
         }
         let positions = self.input.positions();
-        let mut best: Option<Entry> = None;
+        let mut best: Option<Collapse> = None;
         for halfedge in self.mesh.star(v) {
             let cost = self.quadrics[v].at(positions[self.mesh.head(halfedge)]);
             let better = best.as_ref().is_none_or(|b| cost < b.cost);
@@ -116,7 +119,7 @@ impl<'a> Simplification<'a> {
                 && self.mesh.link_condition(halfedge)
                 && limits.is_none_or(|l| self.mesh.keeps_shape(halfedge, positions, l))
             {
-                best = Some(Entry { cost, vertex: v, version, halfedge });
+                best = Some(Queued { cost, key: (v, version), value: halfedge });
             }
         }
         best

@@ -4,9 +4,9 @@ use super::crossings;
 use super::directions::{ANGLE_TOLERANCE, Around};
 use super::judged::{Judged, Prescribed};
 use super::tracer::{Line, trace};
+use crate::math::predicates::orient2d;
 use crate::math::scalar::atan2;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
-use robust::{Coord, orient2d};
 use std::f64::consts::TAU;
 use std::fmt;
 use typed_index_collections::{TiVec, ti_vec};
@@ -128,10 +128,7 @@ fn nan_max(a: f64, b: f64) -> f64 {
 }
 
 fn is_positive(judged: &Judged<'_>, f: FaceId) -> bool {
-    let [p, q, r] = [0, 1, 2].map(|k| {
-        let corner = judged.corners[HalfedgeId::of(f, k)];
-        Coord { x: corner.x, y: corner.y }
-    });
+    let [p, q, r] = [0, 1, 2].map(|k| judged.corners[HalfedgeId::of(f, k)]);
     orient2d(p, q, r) > 0.0
 }
 

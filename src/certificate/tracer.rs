@@ -1,10 +1,10 @@
 //! A straight line over the planes of a parametrised mesh.
 
 use super::judged::{Judged, Start};
+use crate::math::predicates::orient2d;
 use crate::math::rigid2::Rigid2;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use glam::DVec2;
-use robust::{Coord, orient2d};
 
 /// A straight line from vertex to vertex.
 #[derive(Clone, Debug)]
@@ -77,7 +77,6 @@ fn corner_near(
 
 /// Whether a point lies to the left of the line from p to q.
 fn is_left(p: DVec2, q: DVec2, point: DVec2) -> bool {
-    let [p, q, point] = [p, q, point].map(|p| Coord { x: p.x, y: p.y });
     orient2d(p, q, point) > 0.0
 }
 

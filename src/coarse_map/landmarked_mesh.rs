@@ -1,5 +1,6 @@
 //! A mesh of area 1 with its landmarks and room for a layout around them.
 
+use crate::landmarks::LandmarkId;
 use crate::mesh::{MeshError, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
 use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
 use typed_index_collections::TiVec;
@@ -10,7 +11,7 @@ pub struct LandmarkedMesh {
     /// The refined mesh.
     pub refined: RefinedMesh,
     /// Its vertex of each landmark.
-    pub landmarks: TiVec<VertexId, VertexId>,
+    pub landmarks: TiVec<LandmarkId, VertexId>,
 }
 
 /// Edges at a landmark, at least. Around a landmark of degree 3, such as one inside a face, no layout's points can be taken

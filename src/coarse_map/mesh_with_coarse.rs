@@ -1,5 +1,6 @@
 //! A mesh with its coarse level.
 
+use crate::landmarks::LandmarkId;
 use crate::landmarks::Landmarks;
 use crate::mesh::coarsening::{Level, coarsen_around};
 use crate::mesh::collapsible::CollapsibleMesh;
@@ -10,7 +11,7 @@ use typed_index_collections::{TiSlice, ti_vec};
 pub struct MeshWithCoarse<'a> {
     /// Area 1.
     pub(super) full: &'a SurfaceMesh,
-    pub(super) landmarks: &'a TiSlice<VertexId, VertexId>,
+    pub(super) landmarks: &'a TiSlice<LandmarkId, VertexId>,
     pub(super) mesh: CollapsibleMesh,
     /// The coarse level.
     pub coarse: Level,
@@ -18,7 +19,7 @@ pub struct MeshWithCoarse<'a> {
 
 impl<'a> MeshWithCoarse<'a> {
     /// Coarsens a mesh of area 1 to about `goal` vertices, the landmarks among them.
-    pub fn new(full: &'a SurfaceMesh, landmarks: &'a TiSlice<VertexId, VertexId>, goal: usize) -> Self {
+    pub fn new(full: &'a SurfaceMesh, landmarks: &'a TiSlice<LandmarkId, VertexId>, goal: usize) -> Self {
         let mut is_landmark = ti_vec![false; full.vertex_count()];
         landmarks.iter().for_each(|&v| is_landmark[v] = true);
         let mut mesh = CollapsibleMesh::new(full);

@@ -8,6 +8,7 @@
 use super::layout_points::{PatchedParametrisation, without_layout_points};
 use super::mesh_with_coarse::MeshWithCoarse;
 use super::options::MultilevelOptions;
+use crate::landmarks::LandmarkId;
 use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::coarsening::Level;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
@@ -46,7 +47,7 @@ pub struct CoarseMap<'a> {
     constraints: [Vec<(VertexId, PointConstraint)>; 2],
     full: [&'a SurfaceMesh; 2],
     /// By mesh: the full mesh's vertex of each landmark.
-    landmarks: [&'a TiSlice<VertexId, VertexId>; 2],
+    landmarks: [&'a TiSlice<LandmarkId, VertexId>; 2],
 }
 
 /// A map of two coarse levels, from a layout drawn on them, relaxed as far as a judgement needs.
@@ -109,7 +110,7 @@ impl CoarseMap<'_> {
     fn present(&self) -> [PresentLevel; 2] {
         [0, 1].map(|k| {
             let (level, mut embedding) = self.levels[k].snapshot();
-            let landmarks: TiVec<VertexId, VertexId> = level.numbers(self.landmarks[k]).collect();
+            let landmarks: TiVec<LandmarkId, VertexId> = level.numbers(self.landmarks[k]).collect();
             mend_anchors(&mut embedding, (&level.mesh, &landmarks), &self.surface);
             PresentLevel { level, landmarks, embedding }
         })
@@ -278,7 +279,7 @@ fn on_level(constraints: &[(VertexId, PointConstraint)], level: &Level) -> Vec<(
 /// The present level of one mesh with its parametrisation.
 struct PresentLevel {
     level: Level,
-    landmarks: TiVec<VertexId, VertexId>,
+    landmarks: TiVec<LandmarkId, VertexId>,
     embedding: Embedding,
 }
 

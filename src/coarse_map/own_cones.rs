@@ -235,9 +235,7 @@ fn pairs(
 
 /// The same point on a corner or a side that is near, so that no needles are made.
 fn snapped(point: SurfacePoint) -> SurfacePoint {
-    let kept = point.barycentric.map(|w| if w < SNAP { 0.0 } else { w });
-    let sum: f64 = kept.iter().sum();
-    SurfacePoint { barycentric: kept.map(|w| w / sum), ..point }
+    SurfacePoint::clamped(point.face, point.barycentric.map(|w| if w < SNAP { 0.0 } else { w }))
 }
 
 /// Both meshes with the pairs as landmarks after the user's; `None` where there are no pairs.

@@ -5,12 +5,12 @@
 //! between lengths. The mesh is then cut along a tree of its edges that joins the landmarks and developed breadth first.
 
 use super::metric::ConeMetric;
+use crate::math::min_queue::shortest_paths;
 use crate::math::rigid2::{complex_mul, conj_mul};
 use crate::math::triangle::{lay_out, signed_double_area};
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec2;
-use std::cmp::Reverse;
-use std::collections::{BinaryHeap, VecDeque};
+use std::collections::VecDeque;
 use typed_index_collections::{TiVec, ti_vec};
 
 /// Texture coordinates of a mesh, continuous but for the cut.
@@ -32,7 +32,7 @@ pub fn flat_atlas(mesh: &SurfaceMesh, metric: &ConeMetric, landmarks: &[VertexId
     let cut = cut_tree(mesh, landmarks);
     let mut corner_uvs = develop(mesh, &displacements, &cut);
     let double_area = |uvs: &TiVec<HalfedgeId, DVec2>, f: FaceId| {
-        let [p, q, r] = [0, 1, 2].map(|k| uvs[HalfedgeId::of(f, k)]);
+        let [p, q, r] = f.halfedges().map(|h| uvs[h]);
         signed_double_area(p, q, r)
     };
     let total: f64 = 0.5 * mesh.faces().map(|f| double_area(&corner_uvs, f)).sum::<f64>();
@@ -49,7 +49,7 @@ pub(crate) fn mesh_displacements(metric: &ConeMetric) -> TiVec<HalfedgeId, DVec2
     let mut triangulation = metric.triangulation.clone();
     let mut along = ti_vec![DVec2::ZERO; lengths.len()];
     for f in triangulation.faces() {
-        let h = [0, 1, 2].map(|k| HalfedgeId::of(f, k));
+        let h = f.halfedges();
         let corners = lay_out(h.map(|x| lengths[x]));
         (0..3).for_each(|k| along[h[k]] = corners[(k + 1) % 3] - corners[k]);
     }
@@ -72,27 +72,11 @@ pub(crate) fn mesh_displacements(metric: &ConeMetric) -> TiVec<HalfedgeId, DVec2
 
 /// Marks the union of shortest edge paths from the first landmark to the others.
 fn cut_tree(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> TiVec<HalfedgeId, bool> {
-    let mut distance: TiVec<VertexId, f64> = ti_vec![f64::INFINITY; mesh.vertex_count()];
     let mut arrived_by: TiVec<VertexId, Option<HalfedgeId>> = ti_vec![None; mesh.vertex_count()];
-    let mut queue = BinaryHeap::new();
     let mut cut = ti_vec![false; mesh.face_count() * 3];
     let Some(&root) = landmarks.first() else { return cut };
-    distance[root] = 0.0;
-    queue.push((Reverse(0_u64), root.0));
-    while let Some((Reverse(bits), v)) = queue.pop() {
-        let (here, v) = (f64::from_bits(bits), VertexId(v));
-        if here > distance[v] {
-            continue;
-        }
-        for h in mesh.star(v) {
-            let (next, through) = (mesh.head(h), here + mesh.length(h));
-            if through < distance[next] {
-                distance[next] = through;
-                arrived_by[next] = Some(h);
-                queue.push((Reverse(through.to_bits()), next.0));
-            }
-        }
-    }
+    let links = |v: u32| mesh.star(VertexId(v)).map(|h| (mesh.head(h).0, mesh.length(h), h));
+    shortest_paths((mesh.vertex_count(), root.0), links, |v, h| arrived_by[VertexId(v)] = Some(h));
     for &landmark in landmarks {
         let mut v = landmark;
         while let Some(h) = arrived_by[v].filter(|&h| !cut[h]) {
@@ -135,7 +119,7 @@ pub fn l2_stretch(mesh: &SurfaceMesh, uvs: &TiVec<HalfedgeId, DVec2>) -> f64 {
     let (mut stretch, mut area, mut uv_area) = (0.0, 0.0, 0.0);
     for f in mesh.faces() {
         let corners = mesh.corners(f);
-        let [p, q, r] = [0, 1, 2].map(|k| uvs[HalfedgeId::of(f, k)]);
+        let [p, q, r] = f.halfedges().map(|h| uvs[h]);
         let double_uv = signed_double_area(p, q, r);
         if double_uv <= 0.0 {
             continue;

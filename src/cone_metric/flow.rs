@@ -6,8 +6,8 @@ use super::target::{self, TargetError};
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use crate::numerics::approximate_cholesky::ApproximateCholesky;
+use crate::numerics::conjugate_gradients::{CgError, CgOptions, CgWorkspace};
 use crate::numerics::graph::Graph;
-use crate::numerics::laplacian::LaplacianCg;
 use typed_index_collections::TiVec;
 
 /// How the flow runs.
@@ -37,6 +37,8 @@ pub struct FlowReport {
     pub newton_steps: usize,
     /// Conjugate gradient iterations of all steps.
     pub cg_iterations: usize,
+    /// Newton steps whose linear system was not solved to its tolerance.
+    pub inexact_steps: usize,
     /// Edge flips, those of rejected trial steps included.
     pub edge_flips: usize,
     /// max |target - curvature| at the end, in radians.
@@ -57,9 +59,10 @@ pub enum FlowError {
     Target(#[from] TargetError),
     /// The tolerance was not reached.
     #[error(
-        "the flow did not converge: largest curvature error {:.3e} rad after {} steps, best {best:.3e} rad",
+        "the flow did not converge: largest curvature error {:.3e} rad after {} steps ({} of them inexact), best {best:.3e} rad",
         report.max_curvature_error,
-        report.newton_steps
+        report.newton_steps,
+        report.inexact_steps
     )]
     NotConverged {
         /// The smallest residual on the way.
@@ -85,6 +88,9 @@ pub fn flow(
     Newton::new(metric, target_curvature, options).run(monitor)
 }
 
+/// Conjugate gradient iterations of one Newton step, at most.
+const LINEAR_ITERATIONS: usize = 1000;
+
 struct Newton<'a> {
     metric: ConeMetric,
     target: &'a TiVec<VertexId, f64>,
@@ -109,7 +115,7 @@ impl<'a> Newton<'a> {
     fn run(mut self, monitor: &mut dyn Monitor) -> Result<(ConeMetric, FlowReport), FlowError> {
         let n = self.target.len();
         let (mut residual, mut step, mut start) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-        let (mut graph, mut cg) = (Graph::default(), LaplacianCg::default());
+        let (mut graph, mut cg) = (Graph::default(), CgWorkspace::default());
         self.update();
         let first = self.residual(&mut residual);
         self.report.residuals.push(first);
@@ -121,8 +127,19 @@ impl<'a> Newton<'a> {
             // Inexact Newton: a tolerance that falls with the curvature error (radians) keeps the quadratic convergence. 1000
             // iterations bound what a breakdown costs.
             let tolerance = (0.1 * error).clamp(1e-8, 0.1);
-            self.report.cg_iterations +=
-                cg.solve(&graph, &preconditioner, (&residual, &mut step), (tolerance, 1000));
+            let options = CgOptions { tolerance, max_iterations: LINEAR_ITERATIONS };
+            let solved = match cg.solve(&graph, &preconditioner, (&residual, &mut step), &options) {
+                Ok(solved) => solved,
+                // No step at all: the line search would take it for a step that lowers the energy.
+                Err(CgError::NotDefinite { report, .. }) if report.iterations == 0 => break,
+                // The last iterate is a direction of descent of the energy, which is convex: the line search takes as much of it
+                // as helps.
+                Err(error) => {
+                    self.report.inexact_steps += 1;
+                    error.report()
+                }
+            };
+            self.report.cg_iterations += solved.iterations;
             start.copy_from_slice(self.metric.log_radii.as_ref());
             if !self.line_search(&start, &step, (&mut residual, first), monitor)? {
                 break;
@@ -205,6 +222,7 @@ mod tests {
     use crate::cone_metric::uniform_curvature;
     use crate::mesh::generators::{icosphere, tetrahedron};
     use crate::monitor::Silent;
+    use crate::numerics::conjugate_gradients::LinearOperator;
     use std::f64::consts::PI;
 
     /// Radii away from the start, so that the state is not special.
@@ -245,7 +263,7 @@ mod tests {
             let n = metric.log_radii.len();
             let mut exact = vec![0.0; n];
             let direction: Vec<f64> = (0..n).map(|k| crate::math::scalar::cos(0.9 * k as f64)).collect();
-            graph.multiply(&direction, &mut exact);
+            graph.apply(&direction, &mut exact);
             let at = |h: f64| {
                 let mut near = metric.clone();
                 near.log_radii.iter_mut().zip(&direction).for_each(|(u, d)| *u += h * d);

@@ -123,7 +123,7 @@ impl ConeMetric {
     }
 
     fn add_face(&self, f: FaceId, state: &mut FlowState) -> bool {
-        let h = [0, 1, 2].map(|k| HalfedgeId::of(f, k));
+        let h = f.halfedges();
         let v = h.map(|x| self.triangulation.tail(x).index());
         let g = v.map(|i| state.gammas[i]);
         let l = [0, 1, 2]

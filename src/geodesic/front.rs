@@ -1,11 +1,11 @@
 //! The front: vertices that wait to be settled, and what a settled one offers to those around it.
 
 use super::unfolding::{Window, apex, source_below};
+use crate::math::min_queue::{MinQueue, Queued};
 use crate::math::scalar::max;
 use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec2;
 use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 use typed_index_collections::TiVec;
 
 /// Faces through which the front is unfolded from every settled edge: each edge that computes the front's centre anew loses
@@ -27,7 +27,7 @@ pub(super) struct Front<'a> {
     /// By vertex: its distance where that is at most `here` (it is settled), else the least offer so far or the distance to the
     /// seeds of an earlier front.
     distance: &'a mut TiVec<VertexId, f64>,
-    queue: BinaryHeap<(Reverse<u64>, VertexId)>,
+    queue: MinQueue<Reverse<VertexId>>,
     /// The distance of the vertex that was settled last. It never falls.
     here: f64,
 }
@@ -47,7 +47,7 @@ impl<'a> Front<'a> {
         seeds: &[VertexId],
         distance: &'a mut TiVec<VertexId, f64>,
     ) -> Self {
-        let mut front = Self { mesh, distance, queue: BinaryHeap::new(), here: 0.0 };
+        let mut front = Self { mesh, distance, queue: MinQueue::default(), here: 0.0 };
         seeds.iter().for_each(|&v| front.offer(v, 0.0));
         front
     }
@@ -57,8 +57,7 @@ impl<'a> Front<'a> {
     /// Ends after one turn for each time that a vertex was offered less, which happens only before it is settled.
     pub(super) fn advance(&mut self, radius: f64) -> usize {
         let mut settled = 0;
-        while let Some((Reverse(bits), v)) = self.queue.pop() {
-            let here = f64::from_bits(bits);
+        while let Some(Queued { cost: here, key: Reverse(v), .. }) = self.queue.pop() {
             if here > radius {
                 break;
             }
@@ -77,8 +76,7 @@ impl<'a> Front<'a> {
         let through = max(self.here, through);
         if through < self.distance[v] {
             self.distance[v] = through;
-            // Positive floats order like their bits.
-            self.queue.push((Reverse(through.to_bits()), v));
+            self.queue.push(through, Reverse(v), ());
         }
     }
 

@@ -3,6 +3,7 @@
 use super::drawing::Drawing;
 use super::landmark_distances::LandmarkDistances;
 use crate::base_domain::BaseDomain;
+use crate::landmarks::LandmarkId;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
 use typed_index_collections::TiVec;
 
@@ -31,7 +32,7 @@ pub struct PatchedMesh {
     /// The base face whose patch contains each refined face.
     pub face_patch: TiVec<FaceId, FaceId>,
     /// The refined mesh's vertex of each landmark (= vertex of the base domain).
-    pub landmark_vertices: TiVec<VertexId, VertexId>,
+    pub landmark_vertices: TiVec<LandmarkId, VertexId>,
     /// For each base halfedge the refined vertices of its path, both landmarks included; a twin's path is the reverse.
     /// Consecutive vertices are joined by mesh edges, and the patch of the halfedge's face lies on the left.
     pub paths: TiVec<HalfedgeId, Vec<VertexId>>,

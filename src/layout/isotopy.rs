@@ -7,6 +7,7 @@
 //! meshes. Paths are pushed to their left, which decides all coincidences.
 
 use super::base_layout::{BaseLayout, PatchedMesh};
+use crate::landmarks::LandmarkId;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use std::collections::VecDeque;
 use typed_index_collections::{TiVec, ti_vec};
@@ -51,8 +52,8 @@ impl Class {
 
     /// Whether another layout on the same meshes and landmarks is of this class.
     pub fn contains(&self, other: &BaseLayout) -> bool {
-        let base = &other.base.mesh;
-        base.edges().all(|h| {
+        let base = &other.base;
+        base.mesh.edges().all(|h| {
             let ends = [base.tail(h), base.head(h)];
             let words = [(0, &other.source), (1, &other.target)]
                 .map(|(side, patched)| self.word(side, &faces_beside(patched, &patched.paths[h]), ends));
@@ -61,7 +62,7 @@ impl Class {
     }
 
     /// The base edges that a strip of input faces from one landmark to another crosses, reduced.
-    fn word(&self, side: usize, strip: &[FaceId], ends: [VertexId; 2]) -> Option<Vec<HalfedgeId>> {
+    fn word(&self, side: usize, strip: &[FaceId], ends: [LandmarkId; 2]) -> Option<Vec<HalfedgeId>> {
         let patched = [&self.layout.source, &self.layout.target][side];
         let [start, end] = ends.map(|l| patched.landmark_vertices[l]);
         let mut walk = Walk { patched, on_path: &self.on_path[side], crossed: Vec::new() };
@@ -82,9 +83,9 @@ impl Class {
         Some(self.without_turns_at_ends(walk.crossed, ends))
     }
 
-    fn without_turns_at_ends(&self, word: Vec<HalfedgeId>, [start, end]: [VertexId; 2]) -> Vec<HalfedgeId> {
-        let base = &self.layout.base.mesh;
-        let touches = |h: HalfedgeId, l: VertexId| base.tail(h) == l || base.head(h) == l;
+    fn without_turns_at_ends(&self, word: Vec<HalfedgeId>, [start, end]: [LandmarkId; 2]) -> Vec<HalfedgeId> {
+        let base = &self.layout.base;
+        let touches = |h: HalfedgeId, l: LandmarkId| base.tail(h) == l || base.head(h) == l;
         let first = word.iter().position(|&h| !touches(h, start)).unwrap_or(word.len());
         let last = word.iter().rposition(|&h| !touches(h, end)).map_or(first, |k| k + 1);
         word[first..last.max(first)].to_vec()

@@ -5,9 +5,9 @@ use super::error::LayoutError;
 use super::landmark_distances::LandmarkDistances;
 use super::variants::{PLAIN, TreeOrder, Variant};
 use crate::base_domain::BaseDomain;
+use crate::math::disjoint_sets::DisjointSets;
+use crate::math::min_queue::{MinQueue, Queued};
 use crate::monitor::{Monitor, Step};
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 
 /// What an attempt needs beside its variant.
 pub(super) struct Ground<'a> {
@@ -138,31 +138,6 @@ fn sorted([i, j]: [usize; 2]) -> [usize; 2] {
     [i.min(j), i.max(j)]
 }
 
-pub(super) struct DisjointSets {
-    parent: Vec<usize>,
-}
-
-impl DisjointSets {
-    pub fn new(n: usize) -> Self {
-        Self { parent: (0..n).collect() }
-    }
-
-    pub fn root(&mut self, mut i: usize) -> usize {
-        while self.parent[i] != i {
-            self.parent[i] = self.parent[self.parent[i]];
-            i = self.parent[i];
-        }
-        i
-    }
-
-    /// Joins two sets; `false` when they were one already.
-    pub fn join(&mut self, i: usize, j: usize) -> bool {
-        let (a, b) = (self.root(i), self.root(j));
-        self.parent[a] = b;
-        a != b
-    }
-}
-
 /// The minimum spanning tree of the summed distances, in drawing order.
 fn tree_in_order(distances: &LandmarkDistances, variant: &Variant) -> Vec<[usize; 2]> {
     let n = distances.landmark_count();
@@ -198,35 +173,9 @@ fn leaves_first(tree: Vec<[usize; 2]>, n: usize) -> Vec<[usize; 2]> {
 /// Keys above this are no limit to paths: the areas are 1.
 const NO_LIMIT: f64 = 1e6;
 
-struct Pair {
-    key: f64,
-    ends: [usize; 2],
-    plan: Option<Plan>,
-}
-
-impl PartialEq for Pair {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Pair {}
-
-impl Ord for Pair {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.key.total_cmp(&self.key).then(other.ends.cmp(&self.ends))
-    }
-}
-
-impl PartialOrd for Pair {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
 /// Pairs not yet adjacent, smallest key first, planned when they come up.
 struct PairQueue<'a> {
-    queue: BinaryHeap<Pair>,
+    queue: MinQueue<[usize; 2], Option<Plan>>,
     variant: &'a Variant,
 }
 
@@ -237,12 +186,13 @@ impl<'a> PairQueue<'a> {
         let fresh = pairs.filter(|ends| !drawing.ends.contains(ends));
         // No path is shorter than without obstacles.
         let key = |ends| variant.factor(ends) * distances.sum(ends);
-        Self { queue: fresh.map(|ends| Pair { key: key(ends), ends, plan: None }).collect(), variant }
+        let queue = fresh.map(|ends| Queued { cost: key(ends), key: ends, value: None }).collect();
+        Self { queue, variant }
     }
 
     fn next(&mut self, drawing: &Drawing, planner: &mut Planner<'_>) -> Option<Plan> {
         let faces = drawing.faces_by_slot();
-        while let Some(Pair { key: least, ends, plan }) = self.queue.pop() {
+        while let Some(Queued { cost: least, key: ends, value: plan }) = self.queue.pop() {
             if let Some(plan) = plan
                 && drawing.still_valid(&plan)
             {
@@ -252,7 +202,7 @@ impl<'a> PairQueue<'a> {
             let Some(slots) = common_slots(&faces, ends) else { continue };
             let geodesics = planner.distances.between(ends);
             let factor = self.variant.factor(ends);
-            let next_key = self.queue.peek().map_or(f64::INFINITY, |next| next.key);
+            let next_key = self.queue.least().unwrap_or(f64::INFINITY);
             // A search within a small limit is cheap: it grows by a fifth whenever the pair comes up again. Chosen by hand.
             let raised = 1.2 * next_key.max(least);
             // The limit grows from a positive number, so it ends; keys beyond the longest of paths need none.
@@ -260,7 +210,7 @@ impl<'a> PairQueue<'a> {
             let limits = [0, 1].map(|s| length_limit(limit / factor, geodesics, s));
             let Some(plan) = drawing.plan_within(planner, ends, &slots, limits) else {
                 if limit.is_finite() {
-                    self.queue.push(Pair { key: limit, ends, plan: None });
+                    self.queue.push(limit, ends, None);
                 }
                 continue;
             };
@@ -268,7 +218,7 @@ impl<'a> PairQueue<'a> {
             if key <= next_key {
                 return Some(plan);
             }
-            self.queue.push(Pair { key, ends, plan: Some(plan) });
+            self.queue.push(key, ends, Some(plan));
         }
         None
     }

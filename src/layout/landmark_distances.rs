@@ -3,9 +3,8 @@
 use super::path_search::{for_each_link, position};
 use super::refinable::RefinableMesh;
 use crate::landmarks::Landmarks;
+use crate::math::min_queue::shortest_paths;
 use crate::mesh::{SurfaceMesh, VertexId};
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 use typed_index_collections::{TiSlice, TiVec};
 
 /// Lengths of shortest paths over vertices and edge midpoints that pass no other landmark, both areas scaled to 1.
@@ -80,29 +79,14 @@ impl Links {
         &self.links[self.begin[node] as usize..self.begin[node + 1] as usize]
     }
 
-    /// Dijkstra's algorithm; other landmarks end paths. Positive floats order like their bits.
+    /// Shortest paths; other landmarks end them.
     ///
     /// Not inlined: a browser optimises a function from one call to the next, never within a call.
     #[inline(never)]
     fn distances_to(&self, mesh: &RefinableMesh, landmark: VertexId) -> TiVec<VertexId, f64> {
+        let links = |node: u32| self.of(node as usize).iter().map(|&(next, length)| (next, length, ()));
+        let distance = shortest_paths((self.begin.len() - 1, landmark.0), links, |_, ()| ());
         let vertices = mesh.positions.len();
-        let mut distance = vec![f64::INFINITY; self.begin.len() - 1];
-        let mut queue = BinaryHeap::new();
-        distance[landmark.index()] = 0.0;
-        queue.push((Reverse(0_u64), landmark.0));
-        while let Some((Reverse(bits), node)) = queue.pop() {
-            let (here, node) = (f64::from_bits(bits), node as usize);
-            if here > distance[node] {
-                continue;
-            }
-            for &(next, length) in self.of(node) {
-                let through = here + length;
-                if through < distance[next as usize] {
-                    distance[next as usize] = through;
-                    queue.push((Reverse(through.to_bits()), next));
-                }
-            }
-        }
         let mut field: TiVec<VertexId, f64> = distance[..vertices].iter().copied().collect();
         self.reach_landmarks(mesh, landmark, (&distance, &mut field));
         field

@@ -195,7 +195,7 @@ impl PatchedMesh {
         for h in base.mesh.halfedges() {
             let path = &self.paths[h];
             let fault = |v: VertexId| PatchFault::BrokenPath { halfedge: h.index(), vertex: v.index() };
-            let ends = [base.mesh.tail(h), base.mesh.head(h)].map(|l| self.landmark_vertices[l]);
+            let ends = [base.tail(h), base.head(h)].map(|l| self.landmark_vertices[l]);
             if path.len() < 2 || [path[0], path[path.len() - 1]] != ends {
                 return Err(fault(ends[0]));
             }

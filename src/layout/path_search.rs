@@ -5,10 +5,9 @@
 //! the layout.
 
 use super::refinable::RefinableMesh;
+use crate::math::min_queue::{MinQueue, Queued};
 use crate::mesh::{HalfedgeId, VertexId};
 use glam::DVec3;
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 use typed_index_collections::TiSlice;
 
 /// A node of a path, named so that it survives splits elsewhere.
@@ -68,27 +67,6 @@ pub(super) struct Query<'a> {
     pub limit: f64,
 }
 
-#[derive(PartialEq)]
-struct Entry {
-    priority: f64,
-    distance: f64,
-    node: u32,
-}
-
-impl Eq for Entry {}
-
-impl Ord for Entry {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.priority.total_cmp(&self.priority).then(other.node.cmp(&self.node))
-    }
-}
-
-impl PartialOrd for Entry {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
 const NONE: u32 = u32::MAX;
 
 /// Turns of a search per node, at most. The estimate of A* is interpolated from a mesh without paths, so a node may be settled
@@ -105,7 +83,8 @@ pub(super) struct PathSearch {
     goal_cost: Vec<f64>,
     goal_stamp: Vec<u32>,
     goal_step: Vec<EndStep>,
-    queue: BinaryHeap<Entry>,
+    /// Nodes with their distances, by estimated length of a path through them.
+    queue: MinQueue<u32, f64>,
 }
 
 impl PathSearch {
@@ -118,7 +97,7 @@ impl PathSearch {
         let mut best_last = NONE;
         self.seed(mesh, query);
         let mut left = MOST_TURNS * self.distance.len();
-        while let Some(Entry { priority, distance: here, node }) = self.queue.pop() {
+        while let Some(Queued { cost: priority, key: node, value: here }) = self.queue.pop() {
             if priority >= best || priority > query.limit || left == 0 {
                 break;
             }
@@ -162,7 +141,7 @@ impl PathSearch {
             self.stamp[i] = self.now;
             self.distance[i] = distance;
             self.before[i] = before;
-            self.queue.push(Entry { priority, distance, node });
+            self.queue.push(priority, node, distance);
         }
     }
 

@@ -1,6 +1,6 @@
 //! A triangle mesh whose edges can be split, with the marks that path drawing needs.
 
-use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId, star};
 use glam::DVec3;
 use typed_index_collections::{TiVec, ti_vec};
 
@@ -64,14 +64,7 @@ impl RefinableMesh {
 
     /// The outgoing halfedges of a vertex, counter-clockwise.
     pub fn star(&self, v: VertexId) -> impl Iterator<Item = HalfedgeId> + '_ {
-        let first = self.outgoing[v];
-        let mut next = Some(first);
-        std::iter::from_fn(move || {
-            let h = next?;
-            let following = self.turn(h);
-            next = (following != first).then_some(following);
-            Some(h)
-        })
+        star(self.outgoing[v], |h| self.twins[h])
     }
 
     pub fn halfedge_between(&self, tail: VertexId, head: VertexId) -> Option<HalfedgeId> {

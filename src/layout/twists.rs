@@ -7,9 +7,10 @@
 
 use super::drawing::{Drawing, Planner};
 use super::error::LayoutError;
-use super::joint::{DisjointSets, complete, straighten};
+use super::joint::{complete, straighten};
 use super::path_search::FoundPath;
 use super::variants::PLAIN;
+use crate::math::disjoint_sets::DisjointSets;
 use crate::monitor::Monitor;
 
 /// A way to turn one group of landmarks against the other.

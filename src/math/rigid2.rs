@@ -1,6 +1,6 @@
 //! Orientation-preserving rigid motions of the plane.
 
-use glam::DVec2;
+use glam::{DMat2, DVec2};
 
 /// The rigid motion p -> r p + t, where r is a rotation written as a unit complex number (cos, sin).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +31,12 @@ impl Rigid2 {
         complex_mul(self.rotation, d)
     }
 
+    /// The rotation as a matrix.
+    #[inline]
+    pub fn turn(&self) -> DMat2 {
+        turn(self.rotation)
+    }
+
     /// `self` after `first`.
     pub fn after(&self, first: &Self) -> Self {
         Self {
@@ -44,6 +50,12 @@ impl Rigid2 {
         let rotation = DVec2::new(self.rotation.x, -self.rotation.y);
         Self { rotation, translation: -complex_mul(rotation, self.translation) }
     }
+}
+
+/// The matrix of a rotation.
+#[inline]
+pub fn turn(rotation: DVec2) -> DMat2 {
+    DMat2::from_cols(rotation, rotation.perp())
 }
 
 /// The complex product a b.

@@ -2,6 +2,7 @@
 
 use super::soup::PolygonSoup;
 use super::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
+use crate::math::disjoint_sets::DisjointSets;
 use crate::math::triangle;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -425,28 +426,18 @@ fn used_vertices(
 /// Every vertex has one fan: its corners are connected through edges at the vertex.
 fn check_fans(triangles: &[Triangle], edges: &EdgeTable, vertices: usize) -> Result<(), MeshFault> {
     // Sides belong to the triangles as they were before turning: a corner is named by its vertex instead.
-    let mut corner_root: Vec<u32> = (0..triangles.len() as u32 * 3).collect();
-    fn root(parents: &mut [u32], mut i: u32) -> u32 {
-        while parents[i as usize] != i {
-            parents[i as usize] = parents[parents[i as usize] as usize];
-            i = parents[i as usize];
-        }
-        i
-    }
-    let corner =
-        |t: usize, v: u32| 3 * t as u32 + triangles[t].iter().position(|&w| w == v).unwrap_or(0) as u32;
+    let corners = triangles.len() * 3;
+    let mut sets = DisjointSets::new(corners);
+    let corner = |t: usize, v: u32| 3 * t + triangles[t].iter().position(|&w| w == v).unwrap_or(0);
     for (ends, sides) in edges.ends.iter().zip(&edges.sides) {
         for &v in ends {
             let [a, b] = sides.map(|s| corner(s as usize / 3, v));
-            let (a, b) = (root(&mut corner_root, a), root(&mut corner_root, b));
-            corner_root[a.max(b) as usize] = a.min(b);
+            sets.join(a, b);
         }
     }
     let mut fans = vec![0_u32; vertices];
-    for c in 0..corner_root.len() {
-        if corner_root[c] as usize == c {
-            fans[triangles[c / 3][c % 3] as usize] += 1;
-        }
+    for c in (0..corners).filter(|&c| sets.root(c) == c) {
+        fans[triangles[c / 3][c % 3] as usize] += 1;
     }
     let faults: Elements<usize> = (0..vertices).filter(|&v| fans[v] > 1).collect();
     if faults.count > 0 { Err(MeshFault::PinchedVertices(faults)) } else { Ok(()) }

@@ -2,10 +2,9 @@
 
 use super::collapsible::{CollapsibleMesh, ShapeLimits};
 use super::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
+use crate::math::min_queue::{MinQueue, Queued};
 use crate::math::quadric::Quadric;
 use glam::DVec3;
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 /// Normals turn by less than 78 degrees, and no new triangle is flatter than 1/20 of its longest edge. Chosen by hand.
@@ -28,7 +27,7 @@ pub fn coarsen(
         may,
         quadrics,
         version: ti_vec![0; positions.len()],
-        queue: BinaryHeap::new(),
+        queue: MinQueue::default(),
         strictness: Strictness::Shape,
     };
     // What one round refuses may be possible when others have gone: three rounds with shapes, then three without.
@@ -81,7 +80,7 @@ struct Coarsening<'a, M> {
     may: M,
     quadrics: TiVec<VertexId, Quadric>,
     version: TiVec<VertexId, u32>,
-    queue: BinaryHeap<Entry>,
+    queue: CollapseQueue,
     strictness: Strictness,
 }
 
@@ -93,7 +92,7 @@ impl<M: Fn(&CollapsibleMesh, HalfedgeId) -> bool> Coarsening<'_, M> {
             self.push_best(v);
         }
         let mut touched = Vec::new();
-        while let Some(Entry { vertex, version, halfedge, .. }) = self.queue.pop() {
+        while let Some(Queued { key: (vertex, version), value: halfedge, .. }) = self.queue.pop() {
             if !self.mesh.is_alive(vertex) || self.version[vertex] != version {
                 continue;
             }
@@ -123,7 +122,7 @@ impl<M: Fn(&CollapsibleMesh, HalfedgeId) -> bool> Coarsening<'_, M> {
             }
         }
         if let Some((cost, halfedge)) = best {
-            self.queue.push(Entry { cost, vertex: v, version: self.version[v], halfedge });
+            self.queue.push(cost, (v, self.version[v]), halfedge);
         }
     }
 
@@ -147,41 +146,9 @@ enum Strictness {
     LinkOnly,
 }
 
-/// A collapse that waits for its turn, the cheapest first; ties by number.
-pub(crate) struct Entry {
-    /// Quadric error of the collapse.
-    pub cost: f64,
-    /// The vertex that would vanish.
-    pub vertex: VertexId,
-    /// The vertex's version when the cost was taken; another one means that it is out of date.
-    pub version: u32,
-    /// From the vertex to the one it would go into.
-    pub halfedge: HalfedgeId,
-}
-
-impl PartialEq for Entry {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Entry {}
-
-impl Ord for Entry {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other
-            .cost
-            .total_cmp(&self.cost)
-            .then(other.vertex.cmp(&self.vertex))
-            .then(other.version.cmp(&self.version))
-    }
-}
-
-impl PartialOrd for Entry {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
+/// Collapses that wait for their turn, the least quadric error first: the vertex that would vanish with its version when the
+/// error was taken (another one means that it is out of date), and the halfedge from it to the vertex it would go into.
+pub(crate) type CollapseQueue = MinQueue<(VertexId, u32), HalfedgeId>;
 
 /// One level of a collapsible mesh as a mesh of its own.
 #[derive(Clone, Debug)]
@@ -223,10 +190,7 @@ impl Level {
         let mut number_of_face: TiVec<FaceId, FaceId> = ti_vec![FaceId(u32::MAX); mesh.face_slots()];
         faces.iter_enumerated().for_each(|(number, &f)| number_of_face[f] = number);
         let halfedge = |h: HalfedgeId| HalfedgeId::of(number_of_face[h.face()], h.corner());
-        let twins = faces
-            .iter()
-            .flat_map(|&f| [0, 1, 2].map(|k| halfedge(mesh.twin(HalfedgeId::of(f, k)))))
-            .collect();
+        let twins = faces.iter().flat_map(|&f| f.halfedges().map(|h| halfedge(mesh.twin(h)))).collect();
         Self { mesh: SurfaceMesh::from_parts(places, triangles, twins), vertices, faces }
     }
 }

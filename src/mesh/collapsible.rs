@@ -4,6 +4,7 @@
 //! undoing collapses in reverse order restores every intermediate mesh exactly. The mesh stays simple: the link condition
 //! is the caller's to ask for.
 
+use super::ids::star;
 use super::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use crate::math::scalar::max;
 use glam::DVec3;
@@ -85,7 +86,7 @@ impl CollapsibleMesh {
 
     /// Corners of a face.
     pub fn corners(&self, f: FaceId) -> [VertexId; 3] {
-        [0, 1, 2].map(|k| self.tails[HalfedgeId::of(f, k)])
+        f.halfedges().map(|h| self.tails[h])
     }
 
     /// Start vertex of a halfedge.
@@ -114,14 +115,7 @@ impl CollapsibleMesh {
 
     /// The outgoing halfedges of a vertex, counter-clockwise.
     pub fn star(&self, v: VertexId) -> impl Iterator<Item = HalfedgeId> + '_ {
-        let first = self.outgoing[v];
-        let mut next = Some(first);
-        std::iter::from_fn(move || {
-            let h = next?;
-            let following = self.twins[h.prev()];
-            next = (following != first).then_some(following);
-            Some(h)
-        })
+        star(self.outgoing[v], |h| self.twins[h])
     }
 
     /// Whether the ends of `h` have exactly two common neighbours, and more than four vertices are left.

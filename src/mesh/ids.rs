@@ -46,6 +46,25 @@ id!(
     HalfedgeId
 );
 
+impl FaceId {
+    /// Its halfedges, counter-clockwise.
+    #[inline]
+    pub fn halfedges(self) -> [HalfedgeId; 3] {
+        [0, 1, 2].map(|k| HalfedgeId::of(self, k))
+    }
+}
+
+/// The halfedges that start where `first` does, counter-clockwise from it; `twin` gives the opposite halfedge.
+pub fn star(first: HalfedgeId, twin: impl Fn(HalfedgeId) -> HalfedgeId) -> impl Iterator<Item = HalfedgeId> {
+    let mut next = Some(first);
+    std::iter::from_fn(move || {
+        let h = next?;
+        let following = twin(h.prev());
+        next = (following != first).then_some(following);
+        Some(h)
+    })
+}
+
 impl HalfedgeId {
     /// Halfedge `k` (0, 1 or 2) of a face.
     #[inline]

@@ -16,8 +16,8 @@ mod surface_mesh;
 mod surface_point;
 mod textured;
 
-pub(crate) use ids::id as ids_id;
 pub use ids::{FaceId, HalfedgeId, VertexId};
+pub(crate) use ids::{id as ids_id, star};
 pub use refined::RefinedMesh;
 pub use surface_mesh::{MeshError, SurfaceMesh};
 pub use surface_point::SurfacePoint;

@@ -1,5 +1,6 @@
 //! A closed, oriented, manifold triangle mesh with positions.
 
+use super::ids::star;
 use super::{FaceId, HalfedgeId, VertexId};
 use crate::math::triangle;
 use glam::DVec3;
@@ -150,14 +151,7 @@ impl SurfaceMesh {
 
     /// The halfedges that start at the vertex, counter-clockwise.
     pub fn star(&self, v: VertexId) -> impl Iterator<Item = HalfedgeId> + '_ {
-        let first = self.outgoing[v];
-        let mut next = Some(first);
-        std::iter::from_fn(move || {
-            let h = next?;
-            let following = self.twins[h.prev()];
-            next = (following != first).then_some(following);
-            Some(h)
-        })
+        star(self.outgoing[v], |h| self.twins[h])
     }
 
     /// The halfedge from one vertex to another, if they are neighbours.

@@ -1,6 +1,7 @@
 //! Points on a surface mesh.
 
 use super::{FaceId, SurfaceMesh, VertexId};
+use crate::math::barycentric;
 use glam::DVec3;
 
 /// A point of a triangle by its barycentric coordinates (non-negative, sum 1).
@@ -13,6 +14,11 @@ pub struct SurfacePoint {
 }
 
 impl SurfacePoint {
+    /// The point of a face with these weights, the negative ones left out.
+    pub fn clamped(face: FaceId, weights: [f64; 3]) -> Self {
+        Self { face, barycentric: barycentric::clamped(weights) }
+    }
+
     /// A vertex as a corner of one of its faces.
     pub fn at_vertex(mesh: &SurfaceMesh, v: VertexId) -> Self {
         let h = mesh.outgoing(v);

@@ -4,6 +4,7 @@
 //! random tree with the same mean (Kyng & Sachdeva 2016; Gao, Kyng & Spielman 2023), so that the factor stays sparse. The
 //! seed is fixed: the same graph has the same factor.
 
+use super::conjugate_gradients::Preconditioner;
 use super::graph::Graph;
 use crate::math::random::SplitMix;
 
@@ -58,9 +59,11 @@ impl ApproximateCholesky {
         }
         self.starts.push(self.rows.len() as u32);
     }
+}
 
+impl Preconditioner<f64> for ApproximateCholesky {
     /// y = (factor)^-1 x.
-    pub fn apply(&self, x: &[f64], y: &mut [f64]) {
+    fn precondition(&self, x: &[f64], y: &mut [f64]) {
         y.copy_from_slice(x);
         for (k, &v) in self.order.iter().enumerate() {
             let value = y[v as usize];
@@ -201,5 +204,72 @@ impl DegreeQueue {
             self.least += 1;
         }
         None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numerics::conjugate_gradients::{CgOptions, CgReport, CgWorkspace, LinearOperator, dot};
+
+    fn solve(graph: &Graph, b: &[f64], x: &mut [f64], max_iterations: usize) -> CgReport {
+        let options = CgOptions { tolerance: 1e-10, max_iterations };
+        let preconditioner = ApproximateCholesky::new(graph);
+        CgWorkspace::default().solve(graph, &preconditioner, (b, x), &options).unwrap()
+    }
+
+    /// A grid with weights over six orders of magnitude.
+    fn grid(n: u32) -> Graph {
+        let weight = |k: u32| 10_f64.powi((k * 7919 % 7) as i32 - 3);
+        let mut edges = Vec::new();
+        for i in 0..n {
+            for j in 0..n {
+                let at = i * n + j;
+                if j + 1 < n {
+                    edges.push((at, at + 1, weight(at)));
+                }
+                if i + 1 < n {
+                    edges.push((at, at + n, weight(at + 3)));
+                }
+            }
+        }
+        Graph { vertices: (n * n) as usize, edges }
+    }
+
+    #[test]
+    fn the_solution_satisfies_the_system() {
+        let graph = grid(60);
+        let n = graph.vertices;
+        let mut b: Vec<f64> = (0..n).map(|i| (i % 17) as f64 - 8.0).collect();
+        graph.leave_kernel(&mut b);
+        let (mut x, mut lx) = (vec![0.0; n], vec![0.0; n]);
+        let iterations = solve(&graph, &b, &mut x, 200).iterations;
+        graph.apply(&x, &mut lx);
+        let error: f64 = lx.iter().zip(&b).map(|(p, q)| (p - q).powi(2)).sum::<f64>().sqrt();
+        assert!(error < 1e-8 * dot(&b, &b).sqrt(), "{error}");
+        assert!(iterations < 60, "{iterations}");
+        assert!(x.iter().sum::<f64>().abs() < 1e-6);
+    }
+
+    #[test]
+    fn on_a_tree_the_factorisation_is_exact() {
+        let edges = (1..500_u32).map(|i| ((i - 1) / 3, i, 1.0 + f64::from(i % 5))).collect();
+        let graph = Graph { vertices: 500, edges };
+        let b: Vec<f64> = (0..500).map(|i| if i % 2 == 0 { 1.0 } else { -1.0 }).collect();
+        let mut x = vec![0.0; 500];
+        let iterations = solve(&graph, &b, &mut x, 50).iterations;
+        assert!(iterations <= 2, "{iterations}");
+    }
+
+    #[test]
+    fn two_factorisations_agree_bit_for_bit() {
+        let graph = grid(20);
+        let b: Vec<f64> = (0..400).map(f64::from).collect();
+        let image = || {
+            let mut y = vec![0.0; 400];
+            ApproximateCholesky::new(&graph).precondition(&b, &mut y);
+            y
+        };
+        assert_eq!(image(), image());
     }
 }

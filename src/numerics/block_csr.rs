@@ -1,7 +1,6 @@
-//! Symmetric sparse matrices of 2 x 2 blocks, solved by conjugate gradients.
-//!
-//! The preconditioner is symmetric block Gauss-Seidel: one forward and one backward sweep, exact on the diagonal blocks.
+//! Symmetric sparse matrices of 2 x 2 blocks, and symmetric block Gauss-Seidel sweeps as their preconditioner.
 
+use super::conjugate_gradients::{LinearOperator, Preconditioner};
 use glam::{DMat2, DVec2};
 
 /// A symmetric matrix of 2 x 2 blocks with a fixed pattern; both triangles are stored.
@@ -14,7 +13,6 @@ pub struct BlockCsr {
     /// Place of the diagonal block of each row.
     diagonal: Vec<u32>,
     blocks: Vec<DMat2>,
-    inverse_diagonal: Vec<DMat2>,
 }
 
 impl BlockCsr {
@@ -61,7 +59,7 @@ impl BlockCsr {
         }
         columns.truncate(end);
         let blocks = vec![DMat2::ZERO; end];
-        Self { starts, columns, diagonal, blocks, inverse_diagonal: vec![DMat2::ZERO; rows] }
+        Self { starts, columns, diagonal, blocks }
     }
 
     /// Number of block rows.
@@ -99,13 +97,6 @@ impl BlockCsr {
         }
     }
 
-    /// y = A x.
-    pub fn multiply(&self, x: &[DVec2], y: &mut [DVec2]) {
-        for (i, out) in y.iter_mut().enumerate() {
-            *out = self.row_times([self.starts[i], self.starts[i + 1]], x);
-        }
-    }
-
     /// The sum of some blocks of a row, each times what x has in its column.
     #[inline]
     fn row_times(&self, [from, to]: [u32; 2], x: &[DVec2]) -> DVec2 {
@@ -118,90 +109,51 @@ impl BlockCsr {
         sum
     }
 
-    fn invert_diagonal(&mut self) {
-        for (inverse, &d) in self.inverse_diagonal.iter_mut().zip(&self.diagonal) {
+    /// The preconditioner of the present blocks; `memory` is its own.
+    pub fn gauss_seidel<'a>(&'a self, memory: &'a mut Vec<DMat2>) -> GaussSeidel<'a> {
+        memory.clear();
+        memory.extend(self.diagonal.iter().map(|&d| {
             let block = self.blocks[d as usize];
-            *inverse = if block.determinant() > 0.0 { block.inverse() } else { DMat2::IDENTITY };
+            if block.determinant() > 0.0 { block.inverse() } else { DMat2::IDENTITY }
+        }));
+        GaussSeidel { matrix: self, inverse_diagonal: memory }
+    }
+}
+
+impl LinearOperator<DVec2> for BlockCsr {
+    fn apply(&self, x: &[DVec2], y: &mut [DVec2]) {
+        for (i, out) in y.iter_mut().enumerate() {
+            *out = self.row_times([self.starts[i], self.starts[i + 1]], x);
         }
     }
+}
 
-    /// y = (L + D)^-T D (L + D)^-1 x: one symmetric Gauss-Seidel sweep from zero.
+/// Symmetric block Gauss-Seidel: one forward and one backward sweep from zero, exact on the diagonal blocks.
+#[derive(Clone, Copy, Debug)]
+pub struct GaussSeidel<'a> {
+    matrix: &'a BlockCsr,
+    inverse_diagonal: &'a [DMat2],
+}
+
+impl Preconditioner<DVec2> for GaussSeidel<'_> {
+    /// y = (L + D)^-T D (L + D)^-1 x.
     fn precondition(&self, x: &[DVec2], y: &mut [DVec2]) {
+        let BlockCsr { starts, diagonal, .. } = self.matrix;
         for i in 0..x.len() {
-            let before = self.row_times([self.starts[i], self.diagonal[i]], y);
+            let before = self.matrix.row_times([starts[i], diagonal[i]], y);
             y[i] = self.inverse_diagonal[i] * (x[i] - before);
         }
         for i in (0..x.len()).rev() {
-            let after = self.row_times([self.diagonal[i] + 1, self.starts[i + 1]], y);
+            let after = self.matrix.row_times([diagonal[i] + 1, starts[i + 1]], y);
             y[i] -= self.inverse_diagonal[i] * after;
         }
     }
 }
 
-/// Reusable memory of [`BlockCg::solve`].
-#[derive(Clone, Debug, Default)]
-pub struct BlockCg {
-    residual: Vec<DVec2>,
-    direction: Vec<DVec2>,
-    image: Vec<DVec2>,
-    preconditioned: Vec<DVec2>,
-}
-
-impl BlockCg {
-    /// Solves A x = b from x = 0 until |b - A x| <= `tolerance` |b| or `limit` iterations; returns the iterations.
-    ///
-    /// `matrix` must be symmetric positive definite. Stops early where rounding makes a curvature non-positive.
-    pub fn solve(
-        &mut self,
-        matrix: &mut BlockCsr,
-        b: &[DVec2],
-        x: &mut [DVec2],
-        (tolerance, limit): (f64, usize),
-    ) -> usize {
-        let n = b.len();
-        for memory in [&mut self.residual, &mut self.direction, &mut self.image, &mut self.preconditioned] {
-            memory.resize(n, DVec2::ZERO);
-        }
-        matrix.invert_diagonal();
-        x.fill(DVec2::ZERO);
-        self.residual.copy_from_slice(b);
-        matrix.precondition(&self.residual, &mut self.preconditioned);
-        self.direction.copy_from_slice(&self.preconditioned);
-        let mut rho = dot(&self.residual, &self.preconditioned);
-        let goal = tolerance * tolerance * dot(b, b);
-        for iteration in 0..limit {
-            matrix.multiply(&self.direction, &mut self.image);
-            let curvature = dot(&self.direction, &self.image);
-            if curvature.is_nan() || curvature <= 0.0 {
-                return iteration;
-            }
-            let step = rho / curvature;
-            for i in 0..n {
-                x[i] += step * self.direction[i];
-                self.residual[i] -= step * self.image[i];
-            }
-            if dot(&self.residual, &self.residual) <= goal {
-                return iteration + 1;
-            }
-            matrix.precondition(&self.residual, &mut self.preconditioned);
-            let next = dot(&self.residual, &self.preconditioned);
-            let ratio = next / rho;
-            rho = next;
-            for i in 0..n {
-                self.direction[i] = self.preconditioned[i] + ratio * self.direction[i];
-            }
-        }
-        limit
-    }
-}
-
-fn dot(a: &[DVec2], b: &[DVec2]) -> f64 {
-    a.iter().zip(b).map(|(p, q)| p.dot(*q)).sum()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::conjugate_gradients::{CgOptions, CgWorkspace, dot};
 
     /// The Laplacian of a path with unit springs to the ground at both ends, coupled between the coordinates.
     fn chain(n: u32) -> BlockCsr {
@@ -219,20 +171,22 @@ mod tests {
 
     #[test]
     fn the_solution_satisfies_the_system() {
-        let mut matrix = chain(100);
+        let (matrix, mut memory) = (chain(100), Vec::new());
         let b: Vec<_> = (0..100).map(|i| DVec2::new(f64::from(i % 7) - 3.0, f64::from(i % 5))).collect();
         let (mut x, mut ax) = (vec![DVec2::ZERO; 100], vec![DVec2::ZERO; 100]);
-        let iterations = BlockCg::default().solve(&mut matrix, &b, &mut x, (1e-12, 300));
-        assert!(iterations < 120, "{iterations}");
-        matrix.multiply(&x, &mut ax);
+        let options = CgOptions { tolerance: 1e-12, max_iterations: 300 };
+        let sweeps = matrix.gauss_seidel(&mut memory);
+        let report = CgWorkspace::default().solve(&matrix, &sweeps, (&b, &mut x), &options).unwrap();
+        assert!(report.iterations < 120, "{report:?}");
+        matrix.apply(&x, &mut ax);
         let error = ax.iter().zip(&b).map(|(p, q)| (*p - *q).length()).fold(0.0, f64::max);
         assert!(error < 1e-9, "{error}");
     }
 
     #[test]
     fn the_preconditioner_is_symmetric() {
-        let mut matrix = chain(10);
-        matrix.invert_diagonal();
+        let (matrix, mut memory) = (chain(10), Vec::new());
+        let sweeps = matrix.gauss_seidel(&mut memory);
         let unit = |k: usize| {
             let mut e = vec![DVec2::ZERO; 10];
             e[k] = DVec2::new(0.3, 1.0);
@@ -240,9 +194,9 @@ mod tests {
         };
         let mut image = vec![DVec2::ZERO; 10];
         for (i, j) in [(0, 9), (3, 4), (2, 7)] {
-            matrix.precondition(&unit(j), &mut image);
+            sweeps.precondition(&unit(j), &mut image);
             let forth = dot(&unit(i), &image);
-            matrix.precondition(&unit(i), &mut image);
+            sweeps.precondition(&unit(i), &mut image);
             let back = dot(&unit(j), &image);
             assert!((forth - back).abs() < 1e-14);
         }

@@ -1,5 +1,7 @@
 //! Weighted graphs and their Laplacians.
 
+use super::conjugate_gradients::LinearOperator;
+
 /// A weighted graph; parallel edges add up.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
@@ -9,14 +11,21 @@ pub struct Graph {
     pub edges: Vec<(u32, u32, f64)>,
 }
 
-impl Graph {
-    /// y = L x with (L x)_i = sum over edges ij of w_ij (x_i - x_j).
-    pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
+/// The Laplacian L: (L x)_i is the sum over edges ij of w_ij (x_i - x_j). The graph should be connected: then only constants
+/// are in the kernel.
+impl LinearOperator<f64> for Graph {
+    fn apply(&self, x: &[f64], y: &mut [f64]) {
         y.fill(0.0);
         for &(i, j, w) in &self.edges {
             let flow = w * (x[i as usize] - x[j as usize]);
             y[i as usize] += flow;
             y[j as usize] -= flow;
         }
+    }
+
+    /// Takes the mean out.
+    fn leave_kernel(&self, x: &mut [f64]) {
+        let mean = x.iter().sum::<f64>() / x.len() as f64;
+        x.iter_mut().for_each(|v| *v -= mean);
     }
 }

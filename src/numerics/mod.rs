@@ -2,5 +2,5 @@
 
 pub mod approximate_cholesky;
 pub mod block_csr;
+pub mod conjugate_gradients;
 pub mod graph;
-pub mod laplacian;

@@ -1,6 +1,7 @@
 //! Point location among developed faces.
 
 use super::development::{Placed, bounds};
+use crate::math::barycentric::shares;
 use crate::math::triangle::signed_double_area;
 use crate::mesh::SurfacePoint;
 use glam::DVec2;
@@ -54,9 +55,7 @@ impl Bins {
             let weights = weights(&corners, q);
             let least = weights.into_iter().fold(f64::INFINITY, f64::min);
             if least >= -INSIDE_FACE && best.is_none_or(|(other, _)| least > other) {
-                let clamped = weights.map(|w| w.max(0.0));
-                let sum: f64 = clamped.iter().sum();
-                best = Some((least, SurfacePoint { face, barycentric: clamped.map(|w| w / sum) }));
+                best = Some((least, SurfacePoint::clamped(face, weights)));
             }
         }
         best.map(|(_, point)| point)
@@ -66,5 +65,5 @@ impl Bins {
 /// Barycentric coordinates of p in a triangle that is not degenerate.
 pub fn weights(&[a, b, c]: &[DVec2; 3], p: DVec2) -> [f64; 3] {
     let whole = signed_double_area(a, b, c);
-    [signed_double_area(p, b, c), signed_double_area(p, c, a), signed_double_area(p, a, b)].map(|w| w / whole)
+    shares([a, b, c], p).map(|w| w / whole)
 }

@@ -9,6 +9,7 @@ use crate::math::scalar::max;
 use crate::mesh::normals::vertex_normals;
 use crate::mesh::{SurfaceMesh, VertexId};
 use glam::{DMat3, DVec3};
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use typed_index_collections::TiVec;
 
 /// A surface with its unit normals and how they turn along it.
@@ -70,8 +71,8 @@ fn bend(mesh: &SurfaceMesh, normals: &TiVec<VertexId, DVec3>, v: VertexId) -> DM
     let normal = normals[v];
     let first = normal.any_orthonormal_vector();
     let second = normal.cross(first);
-    // Unknowns a, b, c of the symmetric matrix (a b; b c).
-    let (mut matrix, mut right) = (DMat3::ZERO, DVec3::ZERO);
+    // Normal equations of the unknowns a, b, c of the symmetric matrix (a b; b c).
+    let (mut matrix, mut right) = (Matrix3::zeros(), Vector3::zeros());
     for w in mesh.star(v).map(|h| mesh.head(h)) {
         let step = mesh.positions()[w] - mesh.positions()[v];
         let change = normal - normals[w];
@@ -79,16 +80,14 @@ fn bend(mesh: &SurfaceMesh, normals: &TiVec<VertexId, DVec3>, v: VertexId) -> DM
         // Far neighbours say less about this place.
         let weight = 1.0 / max(x * x + y * y, 1e-30);
         for (row, value) in
-            [(DVec3::new(x, y, 0.0), change.dot(first)), (DVec3::new(0.0, x, y), change.dot(second))]
+            [(Vector3::new(x, y, 0.0), change.dot(first)), (Vector3::new(0.0, x, y), change.dot(second))]
         {
-            matrix += outer(row, row) * weight;
-            right += row * (weight * value);
+            matrix.syger(weight, &row, &row, 1.0);
+            right.axpy(weight * value, &row, 1.0);
         }
     }
-    let found = matrix.inverse() * right;
-    if !found.is_finite() {
-        return DMat3::ZERO;
-    }
+    let Some(factor) = matrix.cholesky() else { return DMat3::ZERO };
+    let found = factor.solve(&right);
     let mixed = outer(first, second) + outer(second, first);
     outer(first, first) * found.x + mixed * found.y + outer(second, second) * found.z
 }
@@ -132,15 +131,16 @@ pub struct FitOptions {
     pub noise: f64,
 }
 
-/// The sums of one step: rotations and shifts about the centre.
+/// The normal equations of one step for a turn and a shift about the centre, in this order: the lower triangle of their matrix,
+/// and their right side.
 struct Normal {
-    turns: DMat3,
-    mixed: DMat3,
-    shifts: DMat3,
-    torque: DVec3,
-    force: DVec3,
+    matrix: Matrix6<f64>,
+    right: Vector6<f64>,
     misfit: f64,
 }
+
+/// Added to what resists the turns of a patch, whose weights sum to 1: a flat one resists no turn about its normal.
+const LEAST_RESISTANCE: f64 = 1e-9;
 
 /// Fits of patches; keeps its working memory from one to the next.
 #[derive(Default)]
@@ -162,26 +162,31 @@ impl Fitter {
     ) -> Option<PatchFit> {
         let centre = *points.first()?;
         let total: f64 = points.iter().map(|p| p.weight).sum();
-        let mut motion = start(points, total, onto)?;
+        let mut motion = start(points, total)?;
         let mut fit = None;
         for _ in 0..options.max_steps {
             let at = motion.apply(centre.position);
             let sums = self.sums(points, (&motion, at), (onto, options), total);
-            // A flat patch resists no turn about its normal; 1e-9 is far below what relief adds. Chosen by hand.
-            let unturn = (sums.turns + DMat3::from_diagonal(DVec3::splat(1e-9))).inverse();
-            let hold = sums.shifts - sums.mixed.transpose() * unturn * sums.mixed;
-            let damped = hold + DMat3::from_diagonal(DVec3::splat(options.damping));
-            let back = (centre.image - at) * options.damping;
-            let shift =
-                damped.inverse() * (sums.force + back - sums.mixed.transpose() * unturn * sums.torque);
-            let turn = unturn * (sums.torque - sums.mixed * shift);
+            let Normal { mut matrix, mut right, misfit } = sums;
+            for k in 0..3 {
+                matrix[(k, k)] += LEAST_RESISTANCE;
+                matrix[(k + 3, k + 3)] += options.damping;
+                right[k + 3] += options.damping * (centre.image - at)[k];
+            }
+            let factor = matrix.cholesky()?;
+            let step = factor.solve(&right);
+            let [turn, shift] = [0, 3].map(|k| DVec3::new(step[k], step[k + 1], step[k + 2]));
             // A turn of more than a radian in one step is no small correction.
-            if !shift.is_finite() || !turn.is_finite() || turn.length_squared() > 1.0 {
+            if !shift.is_finite() || turn.length_squared().is_nan() || turn.length_squared() > 1.0 {
                 return None;
             }
+            // With the best turn for each shift the shifts have the matrix L L^T, L the factor's block of the shifts.
+            let block = factor.l_dirty().fixed_view::<3, 3>(3, 3).lower_triangle();
+            let hold =
+                DMat3::from(block * block.transpose()) - DMat3::from_diagonal(DVec3::splat(options.damping));
             let rotation = small_turn(turn) * motion.rotation;
             motion = Rigid3::with_point(rotation, centre.position, at + shift);
-            fit = Some(PatchFit { centre: at + shift, misfit: sums.misfit, hold });
+            fit = Some(PatchFit { centre: at + shift, misfit, hold });
             // A tenth of the noise, in radians and in units of the root of the area.
             if turn.length() + shift.length() < 3e-5 {
                 break;
@@ -215,25 +220,16 @@ impl Fitter {
         self.sorted.sort_unstable_by(f64::total_cmp);
         // The robust scale is the median distance. Chosen by hand.
         let knee = max(1.5 * self.sorted[self.sorted.len() / 2], options.noise);
-        let mut sums = Normal {
-            turns: DMat3::ZERO,
-            mixed: DMat3::ZERO,
-            shifts: DMat3::ZERO,
-            torque: DVec3::ZERO,
-            force: DVec3::ZERO,
-            misfit: 0.0,
-        };
+        let mut sums = Normal { matrix: Matrix6::zeros(), right: Vector6::zeros(), misfit: 0.0 };
         for (k, p) in points.iter().enumerate() {
             let (distance, n) = (self.distances[k], self.normals[k]);
             let share = p.weight / total;
             let square = (distance / knee) * (distance / knee);
             let weight = share / ((1.0 + square) * (1.0 + square));
             let lever = self.arms[k].cross(n);
-            sums.turns += outer(lever, lever) * weight;
-            sums.mixed += outer(lever, n) * weight;
-            sums.shifts += outer(n, n) * weight;
-            sums.torque += lever * (weight * distance);
-            sums.force += n * (weight * distance);
+            let row = Vector6::new(lever.x, lever.y, lever.z, n.x, n.y, n.z);
+            sums.matrix.syger(weight, &row, &row, 1.0);
+            sums.right.axpy(weight * distance, &row, 1.0);
             // Points that do not fit at all count like those at three knees.
             sums.misfit += share * square.min(9.0) * knee * knee;
         }
@@ -242,8 +238,7 @@ impl Fitter {
 }
 
 /// The rigid motion that takes the points nearest to their images.
-fn start(points: &[PatchPoint], total: f64, onto: &OrientedSurface<'_>) -> Option<Rigid3> {
-    let centre = points[0];
+fn start(points: &[PatchPoint], total: f64) -> Option<Rigid3> {
     let (mut mean, mut image) = (DVec3::ZERO, DVec3::ZERO);
     for p in points {
         mean += p.position * (p.weight / total);
@@ -253,16 +248,7 @@ fn start(points: &[PatchPoint], total: f64, onto: &OrientedSurface<'_>) -> Optio
         .iter()
         .map(|p| outer((p.image - image) * (p.weight / total), p.position - mean))
         .fold(DMat3::ZERO, |sum, m| sum + m);
-    let distance = |p: &PatchPoint| p.position.distance_squared(centre.position);
-    let far = points.iter().max_by(|p, q| distance(p).total_cmp(&distance(q)))?;
-    let frame = |normal: DVec3, d: DVec3| {
-        let along = d.reject_from_normalized(normal).normalize_or(normal.any_orthonormal_vector());
-        DMat3::from_cols(along, normal.cross(along), normal)
-    };
-    let onto_normal = onto.normals[centre.near];
-    let guess = frame(onto_normal, far.image - centre.image)
-        * frame(centre.normal, far.position - centre.position).transpose();
-    Some(Rigid3::with_point(nearest_rotation(&moment, guess), mean, image))
+    Some(Rigid3::with_point(nearest_rotation(&moment)?, mean, image))
 }
 
 #[cfg(test)]

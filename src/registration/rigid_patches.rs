@@ -8,11 +8,11 @@
 //! (noise^2 / (noise^2 + m))^2. The patches are registered again after the map has followed.
 
 use super::patch_fit::{FitOptions, Fitter, OrientedSurface, PatchFit, PatchPoint};
-use crate::math::scalar::max;
 use crate::mesh::coarsening::Level;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use crate::surface_map::energy::point_constraint::PointConstraint;
 use glam::{DMat2, DVec2, DVec3};
+use nalgebra::Matrix2;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 /// How patches are registered; lengths in units of the root of the area.
@@ -212,17 +212,13 @@ impl Knowledge {
 
     /// The constraint; `None` where no patch has a fit.
     fn constraint(&self, image: DVec3, area: f64, options: &RigidPatchOptions) -> Option<PointConstraint> {
-        let (form, [first, second]) = (self.form, self.frame);
-        let shift = form.inverse() * self.slope;
-        let scale = options.strength * area;
-        // Cholesky's factor of the form.
-        let a = (scale * form.x_axis.x).sqrt();
-        let b = scale * form.x_axis.y / a;
-        let c = max(scale * form.y_axis.y - b * b, 0.0).sqrt();
-        let known = form.determinant() > 0.0 && shift.is_finite() && a > 0.0 && b.is_finite();
-        known.then(|| PointConstraint {
+        let [first, second] = self.frame;
+        let factor = Matrix2::from(self.form).cholesky()?;
+        let shift = factor.solve(&self.slope.into());
+        let rows = factor.l() * (options.strength * area).sqrt();
+        Some(PointConstraint {
             place: image + first * shift.x + second * shift.y,
-            rows: [first * a + second * b, second * c],
+            rows: [first * rows.m11 + second * rows.m21, second * rows.m22],
             knee: options.knee * area,
         })
     }

@@ -98,7 +98,7 @@ impl<'a> Working<'a> {
 
     /// Each edge's halfedge of the lower number.
     pub fn edges(&self) -> impl Iterator<Item = HalfedgeId> + '_ {
-        let halfedges = self.mesh.faces().flat_map(|f| [0, 1, 2].map(|k| HalfedgeId::of(f, k)));
+        let halfedges = self.mesh.faces().flat_map(|f| f.halfedges());
         halfedges.filter(|&h| h < self.mesh.twin(h))
     }
 

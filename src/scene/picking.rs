@@ -25,17 +25,15 @@ impl Picker {
         let id = hit.subshape as usize;
         let point = origin + direction * hit.time_of_impact;
         let face = FaceId::from(id);
-        Some(SurfacePoint { face, barycentric: barycentric(mesh.corners(face), point) })
+        Some(SurfacePoint::clamped(face, shares(mesh.corners(face), point)))
     }
 }
 
-/// Barycentric coordinates of the projection of a point to a triangle's plane, clamped to the triangle.
-fn barycentric([a, b, c]: [DVec3; 3], p: DVec3) -> [f64; 3] {
+/// Barycentric coordinates, but for their sum, of the projection of a point to a triangle's plane.
+fn shares([a, b, c]: [DVec3; 3], p: DVec3) -> [f64; 3] {
     let normal = (b - a).cross(c - a);
-    let weight = |q: DVec3, r: DVec3| (q - p).cross(r - p).dot(normal).max(0.0);
-    let weights = [weight(b, c), weight(c, a), weight(a, b)];
-    let sum: f64 = weights.iter().sum();
-    weights.map(|w| w / sum)
+    let share = |q: DVec3, r: DVec3| (q - p).cross(r - p).dot(normal);
+    [share(b, c), share(c, a), share(a, b)]
 }
 
 #[cfg(test)]

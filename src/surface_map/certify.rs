@@ -24,7 +24,7 @@ pub fn certify(side: Parametrised<'_>, surface: &ConeSurface) -> Certificate {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::landmarks::Landmarks;
+    use crate::landmarks::{LandmarkId, Landmarks};
     use crate::layout::PatchedMesh;
     use crate::layout::{self, LayoutOptions};
     use crate::math::rigid2::Rigid2;
@@ -106,7 +106,7 @@ mod tests {
         let landmark = VertexId(0);
         let fan: Vec<_> = surface.base.mesh.star(landmark).collect();
         let mut turned = embedding.clone();
-        let anchor = turned.anchors[landmark];
+        let anchor = turned.anchors[LandmarkId(0)];
         let next = surface.base.mesh.twin(fan[0].prev());
         let other = if anchor.chart == fan[0].face() { next.face() } else { fan[0].face() };
         let chart_corner = |f: FaceId| fan.iter().copied().find(|h| h.face() == f).unwrap();
@@ -116,7 +116,7 @@ mod tests {
             [chart[h.corner()], chart[h.next().corner()]]
         };
         let motion = anchor.motion.after(&Rigid2::between_segments(side(from), side(onto)));
-        Arc::make_mut(&mut turned.anchors)[landmark] = Anchor { chart: other, motion, ..anchor };
+        Arc::make_mut(&mut turned.anchors)[LandmarkId(0)] = Anchor { chart: other, motion, ..anchor };
         let certificate = certify(patched.parametrised(&turned), &surface);
         assert!(!certificate.bijective && certificate.flipped_triangles == 0, "{certificate:?}");
     }

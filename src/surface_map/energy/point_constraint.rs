@@ -4,6 +4,8 @@
 //! should be and B, two rows in the tangent plane there, says how sure that is in each direction. Beyond the knee K it counts
 //! like the distance, not like its square, so that one mistaken place does no harm.
 
+use super::vertex_energy::{VertexEnergy, VertexTerm};
+use crate::math::matrix2::outer;
 use glam::{DMat2, DVec2, DVec3};
 
 /// Where a vertex should be on the other surface, and how sure that is.
@@ -17,21 +19,9 @@ pub struct PointConstraint {
     pub knee: f64,
 }
 
-/// The energy of a constraint with its derivatives by the vertex' place in a plane.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PointConstraintTerm {
-    /// Its value.
-    pub energy: f64,
-    /// Its gradient.
-    pub gradient: DVec2,
-    /// Its Hessian without the part with the second derivative of the root, which is never positive.
-    pub hessian: DMat2,
-}
-
-impl PointConstraint {
-    /// The constraint's energy for a vertex at barycentric coordinates of a triangle with these corners in space; `hats` are the gradients of
-    /// the coordinates in the plane.
-    pub fn term(&self, corners: [DVec3; 3], barycentric: [f64; 3], hats: [DVec2; 3]) -> PointConstraintTerm {
+impl VertexEnergy for PointConstraint {
+    /// The Hessian leaves out the part with the second derivative of the root, which is never positive.
+    fn term(&self, corners: [DVec3; 3], barycentric: [f64; 3], hats: [DVec2; 3]) -> VertexTerm {
         let at = (0..3).map(|k| corners[k] * barycentric[k]).sum::<DVec3>() - self.place;
         let misses = self.rows.map(|row| row.dot(at));
         let square = misses[0] * misses[0] + misses[1] * misses[1];
@@ -40,14 +30,15 @@ impl PointConstraint {
         for (row, miss) in self.rows.iter().zip(misses) {
             let slope: DVec2 = (0..3).map(|k| hats[k] * row.dot(corners[k])).sum();
             gradient += slope * (2.0 * miss / root);
-            hessian += DMat2::from_cols(slope * slope.x, slope * slope.y) * (2.0 / root);
+            hessian += outer(slope) * (2.0 / root);
         }
-        PointConstraintTerm { energy: 2.0 * square / (1.0 + root), gradient, hessian }
+        VertexTerm { energy: 2.0 * square / (1.0 + root), gradient, hessian }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::vertex_energy::testing::assert_derivatives;
     use super::*;
 
     const CORNERS: [DVec3; 3] =
@@ -59,30 +50,15 @@ mod tests {
         PointConstraint { place: DVec3::new(0.7, 0.4, 0.3), rows, knee }
     }
 
-    fn at(knee: f64, [x, y]: [f64; 2]) -> PointConstraintTerm {
+    fn at(knee: f64, [x, y]: [f64; 2]) -> VertexTerm {
         constraint(knee).term(CORNERS, [1.0 - x - y, x, y], HATS)
     }
 
     #[test]
-    fn the_gradient_is_the_difference_quotient() {
-        for knee in [1e-3, 0.1, 1e6] {
-            let (h, exact) = (1e-6, at(knee, [0.2, 0.3]).gradient);
-            let quotient = DVec2::new(
-                at(knee, [0.2 + h, 0.3]).energy - at(knee, [0.2 - h, 0.3]).energy,
-                at(knee, [0.2, 0.3 + h]).energy - at(knee, [0.2, 0.3 - h]).energy,
-            ) / (2.0 * h);
-            assert!(quotient.distance(exact) < 1e-7 * exact.length().max(1.0), "{quotient} {exact}");
+    fn the_derivatives_are_difference_quotients() {
+        for knee in [1e-3, 0.01, 0.1, 1e6, 1e12] {
+            assert_derivatives(&constraint(knee), (CORNERS, HATS), knee > 1.0);
         }
-    }
-
-    #[test]
-    fn without_a_knee_the_hessian_is_exact_and_with_one_it_dominates() {
-        let exact = at(1e12, [0.2, 0.3]).hessian;
-        let h = 1e-5;
-        let slopes = [at(1e12, [0.2 + h, 0.3]).gradient, at(1e12, [0.2 - h, 0.3]).gradient];
-        assert!(((slopes[0] - slopes[1]) / (2.0 * h)).distance(exact.x_axis) < 1e-6);
-        let slopes = [at(0.01, [0.2 + h, 0.3]).gradient, at(0.01, [0.2 - h, 0.3]).gradient];
-        assert!((slopes[0] - slopes[1]).x / (2.0 * h) < at(0.01, [0.2, 0.3]).hessian.x_axis.x);
     }
 
     #[test]

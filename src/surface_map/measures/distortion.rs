@@ -2,9 +2,11 @@
 //!
 //! On each piece of the overlay the map is affine with singular values s1, s2 (both surfaces scaled to area 1).
 
+use crate::math::matrix2::squares;
+use crate::math::quantile::quantile;
 use crate::math::scalar::{ln, max, min};
 use crate::math::triangle::lay_out;
-use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
+use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::surface_map::overlay::{Overlay, OverlayPoint, Piece};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use crate::surface_map::parametrisation::rest_triangle::rest_jacobian;
@@ -25,7 +27,7 @@ pub struct LocalDistortion {
 impl LocalDistortion {
     /// Where the map has the Jacobian `j`, with a positive determinant.
     pub(in crate::surface_map) fn of(j: &DMat2) -> Self {
-        Self::new(j.x_axis.length_squared() + j.y_axis.length_squared(), j.determinant())
+        Self::new(squares(j), j.determinant())
     }
 
     /// Of a Jacobian with |J|^2 = `squares` and a positive determinant.
@@ -107,10 +109,10 @@ pub fn distortion(source: Parametrised<'_>, target: Parametrised<'_>, overlay: &
     let mut face_sums: TiVec<FaceId, [f64; 2]> = ti_vec![[0.0; 2]; source.mesh.face_count()];
     for piece in &overlay.pieces {
         let (a, b) = (&source_maps[piece.source_face], &target_inverses[piece.target_face]);
-        let rotation = DMat2::from_cols(piece.motion.rotation, piece.motion.rotation.perp());
+        let rotation = piece.motion.turn();
         let j = *b * rotation * *a;
         let det = j.determinant();
-        let squares = j.x_axis.length_squared() + j.y_axis.length_squared();
+        let squares = squares(&j);
         let source_area = piece.area / a.determinant();
         let target_area = piece.area * b.determinant();
         let inverse_squares = squares / (det * det);
@@ -143,10 +145,9 @@ fn worst_pieces(
     overlay: &Overlay,
     densities: &[(f64, f64)],
 ) -> Vec<WorstPiece> {
-    let triangle =
-        |side: Parametrised<'_>, f| [0, 1, 2].map(|k| side.embedding.corners[HalfedgeId::of(f, k)]);
     let is_certain = |piece: &Piece| {
-        let triangles = [triangle(source, piece.source_face), triangle(target, piece.target_face)];
+        let triangles =
+            [source.embedding.triangle(piece.source_face), target.embedding.triangle(piece.target_face)];
         is_certain(piece.area, [&triangles[0], &triangles[1]])
     };
     let mut order: Vec<usize> = (0..densities.len()).collect();
@@ -197,7 +198,7 @@ pub fn image_distortion(
         if flat || det.is_nan() {
             continue;
         }
-        let squares = j.x_axis.length_squared() + j.y_axis.length_squared();
+        let squares = squares(&j);
         let inverse_squares = squares / (det * det);
         let areas = [0.5 * from.determinant(), 0.5 * onto.determinant()];
         let density = 0.25 * (squares + inverse_squares);
@@ -231,19 +232,6 @@ impl Distortion {
         self.p95 = quantile(&densities, 0.95);
         self.max = densities.last().map_or(1.0, |d| d.0);
     }
-}
-
-/// The weighted quantile of sorted (value, weight) pairs.
-pub fn quantile(sorted: &[(f64, f64)], share: f64) -> f64 {
-    let total: f64 = sorted.iter().map(|p| p.1).sum();
-    let mut sum = 0.0;
-    for (value, weight) in sorted {
-        sum += weight;
-        if sum >= share * total {
-            return *value;
-        }
-    }
-    sorted.last().map_or(f64::NAN, |p| p.0)
 }
 
 fn vertex_averages(source: Parametrised<'_>, faces: &TiVec<FaceId, [f64; 2]>) -> TiVec<VertexId, f64> {

@@ -1,6 +1,6 @@
 //! Distance to the true images, where the truth is known.
 
-use super::distortion::quantile;
+use crate::math::quantile::quantile;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 
 /// Distances between images and true images, in units of sqrt(target area).

@@ -4,8 +4,8 @@
 //! the piece's face of the other mesh. Both directions use the same pieces, so that one is the inverse of the other up to
 //! rounding.
 
-use crate::mesh::{FaceId, HalfedgeId, SurfacePoint};
-use crate::surface_map::overlay::location::barycentric_in;
+use crate::math::barycentric;
+use crate::mesh::{FaceId, SurfacePoint};
 use crate::surface_map::overlay::{Overlay, OverlayPoint, Piece};
 use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
 use glam::DVec2;
@@ -73,8 +73,8 @@ impl<'a> PointMap<'a> {
     pub fn target_from_source(&self, point: SurfacePoint) -> SurfacePoint {
         let piece = self.piece(0, point, |corner| &corner.source);
         let image = piece.motion.apply(at(self.embeddings[0], point));
-        let corners = corners(self.embeddings[1], piece.target_face);
-        SurfacePoint { face: piece.target_face, barycentric: barycentric_in(corners, image) }
+        let corners = self.embeddings[1].triangle(piece.target_face);
+        SurfacePoint { face: piece.target_face, barycentric: barycentric::clamped_in(corners, image) }
     }
 
     /// The source point that belongs to a target point; both on the meshes that were overlaid.
@@ -84,8 +84,8 @@ impl<'a> PointMap<'a> {
     pub fn source_from_target(&self, point: SurfacePoint) -> SurfacePoint {
         let piece = self.piece(1, point, |corner| &corner.target);
         let image = piece.motion.inverse().apply(at(self.embeddings[1], point));
-        let corners = corners(self.embeddings[0], piece.source_face);
-        SurfacePoint { face: piece.source_face, barycentric: barycentric_in(corners, image) }
+        let corners = self.embeddings[0].triangle(piece.source_face);
+        SurfacePoint { face: piece.source_face, barycentric: barycentric::clamped_in(corners, image) }
     }
 
     /// The piece of the point's face that contains it: the one from whose border it is farthest inside.
@@ -132,12 +132,8 @@ fn depth(ring: &[OverlayPoint], q: DVec2, place: impl Fn(&OverlayPoint) -> DVec2
     if area > 0.0 { least } else { f64::NEG_INFINITY }
 }
 
-fn corners(embedding: &Embedding, face: FaceId) -> [DVec2; 3] {
-    [0, 1, 2].map(|k| embedding.corners[HalfedgeId::of(face, k)])
-}
-
 fn at(embedding: &Embedding, point: SurfacePoint) -> DVec2 {
-    let [a, b, c] = corners(embedding, point.face);
+    let [a, b, c] = embedding.triangle(point.face);
     let [u, v, w] = point.barycentric;
     a * u + b * v + c * w
 }

@@ -92,8 +92,7 @@ fn face_values(
     let input_face = surface.refined.face_origin[face];
     let corner_normals = surface.input.triangles()[input_face].map(|v| normals[v]);
     let corners = surface.input.corners(input_face);
-    let corner_uvs =
-        uvs.map_or([DVec2::ZERO; 3], |uvs| [0, 1, 2].map(|k| uvs[HalfedgeId::of(input_face, k)]));
+    let corner_uvs = uvs.map_or([DVec2::ZERO; 3], |uvs| input_face.halfedges().map(|h| uvs[h]));
     FaceValues {
         positions: rows.map(|w| blend3(corners, w)),
         normals: rows.map(|w| blend3(corner_normals, w)),
@@ -168,7 +167,7 @@ pub fn mapped_mesh(
         mesh.source_normals.push(normals[0][v]);
         let corners = target.triangles()[face].map(|c| normals[1][c]);
         mesh.target_normals.push(blend3(corners, barycentric).normalize_or(DVec3::Z));
-        let corners = [0, 1, 2].map(|k| target_uvs[HalfedgeId::of(face, k)]);
+        let corners = face.halfedges().map(|h| target_uvs[h]);
         mesh.uvs.push(blend3(corners, barycentric));
     }
     for (f, corners) in source.triangles().iter_enumerated() {

@@ -6,6 +6,7 @@
 
 use super::location::exit_edge;
 use crate::certificate::Start;
+use crate::landmarks::LandmarkId;
 use crate::math::rigid2::{Rigid2, complex_mul};
 use crate::math::scalar::{cos, sin};
 use crate::mesh::{HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
@@ -36,18 +37,18 @@ pub fn mend_anchors(
     (mesh, landmarks): (&SurfaceMesh, &Landmarks),
     surface: &ConeSurface,
 ) {
-    let base = &surface.base.mesh;
-    let all_arrive = |embedding: &Embedding, v: VertexId| {
+    let base = &surface.base;
+    let all_arrive = |embedding: &Embedding, l: LandmarkId| {
         let side = Parametrised { mesh, landmark_vertices: landmarks, embedding };
-        base.star(v).all(|h| base_line(side, surface, h).arrival.is_some())
+        base.star(l).all(|h| base_line(side, surface, h).arrival.is_some())
     };
-    let mut right: TiVec<VertexId, bool> = base.vertices().map(|v| all_arrive(embedding, v)).collect();
-    let mut queue: Vec<VertexId> = base.vertices().filter(|&v| right[v]).collect();
-    if queue.len() == base.vertex_count() {
+    let mut right: TiVec<LandmarkId, bool> = base.landmarks().map(|l| all_arrive(embedding, l)).collect();
+    let mut queue: Vec<LandmarkId> = base.landmarks().filter(|&l| right[l]).collect();
+    if queue.len() == right.len() {
         return;
     }
-    while let Some(v) = queue.pop() {
-        for h in base.star(v) {
+    while let Some(l) = queue.pop() {
+        for h in base.star(l) {
             let head = base.head(h);
             let side = Parametrised { mesh, landmark_vertices: landmarks, embedding };
             if right[head] {
@@ -63,11 +64,11 @@ pub fn mend_anchors(
 }
 
 /// The mesh's vertex of each landmark.
-type Landmarks = TiSlice<VertexId, VertexId>;
+type Landmarks = TiSlice<LandmarkId, VertexId>;
 
 /// Follows base halfedge `h` on a mesh.
 pub fn base_line(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -> BaseLine {
-    let base = &surface.base.mesh;
+    let base = &surface.base;
     let length = surface.lengths[h];
     let goal = side.landmark_vertices[base.head(h)];
     let corners = &side.embedding.corners;
@@ -129,7 +130,7 @@ fn arrived(
 
 /// Where base halfedge `h` starts on a mesh, by the anchor of its landmark.
 pub fn start(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -> Start {
-    let landmark = surface.base.mesh.tail(h);
+    let landmark = surface.base.tail(h);
     let fan = Fan::new(surface, landmark);
     let angle = fan.halfedges().iter().find(|(b, _)| *b == h).map_or(0.0, |(_, angle)| *angle);
     let anchor = side.embedding.anchors[landmark];

@@ -1,13 +1,14 @@
 //! The cells of the arrangement as pieces: walked, given coordinates on both meshes, and checked.
 
 use super::arrangement::{Arrangement, Side};
-use super::location::barycentric_in;
-use super::pieces::{Overlay, OverlayError, OverlayPoint, Piece, SideOf, corners_of, face_area};
+use super::pieces::{Overlay, OverlayError, OverlayPoint, Piece, SideOf, face_area};
 use super::seats::Seats;
 use super::trace::Traces;
+use crate::math::barycentric;
 use crate::math::rigid2::Rigid2;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use crate::surface_map::parametrisation::embedding::Parametrised;
+use crate::surface_map::parametrisation::embedding::triangle;
 use typed_index_collections::TiVec;
 
 const NONE: u32 = u32::MAX;
@@ -257,8 +258,8 @@ impl Cells {
         let inside = self.source_inside[v].get_or_insert_with(|| {
             let seat = &view.seats.seats[h];
             let at = seat.motion.apply(view.seats.corners[h]);
-            let corners = corners_of(&view.target.embedding.corners, seat.face);
-            Inside { face: seat.face, barycentric: barycentric_in(corners, at) }
+            let corners = view.target.embedding.triangle(seat.face);
+            Inside { face: seat.face, barycentric: barycentric::clamped_in(corners, at) }
         });
         if inside.face == t { Ok(inside.barycentric) } else { Err(mixed(Some(h.face()), Some(t))) }
     }
@@ -273,7 +274,7 @@ impl Cells {
         let w = view.target.mesh.tail(x);
         let inside = self.target_inside[w].get_or_insert_with(|| {
             let at = piece.motion.inverse().apply(view.target.embedding.corners[x]);
-            Inside { face: s, barycentric: barycentric_in(corners_of(&view.seats.corners, s), at) }
+            Inside { face: s, barycentric: barycentric::clamped_in(triangle(&view.seats.corners, s), at) }
         });
         if inside.face == s { Ok(inside.barycentric) } else { Err(mixed(Some(s), Some(piece.target_face))) }
     }

@@ -4,15 +4,16 @@
 //! the landmarks, where the angle around the cone is known on both sides, and carried from vertex to vertex by walking
 //! straight along source edges through target triangles: crossing an edge applies its transition.
 
+use crate::landmarks::LandmarkId;
+use crate::math::barycentric;
+use crate::math::predicates::orient2d;
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::max;
-use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, HalfedgeId, SurfacePoint, VertexId};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
 use crate::surface_map::parametrisation::embedding::{Anchor, Embedding, Parametrised};
 use crate::surface_map::parametrisation::fan::{Fan, Wedge};
 use glam::DVec2;
-use robust::{Coord, orient2d};
 use typed_index_collections::TiVec;
 
 /// Where a source corner lies among the target's triangles.
@@ -90,7 +91,7 @@ impl Locator {
             self.apexes[v] = Some(w);
         }
         let mut result = Err(LocateError { vertex: 0 });
-        for seed in surface.base.mesh.vertices() {
+        for seed in surface.base.landmarks() {
             result = self.fill_from([source, target], (surface, seed), locations);
             if result.is_ok() {
                 break;
@@ -106,7 +107,7 @@ impl Locator {
     fn fill_from(
         &mut self,
         [source, target]: [Parametrised<'_>; 2],
-        (surface, seed): (&ConeSurface, VertexId),
+        (surface, seed): (&ConeSurface, LandmarkId),
         locations: &mut Locations,
     ) -> Result<(), LocateError> {
         let mesh = source.mesh;
@@ -302,7 +303,7 @@ pub(in crate::surface_map) fn exit_edge(
         if Some(h) == entered || !clearly_outside(a, b, q) {
             continue;
         }
-        let (right, left) = (side(p, q, a), side(p, q, b));
+        let (right, left) = (orient2d(p, q, a), orient2d(p, q, b));
         if right <= 0.0 && left >= 0.0 {
             return Some(h);
         }
@@ -318,14 +319,8 @@ pub(in crate::surface_map) fn exit_edge(
 /// Whether q lies to the right of a b by more than rounding: of coordinates of order 1 it is up to 1e-15. On edges shorter than
 /// 1e-3 the bound is that of 1e-3, since the rounding does not shrink with them.
 fn clearly_outside(a: DVec2, b: DVec2, q: DVec2) -> bool {
-    let beyond = side(a, b, q);
+    let beyond = orient2d(a, b, q);
     beyond < 0.0 && beyond < -1e-14 * max((b - a).length(), 1e-3)
-}
-
-/// Positive when r lies to the left of p q (robust).
-fn side(p: DVec2, q: DVec2, r: DVec2) -> f64 {
-    let [p, q, r] = [p, q, r].map(|c| Coord { x: c.x, y: c.y });
-    orient2d(p, q, r)
 }
 
 /// The location of a landmark as seen from the source's anchor: the target face into which the anchor's halfedge points.
@@ -345,14 +340,6 @@ fn anchored(fan: &Fan<'_>, anchors: [Anchor; 2], source: Parametrised<'_>, wedge
 /// The barycentric coordinates of the located corner in its target face, clamped to it.
 pub fn barycentric(source: Parametrised<'_>, target: Parametrised<'_>, at: &Location) -> SurfacePoint {
     let q = at.motion.apply(source.embedding.corners[at.corner]);
-    let corners = [0, 1, 2].map(|k| target.embedding.corners[HalfedgeId::of(at.face, k)]);
-    SurfacePoint { face: at.face, barycentric: barycentric_in(corners, q) }
-}
-
-/// Barycentric coordinates of q in a triangle, clamped to it.
-pub fn barycentric_in([a, b, c]: [DVec2; 3], q: DVec2) -> [f64; 3] {
-    let weights = [signed_double_area(q, b, c), signed_double_area(q, c, a), signed_double_area(q, a, b)];
-    let clamped = weights.map(|w| w.max(0.0));
-    let sum: f64 = clamped.iter().sum();
-    clamped.map(|w| w / sum)
+    let corners = target.embedding.triangle(at.face);
+    SurfacePoint { face: at.face, barycentric: barycentric::clamped_in(corners, q) }
 }

@@ -3,6 +3,7 @@
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, HalfedgeId};
+use crate::surface_map::parametrisation::embedding::triangle;
 use glam::DVec2;
 use typed_index_collections::TiSlice;
 
@@ -122,13 +123,8 @@ pub enum OverlayError {
     },
 }
 
-/// The corners of a face in its plane.
-pub(super) fn corners_of(corners: &TiSlice<HalfedgeId, DVec2>, f: FaceId) -> [DVec2; 3] {
-    [0, 1, 2].map(|k| corners[HalfedgeId::of(f, k)])
-}
-
 /// The signed area of a face in its plane.
 pub(super) fn face_area(corners: &TiSlice<HalfedgeId, DVec2>, f: FaceId) -> f64 {
-    let [p, q, r] = corners_of(corners, f);
+    let [p, q, r] = triangle(corners, f);
     0.5 * signed_double_area(p, q, r)
 }

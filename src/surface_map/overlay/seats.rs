@@ -3,11 +3,10 @@
 use super::location::{Location, Locations};
 use super::pieces::OverlayError;
 use crate::math::rigid2::Rigid2;
-use crate::math::scalar::{cos, sin};
-use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::math::{golden, predicates::orient2d};
+use crate::mesh::{FaceId, HalfedgeId};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::DVec2;
-use robust::{Coord, orient2d};
 use typed_index_collections::TiVec;
 
 /// Size of the first shift of a source vertex that ends coincidences, in units of its shortest edge on the cone surface.
@@ -84,8 +83,8 @@ impl Seats {
             let unshifted = &source.embedding.corners;
             let length = |h: HalfedgeId| unshifted[h].distance(unshifted[h.next()]);
             let shortest = mesh.star(v).map(length).fold(f64::INFINITY, f64::min);
-            let angle = direction(v, attempt);
-            let mut shift = DVec2::new(cos(angle), sin(angle)) * (size * shortest);
+            // Other directions for each attempt.
+            let mut shift = golden::direction((v.index() + 1) * attempt) * (size * shortest);
             let mut h = first;
             loop {
                 self.corners[h] += shift;
@@ -134,8 +133,8 @@ impl Seats {
         let mesh = target.mesh;
         let v = source.mesh.tail(at.corner);
         let lost = OverlayError::Landmark { vertex: v.index() };
-        let landmark = source.landmark_vertices.iter().position(|&l| l == v).ok_or(lost)?;
-        let apex = target.landmark_vertices[VertexId::from(landmark)];
+        let landmark = source.landmark_vertices.position(|&other| other == v).ok_or(lost)?;
+        let apex = target.landmark_vertices[landmark];
         let mut seat = Seat { face: at.face, motion: at.motion };
         let start = (0..3).map(|k| HalfedgeId::of(at.face, k)).find(|&x| mesh.tail(x) == apex);
         let mut wedge = start.ok_or(lost)?;
@@ -162,22 +161,8 @@ impl Seats {
     }
 }
 
-/// An angle that scatters with the vertex: multiples of the golden angle, other ones for each attempt.
-fn direction(v: VertexId, attempt: usize) -> f64 {
-    const GOLDEN: f64 = 2.399_963_229_728_653;
-    let step = (v.index() + 1) * attempt;
-    // A prime keeps the angle exact for large numbers; neighbours still get different ones.
-    GOLDEN * (step % 1_000_003) as f64
-}
-
 /// An edge of a target face that has the point on its right, by the exact predicate.
 fn outside_of(target: Parametrised<'_>, face: FaceId, point: DVec2) -> Option<HalfedgeId> {
     let corners = &target.embedding.corners;
-    (0..3).map(|k| HalfedgeId::of(face, k)).find(|&h| side(corners[h], corners[h.next()], point) < 0.0)
-}
-
-/// Positive where r lies to the left of p q (exact).
-pub(super) fn side(p: DVec2, q: DVec2, r: DVec2) -> f64 {
-    let [p, q, r] = [p, q, r].map(|c| Coord { x: c.x, y: c.y });
-    orient2d(p, q, r)
+    (0..3).map(|k| HalfedgeId::of(face, k)).find(|&h| orient2d(corners[h], corners[h.next()], point) < 0.0)
 }

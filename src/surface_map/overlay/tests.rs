@@ -1,7 +1,6 @@
 //! Theorems of the overlay on generated pairs.
 
 use super::location::{Locations, Locator, locate};
-use super::pieces::corners_of;
 use crate::landmarks::Landmarks;
 use crate::layout::{self, BaseLayout, LayoutOptions};
 use crate::mesh::generators::{icosphere, midpoint_subdivision, octahedron};
@@ -199,7 +198,7 @@ fn coordinates_agree_on_the_cone_surface() {
     let pair = Pair::bent([2, 3], 0.4);
     let overlay = pair.overlay();
     let place = |e: &Embedding, f: FaceId, w: &[f64; 3]| {
-        let [a, b, c] = corners_of(&e.corners, f);
+        let [a, b, c] = e.triangle(f);
         a * w[0] + b * w[1] + c * w[2]
     };
     for piece in &overlay.pieces {

@@ -4,7 +4,8 @@
 //! which side of the source edge lies the corner opposite the edge that was entered.
 
 use super::pieces::OverlayError;
-use super::seats::{Seat, Seats, side};
+use super::seats::{Seat, Seats};
+use crate::math::predicates::orient2d;
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, HalfedgeId};
@@ -184,7 +185,7 @@ impl Tracer<'_> {
     fn next_exit(&self, walk: &Walk, before: Exit) -> Exit {
         let entered = self.target.mesh.twin(before.halfedge);
         let [p, q] = walk.line;
-        let apex = side(p, q, self.target.embedding.corners[entered.prev()]);
+        let apex = orient2d(p, q, self.target.embedding.corners[entered.prev()]);
         if apex > 0.0 {
             Exit { halfedge: entered.next(), left: apex, ..before }
         } else {
@@ -203,7 +204,8 @@ impl Tracer<'_> {
         }
         let x = HalfedgeId::of(walk.seat.face, 0);
         let [y, z] = [x.next(), x.prev()];
-        let (at_x, at_y, at_z) = (side(p, q, corner(x)), side(p, q, corner(y)), side(p, q, corner(z)));
+        let (at_x, at_y, at_z) =
+            (orient2d(p, q, corner(x)), orient2d(p, q, corner(y)), orient2d(p, q, corner(z)));
         let leaves = |right: f64, left: f64| right <= 0.0 && left > 0.0;
         let exit = |halfedge: HalfedgeId, right: f64, left: f64| Some(Exit { halfedge, right, left });
         if leaves(at_x, at_y) {

@@ -1,10 +1,11 @@
 //! The flat cone surface M: the base domain's triangles made flat.
 
 use crate::base_domain::BaseDomain;
+use crate::landmarks::LandmarkId;
 use crate::layout::{BaseLayout, PatchedMesh};
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle;
-use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::mesh::{FaceId, HalfedgeId};
 use crate::surface_map::error::MapError;
 use glam::DVec2;
 use typed_index_collections::TiVec;
@@ -22,7 +23,7 @@ pub struct ConeSurface {
     /// side h of the first onto the side `twin(h)` of the second.
     pub transitions: TiVec<HalfedgeId, Rigid2>,
     /// Angle around each cone, in radians.
-    pub cone_angles: TiVec<VertexId, f64>,
+    pub cone_angles: TiVec<LandmarkId, f64>,
 }
 
 impl ConeSurface {
@@ -31,7 +32,7 @@ impl ConeSurface {
     /// Every base face must satisfy the triangle inequality strictly.
     pub fn from_lengths(base: BaseDomain, mut lengths: TiVec<HalfedgeId, f64>) -> Self {
         let mesh = &base.mesh;
-        let sides = |lengths: &TiVec<HalfedgeId, f64>, f| [0, 1, 2].map(|k| lengths[HalfedgeId::of(f, k)]);
+        let sides = |lengths: &TiVec<HalfedgeId, f64>, f: FaceId| f.halfedges().map(|h| lengths[h]);
         let area_of = |f| {
             let [a, b, c] = sides(&lengths, f);
             triangle::area_from_lengths(a, b, c)
@@ -65,14 +66,14 @@ impl ConeSurface {
     pub fn of_layout(layout: &BaseLayout) -> Result<Self, MapError> {
         let mesh = &layout.base.mesh;
         let chord = |side: &PatchedMesh, h: HalfedgeId| {
-            let [p, q] =
-                [mesh.tail(h), mesh.head(h)].map(|l| side.mesh.positions()[side.landmark_vertices[l]]);
+            let [p, q] = [layout.base.tail(h), layout.base.head(h)]
+                .map(|l| side.mesh.positions()[side.landmark_vertices[l]]);
             p.distance(q)
         };
         let mean = |h| 0.5 * (chord(&layout.source, h) + chord(&layout.target, h));
         let lengths: TiVec<HalfedgeId, f64> = mesh.halfedges().map(mean).collect();
         for f in mesh.faces() {
-            let [a, b, c] = [0, 1, 2].map(|k| lengths[HalfedgeId::of(f, k)]);
+            let [a, b, c] = f.halfedges().map(|h| lengths[h]);
             let longest = a.max(b).max(c);
             // Such a triangle is flatter than 2e-7 of its longest side: landmarks in line, up to the digits of files.
             if triangle::area_from_lengths(a, b, c) < 1e-7 * longest * longest {

@@ -1,5 +1,6 @@
 //! A seamless parametrisation of a mesh onto the flat cone surface.
 
+use crate::landmarks::LandmarkId;
 use crate::layout::PatchedMesh;
 use crate::math::rigid2::Rigid2;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
@@ -19,7 +20,21 @@ pub struct Embedding {
     /// embedding; around an ordinary vertex they come back to the identity.
     pub transitions: Arc<TiVec<HalfedgeId, Rigid2>>,
     /// By landmark.
-    pub anchors: Arc<TiVec<VertexId, Anchor>>,
+    pub anchors: Arc<TiVec<LandmarkId, Anchor>>,
+}
+
+impl Embedding {
+    /// The corners of a face in its plane.
+    #[inline]
+    pub fn triangle(&self, f: FaceId) -> [DVec2; 3] {
+        triangle(&self.corners, f)
+    }
+}
+
+/// The corners of a face in its plane, where `corners` has those of all faces.
+#[inline]
+pub fn triangle(corners: &TiSlice<HalfedgeId, DVec2>, f: FaceId) -> [DVec2; 3] {
+    f.halfedges().map(|h| corners[h])
 }
 
 /// Where a plane of the parametrisation lies on the cone surface.
@@ -39,7 +54,7 @@ pub struct Parametrised<'a> {
     /// The mesh, of area 1.
     pub mesh: &'a SurfaceMesh,
     /// The mesh's vertex of each landmark.
-    pub landmark_vertices: &'a TiSlice<VertexId, VertexId>,
+    pub landmark_vertices: &'a TiSlice<LandmarkId, VertexId>,
     /// Its parametrisation.
     pub embedding: &'a Embedding,
 }

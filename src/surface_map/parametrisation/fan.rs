@@ -2,10 +2,11 @@
 
 use super::cone_surface::ConeSurface;
 use super::embedding::{Anchor, Embedding, Parametrised};
+use crate::landmarks::LandmarkId;
 use crate::math::rigid2::{Rigid2, complex_mul};
 use crate::math::scalar::{atan2, cos, sin};
 use crate::math::triangle::angle_from_lengths;
-use crate::mesh::{HalfedgeId, VertexId};
+use crate::mesh::HalfedgeId;
 use glam::DVec2;
 use std::sync::Arc;
 
@@ -37,10 +38,10 @@ const MOST_TURNS: i64 = 10_000;
 
 impl<'a> Fan<'a> {
     /// The fan of a landmark.
-    pub fn new(surface: &'a ConeSurface, landmark: VertexId) -> Self {
+    pub fn new(surface: &'a ConeSurface, landmark: LandmarkId) -> Self {
         let mut total = 0.0;
         let mut halfedges = Vec::new();
-        for h in surface.base.mesh.star(landmark) {
+        for h in surface.base.star(landmark) {
             halfedges.push((h, total));
             let lengths = [h, h.prev()].map(|x| surface.lengths[x]);
             total += angle_from_lengths(surface.lengths[h.next()], lengths);
@@ -135,7 +136,7 @@ impl Embedding {
     /// The same embedding with every anchor's chart below its halfedge: relaxations turn the planes around the cones, and
     /// angles are told apart only within half a turn.
     pub fn normalise_anchors(&mut self, surface: &ConeSurface) {
-        let normalised = |(landmark, anchor): (VertexId, &Anchor)| {
+        let normalised = |(landmark, anchor): (LandmarkId, &Anchor)| {
             let edge = self.corners[anchor.corner.next()] - self.corners[anchor.corner];
             let fan = Fan::new(surface, landmark);
             fan.recharted(anchor, fan.angle(anchor, edge))

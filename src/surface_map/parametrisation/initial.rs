@@ -10,6 +10,7 @@ use super::embedding::{Anchor, Embedding, Parametrised};
 use super::level::ParametrisedLevel;
 use super::problem::{FlatRelaxOptions, FlatRelaxReport};
 use super::unknowns::Unknowns;
+use crate::landmarks::LandmarkId;
 use crate::layout::PatchedMesh;
 use crate::math::rigid2::Rigid2;
 use crate::mesh::collapsible::CollapsibleMesh;
@@ -69,19 +70,22 @@ fn on_charts<'a>(
     patched: &'a PatchedMesh,
     surface: &Arc<ConeSurface>,
 ) -> ParametrisedLevel<'a> {
-    let mut landmark: TiVec<VertexId, VertexId> = ti_vec![VertexId(u32::MAX); patched.mesh.vertex_count()];
+    let mut landmark: TiVec<VertexId, LandmarkId> =
+        ti_vec![LandmarkId(u32::MAX); patched.mesh.vertex_count()];
     patched.landmark_vertices.iter_enumerated().for_each(|(l, &v)| landmark[v] = l);
-    let base = &surface.base.mesh;
+    let base = &surface.base;
     let base_halfedge = |mesh: &CollapsibleMesh, h: HalfedgeId| {
         let chart = patched.face_patch[h.face()];
-        let corner = base.triangles()[chart].iter().position(|&l| l == landmark[mesh.tail(h)]);
-        HalfedgeId::of(chart, corner.unwrap_or(0))
+        let [first, second, third] = chart.halfedges();
+        [second, third].into_iter().find(|&b| base.tail(b) == landmark[mesh.tail(h)]).unwrap_or(first)
     };
-    let nowhere =
-        Anchor { corner: HalfedgeId(0), chart: base.outgoing(0.into()).face(), motion: Rigid2::IDENTITY };
-    let mut anchors = ti_vec![nowhere; base.vertex_count()];
-    let halfedges: Vec<HalfedgeId> =
-        mesh.faces().flat_map(|f| [0, 1, 2].map(|k| HalfedgeId::of(f, k))).collect();
+    let nowhere = Anchor {
+        corner: HalfedgeId(0),
+        chart: base.mesh.outgoing(0.into()).face(),
+        motion: Rigid2::IDENTITY,
+    };
+    let mut anchors = ti_vec![nowhere; base.mesh.vertex_count()];
+    let halfedges: Vec<HalfedgeId> = mesh.faces().flat_map(|f| f.halfedges()).collect();
     for &h in &halfedges {
         let chart = patched.face_patch[h.face()];
         anchors[landmark[mesh.tail(h)]] = Anchor { corner: h, chart, motion: Rigid2::IDENTITY };

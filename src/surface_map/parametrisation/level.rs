@@ -10,6 +10,8 @@ use super::fan::Fan;
 use super::problem::{FlatProblem, FlatRelaxOptions, FlatRelaxReport};
 use super::rest_triangle::{Corner, FlatTriangle, RestTriangle};
 use super::star::{Star, turn_at};
+use super::unknowns::sights;
+use crate::landmarks::LandmarkId;
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle::signed_double_area;
 use crate::mesh::coarsening::Level;
@@ -29,7 +31,7 @@ pub struct ParametrisedLevel<'a> {
     is_landmark: TiVec<VertexId, bool>,
     corners: TiVec<HalfedgeId, DVec2>,
     transitions: TiVec<HalfedgeId, Rigid2>,
-    anchors: TiVec<VertexId, Anchor>,
+    anchors: TiVec<LandmarkId, Anchor>,
     star: Star,
 }
 
@@ -38,9 +40,9 @@ impl<'a> ParametrisedLevel<'a> {
     /// to each live halfedge.
     pub fn new(
         (mesh, positions): (CollapsibleMesh, &'a TiSlice<VertexId, DVec3>),
-        landmarks: &TiSlice<VertexId, VertexId>,
+        landmarks: &TiSlice<LandmarkId, VertexId>,
         surface: Arc<ConeSurface>,
-        anchors: TiVec<VertexId, Anchor>,
+        anchors: TiVec<LandmarkId, Anchor>,
     ) -> Self {
         let slots = mesh.face_slots() * 3;
         let mut is_landmark = ti_vec![false; positions.len()];
@@ -60,7 +62,7 @@ impl<'a> ParametrisedLevel<'a> {
     /// The same parametrisation on a level of a finer mesh whose faces correspond.
     pub fn on_level(
         (mesh, positions): (CollapsibleMesh, &'a TiSlice<VertexId, DVec3>),
-        landmarks: &TiSlice<VertexId, VertexId>,
+        landmarks: &TiSlice<LandmarkId, VertexId>,
         surface: Arc<ConeSurface>,
         (embedding, halfedge): (&Embedding, impl Fn(HalfedgeId) -> HalfedgeId),
     ) -> Self {
@@ -192,12 +194,12 @@ impl<'a> ParametrisedLevel<'a> {
         }
     }
 
-    fn landmark_at(&self, v: VertexId) -> Option<VertexId> {
-        self.anchors.iter().position(|a| self.mesh.tail(a.corner) == v).map(VertexId::from)
+    fn landmark_at(&self, v: VertexId) -> Option<LandmarkId> {
+        self.anchors.position(|a| self.mesh.tail(a.corner) == v)
     }
 
     /// The angle of an anchor's halfedge around its cone.
-    fn angle(&self, landmark: VertexId, anchor: &Anchor) -> f64 {
+    fn angle(&self, landmark: LandmarkId, anchor: &Anchor) -> f64 {
         let edge = self.corners[anchor.corner.next()] - self.corners[anchor.corner];
         Fan::new(&self.surface, landmark).angle(anchor, edge)
     }
@@ -340,25 +342,18 @@ impl<'a> ParametrisedLevel<'a> {
         options: &FlatRelaxOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<FlatRelaxReport, Cancelled> {
-        let mut sights: TiVec<HalfedgeId, Corner> = self.corners.iter().map(|&p| Corner::Fixed(p)).collect();
-        let mut z = Vec::new();
-        for v in self.mesh.vertices().filter(|&v| !self.is_landmark[v]) {
-            let mut motion = Rigid2::IDENTITY;
-            for h in self.mesh.star(v) {
-                sights[h] = Corner::Free(z.len() as u32, motion);
-                motion = self.transitions[h.prev()].after(&motion);
-            }
-            z.push(self.mesh.star(v).next().map_or(DVec2::NAN, |h| self.corners[h]));
-        }
+        let free: Vec<VertexId> = self.mesh.vertices().filter(|&v| !self.is_landmark[v]).collect();
+        let sights = sights(free.iter().map(|&v| self.mesh.star(v)), &self.corners, &self.transitions);
+        let mut z: Vec<DVec2> = free.iter().map(|&v| self.corners[self.mesh.outgoing(v)]).collect();
         let triangle = |(f, rest): (FaceId, &RestTriangle)| {
-            let corners = [0, 1, 2].map(|k| sights[HalfedgeId::of(f, k)]);
+            let corners = f.halfedges().map(|h| sights[h]);
             FlatTriangle { area: rest.weight, ..FlatTriangle::with_rest(corners, rest.corners) }
         };
         let triangles = self.mesh.faces().zip(rest).map(triangle).collect();
         let mut problem = FlatProblem::new(triangles, z.len());
         let report = problem.relax(&mut z, options, monitor)?;
         for f in self.mesh.faces() {
-            for h in [0, 1, 2].map(|k| HalfedgeId::of(f, k)) {
+            for h in f.halfedges() {
                 self.corners[h] = sights[h].position(&z);
             }
         }

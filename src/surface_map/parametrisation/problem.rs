@@ -8,8 +8,10 @@ use super::rest_triangle::{Corner, FlatTriangle};
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::min;
 use crate::monitor::{Cancelled, Monitor, Step};
-use crate::numerics::block_csr::{BlockCg, BlockCsr};
-use crate::surface_map::energy::symmetric_dirichlet;
+use crate::numerics::block_csr::BlockCsr;
+use crate::numerics::conjugate_gradients::{CgOptions, CgWorkspace};
+use crate::surface_map::energy::density::Density;
+use crate::surface_map::energy::symmetric_dirichlet::SymmetricDirichlet;
 use glam::{DMat2, DVec2};
 
 /// How far a relaxation goes.
@@ -38,6 +40,8 @@ pub struct FlatRelaxReport {
     pub energies: Vec<f64>,
     /// Conjugate gradient iterations of all steps.
     pub cg_iterations: usize,
+    /// Steps whose linear system was not solved to its tolerance.
+    pub inexact_steps: usize,
 }
 
 /// A Hessian with respect to a Jacobian, in blocks by the Jacobian's columns.
@@ -76,7 +80,39 @@ pub struct FlatProblem {
     /// Place in the matrix of block (corner i, corner j) at `9 t + 3 i + j`; unused where a corner is fixed.
     places: Vec<u32>,
     matrix: BlockCsr,
+    solver: NewtonSolver,
     total_area: f64,
+}
+
+/// Newton's linear systems, with their working memory and how they ended.
+#[derive(Default)]
+struct NewtonSolver {
+    workspace: CgWorkspace<DVec2>,
+    inverse_diagonal: Vec<DMat2>,
+    iterations: usize,
+    inexact: usize,
+}
+
+/// Conjugate gradient iterations of one Newton step, at most.
+const LINEAR_ITERATIONS: usize = 500;
+
+impl NewtonSolver {
+    /// Writes Newton's step for minus the slope.
+    ///
+    /// A system that is not solved to the tolerance is counted, and its last iterate is the step: that goes downhill, as every
+    /// iterate from 0 does, and every caller goes along it only as far as its energy falls.
+    fn step(&mut self, matrix: &BlockCsr, (downhill, step): (&[DVec2], &mut [DVec2]), tolerance: f64) {
+        let options = CgOptions { tolerance, max_iterations: LINEAR_ITERATIONS };
+        let sweeps = matrix.gauss_seidel(&mut self.inverse_diagonal);
+        let report = match self.workspace.solve(matrix, &sweeps, (downhill, step), &options) {
+            Ok(report) => report,
+            Err(error) => {
+                self.inexact += 1;
+                error.report()
+            }
+        };
+        self.iterations += report.iterations;
+    }
 }
 
 impl FlatProblem {
@@ -99,14 +135,18 @@ impl FlatProblem {
             }
         }
         let total_area = triangles.iter().map(|t| t.area).sum();
-        Self { triangles, places, matrix, total_area }
+        Self { triangles, places, matrix, solver: NewtonSolver::default(), total_area }
     }
 
     /// Area-weighted mean energy; `None` where a triangle is not positive.
     pub fn energy(&self, z: &[DVec2]) -> Option<f64> {
         let mut sum = 0.0;
         for t in &self.triangles {
-            sum += t.area * symmetric_dirichlet::density(&t.jacobian(&t.positions(z)))?;
+            let density = SymmetricDirichlet.density(&t.jacobian(&t.positions(z)));
+            if density == f64::INFINITY {
+                return None;
+            }
+            sum += t.area * density;
         }
         Some(sum / self.total_area)
     }
@@ -115,7 +155,7 @@ impl FlatProblem {
     pub fn gradient(&self, z: &[DVec2], gradient: &mut [DVec2]) {
         gradient.fill(DVec2::ZERO);
         for t in &self.triangles {
-            let slope = symmetric_dirichlet::gradient(&t.jacobian(&t.positions(z)));
+            let slope = SymmetricDirichlet.gradient(&t.jacobian(&t.positions(z)));
             for (corner, hat) in t.corners.iter().zip(&t.hats) {
                 if let Corner::Free(v, motion) = corner {
                     let pull = slope * *hat * (t.area / self.total_area);
@@ -138,7 +178,7 @@ impl FlatProblem {
             let triangle = &self.triangles[t];
             let weight = scale * triangle.area / self.total_area;
             let mut hessian = FaceHessian::ZERO;
-            for term in symmetric_dirichlet::hessian(&triangle.jacobian(&triangle.positions(z))) {
+            for term in SymmetricDirichlet.hessian(&triangle.jacobian(&triangle.positions(z))) {
                 hessian.add(weight * term.weight, &term.matrix());
             }
             self.add_face(t, &hessian);
@@ -150,7 +190,7 @@ impl FlatProblem {
     fn add_face(&mut self, t: usize, hessian: &FaceHessian) {
         let triangle = &self.triangles[t];
         let turns = triangle.corners.map(|corner| match corner {
-            Corner::Free(_, motion) => DMat2::from_cols(motion.rotation, motion.rotation.perp()),
+            Corner::Free(_, motion) => motion.turn(),
             Corner::Fixed(_) => DMat2::ZERO,
         });
         for i in 0..3 {
@@ -193,9 +233,13 @@ impl FlatProblem {
         self.matrix.regularise(damping);
         let downhill: Vec<DVec2> = slope.iter().map(|g| -*g).collect();
         let mut step = vec![DVec2::ZERO; z.len()];
-        // 500 iterations bound what an ill-conditioned matrix costs; a direction that is not solved to the end still goes down.
-        BlockCg::default().solve(&mut self.matrix, &downhill, &mut step, (tolerance, 500));
+        self.solver.step(&self.matrix, (&downhill, &mut step), tolerance);
         step
+    }
+
+    /// Directions so far whose linear system was not solved to its tolerance.
+    pub(in crate::surface_map) fn inexact_steps(&self) -> usize {
+        self.solver.inexact
     }
 
     /// The triangle's corners as unknowns: number and motion, `None` where fixed.
@@ -235,15 +279,14 @@ impl FlatProblem {
         let n = z.len();
         let (mut slope, mut step, mut trial) =
             (vec![DVec2::ZERO; n], vec![DVec2::ZERO; n], vec![DVec2::ZERO; n]);
-        let mut cg = BlockCg::default();
+        let begin = (self.solver.iterations, self.solver.inexact);
         for k in 0..options.max_steps {
             // The number of steps is not known before: half of the stage is told after eight.
             monitor.step(Step { fraction: k as f64 / (k as f64 + 8.0), residual: Some(energy) })?;
             self.gradient(z, &mut slope);
             self.assemble(z);
             slope.iter_mut().for_each(|g| *g = -*g);
-            report.cg_iterations +=
-                cg.solve(&mut self.matrix, &slope, &mut step, (options.linear_tolerance, 500));
+            self.solver.step(&self.matrix, (&slope, &mut step), options.linear_tolerance);
             let descent: f64 = slope.iter().zip(&step).map(|(g, d)| g.dot(*d)).sum();
             let Some(next) = self.line_search(z, &step, &mut trial, (energy, descent)) else { break };
             z.copy_from_slice(&trial);
@@ -254,6 +297,8 @@ impl FlatProblem {
                 break;
             }
         }
+        report.cg_iterations = self.solver.iterations - begin.0;
+        report.inexact_steps = self.solver.inexact - begin.1;
         Ok(report)
     }
 
@@ -312,6 +357,7 @@ fn smallest_positive_root(a: f64, b: f64, c: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::monitor::Silent;
+    use crate::numerics::conjugate_gradients::LinearOperator;
     use glam::DVec3;
 
     /// A fan of six triangles around a free centre and a ring of six free vertices inside a fixed hexagon.
@@ -361,7 +407,7 @@ mod tests {
         let direction: Vec<_> =
             (0..n).map(|i| DVec2::new(0.3 - 0.1 * i as f64, 0.2 * i as f64 - 0.5)).collect();
         let mut image = vec![DVec2::ZERO; n];
-        problem.matrix.multiply(&direction, &mut image);
+        problem.matrix.apply(&direction, &mut image);
         let model: f64 = image.iter().zip(&direction).map(|(a, b)| a.dot(*b)).sum();
         let at = |h: f64| {
             let y: Vec<_> = z.iter().zip(&direction).map(|(p, d)| *p + *d * h).collect();

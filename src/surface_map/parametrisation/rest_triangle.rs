@@ -4,7 +4,7 @@ use super::embedding::Parametrised;
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::max;
 use crate::math::triangle;
-use crate::mesh::{FaceId, HalfedgeId};
+use crate::mesh::FaceId;
 use glam::{DMat2, DVec2, DVec3};
 
 /// The shape that a face wants to have, and how much it counts.
@@ -103,6 +103,6 @@ impl FlatTriangle {
 
 /// The Jacobian of a parametrisation on one face, from the plane of its rest triangle to its chart.
 pub fn rest_jacobian(side: Parametrised<'_>, f: FaceId) -> DMat2 {
-    let corners = [0, 1, 2].map(|k| side.embedding.corners[HalfedgeId::of(f, k)]);
+    let corners = side.embedding.triangle(f);
     FlatTriangle::with_rest(corners.map(Corner::Fixed), side.mesh.corners(f)).jacobian(&corners)
 }

@@ -2,11 +2,13 @@
 
 use super::kernel::Kernel;
 use super::rest_triangle::FlatTriangle;
+use crate::math::matrix2::outer;
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::atan2;
 use crate::math::triangle::signed_double_area;
 use crate::mesh::HalfedgeId;
-use crate::surface_map::energy::symmetric_dirichlet;
+use crate::surface_map::energy::density::Density;
+use crate::surface_map::energy::symmetric_dirichlet::SymmetricDirichlet;
 use glam::{DMat2, DVec2};
 use std::f64::consts::TAU;
 
@@ -26,19 +28,21 @@ impl Star {
     /// Three Newton steps on the star's energy.
     pub fn improved(&self, start: DVec2) -> DVec2 {
         let energy_at = |z: DVec2| {
-            self.triangles
-                .iter()
-                .try_fold(0.0, |sum, t| Some(sum + t.area * symmetric_dirichlet::density(&t.jacobian_at(z))?))
+            let energies =
+                self.triangles.iter().map(|t| t.area * SymmetricDirichlet.density(&t.jacobian_at(z)));
+            energies.fold(0.0, |sum, energy| sum + energy)
         };
-        let (mut z, Some(mut least)) = (start, energy_at(start)) else { return start };
+        let (mut z, mut least) = (start, energy_at(start));
+        if least == f64::INFINITY {
+            return start;
+        }
         // The level is relaxed as a whole later, so three steps with up to eleven halvings each are enough. Chosen by hand.
         for _ in 0..3 {
             let (slope, curvature) = self.derivatives(z);
             let mut step = -(curvature.inverse() * slope);
             for _ in 0..12 {
-                if let Some(next) = energy_at(z + step)
-                    && next < least
-                {
+                let next = energy_at(z + step);
+                if next < least {
                     z += step;
                     least = next;
                     break;
@@ -53,10 +57,10 @@ impl Star {
         let (mut slope, mut curvature) = (DVec2::ZERO, DMat2::ZERO);
         for t in &self.triangles {
             let j = t.jacobian_at(z);
-            slope += symmetric_dirichlet::gradient(&j) * t.hats[0] * t.area;
-            for term in symmetric_dirichlet::hessian(&j) {
+            slope += SymmetricDirichlet.gradient(&j) * t.hats[0] * t.area;
+            for term in SymmetricDirichlet.hessian(&j) {
                 let pull = term.apply(t.hats[0]);
-                curvature += DMat2::from_cols(pull * pull.x, pull * pull.y) * (term.weight * t.area);
+                curvature += outer(pull) * (term.weight * t.area);
             }
         }
         (slope, curvature)

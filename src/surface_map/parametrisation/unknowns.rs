@@ -3,11 +3,29 @@
 use super::embedding::{Embedding, Parametrised};
 use super::problem::FlatProblem;
 use super::rest_triangle::{Corner, FlatTriangle};
+use crate::math::golden;
 use crate::math::rigid2::Rigid2;
-use crate::math::scalar::{cos, sin};
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec2;
-use typed_index_collections::{TiVec, ti_vec};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
+
+/// The corners of a parametrisation as its faces see them: those of the stars belong to free vertices, numbered in order, each
+/// with its coordinates in the plane of its star's first face; the others are fixed.
+pub(super) fn sights<I: Iterator<Item = HalfedgeId>>(
+    stars: impl Iterator<Item = I>,
+    corners: &TiSlice<HalfedgeId, DVec2>,
+    transitions: &TiSlice<HalfedgeId, Rigid2>,
+) -> TiVec<HalfedgeId, Corner> {
+    let mut sights: TiVec<HalfedgeId, Corner> = corners.iter().map(|&p| Corner::Fixed(p)).collect();
+    for (number, star) in stars.enumerate() {
+        let mut motion = Rigid2::IDENTITY;
+        for h in star {
+            sights[h] = Corner::Free(number as u32, motion);
+            motion = transitions[h.prev()].after(&motion);
+        }
+    }
+    sights
+}
 
 /// The free vertices of a parametrised mesh with their numbers as unknowns. A vertex has its coordinates in the plane of
 /// its first face.
@@ -25,24 +43,15 @@ impl<'a> Unknowns<'a> {
         let Parametrised { mesh, landmark_vertices, embedding } = side;
         let mut is_landmark = ti_vec![false; mesh.vertex_count()];
         landmark_vertices.iter().for_each(|&v| is_landmark[v] = true);
-        let mut sights: TiVec<HalfedgeId, Corner> =
-            embedding.corners.iter().map(|&p| Corner::Fixed(p)).collect();
-        let mut free = Vec::with_capacity(mesh.vertex_count());
-        for v in mesh.vertices().filter(|&v| !is_landmark[v]) {
-            let mut motion = Rigid2::IDENTITY;
-            for h in mesh.star(v) {
-                sights[h] = Corner::Free(free.len() as u32, motion);
-                motion = embedding.transitions[h.prev()].after(&motion);
-            }
-            free.push(v);
-        }
-        Self { mesh, free, sights }
+        let free: Vec<VertexId> = mesh.vertices().filter(|&v| !is_landmark[v]).collect();
+        let stars = free.iter().map(|&v| mesh.star(v));
+        Self { mesh, sights: sights(stars, &embedding.corners, &embedding.transitions), free }
     }
 
     /// The flat problem of the whole mesh; its triangles are the mesh's faces in order.
     pub fn problem(&self) -> FlatProblem {
         let triangle = |f: FaceId| {
-            let corners = [0, 1, 2].map(|k| self.sights[HalfedgeId::of(f, k)]);
+            let corners = f.halfedges().map(|h| self.sights[h]);
             FlatTriangle::with_rest(corners, self.mesh.corners(f))
         };
         FlatProblem::new(self.mesh.faces().map(triangle).collect(), self.free.len())
@@ -64,7 +73,6 @@ impl<'a> Unknowns<'a> {
     /// The unknowns of an embedding; from attempt 1 on each is moved by a tiny part of its shortest edge, every time more,
     /// in a direction that scatters with its number.
     pub fn nudged(&self, embedding: &Embedding, attempt: usize) -> Vec<DVec2> {
-        const GOLDEN: f64 = 2.399_963_229_728_653;
         let corners = &embedding.corners;
         let shortest = |v: VertexId| {
             let length = |h: HalfedgeId| corners[h].distance(corners[h.next()]);
@@ -74,9 +82,7 @@ impl<'a> Unknowns<'a> {
         let size = (1..attempt).fold(1e-9, |size, _| size * 6.0);
         let mut z = self.points(embedding);
         for (k, (point, &v)) in z.iter_mut().zip(&self.free).enumerate().filter(|_| attempt > 0) {
-            // A prime keeps the angle exact for large numbers; neighbours still get different ones.
-            let angle = GOLDEN * ((k + 1) % 1_000_003) as f64;
-            *point += DVec2::new(cos(angle), sin(angle)) * (size * shortest(v));
+            *point += golden::direction(k + 1) * (size * shortest(v));
         }
         z
     }

@@ -6,12 +6,14 @@
 
 use super::clipping::BoxedTriangle;
 use super::dent_energy::DentEnergy;
+use crate::math::matrix2::symmetric_eigen;
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::{ln, max, min};
 use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::surface_map::overlay::Overlay;
 use crate::surface_map::parametrisation::embedding::Parametrised;
+use crate::surface_map::parametrisation::embedding::triangle;
 use crate::surface_map::parametrisation::rest_triangle::{Corner, FlatTriangle};
 use glam::{DMat2, DVec2};
 use typed_index_collections::{TiVec, ti_vec};
@@ -84,7 +86,7 @@ impl Sheet<'_> {
 
     /// The face in its plane.
     pub fn triangle(&self, f: FaceId) -> [DVec2; 3] {
-        [0, 1, 2].map(|k| self.corners[HalfedgeId::of(f, k)])
+        triangle(&self.corners, f)
     }
 
     /// From the face's rest plane to its plane.
@@ -121,7 +123,7 @@ impl CoveredStar {
     /// Adds a triangle of the other side, unless it is there.
     fn cover(&mut self, other: &Sheet<'_>, face: FaceId, motion: Rigid2) {
         let back = motion.inverse();
-        let corners = [0, 1, 2].map(|k| back.apply(other.corners[HalfedgeId::of(face, k)]) - self.origin);
+        let corners = other.triangle(face).map(|p| back.apply(p) - self.origin);
         let size = corners[0].distance(corners[1]);
         let is_same = |cover: &Cover| {
             cover.face == face && cover.triangle.corners[0].distance(corners[0]) < 1e-6 * size
@@ -130,7 +132,7 @@ impl CoveredStar {
             return;
         }
         let rest = other.jacobian(face).inverse();
-        let onto_rest = rest * DMat2::from_cols(motion.rotation, motion.rotation.perp());
+        let onto_rest = rest * motion.turn();
         self.covers.push(Cover { face, motion, triangle: BoxedTriangle::new(corners), onto_rest });
     }
 
@@ -200,11 +202,9 @@ impl CoveredStar {
 
 /// Newton's step with the Hessian's eigenvalues made positive, no longer than `longest`.
 fn newton(slope: DVec2, [xx, xy, yy]: [f64; 3], longest: f64) -> Option<DVec2> {
-    let (mean, difference) = (0.5 * (xx + yy), 0.5 * (xx - yy));
-    let root = (difference * difference + xy * xy).sqrt();
-    let first = DVec2::new(xy, mean + root - xx).normalize_or(DVec2::X);
+    let (eigenvalues, first) = symmetric_eigen([xx, xy, yy]);
     let least = slope.length() / longest;
-    let [a, b] = [mean + root, mean - root].map(|eigenvalue| max(eigenvalue.abs(), least));
+    let [a, b] = eigenvalues.map(|eigenvalue| max(eigenvalue.abs(), least));
     let step = -(first * (first.dot(slope) / a) + first.perp() * (first.perp().dot(slope) / b));
     step.is_finite().then_some(step)
 }

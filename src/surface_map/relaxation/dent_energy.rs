@@ -1,5 +1,6 @@
 //! The energy by which dents are healed: that of the map, and a steep cost of large densities.
 
+use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::measures::distortion::LocalDistortion;
 use glam::DMat2;

@@ -104,7 +104,7 @@ fn dented(sides: [Parametrised<'_>; 2], overlay: &Overlay, brink: f64) -> BTreeS
     let [a, b] =
         sides.map(|side| side.mesh.faces().map(|f| rest_jacobian(side, f)).collect::<TiVec<FaceId, DMat2>>());
     let density = |piece: &Piece| {
-        let turn = DMat2::from_cols(piece.motion.rotation, piece.motion.rotation.perp());
+        let turn = piece.motion.turn();
         LocalDistortion::of(&(b[piece.target_face].inverse() * turn * a[piece.source_face])).density
     };
     let pieces = overlay.pieces.iter().filter(|piece| density(piece) > brink);
@@ -133,7 +133,7 @@ impl Healer<'_> {
         for &s in faces {
             let a = source.jacobian(s);
             for partner in &source.partners[s] {
-                let turn = DMat2::from_cols(partner.motion.rotation, partner.motion.rotation.perp());
+                let turn = partner.motion.turn();
                 let density = LocalDistortion::of(&(target_inverse(partner.face) * turn * a)).density;
                 if density <= brink || !self.is_certain(s, partner) {
                     continue;

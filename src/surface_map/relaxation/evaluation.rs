@@ -1,11 +1,13 @@
 //! The energy of a map at one state, with what its derivatives need.
 
+use crate::math::quantile::quantile;
+use crate::math::rigid2;
 use crate::math::scalar::ln;
 use crate::math::triangle::hat_gradients;
-use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::mesh::{FaceId, VertexId};
+use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
-use crate::surface_map::energy::point_constraint::PointConstraint;
-use crate::surface_map::measures::distortion::quantile;
+use crate::surface_map::energy::vertex_energy::VertexEnergy;
 use crate::surface_map::overlay::Measure;
 use crate::surface_map::overlay::location::Locations;
 use crate::surface_map::parametrisation::embedding::Parametrised;
@@ -40,14 +42,17 @@ impl Evaluation {
         &mut self,
         (problem, z): (&FlatProblem, &[DVec2]),
         fixed_inverses: &TiVec<FaceId, DMat2>,
-        map_energy: MapEnergy,
+        map_energy: &impl Density,
     ) {
         self.jacobians.clear();
         self.jacobians.extend(problem.jacobians(z));
         self.onto_rest.clear();
-        self.onto_rest.extend(self.overlay.pieces().iter().map(|piece| {
-            fixed_inverses[piece.target_face] * DMat2::from_cols(piece.rotation, piece.rotation.perp())
-        }));
+        self.onto_rest.extend(
+            self.overlay
+                .pieces()
+                .iter()
+                .map(|piece| fixed_inverses[piece.target_face] * rigid2::turn(piece.rotation)),
+        );
         self.energy = self.integral(map_energy);
     }
 
@@ -55,7 +60,7 @@ impl Evaluation {
     pub fn constrain(
         &mut self,
         [from, onto]: [Parametrised<'_>; 2],
-        (unknowns, constraints): (&Unknowns<'_>, &[(VertexId, PointConstraint)]),
+        (unknowns, constraints): (&Unknowns<'_>, &[(VertexId, impl VertexEnergy)]),
         locations: &Locations,
     ) {
         self.constrained = 0.0;
@@ -65,7 +70,7 @@ impl Evaluation {
             let at = &locations.by_vertex[*v];
             let Some((unknown, sight)) = unknowns.sight(at.corner) else { continue };
             let q = at.motion.apply(from.embedding.corners[at.corner]);
-            let p = [0, 1, 2].map(|k| onto.embedding.corners[HalfedgeId::of(at.face, k)]);
+            let p = onto.embedding.triangle(at.face);
             let hats = hat_gradients(p);
             let [second, third] = [1, 2].map(|k| (q - p[0]).dot(hats[k]));
             let barycentric = [1.0 - second - third, second, third];
@@ -77,7 +82,7 @@ impl Evaluation {
         }
     }
 
-    fn integral(&self, map_energy: MapEnergy) -> f64 {
+    fn integral(&self, map_energy: &impl Density) -> f64 {
         let pieces = self.overlay.pieces().iter().zip(&self.onto_rest);
         let part = pieces.map(|(piece, c)| {
             let a = &self.jacobians[piece.source_face.index()];

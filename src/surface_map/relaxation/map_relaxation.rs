@@ -6,8 +6,10 @@
 //! areas change too, which adds the jump of the density over each edge to the gradient (Reynolds' transport theorem).
 
 use super::evaluation::Evaluation;
+use crate::math::matrix2::cofactor;
 use crate::mesh::{FaceId, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
+use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::energy::point_constraint::PointConstraint;
 use crate::surface_map::overlay::SideOf;
@@ -56,6 +58,11 @@ impl Relaxed<'_> {
     /// Both parametrisations.
     pub fn into_embeddings(self) -> [Embedding; 2] {
         self.relaxation.embeddings
+    }
+
+    /// Steps tried whose linear system was not solved to its tolerance.
+    pub fn inexact_steps(&self) -> usize {
+        self.relaxation.problems.iter().map(FlatProblem::inexact_steps).sum()
     }
 
     /// Half the sum of the area-weighted means of the density's logarithm over both surfaces: 0 for an isometry, infinite
@@ -231,7 +238,7 @@ impl<'a> Relaxation<'a> {
         if located.is_err() || self.trial.overlay.fill([from, onto], &self.locations).is_err() {
             return false;
         }
-        self.trial.measure((&self.problems[moving], z), &self.inverses[1 - moving], self.map_energy);
+        self.trial.measure((&self.problems[moving], z), &self.inverses[1 - moving], &self.map_energy);
         self.trial.constrain(
             [from, onto],
             (&self.unknowns[moving], self.constraints[moving]),
@@ -288,7 +295,7 @@ impl<'a> Relaxation<'a> {
         self.present.overlay.exchange_roles();
         let problem = &self.problems[self.moving];
         let z = self.unknowns[self.moving].points(&self.embeddings[self.moving]);
-        self.present.measure((problem, &z), &self.inverses[1 - self.moving], self.map_energy);
+        self.present.measure((problem, &z), &self.inverses[1 - self.moving], &self.map_energy);
         let flat = problem.energy(&z).unwrap_or(f64::INFINITY);
         self.locate_constrained();
         self.present.total = self.present.energy + self.present.constrained + self.options.barrier * flat;
@@ -341,10 +348,8 @@ impl<'a> Relaxation<'a> {
             let density = self.map_energy.density(&j) / det;
             densities.push(density);
             // d(h / det A) at fixed area on the cone surface.
-            let cofactor =
-                DMat2::from_cols(DVec2::new(a.y_axis.y, -a.y_axis.x), DVec2::new(-a.x_axis.y, a.x_axis.x));
             let own = c.transpose() * self.map_energy.gradient(&j);
-            faces[t].by_jacobian += (own - cofactor * density) * (piece.area / det);
+            faces[t].by_jacobian += (own - cofactor(a) * density) * (piece.area / det);
         }
         self.add_sweeps(&densities, &mut faces);
         faces
@@ -470,6 +475,7 @@ pub(super) mod tests {
             std::iter::once(None).chain(relaxed.energies.iter().copied().map(Some)).collect();
         assert_eq!(told.0, expected);
         assert!(relaxed.energies.len() > 2, "{:?}", relaxed.energies);
+        assert_eq!(relaxed.inexact_steps(), 0);
         let (first, last) = (relaxed.energies[0], relaxed.energies[relaxed.energies.len() - 1]);
         assert!(last < first && last > 4.0 - 1e-9, "{:?}", relaxed.energies);
         assert!(

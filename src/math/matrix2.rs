@@ -1,0 +1,62 @@
+//! Formulas on 2 x 2 matrices.
+
+use glam::{DMat2, DVec2};
+
+/// The cofactor matrix: the derivative of the determinant, det(m) m^-T.
+#[inline]
+pub fn cofactor(m: &DMat2) -> DMat2 {
+    DMat2::from_cols(DVec2::new(m.y_axis.y, -m.y_axis.x), DVec2::new(-m.x_axis.y, m.x_axis.x))
+}
+
+/// The matrix v v^T.
+#[inline]
+pub fn outer(v: DVec2) -> DMat2 {
+    DMat2::from_cols(v * v.x, v * v.y)
+}
+
+/// |m|^2, the sum of the squares of all entries.
+#[inline]
+pub fn squares(m: &DMat2) -> f64 {
+    m.x_axis.length_squared() + m.y_axis.length_squared()
+}
+
+/// The eigenvalues of the symmetric matrix (xx xy; xy yy), the larger one first, with a unit eigenvector of the first; that of
+/// the second is perpendicular to it.
+#[inline]
+pub fn symmetric_eigen([xx, xy, yy]: [f64; 3]) -> ([f64; 2], DVec2) {
+    let (mean, difference) = (0.5 * (xx + yy), 0.5 * (xx - yy));
+    let root = (difference * difference + xy * xy).sqrt();
+    let first = DVec2::new(xy, mean + root - xx).normalize_or(DVec2::X);
+    ([mean + root, mean - root], first)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_cofactor_matrix_is_the_derivative_of_the_determinant() {
+        let m = DMat2::from_cols_array(&[1.5, 0.3, -0.2, 0.8]);
+        let exact = cofactor(&m).to_cols_array();
+        for k in 0..4 {
+            let at = |h: f64| {
+                let mut entries = m.to_cols_array();
+                entries[k] += h;
+                DMat2::from_cols_array(&entries).determinant()
+            };
+            assert!(((at(0.5) - at(-0.5)) - exact[k]).abs() < 1e-14);
+        }
+        assert!((m * cofactor(&m).transpose()).abs_diff_eq(DMat2::IDENTITY * m.determinant(), 1e-14));
+    }
+
+    #[test]
+    fn eigenvectors_are_stretched_by_their_eigenvalues() {
+        for [xx, xy, yy] in [[2.0, 0.5, 1.0], [-1.0, 3.0, 4.0], [1.0, -1e-3, 1.0]] {
+            let m = DMat2::from_cols(DVec2::new(xx, xy), DVec2::new(xy, yy));
+            let (values, first) = symmetric_eigen([xx, xy, yy]);
+            assert!((m * first).abs_diff_eq(first * values[0], 1e-12));
+            assert!((m * first.perp()).abs_diff_eq(first.perp() * values[1], 1e-12));
+            assert!(values[0] >= values[1]);
+        }
+    }
+}
