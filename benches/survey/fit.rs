@@ -14,6 +14,7 @@ use conemap::mesh::coarsening::Level;
 use conemap::mesh::insertion::insert;
 use conemap::mesh::mirror::mirrored;
 use conemap::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use conemap::monitor::Silent;
 use cpu_time::ThreadTime;
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
@@ -51,7 +52,8 @@ impl Fit {
 
     pub fn findings(&self) -> Vec<Finding> {
         let meshes = [&self.meshes[0], &self.meshes[1]];
-        landmark_fit(meshes, &self.landmarks, &LandmarkDistances::new(meshes, &self.landmarks))
+        landmark_fit(meshes, &self.landmarks, &LandmarkDistances::new(meshes, &self.landmarks), &mut Silent)
+            .expect("nobody stops")
     }
 
     /// With some of the landmarks, chosen at random and in random order.
@@ -150,7 +152,7 @@ fn processor_time(arguments: &Arguments) {
         let distances = LandmarkDistances::new(meshes, &fit.landmarks);
         seconds[1] += begun.elapsed().as_secs_f64();
         let begun = ThreadTime::now();
-        landmark_fit(meshes, &fit.landmarks, &distances);
+        landmark_fit(meshes, &fit.landmarks, &distances, &mut Silent).expect("nobody stops");
         seconds[2] += begun.elapsed().as_secs_f64();
     }
     let [levels, distances, fit] = seconds;

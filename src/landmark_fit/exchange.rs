@@ -11,6 +11,7 @@ use super::finding::Finding;
 use super::orders::pair_agreement;
 use crate::layout::LandmarkDistances;
 use crate::math::scalar::{max, min};
+use crate::monitor::{Cancelled, Monitor, Step};
 
 /// Added to the lesser distance of a landmark x to a and b in its weight, in units of d(a, b).
 const SOFTENING: f64 = 0.3;
@@ -109,25 +110,40 @@ impl<'a> Exchange<'a> {
     }
 
     /// The exchange of two targets that is called for most, where one clearly is.
-    pub(super) fn best(&self, fit: &Fit<'_>) -> Option<Finding> {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub(super) fn best(
+        &self,
+        fit: &Fit<'_>,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Option<Finding>, Cancelled> {
         let clear = clear(fit.target_of.len());
         let swapped = |pairs| {
-            let Opinion { agreement, orders, unanimity } = self.opinion(&fit.target_of, pairs, clear)?;
+            let opinion = self.opinion(&fit.target_of, pairs, clear)?;
+            let Opinion { agreement, orders, unanimity } = opinion;
+            // The misfit costs most, so it is asked last.
+            if agreement >= clear {
+                return None;
+            }
             let misfit = fit.exchanged(pairs)?;
             let confirmed = orders < REVERSED || unanimity < UNANIMOUS || misfit[1] < LESS * misfit[0];
-            (agreement < clear && confirmed)
-                .then_some((agreement, Finding::Swapped { pairs, agreement, misfit }))
+            confirmed.then_some((agreement, pairs, Finding::Swapped { pairs, agreement, misfit }))
         };
-        let mut found: Vec<_> = pairs(fit.target_of.len())
-            .filter_map(|pairs| swapped(pairs).map(|(agreement, finding)| (agreement, pairs, finding)))
-            .collect();
+        let count = fit.target_of.len();
+        let mut found = Vec::new();
+        for b in 0..count {
+            let fraction = (b * b) as f64 / (count * count) as f64;
+            monitor.step(Step { fraction, residual: None })?;
+            found.extend((0..b).filter_map(|a| swapped([a, b])));
+        }
         found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         found.truncate(TRIED);
         if found.len() < 2 {
-            return found.pop().map(|(_, _, finding)| finding);
+            return Ok(found.pop().map(|(_, _, finding)| finding));
         }
         let left = found.into_iter().map(|(_, pairs, finding)| (self.doubts(&fit.target_of, pairs), finding));
-        left.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, finding)| finding)
+        Ok(left.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, finding)| finding))
     }
 
     /// The sum of doubts that are left when two targets are exchanged.

@@ -20,6 +20,7 @@ pub use orders::order_agreement;
 use crate::landmarks::Landmarks;
 use crate::layout::LandmarkDistances;
 use crate::mesh::SurfaceMesh;
+use crate::monitor::{Cancelled, Monitor, Portion, Step};
 use directions::Directions;
 use distances::Fit;
 use exchange::Exchange;
@@ -36,12 +37,17 @@ const MIRRORED: f64 = -0.4;
 
 /// Checks whether landmark pairs can belong to a map of low distortion; no findings when all fit.
 ///
-/// `distances` are those of the same meshes and landmarks, coarse ones (some 1000 vertices) for speed.
+/// `distances` are those of the same meshes and landmarks, coarse ones (some 1000 vertices) for speed. More than
+/// [`MOST_COMPARED`] landmarks are too many to compare each with each.
+///
+/// # Errors
+/// [`Cancelled`].
 pub fn landmark_fit(
     meshes: [&SurfaceMesh; 2],
     landmarks: &Landmarks,
     distances: &LandmarkDistances,
-) -> Vec<Finding> {
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<Finding>, Cancelled> {
     let directions = Directions::new(meshes, landmarks, distances);
     let mut fit = Fit::new(landmarks, distances);
     let mirrored = |target_of: &[usize]| {
@@ -51,34 +57,51 @@ pub fn landmark_fit(
         (landmarks.len() >= LEAST_FOR_ORDERS && mean < MIRRORED).then_some(mean)
     };
     let as_given = mirrored(&fit.target_of);
-    let mut findings = exchanges(&mut fit, &Exchange::new(distances, &directions, 1.0));
+    let ways = Exchange::new(distances, &directions, 1.0);
+    let mut findings = exchanges(&mut fit, &ways, &mut Portion::new(monitor, 0.0, 0.4))?;
     // One exchange among few landmarks can reverse most orders: the set is mirrored where it is so without it, too.
     if let Some(agreement) = as_given.filter(|_| mirrored(&fit.target_of).is_some()) {
         fit = Fit::new(landmarks, distances);
         findings = vec![Finding::Mirrored { agreement }];
-        findings.extend(exchanges(&mut fit, &Exchange::new(distances, &directions, -1.0)));
+        let ways = Exchange::new(distances, &directions, -1.0);
+        findings.extend(exchanges(&mut fit, &ways, &mut Portion::new(monitor, 0.4, 0.8))?);
     }
     if landmarks.len() >= LEAST_FOR_PLACES {
+        let monitor = &mut Portion::new(monitor, 0.8, 1.0);
         while let Some(finding) = fit.worst_misplaced() {
+            let share = fit.left_out.iter().filter(|out| **out).count() as f64 / landmarks.len() as f64;
+            monitor.step(Step { fraction: share, residual: None })?;
             let Finding::Misplaced { pair, .. } = finding else { break };
             fit.left_out[pair] = true;
             findings.push(finding);
         }
     }
-    findings
+    Ok(findings)
 }
 
+/// Landmarks that are compared each with each, at most: every exchange of two is judged by all pairs of the others.
+pub const MOST_COMPARED: usize = 100;
+
+/// Exchanges that are told of, at most: a set with more is not a set with faults, but another one.
+const MOST_EXCHANGES: usize = 12;
+
 /// Exchanges targets as long as an exchange is clearly called for.
-fn exchanges(fit: &mut Fit<'_>, exchange: &Exchange<'_>) -> Vec<Finding> {
+fn exchanges(
+    fit: &mut Fit<'_>,
+    exchange: &Exchange<'_>,
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<Finding>, Cancelled> {
     let mut findings = Vec::new();
     // More than half as many as pairs make no sense.
-    for _ in 0..fit.target_of.len() / 2 {
-        let Some(finding) = exchange.best(fit) else { break };
+    let most = MOST_EXCHANGES.min(fit.target_of.len() / 2);
+    for k in 0..most {
+        let part = &mut Portion::new(monitor, k as f64 / most as f64, (k + 1) as f64 / most as f64);
+        let Some(finding) = exchange.best(fit, part)? else { break };
         let Finding::Swapped { pairs: [a, b], .. } = finding else { break };
         fit.target_of.swap(a, b);
         findings.push(finding);
     }
-    findings
+    Ok(findings)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Doubts about landmark pairs and limbs without one, before a map is made: found on coarse levels, told as stable JSON.
 
 use super::MapInput;
-use crate::landmark_fit::{Finding, Repair, landmark_fit};
+use crate::landmark_fit::{Finding, MOST_COMPARED, Repair, landmark_fit};
 use crate::landmark_suggestion::unmarked_limbs;
 use crate::landmarks::Landmarks;
 use crate::layout::LandmarkDistances;
@@ -154,7 +154,8 @@ impl FindingReport {
 
 /// Landmark pairs that do not fit and limbs without one; none when all is well. `labels` are the pairs' names, where they have any.
 ///
-/// A doubt is no error: the map can be made all the same, and the user knows the shapes.
+/// A doubt is no error: the map can be made all the same, and the user knows the shapes. Of more than
+/// [`MOST_COMPARED`] pairs only the limbs are looked at.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -170,13 +171,16 @@ pub fn findings(
     let ((source, from), (target, onto)) = (coarse((input.source, source)), coarse((input.target, target)));
     let meshes = [&source.mesh, &target.mesh];
     let landmarks = Landmarks { source: from, target: onto };
-    let distances = LandmarkDistances::new(meshes, &landmarks);
-    let found = landmark_fit(meshes, &landmarks, &distances);
+    let mut found = Vec::new();
+    if landmarks.len() <= MOST_COMPARED {
+        let distances = LandmarkDistances::new(meshes, &landmarks);
+        found = landmark_fit(meshes, &landmarks, &distances, &mut Portion::new(monitor, 0.0, 0.5))?;
+    }
     let mut reports: Vec<_> = found.iter().map(|finding| FindingReport::new(finding, labels)).collect();
     for (side, (level, marks)) in
         [(&source, &landmarks.source), (&target, &landmarks.target)].iter().enumerate()
     {
-        let half = &mut Portion::new(monitor, 0.5 * side as f64, 0.5 * (side + 1) as f64);
+        let half = &mut Portion::new(monitor, 0.5 + 0.25 * side as f64, 0.75 + 0.25 * side as f64);
         let ends: Vec<usize> = numbers(level, unmarked_limbs(&level.mesh, marks, half)?);
         if !ends.is_empty() {
             reports.push(limbs(side, ends));
