@@ -3,9 +3,9 @@
 
 use crate::common::{self, Pair};
 use conemap::base_domain;
-use conemap::cone_metric::{FlowOptions, Scheme, flow, uniform_curvature};
+use conemap::cone_metric::{FlowError, FlowOptions, Scheme, flow, uniform_curvature};
 use conemap::landmarks::Landmarks;
-use conemap::layout::{self, LayoutError, LayoutOptions};
+use conemap::layout::{self, LayoutOptions};
 use conemap::math::triangle::angle_from_lengths;
 use conemap::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use conemap::monitor::{Cancelled, Monitor, Silent, Step};
@@ -98,6 +98,22 @@ pub fn flow_converges(name: &str, mesh: &SurfaceMesh, landmarks: &[VertexId]) {
     }
 }
 
+/// Without flips the flow breaks down, and says so with the residual of each step.
+pub fn fixed_triangulation_fails_and_says_so(mesh: &SurfaceMesh, landmarks: &[VertexId]) {
+    let target = uniform_curvature(mesh.vertex_count(), landmarks);
+    let options = FlowOptions { scheme: Scheme::FixedTriangulation, ..FlowOptions::default() };
+    match flow(mesh, &target, &options, &mut Silent) {
+        Err(FlowError::NotConverged { best, report }) => {
+            assert!(best > 1e-3 && best.is_finite(), "{best}");
+            assert_eq!(report.residuals.len(), report.newton_steps + 1);
+            assert_eq!(report.edge_flips, 0);
+            let least = report.residuals.iter().copied().fold(f64::INFINITY, f64::min);
+            assert_eq!(best, least, "{:?}", report.residuals);
+        }
+        other => panic!("expected not converged, got {:?}", other.map(|(_, r)| r)),
+    }
+}
+
 /// The base domain drawn on both meshes at once: every invariant that the later stages rely on.
 pub fn has_a_valid_layout(case: &Case) {
     let Case { name, landmarks, .. } = case;
@@ -115,9 +131,9 @@ pub fn has_a_valid_layout(case: &Case) {
     assert!((defects - 2.0 * TAU).abs() < 1e-9, "Gauss-Bonnet of {name}: {defects}");
 }
 
-/// The target simplified to its landmarks is a triangulation of the sphere with their number and places as vertices. It is drawn
-/// on both meshes, every invariant held, or refused with a reason; whether it is drawn.
-pub fn simplified_base_is_drawn(case: &Case) -> bool {
+/// The target simplified to its landmarks is a triangulation of the sphere with their number and places as vertices, and is drawn
+/// on both meshes, every invariant held.
+pub fn simplified_base_is_drawn(case: &Case) {
     let Case { name, landmarks, .. } = case;
     let base = base_domain::simplify(&case.target, &landmarks.target, &mut Silent)
         .unwrap_or_else(|e| panic!("{name}: {e}"));
@@ -126,16 +142,11 @@ pub fn simplified_base_is_drawn(case: &Case) -> bool {
     for (corner, &landmark) in base.mesh.positions().iter().zip(&landmarks.target) {
         assert_eq!(*corner, case.target.positions()[landmark], "{name}: landmark {landmark:?}");
     }
-    match layout::from_base([&case.source, &case.target], landmarks, &base, &mut Silent) {
-        Ok(layout) => {
-            assert_eq!(layout.base.mesh.triangles(), base.mesh.triangles(), "{name}");
-            for side in [&layout.source, &layout.target] {
-                side.validate(&layout.base).unwrap_or_else(|e| panic!("{name}: {e}"));
-            }
-            true
-        }
-        Err(LayoutError::NoPath { .. } | LayoutError::Patches(_)) => false,
-        Err(error) => panic!("{name}: {error}"),
+    let layout = layout::from_base([&case.source, &case.target], landmarks, &base, &mut Silent)
+        .unwrap_or_else(|e| panic!("{name}: {e}"));
+    assert_eq!(layout.base.mesh.triangles(), base.mesh.triangles(), "{name}");
+    for side in [&layout.source, &layout.target] {
+        side.validate(&layout.base).unwrap_or_else(|e| panic!("{name}: {e}"));
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::command_line::{a_failed_flow_reports, conemap, cones, errors, folder, json, map_and_check};
 use crate::common;
+use crate::fixtures;
 use conemap::export;
 use conemap::io::{self, landmark_file};
 use conemap::mesh::check::closed_genus_zero;
@@ -258,8 +259,9 @@ fn an_interrupt_finishes_with_a_certified_map() {
         .spawn()
         .unwrap();
     let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
-    // The stage before the search for the layout has ended: the program listens now.
-    let mut said = vec![lines.find(|line| line.starts_with("landmarks")).expect("a first stage")];
+    // The search for the layout has begun: the program listens now.
+    let mut said =
+        vec![lines.find(|line| line.starts_with("findings")).expect("the stage before the search")];
     let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     assert!(sent.success());
     said.extend(lines);
@@ -342,11 +344,11 @@ fn flows_to_the_listed_cones() {
 
 #[test]
 fn a_flow_that_does_not_converge_fails_and_still_reports() {
-    let folder = folder("a_flow_that_does_not_converge/horse");
-    let demo = conemap::demo::build("horse-cat").unwrap();
-    let [source, _, _] = write_files(&folder, [&demo.source, &demo.target], &demo.landmarks);
-    let vertices: Vec<VertexId> = demo.landmarks.iter().map(|pair| VertexId(pair[0])).collect();
-    a_failed_flow_reports(&source, &vertices, &folder);
+    let folder = folder("a_flow_that_does_not_converge/cat");
+    let case = fixtures::rough_demo("horse-cat");
+    let mesh = folder.join("cat.obj");
+    std::fs::write(&mesh, export::obj::mesh(&case.target)).unwrap();
+    a_failed_flow_reports(&mesh, &case.landmarks.target, &folder);
 }
 
 /// Fails with code 1 and one sentence that holds all the words.
