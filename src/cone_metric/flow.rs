@@ -219,8 +219,11 @@ impl<'a> Newton<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cone_metric::atlas::mesh_displacements;
     use crate::cone_metric::uniform_curvature;
-    use crate::mesh::generators::{icosphere, tetrahedron};
+    use crate::math::triangle::area_from_lengths;
+    use crate::mesh::HalfedgeId;
+    use crate::mesh::generators::{icosphere, midpoint_subdivision, tetrahedron};
     use crate::monitor::Silent;
     use crate::numerics::conjugate_gradients::LinearOperator;
     use std::f64::consts::PI;
@@ -304,26 +307,69 @@ mod tests {
         assert!(integral.abs() < 1e-4, "{integral}");
     }
 
-    /// Four vertices of a sphere in tetrahedral position flow to a regular tetrahedron: by symmetry all its edges agree.
+    /// The regular tetrahedron, each triangle split into 256 and blown up to the unit sphere. The first vertices are its own.
+    fn blown_up_tetrahedron() -> SurfaceMesh {
+        let fine = (0..4).fold(tetrahedron(), |mesh, _| midpoint_subdivision(&mesh));
+        fine.with_positions(fine.positions().iter().map(|p| p.normalize()).collect())
+    }
+
+    /// The vertices on the arc between two of the tetrahedron's corners, both ends included.
+    fn side(mesh: &SurfaceMesh, ends: [VertexId; 2]) -> Vec<VertexId> {
+        let [p, q] = ends.map(|v| mesh.positions()[v]);
+        let normal = p.cross(q).normalize();
+        let mut along = vec![ends[0]];
+        while along[along.len() - 1] != ends[1] {
+            let here = along[along.len() - 1];
+            let further = |v: &VertexId| {
+                let place = mesh.positions()[*v];
+                place.dot(normal).abs() < 1e-12 && place.dot(q) > mesh.positions()[here].dot(q)
+            };
+            along.push(mesh.star(here).map(|h| mesh.head(h)).find(further).expect("a vertex on the arc"));
+        }
+        along
+    }
+
+    /// Four vertices in tetrahedral position flow to the regular tetrahedron. A flat surface with four cones of angle pi is the
+    /// boundary of a tetrahedron with congruent faces; it is regular where all six distances d of its cones agree, and then its
+    /// area is sqrt(3) d^2. The arcs between the vertices are mirror lines of the surface, so they stay geodesics.
     #[test]
     fn the_unit_sphere_becomes_the_regular_tetrahedron() {
-        let sphere = icosphere(3);
-        let corners = tetrahedron();
-        let nearest = |p: glam::DVec3| {
-            let distance = |v: &VertexId| sphere.positions()[*v].distance(p);
-            sphere.vertices().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
-        };
-        let landmarks: Vec<_> = corners.positions().iter().map(|&p| nearest(p)).collect();
+        let sphere = blown_up_tetrahedron();
+        let landmarks: Vec<_> = (0..4).map(VertexId).collect();
         let target = uniform_curvature(sphere.vertex_count(), &landmarks);
         for scheme in [Scheme::InversiveDistance, Scheme::VertexScaling] {
-            let options = FlowOptions { scheme, tolerance: 1e-10, ..FlowOptions::default() };
-            let (metric, report) = flow(&sphere, &target, &options, &mut Silent).unwrap();
-            assert!(report.max_curvature_error < 1e-10);
-            // A flat surface with four cones of angle pi is a tetrahedron whose opposite edges agree; a regular one has
-            // area sqrt(3) d^2 for the cone distance d. Radii at the four cones agree by symmetry.
-            let radii: Vec<f64> = landmarks.iter().map(|&v| metric.log_radii[v]).collect();
-            for r in &radii {
-                assert!((r - radii[0]).abs() < 1e-3, "{radii:?}");
+            let options = FlowOptions { scheme, tolerance: 1e-11, ..FlowOptions::default() };
+            let (metric, _) = flow(&sphere, &target, &options, &mut Silent).unwrap();
+            for (v, k) in sphere.vertices().zip(curvature(&metric)) {
+                let goal = if v.index() < 4 { PI } else { 0.0 };
+                assert!((k - goal).abs() < 1e-10, "{scheme:?}: curvature {k} at {v:?}");
+            }
+            for &v in &landmarks {
+                let apart = metric.log_radii[v] - metric.log_radii[landmarks[0]];
+                assert!(apart.abs() < 1e-9, "{scheme:?}: radii {apart} apart");
+            }
+            let displacements = mesh_displacements(&metric);
+            let length = |ends: [VertexId; 2]| {
+                let step = |pair: &[VertexId]| {
+                    let edge = sphere.star(pair[0]).find(|&h| sphere.head(h) == pair[1]).expect("an edge");
+                    displacements[edge].length()
+                };
+                side(&sphere, ends).windows(2).map(step).sum::<f64>()
+            };
+            let lengths = metric.lengths();
+            let corners = |f| [0, 1, 2].map(|k| lengths[HalfedgeId::of(f, k)]);
+            let area: f64 = metric
+                .triangulation
+                .faces()
+                .map(|f| {
+                    let [a, b, c] = corners(f);
+                    area_from_lengths(a, b, c)
+                })
+                .sum();
+            let regular = (area / 3.0_f64.sqrt()).sqrt();
+            for (a, b) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {
+                let found = length([landmarks[a], landmarks[b]]);
+                assert!((found / regular - 1.0).abs() < 1e-9, "{scheme:?}: {a} to {b}: {found}, {regular}");
             }
         }
     }

@@ -1,8 +1,8 @@
 //! Real meshes and landmark pairs that live beside the project, for tests and benchmarks.
 //!
-//! They are read from `../shared/data`. In continuous integration (`CI` is set) or where `../shared` exists, a missing file
-//! is a failure; a plain checkout has no such folder and skips these tests by name.
-#![allow(clippy::print_stderr, reason = "tests say why they are skipped")]
+//! They are read from `../shared/data`. A plain checkout has no folder `../shared`: what needs them is ignored there, by name.
+//! Where the folder exists, a missing file is a failure.
+#![allow(clippy::print_stderr, reason = "benchmarks say why they are left out")]
 #![allow(dead_code, reason = "every test binary uses another part")]
 
 use conemap::io;
@@ -12,16 +12,23 @@ use conemap::mesh::{SurfaceMesh, VertexId, check};
 use conemap::pipeline::{GroundTruth, MapInput};
 use std::path::{Path, PathBuf};
 
+/// Where the real meshes are, or would be.
+pub fn data_path() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data")
+}
+
+/// Whether this is a checkout beside a folder `../shared`; what that lacks is a failure.
+pub fn has_data() -> bool {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared").exists()
+}
+
 /// The data folder, or `None` (said on standard error) in a plain checkout.
-pub fn data_folder(test: &str) -> Option<PathBuf> {
-    let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared");
-    if !shared.exists() && std::env::var_os("CI").is_none() {
-        eprintln!("skipped {test}: the real meshes (../shared/data) are not part of a plain checkout");
+pub fn data_folder(user: &str) -> Option<PathBuf> {
+    if !has_data() {
+        eprintln!("left out, {user}: the real meshes (../shared/data) are not part of a plain checkout");
         return None;
     }
-    let data = shared.join("data");
-    assert!(data.join("README.md").exists(), "{test} needs the real meshes in {}", data.display());
-    Some(data)
+    Some(data_path())
 }
 
 /// Reads a mesh of the data folder.
@@ -58,7 +65,8 @@ pub fn read_pair(data: &Path, name: &str) -> Pair {
 
 /// The names of all pair files, sorted.
 pub fn pair_names(data: &Path) -> Vec<String> {
-    let entries = std::fs::read_dir(data.join("pairs")).expect("the data folder has pairs");
+    let folder = data.join("pairs");
+    let entries = std::fs::read_dir(&folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
     let mut names: Vec<String> =
         entries.filter_map(|e| Some(e.ok()?.path().file_stem()?.to_str()?.to_owned())).collect();
     names.sort();

@@ -11,7 +11,7 @@ const RUN_TIMEOUT = 200_000;
 
 function needsSharedData(): void {
   test.skip(
-    !existsSync(SHARED) && !process.env['CI'],
+    !existsSync(SHARED),
     'the real meshes (../shared/data: cat.off, lion.off, cat-lion.json, open-teapot.off) are not here',
   );
 }

@@ -98,7 +98,7 @@ test('landmarks and exports can be read again', async ({ page }) => {
 });
 
 test('a mirrored set is repaired by a click', async ({ page }) => {
-  test.skip(!existsSync(SHARED) && !process.env['CI'], 'the real meshes (../shared/data) are not here');
+  test.skip(!existsSync(SHARED), 'the real meshes (../shared/data) are not here');
   await open(page, '');
   // The mirror image of the lion: x turned, and every triangle with it.
   const [kind, sizes, ...lines] = readFileSync(`${DATA}/sumner/lion.off`, 'utf8').split(/\r?\n/).filter((line) => line.trim() !== '' && !line.startsWith('#'));

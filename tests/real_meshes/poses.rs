@@ -1,11 +1,12 @@
 //! Poses of one body whose true map is known.
-#![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
 
-mod common;
-
+use crate::common;
 use conemap::monitor::Silent;
 use conemap::pipeline::{DistortionReport, GroundTruth, PipelineOptions, run};
 use conemap::registration::rigid_patches::RigidPatchOptions;
+use std::path::Path;
+
+tests![the_relief_of_the_skin_brings_the_map_nearer_to_the_known_one];
 
 /// Hardly any dents, and the worst places told in order, at points of the meshes.
 fn no_dents(distortion: &DistortionReport, faces: [usize; 2]) {
@@ -23,13 +24,8 @@ fn no_dents(distortion: &DistortionReport, faces: [usize; 2]) {
     }
 }
 
-#[test]
-fn the_relief_of_the_skin_brings_the_map_nearer_to_the_known_one() {
-    let Some(data) = common::data_folder("the_relief_of_the_skin_brings_the_map_nearer_to_the_known_one")
-    else {
-        return;
-    };
-    let pair = common::read_pair(&data, "horse-horse01");
+fn the_relief_of_the_skin_brings_the_map_nearer_to_the_known_one(data: &Path) {
+    let pair = common::read_pair(data, "horse-horse01");
     let landmarks = common::landmarks(&pair);
     let input = pair.input(&landmarks, GroundTruth::SameConnectivity);
     let error = |relief: RigidPatchOptions| {

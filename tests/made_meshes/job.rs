@@ -1,6 +1,5 @@
 //! A job from files to a map: the stages it passes, and what is left where something beside the map fails. On the program's own
 //! demos, so that it runs everywhere.
-#![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
 
 use conemap::cone_metric::FlowOptions;
 use conemap::demo;

@@ -1,27 +1,10 @@
 //! Geodesic distances on meshes that no tool would be proud of: bounds that hold whatever the triangles are.
-#![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
 
-mod common;
-#[path = "common/exact_geodesics.rs"]
-mod exact;
-#[path = "common/rough_meshes.rs"]
-mod rough_meshes;
-
-use conemap::geodesic::{distances, shorten};
-use conemap::mesh::{SurfaceMesh, VertexId};
-use exact::{along_edges, exact_distances};
-use rough_meshes::{Random, body, cut_octahedron, roughened};
-
-/// No longer than along edges, hardly shorter than straight through space.
-fn check_bounds(mesh: &SurfaceMesh, seed: VertexId, name: &str) {
-    let (found, most) = (distances(mesh, &[seed]), along_edges(mesh, &[seed]));
-    for v in mesh.vertices() {
-        let (d, most) = (found[v], most[v.index()]);
-        let straight = mesh.positions()[v].distance(mesh.positions()[seed]);
-        assert!(d <= most * (1.0 + 1e-12), "{name}: vertex {v:?} at {d}, along edges at {most}");
-        assert!(d >= 0.99 * straight, "{name}: vertex {v:?} at {d}, in space at {straight}");
-    }
-}
+use crate::distance_bounds::check_bounds;
+use crate::exact_geodesics::exact_distances;
+use crate::rough_meshes::{Random, body, cut_octahedron, roughened};
+use conemap::geodesic::distances;
+use conemap::mesh::VertexId;
 
 #[test]
 fn distances_on_rough_meshes_are_between_those_in_space_and_those_along_edges() {
@@ -79,22 +62,4 @@ fn distances_on_bodies_are_nearly_exact() {
         }
     }
     assert!(sum / count < 0.003, "mean error {}", sum / count);
-}
-
-/// The mesh on which a front that sinks by rounding never ended.
-#[test]
-fn distances_end_on_meshes_that_once_hung() {
-    let Some(data) = common::data_folder("distances_end_on_meshes_that_once_hung") else { return };
-    for name in ["remeshed-horse", "centaur0", "centaur1-remeshed"] {
-        let mesh = common::read_mesh(&data.join("hang").join(format!("{name}.off")));
-        for k in 0..8 {
-            check_bounds(&mesh, VertexId::from(k * mesh.vertex_count() / 8), name);
-        }
-        let mut nearest = distances(&mesh, &[VertexId(0)]);
-        for v in mesh.vertices().step_by(100) {
-            let before = nearest.clone();
-            shorten(&mesh, &[v], &mut nearest);
-            assert!(nearest[v] == 0.0 && nearest.iter().zip(&before).all(|(now, before)| now <= before));
-        }
-    }
 }

@@ -1,5 +1,4 @@
 //! A map that is asked for before it is done: whole and certified at any time.
-#![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
 
 use conemap::demo;
 use conemap::landmarks::Landmarks;

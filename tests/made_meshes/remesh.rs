@@ -1,34 +1,13 @@
 //! Remeshing: counts, shapes, distances, sharp edges, and what carries points to the new mesh.
-#![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
 
-mod common;
-
+use crate::remeshing::remeshed;
 use conemap::mesh::check::closed_genus_zero;
 use conemap::mesh::generators::{icosphere, midpoint_subdivision, octahedron, torus};
 use conemap::mesh::soup::PolygonSoup;
-use conemap::mesh::surface_index::SurfaceIndex;
 use conemap::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use conemap::monitor::{Cancelled, Monitor, Silent, Stage, Step};
 use conemap::remesh::{EdgeLengths, Error, Noise, Options, Remeshed, carried, decimated, perturbed, remesh};
 use glam::DVec3;
-
-/// Remeshes and checks what every result must have.
-fn remeshed(name: &str, surface: &SurfaceMesh, options: &Options) -> Remeshed {
-    let result = remesh(surface, options, &mut Silent).unwrap_or_else(|e| panic!("{name}: {e}"));
-    let Remeshed { mesh, report } = &result;
-    let positions = mesh.positions().iter().copied().collect();
-    SurfaceMesh::from_triangles(positions, mesh.triangles().iter().copied().collect())
-        .unwrap_or_else(|e| panic!("{name}: {e}"));
-    assert_eq!(mesh.euler_characteristic(), surface.euler_characteristic(), "{name}");
-    let (faces, wanted) = (mesh.face_count() as f64, options.faces as f64);
-    assert!((faces - wanted).abs() <= 1.0_f64.max(0.05 * wanted), "{name}: {faces} of {wanted}");
-    assert_eq!(report.faces, mesh.face_count());
-    let index = SurfaceIndex::new(surface);
-    let farthest = mesh.positions().iter().map(|p| index.nearest(*p).distance).fold(0.0, f64::max);
-    assert!(farthest < 1e-9 * report.edge_length.mean, "{name}: a vertex is {farthest} off the surface");
-    assert!(report.distance.to_original >= farthest, "{name}");
-    result
-}
 
 /// The cube of side 2 as 12 triangles.
 fn cube() -> SurfaceMesh {
@@ -211,20 +190,6 @@ fn variants_are_other_meshes_of_the_surface() {
     let radius = |v: VertexId| rough.positions()[v].length();
     assert!(ball.vertices().any(|v| (radius(v) - 1.0).abs() > 0.05 * mean));
     assert!(ball.vertices().all(|v| (radius(v) - 1.0).abs() < 0.12 * mean));
-}
-
-#[test]
-fn real_meshes_with_slivers() {
-    let Some(data) = common::data_folder("real_meshes_with_slivers") else { return };
-    for (name, share) in [("sumner/camel", 0.25), ("single/spot", 1.0), ("shrec07/400", 2.0)] {
-        let surface = common::read_mesh(&data.join(name).with_extension("off"));
-        let faces = (share * surface.face_count() as f64) as usize;
-        let report = remeshed(name, &surface, &Options::to_faces(faces)).report;
-        assert!(report.mean_min_angle > 48.0, "{name}: {report:?}");
-        assert!(report.edge_length.deviation < 0.2 * report.edge_length.mean, "{name}: {report:?}");
-        let edges = 3.0 * report.edge_length.mean;
-        assert!(report.distance.to_original < edges && report.distance.from_original < edges, "{report:?}");
-    }
 }
 
 #[cfg(not(target_arch = "wasm32"))]

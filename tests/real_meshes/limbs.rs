@@ -1,13 +1,14 @@
 //! Limbs without a landmark on real animals.
-#![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
 
-mod common;
-
+use crate::common;
 use conemap::monitor::Silent;
 use conemap::pipeline::{FindingKind, GroundTruth, MapInput, findings};
+use std::path::Path;
+
+tests![tails_without_a_landmark_are_named_and_nothing_else];
 
 /// Sides (0 source, 1 target) of a pair on which limbs are named, with how many.
-fn named(data: &std::path::Path, name: &str) -> Vec<(usize, usize)> {
+fn named(data: &Path, name: &str) -> Vec<(usize, usize)> {
     let pair = common::read_pair(data, name);
     let landmarks = common::landmarks(&pair);
     let (source, target, ground_truth) = (&pair.source, &pair.target, GroundTruth::Unknown);
@@ -18,13 +19,9 @@ fn named(data: &std::path::Path, name: &str) -> Vec<(usize, usize)> {
 }
 
 /// The 21 landmarks of the SHREC07 pairs leave the tails out: five of eight are long. The 33 landmarks leave nothing out.
-#[test]
-fn tails_without_a_landmark_are_named_and_nothing_else() {
-    let Some(data) = common::data_folder("tails_without_a_landmark_are_named_and_nothing_else") else {
-        return;
-    };
+fn tails_without_a_landmark_are_named_and_nothing_else(data: &Path) {
     for name in ["cat-cat1", "cat-dog", "cat-lion", "horse-camel", "horse-horse05"] {
-        assert_eq!(named(&data, name), [], "{name}");
+        assert_eq!(named(data, name), [], "{name}");
     }
     let expected: [(&str, &[(usize, usize)]); 4] = [
         ("shrec07-381-383", &[(1, 1)]),
@@ -33,6 +30,6 @@ fn tails_without_a_landmark_are_named_and_nothing_else() {
         ("shrec07-397-400", &[(0, 1), (1, 1)]),
     ];
     for (name, sides) in expected {
-        assert_eq!(named(&data, name), sides, "{name}");
+        assert_eq!(named(data, name), sides, "{name}");
     }
 }

@@ -1,6 +1,7 @@
 //! Exact geodesic distances on small meshes, as a judge of the approximate ones: windows carried from face to face, the nearest
 //! first (Chen & Han 1990), those dropped that a way through a vertex beats (Xin & Wang 2009).
 
+use crate::distance_bounds::along_edges;
 use conemap::mesh::{HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec2;
 use std::cmp::{Ordering, Reverse};
@@ -50,30 +51,6 @@ struct Search<'a> {
 
 /// More windows than this are a fault of the mesh's numbers, not of its size.
 const MOST_WINDOWS: u64 = 5_000_000;
-
-/// Shortest ways along edges.
-pub fn along_edges(mesh: &SurfaceMesh, seeds: &[VertexId]) -> Vec<f64> {
-    let mut distance = vec![f64::INFINITY; mesh.vertex_count()];
-    let mut queue: BinaryHeap<(Reverse<u64>, VertexId)> = BinaryHeap::new();
-    for &seed in seeds {
-        distance[seed.index()] = 0.0;
-        queue.push((Reverse(0), seed));
-    }
-    while let Some((Reverse(bits), v)) = queue.pop() {
-        let here = f64::from_bits(bits);
-        if here > distance[v.index()] {
-            continue;
-        }
-        for h in mesh.star(v) {
-            let (w, through) = (mesh.head(h), here + mesh.length(h));
-            if through < distance[w.index()] {
-                distance[w.index()] = through;
-                queue.push((Reverse(through.to_bits()), w));
-            }
-        }
-    }
-    distance
-}
 
 /// Distances of all vertices to a seed, exact but for rounding.
 pub fn exact_distances(mesh: &SurfaceMesh, seed: VertexId) -> Vec<f64> {

@@ -1,9 +1,8 @@
 //! The command line: exit codes, reports, output files, and sentences for bad input.
-#![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
-#![cfg(feature = "cli")]
 
-mod common;
-
+use crate::command_line::{a_failed_flow_reports, conemap, cones, errors, folder, json, map_and_check};
+use crate::common;
+use crate::fixtures;
 use conemap::export;
 use conemap::io::{self, landmark_file};
 use conemap::mesh::check::closed_genus_zero;
@@ -13,32 +12,8 @@ use conemap::mesh::{FaceId, SurfaceMesh, VertexId};
 use glam::DVec3;
 use serde_json::Value;
 use std::ffi::OsStr;
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
-use std::time::{Duration, Instant};
-
-/// An empty folder of this test's own.
-fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
-    if folder.exists() {
-        std::fs::remove_dir_all(&folder).unwrap();
-    }
-    std::fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-fn conemap<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_conemap")).args(arguments).output().unwrap()
-}
-
-fn errors(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-fn json(path: &Path) -> Value {
-    serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap()
-}
+use std::process::{Command, Stdio};
 
 /// An octahedron subdivided onto the unit sphere.
 fn octasphere() -> SurfaceMesh {
@@ -81,81 +56,6 @@ fn write_files(folder: &Path, meshes: [&SurfaceMesh; 2], landmarks: &[[u32; 2]])
     };
     std::fs::write(&pairs, landmark_file::write(&file)).unwrap();
     [source, target, pairs]
-}
-
-/// Lines `vertex angle_defect` with equal defects.
-fn cones(vertices: &[VertexId]) -> String {
-    let defect = 4.0 * std::f64::consts::PI / vertices.len() as f64;
-    vertices.iter().fold(String::from("# vertex angle_defect\n"), |mut text, v| {
-        writeln!(text, "{} {defect}", v.0).unwrap();
-        text
-    })
-}
-
-/// Runs `map` with all outputs and checks them.
-fn map_and_check([source, target, pairs]: [&Path; 3], folder: &Path) {
-    let (out, report_file) = (folder.join("out"), folder.join("reports/report.json"));
-    let output = conemap([
-        OsStr::new("map"),
-        source.as_os_str(),
-        target.as_os_str(),
-        OsStr::new("--landmarks"),
-        pairs.as_os_str(),
-        OsStr::new("--out"),
-        out.as_os_str(),
-        OsStr::new("--report"),
-        report_file.as_os_str(),
-    ]);
-    assert!(output.status.success(), "{}", errors(&output));
-    assert!(errors(&output).contains("certified bijective: 0 of "), "{}", errors(&output));
-
-    let report = json(&report_file);
-    let fields = common::json_fields(&report);
-    let (seconds, fields): (Vec<_>, Vec<_>) = fields.into_iter().partition(|f| f.starts_with("seconds."));
-    let mut expected = common::REPORT_FIELDS.to_vec();
-    expected.sort_unstable();
-    assert_eq!(fields, expected);
-    for stage in ["class_search", "source_cone_metric", "target_cone_metric", "relaxation", "total"] {
-        assert!(seconds.contains(&format!("seconds.{stage}")), "{seconds:?}");
-    }
-    assert_eq!(report["certificate"]["bijective"], true);
-    assert!(report["cone_metric"]["target"]["seconds"].as_f64().unwrap() > 0.0);
-
-    let read = |path: &Path| io::read_mesh(&std::fs::read(path).unwrap()).unwrap();
-    let source_mesh = closed_genus_zero(&read(source)).unwrap().mesh;
-    let glb = read(&out.join("source-with-target-texture.glb"));
-    assert!(glb.polygons.len() >= source_mesh.face_count());
-    let base = closed_genus_zero(&read(&out.join("base-domain.obj"))).unwrap().mesh;
-    let landmarks = landmark_file::read(&std::fs::read(pairs).unwrap()).unwrap().pairs.len();
-    assert_eq!(base.vertex_count(), landmarks);
-    let csv = std::fs::read_to_string(out.join("vertex-images.csv")).unwrap();
-    assert_eq!(csv.lines().count(), 1 + source_mesh.vertex_count());
-    assert!(csv.lines().all(|line| line.split(',').count() == 5 && !line.ends_with(',')));
-    check_distortion(&out, [source_mesh.vertex_count(), glb.polygons.len()]);
-    // The landmarks of real pairs fit, but may leave a limb out.
-    let findings = report["findings"].as_array().unwrap();
-    assert!(findings.iter().all(|f| f["kind"] == "unmarked_limbs"), "{findings:?}");
-    let faces = |side: &str| report["faces"][side].as_u64().unwrap();
-    let checked = report["certificate"]["triangles"].as_u64().unwrap();
-    // More where points of the program's own were inserted.
-    assert!(checked >= faces("source") + faces("target"), "{checked}");
-}
-
-/// No density and no angle distortion below 1, no turned triangle; at least as many triangles as were welded from the GLB.
-fn check_distortion(out: &Path, [vertices, triangles]: [usize; 2]) {
-    let rows = |name: &str| -> Vec<Vec<f64>> {
-        let text = std::fs::read_to_string(out.join(name)).unwrap();
-        text.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect()
-    };
-    let by_triangle = rows("distortion.csv");
-    assert!(by_triangle.len() >= triangles, "{} {triangles}", by_triangle.len());
-    for row in &by_triangle {
-        let [_, _, _, density, angle, area] = row[..] else { panic!("{row:?}") };
-        assert!(density > 1.0 - 1e-12 && angle > 1.0 - 1e-12 && area > 0.0, "{row:?}");
-    }
-    let by_vertex = rows("vertex-distortion.csv");
-    assert_eq!(by_vertex.len(), vertices);
-    assert!(by_vertex.iter().all(|row| row[1] > 1.0 - 1e-12));
 }
 
 #[test]
@@ -359,8 +259,9 @@ fn an_interrupt_finishes_with_a_certified_map() {
         .spawn()
         .unwrap();
     let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
-    // The stage before the search for the layout has ended: the program listens now.
-    let mut said = vec![lines.find(|line| line.starts_with("landmarks")).expect("a first stage")];
+    // The search for the layout has begun: the program listens now.
+    let mut said =
+        vec![lines.find(|line| line.starts_with("findings")).expect("the stage before the search")];
     let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     assert!(sent.success());
     said.extend(lines);
@@ -399,38 +300,6 @@ fn suggests_vertices_as_json() {
     );
 }
 
-/// The program's output, within a minute of wall time.
-fn conemap_in_a_minute<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_conemap"));
-    let mut child = command.args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    let begun = Instant::now();
-    while child.try_wait().unwrap().is_none() {
-        if begun.elapsed() > Duration::from_secs(60) {
-            child.kill().unwrap();
-            panic!("{command:?} did not end");
-        }
-        std::thread::sleep(Duration::from_millis(20));
-    }
-    child.wait_with_output().unwrap()
-}
-
-#[test]
-fn suggestions_end_on_all_meshes() {
-    let Some(data) = common::data_folder("suggestions_end_on_all_meshes") else { return };
-    for folder in ["single", "hang"] {
-        let files = std::fs::read_dir(data.join(folder)).unwrap().map(|entry| entry.unwrap().path());
-        let mut meshes: Vec<_> = files.filter(|path| path.extension() == Some(OsStr::new("off"))).collect();
-        meshes.sort();
-        assert!(!meshes.is_empty());
-        for mesh in meshes {
-            let output = conemap_in_a_minute([OsStr::new("suggest"), mesh.as_os_str()]);
-            assert!(output.status.success(), "{}: {}", mesh.display(), errors(&output));
-            let json: Value = serde_json::from_slice(&output.stdout).unwrap();
-            assert!(!json["suggestions"].as_array().unwrap().is_empty(), "{}", mesh.display());
-        }
-    }
-}
-
 #[test]
 fn the_patchwise_map_has_no_certificate() {
     let folder = folder("the_patchwise_map_has_no_certificate");
@@ -445,15 +314,6 @@ fn the_patchwise_map_has_no_certificate() {
     let report = json(&report_file);
     assert!(report["certificate"].is_null());
     assert!((0.0..1.0).contains(&report["unmapped_share"].as_f64().unwrap()));
-}
-
-#[test]
-fn maps_a_real_pair() {
-    let Some(data) = common::data_folder("maps_a_real_pair") else { return };
-    let pairs = data.join("pairs/shrec07-397-400.json");
-    let file = landmark_file::read(&std::fs::read(&pairs).unwrap()).unwrap();
-    let [source, target] = [file.source, file.target].map(|mesh| data.join(mesh.unwrap()));
-    map_and_check([&source, &target, &pairs], &folder("maps_a_real_pair"));
 }
 
 #[test]
@@ -484,27 +344,11 @@ fn flows_to_the_listed_cones() {
 
 #[test]
 fn a_flow_that_does_not_converge_fails_and_still_reports() {
-    let name = "a_flow_that_does_not_converge_fails_and_still_reports";
-    let Some(data) = common::data_folder(name) else { return };
-    let folder = folder(name);
-    let mesh = data.join("single/homer.off");
-    let (list, report_file) = (folder.join("cones.txt"), folder.join("report.json"));
-    std::fs::write(&list, cones(&common::farthest_points(&common::read_mesh(&mesh), 33))).unwrap();
-    let arguments = |scheme: &'static str| {
-        let flags = ["flow", "--scheme", scheme, "--cones"].map(OsStr::new);
-        [&flags[..], &[list.as_os_str(), OsStr::new("--report"), report_file.as_os_str(), mesh.as_os_str()]]
-            .concat()
-    };
-    let output = conemap(arguments("fixed-triangulation"));
-    assert_eq!(output.status.code(), Some(1));
-    assert!(errors(&output).contains("did not converge"), "{}", errors(&output));
-    let report = json(&report_file);
-    assert_eq!(report["converged"], false);
-    assert!(report["cone_metric"]["residuals"].as_array().unwrap().len() > 1);
-
-    let output = conemap(arguments("inversive"));
-    assert!(output.status.success(), "{}", errors(&output));
-    assert_eq!(json(&report_file)["converged"], true);
+    let folder = folder("a_flow_that_does_not_converge/cat");
+    let case = fixtures::rough_demo("horse-cat");
+    let mesh = folder.join("cat.obj");
+    std::fs::write(&mesh, export::obj::mesh(&case.target)).unwrap();
+    a_failed_flow_reports(&mesh, &case.landmarks.target, &folder);
 }
 
 /// Fails with code 1 and one sentence that holds all the words.

@@ -1,0 +1,90 @@
+//! Whether landmarks fit each other, judged on coarse meshes.
+#![allow(dead_code, reason = "every test binary uses another part")]
+
+use crate::theorems;
+use conemap::landmark_fit::{Finding, Repair, landmark_fit};
+use conemap::landmarks::Landmarks;
+use conemap::layout::LandmarkDistances;
+use conemap::mesh::coarsening::Level;
+use conemap::mesh::{SurfaceMesh, VertexId};
+use conemap::monitor::Silent;
+use glam::DVec3;
+
+/// Two coarse meshes with landmarks.
+pub struct Case {
+    pub name: String,
+    pub source: SurfaceMesh,
+    pub target: SurfaceMesh,
+    pub landmarks: Landmarks,
+}
+
+impl Case {
+    pub fn of(case: &theorems::Case) -> Self {
+        let (source, from) = coarse(&case.source, &case.landmarks.source);
+        let (target, onto) = coarse(&case.target, &case.landmarks.target);
+        Self { name: case.name.clone(), source, target, landmarks: Landmarks { source: from, target: onto } }
+    }
+
+    pub fn findings(&self, landmarks: &Landmarks) -> Vec<Finding> {
+        let meshes = [&self.source, &self.target];
+        landmark_fit(meshes, landmarks, &LandmarkDistances::new(meshes, landmarks), &mut Silent)
+            .expect("nobody stops")
+    }
+}
+
+fn coarse(mesh: &SurfaceMesh, held: &[VertexId]) -> (SurfaceMesh, Vec<VertexId>) {
+    let level = Level::coarse(mesh, held, 800);
+    let number =
+        |v: &VertexId| level.vertices.iter().position(|w| w == v).expect("landmarks are kept").into();
+    let numbers = held.iter().map(number).collect();
+    (level.mesh, numbers)
+}
+
+/// The mirror image.
+pub fn mirrored(mesh: &SurfaceMesh) -> SurfaceMesh {
+    let positions = mesh.positions().iter().map(|p| DVec3::new(-p.x, p.y, p.z)).collect();
+    let faces = mesh.triangles().iter().map(|&[a, b, c]| [a, c, b]).collect();
+    SurfaceMesh::from_triangles(positions, faces).expect("the same connectivity")
+}
+
+/// The pairs that are to be exchanged.
+pub fn swaps(findings: &[Finding]) -> Vec<[usize; 2]> {
+    let swap = |finding: &Finding| match finding.repair() {
+        Repair::Swap { pairs } => Some(pairs),
+        _ => None,
+    };
+    findings.iter().filter_map(swap).collect()
+}
+
+/// Landmarks that fit raise no alarm; those of the target's mirror image do, and it is the one of a mirror.
+pub fn only_the_mirror_image_raises_an_alarm(case: Case) {
+    let findings = case.findings(&case.landmarks);
+    assert!(findings.is_empty(), "{}: {findings:?}", case.name);
+    let reflected = Case { target: mirrored(&case.target), ..case };
+    let findings = reflected.findings(&reflected.landmarks);
+    assert!(findings.iter().any(|f| f.repair() == Repair::MirrorTarget), "{}", reflected.name);
+    let agreement = findings.iter().find_map(|finding| match finding {
+        Finding::Mirrored { agreement } => Some(*agreement),
+        _ => None,
+    });
+    assert!(agreement.is_some_and(|a| a < -0.5), "{}: {agreement:?}", reflected.name);
+}
+
+/// Of some exchanged targets that lie apart nine in ten are named, and no others.
+pub fn exchanged_targets_are_named(case: &Case) {
+    let (name, n) = (&case.name, case.landmarks.len());
+    let distances = LandmarkDistances::new([&case.source, &case.target], &case.landmarks);
+    let (mut found, mut tried) = (0, 0);
+    for (a, b) in (0..n).flat_map(|a| (0..a).map(move |b| (a, b))) {
+        if (a * 7 + b * 3) % 11 != 0 || distances.between([a, b])[1] < 0.3 {
+            continue;
+        }
+        let mut landmarks = case.landmarks.clone();
+        landmarks.target.swap(a, b);
+        let swaps = swaps(&case.findings(&landmarks));
+        assert!(swaps.iter().all(|pairs| *pairs == [b, a]), "{name}: {swaps:?} for {b} and {a}");
+        tried += 1;
+        found += usize::from(!swaps.is_empty());
+    }
+    assert!(tried >= 10 && found * 10 >= tried * 9, "{name}: {found} of {tried}");
+}

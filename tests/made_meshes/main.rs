@@ -1,0 +1,41 @@
+//! The tests on meshes that the project makes itself: its demos, those remeshed, bent or made rough, and generated ones.
+#![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
+
+#[path = "../common/classes.rs"]
+mod classes;
+#[cfg(feature = "cli")]
+#[path = "../common/command_line.rs"]
+mod command_line;
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/distance_bounds.rs"]
+mod distance_bounds;
+#[path = "../common/fit.rs"]
+mod fit;
+#[path = "../common/points.rs"]
+mod points;
+#[path = "../common/remeshing.rs"]
+mod remeshing;
+#[path = "../common/theorems.rs"]
+mod theorems;
+
+mod exact_geodesics;
+mod fixtures;
+mod rough_meshes;
+
+mod base;
+#[cfg(feature = "cli")]
+mod cli;
+mod clicks;
+mod few;
+mod finish_now;
+mod flow;
+mod geodesic;
+mod job;
+mod landmark_fit;
+mod layout;
+mod map;
+mod pipeline;
+mod remesh;
+mod search;
+mod thesis;

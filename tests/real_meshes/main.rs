@@ -1,0 +1,104 @@
+//! The tests on real meshes, which are not part of the project and lie beside it (`../shared/data`). In a plain checkout each is
+//! shown as ignored, by its name; where the folder is there, a missing file fails the tests that read it, and is named.
+#![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
+#![allow(clippy::print_stderr, reason = "says once why tests are ignored")]
+
+use libtest_mimic::{Arguments, Failed, Trial};
+use std::path::Path;
+use std::process::ExitCode;
+
+#[path = "../common/classes.rs"]
+mod classes;
+#[cfg(feature = "cli")]
+#[path = "../common/command_line.rs"]
+mod command_line;
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/distance_bounds.rs"]
+mod distance_bounds;
+#[path = "../common/fit.rs"]
+mod fit;
+#[path = "../common/points.rs"]
+mod points;
+#[path = "../common/remeshing.rs"]
+mod remeshing;
+#[path = "../common/theorems.rs"]
+mod theorems;
+
+/// The tests of a module, by their functions' names. A function that is left out is unused, which the compiler tells.
+macro_rules! tests {
+    ($($name:ident),+ $(,)?) => {
+        pub fn tests() -> Vec<(&'static str, crate::Test)> {
+            vec![$((stringify!($name), $name)),+]
+        }
+    };
+}
+
+mod bad_input;
+mod base;
+#[cfg(feature = "cli")]
+mod cli;
+mod clicks;
+mod data;
+mod few;
+mod flow;
+mod geodesic;
+mod landmark_fit;
+mod layout;
+mod limbs;
+mod map;
+mod pipeline;
+mod poses;
+mod remesh;
+mod search;
+mod thesis;
+
+/// Takes the data folder; fails by a panic.
+type Test = fn(&Path);
+
+/// The tests by module, the longest first: they are begun in this order.
+fn modules() -> Vec<(&'static str, Vec<(&'static str, Test)>)> {
+    vec![
+        ("base", base::tests()),
+        ("landmark_fit", landmark_fit::tests()),
+        ("pipeline", pipeline::tests()),
+        ("few", few::tests()),
+        ("layout", layout::tests()),
+        ("poses", poses::tests()),
+        ("map", map::tests()),
+        ("search", search::tests()),
+        ("limbs", limbs::tests()),
+        ("clicks", clicks::tests()),
+        ("flow", flow::tests()),
+        ("thesis", thesis::tests()),
+        ("remesh", remesh::tests()),
+        #[cfg(feature = "cli")]
+        ("cli", cli::tests()),
+        ("geodesic", geodesic::tests()),
+        ("bad_input", bad_input::tests()),
+        ("data", data::tests()),
+    ]
+}
+
+fn trial(module: &str, name: &str, test: Test) -> Trial {
+    let run = move || -> Result<(), Failed> {
+        test(&common::data_path());
+        Ok(())
+    };
+    Trial::test(format!("{module}::{name}"), run).with_ignored_flag(!common::has_data())
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::from_args();
+    let named = modules()
+        .into_iter()
+        .flat_map(|(module, tests)| tests.into_iter().map(move |(name, test)| trial(module, name, test)));
+    let trials: Vec<Trial> = named.collect();
+    if !common::has_data() && !arguments.list {
+        eprintln!(
+            "the {} tests on real meshes are ignored: ../shared/data is not part of a plain checkout",
+            trials.len()
+        );
+    }
+    libtest_mimic::run(&arguments, trials).exit_code()
+}
