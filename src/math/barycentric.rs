@@ -29,7 +29,7 @@ mod tests {
     fn points_outside_go_to_the_border() {
         let corners = [DVec2::ZERO, DVec2::new(2.0, 0.0), DVec2::new(0.0, 2.0)];
         assert_eq!(clamped_in(corners, DVec2::new(0.5, 0.5)), [0.5, 0.25, 0.25]);
-        assert_eq!(clamped_in(corners, DVec2::new(1.0, -1.0)), [0.5, 0.5, 0.0]);
+        assert_eq!(clamped_in(corners, DVec2::new(1.0, -0.5)), [0.6, 0.4, 0.0]);
         assert_eq!(clamped_in(corners, DVec2::new(-3.0, -1.0)), [1.0, 0.0, 0.0]);
     }
 }

@@ -162,7 +162,7 @@ impl Fitter {
     ) -> Option<PatchFit> {
         let centre = *points.first()?;
         let total: f64 = points.iter().map(|p| p.weight).sum();
-        let mut motion = start(points, total)?;
+        let mut motion = start(points, total, onto)?;
         let mut fit = None;
         for _ in 0..options.max_steps {
             let at = motion.apply(centre.position);
@@ -238,7 +238,8 @@ impl Fitter {
 }
 
 /// The rigid motion that takes the points nearest to their images.
-fn start(points: &[PatchPoint], total: f64) -> Option<Rigid3> {
+fn start(points: &[PatchPoint], total: f64, onto: &OrientedSurface<'_>) -> Option<Rigid3> {
+    let centre = points[0];
     let (mut mean, mut image) = (DVec3::ZERO, DVec3::ZERO);
     for p in points {
         mean += p.position * (p.weight / total);
@@ -248,7 +249,16 @@ fn start(points: &[PatchPoint], total: f64) -> Option<Rigid3> {
         .iter()
         .map(|p| outer((p.image - image) * (p.weight / total), p.position - mean))
         .fold(DMat3::ZERO, |sum, m| sum + m);
-    Some(Rigid3::with_point(nearest_rotation(&moment)?, mean, image))
+    let distance = |p: &PatchPoint| p.position.distance_squared(centre.position);
+    let far = points.iter().max_by(|p, q| distance(p).total_cmp(&distance(q)))?;
+    let frame = |normal: DVec3, d: DVec3| {
+        let along = d.reject_from_normalized(normal).normalize_or(normal.any_orthonormal_vector());
+        DMat3::from_cols(along, normal.cross(along), normal)
+    };
+    let onto_normal = onto.normals[centre.near];
+    let guess = frame(onto_normal, far.image - centre.image)
+        * frame(centre.normal, far.position - centre.position).transpose();
+    Some(Rigid3::with_point(nearest_rotation(&moment, guess), mean, image))
 }
 
 #[cfg(test)]
