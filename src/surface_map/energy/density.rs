@@ -1,5 +1,5 @@
 //! What an energy of maps is made of: a density as a function of the Jacobian. A further energy is a further file that
-//! implements [`Density`], tested by [`testing`].
+//! implements [`Density`], tested by `testing`.
 
 use glam::{DMat2, DVec2};
 

@@ -1,5 +1,5 @@
 //! Energies of single vertices by their images. A further one is a further file that implements [`VertexEnergy`], tested by
-//! [`testing`].
+//! `testing`.
 
 use glam::{DMat2, DVec2, DVec3};
 
