@@ -4,7 +4,7 @@ use crate::arguments::MapArguments;
 use crate::clock::Clock;
 use crate::input::{self, Failure};
 use crate::interrupt;
-use conemap::job::{Job, JobError, JobFile, JobFiles, TargetImage};
+use conemap::job::{Job, JobError, JobFile, JobFiles, MeshFaults, ReadOptions, TargetImage};
 use conemap::pipeline::{FindingReport, MapResult, Method, PipelineOptions, RepairKind};
 
 /// Maps, writes what was asked for, and tells the certificate; an error where there is no certified map.
@@ -40,7 +40,9 @@ fn read(arguments: &MapArguments, clock: &mut Clock) -> Result<Job, Failure> {
     let bytes = [input::bytes(source)?, input::bytes(target)?, input::bytes(landmarks)?];
     let files = JobFiles { source: &bytes[0], target: &bytes[1], landmarks: &bytes[2] };
     let target_image = if arguments.mirror_target { TargetImage::Mirrored } else { TargetImage::AsGiven };
-    Job::read(files, target_image, clock).map_err(|error: JobError| {
+    let repairs = MeshFaults::Repaired(arguments.repairs.into());
+    let mesh_faults = if arguments.strict { MeshFaults::Refused } else { repairs };
+    Job::read(files, ReadOptions { target_image, mesh_faults }, clock).map_err(|error: JobError| {
         let file = error.file().map(|file| match file {
             JobFile::Source => source,
             JobFile::Target => target,
