@@ -60,7 +60,7 @@ impl CheckedMesh {
 
     /// Whether any face is part of a cap.
     pub fn has_caps(&self) -> bool {
-        self.repaired_faces.as_ref().is_some_and(|faces| faces.is_cap.contains(&true))
+        self.repaired_faces.as_ref().is_some_and(|faces| faces.is_cap.raw.contains(&true))
     }
 
     /// Number of faces of the triangulated file.
@@ -122,6 +122,14 @@ impl<T> Elements<T> {
     /// None at all.
     pub(super) fn none() -> Self {
         Self { count: 0, first: Vec::new() }
+    }
+
+    /// These and others.
+    pub(super) fn and(mut self, other: Self) -> Self {
+        self.count += other.count;
+        self.first.extend(other.first);
+        self.first.truncate(10);
+        self
     }
 }
 

@@ -7,11 +7,19 @@ use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Numbers of faces of the file that this step changed.
+#[derive(Clone, Debug)]
 pub(super) struct Degenerate {
     /// Those that went.
     pub dropped: Elements<usize>,
     /// Those that were cut in two, where the corner of a face without area lay on their edge.
     pub recut: Elements<usize>,
+}
+
+impl Degenerate {
+    /// Of two steps.
+    pub fn and(self, other: Self) -> Self {
+        Self { dropped: self.dropped.and(other.dropped), recut: self.recut.and(other.recut) }
+    }
 }
 
 /// Rounds at most: each one is for faces that lie beside one changed before.
@@ -51,7 +59,8 @@ pub(super) fn without_degenerate(mut draft: Draft) -> (Draft, Degenerate) {
 }
 
 fn without(draft: Draft, stays: impl Fn(&DraftFace) -> bool, dropped: &mut Vec<usize>) -> Draft {
-    let (kept, gone): (Vec<_>, Vec<_>) = draft.faces.iter().partition(|face| stays(face));
+    let (kept, gone): (Vec<DraftFace>, Vec<DraftFace>) =
+        draft.faces.iter().copied().partition(|face| stays(face));
     dropped.extend(gone.iter().filter_map(DraftFace::number));
     draft.with_faces(kept)
 }
@@ -153,7 +162,10 @@ fn neighbour(draft: &Draft, edges: &[Edge], f: usize, k: usize) -> Option<usize>
     let ends = [a.min(b), a.max(b)];
     let edge = &edges[edges.binary_search_by_key(&ends, |edge| edge.ends).ok()?];
     match edge.sides[..] {
-        [s, t] => Some(if s as usize / 3 == f { t } else { s } as usize / 3),
+        [s, t] => {
+            let other = if s as usize / 3 == f { t } else { s };
+            Some(other as usize / 3)
+        }
         _ => None,
     }
 }
@@ -165,7 +177,8 @@ fn opposite(face: &DraftFace, [a, b]: [u32; 2]) -> u32 {
 /// A face cut in two from the middle of an edge to the opposite corner; `middle` is a vertex, and that of the file.
 fn halves(face: &DraftFace, [a, b]: [u32; 2], middle: (u32, u32)) -> [DraftFace; 2] {
     let half = |replaced: u32| {
-        let mut half = DraftFace { origin: FaceOrigin::Recut, ..*face };
+        let origin = if face.origin == FaceOrigin::Cap { FaceOrigin::Cap } else { FaceOrigin::Recut };
+        let mut half = DraftFace { origin, ..*face };
         for k in (0..3).filter(|&k| face.corners[k] == replaced) {
             (half.corners[k], half.file_corners[k]) = middle;
         }

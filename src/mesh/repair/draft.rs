@@ -20,7 +20,7 @@ pub(super) struct Draft {
 pub(super) struct DraftFace {
     /// Its vertices.
     pub corners: Triangle,
-    /// The file's vertices at its corners, before any were joined; those of a cap's rim, `u32::MAX` inside of a cap.
+    /// The file's vertices at its corners, before any were joined; of a cap [`NONE`] inside its rim.
     pub file_corners: Triangle,
     /// Where it comes from.
     pub origin: FaceOrigin,

@@ -50,7 +50,9 @@ fn walls(faces: &[DraftFace], groups: &[Vec<usize>]) -> FxHashSet<usize> {
     let mut wall: FxHashSet<usize> = groups.iter().filter(balance).flatten().copied().collect();
     let edges = edges(faces);
     let mut partners: FxHashMap<usize, &Vec<usize>> = FxHashMap::default();
-    groups.iter().for_each(|group| group.iter().for_each(|&f| drop(partners.insert(f, group))));
+    for group in groups {
+        partners.extend(group.iter().map(|&f| (f, group)));
+    }
     // A face that stays may leave an edge of its neighbours with one face: again until nothing changes.
     loop {
         let mut stays = Vec::new();
@@ -86,7 +88,9 @@ fn attached(
     for edge in edges {
         let inside: Vec<usize> =
             edge.sides.iter().filter_map(|side| place.get(&(*side as usize / 3)).copied()).collect();
-        inside.windows(2).for_each(|pair| drop(sets.join(pair[0], pair[1])));
+        for pair in inside.windows(2) {
+            sets.join(pair[0], pair[1]);
+        }
     }
     let roots: FxHashSet<usize> =
         order.iter().filter(|f| has_rest.contains(f)).map(|f| sets.root(place[f])).collect();

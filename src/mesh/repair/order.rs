@@ -60,6 +60,9 @@ fn steps(
     let (draft, sheets) = apart(oriented(draft)?);
     let (draft, dropped) = largest(oriented(draft)?, options.parts)?;
     let (draft, caps) = capped(draft)?;
+    // A corner on an edge without a face between leaves a hole without area, whose cap goes as such faces do.
+    let (draft, closed) = without_degenerate(draft);
+    let degenerate = degenerate.and(closed);
     let cap_share = caps.as_ref().map_or(0.0, |caps| caps.area_share);
     if cap_share > MOST_CAP {
         return Err(RepairRefusal::OpenSheet { cap_share });
@@ -147,9 +150,10 @@ fn vertex_from_file(soup: &PolygonSoup, draft: &Draft, judged: &CheckedMesh) -> 
     let mut vertices = vec![None; soup.positions.len()];
     for face in draft.faces.iter().filter(|face| face.origin != FaceOrigin::Cap) {
         for (&v, &from) in face.corners.iter().zip(&face.file_corners) {
-            let known = &mut vertices[from as usize];
             // Of the copies of a vertex, that which kept its number.
-            if known.is_none() || v == from {
+            if let Some(known) = vertices.get_mut(from as usize)
+                && (known.is_none() || v == from)
+            {
                 *known = judged.vertex_from_file[v as usize];
             }
         }

@@ -151,7 +151,7 @@ impl fmt::Display for Change {
 }
 
 /// A share in percent, with as many digits as say something.
-pub(super) fn percent(share: f64) -> String {
+fn percent(share: f64) -> String {
     let percent = 100.0 * share;
     if percent >= 9.95 {
         format!("{percent:.0}")
@@ -193,10 +193,40 @@ impl RepairReport {
         let changes: Vec<String> = self.changes.iter().map(Change::to_string).collect();
         changes.join(", ")
     }
+}
 
-    /// Whether the surface is another one than in the file: parts were dropped or holes closed.
-    pub fn changes_shape(&self) -> bool {
-        let shape = |c: &Change| matches!(c, Change::DroppedParts { .. } | Change::CappedHoles { .. });
-        self.changes.iter().any(shape)
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn changes_are_told_in_one_sentence_and_with_their_elements() {
+        let hole = Hole { edges: 5, rim_length: 0.1, area_share: 0.004, vertices: vec![7, 8, 9, 10, 11] };
+        let report = RepairReport {
+            fault: None,
+            changes: vec![
+                Change::JoinedVertices((20..33).collect()),
+                Change::TurnedFaces([4].into_iter().collect()),
+                Change::CappedHoles { holes: [hole.clone()].into_iter().collect(), faces: 3, area_share: 0.004 },
+            ],
+            cap_share: 0.004,
+        };
+        assert_eq!(
+            report.sentence(),
+            "13 duplicate vertices were joined, 1 face was turned over, 1 hole was capped (0.4 % of the area)"
+        );
+        let [joined, turned, capped] = &report.changes[..] else { panic!() };
+        let joined = serde_json::to_value(joined).unwrap();
+        assert_eq!((&joined["kind"], &joined["count"]), (&"joined_vertices".into(), &13.into()));
+        assert_eq!(joined["vertices"], serde_json::json!([20, 21, 22, 23, 24, 25, 26, 27, 28, 29]));
+        assert_eq!(ChangeReport::from(turned.clone()).faces, [4]);
+        let capped = ChangeReport::from(capped.clone());
+        assert_eq!((capped.holes, capped.area_share), (vec![hole], Some(0.004)));
+    }
+
+    #[test]
+    fn small_shares_are_not_nothing() {
+        let words = [0.1234, 0.0123, 0.001, 0.00001, 0.0].map(percent);
+        assert_eq!(words, ["12", "1.2", "0.1", "1e-3", "0"]);
     }
 }

@@ -66,10 +66,10 @@ fn add(draft: &mut Draft, rim: &[u32], patch: &Patch) {
     draft.positions.extend(&patch.points[patch.rim..]);
     draft.numbers.resize(draft.positions.len(), None);
     let vertex = |v: u32| rim.get(v as usize).copied().unwrap_or((first + v as usize - rim.len()) as u32);
-    let face = |t: &[u32; 3]| DraftFace {
-        corners: t.map(vertex),
-        file_corners: [NONE; 3],
-        origin: FaceOrigin::Cap,
+    let face = |t: &[u32; 3]| {
+        let corners = t.map(vertex);
+        let file_corners = corners.map(|v| draft.numbers[v as usize].unwrap_or(NONE));
+        DraftFace { corners, file_corners, origin: FaceOrigin::Cap }
     };
     draft.faces.extend(patch.triangles.iter().map(face));
 }
@@ -126,11 +126,8 @@ impl Surroundings {
         let filling = filled(&Rim { places: &places, beyond: &beyond, taken: &taken });
         let points = places.iter().copied().chain(filling.middle).collect();
         let mut patch = Patch::new(points, n, filling.triangles, taken);
-        let mean = |v: u32| {
-            let beside = self.beside(v);
-            beside.iter().map(|&w| at(w).distance(at(v))).sum::<f64>() / beside.len().max(1) as f64
-        };
-        let lengths: Vec<f64> = rim.iter().map(|&v| mean(v)).collect();
+        let length = |k: usize| places[k].distance(places[(k + 1) % n]);
+        let lengths: Vec<f64> = (0..n).map(|k| 0.5 * (length((k + n - 1) % n) + length(k))).collect();
         refine(&mut patch, &lengths);
         let around = |k: usize| {
             let on_rim = [rim[(k + n - 1) % n], rim[(k + 1) % n]];

@@ -116,7 +116,7 @@ impl Cost {
         }
     }
 
-    fn cmp(&self, other: &Self) -> Ordering {
+    fn order(&self, other: &Self) -> Ordering {
         let by_bend = || self.bend.total_cmp(&other.bend);
         self.flat.cmp(&other.flat).then_with(by_bend).then_with(|| self.area.total_cmp(&other.area))
     }
@@ -214,7 +214,7 @@ impl Stretches {
                 area: triangle::area(corners[0], corners[1], corners[2]),
             };
             let cost = before.and(after).and(own);
-            if found.is_none_or(|(best, _)| cost.cmp(&best) == Ordering::Less) {
+            if found.is_none_or(|(best, _)| cost.order(&best) == Ordering::Less) {
                 found = Some((cost, k));
             }
         }
@@ -291,7 +291,7 @@ mod tests {
     #[test]
     fn a_bent_loop_goes_on_as_the_faces_around_it() {
         // A square bent along the diagonal 0-2: the faces beyond lie in both planes.
-        let places = [DVec3::X, DVec3::new(0.0, 1.0, 0.5), DVec3::NEG_X, DVec3::new(0.0, -1.0, 0.5)];
+        let places = [DVec3::X, DVec3::new(0.0, 2.0, 1.0), DVec3::NEG_X, DVec3::new(0.0, -2.0, 1.0)];
         let normals = [normal([places[0], places[1], places[2]]), normal([places[0], places[2], places[3]])];
         let beyond = [normals[0], normals[0], normals[1], normals[1]];
         let filling = filled(&Rim { places: &places, beyond: &beyond, taken: &rim_edges(4) });

@@ -12,14 +12,14 @@ pub(super) struct Patch {
     pub rim: usize,
     /// Corners of the triangles.
     pub triangles: Vec<[u32; 3]>,
-    /// The side across each side; [`RIM`] at the rim.
+    /// The side across each side; `RIM` at the rim.
     across: Vec<u32>,
     /// All edges between its vertices, those of the surface around among them.
     taken: FxHashSet<[u32; 2]>,
 }
 
 /// No side across.
-pub(super) const RIM: u32 = u32::MAX;
+const RIM: u32 = u32::MAX;
 
 /// Cotangents at both corners opposite an edge that sum to less than this say that the other diagonal is better.
 const WORSE: f64 = -1e-9;
@@ -52,11 +52,6 @@ impl Patch {
             }
         }
         Self { points, rim, triangles, across, taken }
-    }
-
-    /// The side across a side.
-    pub fn across(&self, side: usize) -> u32 {
-        self.across[side]
     }
 
     /// Places of a triangle's corners.

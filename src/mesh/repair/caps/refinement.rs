@@ -15,7 +15,8 @@ const ROUNDS: usize = 40;
 /// Vertices at most, for each one of the rim: a limit that caps of sound rims do not reach.
 const VERTICES: usize = 40;
 
-/// Divides the triangles of a cap and makes them Delaunay; `lengths` are those of the edges around each vertex of the rim.
+/// Divides the triangles of a cap and makes them Delaunay; `lengths` are the means of both edges of the rim at each of
+/// its vertices.
 pub(super) fn refine(patch: &mut Patch, lengths: &[f64]) {
     let mut lengths = lengths.to_vec();
     // A vertex in the middle is as far from the rim as it is.
