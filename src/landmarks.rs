@@ -110,6 +110,18 @@ pub enum LandmarkError {
         /// The face number.
         face: usize,
     },
+    /// A face of a cap.
+    #[error(
+        "landmark pair {} (the first is 1) lies in a cap of the {side}, which was made up to close a hole: move it onto the \
+         skin around",
+        pair + 1
+    )]
+    InCap {
+        /// The mesh.
+        side: MeshSide,
+        /// The pair, 0-based.
+        pair: usize,
+    },
     /// Weights that are no barycentric coordinates.
     #[error(
         "landmark pair {} (the first is 1) has the barycentric coordinates {weights:?} on the {side}: they must not be \
@@ -197,9 +209,11 @@ fn point(
             Ok(SurfacePoint::at_vertex(mesh, known.ok_or(unused)?))
         }
         on_face @ LandmarkPoint::OnFace { face, barycentric } => {
-            // Caps are made up: no landmark lies in one.
-            let known = checked.face_from_file(FaceId(face)).filter(|_| (face as usize) < checked.file_faces());
+            let known = checked.face_from_file(FaceId(face));
             let face = known.ok_or_else(|| missing_face(checked, side, pair, face))?;
+            if checked.is_cap(face) {
+                return Err(LandmarkError::InCap { side, pair });
+            }
             if !on_face.is_sound() {
                 return Err(LandmarkError::Barycentric { side, pair, weights: barycentric });
             }

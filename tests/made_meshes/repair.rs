@@ -200,7 +200,6 @@ fn of_a_thousand_broken_meshes_each_is_closed_or_refused() {
         *outcomes.entry(outcome).or_default() += 1;
     }
     // A sixth are of genus 1.
-    println!("{outcomes:?}");
     assert!(outcomes["repaired"] > 600, "{outcomes:?}");
     assert!(outcomes.contains_key("genus"), "{outcomes:?}");
 }
@@ -260,6 +259,11 @@ fn a_hole_of_a_ball_gets_a_round_cap_of_good_triangles() {
     let surface = &mesh.checked.mesh;
     let caps: Vec<FaceId> = surface.faces().filter(|&f| mesh.checked.is_cap(f)).collect();
     assert_eq!(caps.len(), *faces);
+    // In a cap no landmark can be.
+    let face = mesh.checked.file_from_face(caps[0]).0;
+    let point = LandmarkPoint::OnFace { face, barycentric: [0.2, 0.3, 0.5] };
+    let wrong = check_side(&mesh.checked, MeshSide::Source, &[[point; 2]]).unwrap_err();
+    assert_eq!(wrong, LandmarkError::InCap { side: MeshSide::Source, pair: 0 });
     let (first, count) = (open.positions.len(), surface.vertex_count());
     let numbers = mesh.checked.file_from_vertex();
     let added = surface.vertices().filter(|v| numbers[v.index()] >= first);
@@ -294,13 +298,11 @@ fn hat(rim: u32) -> PolygonSoup {
 #[test]
 fn a_rim_of_ten_thousand_edges_is_capped_in_proportion() {
     let hat = hat(10_000);
-    let t = std::time::Instant::now();
     let mesh = repair(&hat).unwrap();
-    println!("{:?} {}", t.elapsed(), mesh.checked.mesh.face_count());
     is_sound(&mesh);
     let surface = &mesh.checked.mesh;
     // Edges grow away from the rim, so that vertices are in proportion to it.
-    assert!((20_000..400_000).contains(&surface.face_count()), "{}", surface.face_count());
+    assert!((30_000..50_000).contains(&surface.face_count()), "{}", surface.face_count());
     let caps = surface.faces().filter(|&f| mesh.checked.is_cap(f));
     let area: f64 = caps.map(|f| surface.face_area(f)).sum();
     assert!((area - 0.5 * TAU).abs() < 1e-3, "{area}");
@@ -344,14 +346,15 @@ fn a_corner_on_an_edge_cuts_the_neighbour_and_opens_nothing() {
     let Change::DegenerateFaces { dropped, recut } = &mesh.report.changes[0] else { panic!() };
     assert_eq!((&dropped.first[..], recut.count), (&[81][..], 1));
     assert!((mesh.checked.mesh.area() - icosphere(1).area()).abs() < 1e-12);
-    // Nobody can name the faces that came in the neighbour's place, nor the neighbour.
+    // The faces that came in the neighbour's place have new numbers, and the neighbour's is gone.
     let made = mesh.checked.mesh.faces().filter(|&f| mesh.checked.file_from_face(f).index() >= 82);
     assert_eq!(made.clone().count(), 2);
     assert!(made.clone().all(|f| !mesh.checked.is_cap(f)));
     let on = |face: usize| [[LandmarkPoint::OnFace { face: face as u32, barycentric: [0.2, 0.3, 0.5] }; 2]];
-    let wrong = |face: usize| check_side(&mesh.checked, MeshSide::Source, &on(face)).unwrap_err();
-    assert!(matches!(wrong(recut.first[0]), LandmarkError::DroppedFace { .. }));
-    assert!(matches!(wrong(82), LandmarkError::MissingFace { faces: 82, .. }));
+    let placed = |face: usize| check_side(&mesh.checked, MeshSide::Source, &on(face));
+    assert!(matches!(placed(recut.first[0]), Err(LandmarkError::DroppedFace { .. })));
+    assert_eq!(placed(83), Ok(()));
+    assert!(matches!(placed(84), Err(LandmarkError::MissingFace { faces: 82, .. })));
 }
 
 #[test]

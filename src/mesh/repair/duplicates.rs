@@ -6,9 +6,8 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The draft without double faces, and the numbers of the faces that went.
 ///
-/// Of copies the first stays. A face and its copy that looks the other way both go where that leaves the surface around them
-/// with two faces at each edge: a flap that is folded on itself, or the wall between two bodies. A sheet that is all double
-/// stays once.
+/// Of copies the first stays. A face and its copy that looks the other way both go where that leaves fewer open and crowded edges:
+/// a flap that is folded on itself, or the wall between two bodies. A sheet that is all double stays once.
 pub(super) fn without_duplicates(draft: Draft) -> (Draft, Elements<usize>) {
     let mut copies: FxHashMap<[u32; 3], Vec<usize>> = FxHashMap::default();
     for (f, face) in draft.faces.iter().enumerate() {
@@ -43,8 +42,7 @@ fn sign(face: &DraftFace) -> i64 {
     if rises == 2 { 1 } else { -1 }
 }
 
-/// The faces of all walls: groups whose faces cancel each other, as far as all edges around have two faces, or none, without
-/// them.
+/// The faces of all walls: groups whose faces cancel each other, as far as most of their edges have an even number of other faces.
 fn walls(faces: &[DraftFace], groups: &[Vec<usize>]) -> FxHashSet<usize> {
     let balance = |group: &&Vec<usize>| group.iter().map(|&f| sign(&faces[f])).sum::<i64>() == 0;
     let mut wall: FxHashSet<usize> = groups.iter().filter(balance).flatten().copied().collect();
@@ -53,23 +51,25 @@ fn walls(faces: &[DraftFace], groups: &[Vec<usize>]) -> FxHashSet<usize> {
     for group in groups {
         partners.extend(group.iter().map(|&f| (f, group)));
     }
-    // A face that stays may leave an edge of its neighbours with one face: again until nothing changes.
+    // A face that stays is one of the others for its neighbours: again until nothing changes.
     loop {
-        let mut stays = Vec::new();
+        let mut odd: FxHashMap<usize, u32> = FxHashMap::default();
         let mut has_rest = FxHashSet::default();
         for edge in &edges {
-            let is_wall = |side: &&u32| wall.contains(&(**side as usize / 3));
-            let (inside, rest): (Vec<&u32>, Vec<&u32>) = edge.sides.iter().partition(is_wall);
-            match rest.len() {
-                0 => {}
-                2 => has_rest.extend(inside.iter().map(|side| **side as usize / 3)),
-                _ => stays.extend(inside.iter().map(|side| **side as usize / 3)),
+            let faces = edge.sides.iter().map(|side| *side as usize / 3);
+            let (inside, rest): (Vec<usize>, Vec<usize>) = faces.partition(|f| wall.contains(f));
+            if rest.len() % 2 == 1 {
+                inside.iter().for_each(|&f| *odd.entry(f).or_default() += 1);
+            }
+            if !rest.is_empty() {
+                has_rest.extend(inside);
             }
         }
-        if stays.is_empty() {
+        odd.retain(|_, edges| *edges > 1);
+        if odd.is_empty() {
             return attached(&edges, wall, &has_rest);
         }
-        for f in stays.iter().flat_map(|f| partners.get(f).copied().into_iter().flatten()) {
+        for f in odd.keys().flat_map(|f| partners.get(f).copied().into_iter().flatten()) {
             wall.remove(f);
         }
     }

@@ -37,7 +37,7 @@ const MOST_CAP: f64 = 0.45;
 pub fn repaired(soup: &PolygonSoup, options: &RepairOptions) -> Result<RepairedMesh, RepairRefusal> {
     match closed_genus_zero(soup) {
         Ok(checked) => {
-            let report = RepairReport { changes: told_of_all(&checked), ..RepairReport::default() };
+            let report = RepairReport { changes: told_of_all(soup, &checked), ..RepairReport::default() };
             Ok(RepairedMesh { checked, report })
         }
         Err(fault @ (MeshFault::Empty | MeshFault::TooManyFaces { .. })) => Err(fault.into()),
@@ -86,18 +86,20 @@ fn steps(
         faces,
         area_share,
     }));
-    changes.extend(told_of_all(&checked));
+    changes.extend(told_of_all(soup, &checked));
     changes.retain(|change| change.count() > 0);
     Ok(RepairedMesh { checked, report: RepairReport { fault: Some(fault), changes, cap_share } })
 }
 
 /// What the check itself changes of every mesh.
-fn told_of_all(checked: &CheckedMesh) -> Vec<Change> {
+fn told_of_all(soup: &PolygonSoup, checked: &CheckedMesh) -> Vec<Change> {
+    let mut is_used = vec![false; soup.positions.len()];
+    soup.polygons.iter().flatten().for_each(|v| is_used[*v as usize] = true);
+    let stands_for = |v: usize| soup.joined_with.get(v).map_or(v, |first| *first as usize);
+    let unused = (0..is_used.len()).filter(|&v| !is_used[stands_for(v)]).collect();
     let turned = checked.turned.iter_enumerated().filter(|(_, turned)| **turned);
     let turned = turned.map(|(f, _)| checked.file_from_face(f).index()).collect();
-    let unused = checked.vertex_from_file.iter().enumerate().filter(|(_, v)| v.is_none());
-    let mut changes =
-        vec![Change::TurnedFaces(turned), Change::UnusedVertices(unused.map(|(v, _)| v).collect())];
+    let mut changes = vec![Change::TurnedFaces(turned), Change::UnusedVertices(unused)];
     changes.retain(|change| change.count() > 0);
     changes
 }

@@ -22,7 +22,7 @@ pub struct RepairReport {
 pub enum Change {
     /// Vertices at one place became one.
     JoinedVertices(Elements<usize>),
-    /// Vertices that no face uses were left out; of a mesh that was repaired also those of dropped faces.
+    /// Vertices that no face of the file uses were left out.
     UnusedVertices(Elements<usize>),
     /// Faces without area went.
     DegenerateFaces {
@@ -157,10 +157,10 @@ fn percent(share: f64) -> String {
         format!("{percent:.0}")
     } else if percent >= 0.095 {
         format!("{percent:.1}")
-    } else if percent > 0.0 {
-        format!("{percent:.0e}")
+    } else if percent >= 0.0095 {
+        format!("{percent:.2}")
     } else {
-        "0".to_owned()
+        "less than 0.01".to_owned()
     }
 }
 
@@ -227,6 +227,6 @@ mod tests {
     #[test]
     fn small_shares_are_not_nothing() {
         let words = [0.1234, 0.0123, 0.001, 0.00001, 0.0].map(percent);
-        assert_eq!(words, ["12", "1.2", "0.1", "1e-3", "0"]);
+        assert_eq!(words, ["12", "1.2", "0.1", "less than 0.01", "less than 0.01"]);
     }
 }
