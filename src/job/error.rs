@@ -72,10 +72,12 @@ impl JobError {
     /// The file at fault; `None` where it is no file's fault.
     pub fn file(&self) -> Option<JobFile> {
         match self {
-            Self::Read { side, .. } | Self::Mesh { side, .. } | Self::Repair { side, .. } => Some(match side {
-                MeshSide::Source => JobFile::Source,
-                MeshSide::Target => JobFile::Target,
-            }),
+            Self::Read { side, .. } | Self::Mesh { side, .. } | Self::Repair { side, .. } => {
+                Some(match side {
+                    MeshSide::Source => JobFile::Source,
+                    MeshSide::Target => JobFile::Target,
+                })
+            }
             Self::LandmarkFile(_) | Self::Landmarks(_) => Some(JobFile::Landmarks),
             Self::Mirror(_) | Self::Pipeline(_) => None,
         }

@@ -151,7 +151,8 @@ impl Job {
         let on_files: [&dyn Fn(SurfacePoint) -> SurfacePoint; 2] =
             [&|p| self.on_source_file(p), &|p| self.on_target_file(p)];
         result.report.distortion.replace_worst(on_files);
-        result.report.warnings.splice(0..0, self.repair_warnings());
+        let warnings = std::mem::take(&mut result.report.warnings);
+        result.report.warnings = self.repair_warnings().into_iter().chain(warnings).collect();
         Ok(result)
     }
 

@@ -87,7 +87,6 @@ impl CheckedMesh {
         SurfacePoint { face: self.file_from_face(point.face), ..self.with_file_corners(point) }
     }
 
-
     /// Values by vertex of the mesh as values by vertex of the file; `None` for vertices that no face uses.
     pub fn by_file_vertex<T: Copy>(&self, values: &[T]) -> Vec<Option<T>> {
         self.vertex_from_file.iter().map(|v| v.and_then(|v| values.get(v.index()).copied())).collect()

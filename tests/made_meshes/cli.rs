@@ -426,15 +426,20 @@ fn open_meshes_are_capped_and_the_map_says_so() {
     assert_eq!(strict.status.code(), Some(1));
     assert!(errors(&strict).contains("source.obj: the surface is open: 3 edges"), "{}", errors(&strict));
 
-    let output =
-        map(&[OsStr::new("--out"), out.as_os_str(), OsStr::new("--report"), report.as_os_str()]);
+    let output = map(&[OsStr::new("--out"), out.as_os_str(), OsStr::new("--report"), report.as_os_str()]);
     let said = errors(&output);
     assert!(output.status.success() && said.contains("certified bijective"), "{said}");
-    assert!(said.contains("The target could not be mapped as it is and was repaired: 1 hole was capped ("), "{said}");
+    assert!(
+        said.contains("The target could not be mapped as it is and was repaired: 1 hole was capped ("),
+        "{said}"
+    );
     let report = json(&report);
     let of = |kind: &str, side: &str| {
         let all = report["warnings"].as_array().unwrap();
-        all.iter().find(|w| w["kind"] == kind && w["side"] == side).unwrap_or_else(|| panic!("{all:?}")).clone()
+        all.iter()
+            .find(|w| w["kind"] == kind && w["side"] == side)
+            .unwrap_or_else(|| panic!("{all:?}"))
+            .clone()
     };
     assert!(of("repaired", "source")["sentence"].as_str().unwrap().contains("1 hole was capped"));
     let share = of("capped", "target")["value"].as_f64().unwrap();
@@ -458,7 +463,7 @@ fn a_check_says_what_is_wrong_and_writes_the_repaired_mesh() {
     let folder = folder("a_check_says_what_is_wrong_and_writes_the_repaired_mesh");
     let [source, target, _] = write_open_bodies(&folder);
     let check = |flags: &[&str]| {
-        let output = conemap([&["check", target.to_str().unwrap()], flags].concat());
+        let output = conemap([&["check", target.to_str().unwrap()][..], flags].concat());
         (output.status.code(), String::from_utf8_lossy(&output.stdout).into_owned(), errors(&output))
     };
     let (code, told, error) = check(&[]);
@@ -483,7 +488,8 @@ fn a_check_says_what_is_wrong_and_writes_the_repaired_mesh() {
     let again = conemap([OsStr::new("check"), fixed.as_os_str()]);
     assert!(again.status.success());
     assert_eq!(String::from_utf8_lossy(&again.stdout), "can be mapped as it is\n");
-    assert_refused(&["check", "--repair", "--out", "fixed.stl"].map(OsStr::new).into_iter().chain([source.as_os_str()]).collect::<Vec<_>>(), &["fixed.stl", ".obj"]);
+    let [command, repair, out, stl] = ["check", "--repair", "--out", "fixed.stl"].map(OsStr::new);
+    assert_refused(&[command, repair, source.as_os_str(), out, stl], &["fixed.stl", ".obj"]);
 }
 
 #[test]

@@ -402,7 +402,13 @@ fn bodies_that_touch_come_apart() {
     let mut boxes = cube.clone();
     add(&mut boxes, &cube, |p| p * DVec3::new(0.05, 0.05, 1.0) + DVec3::new(1.0, 1.0, 0.0));
     // The edge 3-7 of the first is 8-12 of the second.
-    boxes.polygons.iter_mut().flatten().for_each(|v| *v = match *v { 8 => 3, 12 => 7, v => v });
+    boxes.polygons.iter_mut().flatten().for_each(|v| {
+        *v = match *v {
+            8 => 3,
+            12 => 7,
+            v => v,
+        }
+    });
     let largest = RepairOptions { parts: Parts::LargestAlone, ..RepairOptions::default() };
     let mesh = repaired(&boxes, &largest).unwrap();
     is_sound(&mesh);
@@ -437,7 +443,8 @@ fn what_cannot_be_repaired_is_told() {
     let mut sheet = soup(&octahedron());
     sheet.polygons.truncate(1);
     assert_eq!(refusal(&sheet).kind(), "open_sheet");
-    let line = PolygonSoup { positions: vec![DVec3::ZERO; 3], polygons: vec![vec![0, 1, 2]], ..sheet.clone() };
+    let line =
+        PolygonSoup { positions: vec![DVec3::ZERO; 3], polygons: vec![vec![0, 1, 2]], ..sheet.clone() };
     assert_eq!(refusal(&line), RepairRefusal::NothingLeft);
     assert_eq!(refusal(&PolygonSoup::default()), RepairRefusal::Fault(MeshFault::Empty));
     // A band with half a twist.

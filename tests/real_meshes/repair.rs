@@ -8,7 +8,11 @@ use conemap::monitor::Silent;
 use conemap::pipeline::{PipelineOptions, Warning};
 use std::path::Path;
 
-tests![every_file_is_repaired_or_refused, a_slit_horse_maps_onto_its_other_pose, an_open_dog_maps_onto_the_cat];
+tests![
+    every_file_is_repaired_or_refused,
+    a_slit_horse_maps_onto_its_other_pose,
+    an_open_dog_maps_onto_the_cat
+];
 
 fn read(path: &Path) -> Vec<u8> {
     std::fs::read(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
@@ -65,8 +69,8 @@ fn every_file_is_repaired_or_refused(data: &Path) {
 
 /// Maps with a repaired mesh: certified, with a warning that tells the repair and the caps.
 fn maps(data: &Path, source: &str, target: &str, pairs: &str) {
-    let [source, target, landmarks] =
-        [source, target, &format!("pairs/{pairs}.json")].map(|name| read(&data.join(name)));
+    let pairs = format!("pairs/{pairs}.json");
+    let [source, target, landmarks] = [source, target, pairs.as_str()].map(|name| read(&data.join(name)));
     let files = JobFiles { source: &source, target: &target, landmarks: &landmarks };
     let strict = ReadOptions { mesh_faults: MeshFaults::Refused, ..ReadOptions::default() };
     assert!(Job::read(files, strict, &mut Silent).is_err());
@@ -76,7 +80,10 @@ fn maps(data: &Path, source: &str, target: &str, pairs: &str) {
     assert!(certificate.bijective && certificate.flipped_triangles == 0);
     let warnings = &result.report.warnings;
     assert!(warnings.iter().any(|w| matches!(w, Warning::Repaired { .. })), "{warnings:?}");
-    assert!(warnings.iter().any(|w| matches!(w, Warning::Capped { share, .. } if *share < 0.02)), "{warnings:?}");
+    assert!(
+        warnings.iter().any(|w| matches!(w, Warning::Capped { share, .. } if *share < 0.02)),
+        "{warnings:?}"
+    );
     assert!(result.report.distortion.mean < 3.0, "{:?}", result.report.distortion);
 }
 

@@ -73,7 +73,11 @@ impl From<RepairArguments> for RepairOptions {
 /// A distance of zero or more.
 fn distance(text: &str) -> Result<f64, String> {
     let distance: f64 = text.parse().map_err(|_| format!("`{text}` is no distance"))?;
-    if distance.is_finite() && distance >= 0.0 { Ok(distance) } else { Err("it must be 0 or more".to_owned()) }
+    if distance.is_finite() && distance >= 0.0 {
+        Ok(distance)
+    } else {
+        Err("it must be 0 or more".to_owned())
+    }
 }
 
 /// `conemap map`.

@@ -116,7 +116,9 @@ fn tell(report: &CheckReport) {
     match (&report.fault, &report.refusal) {
         (None, _) => println!("can be mapped as it is"),
         (Some(_), None) if report.repaired => println!("can be mapped, repaired:"),
-        (Some(_), None) => println!("can be mapped when it is repaired (--repair; conemap map does it by itself):"),
+        (Some(_), None) => {
+            println!("can be mapped when it is repaired (--repair; conemap map does it by itself):")
+        }
         (Some(_), Some(refusal)) => println!("cannot be mapped, nor repaired: {}", refusal.sentence),
     }
     for change in &report.changes {

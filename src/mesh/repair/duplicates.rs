@@ -28,7 +28,8 @@ pub(super) fn without_duplicates(draft: Draft) -> (Draft, Elements<usize>) {
         let stays = group.iter().find(|&&f| balance == 0 || sign(&draft.faces[f]) == balance.signum());
         group.iter().for_each(|&f| goes[f] = walls.contains(&f) || Some(&f) != stays);
     }
-    let dropped = draft.faces.iter().zip(&goes).filter(|(_, goes)| **goes).filter_map(|(face, _)| face.number());
+    let dropped =
+        draft.faces.iter().zip(&goes).filter(|(_, goes)| **goes).filter_map(|(face, _)| face.number());
     let dropped = dropped.collect();
     let faces: Vec<DraftFace> =
         draft.faces.iter().zip(&goes).filter(|(_, goes)| !**goes).map(|(face, _)| *face).collect();

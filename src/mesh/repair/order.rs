@@ -11,9 +11,7 @@ use super::parts::{DroppedParts, largest};
 use super::refusal::RepairRefusal;
 use super::report::{Change, RepairReport};
 use super::sheets::{Sheets, apart};
-use crate::mesh::check::{
-    CheckedMesh, Elements, MeshFault, RepairedFaces, closed_genus_zero, triangulated,
-};
+use crate::mesh::check::{CheckedMesh, Elements, MeshFault, RepairedFaces, closed_genus_zero, triangulated};
 use crate::mesh::soup::PolygonSoup;
 use crate::mesh::{FaceId, VertexId};
 use typed_index_collections::TiVec;

@@ -128,7 +128,9 @@ impl fmt::Display for Change {
         let (one, many) = match self {
             Self::JoinedVertices(_) => ("duplicate vertex was joined", "duplicate vertices were joined"),
             Self::UnusedVertices(_) => ("unused vertex was left out", "unused vertices were left out"),
-            Self::DegenerateFaces { .. } => ("face without area was dropped", "faces without area were dropped"),
+            Self::DegenerateFaces { .. } => {
+                ("face without area was dropped", "faces without area were dropped")
+            }
             Self::DuplicateFaces(_) => ("double face was dropped", "double faces were dropped"),
             Self::SplitEdges(_) => {
                 ("edge with more than two faces was cut", "edges with more than two faces were cut")
@@ -207,7 +209,11 @@ mod tests {
             changes: vec![
                 Change::JoinedVertices((20..33).collect()),
                 Change::TurnedFaces([4].into_iter().collect()),
-                Change::CappedHoles { holes: [hole.clone()].into_iter().collect(), faces: 3, area_share: 0.004 },
+                Change::CappedHoles {
+                    holes: [hole.clone()].into_iter().collect(),
+                    faces: 3,
+                    area_share: 0.004,
+                },
             ],
             cap_share: 0.004,
         };

@@ -60,11 +60,7 @@ fn is_flat([p, q, r]: [DVec3; 3]) -> bool {
 }
 
 /// Cuts ears off a long loop until it can be filled at best; what is left of it.
-fn without_ears(
-    rim: &Rim<'_>,
-    taken: &mut FxHashSet<[u32; 2]>,
-    triangles: &mut Vec<[u32; 3]>,
-) -> Vec<u32> {
+fn without_ears(rim: &Rim<'_>, taken: &mut FxHashSet<[u32; 2]>, triangles: &mut Vec<[u32; 3]>) -> Vec<u32> {
     let n = rim.places.len();
     let mut left = n;
     let (mut next, mut last): (Vec<usize>, Vec<usize>) =
@@ -109,11 +105,7 @@ impl Cost {
     const NOTHING: Self = Self { flat: 0, bend: 0.0, area: 0.0 };
 
     fn and(self, other: Self) -> Self {
-        Self {
-            flat: self.flat + other.flat,
-            bend: self.bend.max(other.bend),
-            area: self.area + other.area,
-        }
+        Self { flat: self.flat + other.flat, bend: self.bend.max(other.bend), area: self.area + other.area }
     }
 
     fn order(&self, other: &Self) -> Ordering {
@@ -265,7 +257,8 @@ mod tests {
 
     #[test]
     fn loops_short_and_long_are_filled_once() {
-        for (n, wave) in [(3, 0.0), (4, 0.3), (7, 0.0), (40, 0.3), (AT_BEST, 0.1), (1000, 0.2), (10_000, 0.0)] {
+        for (n, wave) in [(3, 0.0), (4, 0.3), (7, 0.0), (40, 0.3), (AT_BEST, 0.1), (1000, 0.2), (10_000, 0.0)]
+        {
             let places = circle(n, wave);
             let beyond = vec![DVec3::ZERO; n];
             let filling = filled(&Rim { places: &places, beyond: &beyond, taken: &rim_edges(n) });
@@ -295,6 +288,10 @@ mod tests {
         let normals = [normal([places[0], places[1], places[2]]), normal([places[0], places[2], places[3]])];
         let beyond = [normals[0], normals[0], normals[1], normals[1]];
         let filling = filled(&Rim { places: &places, beyond: &beyond, taken: &rim_edges(4) });
-        assert!(filling.triangles.iter().all(|t| t.contains(&0) && t.contains(&2)), "{:?}", filling.triangles);
+        assert!(
+            filling.triangles.iter().all(|t| t.contains(&0) && t.contains(&2)),
+            "{:?}",
+            filling.triangles
+        );
     }
 }

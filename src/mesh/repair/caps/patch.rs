@@ -217,7 +217,8 @@ mod tests {
             assert!((patch.area() - area).abs() < 1e-12);
         }
         assert_eq!(patch.triangles.len(), rim as usize - 2 + 200);
-        let better = (0..patch.across.len()).filter(|&s| patch.across[s] != RIM && patch.is_better_flipped(s));
+        let better =
+            (0..patch.across.len()).filter(|&s| patch.across[s] != RIM && patch.is_better_flipped(s));
         assert_eq!(better.count(), 0);
     }
 }
