@@ -4,7 +4,7 @@ use super::patch::Patch;
 use glam::DVec3;
 
 /// How much longer edges become with each unit of way from the rim: a wide hole needs few vertices in its middle.
-const GROWTH: f64 = 0.25;
+const GROWTH: f64 = 0.12;
 
 /// A triangle is divided where its middle is farther from its corners than the lengths there over this.
 const DENSITY: f64 = std::f64::consts::SQRT_2;
