@@ -39,20 +39,33 @@ pub(in crate::mesh::repair) fn capped(mut draft: Draft) -> Result<(Draft, Option
     let mut caps = Vec::with_capacity(loops.len());
     for rim in &loops {
         let patch = surroundings.cap(&draft, rim, skin.sqrt());
-        caps.push((perimeter(&draft, rim), rim, patch.area(), patch.triangles.len()));
+        let length = perimeter(&draft, rim);
+        caps.push(Cap { rim, length, area: patch.area(), faces: patch.triangles.len() });
         add(&mut draft, rim, &patch);
     }
-    let area = skin + caps.iter().map(|cap| cap.2).sum::<f64>();
-    caps.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let hole = |(length, rim, own, _): &(f64, &Vec<u32>, f64, usize)| Hole {
-        edges: rim.len(),
-        rim_length: length / area.sqrt(),
-        area_share: own / area,
-        vertices: rim.iter().take(10).map(|&v| draft.number(v)).collect(),
+    let area = skin + caps.iter().map(|cap| cap.area).sum::<f64>();
+    caps.sort_by(|a, b| b.length.total_cmp(&a.length));
+    let hole = |cap: &Cap<'_>| Hole {
+        edges: cap.rim.len(),
+        rim_length: cap.length / area.sqrt(),
+        area_share: cap.area / area,
+        vertices: cap.rim.iter().take(10).map(|&v| draft.number(v)).collect(),
     };
     let holes = caps.iter().map(hole).collect();
-    let faces = caps.iter().map(|cap| cap.3).sum();
+    let faces = caps.iter().map(|cap| cap.faces).sum();
     Ok((draft, Some(Capped { holes, faces, area_share: 1.0 - skin / area })))
+}
+
+/// A cap that was made.
+struct Cap<'a> {
+    /// The vertices of its rim.
+    rim: &'a [u32],
+    /// Length of the rim.
+    length: f64,
+    /// Its area.
+    area: f64,
+    /// Number of its faces.
+    faces: usize,
 }
 
 fn perimeter(draft: &Draft, rim: &[u32]) -> f64 {
