@@ -396,7 +396,7 @@ fn bad_meshes_and_landmarks_are_refused_by_name() {
     }
 }
 
-/// Writes two round bodies with landmarks, one face missing from the source and some around a landmark's side of the target.
+/// Writes two round bodies with landmarks, one face missing from the source and those around a vertex from the target.
 fn write_open_bodies(folder: &Path) -> [PathBuf; 3] {
     let [source, target, pairs] = write_bodies(folder);
     let text = std::fs::read_to_string(&source).unwrap();
