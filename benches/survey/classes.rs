@@ -73,9 +73,8 @@ fn one(arguments: &Arguments, name: &str, vertices: usize) -> String {
     let mut fresh = Candidates::new([&sides[0].coarse.mesh, &sides[1].coarse.mesh], &coarse);
     let mut best = [f64::INFINITY; 2];
     let mut count = [0; 2];
-    let mut twists = |of: &Candidate| {
-        fresh.twists(of, usize::MAX / 4, f64::INFINITY, &mut Silent).expect("not stopped")
-    };
+    let mut twists =
+        |of: &Candidate| fresh.twists(of, usize::MAX / 4, f64::INFINITY, &mut Silent).expect("not stopped");
     let singles: Vec<Candidate> = twists(&chosen.candidate);
     for single in &singles {
         let value = judge(single);
