@@ -85,7 +85,8 @@ impl<K: Ord, V> PartialOrd for Queued<K, V> {
     }
 }
 
-/// Lengths of shortest paths from `start` to all the nodes of a graph, 0 to `nodes` - 1; infinite where there is none (Dijkstra 1959).
+/// Lengths of shortest paths from `start` to all of the `nodes` nodes of a graph, infinite where there is none (Dijkstra
+/// 1959).
 ///
 /// `links` are the links of a node, each with the node that it leads to and its length, which is not negative. `reached` is told
 /// of each node reached on a shorter path than before, with the path's last link.

@@ -64,10 +64,10 @@ impl<'a> OrientedSurface<'a> {
     }
 }
 
-/// The surface along the normal from a point near it.
+/// Where the normal through a point near the surface meets it.
 #[derive(Clone, Copy, Debug)]
 struct Foot {
-    /// How far it is along the normal.
+    /// The way to it along the normal.
     distance: f64,
     /// Unit normal there.
     normal: DVec3,

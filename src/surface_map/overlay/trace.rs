@@ -115,8 +115,8 @@ struct Exit {
     left: f64,
 }
 
-/// Where a trace leaves a face.
-struct Leave {
+/// Where a trace passes from a face to the next.
+struct Passage {
     /// The target halfedge that it leaves through.
     exit: HalfedgeId,
     /// Where on the source edge, up to rounding.
@@ -126,10 +126,10 @@ struct Leave {
 }
 
 impl Walk {
-    /// Leaves the present face.
+    /// Passes from the present face to the next.
     #[inline]
-    fn cross(&mut self, target: Parametrised<'_>, leave: Leave, log: &mut Log<'_>) {
-        let Leave { exit, along_source, along_target } = leave;
+    fn cross(&mut self, target: Parametrised<'_>, passage: Passage, log: &mut Log<'_>) {
+        let Passage { exit, along_source, along_target } = passage;
         let transition = &target.embedding.transitions[exit];
         let entered = target.mesh.twin(exit);
         self.along = along_source.clamp(self.along, 1.0);
@@ -180,8 +180,8 @@ impl Tracer<'_> {
             }
             let from = signed_double_area(a, b, p);
             let along_target = exit.right / (exit.right - exit.left);
-            let leave = Leave { exit: x, along_source: from / (from - to), along_target };
-            walk.cross(self.target, leave, &mut log);
+            let passage = Passage { exit: x, along_source: from / (from - to), along_target };
+            walk.cross(self.target, passage, &mut log);
             before = Some(exit);
         }
         self.step_over(walk, &end, log)
@@ -263,7 +263,7 @@ impl Tracer<'_> {
         for x in way.ok_or(OverlayError::Lost { edge: ends })?.into_iter().flatten() {
             let [a, b] = [x, x.next()].map(|x| self.target.embedding.corners[x]);
             let along_target = (walk.line[1] - a).dot(b - a) / (b - a).length_squared();
-            walk.cross(self.target, Leave { exit: x, along_source: 1.0, along_target }, &mut log);
+            walk.cross(self.target, Passage { exit: x, along_source: 1.0, along_target }, &mut log);
         }
         Ok(())
     }
