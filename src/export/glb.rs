@@ -25,7 +25,7 @@ pub fn textured_source(common: &CommonMesh, distortion: &[f64]) -> Result<Vec<u8
     let uvs: Vec<f32> = common.uvs.iter().flat_map(|uv| square_uvs(*uv)).collect();
     let indices: Vec<u8> = common.triangles.iter().flatten().flat_map(|i| i.to_le_bytes()).collect();
     let image = checkerboard()?;
-    let (low, high) = bounds(&positions);
+    let [low, high] = bounds(&positions);
     let vertices = common.source_positions.len();
     let mut body = Body::default();
     // glTF 2.0 numbers things as OpenGL: 34962 ARRAY_BUFFER, 34963 ELEMENT_ARRAY_BUFFER, 5126 FLOAT, 5125 UNSIGNED_INT,
@@ -84,13 +84,14 @@ fn floats(values: &[f32]) -> Vec<u8> {
     values.iter().flat_map(|x| x.to_le_bytes()).collect()
 }
 
-fn bounds(positions: &[f32]) -> ([f32; 3], [f32; 3]) {
+/// Lowest and highest coordinates.
+fn bounds(positions: &[f32]) -> [[f32; 3]; 2] {
     let fold = |start: f32, pick: fn(f32, f32) -> f32| {
         positions
             .chunks_exact(3)
             .fold([start; 3], |m, p| [pick(m[0], p[0]), pick(m[1], p[1]), pick(m[2], p[2])])
     };
-    (fold(f32::INFINITY, f32::min), fold(f32::NEG_INFINITY, f32::max))
+    [fold(f32::INFINITY, f32::min), fold(f32::NEG_INFINITY, f32::max)]
 }
 
 #[derive(Default)]
