@@ -190,7 +190,7 @@ fn steps(operator: &impl LinearOperator<f64>, diagonal: &Diagonal, right: &[DVec
         let b: Vec<f64> = right.iter().map(|p| p[axis]).collect();
         let mut x = vec![0.0; b.len()];
         // Not converged is no fault here, see above.
-        let _ = workspace.solve(operator, diagonal, (&b, &mut x), &SOLVE);
+        let _ = workspace.solve(operator, diagonal, &b, &mut x, &SOLVE);
         found.iter_mut().zip(&x).for_each(|(p, x)| p[axis] = *x);
     }
     found
