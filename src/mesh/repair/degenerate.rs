@@ -94,10 +94,11 @@ fn needles_joined(mut draft: Draft) -> Draft {
     draft
 }
 
-/// A face without area that goes, and the neighbour that is cut.
+/// What is done about faces without area in one round.
 struct Cuts {
+    /// Those that go.
     gone: Vec<usize>,
-    /// The neighbour, and what comes in its place; none where the longest edge has no other face.
+    /// Their neighbours at the longest edges, and what comes in the place of each.
     cut: FxHashMap<usize, [DraftFace; 2]>,
 }
 
@@ -124,7 +125,11 @@ impl Cuts {
             let corner = (longest + 2) % 3;
             let [c, across] = [face.corners[corner], opposite(&draft.faces[beside], face.side(longest))];
             let ends = [c.min(across), c.max(across)];
-            let halves = halves(&draft.faces[beside], face.side(longest), (c, face.file_corners[corner]));
+            let halves = halves(
+                &draft.faces[beside],
+                face.side(longest),
+                Corner { vertex: c, in_file: face.file_corners[corner] },
+            );
             let sound = halves.iter().all(|half| !is_degenerate(&draft.positions, &half.corners));
             if c != across && sound && known.insert(ends) {
                 touched.extend([f, beside]);
@@ -174,13 +179,20 @@ fn opposite(face: &DraftFace, [a, b]: [u32; 2]) -> u32 {
     face.corners.into_iter().find(|v| *v != a && *v != b).unwrap_or(a)
 }
 
-/// A face cut in two from the middle of an edge to the opposite corner; `middle` is a vertex, and that of the file.
-fn halves(face: &DraftFace, [a, b]: [u32; 2], middle: (u32, u32)) -> [DraftFace; 2] {
+/// A corner that a face gets.
+struct Corner {
+    vertex: u32,
+    /// The vertex of the file there.
+    in_file: u32,
+}
+
+/// A face cut in two from the middle of an edge to the opposite corner.
+fn halves(face: &DraftFace, [a, b]: [u32; 2], middle: Corner) -> [DraftFace; 2] {
     let half = |replaced: u32| {
         let origin = if face.origin == FaceOrigin::Cap { FaceOrigin::Cap } else { FaceOrigin::Recut };
         let mut half = DraftFace { origin, ..*face };
         for k in (0..3).filter(|&k| face.corners[k] == replaced) {
-            (half.corners[k], half.file_corners[k]) = middle;
+            (half.corners[k], half.file_corners[k]) = (middle.vertex, middle.in_file);
         }
         half
     };

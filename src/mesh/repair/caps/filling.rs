@@ -144,7 +144,7 @@ fn best(
             let is_rim = length == n - 1;
             if is_rim || !taken.contains(&ends(left[i], left[j])) {
                 let last = is_rim.then(|| beyond[n - 1]);
-                table.fill(&places, &beyond, (i, j), last);
+                table.fill(&places, &beyond, [i, j], last);
             }
         }
     }
@@ -188,7 +188,7 @@ fn bend(a: DVec3, b: DVec3) -> f64 {
 impl Stretches {
     /// Finds the best triangle at the chord from vertex i to vertex j; `last` is the normal beyond the chord where that is an edge of
     /// the loop.
-    fn fill(&mut self, places: &[DVec3], beyond: &[DVec3], (i, j): (usize, usize), last: Option<DVec3>) {
+    fn fill(&mut self, places: &[DVec3], beyond: &[DVec3], [i, j]: [usize; 2], last: Option<DVec3>) {
         let n = self.n;
         let mut found: Option<(Cost, usize)> = None;
         for k in i + 1..j {
