@@ -347,9 +347,9 @@ fn a_corner_on_an_edge_cuts_the_neighbour_and_opens_nothing() {
     assert_eq!((&dropped.first[..], recut.count), (&[81][..], 1));
     assert!((mesh.checked.mesh.area() - icosphere(1).area()).abs() < 1e-12);
     // The faces that came in the neighbour's place have new numbers, and the neighbour's is gone.
-    let made = mesh.checked.mesh.faces().filter(|&f| mesh.checked.file_from_face(f).index() >= 82);
-    assert_eq!(made.clone().count(), 2);
-    assert!(made.clone().all(|f| !mesh.checked.is_cap(f)));
+    let is_made = |f: &FaceId| mesh.checked.file_from_face(*f).index() >= 82;
+    let made: Vec<FaceId> = mesh.checked.mesh.faces().filter(is_made).collect();
+    assert!(made.len() == 2 && made.iter().all(|&f| !mesh.checked.is_cap(f)));
     let on = |face: usize| [[LandmarkPoint::OnFace { face: face as u32, barycentric: [0.2, 0.3, 0.5] }; 2]];
     let placed = |face: usize| check_side(&mesh.checked, MeshSide::Source, &on(face));
     assert!(matches!(placed(recut.first[0]), Err(LandmarkError::DroppedFace { .. })));
