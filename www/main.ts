@@ -48,12 +48,7 @@ const actions: Actions = {
 };
 
 const views = new Views(store.state, {
-  picked: (side, point) => {
-    store.dispatch({ kind: 'point-picked', side, point });
-  },
-  pickDropped: () => {
-    store.dispatch({ kind: 'pick-dropped' });
-  },
+  dispatch: store.dispatch,
   // The views may say this while they show a change; it is the next change then, not one within.
   failed: (sentence) => {
     queueMicrotask(() => {
@@ -65,6 +60,7 @@ const views = new Views(store.state, {
       store.dispatch({ kind: 'error-closed' });
     });
   },
+  probed: () => undefined,
 });
 const panels: readonly Panel[] = [
   filesPanel(actions),

@@ -157,8 +157,7 @@ impl Pipelines {
             Some(stepping(wgpu::VertexStepMode::Vertex, 12, &ball)),
             Some(stepping(wgpu::VertexStepMode::Instance, size_of::<MarkerInstance>(), &marker)),
         ];
-        let pin =
-            wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32, 3 => Float32, 4 => Float32];
+        let pin = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32, 3 => Float32, 4 => Float32];
         let pin = [Some(stepping(wgpu::VertexStepMode::Instance, size_of::<PinInstance>(), &pin))];
         Self {
             surface: workshop.pipeline(["surface_vertex", "surface_fragment"], Layer::Solid, &surface),

@@ -304,12 +304,19 @@ impl Renderer {
             push(bytes, &p.colour);
             push(bytes, &[p.radius, p.stem, p.kind]);
         });
-        let upload =
-            |bytes: Vec<u8>| (!bytes.is_empty()).then(|| buffer(&self.device, &bytes, wgpu::BufferUsages::VERTEX));
+        let upload = |bytes: Vec<u8>| {
+            (!bytes.is_empty()).then(|| buffer(&self.device, &bytes, wgpu::BufferUsages::VERTEX))
+        };
         Instances { balls: upload(balls), pins: upload(pins) }
     }
 
-    fn draw_view(&self, pass: &mut wgpu::RenderPass<'_>, k: usize, view: &ViewDraw<'_>, instances: &Instances) {
+    fn draw_view(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        k: usize,
+        view: &ViewDraw<'_>,
+        instances: &Instances,
+    ) {
         let (full_width, full_height) = (self.config.width as f32, self.config.height as f32);
         let [x, y, width, height] = view.rectangle;
         let (x, y) = (x.clamp(0.0, full_width), y.clamp(0.0, full_height));

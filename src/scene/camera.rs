@@ -98,7 +98,8 @@ impl Camera {
     /// The camera with angles, distance and points within their bounds; `None` where a number is none.
     fn bounded(self) -> Option<Self> {
         let numbers = [self.yaw, self.pitch, self.roll, self.distance];
-        let finite = numbers.iter().all(|x| x.is_finite()) && self.target.is_finite() && self.pivot.is_finite();
+        let finite =
+            numbers.iter().all(|x| x.is_finite()) && self.target.is_finite() && self.pivot.is_finite();
         finite.then(|| Self {
             yaw: self.yaw.rem_euclid(TAU),
             pitch: self.pitch.clamp(-FRAC_PI_2, FRAC_PI_2),
@@ -270,7 +271,10 @@ mod tests {
             camera.orbit(drag);
             assert!(seen(&camera, P).distance(before.0) < 1e-4);
             let way = seen(&camera, ahead) - before.1;
-            assert!(Vec2::new(way.x * 1.4, way.y).normalize().dot(drag.normalize()) > 0.98, "{way} for {drag}");
+            assert!(
+                Vec2::new(way.x * 1.4, way.y).normalize().dot(drag.normalize()) > 0.98,
+                "{way} for {drag}"
+            );
         }
     }
 
@@ -321,7 +325,9 @@ mod tests {
         for aspect in [0.5, 1.0, 2.0] {
             let mut camera = moved();
             camera.fit(&corners, aspect, 0.82);
-            let most = corners.iter().map(|p| camera.pose().project(*p, aspect).unwrap().truncate().abs().max_element());
+            let most = corners
+                .iter()
+                .map(|p| camera.pose().project(*p, aspect).unwrap().truncate().abs().max_element());
             let most = most.fold(0.0, f32::max);
             assert!((0.8..0.84).contains(&most), "{most}");
         }

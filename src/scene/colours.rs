@@ -15,9 +15,8 @@ const LANDMARKS: [Hex; 40] = [
 
 /// The map cividis at ten even places, the lightest first (Nuñez, Anderton and Renslow, "Optimizing colormaps with consideration
 /// for color vision deficiency", 2018): equal steps look equal, also to the colour-blind and in grey.
-const CIVIDIS: [Hex; 10] = [
-    0xffea46, 0xe4cf5b, 0xc4b56c, 0xa69d75, 0x8a8779, 0x707173, 0x575c6d, 0x39486b, 0x00336f, 0x00204d,
-];
+const CIVIDIS: [Hex; 10] =
+    [0xffea46, 0xe4cf5b, 0xc4b56c, 0xa69d75, 0x8a8779, 0x707173, 0x575c6d, 0x39486b, 0x00336f, 0x00204d];
 
 /// Number of colours on the scale of the distortion.
 pub const SCALE_COLOURS: usize = CIVIDIS.len();

@@ -62,7 +62,8 @@ mod tests {
         let dimple = |p: &DVec3| *p * (1.0 - 0.5 * (1.0 - ((p.z - 1.0) / 0.2).powi(2)).max(0.0));
         let dented = ball.with_positions(ball.positions().iter().map(dimple).collect());
         let found = of(&dented);
-        let bottom = ball.vertices().max_by(|a, b| ball.positions()[*a].z.total_cmp(&ball.positions()[*b].z)).unwrap();
+        let bottom =
+            ball.vertices().max_by(|a, b| ball.positions()[*a].z.total_cmp(&ball.positions()[*b].z)).unwrap();
         assert!(found[bottom] > 0.2, "{}", found[bottom]);
     }
 }

@@ -6,6 +6,7 @@ pub mod colours;
 pub mod glide;
 pub mod hollows;
 pub mod map_picking;
+pub mod morph;
 pub mod picking;
 pub mod pins;
 pub mod pose;

@@ -31,8 +31,7 @@ impl Picker {
 
     /// The point of the mesh nearest to a point in space.
     pub fn nearest(&self, mesh: &SurfaceMesh, point: DVec3) -> SurfacePoint {
-        let (_, (face, _)) =
-            self.shape.project_local_point_and_get_location(point.to_array().into(), false);
+        let (_, (face, _)) = self.shape.project_local_point_and_get_location(point.to_array().into(), false);
         let face = FaceId(face);
         SurfacePoint { face, barycentric: closest_in_triangle(point, mesh.corners(face)) }
     }

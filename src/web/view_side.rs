@@ -34,6 +34,15 @@ struct Mark {
     point: LandmarkPoint,
     colour: usize,
     raised: bool,
+    /// Curvature of its cone, in radians.
+    cone: Option<f64>,
+}
+
+/// A landmark with its cone.
+#[derive(Clone, Copy)]
+pub(super) struct Landmark {
+    pub pin: Pin,
+    pub cone: Option<f64>,
 }
 
 /// One view.
@@ -47,9 +56,8 @@ pub(super) struct Side {
     /// The map's own triangles on this side.
     pub overlay: Option<Mesh>,
     pub lines: Option<Mesh>,
-    pub cones: Vec<f64>,
-    /// Landmarks in pair order; `None` where not picked yet.
-    pub pins: Vec<Option<Pin>>,
+    /// In pair order; `None` where not picked yet.
+    pub landmarks: Vec<Option<Landmark>>,
     /// Points that the page marks itself.
     pub suggestions: Vec<Option<Vec3>>,
     /// A place that is asked for, or its partner.
@@ -110,7 +118,7 @@ impl Side {
 
     /// Everything that is marked goes.
     pub fn clear_marks(&mut self) {
-        self.pins.clear();
+        self.landmarks.clear();
         self.suggestions.clear();
         self.probe = None;
     }
@@ -119,20 +127,19 @@ impl Side {
     pub fn clear_result(&mut self) {
         self.overlay = None;
         self.lines = None;
-        self.cones.clear();
         self.probe = None;
     }
 
     /// Landmarks from a JSON array of marks or null.
-    pub fn set_pins(&mut self, marks: &str) -> Result<(), JsValue> {
+    pub fn set_landmarks(&mut self, marks: &str) -> Result<(), JsValue> {
         let marks: Vec<Option<Mark>> = serde_json::from_str(marks).map_err(|e| failure("landmarks", e))?;
-        let pin = |mark: Option<Mark>| {
-            let mark = mark?;
-            let base = self.place_of(mark.point)?;
-            let stand = if mark.raised { Stand::Raised } else { Stand::Plain };
-            Some(Pin { base, colour: landmark_colour(mark.colour), stand })
+        let landmark = |mark: Option<Mark>| {
+            let Mark { point, colour, raised, cone } = mark?;
+            let stand = if raised { Stand::Raised } else { Stand::Plain };
+            let pin = Pin { base: self.place_of(point)?, colour: landmark_colour(colour), stand };
+            Some(Landmark { pin, cone })
         };
-        self.pins = marks.into_iter().map(pin).collect();
+        self.landmarks = marks.into_iter().map(landmark).collect();
         Ok(())
     }
 
@@ -193,9 +200,14 @@ impl Side {
         self.moved().face(place, normal.normalize_or(DVec3::Z).as_vec3());
     }
 
+    /// Where a pin stands.
+    pub fn base(&self, pin: usize) -> Option<Vec3> {
+        Some(self.landmarks.get(pin).copied().flatten()?.pin.base)
+    }
+
     /// The point of the mesh that lies some pixels of the page beside a pin, x to the right and y up on the screen.
     pub fn beside(&self, pin: usize, by: Vec2, now: f64, pixel_ratio: f32) -> Option<SurfacePoint> {
-        let base = (*self.pins.get(pin)?)?.base;
+        let base = self.base(pin)?;
         let pose = self.pose(now);
         let pixel = pose.height_at(base, self.aspect()) * pixel_ratio / self.rectangle[3].max(1.0);
         let moved = base + (pose.right() * by.x + pose.up() * by.y) * pixel;
@@ -207,20 +219,20 @@ impl Side {
     pub fn pin_at(&self, at: Vec2, slack: f32, now: f64, pixel_ratio: f32) -> Option<usize> {
         let half = 0.5 * Vec2::new(self.rectangle[2], self.rectangle[3]) / pixel_ratio;
         let pose = self.pose(now);
-        let distance = |pin: &Option<Pin>| {
-            let base = (*pin)?.base;
+        let distance = |landmark: &Option<Landmark>| {
+            let base = (*landmark)?.pin.base;
             let seen = pose.project(base, self.aspect())?.truncate();
             distance_to_pin(seen * half, at * half, slack).filter(|_| !self.is_hidden(base, pose))
         };
-        let found = self.pins.iter().enumerate().filter_map(|(k, pin)| Some((k, distance(pin)?)));
+        let found = self.landmarks.iter().enumerate().filter_map(|(k, mark)| Some((k, distance(mark)?)));
         found.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)
     }
 
     /// Where the heads of the pins are: x and y from -1 to 1, y up, and 1 where the body does not hide it.
     pub fn heads(&self, now: f64, pixel_ratio: f32) -> Vec<f32> {
         let stem = 2.0 * STEM * pixel_ratio / self.rectangle[3].max(1.0);
-        let place = |pin: &Option<Pin>| self.label(pin.map(|pin| pin.base), stem, now);
-        self.pins.iter().flat_map(place).collect()
+        let place = |mark: &Option<Landmark>| self.label(mark.map(|mark| mark.pin.base), stem, now);
+        self.landmarks.iter().flat_map(place).collect()
     }
 
     /// Where the suggested points are, likewise.

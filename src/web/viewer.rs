@@ -2,12 +2,13 @@
 
 use super::failure;
 use super::files::LoadedMesh;
-use super::view_side::{Look, Side, SideMesh};
+use super::view_side::{Landmark, Look, Side, SideMesh};
 use crate::gpu::{Clear, Paint, Palette, Renderer, ViewDraw};
 use crate::io::landmark_file::LandmarkPoint;
 use crate::scene::buffers::{Frame, ribbons, surface};
 use crate::scene::camera::From as LookFrom;
 use crate::scene::colours::{distortion_scale, landmark_colour};
+use crate::scene::morph::laid_on;
 use crate::scene::upright::proposed_up;
 use crate::scene::{
     Camera, Glide, MapPicker, MapPlace, MarkerInstance, Picker, PinInstance, SurfaceVertex, UpAxis,
@@ -27,7 +28,7 @@ pub fn colour_of_landmark(k: usize) -> Vec<f32> {
 /// The colours of the distortion at even steps of its logarithm from 1 to 4, linear RGB from 0 to 1, three numbers a colour.
 #[wasm_bindgen(js_name = distortionScale)]
 pub fn scale_of_distortion() -> Vec<f32> {
-    distortion_scale().into_flattened()
+    distortion_scale().as_flattened().to_vec()
 }
 
 /// What the page wants to see.
@@ -81,6 +82,10 @@ pub struct Viewer {
     sides: [Side; 2],
     style: Style,
     map: Option<MapPicker>,
+    /// Share of the way from the source's shape to the target's.
+    morph: f32,
+    /// Lays the target on the source, in scene coordinates.
+    source_from_target: Mat4,
     pixel_ratio: f32,
     /// The time of the last frame.
     now: f64,
@@ -100,6 +105,8 @@ impl Viewer {
             sides: Default::default(),
             style: Style::default(),
             map: None,
+            morph: 0.0,
+            source_from_target: Mat4::IDENTITY,
             pixel_ratio: 1.0,
             now: 0.0,
         })
@@ -149,14 +156,14 @@ impl Viewer {
         side.clear_marks();
     }
 
-    /// Shows landmarks: a JSON array, in pair order, of `{"point", "colour", "raised"}` or null; `colour` is the number that
-    /// [`colour_of_landmark`] takes.
+    /// Shows landmarks: a JSON array, in pair order, of `{"point", "colour", "raised", "cone"}` or null: `colour` is the number
+    /// that [`colour_of_landmark`] takes, `cone` the curvature of the landmark's cone in radians or null.
     ///
     /// # Errors
     /// `{"code": "landmarks", "message"}`.
     #[wasm_bindgen(js_name = setLandmarks)]
     pub fn set_landmarks(&mut self, side: usize, marks: &str) -> Result<(), JsValue> {
-        self.side_mut(side).set_pins(marks)
+        self.side_mut(side).set_landmarks(marks)
     }
 
     /// Takes suggested points, a JSON array of landmark points or null; they are not drawn, see [`Viewer::suggestions`].
@@ -204,6 +211,11 @@ impl Viewer {
         };
         let vertices: Vec<SurfaceVertex> = (0..count).map(vertex).collect();
         let uploaded = self.renderer.surface_mesh(&vertices, triangles);
+        if side == 0 {
+            let (images, places): (Vec<Vec3>, Vec<Vec3>) =
+                vertices.iter().map(|v| (Vec3::from_array(v.image), Vec3::from_array(v.position))).unzip();
+            self.source_from_target = laid_on(&images, &places);
+        }
         self.side_mut(side).overlay = Some(uploaded);
     }
 
@@ -222,12 +234,6 @@ impl Viewer {
         self.side_mut(side).lines = Some(uploaded);
     }
 
-    /// Takes the curvatures of the landmarks' cones, in radians.
-    #[wasm_bindgen(js_name = setCones)]
-    pub fn set_cones(&mut self, cones: &[f64]) {
-        self.sides.iter_mut().for_each(|side| side.cones = cones.to_vec());
-    }
-
     /// Takes the map to be asked by [`Viewer::probe`]: places of its points on both meshes, its distortion there (or none), and its
     /// triangles.
     #[wasm_bindgen(js_name = setMap)]
@@ -237,11 +243,18 @@ impl Viewer {
         self.map = MapPicker::new([points(source), points(target)], distortion.to_vec(), triangles);
     }
 
+    /// Shows the source's shape on its way to the target's: 0 the source's, 1 the target's, laid on it. Needs the source's overlay.
+    #[wasm_bindgen(js_name = setMorph)]
+    pub fn set_morph(&mut self, share: f32) {
+        self.morph = share.clamp(0.0, 1.0);
+    }
+
     /// Everything of a result goes.
     #[wasm_bindgen(js_name = clearResult)]
     pub fn clear_result(&mut self) {
         self.sides.iter_mut().for_each(Side::clear_result);
         self.map = None;
+        self.morph = 0.0;
     }
 
     /// What to show: JSON `{"surface", "patchLines", "cones", "markers", "dark"?, "holes"?}`.
@@ -430,8 +443,7 @@ impl Viewer {
     #[wasm_bindgen(js_name = pinPlace)]
     pub fn pin_place(&self, side: usize, pin: usize) -> Option<Vec<f32>> {
         let side = self.side(side);
-        let base = side.pins.get(pin).copied().flatten()?.base;
-        let seen = side.pose(self.now).project(base, side.aspect())?;
+        let seen = side.pose(self.now).project(side.base(pin)?, side.aspect())?;
         Some(vec![seen.x, seen.y])
     }
 
@@ -498,7 +510,9 @@ impl Viewer {
             let side: &Side = &self.sides[k];
             let own = side.mesh.as_ref().map(|m| &m.surface);
             let paint = style.surface.paint();
-            let shows_own = paint == Paint::Plain || (k == 1 && style.surface.is_of_places());
+            let morph = if k == 0 && side.overlay.is_some() { self.morph } else { 0.0 };
+            let shows_own =
+                morph == 0.0 && (paint == Paint::Plain || (k == 1 && style.surface.is_of_places()));
             let overlay = side.overlay.as_ref().filter(|_| !shows_own);
             ViewDraw {
                 rectangle: side.rectangle,
@@ -506,11 +520,11 @@ impl Viewer {
                 paint: if overlay.is_some() || shows_own { paint } else { Paint::Plain },
                 palette,
                 line_half_width: 0.9 * self.pixel_ratio,
-                morph: 0.0,
-                world_from_image: Mat4::IDENTITY,
+                morph,
+                world_from_image: self.source_from_target,
                 surface: overlay.or(own),
-                under: own.filter(|_| style.holes && overlay.is_some()),
-                lines: side.lines.as_ref().filter(|_| style.patch_lines),
+                under: own.filter(|_| style.holes && overlay.is_some() && morph == 0.0),
+                lines: side.lines.as_ref().filter(|_| style.patch_lines && morph == 0.0),
                 balls: &balls[k],
                 pins: &pins[k],
             }
@@ -553,16 +567,23 @@ impl Viewer {
             pattern: [[0.80, 0.76, 0.68], [0.10, 0.19, 0.32]],
             rim: [1.0, 1.0, 1.0],
         };
-        let dark = Palette { surface: [0.50, 0.47, 0.42], line: [0.95, 0.42, 0.05], rim: [0.93, 0.93, 0.93], ..light };
+        let dark = Palette {
+            surface: [0.50, 0.47, 0.42],
+            line: [0.95, 0.42, 0.05],
+            rim: [0.93, 0.93, 0.93],
+            ..light
+        };
         if self.style.dark { dark } else { light }
     }
 
     /// Pins, hidden ones below and raised ones on top, then the rings of a place that is asked for.
     fn pins(&self, side: &Side) -> Vec<PinInstance> {
         let pose = side.pose(self.now);
-        let shown = side.pins.iter().flatten().filter(|_| self.style.markers);
+        // While the source changes its shape nothing is where it was.
+        let still = self.morph == 0.0 || !std::ptr::eq(side, &self.sides[0]);
+        let shown = side.landmarks.iter().flatten().filter(|_| self.style.markers && still);
         let mut pins: Vec<(bool, f32, PinInstance)> = shown
-            .map(|pin| {
+            .map(|Landmark { pin, .. }| {
                 let hidden = side.is_hidden(pin.base, pose);
                 let nearness = (pin.base - pose.eye()).dot(pose.back());
                 (hidden, nearness, pin.instance(hidden, self.pixel_ratio))
@@ -584,14 +605,14 @@ impl Viewer {
 
     /// Cones in red (positive) and blue (negative curvature).
     fn balls(&self, side: &Side) -> Vec<MarkerInstance> {
-        let cones = side.pins.iter().zip(&side.cones).filter(|_| self.style.cones);
-        let ball = |(pin, curvature): (&Option<crate::scene::pins::Pin>, &f64)| {
+        let ball = |Landmark { pin, cone }: &Landmark| {
+            let curvature = *cone.as_ref()?;
             // A ball's radius is 0.012 to 0.03 of the surface's and grows with the root of the curvature.
             let size = (curvature.abs() as f32 / std::f32::consts::TAU).min(1.0).sqrt();
-            let colour = if *curvature >= 0.0 { [0.78, 0.04, 0.03] } else { [0.03, 0.16, 0.80] };
-            Some(MarkerInstance { centre: (*pin)?.base.to_array(), radius: 0.012 + 0.018 * size, colour })
+            let colour = if curvature >= 0.0 { [0.78, 0.04, 0.03] } else { [0.03, 0.16, 0.80] };
+            Some(MarkerInstance { centre: pin.base.to_array(), radius: 0.012 + 0.018 * size, colour })
         };
-        cones.filter_map(ball).collect()
+        side.landmarks.iter().flatten().filter(|_| self.style.cones).filter_map(ball).collect()
     }
 }
 

@@ -6,6 +6,7 @@ import type { Actions, Panel } from './panel.ts';
 
 const SURFACES: readonly (readonly [Style['surface'], string])[] = [
   ['shaded', 'Shaded'],
+  ['pattern', 'Pattern'],
   ['checkerboard', 'Checkerboard'],
   ['colours', 'Colours'],
   ['distortion', 'Distortion'],

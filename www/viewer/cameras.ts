@@ -11,6 +11,12 @@ export type Direction = 'front' | 'back' | 'left' | 'right' | 'top' | 'bottom';
 /** How long a camera glides, in ms: long enough for the eye to follow, short enough not to wait for. */
 const GLIDE = 180;
 
+/** Where a camera stands; `null` where the user has not moved it. */
+export function cameraOf(viewer: Viewer, side: Side): Camera | null {
+  const numbers = viewer.camera(side);
+  return numbers === undefined ? null : [...numbers];
+}
+
 /** Moves cameras; `act` gives the renderer and asks for a frame. */
 export class Cameras {
   readonly #act: (action: (viewer: Viewer) => void) => void;
@@ -104,7 +110,7 @@ export class Cameras {
       if (!viewer.centreAt(side, at.x, at.y) || !this.linked) {
         return;
       }
-      const other: Side = side === 0 ? 1 : 0;
+      const other = otherSide(side);
       this.#glide(viewer, other, 'smoothly');
       if (partner === null) {
         viewer.centreAt(other, at.x, at.y);
@@ -112,16 +118,6 @@ export class Cameras {
         viewer.centreOn(other, partner);
       }
     });
-  }
-
-  /** Where a camera stands; `null` where the user has not moved it. */
-  kept(side: Side): Camera | null {
-    let camera: Camera | null = null;
-    this.#act((viewer) => {
-      const numbers = viewer.camera(side);
-      camera = numbers === undefined ? null : [...numbers];
-    });
-    return camera;
   }
 
   /** Puts a camera where one stood. */

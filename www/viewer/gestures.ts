@@ -259,7 +259,10 @@ export class Gestures {
   #hover(event: PointerEvent): void {
     const at = { x: event.clientX, y: event.clientY };
     const click = this.#click;
-    if (click !== null && Math.hypot(at.x - click.x, at.y - click.y) > CLICK_SLACK) {
+    if (click !== null) {
+      if (Math.hypot(at.x - click.x, at.y - click.y) <= CLICK_SLACK) {
+        return;
+      }
       this.settle();
     }
     if (event.pointerType === 'touch') {
