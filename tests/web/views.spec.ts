@@ -31,7 +31,7 @@ async function open(page: Page): Promise<void> {
     Reflect.set(window, 'drawn', drawn);
     const { prototype } = WebGL2RenderingContext;
     for (const name of ['drawElements', 'drawElementsInstanced', 'drawArrays', 'drawArraysInstanced'] as const) {
-      const draw = Reflect.get(prototype, name) as (...rest: number[]) => void;
+      const draw: (...rest: number[]) => void = Reflect.get(prototype, name);
       Reflect.set(prototype, name, function (this: WebGL2RenderingContext, ...rest: number[]) {
         drawn.calls += 1;
         if (name.startsWith('drawElements')) {

@@ -66,9 +66,9 @@ export class Hands {
   }
 
   #gestureTarget(elements: readonly [HTMLElement, HTMLElement]): GestureTarget {
-    const { cameras, box } = this.#bench;
+    const { cameras } = this.#bench;
     return {
-      box,
+      box: (side) => this.#bench.box(side),
       focus: (side) => {
         elements[side].focus({ preventScroll: true });
       },

@@ -1,10 +1,11 @@
 /** What a map brings to the picture: each of its buffers goes to the renderer when the picture needs it, and not before. */
+import type { Side } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
 import type { Result, Style } from '../store/state.ts';
 import type { Viewer } from '../wasm/conemap.js';
 
 /** The sides on which a style is drawn on the map's own triangles; the meshes themselves can show the others. */
-const OVERLAYS: Readonly<Record<Style['surface'], readonly (0 | 1)[]>> = {
+const OVERLAYS: Readonly<Record<Style['surface'], readonly Side[]>> = {
   shaded: [],
   // What follows from the place on the target, the target's mesh shows.
   pattern: [0],
@@ -16,7 +17,7 @@ const OVERLAYS: Readonly<Record<Style['surface'], readonly (0 | 1)[]>> = {
 /** Knows what one renderer has. */
 export class Picture {
   #result: Result | null = null;
-  #overlays = new Set<0 | 1>();
+  #overlays = new Set<Side>();
   #lines = false;
   #map = false;
 
@@ -29,7 +30,19 @@ export class Picture {
     this.#map = false;
   }
 
-  /** Brings what a style needs; whether anything came. */
+  /** Brings the map's triangles on one side; whether there is a map. */
+  bringOverlay(viewer: Viewer, side: Side): boolean {
+    const result = this.#result;
+    if (result !== null && !this.#overlays.has(side)) {
+      const { uvs, distortion, triangles, sides } = result.output;
+      const { positions, normals } = sides[side];
+      viewer.setOverlay(side, positions, normals, uvs, distortion, triangles, sides[1].positions, sides[1].normals);
+      this.#overlays.add(side);
+    }
+    return result !== null;
+  }
+
+  /** Brings what a style needs. */
   bring(viewer: Viewer, style: Style): void {
     const result = this.#result;
     if (result === null) {
@@ -37,12 +50,7 @@ export class Picture {
     }
     const { output } = result;
     for (const side of OVERLAYS[style.surface]) {
-      if (!this.#overlays.has(side)) {
-        const { positions, normals } = output.sides[side];
-        const target = output.sides[1];
-        viewer.setOverlay(side, positions, normals, output.uvs, output.distortion, output.triangles, target.positions, target.normals);
-        this.#overlays.add(side);
-      }
+      this.bringOverlay(viewer, side);
     }
     if (style.patchLines && !this.#lines) {
       for (const side of SIDES) {

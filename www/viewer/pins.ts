@@ -96,10 +96,11 @@ export class Pins {
   /** Moves the pin in the hand to where the pointer has gone; off the body it stays. */
   follow(viewer: Viewer): void {
     const drag = this.#drag;
-    if (drag === null || drag.at === null) {
+    const at = drag?.at ?? null;
+    if (drag === null || at === null) {
       return;
     }
-    const { side, pair, gesture, offset, at } = drag;
+    const { side, pair, gesture, offset } = drag;
     drag.at = null;
     const hit = viewer.pick(side, at.x + offset.x, at.y + offset.y);
     if (hit !== undefined) {

@@ -19,6 +19,7 @@ import { labelsOf, marksOf } from './pins.ts';
 import type { Probe } from './probe.ts';
 import { probeOf } from './probe.ts';
 import { Rings } from './rings.ts';
+import { fitCanvas, fitViewer, samplesOf, whenResized } from './screen.ts';
 
 /** What the views tell the page. */
 export interface ViewListener {
@@ -32,18 +33,6 @@ export interface ViewListener {
 
 /** A camera has come to rest when it has not moved for this time, in ms. */
 const REST = 400;
-
-/** Samples a pixel: four, but one where a processor draws in place of a graphics card. */
-function samplesOf(): number {
-  const gl = document.createElement('canvas').getContext('webgl2');
-  if (gl === null) {
-    return 4;
-  }
-  const info = gl.getExtension('WEBGL_debug_renderer_info');
-  const name: unknown = gl.getParameter(info === null ? gl.RENDERER : info.UNMASKED_RENDERER_WEBGL);
-  gl.getExtension('WEBGL_lose_context')?.loseContext();
-  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(name)) ? 1 : 4;
-}
 
 /** The views of the page. */
 export class Views {
@@ -116,6 +105,15 @@ export class Views {
     if (!this.#lost) {
       await this.#make(SENTENCES.noWebGl);
     }
+  }
+
+  /** Shows the source's shape on its way to the target's, where there is a map: 0 the source's, 1 the target's. */
+  morph(share: number): void {
+    this.#with((viewer) => {
+      if (this.#picture.bringOverlay(viewer, 0)) {
+        viewer.setMorph(share);
+      }
+    });
   }
 
   /** Follows the state. */
@@ -360,7 +358,7 @@ export class Views {
     try {
       if (this.#resized) {
         this.#resized = false;
-        this.#fit(viewer);
+        fitViewer(viewer, this.#canvas, this.#elements);
       }
       this.#hands.follow(viewer);
       const more = viewer.render(now);
@@ -399,8 +397,12 @@ export class Views {
   }
 
   #tell(): void {
+    const viewer = this.#viewer;
+    if (viewer === null || this.#lost) {
+      return;
+    }
     for (const side of SIDES) {
-      const camera = this.#viewer === null || this.#lost ? null : cameraOf(this.#viewer, side);
+      const camera = cameraOf(viewer, side);
       if (JSON.stringify(camera) !== JSON.stringify(this.#told[side])) {
         this.#told[side] = camera;
         this.#listener.dispatch({ kind: 'camera-moved', side, camera });
@@ -413,52 +415,11 @@ export class Views {
     return this.#elements[side].getBoundingClientRect();
   }
 
-  /** Gives the canvas as many pixels as the screen shows; its size in pixels per CSS pixel. */
-  #fitCanvas(): number {
-    const ratio = window.devicePixelRatio;
-    const width = Math.max(1, Math.round(this.#canvas.clientWidth * ratio));
-    const height = Math.max(1, Math.round(this.#canvas.clientHeight * ratio));
-    if (this.#canvas.width !== width || this.#canvas.height !== height) {
-      this.#canvas.width = width;
-      this.#canvas.height = height;
-    }
-    return ratio;
-  }
-
-  #fit(viewer: Viewer): void {
-    const ratio = this.#fitCanvas();
-    const { width, height } = this.#canvas;
-    viewer.resize(width, height, ratio);
-    const frame = this.#canvas.getBoundingClientRect();
-    for (const side of SIDES) {
-      const box = this.box(side);
-      const left = Math.max(0, Math.round((box.left - frame.left) * ratio));
-      const top = Math.max(0, Math.round((box.top - frame.top) * ratio));
-      const right = Math.min(width, Math.round((box.left - frame.left + box.width) * ratio));
-      const bottom = Math.min(height, Math.round((box.top - frame.top + box.height) * ratio));
-      viewer.setViewport(side, left, top, Math.max(1, right - left), Math.max(1, bottom - top));
-    }
-  }
-
   #listenToWindow(): void {
-    const refit = (): void => {
+    whenResized([this.#canvas, ...this.#elements], () => {
       this.#resized = true;
       this.#requestFrame();
-    };
-    const observer = new ResizeObserver(refit);
-    observer.observe(this.#canvas);
-    this.#elements.forEach((element) => {
-      observer.observe(element);
     });
-    const watchRatio = (): void => {
-      window
-        .matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`)
-        .addEventListener('change', () => {
-          refit();
-          watchRatio();
-        }, { once: true });
-    };
-    watchRatio();
     this.#dark.addEventListener('change', () => {
       this.#with((viewer) => {
         this.#setStyle(viewer);
@@ -475,15 +436,18 @@ export class Views {
     });
   }
 
-  async #make(otherwise: string): Promise<void> {
-    this.#fitCanvas();
+  /** Makes a renderer; where that fails a sentence is said. */
+  async #make(otherwise: string): Promise<'made' | 'failed'> {
+    fitCanvas(this.#canvas);
     try {
       this.#viewer = await Viewer.create(this.#canvas, samplesOf());
       this.#resized = true;
       this.#sync(null);
+      return 'made';
     } catch (thrown) {
       console.error(thrown);
       this.#listener.failed(otherwise);
+      return 'failed';
     }
   }
 
@@ -501,8 +465,7 @@ export class Views {
     if (!this.#started) {
       return;
     }
-    await this.#make(SENTENCES.contextGone);
-    if (this.#viewer !== null) {
+    if ((await this.#make(SENTENCES.contextGone)) === 'made') {
       for (const side of SIDES) {
         this.#cameras.restore(side, cameras[side] ?? null);
       }
