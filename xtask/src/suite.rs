@@ -50,7 +50,15 @@ fn helper() -> Result<(), String> {
 fn lints() -> Result<(), String> {
     run(&cargo(), &["clippy", "--all-targets", "--", "-D", "warnings"])?;
     // The core alone is built for wasm by the tests in Node.
-    let web = ["clippy", "--lib", "--target", "wasm32-unknown-unknown", "--no-default-features", "--features", "web"];
+    let web = [
+        "clippy",
+        "--lib",
+        "--target",
+        "wasm32-unknown-unknown",
+        "--no-default-features",
+        "--features",
+        "web",
+    ];
     run(&cargo(), &[&web[..], &["--", "-D", "warnings"]].concat())
 }
 
