@@ -2,7 +2,7 @@
 import { byId, button, make } from '../dom.ts';
 import { offerSentence } from '../messages.ts';
 import type { State } from '../store/state.ts';
-import { shortName } from '../store/work.ts';
+import { workName } from '../store/work.ts';
 import type { Actions, Panel } from './panel.ts';
 
 /** How long a toast stays, in ms: to read two lines and come to its button. */
@@ -42,8 +42,7 @@ export function notices(actions: Actions): Panel {
       }
       offer.hidden = state.offer === null;
       if (state.offer !== null) {
-        const names = state.offer.names.flatMap((name) => (name === null ? [] : [shortName(name)]));
-        offerText.textContent = offerSentence(names.join(' and '), state.offer.pairs);
+        offerText.textContent = offerSentence(workName(state.offer.names), state.offer.pairs);
       }
     },
   };
