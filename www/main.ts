@@ -1,4 +1,5 @@
 /** Wires the store, the views, the panels and the worker together. */
+import { BROWSER, Keeper } from './app/keep.ts';
 import { listenForUndo } from './app/keys.ts';
 import { mark } from './app/mark.ts';
 import { followDemo, freeForgotten, linkedDemo, openDemo, openFiles } from './app/open.ts';
@@ -11,6 +12,7 @@ import { displayPanel } from './panels/display.ts';
 import { filesPanel } from './panels/files.ts';
 import { findingsPanel } from './panels/findings.ts';
 import { landmarksPanel, lookAtPair } from './panels/landmarks.ts';
+import { notices } from './panels/notices.ts';
 import type { Actions, Panel } from './panels/panel.ts';
 import { resultPanel } from './panels/result.ts';
 import { runPanel } from './panels/run.ts';
@@ -21,6 +23,7 @@ import init, { demoList, landmarkColour } from './wasm/conemap.js';
 
 const store = new Store();
 const runner = new Runner(store);
+const keeper = new Keeper(store, BROWSER);
 
 const actions: Actions = {
   dispatch: store.dispatch,
@@ -45,6 +48,12 @@ const actions: Actions = {
   repair: (finding) => {
     repair(store, runner, lookAtPair, finding);
   },
+  continueWork: () => {
+    void keeper.accept();
+  },
+  startAnew: () => {
+    void keeper.decline();
+  },
 };
 
 const views = new Views(store.state, {
@@ -63,6 +72,7 @@ const views = new Views(store.state, {
   probed: () => undefined,
 });
 const panels: readonly Panel[] = [
+  notices(actions),
   filesPanel(actions),
   runPanel(actions),
   findingsPanel(actions),
@@ -87,7 +97,18 @@ function fail(sentence: string): void {
   store.dispatch({ kind: 'error', sentence });
 }
 
+/** Shows the first demo, or the one that the address names, where nobody has put anything else there. */
+async function showFirst(demos: readonly Demo[]): Promise<void> {
+  const first = linkedDemo() ?? demos[0]?.id;
+  if (first !== undefined && store.state.job.kind === 'idle' && store.state.history.past.length === 0) {
+    if (await openDemo(store, first)) {
+      store.dispatch({ kind: 'history-begun' });
+    }
+  }
+}
+
 async function start(): Promise<void> {
+  const finding = keeper.find(linkedDemo());
   for (const panel of panels) {
     panel.render(store.state, null);
   }
@@ -103,10 +124,8 @@ async function start(): Promise<void> {
   await views.start();
   const demos = JSON.parse(demoList()) as Demo[];
   store.dispatch({ kind: 'ready', demos });
-  const first = linkedDemo() ?? demos[0]?.id;
-  if (first !== undefined) {
-    await openDemo(store, first);
-    store.dispatch({ kind: 'history-begun' });
+  if (!(await keeper.resume(await finding))) {
+    await showFirst(demos);
   }
   // The core lists its quickest demo last.
   const quickest = demos.at(-1);
@@ -122,6 +141,15 @@ window.addEventListener('hashchange', () => {
   }
 });
 listenForUndo(store);
+// The last sign of life that a browser promises.
+document.addEventListener('visibilitychange', () => {
+  if (document.visibilityState === 'hidden') {
+    void keeper.flush();
+  }
+});
+window.addEventListener('pagehide', () => {
+  void keeper.flush();
+});
 window.addEventListener('error', () => {
   fail(SENTENCES.unexpected);
 });

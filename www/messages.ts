@@ -71,6 +71,11 @@ export function findingSentence(finding: Finding, name: (order: number) => strin
   return finding.sentence;
 }
 
+/** A deleted pair. */
+export function pairGone(number: number): string {
+  return `Landmark pair ${number} deleted.`;
+}
+
 /** Pairs that went with meshes or were replaced. */
 export function pairsGone(number: number): string {
   return `${count(number, 'landmark pair')} went.`;
@@ -105,6 +110,12 @@ export const SENTENCES = {
   empty: 'is empty.',
   tooLarge: 'is larger than 1 GiB, more than the page can take.',
   nothingToSuggest: 'No further place to suggest: the landmarks cover this mesh.',
+  bringingBack: 'Bringing back your work…',
+  keepsNothing: 'This browser lets the page keep nothing: save your landmarks as a file before you leave.',
+  keepsNoMore: 'Your work is not kept in this browser any more: save your landmarks as a file before you leave.',
+  noRoom: 'This browser has no room left to keep your work: save your landmarks as a file before you leave.',
+  keptUnreadable: 'Work of an earlier visit could not be read and was left out.',
+  keptByOther: 'Work that another version of this page kept was left as it is.',
   mirrored: 'The target is its mirror image now, with the landmarks on it.',
   allLocked: 'All landmark pairs are locked. Unlock those that may go.',
   upToDate: 'This map is of these meshes, landmarks and options already.',

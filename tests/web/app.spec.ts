@@ -148,7 +148,7 @@ test('two real meshes and their landmarks give a certified map', async ({ page }
   await pickOn(page, '#view-source', async () => (await page.locator('#landmark-list .pending').count()) === 1);
   await pickOn(page, '#view-target', async () => (await page.locator('#landmark-list [data-pair]').count()) === pairs + 1);
   await expect(rows).toHaveCount(pairs + 1);
-  await expect(page.getByText('before your latest changes')).toBeVisible();
+  await expect(page.getByText(`This map was made before pair ${pairs + 1} came.`)).toBeVisible();
   await page.getByRole('button', { name: `Delete pair ${pairs + 1}`, exact: true }).click();
   await expect(rows).toHaveCount(pairs);
 

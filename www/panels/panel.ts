@@ -20,4 +20,8 @@ export interface Actions {
   readonly finish: () => void;
   readonly cancel: () => void;
   readonly repair: (finding: Doubt) => void;
+  /** Brings the offered work of an earlier visit onto the page. */
+  readonly continueWork: () => void;
+  /** Leaves it. */
+  readonly startAnew: () => void;
 }
