@@ -1,23 +1,18 @@
 /** Wires the store, the views, the panels and the worker together. */
 import { listenForUndo } from './app/keys.ts';
 import { mark } from './app/mark.ts';
-import { dropLink, freeReplaced, linkedDemo, openDemo, openFiles } from './app/open.ts';
+import { followDemo, freeForgotten, linkedDemo, openDemo, openFiles } from './app/open.ts';
 import { repair } from './app/repair.ts';
 import { Runner } from './app/run.ts';
 import { suggest } from './app/suggest.ts';
 import { compileCore } from './compute/client.ts';
 import { SENTENCES } from './messages.ts';
-import { displayPanel } from './panels/display.ts';
-import { filesPanel } from './panels/files.ts';
-import { findingsPanel } from './panels/findings.ts';
-import { landmarksPanel, lookAtPair } from './panels/landmarks.ts';
-import type { Actions, Panel } from './panels/panel.ts';
-import { resultPanel } from './panels/result.ts';
-import { runPanel } from './panels/run.ts';
+import type { Actions } from './panels/actions.ts';
+import { mountPage } from './panels/page.tsx';
 import type { Demo } from './store/state.ts';
 import { Store } from './store/store.ts';
 import { Views } from './viewer/viewer.ts';
-import init, { demoList, landmarkColour } from './wasm/conemap.js';
+import init, { demoList } from './wasm/conemap.js';
 
 const store = new Store();
 const runner = new Runner(store);
@@ -43,13 +38,30 @@ const actions: Actions = {
     runner.cancel();
   },
   repair: (finding) => {
-    repair(store, runner, lookAtPair, finding);
+    repair(store, runner, showPair, finding);
+  },
+  fit: () => {
+    views.reset();
+  },
+  lookAtPair: (id) => {
+    store.dispatch({ kind: 'pair-selected', id });
+  },
+  lookAtPlaces: () => {
+    views.reset();
   },
 };
 
+/** Opens the list, where the selected pair is. */
+function showPair(): void {
+  store.dispatch({ kind: 'ui', ui: { step: 'landmarks', panel: 'open' } });
+}
+
+// The page comes first: the views look for their places in it.
+const page = mountPage(store.state, actions);
+
 const views = new Views(store.state, {
   picked: (side, point) => {
-    store.dispatch({ kind: 'picked', side, point });
+    store.dispatch({ kind: 'point-picked', side, point });
   },
   pickDropped: () => {
     store.dispatch({ kind: 'pick-dropped' });
@@ -66,35 +78,20 @@ const views = new Views(store.state, {
     });
   },
 });
-const panels: readonly Panel[] = [
-  filesPanel(actions),
-  runPanel(actions),
-  findingsPanel(actions),
-  resultPanel(),
-  displayPanel(actions, () => {
-    views.reset();
-  }),
-  landmarksPanel(actions, landmarkColour),
-];
 
 store.subscribe((state, previous) => {
+  page.sync(state, previous);
   views.sync(state, previous);
-  for (const panel of panels) {
-    panel.render(state, previous);
-  }
 });
-store.subscribe(freeReplaced);
+store.subscribe(freeForgotten);
 store.subscribe(mark);
-store.subscribe(dropLink);
+store.subscribe(followDemo);
 
 function fail(sentence: string): void {
   store.dispatch({ kind: 'error', sentence });
 }
 
 async function start(): Promise<void> {
-  for (const panel of panels) {
-    panel.render(store.state, null);
-  }
   try {
     const core = await compileCore();
     await init({ module_or_path: core });
@@ -110,6 +107,7 @@ async function start(): Promise<void> {
   const first = linkedDemo() ?? demos[0]?.id;
   if (first !== undefined) {
     await openDemo(store, first);
+    store.dispatch({ kind: 'history-begun' });
   }
   // The core lists its quickest demo last.
   const quickest = demos.at(-1);

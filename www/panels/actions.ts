@@ -1,8 +1,7 @@
 /** What the page's parts ask for, and what each of them is given. */
 import type { Side, SurfacePoint } from '../landmarks.ts';
-import type { Finding } from '../report.ts';
 import type { Event } from '../store/events.ts';
-import type { State } from '../store/state.ts';
+import type { Doubt, State } from '../store/state.ts';
 import type { Shell } from './shell.ts';
 
 /** What panels ask for beyond a change of state. */
@@ -16,17 +15,13 @@ export interface Actions {
   /** Asks the run for its result. */
   readonly finish: () => void;
   readonly cancel: () => void;
-  readonly repair: (finding: Finding) => void;
+  readonly repair: (finding: Doubt) => void;
   /** Brings the whole mesh of a view into sight. */
   readonly fit: (side: Side) => void;
   /** Turns both views to a pair's points. */
   readonly lookAtPair: (id: number) => void;
   /** Turns both views to these places. */
   readonly lookAtPlaces: (places: readonly [SurfacePoint, SurfacePoint]) => void;
-  /** Takes up the work of an earlier visit. */
-  readonly continueOffer: () => void;
-  /** Leaves it. */
-  readonly dismissOffer: () => void;
 }
 
 /** Every part of the page is given this. */

@@ -1,5 +1,6 @@
 /** All numbers of a result, in the words of the method. */
 import type { VNode } from 'preact';
+import { Fragment } from 'preact';
 import { stageName } from '../messages.ts';
 import { figure, integer } from '../numbers.ts';
 import type { ConeMetricReport, LayoutSearchReport, Report } from '../report.ts';
@@ -74,13 +75,13 @@ function Facts({ facts }: { readonly facts: readonly Fact[] }): VNode {
   return (
     <dl class="facts">
       {facts.map(({ name, value, note }) => (
-        <>
+        <Fragment key={name}>
           <dt>{name}</dt>
           <dd>
             {value}
             {note !== undefined && <small>{note}</small>}
           </dd>
-        </>
+        </Fragment>
       ))}
     </dl>
   );

@@ -22,7 +22,7 @@ interface PopoverProps {
 function moveFocus(box: HTMLElement, step: 1 | -1): void {
   const buttons = [...box.querySelectorAll<HTMLElement>(':scope > button:not(:disabled)')];
   const present = buttons.findIndex((button) => button === document.activeElement);
-  if (present >= 0 || box.contains(document.activeElement) === false) {
+  if (present >= 0 || !box.contains(document.activeElement)) {
     buttons.at((present + step) % Math.max(1, buttons.length))?.focus();
   }
 }

@@ -42,7 +42,7 @@ function useKeptFocus(running: boolean, finishable: boolean): { readonly current
   const before = useRef(running);
   useLayoutEffect(() => {
     const active = document.activeElement;
-    const lost = active === document.body || active === null || active.closest('[hidden]') !== null;
+    const lost = active === document.body || active?.closest('[hidden]') !== null;
     if (lost && (before.current !== running || active === finish.current)) {
       (running ? byId('cancel') : document.getElementById('run'))?.focus();
     }

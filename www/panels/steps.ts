@@ -41,6 +41,10 @@ export function stepAfter(state: State, previous: State): Step | null {
   if (state.job.kind === 'running' && previous.job.kind !== 'running') {
     return 'map';
   }
+  if (state.history.past.length <= previous.history.past.length) {
+    // Nothing new: a step was taken back.
+    return null;
+  }
   if (state.meshes !== previous.meshes && hasMeshes(state) && state.meshes[0] !== previous.meshes[1]) {
     return hasPairs(state) ? 'map' : 'landmarks';
   }

@@ -1,9 +1,7 @@
-/** Sentences that go by themselves, and the work of an earlier visit. */
+/** Sentences that go by themselves. */
 import type { VNode } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
-import { offerSentence } from '../messages.ts';
-import type { State, Toast } from '../store/state.ts';
-import { shortName } from '../store/work.ts';
+import type { Toast } from '../store/state.ts';
 import type { Actions, PartProps } from './actions.ts';
 import { IconButton } from './controls.tsx';
 
@@ -54,26 +52,10 @@ function ToastBox({ toast, actions }: { readonly toast: Toast; readonly actions:
   );
 }
 
-function OfferBox({ offer, actions }: { readonly offer: NonNullable<State['offer']>; readonly actions: Actions }): VNode {
-  const names = offer.names.flatMap((name) => (name === null ? [] : [shortName(name)])).join(' and ');
-  return (
-    <div class="toast offer">
-      <p>{offerSentence(names, offer.pairs)}</p>
-      <button type="button" onClick={actions.continueOffer}>
-        Continue
-      </button>
-      <button type="button" onClick={actions.dismissOffer}>
-        No, start new
-      </button>
-    </div>
-  );
-}
-
 /** The toasts over the views; the box stays, so that what comes into it is read out. */
 export function Toasts({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
   return (
     <div class="toasts" role="status">
-      {state.offer !== null && <OfferBox offer={state.offer} actions={actions} />}
       {state.toast !== null && <ToastBox toast={state.toast} actions={actions} />}
     </div>
   );
