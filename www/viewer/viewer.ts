@@ -8,6 +8,7 @@ import { pointsOf } from '../store/points.ts';
 import { wholePairs } from '../store/order.ts';
 import { hasItsCones, shownResult } from '../store/staleness.ts';
 import type { Result, State } from '../store/state.ts';
+import { isDark, onThemeChange } from '../theme.ts';
 import { Viewer } from '../wasm/conemap.js';
 import type { Box } from './gestures.ts';
 import { listen } from './gestures.ts';
@@ -61,7 +62,6 @@ export class Views {
   #resized = true;
   #started = false;
   #lost = false;
-  readonly #dark = window.matchMedia('(prefers-color-scheme: dark)');
 
   constructor(state: State, listener: ViewListener) {
     const canvas = byId('canvas');
@@ -174,7 +174,7 @@ export class Views {
         ...style,
         surface: result === null ? 'shaded' : style.surface,
         cones: style.cones && hasItsCones(this.#state),
-        dark: this.#dark.matches,
+        dark: isDark(),
         holes: result !== null && result.report.certificate === null,
       }),
     );
@@ -310,7 +310,7 @@ export class Views {
         }, { once: true });
     };
     watchRatio();
-    this.#dark.addEventListener('change', () => {
+    onThemeChange(() => {
       this.#with((viewer) => {
         this.#setStyle(viewer);
       });
