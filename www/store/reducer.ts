@@ -60,7 +60,7 @@ function withResult(state: State, result: Result): State {
   const done = { ...state, job: { kind: 'done' } as const, result };
   const { surface } = state.ui.style;
   const isShown = surface !== 'shaded' && (surface !== 'distortion' || result.output.distortion.length > 0);
-  return isShown ? done : withStyle(done, { surface: 'checkerboard' });
+  return isShown ? done : withStyle(done, { surface: 'pattern' });
 }
 
 /** Kept work in the place of the present one; its pairs get ids of this visit. */
