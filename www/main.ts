@@ -1,4 +1,5 @@
 /** Wires the store, the views, the panels and the worker together. */
+import { BROWSER, Keeper } from './app/keep.ts';
 import { listenForUndo } from './app/keys.ts';
 import { mark } from './app/mark.ts';
 import { followDemo, freeForgotten, linkedDemo, openDemo, openFiles } from './app/open.ts';
@@ -7,7 +8,8 @@ import { Runner } from './app/run.ts';
 import { suggest } from './app/suggest.ts';
 import { compileCore } from './compute/client.ts';
 import { SENTENCES } from './messages.ts';
-import type { Actions } from './panels/actions.ts';
+import type { Side } from './landmarks.ts';
+import type { Actions, CameraCommand } from './panels/actions.ts';
 import { mountPage } from './panels/page.tsx';
 import type { Demo } from './store/state.ts';
 import { Store } from './store/store.ts';
@@ -16,6 +18,7 @@ import init, { demoList } from './wasm/conemap.js';
 
 const store = new Store();
 const runner = new Runner(store);
+const keeper = new Keeper(store, BROWSER);
 
 const actions: Actions = {
   dispatch: store.dispatch,
@@ -40,20 +43,46 @@ const actions: Actions = {
   repair: (finding) => {
     repair(store, runner, showPair, finding);
   },
-  fit: () => {
-    views.reset();
+  camera: (side, command) => {
+    turn(side, command);
   },
+  proposedUp: (side) => views.proposedUp(side),
   lookAtPair: (id) => {
-    store.dispatch({ kind: 'pair-selected', id });
+    views.lookAtPair(id);
   },
-  lookAtPlaces: () => {
-    views.reset();
+  lookAtPlaces: ([source, target]) => {
+    views.lookAt(0, source);
+    views.lookAt(1, target);
+  },
+  continueWork: () => {
+    void keeper.accept();
+  },
+  startAnew: () => {
+    void keeper.decline();
   },
 };
 
-/** Opens the list, where the selected pair is. */
-function showPair(): void {
+/** Opens the list, where the selected pair is, and turns both views to it. */
+function showPair(id: number): void {
   store.dispatch({ kind: 'ui', ui: { step: 'landmarks', panel: 'open' } });
+  views.lookAtPair(id);
+}
+
+function turn(side: Side, command: CameraCommand): void {
+  switch (command.kind) {
+    case 'fit':
+      views.fit(side);
+      break;
+    case 'reset':
+      views.reset(side);
+      break;
+    case 'look':
+      views.lookFrom(side, command.from);
+      break;
+    case 'roll':
+      views.roll(side, command.degrees);
+      break;
+  }
 }
 
 // The page comes first: the views look for their places in it.
@@ -72,7 +101,7 @@ const views = new Views(store.state, {
       store.dispatch({ kind: 'error-closed' });
     });
   },
-  probed: () => undefined,
+  probed: page.probed,
 });
 
 store.subscribe((state, previous) => {
@@ -87,7 +116,17 @@ function fail(sentence: string): void {
   store.dispatch({ kind: 'error', sentence });
 }
 
+/** Shows the first demo, or the one that the address names, where nobody has put anything else there. */
+async function showFirst(demos: readonly Demo[]): Promise<void> {
+  const first = linkedDemo() ?? demos[0]?.id;
+  if (first !== undefined && store.state.job.kind === 'idle' && store.state.history.past.length === 0) {
+    await openDemo(store, first);
+    store.dispatch({ kind: 'history-begun' });
+  }
+}
+
 async function start(): Promise<void> {
+  const finding = keeper.find(linkedDemo());
   try {
     const core = await compileCore();
     await init({ module_or_path: core });
@@ -100,10 +139,8 @@ async function start(): Promise<void> {
   await views.start();
   const demos = JSON.parse(demoList()) as Demo[];
   store.dispatch({ kind: 'ready', demos });
-  const first = linkedDemo() ?? demos[0]?.id;
-  if (first !== undefined) {
-    await openDemo(store, first);
-    store.dispatch({ kind: 'history-begun' });
+  if (!(await keeper.resume(await finding))) {
+    await showFirst(demos);
   }
   // The core lists its quickest demo last.
   const quickest = demos.at(-1);
@@ -119,6 +156,15 @@ window.addEventListener('hashchange', () => {
   }
 });
 listenForUndo(store);
+// The last sign of life that a browser promises.
+document.addEventListener('visibilitychange', () => {
+  if (document.visibilityState === 'hidden') {
+    void keeper.flush();
+  }
+});
+window.addEventListener('pagehide', () => {
+  void keeper.flush();
+});
 window.addEventListener('error', () => {
   fail(SENTENCES.unexpected);
 });

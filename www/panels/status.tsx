@@ -10,6 +10,8 @@ import { asked, waitingCount } from '../store/waiting.ts';
 import type { PartProps } from './actions.ts';
 import { meshName } from './names.ts';
 import { progressNumber, runningSentence } from './progress.ts';
+import type { Probe } from './shell.ts';
+import { largestStretch } from './verdict.ts';
 
 function nextClick(state: State): string {
   const next = asked(state);
@@ -22,7 +24,10 @@ function nextClick(state: State): string {
 }
 
 /** What the line says when nothing runs; empty where the hint says it all. */
-function restSentence(state: State): string {
+function restSentence(state: State, probe: Probe | null): string {
+  if (probe !== null && probe.distortion !== null && state.job.kind !== 'busy') {
+    return `Here stretched up to ${largestStretch(probe.distortion).toFixed(2)} times`;
+  }
   switch (state.job.kind) {
     case 'busy':
       return state.job.task.sentence;
@@ -74,7 +79,7 @@ function RunButtons({ job, actions }: { readonly job: Running | null } & Pick<Pa
 }
 
 /** The line. */
-export function StatusLine({ state, actions }: PartProps): VNode {
+export function StatusLine({ state, actions, shell }: PartProps): VNode {
   const job = state.job.kind === 'running' ? state.job : null;
   const next = job !== null || !state.ready ? '' : nextClick(state);
   return (
@@ -84,7 +89,7 @@ export function StatusLine({ state, actions }: PartProps): VNode {
       </p>
       <div class="progress">
         <p id="status" role="status" class={job === null ? 'sentence quiet' : 'sentence'}>
-          {job === null ? restSentence(state) : runningSentence(job)}
+          {job === null ? restSentence(state, shell.state.probe) : runningSentence(job)}
         </p>
         {job !== null && (
           <>
