@@ -168,8 +168,7 @@ describe('what is kept', () => {
     tab.store.dispatch(...CAT_AND_LION, { kind: 'demo', demo: DEMO });
     tab.does({ kind: 'history-begun' }, { kind: 'ui', ui: { step: 'map' } });
     await tab.close();
-    // The demo itself was a step for a moment; what is then written is its last state.
-    expect((await records()).every(({ past }) => past.length === 0)).toBe(true);
+    expect(await records()).toEqual([]);
   });
 
   test('is every step, soon after it and gathered with those of the same moment', async () => {
@@ -195,6 +194,16 @@ describe('what is kept', () => {
     await tab.keeper.flush();
     expect(meshPuts()).toBe(2);
     expect(await meshNames()).toEqual(['cat.off', 'lion.off']);
+  });
+
+  test('is of a mesh’s bytes no more than the mesh', async () => {
+    const tab = await new Tab().visit();
+    const bytes = new TextEncoder().encode('archive: cat.off').subarray(9);
+    tab.does({ kind: 'mesh', side: 0, file: { ...mesh('cat.off'), bytes } });
+    await tab.keeper.flush();
+    const [hash] = (await records())[0]?.hashes ?? [];
+    const stored = await database.mesh(hash ?? '');
+    expect([stored?.byteLength, stored?.buffer.byteLength]).toEqual([7, 7]);
   });
 
   test('is no mesh that no step leads to', async () => {
@@ -285,6 +294,21 @@ describe('a reload', () => {
     again.does(pick(1));
     await again.close();
     expect((await records()).map(({ id }) => id).sort()).toEqual(['session-1', 'session-2']);
+  });
+
+  test('during which a file is opened gives way to it, and the work is offered', async () => {
+    const memory = await (await catAndLion()).close();
+    const tab = new Tab(memory);
+    const found = await tab.keeper.find(null);
+    tab.store.dispatch({ kind: 'ready', demos: [] });
+    const resumed = tab.keeper.resume(found);
+    const task = { sentence: 'Reading the files…' };
+    tab.does({ kind: 'task-begun', task }, { kind: 'mesh', side: 0, file: mesh('cow.off') }, { kind: 'task-ended', task });
+    expect(await resumed).toBe(false);
+    expect(tab.state.meshes[0]?.name).toBe('cow.off');
+    await tab.close();
+    expect((await new Tab().visit()).state.offer).toMatchObject({ session: 'session-2', names: ['cow.off', null] });
+    expect((await records()).map(({ id }) => id)).toEqual(['session-1', 'session-2']);
   });
 
   test('of a copied tab continues with a copy; both go on by themselves', async () => {

@@ -84,9 +84,9 @@ export function PictureBar({ state, actions }: Pick<PartProps, 'state' | 'action
       <Popover icon="picture" label={`Picture: ${surface?.text ?? ''}`} text={surface?.text ?? ''} place="up end">
         {() => (
           <>
-            <h3>Surface</h3>
+            <p class="title">Surface</p>
             <SurfaceChoice state={state} actions={actions} group="surface" />
-            <h3>On it</h3>
+            <p class="title">On it</p>
             <LineChoice state={state} actions={actions} />
           </>
         )}

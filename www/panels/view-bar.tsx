@@ -64,7 +64,7 @@ function AxisChoice({ state, actions, side }: Props): VNode {
   const [proposed] = useState(() => actions.proposedUp(side));
   return (
     <>
-      <h3>Turn upright</h3>
+      <p class="title">Turn upright</p>
       {AXES.map(([axis, text]) => (
         <button
           key={axis}
@@ -89,7 +89,7 @@ function Upright(props: Props): VNode {
       {() => (
         <>
           <AxisChoice {...props} />
-          <h3>Turn the picture</h3>
+          <p class="title">Turn the picture</p>
           <div class="row">
             <IconButton
               icon="rollLeft"
