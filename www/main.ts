@@ -53,6 +53,7 @@ const actions: Actions = {
   lookAtPlaces: ([source, target]) => {
     views.lookAt(0, source);
     views.lookAt(1, target);
+    views.ask(0, source);
   },
   continueWork: () => {
     void keeper.accept();

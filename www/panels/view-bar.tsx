@@ -41,20 +41,21 @@ const ROLL = 15;
 function Sides({ actions, side }: Props): VNode {
   return (
     <Popover icon="sides" label={`Look at the ${SIDE_NAMES[side]} from a side`} place="up start">
-      {(close) =>
-        DIRECTIONS.map(([from, text]) => (
-          <button
-            key={from}
-            type="button"
-            onClick={() => {
-              close();
-              actions.camera(side, { kind: 'look', from });
-            }}
-          >
-            {text}
-          </button>
-        ))
-      }
+      {() => (
+        <div class="tiles">
+          {DIRECTIONS.map(([from, text]) => (
+            <button
+              key={from}
+              type="button"
+              onClick={() => {
+                actions.camera(side, { kind: 'look', from });
+              }}
+            >
+              {text}
+            </button>
+          ))}
+        </div>
+      )}
     </Popover>
   );
 }
@@ -65,19 +66,23 @@ function AxisChoice({ state, actions, side }: Props): VNode {
   return (
     <>
       <p class="title">Turn upright</p>
-      {AXES.map(([axis, text]) => (
-        <button
-          key={axis}
-          type="button"
-          aria-pressed={state.up[side] === axis}
-          onClick={() => {
-            actions.dispatch({ kind: 'up', side, axis });
-          }}
-        >
-          {text}
-          {axis === proposed && <span class="quiet small">looks right by its shape</span>}
-        </button>
-      ))}
+      <div class="tiles">
+        {AXES.map(([axis, text]) => (
+          <button
+            key={axis}
+            type="button"
+            aria-pressed={state.up[side] === axis}
+            onClick={() => {
+              actions.dispatch({ kind: 'up', side, axis });
+            }}
+          >
+            {text}
+          </button>
+        ))}
+      </div>
+      {proposed !== null && proposed !== state.up[side] && (
+        <p class="small title">By its shape: {AXES.find(([axis]) => axis === proposed)?.[1]}</p>
+      )}
     </>
   );
 }
