@@ -81,7 +81,7 @@ function Row({ pair, fit, selected, lit, reached, actions }: RowProps): VNode {
         <input
           type="text"
           value={label}
-          placeholder={whole ? 'no name' : missingText(pair)}
+          placeholder={whole ? '' : missingText(pair)}
           aria-label={`Name of pair ${number}`}
           tabIndex={-1}
           onChange={(event) => {
