@@ -78,9 +78,11 @@ function Row({ pair, fit, selected, lit, reached, actions }: RowProps): VNode {
         <Swatch number={number} draggable />
       </td>
       <td>
+        {/* What is being typed stays when the row is drawn again; another name from elsewhere makes another field. */}
         <input
+          key={label}
           type="text"
-          value={label}
+          defaultValue={label}
           placeholder={whole ? '' : missingText(pair)}
           aria-label={`Name of pair ${number}`}
           tabIndex={-1}
