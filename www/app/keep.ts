@@ -61,6 +61,21 @@ const MEMORY_KEY = 'conemap-session';
 /** How long a lock is waited for, in ms: a page that was just reloaded may still hold it; a tab that was copied holds it on. */
 const PATIENCE = 500;
 
+/** How long the store may take to open, in ms: the page does not wait for one that never does. */
+const LONGEST_OPENING = 3000;
+
+/** What is promised, if it comes in time. Throws where it does not. */
+function within<T>(milliseconds: number, promised: Promise<T>): Promise<T> {
+  return new Promise((resolve, reject) => {
+    const timer = setTimeout(() => {
+      reject(new Error(`no answer in ${milliseconds} ms`));
+    }, milliseconds);
+    promised.then(resolve, reject).finally(() => {
+      clearTimeout(timer);
+    });
+  });
+}
+
 /** Whether nothing that is kept has changed. */
 function isKept(state: State, previous: State): boolean {
   const [ui, before] = [state.ui, previous.ui];
@@ -115,9 +130,10 @@ export class Keeper {
    */
   async find(linked: string | null): Promise<Found> {
     try {
-      this.#database = await this.#around.open(() => {
+      const opening = this.#around.open(() => {
         this.#close(SENTENCES.keepsNoMore);
       });
+      this.#database = await within(LONGEST_OPENING, opening);
       this.#tabs = this.#around.tabs();
       const found = await this.#look(this.#database, this.#tabs, linked);
       this.#store.subscribe((state, previous) => {
@@ -338,6 +354,7 @@ export class Keeper {
       await this.#database.write({ record, fresh, dropped, absorbed: this.#absorbed });
       this.#written = needed;
       this.#absorbed = null;
+      this.#said = false;
     } catch (thrown) {
       console.warn(thrown);
       const isFull = thrown instanceof DOMException && thrown.name === 'QuotaExceededError';
@@ -362,7 +379,7 @@ export class Keeper {
     this.#say(sentence);
   }
 
-  /** Says once that nothing is kept. */
+  /** Says that nothing is kept, once until something is again. */
   #say(sentence: string): void {
     if (!this.#said) {
       this.#said = true;

@@ -1,6 +1,6 @@
 /** Which of the kept sessions is offered, and which ones go. */
 import * as v from 'valibot';
-import type { SessionRecord } from './record.ts';
+import type { Reading, SessionRecord } from './record.ts';
 import { readSession } from './record.ts';
 
 /** Sessions that are kept beside those that tabs have open. */
@@ -26,17 +26,29 @@ export function choiceOf(all: readonly unknown[], open: ReadonlySet<string>): Ch
   const closed = all
     .flatMap((value) => {
       const outline = v.safeParse(Outline, value);
-      return outline.success ? [{ ...outline.output, reading: readSession(value) }] : [];
+      return outline.success ? [{ ...outline.output, value }] : [];
     })
     .filter(({ id }) => !open.has(id))
     .sort((a, b) => b.saved - a.saved);
-  const sound = closed.filter(({ reading }) => reading.kind !== 'broken');
-  const kept = new Set(sound.slice(0, MOST_SESSIONS));
+  const sound: { readonly id: string; readonly reading: Reading }[] = [];
+  let hasBroken = false;
+  for (const { id, value } of closed) {
+    // Older ones go unread.
+    if (sound.length < MOST_SESSIONS) {
+      const reading = readSession(value);
+      if (reading.kind === 'broken') {
+        hasBroken = true;
+      } else {
+        sound.push({ id, reading });
+      }
+    }
+  }
+  const kept = new Set(sound.map(({ id }) => id));
   const records = sound.flatMap(({ reading }) => (reading.kind === 'session' ? [reading.record] : []));
   return {
     latest: records.find(({ declined }) => !declined) ?? null,
-    obsolete: closed.filter((session) => !kept.has(session)).map(({ id }) => id),
-    hasOthers: closed.some(({ reading }) => reading.kind === 'other-version'),
-    hasBroken: closed.length > sound.length,
+    obsolete: closed.filter(({ id }) => !kept.has(id)).map(({ id }) => id),
+    hasOthers: sound.some(({ reading }) => reading.kind === 'other-version'),
+    hasBroken,
   };
 }
