@@ -8,18 +8,13 @@ import { Runner } from './app/run.ts';
 import { suggest } from './app/suggest.ts';
 import { compileCore } from './compute/client.ts';
 import { SENTENCES } from './messages.ts';
-import { displayPanel } from './panels/display.ts';
-import { filesPanel } from './panels/files.ts';
-import { findingsPanel } from './panels/findings.ts';
-import { landmarksPanel, lookAtPair } from './panels/landmarks.ts';
-import { notices } from './panels/notices.ts';
-import type { Actions, Panel } from './panels/panel.ts';
-import { resultPanel } from './panels/result.ts';
-import { runPanel } from './panels/run.ts';
+import type { Side } from './landmarks.ts';
+import type { Actions, CameraCommand } from './panels/actions.ts';
+import { mountPage } from './panels/page.tsx';
 import type { Demo } from './store/state.ts';
 import { Store } from './store/store.ts';
 import { Views } from './viewer/viewer.ts';
-import init, { demoList, landmarkColour } from './wasm/conemap.js';
+import init, { demoList } from './wasm/conemap.js';
 
 const store = new Store();
 const runner = new Runner(store);
@@ -46,7 +41,19 @@ const actions: Actions = {
     runner.cancel();
   },
   repair: (finding) => {
-    repair(store, runner, lookAtPair, finding);
+    repair(store, runner, showPair, finding);
+  },
+  camera: (side, command) => {
+    turn(side, command);
+  },
+  proposedUp: (side) => views.proposedUp(side),
+  lookAtPair: (id) => {
+    views.lookAtPair(id);
+  },
+  lookAtPlaces: ([source, target]) => {
+    views.lookAt(0, source);
+    views.lookAt(1, target);
+    views.ask(0, source);
   },
   continueWork: () => {
     void keeper.accept();
@@ -55,6 +62,32 @@ const actions: Actions = {
     void keeper.decline();
   },
 };
+
+/** Opens the list, where the selected pair is, and turns both views to it. */
+function showPair(id: number): void {
+  store.dispatch({ kind: 'ui', ui: { step: 'landmarks', panel: 'open' } });
+  views.lookAtPair(id);
+}
+
+function turn(side: Side, command: CameraCommand): void {
+  switch (command.kind) {
+    case 'fit':
+      views.fit(side);
+      break;
+    case 'reset':
+      views.reset(side);
+      break;
+    case 'look':
+      views.lookFrom(side, command.from);
+      break;
+    case 'roll':
+      views.roll(side, command.degrees);
+      break;
+  }
+}
+
+// The page comes first: the views look for their places in it.
+const page = mountPage(store.state, actions);
 
 const views = new Views(store.state, {
   dispatch: store.dispatch,
@@ -69,25 +102,12 @@ const views = new Views(store.state, {
       store.dispatch({ kind: 'error-closed' });
     });
   },
-  probed: () => undefined,
+  probed: page.probed,
 });
-const panels: readonly Panel[] = [
-  notices(actions),
-  filesPanel(actions),
-  runPanel(actions),
-  findingsPanel(actions),
-  resultPanel(),
-  displayPanel(actions, () => {
-    views.reset();
-  }),
-  landmarksPanel(actions, landmarkColour),
-];
 
 store.subscribe((state, previous) => {
+  page.sync(state, previous);
   views.sync(state, previous);
-  for (const panel of panels) {
-    panel.render(state, previous);
-  }
 });
 store.subscribe(freeForgotten);
 store.subscribe(mark);
@@ -109,9 +129,6 @@ async function showFirst(demos: readonly Demo[]): Promise<void> {
 
 async function start(): Promise<void> {
   const finding = keeper.find(linkedDemo());
-  for (const panel of panels) {
-    panel.render(store.state, null);
-  }
   try {
     const core = await compileCore();
     await init({ module_or_path: core });
