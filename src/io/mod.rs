@@ -5,6 +5,7 @@
 mod format;
 mod gltf_file;
 pub mod landmark_file;
+pub mod landmark_formats;
 mod obj;
 mod off;
 mod ply;
