@@ -1,10 +1,11 @@
 //! Meshes and landmarks from files, with errors that name the file.
 
-use conemap::io;
+use conemap::io::{self, gltf_parts};
 use conemap::landmark_exchange::GivenFile;
 use conemap::mesh::check::{CheckedMesh, closed_genus_zero};
+use std::collections::BTreeMap;
 use std::error::Error;
-use std::path::Path;
+use std::path::{Component, Path};
 
 /// What the command line fails with: a sentence.
 pub type Failure = Box<dyn Error>;
@@ -16,7 +17,20 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
 
 /// Reads the file of a mesh, with what it keeps in files beside it.
 pub fn mesh_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
-    bytes(path)
+    let own = bytes(path)?;
+    let parts = gltf_parts::parts_of(&own);
+    if parts.buffers.is_empty() {
+        return Ok(own);
+    }
+    // What a file names is read from its own folder and those below, and from nowhere else.
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let is_below = |name: &str| Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+    let names = parts.buffers.into_iter().chain(parts.images).filter(|name| is_below(name));
+    let contents: BTreeMap<String, Vec<u8>> =
+        names.filter_map(|name| std::fs::read(folder.join(&name)).ok().map(|content| (name, content))).collect();
+    let find = |name: &str| contents.get(name).map(Vec::as_slice);
+    let packed = gltf_parts::packed(&own, find).map_err(|e| format!("{}: {e}", path.display()))?;
+    Ok(packed.bytes)
 }
 
 /// Reads and checks a mesh.
