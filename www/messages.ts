@@ -76,6 +76,17 @@ export function pairGone(number: number): string {
   return `Landmark pair ${number} deleted.`;
 }
 
+/** A mesh without files that it names. */
+export function missingParts(name: string, parts: readonly string[]): string {
+  return `${name}: Drop it together with ${parts.join(', ')}: its data is there.`;
+}
+
+/** What there is to know about landmarks that were read: the first sentence, and how many more there are. */
+export function remarksSentence(remarks: readonly string[]): string {
+  const [first = '', ...more] = remarks;
+  return `${asSentence(first)}${more.length === 0 ? '' : ` ${count(more.length, 'more remark')}.`}`;
+}
+
 /** Pairs that went with meshes or were replaced. */
 export function pairsGone(number: number): string {
   return `${count(number, 'landmark pair')} went.`;
@@ -84,6 +95,11 @@ export function pairsGone(number: number): string {
 /** Pairs whose points on one mesh went with it. */
 export function pointsGone(number: number): string {
   return `${count(number, 'landmark pair')} lost a point with its mesh; the partners wait for new ones.`;
+}
+
+/** Pairs whose points on one mesh went for those of a file. */
+export function pointsReplaced(number: number): string {
+  return `${count(number, 'landmark pair')} lost a point.`;
 }
 
 /** All pairs but the locked ones deleted. */
@@ -99,11 +115,16 @@ export const SENTENCES = {
   contextLost: 'The graphics card took the views away. They come back as soon as it answers.',
   contextGone: 'The views could not be rebuilt after the graphics card was lost. Reload the page.',
   tooManyMeshes: 'Drop at most two meshes at once: a source and a target.',
-  twoLandmarkFiles: 'Drop one landmark file at a time.',
+  twoLandmarkFiles: 'Drop one landmark file at a time, or one for each mesh.',
+  meshesFirst: 'these landmarks are points in space: load their mesh first, or together with them.',
+  whichMesh: 'these landmarks are for one mesh: drop the file on the view of that mesh.',
+  partsAlone: 'this is a part of a mesh: drop it together with the OBJ or glTF that names it.',
+  brokenZip: 'this zip cannot be unpacked: it may be damaged or cut off.',
+  largeZip: 'this zip unpacks to more than the page can take.',
+  manyInZip: 'this zip holds more than 1000 files: put only the meshes and their parts into it.',
   noDemo: 'There is no demo of that name. Choose one from the menu.',
   whileRunning: 'A map is being computed. Cancel it first, then change the meshes.',
   unreadable: 'could not be read from the disk.',
-  notLandmarks: 'this is JSON, but it has no "pairs" and is no mesh.',
   unexpected: 'Something unexpected went wrong in the page. Your files are untouched; reload if the page no longer answers.',
   otherMeshes: 'Load the meshes of these landmarks first, or together with them.',
   keptMisfit: 'The landmarks are kept: load the mesh that they were made for, or clear them.',

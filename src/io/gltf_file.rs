@@ -1,7 +1,7 @@
 //! glTF 2.0: all triangles of the scene in world coordinates, joined at equal coordinates. Vertices are numbered as the
 //! elements of the primitives' positions, one primitive after another as the scene names them.
 //!
-//! Buffers are the binary part of a GLB or data URIs. Accessors are read here with their bounds checked in u64.
+//! Buffers are the binary part of a GLB or data URIs; [`super::gltf_parts`] brings those of other files in. Accessors are read here with their bounds checked in u64.
 
 use super::problem::{Place, Problem};
 use super::reading::weld;
@@ -42,7 +42,7 @@ fn buffers(gltf: &Gltf) -> Result<Vec<Vec<u8>>, String> {
             let data = uri.strip_prefix("data:").and_then(|rest| rest.split_once(";base64,"));
             let (_, code) = data.ok_or_else(|| {
                 let short: String = uri.chars().take(40).collect();
-                format!("its data is in another file ({short}): export it as GLB or with embedded buffers")
+                format!("its data is in another file ({short}): give that file too, or export it as GLB")
             })?;
             STANDARD.decode(code).map_err(|e| format!("its embedded buffer is damaged: {e}"))
         }

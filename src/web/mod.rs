@@ -2,6 +2,7 @@
 
 mod compute;
 mod files;
+mod landmark_files;
 mod view_side;
 mod viewer;
 

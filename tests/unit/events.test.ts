@@ -126,6 +126,18 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
       ...toast('4 landmark pairs went.'),
     },
   },
+  'side-marks': {
+    before: { ...DOUBTED, error: 'Something failed.' },
+    event: { side: 1, points: [{ label: 'nose', point: 20 }], name: 'cat.fcsv' },
+    step: 'Load cat.fcsv',
+    changes: {
+      pairs: [pair(1, 0, null), pair(2, 1, null), pair(3, 2, null), pair(4, 3, null), pair(5, null, 20, 'nose')],
+      nextId: 6,
+      findings: [],
+      error: null,
+      ...toast('4 landmark pairs lost a point.'),
+    },
+  },
   demo: {
     before: { ...READY, error: 'Something failed.' },
     event: { demo: DEMO },

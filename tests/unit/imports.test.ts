@@ -27,7 +27,7 @@ function imports(): Graph {
 function parts(): ReadonlyMap<string, number> {
   const text = readFileSync(join(WWW, '../ARCHITECTURE.md'), 'utf8');
   const list = /(?<=each only with what stands above it:\n\n)(?:- .*\n)+/.exec(text)?.[0] ?? '';
-  const names = (line: string): string[] => [...(line.split(': ')[0] ?? '').matchAll(/`(\w+)/g)].map(([, name]) => name ?? '');
+  const names = (line: string): string[] => [...(line.split(': ')[0] ?? '').matchAll(/`([\w-]+)/g)].map(([, name]) => name ?? '');
   return new Map(list.split('\n').flatMap((line, rank) => names(line).map((name) => [name, rank] as const)));
 }
 

@@ -5,6 +5,7 @@ import type { LandmarkFile, Side, Suggestion, SurfacePoint } from '../landmarks.
 import type { Finding, Report } from '../report.ts';
 import type { History } from './history.ts';
 import type { Task } from './job.ts';
+import type { SidePoint } from './side-marks.ts';
 import type { Axis, Camera, Demo, MeshFile, Offer, Style, Ui, Work } from './state.ts';
 
 export type Event =
@@ -25,6 +26,8 @@ export type Event =
   | { readonly kind: 'swap-meshes' }
   /** The pairs of a file come in the place of the present ones. */
   | { readonly kind: 'landmarks'; readonly file: LandmarkFile }
+  /** The points of a file for one mesh alone come in the place of those on it; `name` is the file's. */
+  | { readonly kind: 'side-marks'; readonly side: Side; readonly points: readonly SidePoint[]; readonly name: string }
   /** The meshes and landmarks that came before it are this demo's. */
   | { readonly kind: 'demo'; readonly demo: Demo }
   /** A point is placed: it completes the pair that waits for it, or begins one. */

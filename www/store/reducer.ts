@@ -21,6 +21,7 @@ import {
 } from './pairs.ts';
 import { withRestored } from './restore.ts';
 import { withFindings } from './settle.ts';
+import { withSideMarks } from './side-marks.ts';
 import type { Result, State, Style } from './state.ts';
 import { shownResult } from './staleness.ts';
 import type { Axis } from './work.ts';
@@ -86,6 +87,8 @@ export function update(state: State, event: Event): State {
       return withSwap(state);
     case 'landmarks':
       return withLandmarks(state, event.file);
+    case 'side-marks':
+      return withSideMarks(state, event.side, event.points);
     case 'demo':
       return { ...state, demo: event.demo, error: null };
     case 'point-picked':

@@ -1,6 +1,6 @@
 /** Steps of the work in words: their names, and what is said where they drop something. */
 import type { Pair } from '../landmarks.ts';
-import { clearedSentence, count, pairGone, pairsGone, pointsGone, SENTENCES } from '../messages.ts';
+import { clearedSentence, count, pairGone, pairsGone, pointsGone, pointsReplaced, SENTENCES } from '../messages.ts';
 import type { Event } from './events.ts';
 import type { State, Toast } from './state.ts';
 
@@ -34,6 +34,7 @@ const NAMES: Names = {
   mirrored: () => 'Mirror the target',
   'swap-meshes': () => 'Exchange the meshes',
   landmarks: ({ file }) => `Load ${count(file.pairs.length, 'pair')}`,
+  'side-marks': ({ name }) => `Load ${name}`,
   demo: ({ demo }) => `Open the demo “${demo.title}”`,
   'point-picked': (_, before, after) => pickName(before, after),
   'point-moved': ({ id }, before) => `Move ${called(before, id)}`,
@@ -95,6 +96,9 @@ export function toastOf(events: readonly Event[], before: State, after: State): 
   }
   if (kinds.has('pairs-cleared')) {
     return { sentence: clearedSentence(dropped, after.pairs.length), undo };
+  }
+  if (kinds.has('side-marks')) {
+    return { sentence: pointsReplaced(dropped), undo };
   }
   const stay = new Set(after.pairs.map(({ id }) => id));
   const areHalf = before.pairs.some(({ id }) => stay.has(id));
