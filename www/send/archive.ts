@@ -30,17 +30,35 @@ export function isArchive(bytes: Uint8Array): boolean {
   return bytes[0] === 0x50 && bytes[1] === 0x4b && (bytes[2] === 3 || bytes[2] === 5);
 }
 
+/** Where archives are packed and unpacked, so that the page can do it beside its own work. */
+export interface Archiver {
+  write(entries: Entries): Promise<Uint8Array<ArrayBuffer>>;
+  /** Takes the bytes, which are gone afterwards. Throws {@link ArchiveRefused}. */
+  read(bytes: Uint8Array<ArrayBuffer>, names: readonly string[]): Promise<Entries>;
+}
+
+/** What a worker for archives is asked. */
+export type ArchiveRequest =
+  | { readonly kind: 'write'; readonly entries: Entries }
+  | { readonly kind: 'read'; readonly bytes: Uint8Array<ArrayBuffer>; readonly names: readonly string[] };
+
+/** What the worker answers. */
+export type ArchiveAnswer =
+  | { readonly kind: 'written'; readonly bytes: Uint8Array<ArrayBuffer> }
+  | { readonly kind: 'read'; readonly entries: Entries }
+  | { readonly kind: 'refused'; readonly fault: ArchiveFault };
+
 /** One archive of all these files. */
 export function writeArchive(entries: Entries): Uint8Array<ArrayBuffer> {
   return zipSync(entries, { mtime: TIME });
 }
 
 /**
- * The files of an archive that `wanted` asks for by name. Sizes are judged by the archive's directory before any memory is
+ * Those files of an archive whose names are asked for. Sizes are judged by the archive's directory before any memory is
  * taken, and no file becomes longer than its entry says. Names are names: nothing is written anywhere by them. Throws
  * {@link ArchiveRefused}.
  */
-export function readArchive(bytes: Uint8Array, wanted: (name: string) => boolean): Entries {
+export function readArchive(bytes: Uint8Array, names: readonly string[]): Entries {
   let count = 0;
   let size = 0;
   try {
@@ -50,7 +68,7 @@ export function readArchive(bytes: Uint8Array, wanted: (name: string) => boolean
         if (count > MOST_ENTRIES) {
           throw new ArchiveRefused('too-many');
         }
-        if (!wanted(name)) {
+        if (!names.includes(name)) {
           return false;
         }
         size += originalSize;

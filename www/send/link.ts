@@ -4,12 +4,14 @@
  * strangers: lengths are judged first, then the shape of every part; what does not hold is refused with its reason.
  */
 import * as v from 'valibot';
-import type { Pair, Side } from '../landmarks.ts';
+import type { Side } from '../landmarks.ts';
 import type { LinkFault } from '../messages.ts';
-import type { Camera, Style, Work } from '../store/state.ts';
+import type { Camera } from '../store/state.ts';
 import type { Address } from './address.ts';
 import { addressOf, shownName } from './address.ts';
 import { pack, unpack } from './packing.ts';
+import { areSound } from './schema.ts';
+import type { SentPair, SentWork } from './schema.ts';
 import { surfacePoint, VERSION, WireLink, wirePoint } from './wire.ts';
 import type { WireFile, WirePoint } from './wire.ts';
 
@@ -23,13 +25,6 @@ export type LinkedFile =
   | { readonly kind: 'address'; readonly address: Address }
   | { readonly kind: 'local'; readonly name: string; readonly hash: string };
 
-/** Everything but the meshes: the work on them, and how it was looked at. */
-export interface LinkedWork extends Pick<Work, 'up' | 'groundTruth' | 'options'> {
-  readonly pairs: readonly Omit<Pair, 'id'>[];
-  readonly cameras: readonly [Camera | null, Camera | null];
-  readonly style: Style;
-}
-
 /** What a link says. */
 export interface Link {
   /** The demo whose meshes these are; then there are no files. */
@@ -38,7 +33,7 @@ export interface Link {
   /** Where a landmark file is. */
   readonly landmarks: Address | null;
   /** `null` where the link leaves it to the demo or the landmark file. */
-  readonly work: LinkedWork | null;
+  readonly work: SentWork | null;
 }
 
 /** What was read behind the `#`. */
@@ -126,7 +121,7 @@ function readPacked(packed: string, base: URL): Reading {
     return refused('damaged');
   }
   if (Number(version) !== VERSION) {
-    return refused('newer');
+    return refused(Number(version) > VERSION ? 'newer' : 'damaged');
   }
   const json = unpack(body, LARGEST_JSON);
   const wire = json === null ? null : v.safeParse(v.pipe(v.string(), v.parseJson(), WireLink), json);
@@ -155,24 +150,23 @@ function linkOf(wire: WireLink, base: URL): Link {
   return { demo: wire.d ?? null, files: [source, target], landmarks: null, work: workOf(wire) };
 }
 
-function pairsOf({ p, i, n, x }: WireLink): LinkedWork['pairs'] {
+function pairsOf({ p, i, n, x }: WireLink): readonly SentPair[] {
   const [source, target] = p;
+  const locked = new Set(x);
   const numbers = i ?? source.map((_, index) => index + 1);
-  const isSound = source.length === target.length && numbers.length === source.length && new Set(numbers).size === numbers.length;
   const pairs = source.map((point, index) => ({
     number: numbers[index] ?? 0,
     points: [surfacePoint(point), surfacePoint(target[index] ?? [])] as const,
     label: n?.[index] ?? '',
-    locked: x?.includes(index) ?? false,
+    locked: locked.has(index),
   }));
-  // A pair has at least one point.
-  if (!isSound || pairs.some(({ points }) => points[0] === null && points[1] === null)) {
+  if (source.length !== target.length || numbers.length !== source.length || !areSound(pairs)) {
     throw new Refused('damaged');
   }
   return pairs;
 }
 
-function workOf(wire: WireLink): LinkedWork {
+function workOf(wire: WireLink): SentWork {
   return {
     pairs: pairsOf(wire),
     up: wire.u,
@@ -201,7 +195,7 @@ function wireCamera(camera: Camera | null): number[] | null {
   return camera?.map((value) => Number(value.toPrecision(CAMERA_FIGURES))) ?? null;
 }
 
-function wireLink(link: Link, work: LinkedWork): WireLink {
+function wireLink(link: Link, work: SentWork): WireLink {
   const { pairs } = work;
   const points = (side: Side): WirePoint[] => pairs.map((pair) => wirePoint(pair.points[side]));
   const labels = pairs.map(({ label }) => label);

@@ -5,23 +5,16 @@
  */
 import * as v from 'valibot';
 import type { SurfacePoint } from '../landmarks.ts';
+import { isSamePoint } from '../landmarks.ts';
 import { LONGEST_ADDRESS } from './address.ts';
+import { Axis, Cameras, Index, MOST_PAIRS, Options, StyleSchema, Text, Weight } from './schema.ts';
 
 export const VERSION = 1;
 
 /** Parts of one that a barycentric weight of a click is a whole number of, as `rounded` makes it. */
 const STEPS = 10_000;
-/** More pairs than a map was ever made of. */
-const MOST_PAIRS = 10_000;
-const LONGEST_TEXT = 200;
-/** A camera is some ten numbers. */
-const LONGEST_CAMERA = 32;
 
-const Index = v.pipe(v.number(), v.integer(), v.minValue(0), v.maxValue(2 ** 32 - 1));
 const Steps = v.pipe(v.number(), v.integer(), v.minValue(0), v.maxValue(STEPS));
-/** Whether three weights belong together is the core's to judge, as in a landmark file. */
-const Weight = v.pipe(v.number(), v.finite(), v.minValue(-1), v.maxValue(2));
-const Text = v.pipe(v.string(), v.maxLength(LONGEST_TEXT));
 
 /**
  * A point: a vertex; a face with its first two weights, each a number of steps; a face with three weights in full, where they
@@ -44,13 +37,11 @@ const WireFile = v.union([
   v.strictTuple([v.pipe(v.string(), v.regex(/^[\w-]{43}$/)), Text]),
   v.strictTuple([]),
 ]);
-const WireCamera = v.nullable(v.pipe(v.array(v.pipe(v.number(), v.finite())), v.maxLength(LONGEST_CAMERA)));
-const Axis = v.picklist(['x', '-x', 'y', '-y', 'z', '-z']);
 
 /** What a link holds beside where its meshes are. */
 export const WireLink = v.object({
   /** A demo, or two files. */
-  d: v.optional(v.pipe(v.string(), v.minLength(1), v.maxLength(LONGEST_TEXT))),
+  d: v.optional(v.pipe(Text, v.minLength(1))),
   f: v.optional(v.strictTuple([WireFile, WireFile])),
   /** The pairs' points on the source and on the target. */
   p: v.strictTuple([WirePoints, WirePoints]),
@@ -65,8 +56,8 @@ export const WireLink = v.object({
   /** Which direction of each file is up. */
   u: v.strictTuple([Axis, Axis]),
   o: Options,
-  c: v.strictTuple([WireCamera, WireCamera]),
-  s: Style,
+  c: Cameras,
+  s: StyleSchema,
 });
 
 export type WireLink = v.InferOutput<typeof WireLink>;
