@@ -1,11 +1,12 @@
 /** Tells meshes from landmark files and finds each mesh's side. */
 import { failureOf } from './compute/messages.ts';
 import type { Failure } from './compute/messages.ts';
-import type { LandmarkFile, Side } from './landmarks.ts';
+import type { LandmarkFile, Pair, Side } from './landmarks.ts';
 import { SIDES } from './landmarks.ts';
 import { failureSentence, fileSentence, SENTENCES } from './messages.ts';
 import type { Event } from './store/events.ts';
 import { baseName, landmarkFileOf } from './store/landmark-file.ts';
+import { wholePairs } from './store/order.ts';
 import { update } from './store/reducer.ts';
 import type { MeshFile, State } from './store/state.ts';
 import { checkLandmarks, mirrorTarget, readLandmarks, readMesh } from './wasm/conemap.js';
@@ -73,22 +74,22 @@ export function landmarkFile(file: NamedBytes): LandmarkFile {
   }
 }
 
-/** The events that put a target's mirror image in its place, with the landmarks on it. */
-export function mirroredTarget(target: MeshFile, landmarks: LandmarkFile): Event[] {
-  const mirrored = mirrorTarget(target.mesh, new TextEncoder().encode(JSON.stringify(landmarks)));
+/** The event that puts a target's mirror image in its place, with the points of these pairs on it. */
+export function mirroredTarget(target: MeshFile, pairs: readonly Pair[]): Event {
+  // The core mirrors the second points of a file; the first ones may be missing, and are not looked at.
+  const marked = pairs.flatMap(({ points: [, point] }, index) => (point === null ? [] : [[index, point] as const]));
+  const mirrored = mirrorTarget(target.mesh, new TextEncoder().encode(JSON.stringify({ pairs: marked })));
   const name = `${target.name.replace(/( \(mirrored\))?\.[^.]*$/, '')} (mirrored).obj`;
   const file = meshFile({ name, bytes: mirrored.mesh() });
-  const points = landmarkFile({ name: 'landmarks', bytes: mirrored.landmarks() });
+  const images = landmarkFile({ name: 'landmarks', bytes: mirrored.landmarks() }).pairs;
   mirrored.free();
-  return [
-    { kind: 'mesh', side: 1, file },
-    { kind: 'landmarks', file: { ...points, target: name } },
-  ];
+  const points = pairs.map((_, index) => images[marked.findIndex(([of]) => of === index)]?.[1] ?? null);
+  return { kind: 'mirrored', file, points };
 }
 
 /** Why the landmarks of a state are no different points of its meshes; `null` where they are. */
 function misfit(state: State): Failure | null {
-  if (state.pairs.length === 0) {
+  if (wholePairs(state).length === 0) {
     return null;
   }
   const landmarks = new TextEncoder().encode(JSON.stringify(landmarkFileOf(state)));

@@ -1,7 +1,7 @@
 /** Wires the store, the views, the panels and the worker together. */
 import { listenForUndo } from './app/keys.ts';
 import { mark } from './app/mark.ts';
-import { dropLink, freeReplaced, linkedDemo, openDemo, openFiles } from './app/open.ts';
+import { followDemo, freeForgotten, linkedDemo, openDemo, openFiles } from './app/open.ts';
 import { repair } from './app/repair.ts';
 import { Runner } from './app/run.ts';
 import { suggest } from './app/suggest.ts';
@@ -49,7 +49,7 @@ const actions: Actions = {
 
 const views = new Views(store.state, {
   picked: (side, point) => {
-    store.dispatch({ kind: 'picked', side, point });
+    store.dispatch({ kind: 'point-picked', side, point });
   },
   pickDropped: () => {
     store.dispatch({ kind: 'pick-dropped' });
@@ -83,9 +83,9 @@ store.subscribe((state, previous) => {
     panel.render(state, previous);
   }
 });
-store.subscribe(freeReplaced);
+store.subscribe(freeForgotten);
 store.subscribe(mark);
-store.subscribe(dropLink);
+store.subscribe(followDemo);
 
 function fail(sentence: string): void {
   store.dispatch({ kind: 'error', sentence });
@@ -110,6 +110,7 @@ async function start(): Promise<void> {
   const first = linkedDemo() ?? demos[0]?.id;
   if (first !== undefined) {
     await openDemo(store, first);
+    store.dispatch({ kind: 'history-begun' });
   }
   // The core lists its quickest demo last.
   const quickest = demos.at(-1);

@@ -1,6 +1,7 @@
 /** The only place that turns codes into sentences. */
 import type { Failure } from './compute/messages.ts';
-import type { Suggestion } from './landmarks.ts';
+import type { Pair, Suggestion } from './landmarks.ts';
+import type { Finding } from './report.ts';
 
 /** A name for each stage of the report's seconds. */
 export function stageName(stage: string): string {
@@ -48,6 +49,44 @@ export function fileSentence(file: string, failure: Failure): string {
   return `${file}: ${failureSentence(failure)}`;
 }
 
+/** A number of things: "1 pair", "12 pairs". */
+export function count(number: number, thing: string): string {
+  return `${number} ${thing}${number === 1 ? '' : 's'}`;
+}
+
+/** A pair by its number, and its label where it has one. */
+export function pairName({ number, label }: Pick<Pair, 'number' | 'label'>): string {
+  return label === '' ? String(number) : `${number} (${label})`;
+}
+
+/** A finding in the page's numbers; `name` gives a pair's name from its place in the run's order. */
+export function findingSentence(finding: Finding, name: (order: number) => string): string {
+  const [first, second] = finding.pairs;
+  if (finding.kind === 'swapped' && first !== undefined && second !== undefined) {
+    return `The targets of the pairs ${name(first)} and ${name(second)} look swapped: exchanged, they lie among the others as on the source. Exchange them.`;
+  }
+  if (finding.kind === 'misplaced' && first !== undefined && finding.near !== null) {
+    return `Pair ${name(first)} does not fit the others: its target is expected elsewhere, near that of pair ${name(finding.near)}.`;
+  }
+  return finding.sentence;
+}
+
+/** Pairs that went with meshes or were replaced. */
+export function pairsGone(number: number): string {
+  return `${count(number, 'landmark pair')} went.`;
+}
+
+/** Pairs whose points on one mesh went with it. */
+export function pointsGone(number: number): string {
+  return `${count(number, 'landmark pair')} lost a point with its mesh; the partners wait for new ones.`;
+}
+
+/** All pairs but the locked ones deleted. */
+export function clearedSentence(deleted: number, locked: number): string {
+  const stayed = locked === 0 ? '' : ` ${count(locked, 'locked pair')} stayed.`;
+  return `${count(deleted, 'landmark pair')} deleted.${stayed}`;
+}
+
 export const SENTENCES = {
   noWebGl:
     'This browser gives no WebGL 2, which the views need. Turn on hardware acceleration or use a current browser.',
@@ -66,12 +105,47 @@ export const SENTENCES = {
   empty: 'is empty.',
   tooLarge: 'is larger than 1 GiB, more than the page can take.',
   nothingToSuggest: 'No further place to suggest: the landmarks cover this mesh.',
+  mirrored: 'The target is its mirror image now, with the landmarks on it.',
+  allLocked: 'All landmark pairs are locked. Unlock those that may go.',
+  upToDate: 'This map is of these meshes, landmarks and options already.',
   badPoint: 'Some landmarks do not belong to these meshes. Load the meshes that the landmark file was made for.',
 } as const;
 
 /** A point that is picked a second time. */
 export function pointTaken(side: 0 | 1, pair: number): string {
   return `This point of the ${side === 0 ? 'source' : 'target'} belongs to pair ${pair} already. Pick another one.`;
+}
+
+/** A locked pair that was to be moved or deleted. */
+export function pairLocked(pair: number): string {
+  return `Pair ${pair} is locked. Unlock it first.`;
+}
+
+/** What has changed since the map was made, in words. */
+export function staleSentence(changes: {
+  readonly meshes: readonly (0 | 1)[];
+  readonly placed: readonly number[];
+  readonly moved: readonly number[];
+  readonly removed: readonly number[];
+  readonly options: readonly string[];
+}): string {
+  const { meshes, placed, moved, removed, options } = changes;
+  const pairs = (numbers: readonly number[], verb: string): string[] =>
+    numbers.length === 0 ? [] : [`${numbers.length === 1 ? `pair ${numbers[0] ?? ''}` : count(numbers.length, 'pair')} ${verb}`];
+  const words = [
+    ...meshes.map((side) => `the ${side === 0 ? 'source' : 'target'} was replaced`),
+    ...pairs(placed, 'came'),
+    ...pairs(moved, 'moved'),
+    ...pairs(removed, 'went'),
+    ...(options.length === 0 ? [] : ['the options changed']),
+  ];
+  const last = words.pop() ?? 'something changed';
+  return `This map was made before ${words.length === 0 ? last : `${words.join(', ')} and ${last}`}.`;
+}
+
+/** Work of an earlier visit. */
+export function offerSentence(name: string, pairs: number): string {
+  return `Continue with ${name}, ${count(pairs, 'pair')}?`;
 }
 
 /** A suggestion in words. */
@@ -85,18 +159,20 @@ export function suggestionName({ letter, reason, partner }: Suggestion, all: rea
 export function hint(options: {
   readonly hasSource: boolean;
   readonly hasTarget: boolean;
-  readonly pendingSide: 0 | 1 | null;
+  /** The point that is asked for, and the number of its pair. */
+  readonly missing: { readonly side: 0 | 1; readonly pair: number } | null;
+  /** Whole pairs. */
   readonly pairs: number;
-  /** Points that wait behind the pending one. */
+  /** Points that wait behind that one's partner. */
   readonly waiting: number;
 }): string {
   if (!options.hasSource || !options.hasTarget) {
     return 'Drop two closed meshes here, or choose a demo.';
   }
-  if (options.pendingSide !== null) {
-    const other = options.pendingSide === 0 ? 'target' : 'source';
+  if (options.missing !== null) {
+    const { side, pair } = options.missing;
     const waiting = options.waiting > 0 ? ` ${options.waiting} more wait; Escape skips this one.` : '';
-    return `Now click the same place on the ${other} to finish pair ${options.pairs + 1}.${waiting}`;
+    return `Now click the same place on the ${side === 0 ? 'source' : 'target'} to finish pair ${pair}.${waiting}`;
   }
   if (options.pairs < 4) {
     const missing = 4 - options.pairs;

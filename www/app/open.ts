@@ -2,9 +2,9 @@
 import type { NamedBytes } from '../files.ts';
 import { eventsOf, FileRefused, landmarkFile, meshFile } from '../files.ts';
 import type { Side } from '../landmarks.ts';
-import { SIDES } from '../landmarks.ts';
 import { SENTENCES } from '../messages.ts';
 import type { Event } from '../store/events.ts';
+import { heldMeshes } from '../store/history.ts';
 import type { Demo, State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { buildDemo } from '../wasm/conemap.js';
@@ -82,7 +82,6 @@ export async function openDemo(store: Store, id: string): Promise<void> {
     () => demo,
     () => {
       store.dispatch(...demoEvents(demo));
-      history.replaceState(null, '', `#demo=${encodeURIComponent(id)}`);
     },
   );
 }
@@ -92,19 +91,23 @@ export function linkedDemo(): string | null {
   return new URLSearchParams(location.hash.slice(1)).get('demo');
 }
 
-/** Takes the demo's link out of the address when other meshes have come. */
-export function dropLink(state: State, previous: State): void {
-  if (previous.demo !== null && state.demo === null) {
-    history.replaceState(null, '', location.pathname + location.search);
+/** Keeps the demo's link in the address while the demo is on the page, and takes it out when other meshes have come. */
+export function followDemo(state: State, previous: State): void {
+  if (previous.demo !== state.demo) {
+    const link = state.demo === null ? '' : `#demo=${encodeURIComponent(state.demo.id)}`;
+    history.replaceState(null, '', location.pathname + location.search + link);
   }
 }
 
-/** Gives back the core's memory of meshes that are shown no more. */
-export function freeReplaced(state: State, previous: State): void {
-  for (const side of SIDES) {
-    const old = previous.meshes[side];
-    if (old !== null && old !== state.meshes[side]) {
-      old.mesh.free();
+/** Gives back the core's memory of meshes that no step leads back to. */
+export function freeForgotten(state: State, previous: State): void {
+  if (state.history === previous.history && state.meshes === previous.meshes) {
+    return;
+  }
+  const held = heldMeshes(state.history, state);
+  for (const file of heldMeshes(previous.history, previous)) {
+    if (!held.has(file)) {
+      file.mesh.free();
     }
   }
 }

@@ -1,5 +1,6 @@
 /** What the views show. */
 import { byId, button, make } from '../dom.ts';
+import { shownResult } from '../store/staleness.ts';
 import type { State, Style } from '../store/state.ts';
 import type { Actions, Panel } from './panel.ts';
 
@@ -56,18 +57,20 @@ export function displayPanel(actions: Actions, resetViews: () => void): Panel {
   );
   return {
     render(state: State): void {
-      const hasResult = state.result !== null;
+      const result = shownResult(state);
+      const { style } = state.ui;
+      const surface = result === null ? 'shaded' : style.surface;
       for (const { value, input } of radios) {
-        input.checked = state.style.surface === value;
+        input.checked = surface === value;
         input.disabled =
-          value !== 'shaded' && (state.result === null || (value === 'distortion' && state.result.output.distortion.length === 0));
+          value !== 'shaded' && (result === null || (value === 'distortion' && result.output.distortion.length === 0));
       }
       for (const { key, input } of toggles) {
-        input.checked = state.style[key];
-        input.disabled = key !== 'markers' && !hasResult;
+        input.checked = style[key];
+        input.disabled = key !== 'markers' && result === null;
       }
-      scale.hidden = !hasResult || state.style.surface !== 'distortion';
-      legend.hidden = !hasResult || !state.style.cones;
+      scale.hidden = surface !== 'distortion';
+      legend.hidden = result === null || !style.cones;
     },
   };
 }

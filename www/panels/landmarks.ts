@@ -1,13 +1,16 @@
 /** The list of landmark pairs. */
 import { byId, button, download, make } from '../dom.ts';
+import type { Pair } from '../landmarks.ts';
 import { landmarkFileOf } from '../store/landmark-file.ts';
+import { wholePairs } from '../store/order.ts';
 import type { State } from '../store/state.ts';
+import { missingSide } from '../store/waiting.ts';
 import type { Actions, Panel } from './panel.ts';
 import { SuggestionsBlock } from './suggestions.ts';
 
 /** Brings a pair's row into sight and its label under the cursor. */
-export function lookAtPair(index: number): void {
-  const row = byId('landmark-list').querySelector(`[data-pair="${index}"]`);
+export function lookAtPair(id: number): void {
+  const row = byId('landmark-list').querySelector(`[data-pair="${id}"]`);
   row?.scrollIntoView({ block: 'center' });
   row?.querySelector('input')?.focus();
 }
@@ -21,7 +24,7 @@ export function landmarksPanel(actions: Actions, colourOf: (index: number) => It
   let latest: State | null = null;
   const undo = button('Undo', () => {
     actions.dispatch({ kind: 'undo' });
-  }, { title: 'Undo the last change of the landmarks (Ctrl+Z)' });
+  }, { title: 'Take the last step back (Ctrl+Z)' });
   const clear = button('Clear all', () => {
     actions.dispatch({ kind: 'pairs-cleared' });
   });
@@ -40,10 +43,10 @@ export function landmarksPanel(actions: Actions, colourOf: (index: number) => It
     list,
   );
   list.addEventListener('click', (event) => {
-    const target = event.target instanceof Element ? event.target.closest('button[data-index]') : null;
+    const target = event.target instanceof Element ? event.target.closest('button[data-id]') : null;
     if (target instanceof HTMLButtonElement) {
-      const index = Number(target.dataset['index']);
-      actions.dispatch({ kind: 'pair-deleted', index });
+      const index = [...list.querySelectorAll('button')].indexOf(target);
+      actions.dispatch({ kind: 'pair-deleted', id: Number(target.dataset['id']) });
       const buttons = list.querySelectorAll('button');
       (buttons[Math.min(index, buttons.length - 1)] ?? undo).focus();
     }
@@ -51,29 +54,32 @@ export function landmarksPanel(actions: Actions, colourOf: (index: number) => It
   list.addEventListener('change', (event) => {
     const target = event.target;
     if (target instanceof HTMLInputElement) {
-      actions.dispatch({ kind: 'pair-labelled', index: Number(target.dataset['index']), label: target.value.trim() });
+      actions.dispatch({ kind: 'pair-labelled', id: Number(target.dataset['id']), label: target.value.trim() });
     }
   });
 
-  function item(index: number, label: string, pending: boolean): HTMLLIElement {
-    const swatch = make('span', { class: 'swatch', 'aria-hidden': 'true' }, String(index + 1));
-    swatch.style.backgroundColor = `color(srgb-linear ${[...colourOf(index)].join(' ')})`;
-    if (pending) {
-      return make('li', { class: 'pending' }, swatch, make('span', { class: 'quiet' }, label));
+  function item(pair: Pair): HTMLLIElement {
+    const { id, number, label } = pair;
+    const missing = missingSide(pair);
+    const swatch = make('span', { class: 'swatch', 'aria-hidden': 'true' }, String(number));
+    swatch.style.backgroundColor = `color(srgb-linear ${[...colourOf(number - 1)].join(' ')})`;
+    if (missing !== null) {
+      const sentence = missing === 1 ? 'target is missing' : 'source is missing';
+      return make('li', { class: 'pending' }, swatch, make('span', { class: 'quiet' }, sentence));
     }
     const input = make('input', {
       type: 'text',
       value: label,
-      placeholder: `Pair ${index + 1}`,
-      'aria-label': `Label of pair ${index + 1}`,
-      'data-index': index,
+      placeholder: `Pair ${number}`,
+      'aria-label': `Label of pair ${number}`,
+      'data-id': id,
     });
     const remove = make(
       'button',
-      { type: 'button', class: 'icon', 'data-index': index, 'aria-label': `Delete pair ${index + 1}` },
+      { type: 'button', class: 'icon', 'data-id': id, 'aria-label': `Delete pair ${number}` },
       '×',
     );
-    return make('li', { 'data-pair': index }, swatch, input, remove);
+    return make('li', { 'data-pair': id }, swatch, input, remove);
   }
 
   return {
@@ -81,19 +87,18 @@ export function landmarksPanel(actions: Actions, colourOf: (index: number) => It
       latest = state;
       suggestions.render(state, previous);
       const running = state.job.kind === 'running';
-      undo.disabled = running || (state.history.length === 0 && state.pending === null);
-      clear.disabled = running || (state.pairs.length === 0 && state.pending === null);
-      save.disabled = state.pairs.length === 0;
-      if (previous?.pairs !== state.pairs || previous.pending !== state.pending) {
-        const rows = state.pairs.map((pair, index) => item(index, pair.label, false));
-        if (state.pending !== null) {
-          rows.push(item(state.pairs.length, state.pending.side === 0 ? 'target is missing' : 'source is missing', true));
-        }
+      const step = state.history.past.at(-1);
+      undo.title = step === undefined ? 'Nothing to take back' : `${step.name}: take it back (Ctrl+Z)`;
+      undo.disabled = running || state.history.past.length === 0;
+      clear.disabled = running || state.pairs.length === 0;
+      save.disabled = wholePairs(state).length === 0;
+      if (previous?.pairs !== state.pairs) {
+        const rows = state.pairs.map(item);
         const grew = previous !== null && state.pairs.length === previous.pairs.length + 1;
         const kept = list.scrollTop;
         list.replaceChildren(...rows);
-        list.scrollTop = grew || state.pending !== null ? list.scrollHeight : kept;
-        count.textContent = state.pairs.length === 0 ? '' : String(state.pairs.length);
+        list.scrollTop = grew ? list.scrollHeight : kept;
+        count.textContent = rows.length === 0 ? '' : String(rows.length);
         empty.hidden = rows.length > 0;
       }
       if (previous?.job.kind !== state.job.kind) {

@@ -1,8 +1,7 @@
 /** What every panel is. */
 import type { Side } from '../landmarks.ts';
-import type { Finding } from '../report.ts';
 import type { Event } from '../store/events.ts';
-import type { State } from '../store/state.ts';
+import type { Doubt, State } from '../store/state.ts';
 
 /** Shows a part of the state; `previous` is `null` the first time. */
 export interface Panel {
@@ -20,5 +19,5 @@ export interface Actions {
   /** Asks the run for its result. */
   readonly finish: () => void;
   readonly cancel: () => void;
-  readonly repair: (finding: Finding) => void;
+  readonly repair: (finding: Doubt) => void;
 }

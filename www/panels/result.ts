@@ -1,8 +1,8 @@
 /** The result in words and its downloads. */
-import { stageName } from '../messages.ts';
+import { stageName, staleSentence } from '../messages.ts';
 import type { ConeMetricReport, LayoutSearchReport, Report } from '../report.ts';
 import { figure, integer } from '../numbers.ts';
-import { isStale } from '../store/staleness.ts';
+import { shownResult, staleness } from '../store/staleness.ts';
 import type { Result, State } from '../store/state.ts';
 import { byId, button, download, make } from '../dom.ts';
 import type { Panel } from './panel.ts';
@@ -117,19 +117,22 @@ function downloads(result: Result): HTMLElement {
 /** Makes the panel. */
 export function resultPanel(): Panel {
   const root = byId('result');
-  const stale = make('p', { class: 'quiet' }, 'This map was made before your latest changes.');
+  const stale = make('p', { class: 'quiet' });
   return {
     render(state: State, previous: State | null): void {
-      stale.hidden = !isStale(state);
-      if (previous?.result === state.result) {
+      const changes = staleness(state);
+      stale.hidden = changes === null;
+      stale.textContent = changes === null ? '' : staleSentence(changes);
+      const result = shownResult(state);
+      if (previous !== null && shownResult(previous) === result) {
         return;
       }
-      root.hidden = state.result === null;
-      if (state.result === null) {
+      root.hidden = result === null;
+      if (result === null) {
         root.replaceChildren();
         return;
       }
-      const { report } = state.result;
+      const { report } = result;
       const rows = facts(report).flatMap(([name, value, note]) => [
         make('dt', note === '' ? {} : { title: note }, name),
         make('dd', {}, value, ...(note === '' ? [] : [make('small', {}, note)])),
@@ -141,7 +144,7 @@ export function resultPanel(): Panel {
         ...report.warnings.map(({ sentence }) => make('p', { class: 'warning' }, sentence)),
         make('dl', {}, ...rows),
         times(report),
-        downloads(state.result),
+        downloads(result),
       );
     },
   };

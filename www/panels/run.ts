@@ -4,8 +4,10 @@ import type { Progress } from '../compute/messages.ts';
 import { byId, button, make } from '../dom.ts';
 import { figure } from '../numbers.ts';
 import type { Running } from '../store/job.ts';
+import { wholePairs } from '../store/order.ts';
 import { canRun, MIN_PAIRS } from '../store/readiness.ts';
-import { isStale } from '../store/staleness.ts';
+import { isCurrent, shownResult } from '../store/staleness.ts';
+import { asked, waitingCount } from '../store/waiting.ts';
 import type { State } from '../store/state.ts';
 import { EnergyCurve } from './energy.ts';
 import type { Actions, Panel } from './panel.ts';
@@ -36,13 +38,14 @@ function idleSentence(state: State): string {
   if (state.meshes.includes(null)) {
     return 'Choose a source and a target mesh.';
   }
-  if (state.pairs.length < MIN_PAIRS) {
-    return `${state.pairs.length} of at least ${MIN_PAIRS} landmark pairs.`;
+  const pairs = wholePairs(state).length;
+  if (pairs < MIN_PAIRS) {
+    return `${pairs} of at least ${MIN_PAIRS} landmark pairs.`;
   }
-  if (isStale(state)) {
-    return 'The landmarks or options have changed since the map shown.';
+  if (shownResult(state) === null) {
+    return `Ready with ${pairs} landmark pairs.`;
   }
-  return state.result === null ? `Ready with ${state.pairs.length} landmark pairs.` : 'The map is done.';
+  return isCurrent(state) ? 'The map is done.' : 'The landmarks or options have changed since the map shown.';
 }
 
 /** What a run does. */
@@ -184,7 +187,7 @@ export function runPanel(actions: Actions): Panel {
         number = progress === null ? '' : progressNumber(progress, state.job.energies.length);
         bar.value = progress === null ? 0 : progress.share;
       } else if (state.job.kind === 'error') {
-        sentence = state.result === null ? 'No map was made.' : 'No new map was made; the last one is shown.';
+        sentence = shownResult(state) === null ? 'No map was made.' : 'No new map was made; the last one is shown.';
       }
       if (status.textContent !== sentence) {
         status.textContent = sentence;
@@ -202,15 +205,16 @@ export function runPanel(actions: Actions): Panel {
           error.scrollIntoView({ block: 'nearest' });
         }
       }
+      const turn = asked(state);
       const next =
         running || !state.ready
           ? ''
           : hint({
               hasSource: state.meshes[0] !== null,
               hasTarget: state.meshes[1] !== null,
-              pendingSide: state.pending?.side ?? null,
-              pairs: state.pairs.length,
-              waiting: state.queue.length,
+              missing: turn === null ? null : { side: turn.side, pair: turn.pair.number },
+              pairs: wholePairs(state).length,
+              waiting: turn === null ? 0 : waitingCount(state, turn.side) - 1,
             });
       if (hintBox.textContent !== next) {
         hintBox.textContent = next;

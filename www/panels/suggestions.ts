@@ -60,7 +60,7 @@ export class SuggestionsBlock {
     const items = suggestions.map((suggestion) => {
       const name = suggestionName(suggestion, suggestions);
       const take = button(suggestion.letter, () => {
-        this.#actions.dispatch({ kind: 'picked', side, point: suggestion.point });
+        this.#actions.dispatch({ kind: 'point-picked', side, point: suggestion.point });
       }, { class: 'ring', title: name, 'aria-label': `Take ${name}` });
       return make('li', {}, take);
     });

@@ -5,8 +5,9 @@ import type { Side, SurfacePoint } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
 import { failureSentence, SENTENCES } from '../messages.ts';
 import { pointsOf } from '../store/points.ts';
-import { hasItsCones } from '../store/staleness.ts';
-import type { State } from '../store/state.ts';
+import { wholePairs } from '../store/order.ts';
+import { hasItsCones, shownResult } from '../store/staleness.ts';
+import type { Result, State } from '../store/state.ts';
 import { Viewer } from '../wasm/conemap.js';
 import type { Box } from './gestures.ts';
 import { listen } from './gestures.ts';
@@ -35,6 +36,16 @@ function samplesOf(): number {
   const name: unknown = gl.getParameter(info === null ? gl.RENDERER : info.UNMASKED_RENDERER_WEBGL);
   gl.getExtension('WEBGL_lose_context')?.loseContext();
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(name)) ? 1 : 4;
+}
+
+/** The cones of a map by their pair's number less 1, as the points are. */
+function conesOf({ output, inputs }: Result): Float64Array {
+  const pairs = wholePairs(inputs);
+  const cones = new Float64Array(pairs.reduce((most, { number }) => Math.max(most, number), 0));
+  pairs.forEach(({ number }, order) => {
+    cones[number - 1] = output.cones[order] ?? 0;
+  });
+  return cones;
 }
 
 /** The views of the page. */
@@ -110,7 +121,9 @@ export class Views {
   #sync(previous: State | null): void {
     const state = this.#state;
     this.#with((viewer) => {
-      if (previous?.result !== state.result) {
+      const result = shownResult(state);
+      const isOther = previous === null || shownResult(previous) !== result;
+      if (isOther) {
         viewer.clearResult();
       }
       for (const side of SIDES) {
@@ -123,8 +136,9 @@ export class Views {
           }
         }
       }
-      if (state.result !== null && previous?.result !== state.result) {
-        const { output } = state.result;
+      if (result !== null && isOther) {
+        const { output } = result;
+        const cones = conesOf(result);
         for (const side of SIDES) {
           const part = output.sides[side];
           viewer.setResult(
@@ -136,28 +150,25 @@ export class Views {
             output.triangles,
             part.linePoints,
             part.lineStarts,
-            output.cones,
+            cones,
           );
         }
       }
-      if (
-        previous?.pairs !== state.pairs ||
-        previous.pending !== state.pending ||
-        previous.meshes !== state.meshes
-      ) {
+      if (previous?.pairs !== state.pairs || previous.meshes !== state.meshes) {
         this.#setLandmarks(viewer);
       }
       if (previous?.suggestions !== state.suggestions || previous.meshes !== state.meshes) {
         this.#setSuggestions(viewer);
       }
-      if (previous?.style !== state.style || previous.result !== state.result || previous.pairs !== state.pairs) {
+      if (previous?.ui.style !== state.ui.style || isOther || previous.pairs !== state.pairs) {
         this.#setStyle(viewer);
       }
     });
   }
 
   #setStyle(viewer: Viewer): void {
-    const { style, result } = this.#state;
+    const { style } = this.#state.ui;
+    const result = shownResult(this.#state);
     viewer.setStyle(
       JSON.stringify({
         ...style,
@@ -235,7 +246,7 @@ export class Views {
       for (const side of SIDES) {
         const box = this.box(side);
         this.#labels[side].place(
-          this.#state.style.markers ? viewer.labels(side) : new Float32Array(),
+          this.#state.ui.style.markers ? viewer.labels(side) : new Float32Array(),
           box.width,
           box.height,
         );
