@@ -67,7 +67,7 @@ export const SentWorkSchema = v.object({
       }),
     ),
     v.maxLength(MOST_PAIRS),
-    v.check(areSound),
+    v.check((pairs) => areSound(pairs)),
   ),
   up: v.strictTuple([Axis, Axis]),
   groundTruth: v.nullable(Text),
