@@ -61,7 +61,6 @@ export function withSwap(state: State): State {
     demo: null,
     pairs: state.pairs.map((pair) => ({ ...pair, points: swapped(pair.points) })),
     named: swapped(state.named),
-    suggestions: swapped(state.suggestions),
   };
 }
 

@@ -1,6 +1,7 @@
 /** What each event makes of the state: `update(state, event)`, without side effects and without a record of the steps. */
+import type { Side } from '../landmarks.ts';
 import type { Event } from './events.ts';
-import { redone, undone } from './history.ts';
+import { NO_HISTORY, redone, undone } from './history.ts';
 import { advanced, begun, ended, started } from './job.ts';
 import type { Running } from './job.ts';
 import { withLandmarks, withMesh, withMirrored, withSwap } from './loads.ts';
@@ -20,9 +21,8 @@ import {
 } from './pairs.ts';
 import { withFindings } from './settle.ts';
 import type { Result, State, Style } from './state.ts';
-import { NO_HISTORY } from './history.ts';
 import { shownResult } from './staleness.ts';
-import type { Work } from './work.ts';
+import type { Axis, Work } from './work.ts';
 import { workOf } from './work.ts';
 
 /** A change of the run under way; without one, none. */
@@ -50,8 +50,9 @@ function withStep(state: State, step: ReturnType<typeof undone>): State {
     return state;
   }
   const { work, history } = step;
-  const up = ([0, 1] as const).map((side) => (work.meshes[side] === state.meshes[side] ? state.up[side] : work.up[side]));
-  return { ...state, ...work, up: [up[0] ?? 'y', up[1] ?? 'y'], history, toast: null, error: null };
+  const up = (side: Side): Axis => (work.meshes[side] === state.meshes[side] ? state : work).up[side];
+  const stands = work.meshes === state.meshes ? state.up : ([up(0), up(1)] as const);
+  return { ...state, ...work, up: stands, history, toast: null, error: null };
 }
 
 /** A map came; what a plain surface cannot show is shown. */

@@ -44,13 +44,18 @@ export function inLine(state: State, before: State): State {
   if (next.meshes === before.meshes) {
     return next;
   }
-  const isNew = SIDES.map((side) => next.meshes[side] !== before.meshes[side]);
-  const [source, target] = next.suggestions;
-  const [first, second] = next.ui.cameras;
+  // What is known of a mesh goes with it to the other side.
+  const follow = <T>(both: readonly [T, T], none: T): readonly [T, T] => {
+    const of = (file: State['meshes'][0]): T => {
+      const side = SIDES.find((candidate) => file !== null && before.meshes[candidate] === file);
+      return side === undefined ? none : both[side];
+    };
+    return [of(next.meshes[0]), of(next.meshes[1])];
+  };
   return {
     ...next,
-    suggestions: [isNew[0] === true ? [] : source, isNew[1] === true ? [] : target],
-    ui: { ...next.ui, cameras: [isNew[0] === true ? null : first, isNew[1] === true ? null : second] },
+    suggestions: follow(before.suggestions, []),
+    ui: { ...next.ui, cameras: follow(next.ui.cameras, null) },
     job: settled(next.job, shownResult(next) !== null),
   };
 }

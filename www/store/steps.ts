@@ -1,5 +1,5 @@
 /** Steps of the work in words: their names, and what is said where they drop something. */
-import { SIDES } from '../landmarks.ts';
+import type { Pair } from '../landmarks.ts';
 import { clearedSentence, count, pairsGone, pointsGone, SENTENCES } from '../messages.ts';
 import type { Event } from './events.ts';
 import type { State, Toast } from './state.ts';
@@ -75,11 +75,9 @@ export function stepName(events: readonly Event[], before: State, after: State):
 
 /** How many pairs lost a point or went. */
 function droppedCount(before: State, after: State): number {
-  const later = new Map(after.pairs.map((pair) => [pair.id, pair]));
-  return before.pairs.filter(({ id, points }) => {
-    const pair = later.get(id);
-    return pair === undefined || SIDES.some((side) => points[side] !== null && pair.points[side] === null);
-  }).length;
+  const pointsOf = ({ points }: Pair): number => points.filter((point) => point !== null).length;
+  const later = new Map(after.pairs.map((pair) => [pair.id, pointsOf(pair)]));
+  return before.pairs.filter((pair) => pointsOf(pair) > (later.get(pair.id) ?? 0)).length;
 }
 
 /** What is said of a step that drops work, beside the way back; `null` where it drops none. */
