@@ -13,19 +13,23 @@ export const VERSION = 1;
 
 /** Parts of one that a barycentric weight of a click is a whole number of, as `rounded` makes it. */
 const STEPS = 10_000;
+/** How many values such a weight has. */
+const VALUES = STEPS + 1;
 
-const Steps = v.pipe(v.number(), v.integer(), v.minValue(0), v.maxValue(STEPS));
+/** A click: face, first and second weight in steps as one number, `(face * VALUES + first) * VALUES + second`. */
+const Click = v.pipe(
+  v.number(),
+  v.safeInteger(),
+  v.minValue(0),
+  v.check((click) => (click % VALUES) + (Math.floor(click / VALUES) % VALUES) <= STEPS),
+);
+/** The highest face that a click can be in. */
+const LAST_FACE = Math.floor(Number.MAX_SAFE_INTEGER / VALUES ** 2) - 1;
 
-/**
- * A point: a vertex; a face with its first two weights, each a number of steps; a face with three weights in full, where they
- * are no whole steps; 0-length for none.
- */
+/** A point: a click; a vertex in a list of one; a face with three weights in full, where they are no whole steps; or none. */
 const WirePoint = v.union([
-  Index,
-  v.pipe(
-    v.strictTuple([Index, Steps, Steps]),
-    v.check(([, first, second]) => first + second <= STEPS),
-  ),
+  Click,
+  v.strictTuple([Index]),
   v.strictTuple([Index, Weight, Weight, Weight]),
   v.strictTuple([]),
 ]);
@@ -64,35 +68,34 @@ export type WireLink = v.InferOutput<typeof WireLink>;
 export type WirePoint = v.InferOutput<typeof WirePoint>;
 export type WireFile = v.InferOutput<typeof WireFile>;
 
-function step(weight: number): number | null {
-  const steps = Math.round(weight * STEPS);
-  return steps / STEPS === weight ? steps : null;
-}
-
 /** A point in as few characters as give the very same point back. */
 export function wirePoint(point: SurfacePoint | null): WirePoint {
   if (point === null || typeof point === 'number') {
-    return point ?? [];
+    return point === null ? [] : [point];
   }
   const { face, barycentric } = point;
-  const [first, second] = barycentric.map(step);
-  const isShort = first !== null && second !== null && first !== undefined && second !== undefined;
-  const short: WirePoint = isShort ? [face, first, second] : [];
-  return isShort && isSamePoint(surfacePoint(short), point) ? short : [face, ...barycentric];
+  const [first, second] = [Math.round(barycentric[0] * STEPS), Math.round(barycentric[1] * STEPS)];
+  const click = (face * VALUES + first) * VALUES + second;
+  const isClick = face <= LAST_FACE && Math.min(first, second) >= 0 && first + second <= STEPS;
+  return isClick && isSamePoint(surfacePoint(click), point) ? click : [face, ...barycentric];
 }
 
 /** The point that was meant. */
 export function surfacePoint(point: WirePoint): SurfacePoint | null {
   if (typeof point === 'number') {
-    return point;
+    const second = point % VALUES;
+    const first = Math.floor(point / VALUES) % VALUES;
+    const face = Math.floor(point / VALUES ** 2);
+    return { face, barycentric: [first / STEPS, second / STEPS, (STEPS - first - second) / STEPS] };
   }
-  if (point.length === 0) {
-    return null;
+  switch (point.length) {
+    case 0:
+      return null;
+    case 1:
+      return point[0];
+    case 4: {
+      const [face, ...barycentric] = point;
+      return { face, barycentric };
+    }
   }
-  if (point.length === 4) {
-    const [face, ...barycentric] = point;
-    return { face, barycentric };
-  }
-  const [face, first, second] = point;
-  return { face, barycentric: [first / STEPS, second / STEPS, (STEPS - first - second) / STEPS] };
 }
