@@ -7,17 +7,12 @@ import { Runner } from './app/run.ts';
 import { suggest } from './app/suggest.ts';
 import { compileCore } from './compute/client.ts';
 import { SENTENCES } from './messages.ts';
-import { displayPanel } from './panels/display.ts';
-import { filesPanel } from './panels/files.ts';
-import { findingsPanel } from './panels/findings.ts';
-import { landmarksPanel, lookAtPair } from './panels/landmarks.ts';
-import type { Actions, Panel } from './panels/panel.ts';
-import { resultPanel } from './panels/result.ts';
-import { runPanel } from './panels/run.ts';
+import type { Actions } from './panels/actions.ts';
+import { mountPage } from './panels/page.tsx';
 import type { Demo } from './store/state.ts';
 import { Store } from './store/store.ts';
 import { Views } from './viewer/viewer.ts';
-import init, { demoList, landmarkColour } from './wasm/conemap.js';
+import init, { demoList } from './wasm/conemap.js';
 
 const store = new Store();
 const runner = new Runner(store);
@@ -43,9 +38,26 @@ const actions: Actions = {
     runner.cancel();
   },
   repair: (finding) => {
-    repair(store, runner, lookAtPair, finding);
+    repair(store, runner, showPair, finding);
+  },
+  fit: () => {
+    views.reset();
+  },
+  lookAtPair: (id) => {
+    store.dispatch({ kind: 'pair-selected', id });
+  },
+  lookAtPlaces: () => {
+    views.reset();
   },
 };
+
+/** Opens the list, where the selected pair is. */
+function showPair(): void {
+  store.dispatch({ kind: 'ui', ui: { step: 'landmarks', panel: 'open' } });
+}
+
+// The page comes first: the views look for their places in it.
+const page = mountPage(store.state, actions);
 
 const views = new Views(store.state, {
   picked: (side, point) => {
@@ -66,22 +78,10 @@ const views = new Views(store.state, {
     });
   },
 });
-const panels: readonly Panel[] = [
-  filesPanel(actions),
-  runPanel(actions),
-  findingsPanel(actions),
-  resultPanel(),
-  displayPanel(actions, () => {
-    views.reset();
-  }),
-  landmarksPanel(actions, landmarkColour),
-];
 
 store.subscribe((state, previous) => {
+  page.sync(state, previous);
   views.sync(state, previous);
-  for (const panel of panels) {
-    panel.render(state, previous);
-  }
 });
 store.subscribe(freeForgotten);
 store.subscribe(mark);
@@ -92,9 +92,6 @@ function fail(sentence: string): void {
 }
 
 async function start(): Promise<void> {
-  for (const panel of panels) {
-    panel.render(store.state, null);
-  }
   try {
     const core = await compileCore();
     await init({ module_or_path: core });

@@ -157,28 +157,27 @@ export function suggestionName({ letter, reason, partner }: Suggestion, all: rea
 
 /** What to do next. */
 export function hint(options: {
-  readonly hasSource: boolean;
-  readonly hasTarget: boolean;
-  /** The point that is asked for, and the number of its pair. */
-  readonly missing: { readonly side: 0 | 1; readonly pair: number } | null;
-  /** Whole pairs. */
+  /** How many meshes there are, of two. */
+  readonly meshes: number;
+  /** The pair that waits for its other point, and what the mesh is called on which it is asked for. */
+  readonly asked: { readonly pair: number; readonly mesh: string } | null;
+  /** Pairs with both points. */
   readonly pairs: number;
-  /** Points that wait behind that one's partner. */
+  /** Half pairs that wait behind the one whose turn it is. */
   readonly waiting: number;
 }): string {
-  if (!options.hasSource || !options.hasTarget) {
-    return 'Drop two closed meshes here, or choose a demo.';
+  if (options.meshes < 2) {
+    return options.meshes === 0 ? 'Drop two closed meshes, or look at a demo.' : 'Drop the other mesh.';
   }
-  if (options.missing !== null) {
-    const { side, pair } = options.missing;
+  if (options.asked !== null) {
     const waiting = options.waiting > 0 ? ` ${options.waiting} more wait; Escape skips this one.` : '';
-    return `Now click the same place on the ${side === 0 ? 'source' : 'target'} to finish pair ${pair}.${waiting}`;
+    return `Pair ${options.asked.pair}: now click the same place on the ${options.asked.mesh}.${waiting}`;
   }
   if (options.pairs < 4) {
     const missing = 4 - options.pairs;
-    return `Click a place on the source to begin a pair. ${missing} more ${missing === 1 ? 'pair is' : 'pairs are'} needed.`;
+    return `Click a place on either mesh to begin a pair. ${missing} more ${missing === 1 ? 'is' : 'are'} needed.`;
   }
-  return 'Click the source to add a pair, or compute the map.';
+  return 'Click a place on either mesh to add a pair, or make the map.';
 }
 
 /** Why a link is not opened. */

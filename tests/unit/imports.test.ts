@@ -12,7 +12,7 @@ type Graph = ReadonlyMap<string, ReadonlySet<string>>;
 /** The imports of every file of the page but the built core, types included. */
 function imports(): Graph {
   const files = readdirSync(WWW, { recursive: true, encoding: 'utf8' }).filter(
-    (file) => file.endsWith('.ts') && !file.startsWith('wasm'),
+    (file) => /\.tsx?$/.test(file) && !file.startsWith('wasm'),
   );
   return new Map(
     files.map((file) => {

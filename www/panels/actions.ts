@@ -1,0 +1,32 @@
+/** What the page's parts ask for, and what each of them is given. */
+import type { Side, SurfacePoint } from '../landmarks.ts';
+import type { Event } from '../store/events.ts';
+import type { Doubt, State } from '../store/state.ts';
+import type { Shell } from './shell.ts';
+
+/** What panels ask for beyond a change of state. */
+export interface Actions {
+  readonly dispatch: (event: Event) => void;
+  readonly openFiles: (files: readonly File[], side: Side | null) => void;
+  readonly openDemo: (id: string) => void;
+  readonly run: () => void;
+  /** Looks for places of one mesh that are worth a landmark. */
+  readonly suggest: (side: Side) => void;
+  /** Asks the run for its result. */
+  readonly finish: () => void;
+  readonly cancel: () => void;
+  readonly repair: (finding: Doubt) => void;
+  /** Brings the whole mesh of a view into sight. */
+  readonly fit: (side: Side) => void;
+  /** Turns both views to a pair's points. */
+  readonly lookAtPair: (id: number) => void;
+  /** Turns both views to these places. */
+  readonly lookAtPlaces: (places: readonly [SurfacePoint, SurfacePoint]) => void;
+}
+
+/** Every part of the page is given this. */
+export interface PartProps {
+  readonly state: State;
+  readonly actions: Actions;
+  readonly shell: Shell;
+}
