@@ -106,8 +106,8 @@ function misfit(state: State): Failure | null {
   }
 }
 
-/** Refuses landmarks that do not fit the meshes they would be shown on. */
-function checkFit(file: NamedBytes, events: readonly Event[], state: State): void {
+/** Refuses landmarks that do not fit the meshes they would be shown on. Throws {@link FileRefused}. */
+export function checkFit(file: Pick<NamedBytes, 'name'>, events: readonly Event[], state: State): void {
   const failure = misfit(events.reduce(update, state));
   if (failure !== null) {
     const advice = failure.code === 'other-meshes' ? ` ${SENTENCES.otherMeshes}` : '';

@@ -1,12 +1,17 @@
 /** Wires the store, the views, the panels and the worker together. */
+import { openDropped } from './app/dropped.ts';
 import { listenForUndo } from './app/keys.ts';
 import { mark } from './app/mark.ts';
-import { followDemo, freeForgotten, linkedDemo, openDemo, openFiles } from './app/open.ts';
+import { Links } from './app/links.ts';
+import { followDemo, freeForgotten, openDemo } from './app/open.ts';
+import { saveProject } from './app/projects.ts';
 import { repair } from './app/repair.ts';
 import { Runner } from './app/run.ts';
+import { sharedLink } from './app/sharing.ts';
 import { suggest } from './app/suggest.ts';
 import { compileCore } from './compute/client.ts';
 import { SENTENCES } from './messages.ts';
+import { keepOffline } from './offline/register.ts';
 import type { Actions } from './panels/actions.ts';
 import { mountPage } from './panels/page.tsx';
 import type { Demo } from './store/state.ts';
@@ -16,11 +21,29 @@ import init, { demoList } from './wasm/conemap.js';
 
 const store = new Store();
 const runner = new Runner(store);
+const links = new Links(store);
+/** Reloads the page into its newer build, when there is one. */
+let reload = (): void => undefined;
 
 const actions: Actions = {
   dispatch: store.dispatch,
   openFiles: (files, side) => {
-    void openFiles(store, files, side);
+    void openDropped(store, links, files, side);
+  },
+  acceptLink: links.accept,
+  cancelLink: () => {
+    links.cancel();
+    // Whoever leaves a link before anything else was there sees what a stranger sees.
+    if (store.state.meshes.every((file) => file === null)) {
+      void openFirst();
+    }
+  },
+  sharedLink: () => sharedLink(store.state, new URL(document.baseURI)),
+  saveProject: () => {
+    void saveProject(store);
+  },
+  reload: () => {
+    reload();
   },
   openDemo: (id) => {
     void openDemo(store, id);
@@ -91,6 +114,14 @@ function fail(sentence: string): void {
   store.dispatch({ kind: 'error', sentence });
 }
 
+/** Opens the demo that a stranger sees first. */
+async function openFirst(): Promise<void> {
+  const [first] = store.state.demos;
+  if (first !== undefined) {
+    await openDemo(store, first.id);
+  }
+}
+
 async function start(): Promise<void> {
   try {
     const core = await compileCore();
@@ -104,22 +135,24 @@ async function start(): Promise<void> {
   await views.start();
   const demos = JSON.parse(demoList()) as Demo[];
   store.dispatch({ kind: 'ready', demos });
-  const first = linkedDemo() ?? demos[0]?.id;
-  if (first !== undefined) {
-    await openDemo(store, first);
-    store.dispatch({ kind: 'history-begun' });
+  if (!(await links.follow())) {
+    await openFirst();
   }
+  store.dispatch({ kind: 'history-begun' });
   // The core lists its quickest demo last.
   const quickest = demos.at(-1);
   if (quickest !== undefined) {
     runner.warmUp(quickest.id);
   }
+  await keepOffline((begin) => {
+    reload = begin;
+    store.dispatch({ kind: 'outdated' });
+  });
 }
 
 window.addEventListener('hashchange', () => {
-  const linked = linkedDemo();
-  if (linked !== null && linked !== store.state.demo?.id) {
-    void openDemo(store, linked);
+  if (store.state.ready) {
+    void links.follow();
   }
 });
 listenForUndo(store);

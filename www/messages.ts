@@ -108,6 +108,10 @@ export const SENTENCES = {
   mirrored: 'The target is its mirror image now, with the landmarks on it.',
   allLocked: 'All landmark pairs are locked. Unlock those that may go.',
   upToDate: 'This map is of these meshes, landmarks and options already.',
+  nothingToShare: 'There is nothing to share yet: open a mesh or a demo first.',
+  noLink: 'Links to your own files need this page to be opened by https. Save the project file instead: it holds everything.',
+  aboutProject: 'One file with both meshes, the landmarks, the options and the views; drop it on the page to go on',
+  newVersion: 'A new version of this page is ready.',
   badPoint: 'Some landmarks do not belong to these meshes. Load the meshes that the landmark file was made for.',
 } as const;
 
@@ -225,6 +229,17 @@ export function fetchSentence(
 export function loadQuestion(hosts: readonly { readonly host: string; readonly names: readonly string[] }[]): string {
   const parts = hosts.map(({ host, names }) => `${listed(names)}${names.length > 1 ? ` (${names.length} files)` : ''} from ${host}`);
   return `Load ${listed(parts)}?`;
+}
+
+/** Megabytes to read, as "12.3 MB". */
+function megabytes(bytes: number): string {
+  return `${(bytes / 1e6).toFixed(1)} MB`;
+}
+
+/** What is being loaded, and how much of it is there. */
+export function loadingSentence(file: { readonly name: string; readonly loaded: number; readonly expected: number | null }): string {
+  const of = file.expected === null ? '' : ` of ${megabytes(file.expected)}`;
+  return `Loading ${file.name}: ${megabytes(file.loaded)}${of}`;
 }
 
 /** What a link waits for. */

@@ -98,7 +98,7 @@ export function TopBar({ state, actions, shell }: PartProps): VNode {
       <Move kind="redo" state={state} actions={actions} />
       <span class="divide" />
       <Popover icon="share" label="Share" text="Share" place="down end" disabled={!state.ready}>
-        {() => <Share state={state} />}
+        {() => <Share state={state} actions={actions} />}
       </Popover>
       <ExportMenu state={state} />
       <span class="divide" />

@@ -2,7 +2,7 @@
 import { unzipSync, zipSync } from 'fflate';
 
 /** Files by their names in the archive, in the order in which they are written. */
-export type Entries = Readonly<Record<string, Uint8Array<ArrayBuffer>>>;
+export type Entries = Readonly<Record<string, Uint8Array>>;
 
 /** What is wrong with an archive. */
 export type ArchiveFault = 'no-archive' | 'too-many' | 'too-large';
@@ -34,13 +34,13 @@ export function isArchive(bytes: Uint8Array): boolean {
 export interface Archiver {
   write(entries: Entries): Promise<Uint8Array<ArrayBuffer>>;
   /** Takes the bytes, which are gone afterwards. Throws {@link ArchiveRefused}. */
-  read(bytes: Uint8Array<ArrayBuffer>, names: readonly string[]): Promise<Entries>;
+  read(bytes: Uint8Array, names: readonly string[]): Promise<Entries>;
 }
 
 /** What a worker for archives is asked. */
 export type ArchiveRequest =
   | { readonly kind: 'write'; readonly entries: Entries }
-  | { readonly kind: 'read'; readonly bytes: Uint8Array<ArrayBuffer>; readonly names: readonly string[] };
+  | { readonly kind: 'read'; readonly bytes: Uint8Array; readonly names: readonly string[] };
 
 /** What the worker answers. */
 export type ArchiveAnswer =
@@ -54,11 +54,11 @@ export function writeArchive(entries: Entries): Uint8Array<ArrayBuffer> {
 }
 
 /**
- * Those files of an archive whose names are asked for. Sizes are judged by the archive's directory before any memory is
+ * Those files of an archive whose names are asked for, `limit` bytes at most together. Sizes are judged by the archive's directory before any memory is
  * taken, and no file becomes longer than its entry says. Names are names: nothing is written anywhere by them. Throws
  * {@link ArchiveRefused}.
  */
-export function readArchive(bytes: Uint8Array, names: readonly string[]): Entries {
+export function readArchive(bytes: Uint8Array, names: readonly string[], limit = LARGEST_CONTENT): Entries {
   let count = 0;
   let size = 0;
   try {
@@ -72,7 +72,7 @@ export function readArchive(bytes: Uint8Array, names: readonly string[]): Entrie
           return false;
         }
         size += originalSize;
-        if (size > LARGEST_CONTENT) {
+        if (size > limit) {
           throw new ArchiveRefused('too-large');
         }
         return true;

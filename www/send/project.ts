@@ -6,7 +6,7 @@ import * as v from 'valibot';
 import type { ProjectFault } from '../messages.ts';
 import { addressOf, LONGEST_ADDRESS, shownName } from './address.ts';
 import type { Archiver, Entries } from './archive.ts';
-import { ArchiveRefused, readArchive } from './archive.ts';
+import { ArchiveRefused, isArchive, readArchive } from './archive.ts';
 import { hashOf } from './hash.ts';
 import type { SentWork } from './schema.ts';
 import { SentWorkSchema } from './schema.ts';
@@ -26,7 +26,7 @@ const LARGEST_MANIFEST = 4_000_000;
 export interface ProjectMesh {
   readonly name: string;
   /** As the file was given. */
-  readonly bytes: Uint8Array<ArrayBuffer>;
+  readonly bytes: Uint8Array;
   /** Where it was loaded from; `null` where it was given by hand. */
   readonly address: string | null;
 }
@@ -36,7 +36,7 @@ export interface Project {
   readonly meshes: readonly [ProjectMesh | null, ProjectMesh | null];
   readonly work: SentWork;
   /** The map's own file and the report of its run, where there is a map. */
-  readonly result: { readonly map: Uint8Array<ArrayBuffer> | null; readonly report: string } | null;
+  readonly result: { readonly map: Uint8Array | null; readonly report: string } | null;
 }
 
 /** A project file that is not opened. */
@@ -92,7 +92,7 @@ async function entriesOf(project: Project, landmarks: string): Promise<Entries> 
     result: result === null ? null : { map: result.map === null ? null : MAP, report: REPORT },
   };
   const text = new TextEncoder();
-  const entries: Record<string, Uint8Array<ArrayBuffer>> = {
+  const entries: Record<string, Uint8Array> = {
     [MANIFEST]: text.encode(JSON.stringify(manifest, null, 1)),
     [LANDMARKS]: text.encode(landmarks),
   };
@@ -117,8 +117,11 @@ function refusal(thrown: unknown): unknown {
 
 function manifestBytes(archive: Uint8Array): Uint8Array | undefined {
   try {
-    return readArchive(archive, [MANIFEST])[MANIFEST];
+    return readArchive(archive, [MANIFEST], LARGEST_MANIFEST)[MANIFEST];
   } catch (thrown) {
+    if (thrown instanceof ArchiveRefused && thrown.fault === 'too-large') {
+      throw new ProjectRefused('damaged');
+    }
     throw refusal(thrown);
   }
 }
@@ -131,13 +134,19 @@ function parsed(bytes: Uint8Array): unknown {
   }
 }
 
+/** Whether these bytes are an archive that says of itself that it is a project, whole or not. */
+export function isProject(bytes: Uint8Array): boolean {
+  try {
+    return isArchive(bytes) && manifestBytes(bytes) !== undefined;
+  } catch {
+    return false;
+  }
+}
+
 function manifestOf(archive: Uint8Array): Manifest {
   const bytes = manifestBytes(archive);
   if (bytes === undefined) {
     throw new ProjectRefused('no-project');
-  }
-  if (bytes.length > LARGEST_MANIFEST) {
-    throw new ProjectRefused('damaged');
   }
   const value = parsed(bytes);
   const versioned = v.safeParse(Versioned, value);
@@ -174,7 +183,7 @@ async function meshOf(entry: MeshEntry, files: Entries): Promise<ProjectMesh | n
  * The project in an archive, whose bytes are gone afterwards. The files of a result are taken as they are, and judged by
  * whoever opens them. Throws {@link ProjectRefused}.
  */
-export async function readProject(archive: Uint8Array<ArrayBuffer>, archiver: Archiver): Promise<Project> {
+export async function readProject(archive: Uint8Array, archiver: Archiver): Promise<Project> {
   const { meshes, work, result } = manifestOf(archive);
   const names = [...meshes.map((mesh) => mesh?.entry), result?.report, result?.map].filter((name) => typeof name === 'string');
   const files = await archiver.read(archive, names).catch((thrown: unknown) => {

@@ -2,19 +2,14 @@
  * Receives a link: asks before anything is fetched from another host, fetches, waits for the files that must be given by hand,
  * and hands everything over at once. Until then nothing on the page changes.
  */
-import type { Side } from '../landmarks.ts';
+import type { NamedBytes } from '../files.ts';
 import { SIDES } from '../landmarks.ts';
+import type { HostFiles, Missing, Receiving } from '../store/receiving.ts';
 import type { Address } from './address.ts';
 import type { FetchFault } from './fetching.ts';
 import { fetchBytes, FetchRefused } from './fetching.ts';
 import { hashOf } from './hash.ts';
 import type { Link, LinkedFile } from './link.ts';
-
-/** Some named bytes. */
-export interface NamedBytes {
-  readonly name: string;
-  readonly bytes: Uint8Array<ArrayBuffer>;
-}
 
 /** A mesh of a link that has arrived, with the address that it has come from; `null` where it was given by hand. */
 export interface Arrived extends NamedBytes {
@@ -27,28 +22,6 @@ export interface Delivery {
   readonly meshes: readonly [Arrived | null, Arrived | null];
   readonly landmarks: NamedBytes | null;
 }
-
-/** Files of one host. */
-export interface HostFiles {
-  readonly host: string;
-  readonly names: readonly string[];
-}
-
-/** A file that must be given by hand. */
-export interface Missing {
-  readonly side: Side;
-  readonly name: string;
-}
-
-/** What a link waits for. */
-export type Receiving =
-  | { readonly kind: 'nothing' }
-  /** For a click: these files would be fetched. */
-  | { readonly kind: 'click'; readonly hosts: readonly HostFiles[] }
-  /** For a file on its way; `expected` is `null` where the server does not say how many bytes come. */
-  | { readonly kind: 'fetch'; readonly name: string; readonly loaded: number; readonly expected: number | null }
-  /** For files from whoever opened the link. */
-  | { readonly kind: 'files'; readonly missing: readonly Missing[] };
 
 /** What a receiver tells the page. */
 export interface ReceiverListener {
@@ -80,7 +53,7 @@ export function foreignFiles(link: Link): HostFiles[] {
 interface Arrival {
   readonly link: Link;
   readonly abort: AbortController;
-  readonly fetched: Map<string, Uint8Array<ArrayBuffer>>;
+  readonly fetched: Map<string, Uint8Array>;
   /** By hash. */
   readonly given: Map<string, NamedBytes>;
 }

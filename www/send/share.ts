@@ -1,8 +1,8 @@
 /** What the page sends: the link to what is on it, and what its receiver will see. */
+import type { HostFiles } from '../store/receiving.ts';
 import type { Link } from './link.ts';
 import { writeLink } from './link.ts';
 import { foreignFiles } from './receiver.ts';
-import type { HostFiles } from './receiver.ts';
 
 /** From this length on, in characters, programs that pass links on begin to cut them. */
 export const SAFE_LENGTH = 2000;

@@ -32,7 +32,7 @@ function anyProject(random: Random): Project {
   };
 }
 
-async function saved(project: Project): Promise<Uint8Array<ArrayBuffer>> {
+async function saved(project: Project): Promise<Uint8Array> {
   return writeProject(project, LANDMARKS, HERE);
 }
 
@@ -47,14 +47,14 @@ const CAT_LION: Project = {
 };
 
 /** What comes of the project of cat and lion when its files were changed so. */
-async function changed(change: (entries: Record<string, Uint8Array<ArrayBuffer>>) => void): Promise<unknown> {
+async function changed(change: (entries: Record<string, Uint8Array>) => void): Promise<unknown> {
   const entries = { ...readArchive(await saved(CAT_LION), FILES) };
   change(entries);
   return readProject(writeArchive(entries), HERE).catch((thrown: unknown) => (thrown instanceof ProjectRefused ? thrown.fault : thrown));
 }
 
 /** Changes the manifest. */
-function withManifest(change: (manifest: Record<string, unknown>) => unknown): (entries: Record<string, Uint8Array<ArrayBuffer>>) => void {
+function withManifest(change: (manifest: Record<string, unknown>) => unknown): (entries: Record<string, Uint8Array>) => void {
   return (entries) => {
     const manifest = JSON.parse(new TextDecoder().decode(entries['conemap.json'])) as Record<string, unknown>;
     entries['conemap.json'] = new TextEncoder().encode(JSON.stringify(change(manifest)));
@@ -91,7 +91,7 @@ describe('a project file', () => {
 
 describe('a project file that is none or was changed', () => {
   test('is refused with its reason', async () => {
-    const read = async (bytes: Uint8Array<ArrayBuffer>): Promise<unknown> =>
+    const read = async (bytes: Uint8Array): Promise<unknown> =>
       readProject(bytes, HERE).catch((thrown: unknown) => (thrown instanceof ProjectRefused ? thrown.fault : thrown));
     expect(await read(new TextEncoder().encode('PK no archive'))).toBe('no-archive');
     expect(await read(writeArchive({ 'cat.obj': new Uint8Array(3) }))).toBe('no-project');
