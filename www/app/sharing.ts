@@ -38,13 +38,12 @@ export async function sharedLink(state: State, base: URL): Promise<SharedLink | 
   if (state.demo !== null) {
     return shared({ demo: state.demo.id, files: [null, null], landmarks: null, work }, base);
   }
-  const [source, target] = await Promise.all(state.meshes.map((file) => file && linkedFile(file, base)));
-  const isWhole = (source ?? null) !== null || state.meshes[0] === null;
-  const isBoth = (target ?? null) !== null || state.meshes[1] === null;
-  const isEmpty = state.meshes.every((file) => file === null);
-  return !isWhole || !isBoth || isEmpty
-    ? null
-    : shared({ demo: null, files: [source ?? null, target ?? null], landmarks: null, work }, base);
+  const [first, second] = state.meshes;
+  const source = first && (await linkedFile(first, base));
+  const target = second && (await linkedFile(second, base));
+  const isEmpty = first === null && second === null;
+  const isTold = (first === null) === (source === null) && (second === null) === (target === null);
+  return isEmpty || !isTold ? null : shared({ demo: null, files: [source, target], landmarks: null, work }, base);
 }
 
 function shared(link: Link, base: URL): SharedLink {

@@ -34,7 +34,7 @@ async function bundled(precache: Precache, target: string | string[]): Promise<s
     publicDir: false,
     logLevel: 'warn',
     define: { PRECACHE: JSON.stringify(precache) },
-    build: { target, write: false, modulePreload: false, rollupOptions: { input: ENTRY, output: { format: 'iife' } } },
+    build: { target, write: false, modulePreload: false, rolldownOptions: { input: ENTRY, output: { format: 'iife' } } },
   });
   const chunks = [output].flat().flatMap((result) => ('output' in result ? result.output : []));
   const [chunk] = chunks;
@@ -42,6 +42,11 @@ async function bundled(precache: Precache, target: string | string[]): Promise<s
     throw new Error('the service worker is not one file');
   }
   return chunk.code;
+}
+
+/** Writes the service worker of the built page in this folder, for browsers of this kind. */
+export async function writeServiceWorker(folder: string, target: string | string[]): Promise<void> {
+  writeFileSync(join(folder, FILE), await bundled(precacheOf(folder), target));
 }
 
 /** The plugin. It reads what was written, so that the list holds the very bytes that will be served. */
@@ -59,7 +64,7 @@ export function serviceWorker(): Plugin {
       order: 'post',
       sequential: true,
       async handler(): Promise<void> {
-        writeFileSync(join(folder, FILE), await bundled(precacheOf(folder), target));
+        await writeServiceWorker(folder, target);
       },
     },
   };

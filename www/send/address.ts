@@ -29,7 +29,7 @@ function unescaped(text: string): string {
 export function shownName(name: string): string {
   const seen = name.replace(/[\p{C}\p{Zl}\p{Zp}]/gu, '').trim();
   const last = seen.slice(Math.max(seen.lastIndexOf('/'), seen.lastIndexOf('\\')) + 1);
-  const characters = [...last];
+  const characters = Array.from(last);
   return characters.length <= LONGEST_NAME ? last : `${characters.slice(0, LONGEST_NAME - 1).join('')}…`;
 }
 

@@ -12,25 +12,24 @@ export function pack(text: string): string {
 /** The bytes behind packed ones; `null` where they are damaged, end too early or become more than `limit`. */
 function inflated(packed: Uint8Array, limit: number): Uint8Array | null {
   const pieces: Uint8Array[] = [];
-  let size = 0;
-  let isWhole = false;
+  const come = { size: 0, isWhole: false };
   const stream = new Inflate((piece, final) => {
     pieces.push(piece);
-    size += piece.length;
-    isWhole = final;
+    come.size += piece.length;
+    come.isWhole = final;
   });
   try {
-    for (let start = 0; start < packed.length && size <= limit; start += PIECE) {
+    for (let start = 0; start < packed.length && come.size <= limit; start += PIECE) {
       const end = start + PIECE;
       stream.push(packed.subarray(start, end), end >= packed.length);
     }
   } catch {
     return null;
   }
-  if (!isWhole || size > limit) {
+  if (!come.isWhole || come.size > limit) {
     return null;
   }
-  const bytes = new Uint8Array(size);
+  const bytes = new Uint8Array(come.size);
   let end = 0;
   for (const piece of pieces) {
     bytes.set(piece, end);

@@ -51,7 +51,7 @@ describe('a name to show', () => {
     expect(shownName('a/b\\cat.obj')).toBe('cat.obj');
     expect(shownName('cat\u202ejbo.exe\n\u0000')).toBe('catjbo.exe');
     expect(shownName('猫.obj')).toBe('猫.obj');
-    expect([...shownName('🐈'.repeat(500))]).toHaveLength(80);
+    expect(Array.from(shownName('🐈'.repeat(500)))).toHaveLength(80);
   });
 
   test('is there for every address', () => {

@@ -209,7 +209,7 @@ describe('a hostile link', () => {
       x: [[-1], 'x', [0.5]],
       u: [['y'], ['y', 'up'], null],
       o: [{}, { ...(json['o'] as object), method: 'other' }, { ...(json['o'] as object), ownCones: 1e9 }, null],
-      c: [[null], [camera, null], [['1'], null], [[1e999], null]],
+      c: [[null], [camera, null], [['1'], null], [[Infinity], null]],
       s: [{}, { ...(json['s'] as object), surface: 'url(x)' }],
       g: ['a'.repeat(201), 5],
     };
@@ -259,12 +259,12 @@ describe('a hostile link', () => {
       }
     };
     const text = JSON.stringify(jsonIn(good));
-    const letters = '#s=1.&%{}[]",:-+eE0123456789abnulltrue\\/\u0000é𝄞';
+    const letters = Array.from('#s=1.&%{}[]",:-+eE0123456789abnulltrue\\/\u0000é𝄞');
     const mutated = (from: string): string => {
-      const characters = [...from];
+      const characters = Array.from(from);
       for (let change = random.below(4); change >= 0; change--) {
         const at = random.below(characters.length + 1);
-        characters.splice(at, random.below(3), ...(random.unit() < 0.7 ? [random.of([...letters])] : []));
+        characters.splice(at, random.below(3), ...(random.unit() < 0.7 ? [random.of(letters)] : []));
       }
       return random.unit() < 0.1 ? characters.slice(0, random.below(characters.length + 1)).join('') : characters.join('');
     };

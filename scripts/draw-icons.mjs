@@ -5,7 +5,7 @@
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { chromium } from '@playwright/test';
 
-const FOLDER = new URL('../public/', import.meta.url);
+const FOLDER = new URL('../www/public/', import.meta.url);
 const BROWSER = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
 /** Systems cut maskable icons to shapes of their own, which leave the middle 80 % for certain. */
