@@ -106,6 +106,27 @@ function misfit(state: State): Failure | null {
   }
 }
 
+/** Whether all points of a work, those of half pairs too, are different points of its meshes. */
+export function areMarksGood({ meshes, pairs }: Pick<State, 'meshes' | 'pairs'>): boolean {
+  try {
+    for (const side of SIDES) {
+      const file = meshes[side];
+      const points = pairs.flatMap((pair) => pair.points[side] ?? []);
+      if (file !== null && points.length > 0) {
+        // Only one side of the file is looked at.
+        const landmarks = { pairs: points.map((point) => [point, point]) };
+        checkLandmarks(file.mesh, side, new TextEncoder().encode(JSON.stringify(landmarks)));
+      }
+    }
+    return true;
+  } catch (thrown) {
+    if (thrown instanceof WebAssembly.RuntimeError) {
+      throw thrown;
+    }
+    return false;
+  }
+}
+
 /** Refuses landmarks that do not fit the meshes they would be shown on. Throws {@link FileRefused}. */
 export function checkFit(file: Pick<NamedBytes, 'name'>, events: readonly Event[], state: State): void {
   const failure = misfit(events.reduce(update, state));

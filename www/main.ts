@@ -1,5 +1,6 @@
 /** Wires the store, the views, the panels and the worker together. */
 import { openDropped } from './app/dropped.ts';
+import { BROWSER, Keeper } from './app/keep.ts';
 import { listenForUndo } from './app/keys.ts';
 import { mark } from './app/mark.ts';
 import { Links } from './app/links.ts';
@@ -24,6 +25,7 @@ const runner = new Runner(store);
 const links = new Links(store);
 /** Reloads the page into its newer build, when there is one. */
 let reload = (): void => undefined;
+const keeper = new Keeper(store, BROWSER);
 
 const actions: Actions = {
   dispatch: store.dispatch,
@@ -35,7 +37,7 @@ const actions: Actions = {
     links.cancel();
     // Whoever leaves a link before anything else was there sees what a stranger sees.
     if (store.state.meshes.every((file) => file === null)) {
-      void openFirst();
+      void openFirst(store.state.demos);
     }
   },
   sharedLink: () => sharedLink(store.state, new URL(document.baseURI)),
@@ -71,6 +73,12 @@ const actions: Actions = {
   },
   lookAtPlaces: () => {
     views.reset();
+  },
+  continueWork: () => {
+    void keeper.accept();
+  },
+  startAnew: () => {
+    void keeper.decline();
   },
 };
 
@@ -114,15 +122,27 @@ function fail(sentence: string): void {
   store.dispatch({ kind: 'error', sentence });
 }
 
+/** Shows what the address names, else the first demo, where nobody has put anything else there. */
+async function showFirst(demos: readonly Demo[]): Promise<void> {
+  if (store.state.job.kind !== 'idle' || store.state.history.past.length > 0) {
+    return;
+  }
+  if (!(await links.follow())) {
+    await openFirst(demos);
+  }
+  store.dispatch({ kind: 'history-begun' });
+}
+
 /** Opens the demo that a stranger sees first. */
-async function openFirst(): Promise<void> {
-  const [first] = store.state.demos;
+async function openFirst(demos: readonly Demo[]): Promise<void> {
+  const [first] = demos;
   if (first !== undefined) {
     await openDemo(store, first.id);
   }
 }
 
 async function start(): Promise<void> {
+  const finding = keeper.find(links.named);
   try {
     const core = await compileCore();
     await init({ module_or_path: core });
@@ -135,10 +155,9 @@ async function start(): Promise<void> {
   await views.start();
   const demos = JSON.parse(demoList()) as Demo[];
   store.dispatch({ kind: 'ready', demos });
-  if (!(await links.follow())) {
-    await openFirst();
+  if (!(await keeper.resume(await finding))) {
+    await showFirst(demos);
   }
-  store.dispatch({ kind: 'history-begun' });
   // The core lists its quickest demo last.
   const quickest = demos.at(-1);
   if (quickest !== undefined) {
@@ -156,6 +175,15 @@ window.addEventListener('hashchange', () => {
   }
 });
 listenForUndo(store);
+// The last sign of life that a browser promises.
+document.addEventListener('visibilitychange', () => {
+  if (document.visibilityState === 'hidden') {
+    void keeper.flush();
+  }
+});
+window.addEventListener('pagehide', () => {
+  void keeper.flush();
+});
 window.addEventListener('error', () => {
   fail(SENTENCES.unexpected);
 });

@@ -214,9 +214,10 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     changes: { options: { ...OPTIONS, ownCones: null } },
   },
   restored: {
-    before: { ...DOUBTED, nextId: 9, ui: ui(READY, { selected: 2 }), error: 'Something failed.' },
+    before: { ...DOUBTED, nextId: 9, ui: ui(READY, { selected: 2 }), history: gone(READY), error: 'Something failed.' },
     event: {
       work: { ...workOf(READY), meshes: [HORSE, LION], pairs: [pair(1, 5, 6, 'nose'), pair(7, 8, null)], options: OPTIONS },
+      history: gone({ ...READY, pairs: [pair(20, 0, 0)] }),
       ui: { theme: 'dark' },
     },
     step: 'Continue with horse and lion',
@@ -224,16 +225,16 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
       meshes: [HORSE, LION],
       pairs: [
         { ...pair(9, 5, 6, 'nose'), number: 1 },
-        { ...pair(10, 8, null), number: 7 },
+        { ...pair(15, 8, null), number: 7 },
       ],
-      nextId: 11,
+      nextId: 29,
       options: OPTIONS,
       findings: [],
       error: null,
       suggestions: [[], []],
       ui: ui(READY, { theme: 'dark' }),
       job: { kind: 'idle' },
-      ...toast('4 landmark pairs went.'),
+      ...toast('Continued with horse and lion.'),
     },
   },
   undo: {
@@ -393,6 +394,18 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     event: {},
     step: null,
     changes: { offer: null },
+  },
+  receiving: {
+    before: READY,
+    event: { receiving: { kind: 'files', missing: [{ side: 0, name: 'cat.off' }] } },
+    step: null,
+    changes: { receiving: { kind: 'files', missing: [{ side: 0, name: 'cat.off' }] } },
+  },
+  outdated: {
+    before: READY,
+    event: {},
+    step: null,
+    changes: { isOutdated: true },
   },
   error: {
     before: READY,

@@ -41,6 +41,13 @@ export class Links {
     });
   }
 
+  /** What the page's address names: a demo by its id, or another link by all that it says; `null` for nothing. */
+  get named(): string | null {
+    const reading = readLink(location.hash, new URL(document.baseURI));
+    const isDemo = reading.kind === 'link' && reading.link.work === null && reading.link.demo !== null;
+    return reading.kind === 'none' ? null : isDemo ? reading.link.demo : location.hash;
+  }
+
   /** Follows the link in the page's address; whether there is one. A link that must ask or wait goes on by itself. */
   async follow(): Promise<boolean> {
     const { state, dispatch } = this.#store;

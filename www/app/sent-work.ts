@@ -2,6 +2,7 @@
 import { checkFit, meshFile } from '../files.ts';
 import type { SentWork } from '../send/schema.ts';
 import type { Event } from '../store/events.ts';
+import { NO_HISTORY } from '../store/history.ts';
 import type { Demo, MeshFile, State, Work } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 
@@ -61,7 +62,7 @@ export function place(store: Store, origin: string, sent: SentWork, meshes: Work
     groundTruth: sent.groundTruth,
     options: sent.options,
   };
-  const events: Event[] = [{ kind: 'restored', work, ui: { style: sent.style } }];
+  const events: Event[] = [{ kind: 'restored', work, ui: { style: sent.style }, history: NO_HISTORY }];
   checkFit({ name: origin }, events, store.state);
   store.dispatch(...events);
   // New meshes begin with new cameras; these come after them, and are no step.

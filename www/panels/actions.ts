@@ -9,6 +9,10 @@ import type { Shell } from './shell.ts';
 export interface Actions {
   readonly dispatch: (event: Event) => void;
   readonly openFiles: (files: readonly File[], side: Side | null) => void;
+  /** Brings back the offered work of an earlier visit. */
+  readonly continueWork: () => void;
+  /** That work is not asked about again. */
+  readonly startAnew: () => void;
   /** The click that the link which was opened waits for. */
   readonly acceptLink: () => void;
   /** Gives that link up. */

@@ -7,8 +7,8 @@ import type { State } from './state.ts';
 import { stepName, toastOf } from './steps.ts';
 import { isSameWork, workOf } from './work.ts';
 
-/** Events that move in the history or end it, in place of making a step. */
-const MOVES: readonly Event['kind'][] = ['undo', 'redo', 'history-begun'];
+/** Events that move in the history or bring another one, in place of making a step. */
+const MOVES: readonly Event['kind'][] = ['undo', 'redo', 'history-begun', 'restored'];
 
 /** The state after one step of these events, none of which moves in the history. */
 function stepped(before: State, events: readonly Event[]): State {

@@ -3,6 +3,7 @@ import type { Progress, RunOutput } from '../compute/messages.ts';
 import type { RunOptions } from '../report.ts';
 import type { LandmarkFile, Side, Suggestion, SurfacePoint } from '../landmarks.ts';
 import type { Finding, Report } from '../report.ts';
+import type { History } from './history.ts';
 import type { Task } from './job.ts';
 import type { Receiving } from './receiving.ts';
 import type { Axis, Camera, Demo, MeshFile, Offer, Style, Ui, Work } from './state.ts';
@@ -45,8 +46,8 @@ export type Event =
   /** Two pairs get each other's target. */
   | { readonly kind: 'targets-exchanged'; readonly ids: readonly number[] }
   | { readonly kind: 'options'; readonly options: Partial<RunOptions> }
-  /** The kept work of an earlier visit comes in the place of the present one. */
-  | { readonly kind: 'restored'; readonly work: Work; readonly ui: Partial<Ui> }
+  /** Kept work comes: with its own steps where nothing was done on the page, else as a step. */
+  | { readonly kind: 'restored'; readonly work: Work; readonly history: History; readonly ui: Partial<Ui> }
   /** The last step is taken back. */
   | { readonly kind: 'undo' }
   /** The step that was taken back last is made again. */

@@ -19,10 +19,11 @@ import {
   withSuggestions,
   withTargetsExchanged,
 } from './pairs.ts';
+import { withRestored } from './restore.ts';
 import { withFindings } from './settle.ts';
 import type { Result, State, Style } from './state.ts';
 import { shownResult } from './staleness.ts';
-import type { Axis, Work } from './work.ts';
+import type { Axis } from './work.ts';
 import { workOf } from './work.ts';
 
 /** A change of the run under way; without one, none. */
@@ -61,12 +62,6 @@ function withResult(state: State, result: Result): State {
   const { surface } = state.ui.style;
   const isShown = surface !== 'shaded' && (surface !== 'distortion' || result.output.distortion.length > 0);
   return isShown ? done : withStyle(done, { surface: 'checkerboard' });
-}
-
-/** Kept work in the place of the present one; its pairs get ids of this visit. */
-function restored(state: State, work: Work, ui: Partial<State['ui']>): State {
-  const pairs = work.pairs.map((pair, index) => ({ ...pair, id: state.nextId + index }));
-  return { ...withUi(state, ui), ...work, pairs, nextId: state.nextId + pairs.length, error: null };
 }
 
 /** The state after an event. */
@@ -111,7 +106,7 @@ export function update(state: State, event: Event): State {
     case 'options':
       return patched(state, { options: patched(state.options, event.options) });
     case 'restored':
-      return restored(state, event.work, event.ui);
+      return withRestored(state, event, event.ui);
     case 'undo':
       return withStep(state, undone(state.history, workOf(state)));
     case 'redo':

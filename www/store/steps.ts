@@ -3,7 +3,6 @@ import type { Pair } from '../landmarks.ts';
 import { clearedSentence, count, pairsGone, pointsGone, SENTENCES } from '../messages.ts';
 import type { Event } from './events.ts';
 import type { State, Toast } from './state.ts';
-import { workName } from './work.ts';
 
 type Of<K extends Event['kind']> = Extract<Event, { kind: K }>;
 
@@ -53,7 +52,6 @@ const NAMES: Names = {
     const [key] = Object.keys(options) as (keyof typeof OPTION_NAMES)[];
     return `Change the ${key === undefined ? 'options' : OPTION_NAMES[key]}`;
   },
-  restored: ({ work }) => `Continue with ${workName(work)}`,
 };
 
 function nameOf(event: Event, before: State, after: State): string | null {
