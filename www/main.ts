@@ -91,12 +91,7 @@ function showPair(): void {
 const page = mountPage(store.state, actions);
 
 const views = new Views(store.state, {
-  picked: (side, point) => {
-    store.dispatch({ kind: 'point-picked', side, point });
-  },
-  pickDropped: () => {
-    store.dispatch({ kind: 'pick-dropped' });
-  },
+  dispatch: store.dispatch,
   // The views may say this while they show a change; it is the next change then, not one within.
   failed: (sentence) => {
     queueMicrotask(() => {
@@ -108,6 +103,7 @@ const views = new Views(store.state, {
       store.dispatch({ kind: 'error-closed' });
     });
   },
+  probed: () => undefined,
 });
 
 store.subscribe((state, previous) => {

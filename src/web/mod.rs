@@ -2,6 +2,7 @@
 
 mod compute;
 mod files;
+mod view_side;
 mod viewer;
 
 use serde_json::json;

@@ -356,7 +356,7 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     changes: {
       job: { kind: 'done' },
       result: { output: OUTPUT, report: REPORT, inputs: RUNNING.inputs },
-      ui: ui(READY, { style: { ...READY.ui.style, surface: 'checkerboard' } }),
+      ui: ui(READY, { style: { ...READY.ui.style, surface: 'pattern' } }),
     },
   },
   'run-failed': {

@@ -1,5 +1,6 @@
 /** The first steps and the keys. */
 import type { VNode } from 'preact';
+import { Fragment } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import { IconButton } from './controls.tsx';
 import type { Shell } from './shell.ts';
@@ -63,14 +64,14 @@ function KeyList({ title, keys }: Keys): VNode {
       <h3>{title}</h3>
       <dl>
         {keys.map(([combination, meaning]) => (
-          <>
+          <Fragment key={meaning}>
             <dt>
               {combination.map((key) => (
                 <kbd key={key}>{key}</kbd>
               ))}
             </dt>
             <dd class="quiet">{meaning}</dd>
-          </>
+          </Fragment>
         ))}
       </dl>
     </section>

@@ -61,7 +61,7 @@ function withResult(state: State, result: Result): State {
   const done = { ...state, job: { kind: 'done' } as const, result };
   const { surface } = state.ui.style;
   const isShown = surface !== 'shaded' && (surface !== 'distortion' || result.output.distortion.length > 0);
-  return isShown ? done : withStyle(done, { surface: 'checkerboard' });
+  return isShown ? done : withStyle(done, { surface: 'pattern' });
 }
 
 /** The state after an event. */

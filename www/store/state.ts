@@ -12,7 +12,8 @@ import { NO_WORK } from './work.ts';
 export type { Axis, Demo, MeshFile, Work } from './work.ts';
 
 export interface Style {
-  readonly surface: 'shaded' | 'checkerboard' | 'colours' | 'distortion';
+  /** Plain clay; a pattern in space, which the map carries to the source; the flat metric's checkerboard; colours of the place on the target; distortion. */
+  readonly surface: 'shaded' | 'pattern' | 'checkerboard' | 'colours' | 'distortion';
   readonly patchLines: boolean;
   readonly cones: boolean;
   readonly markers: boolean;
@@ -104,7 +105,7 @@ export const INITIAL: State = {
     panel: 'open',
     link: 'linked',
     cameras: [null, null],
-    style: { surface: 'shaded', patchLines: true, cones: true, markers: true },
+    style: { surface: 'shaded', patchLines: false, cones: false, markers: true },
     selected: null,
     hovered: null,
   },
