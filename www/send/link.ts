@@ -17,8 +17,8 @@ import type { WireFile, WirePoint } from './wire.ts';
 
 /** In characters, of all behind the `#`. */
 export const LONGEST_LINK = 65_536;
-/** In bytes, of the JSON in a link. */
-export const LARGEST_JSON = 1_000_000;
+/** In bytes, of the JSON in a link: several times what the longest one with sound pairs inflates to. */
+export const LARGEST_JSON = 400_000;
 
 /** A mesh that a link speaks of: somewhere else, or in the hands of whoever opens the link. */
 export type LinkedFile =
@@ -124,7 +124,7 @@ function readPacked(packed: string, base: URL): Reading {
     return refused(Number(version) > VERSION ? 'newer' : 'damaged');
   }
   const json = unpack(body, LARGEST_JSON);
-  const wire = json === null ? null : v.safeParse(v.pipe(v.string(), v.parseJson(), WireLink), json);
+  const wire = json === null ? null : v.safeParse(v.pipe(v.string(), v.parseJson(), WireLink), json, { abortEarly: true });
   if (wire?.success !== true) {
     return refused('damaged');
   }

@@ -2,7 +2,6 @@
  * Receives a link: asks before anything is fetched from another host, fetches, waits for the files that must be given by hand,
  * and hands everything over at once. Until then nothing on the page changes.
  */
-import type { NamedBytes } from '../files.ts';
 import { SIDES } from '../landmarks.ts';
 import type { HostFiles, Missing, Receiving } from '../store/receiving.ts';
 import type { Address } from './address.ts';
@@ -10,6 +9,12 @@ import type { FetchFault } from './fetching.ts';
 import { fetchBytes, FetchRefused } from './fetching.ts';
 import { hashOf } from './hash.ts';
 import type { Link, LinkedFile } from './link.ts';
+
+/** Some named bytes. */
+interface NamedBytes {
+  readonly name: string;
+  readonly bytes: Uint8Array;
+}
 
 /** A mesh of a link that has arrived, with the address that it has come from; `null` where it was given by hand. */
 export interface Arrived extends NamedBytes {

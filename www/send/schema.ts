@@ -3,6 +3,7 @@ import * as v from 'valibot';
 import type { Pair, SurfacePoint } from '../landmarks.ts';
 import type { RunOptions } from '../report.ts';
 import type { Camera, Style, Work } from '../store/state.ts';
+import { INITIAL } from '../store/state.ts';
 
 /** More pairs than a map was ever made of. */
 export const MOST_PAIRS = 10_000;
@@ -29,7 +30,7 @@ export const Cameras = v.strictTuple([
   v.nullable(v.pipe(v.array(v.pipe(v.number(), v.finite())), v.maxLength(LONGEST_CAMERA))),
 ]) satisfies v.GenericSchema<readonly [Camera | null, Camera | null]>;
 export const StyleSchema = v.object({
-  surface: v.picklist(['shaded', 'checkerboard', 'colours', 'distortion']),
+  surface: v.picklist(['shaded', 'pattern', 'checkerboard', 'colours', 'distortion']),
   patchLines: v.boolean(),
   cones: v.boolean(),
   markers: v.boolean(),
@@ -72,6 +73,6 @@ export const SentWorkSchema = v.object({
   up: v.strictTuple([Axis, Axis]),
   groundTruth: v.nullable(Text),
   options: Options,
-  cameras: Cameras,
-  style: StyleSchema,
+  cameras: v.fallback(Cameras, [null, null]),
+  style: v.fallback(StyleSchema, INITIAL.ui.style),
 }) satisfies v.GenericSchema<SentWork>;

@@ -6,6 +6,7 @@
 import * as v from 'valibot';
 import type { SurfacePoint } from '../landmarks.ts';
 import { isSamePoint } from '../landmarks.ts';
+import { INITIAL } from '../store/state.ts';
 import { LONGEST_ADDRESS } from './address.ts';
 import { Axis, Cameras, Index, MOST_PAIRS, Options, StyleSchema, Text, Weight } from './schema.ts';
 
@@ -60,8 +61,9 @@ export const WireLink = v.object({
   /** Which direction of each file is up. */
   u: v.strictTuple([Axis, Axis]),
   o: Options,
-  c: Cameras,
-  s: StyleSchema,
+  /** How it was looked at: what this page does not know of it is as at the start. */
+  c: v.fallback(Cameras, [null, null]),
+  s: v.fallback(StyleSchema, INITIAL.ui.style),
 });
 
 export type WireLink = v.InferOutput<typeof WireLink>;

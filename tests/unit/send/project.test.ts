@@ -62,9 +62,9 @@ function withManifest(change: (manifest: Record<string, unknown>) => unknown): (
 }
 
 describe('a project file', () => {
-  test('gives back all that was saved', async () => {
+  test('gives back all that was saved', { timeout: 60_000 }, async () => {
     const random = new Random(22);
-    for (let round = 0; round < 100; round++) {
+    for (let round = 0; round < 40; round++) {
       const project = anyProject(random);
       const bytes = await saved(project);
       expect(isArchive(bytes)).toBe(true);
