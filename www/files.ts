@@ -15,6 +15,8 @@ import { checkLandmarks, mirrorTarget, readLandmarks, readMesh } from './wasm/co
 export interface NamedBytes {
   readonly name: string;
   readonly bytes: Uint8Array;
+  /** Where a link found them; there is none for a file from a disk. */
+  readonly address?: string;
 }
 
 /** A reason to refuse files, as a sentence. */
@@ -55,6 +57,7 @@ export function meshFile(file: NamedBytes): MeshFile {
     return {
       name: file.name,
       bytes: file.bytes,
+      ...(file.address === undefined ? {} : { address: file.address }),
       mesh,
       vertexCount: mesh.vertexCount,
       faceCount: mesh.faceCount,

@@ -26,18 +26,16 @@ export function sentWorkOf({ pairs, up, groundTruth, options, ui }: State): Sent
   };
 }
 
-/** Reads and checks a mesh that arrives. */
-export function arrivedMesh({ name, bytes, address }: ArrivingMesh): MeshFile {
-  const file = meshFile({ name, bytes });
-  return address === null ? file : { ...file, address };
+function arrived({ name, bytes, address }: ArrivingMesh): MeshFile {
+  return meshFile({ name, bytes, ...(address === null ? {} : { address }) });
 }
 
-/** Does something with meshes; where it fails, the core's memory of them is given back. */
+/** Does something with meshes that arrive, read and checked; where it fails, the core's memory of them is given back. */
 export function withMeshes<T>(arriving: readonly (ArrivingMesh | null)[], work: (meshes: Work['meshes']) => T): T {
   const loaded: (MeshFile | null)[] = [];
   try {
     for (const mesh of arriving) {
-      loaded.push(mesh === null ? null : arrivedMesh(mesh));
+      loaded.push(mesh === null ? null : arrived(mesh));
     }
     return work([loaded[0] ?? null, loaded[1] ?? null]);
   } catch (thrown) {
