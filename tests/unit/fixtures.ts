@@ -11,7 +11,7 @@ import { workOf } from '../../www/store/work.ts';
 import type { LoadedMesh } from '../../www/wasm/conemap.js';
 
 /** A mesh that the core knows nothing of; `freed` counts how often it was given back. */
-export function mesh(name: string): MeshFile & { readonly freed: () => number } {
+export function mesh(name: string, faceCount = 20): MeshFile & { readonly freed: () => number } {
   let freed = 0;
   const loaded = {
     free: () => {
@@ -19,7 +19,7 @@ export function mesh(name: string): MeshFile & { readonly freed: () => number } 
     },
   } as unknown as LoadedMesh;
   const bytes = new TextEncoder().encode(name);
-  return { name, bytes, mesh: loaded, vertexCount: 12, faceCount: 20, turnedFaces: 0, freed: () => freed };
+  return { name, bytes, mesh: loaded, vertexCount: 12, faceCount, turnedFaces: 0, freed: () => freed };
 }
 
 /** A pair whose number is its id, as it is until one is deleted. */

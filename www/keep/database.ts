@@ -26,11 +26,28 @@ export interface Writing {
 }
 
 /** Everything or nothing: waits for the operations and the end of their transaction. A failure is told once. */
-async function whole(done: Promise<void>, operations: () => Promise<void>): Promise<void> {
+async function whole(
+  transaction: { readonly done: Promise<void>; abort(): void },
+  operations: () => Promise<void>,
+): Promise<void> {
   // An operation that fails ends the transaction, which fails, too.
-  done.catch(() => undefined);
-  await operations();
-  await done;
+  transaction.done.catch(() => undefined);
+  try {
+    await operations();
+  } catch (thrown) {
+    abort(transaction);
+    throw thrown;
+  }
+  await transaction.done;
+}
+
+/** Takes back what a transaction has done; what could not be asked for at all has not ended it yet. */
+function abort(transaction: { abort(): void }): void {
+  try {
+    transaction.abort();
+  } catch {
+    // It is over already.
+  }
 }
 
 export class Database {
@@ -61,7 +78,7 @@ export class Database {
   async write({ record, fresh, dropped, absorbed }: Writing): Promise<void> {
     const transaction = this.#database.transaction(['sessions', 'meshes'], 'readwrite');
     const [sessions, meshes] = [transaction.objectStore('sessions'), transaction.objectStore('meshes')];
-    await whole(transaction.done, async () => {
+    await whole(transaction, async () => {
       for (const [hash, bytes] of fresh) {
         if ((await meshes.getKey(hash)) === undefined) {
           await meshes.put(bytes, hash);
@@ -98,7 +115,7 @@ export class Database {
   /** A session is not offered again. */
   async decline(id: string): Promise<void> {
     const transaction = this.#database.transaction('sessions', 'readwrite');
-    await whole(transaction.done, async () => {
+    await whole(transaction, async () => {
       const record = await transaction.store.get(id);
       if (record !== undefined) {
         await transaction.store.put({ ...record, declined: true });
@@ -110,7 +127,7 @@ export class Database {
   async remove(ids: readonly string[]): Promise<void> {
     const transaction = this.#database.transaction(['sessions', 'meshes'], 'readwrite');
     const [sessions, meshes] = [transaction.objectStore('sessions'), transaction.objectStore('meshes')];
-    await whole(transaction.done, async () => {
+    await whole(transaction, async () => {
       for (const id of ids) {
         await sessions.delete(id);
       }

@@ -45,6 +45,11 @@ function withStyle(state: State, patch: Partial<Style>): State {
   return withUi(state, { style: patched(state.ui.style, patch) });
 }
 
+/** Whether an id is a pair's; `null` is none and always good. */
+function isPair({ pairs }: State, id: number | null): boolean {
+  return id === null || pairs.some((pair) => pair.id === id);
+}
+
 /** Another step's work; how its meshes stand stays, where they are the same ones. */
 function withStep(state: State, step: ReturnType<typeof undone>): State {
   if (step === null) {
@@ -114,9 +119,9 @@ export function update(state: State, event: Event): State {
     case 'history-begun':
       return patched(state, { history: NO_HISTORY, toast: null });
     case 'pair-selected':
-      return withUi(state, { selected: event.id });
+      return isPair(state, event.id) ? withUi(state, { selected: event.id }) : state;
     case 'pair-hovered':
-      return withUi(state, { hovered: event.id });
+      return isPair(state, event.id) ? withUi(state, { hovered: event.id }) : state;
     case 'ui':
       return withUi(state, event.ui);
     case 'style':

@@ -55,7 +55,8 @@ export function inLine(state: State, before: State): State {
   return {
     ...next,
     suggestions: follow(before.suggestions, []),
-    ui: { ...next.ui, cameras: follow(next.ui.cameras, null) },
+    // A session that comes back brings its cameras along.
+    ui: next.ui.cameras === before.ui.cameras ? { ...next.ui, cameras: follow(before.ui.cameras, null) } : next.ui,
     job: settled(next.job, shownResult(next) !== null),
   };
 }
