@@ -60,12 +60,8 @@ export function place(store: Store, origin: string, sent: SentWork, meshes: Work
     groundTruth: sent.groundTruth,
     options: sent.options,
   };
-  const events: Event[] = [{ kind: 'restored', work, ui: { style: sent.style }, history: NO_HISTORY }];
+  const ui = { style: sent.style, cameras: sent.cameras };
+  const events: Event[] = [{ kind: 'restored', work, ui, history: NO_HISTORY }];
   checkFit({ name: origin }, events, store.state);
   store.dispatch(...events);
-  // New meshes begin with new cameras; these come after them, and are no step.
-  store.dispatch(
-    { kind: 'camera-moved', side: 0, camera: sent.cameras[0] },
-    { kind: 'camera-moved', side: 1, camera: sent.cameras[1] },
-  );
 }
