@@ -12,6 +12,7 @@ import { sharedLink } from './app/sharing.ts';
 import { suggest } from './app/suggest.ts';
 import { compileCore } from './compute/client.ts';
 import { SENTENCES } from './messages.ts';
+import { download } from './dom.ts';
 import { keepOffline } from './offline/register.ts';
 import type { Actions } from './panels/actions.ts';
 import { mountPage } from './panels/page.tsx';
@@ -19,6 +20,9 @@ import type { Demo } from './store/state.ts';
 import { Store } from './store/store.ts';
 import { Views } from './viewer/viewer.ts';
 import init, { demoList } from './wasm/conemap.js';
+
+/** How much larger a picture of the views is than the screen shows them. */
+const PICTURE_SCALE = 2;
 
 const store = new Store();
 const runner = new Runner(store);
@@ -43,6 +47,13 @@ const actions: Actions = {
   sharedLink: () => sharedLink(store.state, new URL(document.baseURI)),
   saveProject: () => {
     void saveProject(store);
+  },
+  savePicture: () => {
+    void views.picture(PICTURE_SCALE).then((picture) => {
+      if (picture !== null) {
+        download('conemap.png', 'image/png', picture);
+      }
+    });
   },
   reload: () => {
     reload();

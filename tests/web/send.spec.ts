@@ -270,6 +270,22 @@ test('a project file brings everything back', async ({ page }) => {
   await expect(page.locator('#error')).toContainText('broken.conemap.zip');
 });
 
+test('the picture of the views has twice the pixels of the screen', async ({ page }) => {
+  await open(page, '/');
+  await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
+  const canvas = await page.locator('#canvas').evaluate((element: HTMLCanvasElement) => [element.width, element.height]);
+  await page.getByRole('button', { name: 'Export' }).click();
+  const download = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Picture of the views' }).click();
+  const bytes = readFileSync(await (await download).path());
+  expect([bytes.readUInt32BE(16), bytes.readUInt32BE(20)]).toEqual(canvas.map((side) => 2 * side));
+  // One colour would pack into far less.
+  expect(bytes.length).toBeGreaterThan(20_000);
+  await expect
+    .poll(() => page.locator('#canvas').evaluate((element: HTMLCanvasElement) => [element.width, element.height]))
+    .toEqual(canvas);
+});
+
 test('the page works from any folder of a host', async ({ page }) => {
   const host = await staticHost(DIST, '/some/sub/path/');
   const failed: string[] = [];

@@ -1,5 +1,6 @@
 /** Work that comes from elsewhere or goes there: between the page's state and the form that links and projects have. */
-import { checkFit, meshFile } from '../files.ts';
+import { areMarksGood, checkFit, FileRefused, meshFile } from '../files.ts';
+import { SENTENCES } from '../messages.ts';
 import type { SentWork } from '../send/schema.ts';
 import type { Event } from '../store/events.ts';
 import { NO_HISTORY } from '../store/history.ts';
@@ -63,5 +64,9 @@ export function place(store: Store, origin: string, sent: SentWork, meshes: Work
   const ui = { style: sent.style, cameras: sent.cameras };
   const events: Event[] = [{ kind: 'restored', work, ui, history: NO_HISTORY }];
   checkFit({ name: origin }, events, store.state);
+  // The core looks at whole pairs; half ones are points of the meshes, too.
+  if (!areMarksGood(work)) {
+    throw new FileRefused(`${origin}: ${SENTENCES.badPoint}`);
+  }
   store.dispatch(...events);
 }

@@ -20,6 +20,8 @@ export interface Actions {
   /** The link to what is on the page; `null` where there can be none. */
   readonly sharedLink: () => Promise<{ readonly url: string; readonly prospect: Parameters<typeof prospectSentence>[0] } | null>;
   readonly saveProject: () => void;
+  /** Saves what the views show as a picture of twice the screen's size. */
+  readonly savePicture: () => void;
   /** Begins anew with the newer build of the page. */
   readonly reload: () => void;
   readonly openDemo: (id: string) => void;
