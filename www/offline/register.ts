@@ -6,6 +6,11 @@ const ASKED_EVERY = 3_600_000;
 
 /** The new build takes over, and the page begins anew with it. */
 function takeOver(waiting: ServiceWorker): void {
+  if (waiting.state !== 'installed') {
+    // Another tab was first.
+    location.reload();
+    return;
+  }
   navigator.serviceWorker.addEventListener(
     'controllerchange',
     () => {
