@@ -71,6 +71,11 @@ export function findingSentence(finding: Finding, name: (order: number) => strin
   return finding.sentence;
 }
 
+/** A deleted pair. */
+export function pairGone(number: number): string {
+  return `Landmark pair ${number} deleted.`;
+}
+
 /** Pairs that went with meshes or were replaced. */
 export function pairsGone(number: number): string {
   return `${count(number, 'landmark pair')} went.`;

@@ -174,7 +174,7 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
       pairs: [pair(1, 0, 10), pair(3, 2, 12), pair(4, 3, 13)],
       findings: [],
       ui: ui(READY, { selected: 3 }),
-      ...toast('Pair 2 is deleted.'),
+      ...toast('Landmark pair 2 deleted.'),
     },
   },
   'pair-labelled': {

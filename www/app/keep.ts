@@ -1,7 +1,8 @@
 /** Keeps the work in the browser as it changes, and brings it back: after a reload at once, on a new visit when asked for. */
-import * as v from 'valibot';
 import type { NamedBytes } from '../files.ts';
 import { areMarksGood, FileRefused, meshFile } from '../files.ts';
+import type { Choice } from '../keep/choice.ts';
+import { choiceOf } from '../keep/choice.ts';
 import { Database } from '../keep/database.ts';
 import type { MeshRecord, SessionRecord } from '../keep/record.ts';
 import { keptOf, meshesOf, meshKey, readSession, recordOf, workFrom } from '../keep/record.ts';
@@ -57,13 +58,23 @@ export interface Found {
 const NOTHING: Found = { own: null, offer: null, note: null };
 /** Where a tab remembers its session. */
 const MEMORY_KEY = 'conemap-session';
-/** Sessions that are kept beside those that tabs have open. */
-const MOST_SESSIONS = 5;
 /** How long a lock is waited for, in ms: a page that was just reloaded may still hold it; a tab that was copied holds it on. */
 const PATIENCE = 500;
 
-/** What can be said of any record, of whatever version. */
-const Outline = v.object({ id: v.string(), saved: v.fallback(v.number(), 0) });
+/** How long the store may take to open, in ms: the page does not wait for one that never does. */
+const LONGEST_OPENING = 3000;
+
+/** What is promised, if it comes in time. Throws where it does not. */
+function within<T>(milliseconds: number, promised: Promise<T>): Promise<T> {
+  return new Promise((resolve, reject) => {
+    const timer = setTimeout(() => {
+      reject(new Error(`no answer in ${milliseconds} ms`));
+    }, milliseconds);
+    promised.then(resolve, reject).finally(() => {
+      clearTimeout(timer);
+    });
+  });
+}
 
 /** Whether nothing that is kept has changed. */
 function isKept(state: State, previous: State): boolean {
@@ -78,6 +89,19 @@ function isKept(state: State, previous: State): boolean {
     ui.cameras === before.cameras &&
     ui.style === before.style
   );
+}
+
+function offerOf(record: SessionRecord | null): Offer | null {
+  if (record === null) {
+    return null;
+  }
+  const { id, work, saved } = record;
+  const [source, target] = work.meshes;
+  return { session: id, names: [source?.name ?? null, target?.name ?? null], pairs: work.pairs.length, saved };
+}
+
+function noteOf({ hasOthers, hasBroken }: Choice): string | null {
+  return hasOthers ? SENTENCES.keptByOther : hasBroken ? SENTENCES.keptUnreadable : null;
 }
 
 export class Keeper {
@@ -106,9 +130,10 @@ export class Keeper {
    */
   async find(linked: string | null): Promise<Found> {
     try {
-      this.#database = await this.#around.open(() => {
+      const opening = this.#around.open(() => {
         this.#close(SENTENCES.keepsNoMore);
       });
+      this.#database = await within(LONGEST_OPENING, opening);
       this.#tabs = this.#around.tabs();
       const found = await this.#look(this.#database, this.#tabs, linked);
       this.#store.subscribe((state, previous) => {
@@ -135,7 +160,13 @@ export class Keeper {
       return false;
     }
     this.#written = own.id === this.#id ? new Set(own.hashes) : null;
-    return this.#restore(own);
+    const isThere = await this.#restore(own);
+    if (!isThere && this.#tabs !== null) {
+      // What comes onto the page in place of it is not written over it.
+      const tabs = this.#tabs;
+      await this.#quietly(() => this.#begin(tabs));
+    }
+    return isThere;
   }
 
   /** Brings the offered work onto the page; this tab's session continues it. */
@@ -161,9 +192,7 @@ export class Keeper {
     const { offer } = this.#store.state;
     this.#store.dispatch({ kind: 'offer-closed' });
     if (offer !== null) {
-      await this.#database?.decline(offer.session).catch((thrown: unknown) => {
-        console.warn(thrown);
-      });
+      await this.#quietly((database) => database.decline(offer.session));
     }
   }
 
@@ -179,63 +208,36 @@ export class Keeper {
 
   /** This tab's session and the one to offer, out of all. */
   async #look(database: Database, tabs: Tabs, linked: string | null): Promise<Found> {
-    const memory = this.#around.memory();
-    const before = memory.getItem(MEMORY_KEY);
+    const before = this.#around.memory().getItem(MEMORY_KEY);
     const isMine = before !== null && (await tabs.claim(before, PATIENCE));
     const reading = before === null ? null : readSession(await database.session(before));
     const record = reading?.kind === 'session' ? reading.record : null;
-    const isLinkedElsewhere = linked !== null && record !== null && linked !== record.work.demo;
-    const own = isLinkedElsewhere ? null : record;
-    if (before !== null && isMine && own !== null) {
+    const own = linked === null || linked === record?.work.demo ? record : null;
+    if (isMine && own !== null) {
       this.#id = before;
     } else {
-      // A copied tab continues with a copy.
-      if (before !== null && isMine) {
+      // A copied tab continues with a copy; other work than this tab's leaves what it had.
+      if (isMine) {
         tabs.release(before);
       }
-      this.#id = this.#around.newId();
-      await tabs.claim(this.#id, PATIENCE);
-      memory.setItem(MEMORY_KEY, this.#id);
+      await this.#begin(tabs);
     }
-    const open = await tabs.open();
-    const all = await database.sessions();
-    await this.#tidy(database, all, open);
-    return { own, ...this.#offerOf(all, open, isLinkedElsewhere ? before : null) };
+    const open = new Set(await tabs.open());
+    if (isMine && before !== this.#id) {
+      // The browser may need a moment to see that it is free.
+      open.delete(before);
+    }
+    const choice = choiceOf(await database.sessions(), open);
+    await database.remove(choice.obsolete);
+    return { own, offer: offerOf(choice.latest), note: noteOf(choice) };
   }
 
-  /** The latest session that no tab has; `left` is one that this tab had until now. */
-  #offerOf(all: readonly unknown[], open: ReadonlySet<string>, left: string | null): Pick<Found, 'offer' | 'note'> {
-    const closed = all.filter((value) => {
-      const id = v.is(Outline, value) ? v.parse(Outline, value).id : null;
-      return id !== this.#id && (id === left || id === null || !open.has(id));
-    });
-    const readings = closed.map(readSession);
-    const records = readings.flatMap((reading) => (reading.kind === 'session' ? [reading.record] : []));
-    const latest = records.filter(({ declined }) => !declined).reduce<SessionRecord | null>(
-      (best, record) => (best === null || record.saved > best.saved ? record : best),
-      null,
-    );
-    const isOther = readings.some(({ kind }) => kind === 'other-version');
-    const isBroken = readings.some(({ kind }) => kind === 'broken');
-    const note = isOther ? SENTENCES.keptByOther : isBroken ? SENTENCES.keptUnreadable : null;
-    if (latest === null) {
-      return { offer: null, note };
-    }
-    const [source, target] = latest.work.meshes;
-    const names = [source?.name ?? null, target?.name ?? null] as const;
-    return { offer: { session: latest.id, names, pairs: latest.work.pairs.length, saved: latest.saved }, note };
-  }
-
-  /** Removes what cannot be read, all but the latest sessions, and the meshes of neither. */
-  async #tidy(database: Database, all: readonly unknown[], open: ReadonlySet<string>): Promise<void> {
-    const outlines = all.flatMap((value) => {
-      const outline = v.safeParse(Outline, value);
-      return outline.success ? [{ ...outline.output, isBroken: readSession(value).kind === 'broken' }] : [];
-    });
-    const closed = outlines.filter(({ id }) => id !== this.#id && !open.has(id));
-    const latest = closed.filter(({ isBroken }) => !isBroken).sort((a, b) => b.saved - a.saved);
-    const kept = new Set(latest.slice(0, MOST_SESSIONS).map(({ id }) => id));
-    await database.remove(closed.filter(({ id }) => !kept.has(id)).map(({ id }) => id));
+  /** From now on this tab has a session of its own, of which nothing is written. */
+  async #begin(tabs: Tabs): Promise<void> {
+    this.#id = this.#around.newId();
+    this.#written = null;
+    await tabs.claim(this.#id, PATIENCE);
+    this.#around.memory().setItem(MEMORY_KEY, this.#id);
   }
 
   /** Puts a session's work onto the page; `false` where it does not come, and says why where it cannot be read. */
@@ -259,24 +261,9 @@ export class Keeper {
       },
     );
     if (outcome === 'failed') {
-      await this.#setAside(record.id);
+      await this.#quietly(async (database) => database.decline(record.id));
     }
     return outcome === 'done';
-  }
-
-  /** A session that cannot be brought back stays for a while, but is neither written over nor offered again. */
-  async #setAside(id: string): Promise<void> {
-    try {
-      await this.#database?.decline(id);
-      if (id === this.#id) {
-        this.#id = this.#around.newId();
-        this.#written = null;
-        await this.#tabs?.claim(this.#id, PATIENCE);
-        this.#around.memory().setItem(MEMORY_KEY, this.#id);
-      }
-    } catch (thrown) {
-      console.warn(thrown);
-    }
   }
 
   async #bytesOf(meshes: readonly MeshRecord[]): Promise<ReadonlyMap<string, NamedBytes>> {
@@ -319,12 +306,15 @@ export class Keeper {
     }
   }
 
-  /** A page that nobody changed is not kept: it would push out what somebody made. */
   #follow(state: State, previous: State): void {
-    const isMade = this.#written !== null || state.history.past.length + state.history.future.length > 0;
-    if (isMade && !isKept(state, previous)) {
+    if (this.#isMade(state) && !isKept(state, previous)) {
       this.#schedule();
     }
+  }
+
+  /** Whether somebody made something: a page that only shows a demo would push out what somebody made before. */
+  #isMade({ history }: State): boolean {
+    return this.#written !== null || this.#absorbed !== null || history.past.length + history.future.length > 0;
   }
 
   #schedule(): void {
@@ -348,10 +338,10 @@ export class Keeper {
   }
 
   async #write(): Promise<void> {
-    if (this.#database === null) {
+    const { state } = this.#store;
+    if (this.#database === null || !this.#isMade(state)) {
       return;
     }
-    const { state } = this.#store;
     try {
       const kept = keptOf(state);
       const hashes = new Map<MeshFile, string>();
@@ -360,15 +350,27 @@ export class Keeper {
       }
       const record = recordOf(kept, { id: this.#id, saved: this.#around.now(), ui: state.ui }, hashes);
       const needed = new Set(record.hashes);
-      const fresh = new Map([...hashes].map(([file, hash]) => [hash, file.bytes] as const).filter(([hash]) => this.#written?.has(hash) !== true));
+      const fresh = new Map([...hashes].flatMap(([file, hash]) => (this.#written?.has(hash) === true ? [] : [[hash, file.bytes]])));
       const dropped = [...(this.#written ?? [])].filter((hash) => !needed.has(hash));
       await this.#database.write({ record, fresh, dropped, absorbed: this.#absorbed });
       this.#written = needed;
       this.#absorbed = null;
+      this.#said = false;
     } catch (thrown) {
       console.warn(thrown);
       const isFull = thrown instanceof DOMException && thrown.name === 'QuotaExceededError';
       this.#say(isFull ? SENTENCES.noRoom : SENTENCES.keepsNoMore);
+    }
+  }
+
+  /** Does something with the store that the user need not hear of where it fails. */
+  async #quietly(action: (database: Database) => Promise<void>): Promise<void> {
+    try {
+      if (this.#database !== null) {
+        await action(this.#database);
+      }
+    } catch (thrown) {
+      console.warn(thrown);
     }
   }
 
@@ -378,7 +380,7 @@ export class Keeper {
     this.#say(sentence);
   }
 
-  /** Says once that nothing is kept. */
+  /** Says that nothing is kept, once until something is again. */
   #say(sentence: string): void {
     if (!this.#said) {
       this.#said = true;

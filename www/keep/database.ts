@@ -81,7 +81,8 @@ export class Database {
     await whole(transaction, async () => {
       for (const [hash, bytes] of fresh) {
         if ((await meshes.getKey(hash)) === undefined) {
-          await meshes.put(bytes, hash);
+          // Of a view on larger memory the browser would keep all.
+          await meshes.put(bytes.byteLength === bytes.buffer.byteLength ? bytes : bytes.slice(), hash);
         }
       }
       await sessions.put(record);

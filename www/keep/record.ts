@@ -3,7 +3,8 @@
  * hash of their bytes, which are kept apart, so that a landmark that moves rewrites none. The last map is left out: it is made
  * again from the same work. What later versions add must be optional, or make it version 2.
  *
- * Objects that neighbouring steps share are shared here, too; the browser's copy keeps that.
+ * Pairs are in one table, and each step lists its own by their places there: neighbouring steps share nearly all of them, and to
+ * check them once is to open quickly. Lists that steps share are shared here, too, and the browser's copy keeps that.
  */
 import * as v from 'valibot';
 import type { Pair } from '../landmarks.ts';
@@ -21,6 +22,8 @@ const LONGEST_TEXT = 10_000;
 const MOST_STEPS = 1000;
 /** What the meshes of other steps may take beside those on the page, in bytes: on return they are all read at once. */
 const MOST_BYTES = 32e6;
+/** How long the lists of pairs of all other steps may be together. */
+const MOST_LISTED = 100_000;
 
 const Text = v.pipe(v.string(), v.maxLength(LONGEST_TEXT));
 /** SHA-256 in base64url. */
@@ -37,17 +40,17 @@ const PairRecord = v.object({
   label: Text,
   locked: v.boolean(),
 });
-const isEach = (values: readonly number[]): boolean => new Set(values).size === values.length;
+/** Places in the table of pairs. There are thousands of them, so that each is looked at as quickly as can be. */
+const PairList = v.custom<readonly number[]>(
+  (value) =>
+    Array.isArray(value) && value.length <= MOST_PAIRS && value.every((place: unknown) => Number.isInteger(place) && Number(place) >= 0),
+);
 const WorkRecord = v.object({
   meshes: v.strictTuple([v.nullable(MeshRecord), v.nullable(MeshRecord)]),
   up: v.strictTuple([Axis, Axis]),
   /** Its id. */
   demo: v.nullable(Text),
-  pairs: v.pipe(
-    v.array(PairRecord),
-    v.maxLength(MOST_PAIRS),
-    v.check((pairs) => isEach(pairs.map(({ id }) => id)) && isEach(pairs.map(({ number }) => number))),
-  ),
+  pairs: PairList,
   named: v.strictTuple([v.nullable(Text), v.nullable(Text)]),
   groundTruth: v.nullable(Text),
   options: Options,
@@ -63,7 +66,7 @@ const UiRecord = v.object({
   style: v.fallback(StyleSchema, INITIAL.ui.style),
 });
 
-const SessionSchema = v.object({
+const Session = v.object({
   version: v.literal(VERSION),
   id: Text,
   /** When it was last changed, in ms since 1970. */
@@ -72,11 +75,25 @@ const SessionSchema = v.object({
   declined: v.boolean(),
   /** Of all meshes that it needs. */
   hashes: v.array(Hash),
+  /** All pairs of all steps, each as often as it changed. */
+  pairs: v.array(PairRecord),
   work: WorkRecord,
   past: Steps,
   future: Steps,
   ui: UiRecord,
 });
+
+/** Whether every list has pairs of the table, with an id and a number of their own. */
+function areListsSound({ pairs, work, past, future }: v.InferOutput<typeof Session>): boolean {
+  const lists = new Set([work, ...past.map((step) => step.work), ...future.map((step) => step.work)].map((each) => each.pairs));
+  return [...lists].every((list) => {
+    const listed = list.map((place) => pairs[place]);
+    const [ids, numbers] = [new Set(listed.map((pair) => pair?.id)), new Set(listed.map((pair) => pair?.number))];
+    return ids.size === list.length && numbers.size === list.length && !ids.has(undefined);
+  });
+}
+
+const SessionSchema = v.pipe(Session, v.check(areListsSound));
 
 export type MeshRecord = v.InferOutput<typeof MeshRecord>;
 type WorkRecord = v.InferOutput<typeof WorkRecord>;
@@ -112,21 +129,24 @@ function filesOf(work: Work): MeshFile[] {
   return work.meshes.filter((file) => file !== null);
 }
 
-/** What of a state is kept: the nearest steps, as long as their meshes are not too large. */
+/** What of a state is kept: the nearest steps, as long as their meshes and lists are not too large. */
 export function keptOf(state: State): Kept {
   const work = workOf(state);
   const files = new Set(filesOf(work));
-  let bytes = 0;
+  const lists = new Set([work.pairs]);
+  let [bytes, listed] = [0, 0];
   const nearest = (steps: readonly Step[]): readonly Step[] => {
     let first = steps.length;
     while (first > 0) {
-      const more = filesOf(steps[first - 1]?.work ?? work).filter((file) => !files.has(file));
-      const size = more.reduce((sum, file) => sum + file.bytes.byteLength, 0);
-      if (bytes + size > MOST_BYTES) {
+      const next = steps[first - 1]?.work ?? work;
+      const more = filesOf(next).filter((file) => !files.has(file));
+      bytes += more.reduce((sum, file) => sum + file.bytes.byteLength, 0);
+      listed += lists.has(next.pairs) ? 0 : next.pairs.length;
+      if (bytes > MOST_BYTES || listed > MOST_LISTED) {
         break;
       }
-      bytes += size;
       more.forEach((file) => files.add(file));
+      lists.add(next.pairs);
       first--;
     }
     return steps.slice(first);
@@ -160,27 +180,31 @@ export function recordOf(
     hash: hashes.get(file) ?? '',
     ...(file.address === undefined ? {} : { address: file.address }),
   }));
-  // Lists that are checked are not read-only; these are not written to.
-  const pairs = once((list: readonly Pair[]) => list as WorkRecord['pairs']);
+  const table: Pair[] = [];
+  const place = once((pair: Pair) => table.push(pair) - 1);
+  const places = once((list: readonly Pair[]) => list.map(place));
   const record = ({ meshes: [source, target], up, demo, pairs: list, named, groundTruth, options }: Work): WorkRecord => ({
     meshes: [source === null ? null : mesh(source), target === null ? null : mesh(target)],
     up: [...up],
     demo: demo?.id ?? null,
-    pairs: pairs(list),
+    pairs: places(list),
     named: [...named],
     groundTruth,
     options,
   });
   const steps = (list: readonly Step[]): SessionRecord['past'] => list.map(({ name, work }) => ({ name, work: record(work) }));
+  const [work, past, future] = [record(kept.work), steps(kept.past), steps(kept.future)];
   return {
     version: VERSION,
     id,
     saved,
     declined: false,
     hashes: [...new Set([...kept.files].map((file) => mesh(file).hash))],
-    work: record(kept.work),
-    past: steps(kept.past),
-    future: steps(kept.future),
+    // Lists that are checked are not read-only; these are not written to.
+    pairs: table as SessionRecord['pairs'],
+    work,
+    past,
+    future,
     ui: {
       step: ui.step,
       panel: ui.panel,
@@ -205,19 +229,20 @@ export function meshKey({ name, hash }: MeshRecord): string {
 
 /** The work and history of a session. `files` has its meshes by key; a demo that is no more is none. */
 export function workFrom(
-  { work, past, future }: SessionRecord,
+  { pairs, work, past, future }: SessionRecord,
   files: ReadonlyMap<string, MeshFile>,
   demos: readonly Demo[],
 ): { readonly work: Work; readonly history: History } {
   const file = (mesh: MeshRecord | null): MeshFile | null => (mesh === null ? null : (files.get(meshKey(mesh)) ?? null));
   // Steps that change no mesh share the pair of them, as they do when they are made.
   const both = new Map<string, Work['meshes']>();
+  const listed = once((places: readonly number[]): readonly Pair[] => places.flatMap((place) => pairs[place] ?? []));
   const made = (record: WorkRecord): Work => {
     const [source, target] = record.meshes;
     const key = JSON.stringify([source, target]);
     const meshes = both.get(key) ?? ([file(source), file(target)] as const);
     both.set(key, meshes);
-    return { ...record, meshes, demo: demos.find(({ id }) => id === record.demo) ?? null };
+    return { ...record, meshes, pairs: listed(record.pairs), demo: demos.find(({ id }) => id === record.demo) ?? null };
   };
   const steps = (list: SessionRecord['past']): Step[] => list.map((step) => ({ name: step.name, work: made(step.work) }));
   return { work: made(work), history: { past: steps(past), future: steps(future), gesture: null } };

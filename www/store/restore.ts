@@ -28,7 +28,7 @@ export function withRestored(state: State, kept: { readonly work: Work; readonly
   const { work, history } = raised(kept.work, kept.history, state.nextId - 1);
   const { past, future } = state.history;
   const isFresh = past.length + future.length === 0;
-  const name = `Continue with ${workName(work)}`;
+  const name = `Continue with ${workName(work.meshes.map((file) => file?.name ?? null))}`;
   return {
     ...state,
     ...work,

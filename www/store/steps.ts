@@ -1,6 +1,6 @@
 /** Steps of the work in words: their names, and what is said where they drop something. */
 import type { Pair } from '../landmarks.ts';
-import { clearedSentence, count, pairsGone, pointsGone, SENTENCES } from '../messages.ts';
+import { clearedSentence, count, pairGone, pairsGone, pointsGone, SENTENCES } from '../messages.ts';
 import type { Event } from './events.ts';
 import type { State, Toast } from './state.ts';
 
@@ -91,10 +91,12 @@ export function toastOf(events: readonly Event[], before: State, after: State): 
   }
   if (kinds.has('pair-deleted')) {
     const gone = before.pairs.find(({ id }) => !after.pairs.some((pair) => pair.id === id));
-    return { sentence: `Pair ${gone?.number ?? ''} is deleted.`, undo };
+    return { sentence: pairGone(gone?.number ?? 0), undo };
   }
   if (kinds.has('pairs-cleared')) {
     return { sentence: clearedSentence(dropped, after.pairs.length), undo };
   }
-  return { sentence: after.pairs.length < before.pairs.length || kinds.has('landmarks') ? pairsGone(dropped) : pointsGone(dropped), undo };
+  const stay = new Set(after.pairs.map(({ id }) => id));
+  const areHalf = before.pairs.some(({ id }) => stay.has(id));
+  return { sentence: areHalf ? pointsGone(dropped) : pairsGone(dropped), undo };
 }

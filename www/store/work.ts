@@ -75,10 +75,10 @@ export function shortName(name: string): string {
   return name.replace(/\.[^.]{1,8}$/, '');
 }
 
-/** What the work is about: "cat and lion". */
-export function workName({ meshes }: Pick<Work, 'meshes'>): string {
-  const names = meshes.flatMap((file) => (file === null ? [] : [shortName(file.name)]));
-  return names.length === 0 ? 'nothing but landmarks' : names.join(' and ');
+/** What work is about, by its meshes' names: "cat and lion". */
+export function workName(names: readonly (string | null)[]): string {
+  const known = names.flatMap((name) => (name === null ? [] : [shortName(name)]));
+  return known.length === 0 ? 'landmarks alone' : known.join(' and ');
 }
 
 /** The direction that is up in files of this name: STL comes from machines whose beds lie flat, the others from screens. */
