@@ -14,7 +14,8 @@ import { compileCore } from './compute/client.ts';
 import { SENTENCES } from './messages.ts';
 import { download } from './dom.ts';
 import { keepOffline } from './offline/register.ts';
-import type { Actions } from './panels/actions.ts';
+import type { Side } from './landmarks.ts';
+import type { Actions, CameraCommand } from './panels/actions.ts';
 import { mountPage } from './panels/page.tsx';
 import type { Demo } from './store/state.ts';
 import { Store } from './store/store.ts';
@@ -76,14 +77,17 @@ const actions: Actions = {
   repair: (finding) => {
     repair(store, runner, showPair, finding);
   },
-  fit: () => {
-    views.reset();
+  camera: (side, command) => {
+    turn(side, command);
   },
+  proposedUp: (side) => views.proposedUp(side),
   lookAtPair: (id) => {
-    store.dispatch({ kind: 'pair-selected', id });
+    views.lookAtPair(id);
   },
-  lookAtPlaces: () => {
-    views.reset();
+  lookAtPlaces: ([source, target]) => {
+    views.lookAt(0, source);
+    views.lookAt(1, target);
+    views.ask(0, source);
   },
   continueWork: () => {
     void keeper.accept();
@@ -93,9 +97,27 @@ const actions: Actions = {
   },
 };
 
-/** Opens the list, where the selected pair is. */
-function showPair(): void {
+/** Opens the list, where the selected pair is, and turns both views to it. */
+function showPair(id: number): void {
   store.dispatch({ kind: 'ui', ui: { step: 'landmarks', panel: 'open' } });
+  views.lookAtPair(id);
+}
+
+function turn(side: Side, command: CameraCommand): void {
+  switch (command.kind) {
+    case 'fit':
+      views.fit(side);
+      break;
+    case 'reset':
+      views.reset(side);
+      break;
+    case 'look':
+      views.lookFrom(side, command.from);
+      break;
+    case 'roll':
+      views.roll(side, command.degrees);
+      break;
+  }
 }
 
 // The page comes first: the views look for their places in it.
@@ -114,7 +136,7 @@ const views = new Views(store.state, {
       store.dispatch({ kind: 'error-closed' });
     });
   },
-  probed: () => undefined,
+  probed: page.probed,
 });
 
 store.subscribe((state, previous) => {

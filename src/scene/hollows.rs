@@ -15,6 +15,9 @@ const MOST_ROUNDS: f64 = 24.0;
 /// What the spread slopes are multiplied by: an armpit comes near 1.
 const STRENGTH: f64 = 3.0;
 
+/// After so many rounds what has no value yet has none.
+const MOST_ROUNDS_BETWEEN: usize = 40;
+
 /// By vertex from -1 on sharp ridges to 1 in deep hollows, 0 where the surface is flat.
 pub fn hollows(mesh: &SurfaceMesh, normals: &TiVec<VertexId, DVec3>) -> TiVec<VertexId, f64> {
     let count = mesh.vertex_count();
@@ -42,6 +45,38 @@ pub fn hollows(mesh: &SurfaceMesh, normals: &TiVec<VertexId, DVec3>) -> TiVec<Ve
     sum.into_iter().map(|x| (STRENGTH * x / (rounds + 1) as f64).clamp(-1.0, 1.0)).collect()
 }
 
+/// What a finer triangulation of the same surface takes over: values at its points that are vertices of the mesh (`known`), and
+/// between them, on edges and in faces, means of the neighbours.
+pub fn carried(known: &[Option<f32>], triangles: &[u32]) -> Vec<f32> {
+    let mut values = known.to_vec();
+    // Points that lie between are few edges away from a vertex; in a long thin face at most some dozens.
+    for _ in 0..MOST_ROUNDS_BETWEEN {
+        let mut sums = vec![(0.0_f32, 0_u32); known.len()];
+        for corners in triangles.chunks_exact(3) {
+            let corners = [corners[0], corners[1], corners[2]].map(|v| v as usize);
+            for k in 0..3 {
+                let (v, next, last) = (corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
+                for value in [values[next], values[last]].into_iter().flatten().filter(|_| known[v].is_none())
+                {
+                    sums[v].0 += value;
+                    sums[v].1 += 1;
+                }
+            }
+        }
+        let mut is_complete = true;
+        for (value, (sum, count)) in values.iter_mut().zip(sums) {
+            if count > 0 {
+                is_complete &= value.is_some();
+                *value = Some(sum / count as f32);
+            }
+        }
+        if is_complete {
+            break;
+        }
+    }
+    values.into_iter().map(|value| value.unwrap_or(0.0)).collect()
+}
+
 /// Every edge twice, once from each end.
 fn sides(mesh: &SurfaceMesh) -> impl Iterator<Item = [VertexId; 2]> + '_ {
     // The surface is closed: the neighbour of the edge's face has it the other way.
@@ -65,5 +100,16 @@ mod tests {
         let bottom =
             ball.vertices().max_by(|a, b| ball.positions()[*a].z.total_cmp(&ball.positions()[*b].z)).unwrap();
         assert!(found[bottom] > 0.2, "{}", found[bottom]);
+    }
+
+    #[test]
+    fn points_between_take_the_means_of_their_neighbours() {
+        // A fan around point 4 of the square 0 to 3, and a point 5 without a value around it.
+        let triangles = [0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 4, 5, 6];
+        let known = [Some(1.0), Some(0.0), Some(1.0), Some(0.0), None, None, None];
+        let found = carried(&known, &triangles);
+        assert_eq!(found[..4], [1.0, 0.0, 1.0, 0.0]);
+        assert!((found[4] - 0.5).abs() < 0.1 && (found[5] - 0.5).abs() < 0.2, "{found:?}");
+        assert_eq!(carried(&[None; 3], &[0, 1, 2]), [0.0; 3]);
     }
 }

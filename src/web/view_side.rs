@@ -1,16 +1,18 @@
 //! One of the two views: its mesh, its camera, and what is marked on it.
 
 use super::failure;
-use crate::gpu::Mesh;
+use crate::gpu::{Mesh, Renderer};
 use crate::io::landmark_file::LandmarkPoint;
 use crate::mesh::check::CheckedMesh;
 use crate::mesh::normals::vertex_normals;
 use crate::mesh::{FaceId, SurfacePoint};
-use crate::scene::buffers::Frame;
+use crate::scene::buffers::{Frame, surface};
 use crate::scene::colours::landmark_colour;
+use crate::scene::hollows::carried;
 use crate::scene::pins::{Pin, STEM, Stand, distance_to_pin};
 use crate::scene::{Camera, Glide, Picker, Pose, UpAxis};
 use glam::{DVec3, Vec2, Vec3};
+use rustc_hash::FxHashMap;
 use serde::Deserialize;
 use serde_json::json;
 use wasm_bindgen::prelude::*;
@@ -70,6 +72,8 @@ pub(super) struct SideMesh {
     pub frame: Frame,
     pub picker: Option<Picker>,
     pub surface: Mesh,
+    /// How much each vertex lies in a hollow, by the bits of its position in single precision.
+    pub hollows: FxHashMap<[u32; 3], f32>,
 }
 
 impl Side {
@@ -262,6 +266,26 @@ impl Side {
 }
 
 impl SideMesh {
+    /// A mesh, and its vertices as they are drawn.
+    pub fn new(checked: CheckedMesh, renderer: &Renderer) -> Self {
+        let frame = Frame::of(&checked.mesh);
+        let (vertices, indices) = surface(&checked.mesh, &frame);
+        let surface = renderer.surface_mesh(&vertices, &indices);
+        let bits = |p: &DVec3| p.as_vec3().to_array().map(f32::to_bits);
+        let hollows =
+            checked.mesh.positions().iter().map(bits).zip(vertices.iter().map(|v| v.hollow)).collect();
+        let picker = Picker::new(&checked.mesh);
+        Self { checked, frame, picker, surface, hollows }
+    }
+
+    /// How much points of a finer triangulation lie in hollows; `positions` are in input coordinates, three numbers a point.
+    pub fn hollows_at(&self, positions: &[f32], triangles: &[u32]) -> Vec<f32> {
+        let bits = |p: &[f32]| [p[0], p[1], p[2]].map(f32::to_bits);
+        let known: Vec<Option<f32>> =
+            positions.chunks_exact(3).map(|p| self.hollows.get(&bits(p)).copied()).collect();
+        carried(&known, triangles)
+    }
+
     /// A ray of the scene in input coordinates.
     pub fn ray(&self, (origin, direction): (Vec3, Vec3)) -> (DVec3, DVec3) {
         let from = self.frame.unplace(origin);

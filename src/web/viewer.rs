@@ -5,14 +5,12 @@ use super::files::LoadedMesh;
 use super::view_side::{Landmark, Look, Side, SideMesh};
 use crate::gpu::{Clear, Paint, Palette, Renderer, ViewDraw};
 use crate::io::landmark_file::LandmarkPoint;
-use crate::scene::buffers::{Frame, ribbons, surface};
+use crate::scene::buffers::ribbons;
 use crate::scene::camera::From as LookFrom;
 use crate::scene::colours::{distortion_scale, landmark_colour};
 use crate::scene::morph::laid_on;
 use crate::scene::upright::proposed_up;
-use crate::scene::{
-    Camera, Glide, MapPicker, MapPlace, MarkerInstance, Picker, PinInstance, SurfaceVertex, UpAxis,
-};
+use crate::scene::{Camera, Glide, MapPicker, MapPlace, MarkerInstance, PinInstance, SurfaceVertex, UpAxis};
 use glam::{DVec3, Mat4, Vec2, Vec3};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -134,14 +132,10 @@ impl Viewer {
     /// Shows a mesh; its landmarks and result go.
     #[wasm_bindgen(js_name = setMesh)]
     pub fn set_mesh(&mut self, side: usize, mesh: &LoadedMesh) {
-        let checked = mesh.checked.clone();
-        let frame = Frame::of(&checked.mesh);
-        let (vertices, indices) = surface(&checked.mesh, &frame);
-        let uploaded = self.renderer.surface_mesh(&vertices, &indices);
-        let picker = Picker::new(&checked.mesh);
+        let shown = SideMesh::new(mesh.checked.clone(), &self.renderer);
         self.clear_result();
         let side = self.side_mut(side);
-        side.mesh = Some(SideMesh { checked, frame, picker, surface: uploaded });
+        side.mesh = Some(shown);
         side.clear_marks();
         side.glide = None;
         side.first_look();
@@ -199,6 +193,7 @@ impl Viewer {
         {
             return;
         }
+        let hollows = own.hollows_at(positions, triangles);
         let three = |a: &[f32], k: usize| [a[3 * k], a[3 * k + 1], a[3 * k + 2]];
         let vertex = |k: usize| SurfaceVertex {
             position: own.frame.place(point(three(positions, k))).to_array(),
@@ -207,7 +202,7 @@ impl Viewer {
             distortion: distortion.get(k).copied().unwrap_or(1.0),
             image: target.frame.place(point(three(images, k))).to_array(),
             image_normal: three(image_normals, k),
-            hollow: 0.0,
+            hollow: hollows[k],
         };
         let vertices: Vec<SurfaceVertex> = (0..count).map(vertex).collect();
         let uploaded = self.renderer.surface_mesh(&vertices, triangles);

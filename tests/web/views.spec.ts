@@ -1,6 +1,7 @@
 /** Cameras and pins under the hand: turned, zoomed, dragged and nudged as a user does, read off where the pins' numbers are. */
 import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
+import { fail, openStep, showSurface } from './page.ts';
 
 interface Spot {
   readonly x: number;
@@ -20,10 +21,6 @@ const STEM = 17;
 
 /** Longer than a glide and a rest. */
 const SETTLED = 900;
-
-function fail(message: string): never {
-  throw new Error(message);
-}
 
 async function open(page: Page): Promise<void> {
   await page.addInitScript(() => {
@@ -112,7 +109,7 @@ test('frames are drawn only when something is seen to change', async ({ page }) 
   await expect(page.locator('body')).toHaveAttribute('data-state', 'done', { timeout: 200_000 });
 
   // The plain view draws the user's own triangles, and the map's many more only where they are asked for.
-  await page.getByRole('radio', { name: 'Shaded' }).check();
+  await showSurface(page, 'Plain');
   await page.waitForTimeout(SETTLED);
   await drawn(page);
   await page.locator('#view-source').focus();
@@ -121,7 +118,7 @@ test('frames are drawn only when something is seen to change', async ({ page }) 
   const plain = await drawn(page);
   expect(plain.calls).toBeGreaterThan(1);
   expect(plain.triangles).toBeLessThanOrEqual(1.5 * faces);
-  await page.getByRole('radio', { name: 'Distortion' }).check();
+  await showSurface(page, 'Distortion');
   await page.waitForTimeout(SETTLED);
   expect((await drawn(page)).triangles).toBeGreaterThan(1.5 * faces);
 });
@@ -175,6 +172,7 @@ test('the wheel brings nearer what is under the mouse, which stays there', async
 
 test('a double click brings a place to the middle, and a click alone still picks', async ({ page }) => {
   await open(page);
+  await openStep(page, 'landmarks');
   await page.getByRole('button', { name: 'Clear all' }).click();
   const box = (await page.locator('#view-source').boundingBox()) ?? fail('no box');
   const middle = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
@@ -216,6 +214,7 @@ test('a pin is dragged on its surface, and one step takes it back', async ({ pag
 
 test('a pin that was clicked obeys the keys', async ({ page }) => {
   await open(page);
+  await openStep(page, 'landmarks');
   const number = await lonelyPin(page, '#view-source');
   const pairs = await page.locator('#landmark-list [data-pair]').count();
   const start = await headOf(page, '#view-source', number);

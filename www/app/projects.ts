@@ -36,7 +36,7 @@ export async function saveProject(store: Store): Promise<void> {
     'Packing the project…',
     () => writeProject(projectOf(state), JSON.stringify(landmarkFileOf(state), null, 1), inWorker),
     (bytes) => {
-      download(`${workName(state)}${PROJECT_ENDING}`, 'application/zip', bytes);
+      download(`${workName(state.meshes.map((file) => file?.name ?? null))}${PROJECT_ENDING}`, 'application/zip', bytes);
     },
   );
 }

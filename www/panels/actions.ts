@@ -2,17 +2,27 @@
 import type { Side, SurfacePoint } from '../landmarks.ts';
 import type { prospectSentence } from '../messages.ts';
 import type { Event } from '../store/events.ts';
-import type { Doubt, State } from '../store/state.ts';
+import type { Axis, Doubt, State } from '../store/state.ts';
 import type { Shell } from './shell.ts';
+
+/** A side to look from. */
+export type Direction = 'front' | 'back' | 'left' | 'right' | 'top' | 'bottom';
+
+/** What a view's camera can be asked to do. */
+export type CameraCommand =
+  /** To bring the whole mesh into sight. */
+  | { readonly kind: 'fit' }
+  /** To go back to the first look. */
+  | { readonly kind: 'reset' }
+  /** To look at the whole mesh from a side. */
+  | { readonly kind: 'look'; readonly from: Direction }
+  /** To turn the picture counter-clockwise. */
+  | { readonly kind: 'roll'; readonly degrees: number };
 
 /** What panels ask for beyond a change of state. */
 export interface Actions {
   readonly dispatch: (event: Event) => void;
   readonly openFiles: (files: readonly File[], side: Side | null) => void;
-  /** Brings back the offered work of an earlier visit. */
-  readonly continueWork: () => void;
-  /** That work is not asked about again. */
-  readonly startAnew: () => void;
   /** The click that the link which was opened waits for. */
   readonly acceptLink: () => void;
   /** Gives that link up. */
@@ -32,12 +42,18 @@ export interface Actions {
   readonly finish: () => void;
   readonly cancel: () => void;
   readonly repair: (finding: Doubt) => void;
-  /** Brings the whole mesh of a view into sight. */
-  readonly fit: (side: Side) => void;
+  /** Moves the camera of a view. */
+  readonly camera: (side: Side, command: CameraCommand) => void;
+  /** The axis of a mesh that seems to point up by its shape; `null` where the shape does not tell. */
+  readonly proposedUp: (side: Side) => Axis | null;
   /** Turns both views to a pair's points. */
   readonly lookAtPair: (id: number) => void;
   /** Turns both views to these places. */
   readonly lookAtPlaces: (places: readonly [SurfacePoint, SurfacePoint]) => void;
+  /** Takes up the work of an earlier visit. */
+  readonly continueWork: () => void;
+  /** Leaves it, and begins anew. */
+  readonly startAnew: () => void;
 }
 
 /** Every part of the page is given this. */

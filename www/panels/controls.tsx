@@ -37,37 +37,6 @@ export interface Choice<T extends string> {
   readonly disabled?: boolean;
 }
 
-interface SegmentsProps<T extends string> {
-  readonly label: string;
-  readonly name: string;
-  readonly value: T;
-  readonly choices: readonly Choice<T>[];
-  readonly onChoice: (value: T) => void;
-}
-
-/** One of a few choices, all in sight. */
-export function Segments<T extends string>({ label, name, value, choices, onChoice }: SegmentsProps<T>): VNode {
-  return (
-    <div class="segments" role="radiogroup" aria-label={label}>
-      {choices.map((choice) => (
-        <label class="segment" key={choice.value}>
-          <input
-            type="radio"
-            name={name}
-            value={choice.value}
-            checked={choice.value === value}
-            disabled={choice.disabled}
-            onChange={() => {
-              onChoice(choice.value);
-            }}
-          />
-          <span>{choice.text}</span>
-        </label>
-      ))}
-    </div>
-  );
-}
-
 interface SelectProps<T extends string> {
   readonly label: string;
   readonly value: T;

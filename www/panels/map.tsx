@@ -2,7 +2,7 @@
 import type { VNode } from 'preact';
 import { staleSentence } from '../messages.ts';
 import { shownResult, staleness } from '../store/staleness.ts';
-import type { Result } from '../store/state.ts';
+import type { Demo, Result } from '../store/state.ts';
 import type { Actions, PartProps } from './actions.ts';
 import { Certificate } from './certificate.tsx';
 import { Choices } from './choices.tsx';
@@ -11,6 +11,7 @@ import { EnergyCurve } from './energy.tsx';
 import { ReportFacts, ReportTimes } from './facts.tsx';
 import { Findings } from './findings.tsx';
 import { Icon } from './icons.tsx';
+import { choose } from './inputs.tsx';
 import { verdictOf } from './verdict.ts';
 import { WorstPlaces } from './worst.tsx';
 
@@ -51,6 +52,25 @@ function ResultSection({ result, stale, shown, actions }: ResultProps): VNode {
   );
 }
 
+function AboutDemo({ demo }: { readonly demo: Demo }): VNode {
+  return (
+    <section>
+      <h3>A demo</h3>
+      <p class="quiet">{demo.sentence}.</p>
+      <div class="row">
+        <button
+          type="button"
+          onClick={() => {
+            choose('mesh-files');
+          }}
+        >
+          Try your own meshes…
+        </button>
+      </div>
+    </section>
+  );
+}
+
 /** The panel's content. */
 export function MapPanel({ state, actions }: PartProps): VNode {
   const { result } = state;
@@ -73,11 +93,9 @@ export function MapPanel({ state, actions }: PartProps): VNode {
         />
       )}
       {result === null && state.job.kind !== 'running' && (
-        <p class="quiet">
-          {state.demo === null ? '' : `${state.demo.sentence}. `}
-          The map gives every point of the source its partner on the target, through all landmark pairs.
-        </p>
+        <p class="quiet">The map gives every point of the source its partner on the target, through all landmark pairs.</p>
       )}
+      {state.demo !== null && state.job.kind !== 'running' && <AboutDemo demo={state.demo} />}
       <section id="details">
         <Fold title="Details">
           <h3>How the map is made</h3>

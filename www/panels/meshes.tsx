@@ -5,6 +5,7 @@ import { SIDES } from '../landmarks.ts';
 import { integer } from '../numbers.ts';
 import { meshFormats } from '../wasm/conemap.js';
 import type { PartProps } from './actions.ts';
+import { Icon } from './icons.tsx';
 import { choose } from './inputs.tsx';
 
 const BLOCKS = [
@@ -54,6 +55,18 @@ export function MeshesPanel({ state, actions }: PartProps): VNode {
       {SIDES.map((side) => (
         <MeshBlock key={side} state={state} side={side} />
       ))}
+      <div class="row">
+        <button
+          type="button"
+          disabled={running || state.meshes.every((file) => file === null)}
+          onClick={() => {
+            actions.dispatch({ kind: 'swap-meshes' });
+          }}
+        >
+          <Icon name="swap" />
+          Swap source and target
+        </button>
+      </div>
       <section>
         <h3>Demos</h3>
         <div class="demo-list">

@@ -1,9 +1,7 @@
-/** What waits for the user's word: work of an earlier visit, a link that was opened, a newer build of the page. */
+/** What waits for the user's word: a link that was opened, and a newer build of the page. */
 import type { VNode } from 'preact';
-import { filesNeeded, loadQuestion, loadingSentence, offerSentence, SENTENCES } from '../messages.ts';
+import { filesNeeded, loadQuestion, loadingSentence, SENTENCES } from '../messages.ts';
 import type { Receiving } from '../store/receiving.ts';
-import type { Offer } from '../store/state.ts';
-import { shortName } from '../store/work.ts';
 import type { Actions, PartProps } from './actions.ts';
 
 interface ReceivingProps {
@@ -54,27 +52,10 @@ function LinkNotice({ receiving, actions }: ReceivingProps): VNode | null {
   }
 }
 
-/** Whether to go on with work of an earlier visit. */
-function OfferNotice({ offer, actions }: { readonly offer: Offer; readonly actions: Actions }): VNode {
-  const names = offer.names.flatMap((name) => (name === null ? [] : [shortName(name)]));
-  return (
-    <div class="notice" id="offer">
-      <p>{offerSentence(names.join(' and '), offer.pairs)}</p>
-      <button type="button" class="main" onClick={actions.continueWork}>
-        Continue
-      </button>
-      <button type="button" onClick={actions.startAnew}>
-        Start anew
-      </button>
-    </div>
-  );
-}
-
 /** The notices over the views; their box stays, so that what comes into it is read out. */
 export function Notices({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
   return (
     <div class="notices" role="status">
-      {state.offer !== null && <OfferNotice offer={state.offer} actions={actions} />}
       <LinkNotice receiving={state.receiving} actions={actions} />
       {state.isOutdated && (
         <div class="notice" id="new-version">

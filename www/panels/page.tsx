@@ -3,13 +3,13 @@ import type { VNode } from 'preact';
 import { render } from 'preact';
 import { byId } from '../dom.ts';
 import type { State } from '../store/state.ts';
-import { applyTheme } from '../theme.ts';
 import type { Actions, PartProps } from './actions.ts';
 import { Help } from './help.tsx';
 import { FileInputs } from './inputs.tsx';
 import { documentName } from './names.ts';
 import { Panel } from './panel.tsx';
 import { openStep, Rail } from './rail.tsx';
+import type { Probe, Theme } from './shell.ts';
 import { Shell } from './shell.ts';
 import { Stage } from './stage.tsx';
 import { StatusLine } from './status.tsx';
@@ -47,9 +47,17 @@ function listenForKeys(state: () => State, actions: Actions, shell: Shell): void
   });
 }
 
-/** What the page is told of the state. */
+/** Shows the page light or dark: the style sheets read it from the root element. */
+function applyTheme(theme: Theme): void {
+  document.documentElement.dataset['theme'] = theme;
+}
+
+/** What the page is told. */
 export interface Mounted {
+  /** A change of the state. */
   readonly sync: (state: State, previous: State) => void;
+  /** What the map says of the place under the mouse. */
+  readonly probed: (probe: Probe | null) => void;
 }
 
 /** Shows the page for the first time; from then on `sync` keeps it in step. */
@@ -71,6 +79,9 @@ export function mountPage(initial: State, actions: Actions): Mounted {
     });
   }
   return {
+    probed: (probe) => {
+      shell.set({ probe });
+    },
     sync: (next, previous) => {
       state = next;
       if (next.ui.theme !== previous.ui.theme) {

@@ -2,6 +2,7 @@
 import type { VNode } from 'preact';
 import { shownResult } from '../store/staleness.ts';
 import type { State, Style } from '../store/state.ts';
+import { distortionScale } from '../wasm/conemap.js';
 import type { PartProps } from './actions.ts';
 import type { Choice } from './controls.tsx';
 import { Check } from './controls.tsx';
@@ -9,6 +10,7 @@ import { Popover } from './popover.tsx';
 
 const SURFACES: readonly Choice<Style['surface']>[] = [
   { value: 'shaded', text: 'Plain' },
+  { value: 'pattern', text: 'Pattern' },
   { value: 'checkerboard', text: 'Checkerboard' },
   { value: 'colours', text: 'Colours' },
   { value: 'distortion', text: 'Distortion' },
@@ -82,15 +84,22 @@ export function PictureBar({ state, actions }: Pick<PartProps, 'state' | 'action
       <Popover icon="picture" label={`Picture: ${surface?.text ?? ''}`} text={surface?.text ?? ''} place="up end">
         {() => (
           <>
-            <h3>Surface</h3>
+            <p class="title">Surface</p>
             <SurfaceChoice state={state} actions={actions} group="surface" />
-            <h3>On it</h3>
+            <p class="title">On it</p>
             <LineChoice state={state} actions={actions} />
           </>
         )}
       </Popover>
     </div>
   );
+}
+
+/** The renderer's colours of the distortion as a gradient. */
+function scaleImage(): string {
+  const colours = distortionScale();
+  const stops = Array.from({ length: colours.length / 3 }, (_, k) => `color(srgb-linear ${colours.slice(3 * k, 3 * k + 3).join(' ')})`);
+  return `linear-gradient(90deg, ${stops.join(', ')})`;
 }
 
 /** What the colours mean. */
@@ -105,7 +114,7 @@ export function Legend({ state }: Pick<PartProps, 'state'>): VNode | null {
     <div class="legend small">
       {scale && (
         <div class="scale" role="img" aria-label="Colours of the distortion from 1, which is none, to 4 and more">
-          <div class="bar" />
+          <div class="bar" style={{ backgroundImage: scaleImage() }} />
           <div class="ticks">
             <span>1, none</span>
             <span>2</span>

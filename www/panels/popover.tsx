@@ -20,7 +20,7 @@ interface PopoverProps {
 
 /** Moves the focus to the next or previous button of a box, around its ends. */
 function moveFocus(box: HTMLElement, step: 1 | -1): void {
-  const buttons = [...box.querySelectorAll<HTMLElement>(':scope > button:not(:disabled)')];
+  const buttons = [...box.querySelectorAll<HTMLElement>('button:not(:disabled)')];
   const present = buttons.findIndex((button) => button === document.activeElement);
   if (present >= 0 || !box.contains(document.activeElement)) {
     buttons.at((present + step) % Math.max(1, buttons.length))?.focus();

@@ -3,11 +3,19 @@ import type { State } from '../store/state.ts';
 
 export type Theme = State['ui']['theme'];
 
+/** What the map says of the place under the mouse. */
+export interface Probe {
+  /** The distortion there, 1 for none; `null` where it is not known. */
+  readonly distortion: number | null;
+}
+
 export interface ShellState {
   /** The source view's share of the stage, 0 to 1. */
   readonly split: number;
   /** Whether the keys and first steps are shown. */
   readonly help: boolean;
+  /** `null` while the mouse is elsewhere, or there is no map to ask. */
+  readonly probe: Probe | null;
 }
 
 interface Remembered {
@@ -54,7 +62,7 @@ function store(change: Remembered): void {
 
 /** Holds it and tells one listener of changes. */
 export class Shell {
-  #state: ShellState = { split: stored().split ?? 0.5, help: false };
+  #state: ShellState = { split: stored().split ?? 0.5, help: false, probe: null };
   #listener = (): void => undefined;
 
   get state(): ShellState {

@@ -1,6 +1,6 @@
 /** The line below: what to do next, how far the run is, and how to end it. */
 import type { VNode } from 'preact';
-import { useLayoutEffect, useRef } from 'preact/hooks';
+import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { byId } from '../dom.ts';
 import { hint } from '../messages.ts';
 import type { Running } from '../store/job.ts';
@@ -10,6 +10,8 @@ import { asked, waitingCount } from '../store/waiting.ts';
 import type { PartProps } from './actions.ts';
 import { meshName } from './names.ts';
 import { progressNumber, runningSentence } from './progress.ts';
+import type { Probe } from './shell.ts';
+import { largestStretch } from './verdict.ts';
 
 function nextClick(state: State): string {
   const next = asked(state);
@@ -22,7 +24,10 @@ function nextClick(state: State): string {
 }
 
 /** What the line says when nothing runs; empty where the hint says it all. */
-function restSentence(state: State): string {
+function restSentence(state: State, probe: Probe | null): string {
+  if (probe !== null && probe.distortion !== null && state.job.kind !== 'busy') {
+    return `Here stretched up to ${largestStretch(probe.distortion).toFixed(2)} times`;
+  }
   switch (state.job.kind) {
     case 'busy':
       return state.job.task.sentence;
@@ -73,8 +78,31 @@ function RunButtons({ job, actions }: { readonly job: Running | null } & Pick<Pa
   );
 }
 
+/** From this share and time in ms on the time that is left can be guessed. */
+const GUESSED = { share: 0.15, elapsed: 1000 };
+
+/** A guess in words; empty while there is none. */
+function timeLeft(share: number, elapsed: number): string {
+  if (share < GUESSED.share || elapsed < GUESSED.elapsed) {
+    return '';
+  }
+  return `about ${Math.max(1, Math.round((elapsed * (1 - share)) / share / 1000))} s left`;
+}
+
+function Progress({ job }: { readonly job: Running }): VNode {
+  const [start] = useState(() => performance.now());
+  const share = job.progress?.share ?? 0;
+  return (
+    <>
+      <span class="residual">{progressNumber(job)}</span>
+      <span class="left quiet">{timeLeft(share, performance.now() - start)}</span>
+      <progress max={1} value={share} aria-label="Progress of the map" />
+    </>
+  );
+}
+
 /** The line. */
-export function StatusLine({ state, actions }: PartProps): VNode {
+export function StatusLine({ state, actions, shell }: PartProps): VNode {
   const job = state.job.kind === 'running' ? state.job : null;
   const next = job !== null || !state.ready ? '' : nextClick(state);
   return (
@@ -84,14 +112,9 @@ export function StatusLine({ state, actions }: PartProps): VNode {
       </p>
       <div class="progress">
         <p id="status" role="status" class={job === null ? 'sentence quiet' : 'sentence'}>
-          {job === null ? restSentence(state) : runningSentence(job)}
+          {job === null ? restSentence(state, shell.state.probe) : runningSentence(job)}
         </p>
-        {job !== null && (
-          <>
-            <span class="residual">{progressNumber(job)}</span>
-            <progress max={1} value={job.progress?.share ?? 0} aria-label="Progress of the map" />
-          </>
-        )}
+        {job !== null && <Progress job={job} />}
         <RunButtons job={job} actions={actions} />
       </div>
     </footer>

@@ -1,7 +1,9 @@
-/** Sentences that go by themselves. */
+/** Sentences that go by themselves, and the offer of earlier work. */
 import type { VNode } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
-import type { Toast } from '../store/state.ts';
+import { offerSentence } from '../messages.ts';
+import type { Offer, Toast } from '../store/state.ts';
+import { shortName } from '../store/work.ts';
 import type { Actions, PartProps } from './actions.ts';
 import { IconButton } from './controls.tsx';
 
@@ -29,7 +31,7 @@ function ToastBox({ toast, actions }: { readonly toast: Toast; readonly actions:
     setHeld(false);
   };
   return (
-    <div class="toast" onMouseEnter={hold} onMouseLeave={release} onFocusIn={hold} onFocusOut={release}>
+    <div class="toast" id="toast" onMouseEnter={hold} onMouseLeave={release} onFocusIn={hold} onFocusOut={release}>
       <p>{toast.sentence}</p>
       {toast.undo && (
         <button
@@ -52,10 +54,26 @@ function ToastBox({ toast, actions }: { readonly toast: Toast; readonly actions:
   );
 }
 
+function OfferBox({ offer, actions }: { readonly offer: Offer; readonly actions: Actions }): VNode {
+  const names = offer.names.flatMap((name) => (name === null ? [] : [shortName(name)]));
+  return (
+    <div class="toast" id="offer">
+      <p>{offerSentence(names.join(' and '), offer.pairs)}</p>
+      <button type="button" onClick={actions.continueWork}>
+        Continue
+      </button>
+      <button type="button" onClick={actions.startAnew}>
+        Start anew
+      </button>
+    </div>
+  );
+}
+
 /** The toasts over the views; the box stays, so that what comes into it is read out. */
 export function Toasts({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
   return (
     <div class="toasts" role="status">
+      {state.offer !== null && <OfferBox offer={state.offer} actions={actions} />}
       {state.toast !== null && <ToastBox toast={state.toast} actions={actions} />}
     </div>
   );

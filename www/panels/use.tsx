@@ -21,7 +21,7 @@ export function UsePanel({ state, actions }: PartProps): VNode {
         {state.result === null && (
           <p class="quiet">The map’s files come here once it is made: the textured mesh, the images of all vertices, the report.</p>
         )}
-        <ul class="export-list" role="group" aria-label="Downloads">
+        <ul class="export-list" aria-label="Downloads">
           {files.map((file) => (
             <li key={file.format}>
               <div>

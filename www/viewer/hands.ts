@@ -33,6 +33,7 @@ export interface Workbench {
 
 /** Listens on the canvas and on the views' elements. */
 export class Hands {
+  readonly #canvas: HTMLCanvasElement;
   readonly #bench: Workbench;
   readonly #pins: Pins;
   readonly #gestures: Gestures;
@@ -41,6 +42,7 @@ export class Hands {
   #probed = false;
 
   constructor(canvas: HTMLCanvasElement, elements: readonly [HTMLElement, HTMLElement], bench: Workbench) {
+    this.#canvas = canvas;
     this.#bench = bench;
     this.#pins = new Pins((event) => {
       bench.dispatch(event);
@@ -256,6 +258,7 @@ export class Hands {
   }
 
   #hover(id: number | null): void {
+    this.#canvas.style.cursor = id === null ? '' : 'grab';
     if (this.#bench.state().ui.hovered !== id) {
       this.#bench.dispatch({ kind: 'pair-hovered', id });
     }
