@@ -1,7 +1,7 @@
 /** A step of the build: writes the service worker, with the list of all files of the built page, beside the page. */
 import { createHash } from 'node:crypto';
 import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
-import { join, sep } from 'node:path';
+import { join, relative, resolve, sep } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import type { Plugin } from 'vite';
 import { build } from 'vite';
@@ -18,7 +18,7 @@ function sha256(data: Uint8Array | string, encoding: 'base64' | 'hex'): string {
 export function precacheOf(folder: string): Precache {
   const files: KeptFile[] = readdirSync(folder, { recursive: true, withFileTypes: true })
     .filter((entry) => entry.isFile())
-    .map((entry) => join(entry.parentPath, entry.name).slice(folder.length + 1))
+    .map((entry) => relative(folder, join(entry.parentPath, entry.name)))
     .filter((path) => path !== FILE)
     .sort()
     .map((path) => ({
@@ -57,7 +57,7 @@ export function serviceWorker(): Plugin {
     name: 'conemap-service-worker',
     apply: 'build',
     configResolved(config): void {
-      folder = join(config.root, config.build.outDir);
+      folder = resolve(config.root, config.build.outDir);
       target = config.build.target === false ? 'es2022' : config.build.target;
     },
     closeBundle: {
