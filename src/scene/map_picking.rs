@@ -88,7 +88,7 @@ mod tests {
     /// The unit ball mapped affinely to an ellipsoid elsewhere.
     fn picker() -> MapPicker {
         let ball = icosphere(3);
-        let source = ball.positions().raw.clone();
+        let source = ball.positions().raw.to_vec();
         let target = source.iter().map(|p| stretch(*p)).collect();
         let distortion = source.iter().map(|p| 2.0 + p.x as f32).collect();
         let triangles = ball.triangles().iter().map(|t| t.map(|v| v.0)).collect();

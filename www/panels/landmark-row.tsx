@@ -78,10 +78,12 @@ function Row({ pair, fit, selected, lit, reached, actions }: RowProps): VNode {
         <Swatch number={number} draggable />
       </td>
       <td>
+        {/* What is being typed stays when the row is drawn again; another name from elsewhere makes another field. */}
         <input
+          key={label}
           type="text"
-          value={label}
-          placeholder={whole ? 'no name' : missingText(pair)}
+          defaultValue={label}
+          placeholder={whole ? '' : missingText(pair)}
           aria-label={`Name of pair ${number}`}
           tabIndex={-1}
           onChange={(event) => {

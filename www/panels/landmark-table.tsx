@@ -55,9 +55,12 @@ function pressed(event: KeyboardEvent, row: HTMLTableRowElement, state: State, a
     case 'Enter':
       actions.lookAtPair(id);
       return true;
-    case 'F2':
-      row.querySelector('input')?.select();
+    case 'F2': {
+      const name = row.querySelector('input');
+      name?.focus();
+      name?.select();
       return true;
+    }
     case 'l':
     case 'L':
       actions.dispatch({ kind: 'pair-locked', id, locked: state.pairs[index]?.locked !== true });
@@ -79,7 +82,7 @@ function leaveName(event: KeyboardEvent, input: HTMLInputElement, state: State):
   }
 }
 
-/** Rows are dragged by their numbers; they come before the row that they are dropped on. */
+/** Rows are dragged by their numbers; they take the place of the row that they are dropped on. */
 function useReordering(state: State, actions: Actions): Record<'onDragStart' | 'onDragOver' | 'onDragLeave' | 'onDrop', (event: DragEvent) => void> {
   const mark = (event: DragEvent, over: boolean): void => {
     rowOf(event.target)?.classList.toggle('over', over);

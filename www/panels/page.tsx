@@ -47,6 +47,9 @@ function listenForKeys(state: () => State, actions: Actions, shell: Shell): void
   });
 }
 
+/** Where the panel is a sheet over the views, as www/styles/phone.css has it. */
+const PHONE = '(max-width: 600px), (max-width: 860px) and (orientation: portrait)';
+
 /** Shows the page light or dark: the style sheets read it from the root element. */
 function applyTheme(theme: Theme): void {
   document.documentElement.dataset['theme'] = theme;
@@ -73,6 +76,12 @@ export function mountPage(initial: State, actions: Actions): Mounted {
   listenForKeys(() => state, actions, shell);
   applyTheme(shell.theme);
   draw();
+  if (window.matchMedia(PHONE).matches) {
+    // The views first; the main action is there all the same.
+    queueMicrotask(() => {
+      actions.dispatch({ kind: 'ui', ui: { panel: 'folded' } });
+    });
+  }
   if (shell.theme !== initial.ui.theme) {
     queueMicrotask(() => {
       actions.dispatch({ kind: 'ui', ui: { theme: shell.theme } });

@@ -25,7 +25,7 @@ function Caption({ state, side }: { readonly state: State; readonly side: Side }
     <p class="caption clipped">
       {file !== null && (
         <>
-          <strong>{file.name}</strong>{' '}
+          {side === 0 ? 'Source' : 'Target'} <strong>{file.name}</strong>{' '}
           <span class="facts">
             {integer(file.faceCount)} triangles{turned(file)}
           </span>
