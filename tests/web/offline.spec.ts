@@ -6,6 +6,7 @@ import { fileURLToPath } from 'node:url';
 import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
 import { writeServiceWorker } from '../../www/offline/build.ts';
+import { runMap } from './page.ts';
 import { staticHost } from './static-host.ts';
 
 const DIST = fileURLToPath(new URL('../../dist', import.meta.url));
@@ -40,8 +41,7 @@ test('after the first visit the page works without a network, from any folder', 
   await isReady(page);
   await expect(page.locator('body')).not.toHaveAttribute('data-demo', '', { timeout: 60_000 });
   // The worker of the run is kept, too: a whole map without a network.
-  await page.locator('#run').click();
-  await expect(page.locator('body')).toHaveAttribute('data-state', 'done', { timeout: 200_000 });
+  await runMap(page);
 });
 
 test('a new build tells the open page of itself and comes with a reload', async ({ page }) => {
@@ -58,7 +58,9 @@ test('a new build tells the open page of itself and comes with a reload', async 
     writeFileSync(index, readFileSync(index, 'utf8').replace('<html', '<html data-build="next"'));
     await writeServiceWorker(folder, 'es2022');
     host.serve(folder);
-    await page.evaluate(async () => (await navigator.serviceWorker.ready).update());
+    await page.evaluate(async () => {
+      await (await navigator.serviceWorker.ready).update();
+    });
     await expect(page.locator('#new-version')).toContainText('A new version of this page is ready.');
     await expect(page.locator('html')).not.toHaveAttribute('data-build');
     await page.locator('#new-version').getByRole('button', { name: 'Reload' }).click();

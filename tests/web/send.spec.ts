@@ -5,6 +5,7 @@ import type { Page, Request } from '@playwright/test';
 import { expect, test } from '@playwright/test';
 import type { Link } from '../../www/send/link.ts';
 import { readLink } from '../../www/send/link.ts';
+import { dropContents } from './page.ts';
 import { staticHost } from './static-host.ts';
 
 const DIST = fileURLToPath(new URL('../../dist', import.meta.url));
@@ -20,11 +21,6 @@ const CAT = octahedron(1);
 const LION = octahedron(2);
 const PAIRS = JSON.stringify({ pairs: [[0, 0], [1, 1], [2, 2], [{ face: 3, barycentric: [0.2, 0.3, 0.5] }, 4]], labels: ['a', 'b', '', 'd'] });
 
-interface GivenFile {
-  readonly name: string;
-  readonly content: string;
-}
-
 async function open(page: Page, address: string): Promise<void> {
   // The same address with another hash would be no new visit.
   await page.goto('about:blank');
@@ -32,23 +28,9 @@ async function open(page: Page, address: string): Promise<void> {
   await expect(page.locator('body')).toHaveAttribute('data-ready', 'true', { timeout: 120_000 });
 }
 
-/** Drops files on the page as a user does. */
-async function drop(page: Page, files: readonly GivenFile[]): Promise<void> {
-  const given = files.map(({ name, content }) => ({ name, base64: Buffer.from(content, 'latin1').toString('base64') }));
-  const transfer = await page.evaluateHandle((list) => {
-    const data = new DataTransfer();
-    for (const { name, base64 } of list) {
-      data.items.add(new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name));
-    }
-    return data;
-  }, given);
-  await page.dispatchEvent('body', 'dragover', { dataTransfer: transfer });
-  await page.dispatchEvent('body', 'drop', { dataTransfer: transfer });
-}
-
 /** The link that the Share button gives, and what it says of its receiver. */
 async function share(page: Page): Promise<{ readonly url: string; readonly sentence: string }> {
-  await page.getByRole('button', { name: 'Share' }).click();
+  await page.getByRole('button', { name: 'Share', exact: true }).click();
   const field = page.locator('#link');
   await expect(field).toHaveValue(/#s=1\./);
   const url = await field.inputValue();
@@ -63,6 +45,18 @@ function linkIn(url: string): Link {
     throw new Error(`no link: ${url}`);
   }
   return reading.link;
+}
+
+/** Whether two links say the same, but for the rounding of cameras. */
+function expectSame(one: Link, other: Link): void {
+  const still = (link: Link): Link => ({ ...link, work: link.work && { ...link.work, cameras: [null, null] } });
+  expect(still(one)).toEqual(still(other));
+  for (const side of [0, 1] as const) {
+    const [camera, same] = [one, other].map((link) => link.work?.cameras[side] ?? null);
+    camera?.forEach((value, index) => {
+      expect(same?.[index]).toBeCloseTo(value, 3);
+    });
+  }
 }
 
 /** A host that gives meshes and landmarks to every page that asks; what it is asked is noted. */
@@ -94,14 +88,14 @@ test('an old link opens its demo', async ({ page }) => {
     expect(link.work?.pairs.length).toBeGreaterThanOrEqual(4);
     await open(page, url);
     await expect(page.locator('body')).toHaveAttribute('data-demo', demo, { timeout: 60_000 });
-    expect(linkIn((await share(page)).url)).toEqual(link);
+    expectSame(linkIn((await share(page)).url), link);
   }
 });
 
 test('a link reopens landmarks, options, cameras and picture', async ({ page, context }) => {
   await context.grantPermissions(['clipboard-read', 'clipboard-write']);
   await open(page, '/');
-  await drop(page, [
+  await dropContents(page, [
     { name: 'cat.obj', content: CAT },
     { name: 'lion.obj', content: LION },
     { name: 'pairs.json', content: PAIRS },
@@ -115,6 +109,7 @@ test('a link reopens landmarks, options, cameras and picture', async ({ page, co
   const { url, sentence } = await share(page);
   expect(sentence).toContain('needs cat.obj and lion.obj as well');
   const sent = linkIn(url);
+  expect(sent.work?.cameras[0]).not.toBeNull();
   expect(sent.work?.pairs.map(({ points, label }) => [...points, label])).toEqual([
     [0, 0, 'a'],
     [1, 1, 'b'],
@@ -122,27 +117,29 @@ test('a link reopens landmarks, options, cameras and picture', async ({ page, co
     [{ face: 3, barycentric: [0.2, 0.3, 0.5] }, 4, 'd'],
   ]);
 
-  await page.getByRole('button', { name: 'Share' }).click();
+  await page.getByRole('button', { name: 'Share', exact: true }).click();
   await page.getByRole('button', { name: 'Copy link' }).click();
   await expect(page.getByRole('button', { name: 'Copied' })).toBeVisible();
   expect(await page.evaluate(() => navigator.clipboard.readText())).toBe(url);
 
+  // Whoever opens it has another browser; another tab is near enough.
+  page = await context.newPage();
   await open(page, url);
   const notice = page.locator('#link-notice');
   await expect(notice).toContainText('This link needs cat.obj and lion.obj: drop them here.');
   // One with the right name alone is told from the right one.
-  await drop(page, [{ name: 'cat.obj', content: octahedron(3) }]);
+  await dropContents(page, [{ name: 'cat.obj', content: octahedron(3) }]);
   await expect(page.locator('#error')).toContainText('cat.obj is not a file of this link. The name fits, but the content differs.');
-  await drop(page, [{ name: 'renamed.obj', content: LION }]);
+  await dropContents(page, [{ name: 'renamed.obj', content: LION }]);
   await expect(notice).toContainText('This link needs cat.obj: drop it here.');
   await expect(page.locator('#error')).toBeHidden();
-  await drop(page, [{ name: 'cat.obj', content: CAT }]);
+  await dropContents(page, [{ name: 'cat.obj', content: CAT }]);
   await expect(notice).toBeHidden();
   await expect(page.locator('#view-source')).toContainText('cat.obj');
   await expect(page.locator('#view-target')).toContainText('lion.obj');
   // The address is clean again, so that a reload does not undo what follows.
   expect(new URL(page.url()).hash).toBe('');
-  expect(linkIn((await share(page)).url)).toEqual(sent);
+  expectSame(linkIn((await share(page)).url), sent);
 });
 
 test('a link to another host asks first, and can be refused', async ({ page }) => {
@@ -180,7 +177,7 @@ test('a link to another host brings its meshes after one click, without a word a
   await open(page, url);
   await page.locator('#link-notice').getByRole('button', { name: 'Load', exact: true }).click();
   await expect(page.locator('#view-target')).toContainText('lion.obj');
-  expect(linkIn((await share(page)).url)).toEqual(linkIn(url));
+  expectSame(linkIn((await share(page)).url), linkIn(url));
 });
 
 test('what cannot be loaded is said in a sentence', async ({ page }) => {
@@ -192,7 +189,9 @@ test('what cannot be loaded is said in a sentence', async ({ page }) => {
   };
   await loading('#source=https://data.example/none.obj');
   await expect(error).toContainText('data.example has no none.obj at this address');
-  await page.route('https://closed.example/**', async (route) => route.fulfill({ body: CAT }));
+  await page.route('https://closed.example/**', async (route) =>
+    route.fulfill({ body: CAT, headers: { 'access-control-allow-origin': 'https://someone.example' } }),
+  );
   await loading('#source=https://closed.example/cat.obj');
   await expect(error).toContainText('closed.example does not answer, or does not let other pages read cat.obj');
   await page.route('https://moving.example/**', async (route) =>
@@ -246,35 +245,38 @@ test('a file that is too large is given up while it comes', async ({ page }) => 
 
 test('a project file brings everything back', async ({ page }) => {
   await open(page, '/');
-  await drop(page, [
+  await dropContents(page, [
     { name: 'cat.obj', content: CAT },
     { name: 'lion.obj', content: LION },
     { name: 'pairs.json', content: PAIRS },
   ]);
   await expect(page.locator('#view-target')).toContainText('lion.obj');
   const { url } = await share(page);
-  await page.getByRole('button', { name: 'Share' }).click();
+  await page.getByRole('button', { name: 'Share', exact: true }).click();
   const download = page.waitForEvent('download');
   await page.getByRole('button', { name: 'Save project file' }).click();
   const saved = await download;
   expect(saved.suggestedFilename()).toBe('cat and lion.conemap.zip');
-  const content = readFileSync(await saved.path()).toString('latin1');
+  const content = readFileSync(await saved.path());
 
-  await open(page, '/');
-  await drop(page, [{ name: saved.suggestedFilename(), content }]);
-  await expect(page.locator('#view-source')).toContainText('cat.obj');
-  await expect(page.locator('#view-target')).toContainText('lion.obj');
-  expect(linkIn((await share(page)).url)).toEqual(linkIn(url));
+  // Another tab has a session of its own.
+  const other = await page.context().newPage();
+  await open(other, '/');
+  await expect(other.locator('body')).not.toHaveAttribute('data-demo', '', { timeout: 60_000 });
+  await dropContents(other, [{ name: saved.suggestedFilename(), content }]);
+  await expect(other.locator('#view-source')).toContainText('cat.obj');
+  await expect(other.locator('#view-target')).toContainText('lion.obj');
+  expectSame(linkIn((await share(other)).url), linkIn(url));
 
-  await drop(page, [{ name: 'broken.conemap.zip', content: content.replace('"version": 1', '"version": 7') }]);
-  await expect(page.locator('#error')).toContainText('broken.conemap.zip');
+  await dropContents(other, [{ name: 'broken.conemap.zip', content: content.subarray(0, content.length / 2) }]);
+  await expect(other.locator('#error')).toContainText('broken.conemap.zip');
 });
 
 test('the picture of the views has twice the pixels of the screen', async ({ page }) => {
   await open(page, '/');
   await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
   const canvas = await page.locator('#canvas').evaluate((element: HTMLCanvasElement) => [element.width, element.height]);
-  await page.getByRole('button', { name: 'Export' }).click();
+  await page.getByRole('button', { name: 'Export', exact: true }).click();
   const download = page.waitForEvent('download');
   await page.getByRole('button', { name: 'Picture of the views' }).click();
   const bytes = readFileSync(await (await download).path());
@@ -289,7 +291,12 @@ test('the picture of the views has twice the pixels of the screen', async ({ pag
 test('the page works from any folder of a host', async ({ page }) => {
   const host = await staticHost(DIST, '/some/sub/path/');
   const failed: string[] = [];
-  page.on('requestfailed', (request) => failed.push(request.url()));
+  page.on('requestfailed', (request) => {
+    // The address that a run watches is no request to the host.
+    if (request.url().startsWith('http')) {
+      failed.push(request.url());
+    }
+  });
   page.on('response', (response) => {
     if (response.status() >= 400) {
       failed.push(response.url());
