@@ -120,7 +120,7 @@ export const SENTENCES = {
   allLocked: 'All landmark pairs are locked. Unlock those that may go.',
   upToDate: 'This map is of these meshes, landmarks and options already.',
   nothingToShare: 'There is nothing to share yet: open a mesh or a demo first.',
-  noLink: 'Links to your own files need this page to be opened by https. Save the project file instead: it holds everything.',
+  noLink: 'There is no link to this: it would be too long, or the page was not opened by https, which links to your own files need. Save the project file instead: it holds everything.',
   aboutProject: 'One file with both meshes, the landmarks, the options and the views; drop it on the page to go on',
   newVersion: 'A new version of this page is ready.',
   badPoint: 'Some landmarks do not belong to these meshes. Load the meshes that the landmark file was made for.',

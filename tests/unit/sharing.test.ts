@@ -11,6 +11,7 @@ import { readLink } from '../../www/send/link.ts';
 import type { SentWork } from '../../www/send/schema.ts';
 import { Store } from '../../www/store/store.ts';
 import { initSync } from '../../www/wasm/conemap.js';
+import { Random } from './random.ts';
 
 const BASE = 'https://maps.example/conemap/';
 
@@ -97,8 +98,11 @@ describe('a link', () => {
     expect(link.files.map((file) => file?.kind)).toEqual(['address', 'local']);
   });
 
-  test('is none of an empty page, and none of files where the page may not hash them', async () => {
+  test('is none of an empty page, none that is too long, and none of files where the page may not hash them', async () => {
     expect(await sharedLink(new Store().state, new URL(BASE))).toBeNull();
+    const store = page();
+    store.dispatch({ kind: 'pair-labelled', id: store.state.pairs[0]?.id ?? 0, label: [...new Random(31).bytes(40_000)].join() });
+    expect(await sharedLink(store.state, new URL(BASE))).toBeNull();
     vi.stubGlobal('crypto', {});
     expect(await sharedLink(page().state, new URL(BASE))).toBeNull();
   });

@@ -105,7 +105,8 @@ test('a link reopens landmarks, options, cameras and picture', async ({ page, co
   for (const key of ['ArrowLeft', 'ArrowLeft', 'ArrowUp', '+']) {
     await page.keyboard.press(key);
   }
-  await page.waitForTimeout(500);
+  // A camera is told when it has come to rest.
+  await page.waitForTimeout(2000);
   const { url, sentence } = await share(page);
   expect(sentence).toContain('needs cat.obj and lion.obj as well');
   const sent = linkIn(url);

@@ -2,6 +2,7 @@
 import type { Link, LinkedFile } from '../send/link.ts';
 import { addressOf } from '../send/address.ts';
 import { hashOf } from '../send/hash.ts';
+import { readLink } from '../send/link.ts';
 import type { Prospect } from '../send/share.ts';
 import { linkAddress, prospectOf } from '../send/share.ts';
 import type { MeshFile, State } from '../store/state.ts';
@@ -32,7 +33,7 @@ async function linkedFile(file: MeshFile, base: URL): Promise<LinkedFile | null>
   return hash === null ? null : { kind: 'local', name: file.name, hash };
 }
 
-/** The link to the work; `null` where the page cannot tell its files apart, or has none. */
+/** The link to the work; `null` where the page cannot tell its files apart or has none, and where it would be too long. */
 export async function sharedLink(state: State, base: URL): Promise<SharedLink | null> {
   const work = sentWorkOf(state);
   if (state.demo !== null) {
@@ -46,7 +47,9 @@ export async function sharedLink(state: State, base: URL): Promise<SharedLink | 
   return isEmpty || !isTold ? null : shared({ demo: null, files: [source, target], landmarks: null, work }, base);
 }
 
-function shared(link: Link, base: URL): SharedLink {
+/** `null` for a link that nobody could open, as one with thousands of pairs. */
+function shared(link: Link, base: URL): SharedLink | null {
   const url = linkAddress(link, base);
-  return { url, prospect: prospectOf(link, url) };
+  const isReadable = readLink(new URL(url).hash, base).kind === 'link';
+  return isReadable ? { url, prospect: prospectOf(link, url) } : null;
 }

@@ -7,7 +7,8 @@ import { INITIAL } from '../store/state.ts';
 
 /** More pairs than a map was ever made of. */
 export const MOST_PAIRS = 10_000;
-const LONGEST_TEXT = 200;
+/** Longer than any name, label or sentence that is meant for eyes. */
+const LONGEST_TEXT = 10_000;
 /** A camera is some ten numbers. */
 const LONGEST_CAMERA = 32;
 const MOST_OWN_CONES = 1000;
