@@ -1,8 +1,12 @@
 import { defineConfig } from 'vite';
+import { serviceWorker } from './www/offline/build.ts';
 
 export default defineConfig({
+  // Every address is relative, so that the built page works from any folder of a static host.
   base: './',
+  publicDir: 'www/public',
   worker: { format: 'es' },
+  plugins: [serviceWorker()],
   oxc: { jsx: { runtime: 'automatic', importSource: 'preact' } },
   build: {
     target: 'es2022',

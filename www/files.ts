@@ -27,6 +27,7 @@ export function meshFile(file: NamedBytes): MeshFile {
     return {
       name: file.name,
       bytes: file.bytes,
+      ...(file.address === undefined ? {} : { address: file.address }),
       mesh,
       vertexCount: mesh.vertexCount,
       faceCount: mesh.faceCount,
@@ -90,8 +91,8 @@ export function areMarksGood({ meshes, pairs }: Pick<State, 'meshes' | 'pairs'>)
   }
 }
 
-/** Refuses landmarks that do not fit the meshes they would be shown on. */
-function checkFit(file: NamedBytes, events: readonly Event[], state: State): void {
+/** Refuses landmarks that do not fit the meshes they would be shown on. Throws {@link FileRefused}. */
+export function checkFit(file: Pick<NamedBytes, 'name'>, events: readonly Event[], state: State): void {
   const failure = misfit(events.reduce(update, state));
   if (failure !== null) {
     const advice = failure.code === 'other-meshes' ? ` ${SENTENCES.otherMeshes}` : '';

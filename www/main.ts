@@ -1,13 +1,19 @@
 /** Wires the store, the views, the panels and the worker together. */
+import { openDropped } from './app/dropped.ts';
 import { BROWSER, Keeper } from './app/keep.ts';
 import { listenForUndo } from './app/keys.ts';
 import { mark } from './app/mark.ts';
-import { followDemo, freeForgotten, linkedDemo, openDemo, openFiles } from './app/open.ts';
+import { Links } from './app/links.ts';
+import { followDemo, freeForgotten, openDemo } from './app/open.ts';
+import { saveProject } from './app/projects.ts';
 import { repair } from './app/repair.ts';
 import { Runner } from './app/run.ts';
+import { sharedLink } from './app/sharing.ts';
 import { suggest } from './app/suggest.ts';
 import { compileCore } from './compute/client.ts';
 import { SENTENCES } from './messages.ts';
+import { download } from './dom.ts';
+import { keepOffline } from './offline/register.ts';
 import type { Side } from './landmarks.ts';
 import type { Actions, CameraCommand } from './panels/actions.ts';
 import { mountPage } from './panels/page.tsx';
@@ -16,14 +22,42 @@ import { Store } from './store/store.ts';
 import { Views } from './viewer/viewer.ts';
 import init, { demoList } from './wasm/conemap.js';
 
+/** How much larger a picture of the views is than the screen shows them. */
+const PICTURE_SCALE = 2;
+
 const store = new Store();
 const runner = new Runner(store);
+const links = new Links(store);
+/** Reloads the page into its newer build, when there is one. */
+let reload = (): void => undefined;
 const keeper = new Keeper(store, BROWSER);
 
 const actions: Actions = {
   dispatch: store.dispatch,
   openFiles: (files, side) => {
-    void openFiles(store, files, side);
+    void openDropped(store, links, files, side);
+  },
+  acceptLink: links.accept,
+  cancelLink: () => {
+    links.cancel();
+    // Whoever leaves a link before anything else was there sees what a stranger sees.
+    if (store.state.meshes.every((file) => file === null)) {
+      void openFirst(store.state.demos);
+    }
+  },
+  sharedLink: () => sharedLink(store.state, new URL(document.baseURI)),
+  saveProject: () => {
+    void saveProject(store);
+  },
+  savePicture: () => {
+    void views.picture(PICTURE_SCALE).then((picture) => {
+      if (picture !== null) {
+        download('conemap.png', 'image/png', picture);
+      }
+    });
+  },
+  reload: () => {
+    reload();
   },
   openDemo: (id) => {
     void openDemo(store, id);
@@ -117,18 +151,27 @@ function fail(sentence: string): void {
   store.dispatch({ kind: 'error', sentence });
 }
 
-/** Shows the first demo, or the one that the address names, where nobody has put anything else there. */
+/** Shows what the address names, else the first demo, where nobody has put anything else there. */
 async function showFirst(demos: readonly Demo[]): Promise<void> {
-  const first = linkedDemo() ?? demos[0]?.id;
-  if (first !== undefined && store.state.job.kind === 'idle' && store.state.history.past.length === 0) {
-    if (await openDemo(store, first)) {
-      store.dispatch({ kind: 'history-begun' });
-    }
+  if (store.state.job.kind !== 'idle' || store.state.history.past.length > 0) {
+    return;
+  }
+  if (!(await links.follow())) {
+    await openFirst(demos);
+  }
+  store.dispatch({ kind: 'history-begun' });
+}
+
+/** Opens the demo that a stranger sees first. */
+async function openFirst(demos: readonly Demo[]): Promise<void> {
+  const [first] = demos;
+  if (first !== undefined) {
+    await openDemo(store, first.id);
   }
 }
 
 async function start(): Promise<void> {
-  const finding = keeper.find(linkedDemo());
+  const finding = keeper.find(links.named);
   try {
     const core = await compileCore();
     await init({ module_or_path: core });
@@ -149,12 +192,15 @@ async function start(): Promise<void> {
   if (quickest !== undefined) {
     runner.warmUp(quickest.id);
   }
+  await keepOffline((begin) => {
+    reload = begin;
+    store.dispatch({ kind: 'outdated' });
+  });
 }
 
 window.addEventListener('hashchange', () => {
-  const linked = linkedDemo();
-  if (linked !== null && linked !== store.state.demo?.id) {
-    void openDemo(store, linked);
+  if (store.state.ready) {
+    void links.follow();
   }
 });
 listenForUndo(store);

@@ -140,6 +140,10 @@ export const SENTENCES = {
   mirrored: 'The target is its mirror image now, with the landmarks on it.',
   allLocked: 'All landmark pairs are locked. Unlock those that may go.',
   upToDate: 'This map is of these meshes, landmarks and options already.',
+  nothingToShare: 'There is nothing to share yet: open a mesh or a demo first.',
+  noLink: 'There is no link to this: it would be too long, or the page was not opened by https, which links to your own files need. Save the project file instead: it holds everything.',
+  aboutProject: 'One file with both meshes, the landmarks, the options and the views; drop it on the page to go on',
+  newVersion: 'A new version of this page is ready.',
   badPoint: 'Some landmarks do not belong to these meshes. Load the meshes that the landmark file was made for.',
 } as const;
 
@@ -211,3 +215,104 @@ export function hint(options: {
   }
   return 'Click a place on either mesh to add a pair, or make the map.';
 }
+
+/** Why a link is not opened. */
+export const LINK_REFUSED = {
+  'too-long': 'This link is longer than any that this page makes, so it is not opened.',
+  newer:
+    'This link was made by a newer version of this page. Reload the page to get that version; if nothing changes, ask for the project file instead.',
+  damaged: 'This link is damaged: perhaps it was cut off on its way. Ask for it again.',
+  'no-mesh': 'This link names no mesh: it needs source= or target= with the address of one.',
+  'no-address': 'This link holds something that is no address of a file. Ask for it again.',
+  'not-https': 'This link names a file whose address does not begin with https://, so nothing is loaded.',
+  'has-password': 'This link names a file whose address holds a user name or a password, so nothing is loaded.',
+} as const;
+export type LinkFault = keyof typeof LINK_REFUSED;
+
+/** Several names in a sentence. */
+export function listed(names: readonly string[]): string {
+  return names.length < 2 ? names.join('') : `${names.slice(0, -1).join(', ')} and ${names.at(-1) ?? ''}`;
+}
+
+/** Why a file of a link did not come. */
+export function fetchSentence(
+  fault: { readonly kind: 'unreachable' | 'moved' | 'too-large' | 'cancelled' } | { readonly kind: 'status'; readonly status: number },
+  name: string,
+  host: string | null,
+): string {
+  const where = host ?? 'this page’s server';
+  switch (fault.kind) {
+    case 'unreachable':
+      return `${where} does not answer, or does not let other pages read ${name}. Download the file there and drop it here.`;
+    case 'moved':
+      return `${where} sends ${name} on to another address, which nobody agreed to. Ask for a link with that address, or download the file and drop it here.`;
+    case 'status':
+      return fault.status === 404
+        ? `${where} has no ${name} at this address. Ask for the link again.`
+        : `${where} did not give ${name} (its answer was ${fault.status}). Try again later, or download the file there and drop it here.`;
+    case 'too-large':
+      return `${name} is larger than 256 MB, the most that is loaded by a link. Download the file and drop it here.`;
+    case 'cancelled':
+      return 'Nothing was loaded.';
+  }
+}
+
+/** What a link asks before files are loaded from other hosts: "Load cat.obj and lion.obj (2 files) from example.org?" */
+export function loadQuestion(hosts: readonly { readonly host: string; readonly names: readonly string[] }[]): string {
+  const parts = hosts.map(({ host, names }) => `${listed(names)}${names.length > 1 ? ` (${names.length} files)` : ''} from ${host}`);
+  return `Load ${listed(parts)}?`;
+}
+
+/** Megabytes to read, as "12.3 MB". */
+function megabytes(bytes: number): string {
+  return `${(bytes / 1e6).toFixed(1)} MB`;
+}
+
+/** What is being loaded, and how much of it is there. */
+export function loadingSentence(file: { readonly name: string; readonly loaded: number; readonly expected: number | null }): string {
+  const of = file.expected === null ? '' : ` of ${megabytes(file.expected)}`;
+  return `Loading ${file.name}: ${megabytes(file.loaded)}${of}`;
+}
+
+/** What a link waits for. */
+export function filesNeeded(names: readonly string[]): string {
+  return `This link needs ${listed(names)}: drop ${names.length === 1 ? 'it' : 'them'} here.`;
+}
+
+/** What to say of files that were dropped for a link and are not the ones that it means. */
+export function otherFiles(given: readonly string[], needed: readonly string[]): string {
+  const isSameName = given.some((name) => needed.includes(name));
+  const what = given.length === 1 ? 'is not a file' : 'are not files';
+  const hint = isSameName ? ' The name fits, but the content differs.' : '';
+  return `${listed(given)} ${what} of this link.${hint} It still needs ${listed(needed)}.`;
+}
+
+/** What whoever opens a link will see. */
+export function prospectSentence(prospect: {
+  readonly needed: readonly string[];
+  readonly loaded: readonly { readonly host: string }[];
+  readonly isLong: boolean;
+}): string {
+  const { needed, loaded, isLong } = prospect;
+  const hosts = listed(loaded.map(({ host }) => host));
+  const sees =
+    needed.length > 0
+      ? `Whoever opens it needs ${listed(needed)} as well: send ${needed.length === 1 ? 'the file' : 'the files'} along, or send the project file, which holds everything.`
+      : loaded.length > 0
+        ? `Whoever opens it sees everything, after one click that loads the meshes from ${hosts}.`
+        : 'Whoever opens it sees everything: meshes, landmarks, options and both views.';
+  return isLong ? `${sees} It is longer than 2,000 characters, and some mail programs cut such links.` : sees;
+}
+
+/** Why a project file is not opened. */
+export const PROJECT_REFUSED = {
+  'no-archive': 'this is no project file, or it is damaged.',
+  'no-project': 'this archive is no project: it has no conemap.json that says so.',
+  newer: 'this project was saved by a newer version of this page. Reload the page to get that version.',
+  damaged: 'this project is damaged: its conemap.json does not say what it should.',
+  'mesh-missing': 'this project is damaged: it lacks a mesh that it names.',
+  'mesh-changed': 'a mesh in this project is not the one that its landmarks were made on.',
+  'too-many': 'this archive holds more than 1,000 files, so it is not opened.',
+  'too-large': 'this archive becomes larger than 1 GiB, so it is not opened.',
+} as const;
+export type ProjectFault = keyof typeof PROJECT_REFUSED;

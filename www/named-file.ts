@@ -4,6 +4,8 @@
 export interface NamedBytes {
   readonly name: string;
   readonly bytes: Uint8Array;
+  /** Where a link found them; there is none for a file from a disk. */
+  readonly address?: string;
 }
 
 /** A reason to refuse files, as a sentence. */

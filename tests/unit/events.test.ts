@@ -407,6 +407,18 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     step: null,
     changes: { offer: null },
   },
+  receiving: {
+    before: READY,
+    event: { receiving: { kind: 'files', missing: [{ side: 0, name: 'cat.off' }] } },
+    step: null,
+    changes: { receiving: { kind: 'files', missing: [{ side: 0, name: 'cat.off' }] } },
+  },
+  outdated: {
+    before: READY,
+    event: {},
+    step: null,
+    changes: { isOutdated: true },
+  },
   error: {
     before: READY,
     event: { sentence: 'Something failed.' },

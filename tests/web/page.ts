@@ -51,10 +51,18 @@ export function pairs(page: Page): Locator {
 
 /** Drops files on the page as a user does. */
 export async function drop(page: Page, paths: readonly string[]): Promise<void> {
-  const files = paths.map((path) => ({ name: basename(path), base64: readFileSync(path).toString('base64') }));
-  const transfer = await page.evaluateHandle((given) => {
+  await dropContents(
+    page,
+    paths.map((path) => ({ name: basename(path), content: readFileSync(path) })),
+  );
+}
+
+/** Drops files that are on no disk. */
+export async function dropContents(page: Page, given: readonly { readonly name: string; readonly content: Buffer | string }[]): Promise<void> {
+  const files = given.map(({ name, content }) => ({ name, base64: Buffer.from(content).toString('base64') }));
+  const transfer = await page.evaluateHandle((list) => {
     const data = new DataTransfer();
-    for (const { name, base64 } of given) {
+    for (const { name, base64 } of list) {
       const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
       data.items.add(new File([bytes], name));
     }

@@ -41,6 +41,8 @@ export default defineConfig({
     baseURL: address,
     viewport: { width: 1280, height: 800 },
     actionTimeout: 60_000,
+    // The page's own requests are what most tests look at; those of visits without a network allow it.
+    serviceWorkers: 'block',
     launchOptions: {
       ...(existsSync(chromium) ? { executablePath: chromium } : {}),
       args: [

@@ -273,7 +273,8 @@ export class Keeper {
         if (bytes === null) {
           throw new FileRefused(SENTENCES.keptUnreadable);
         }
-        return [meshKey(mesh), { name: mesh.name, bytes }];
+        const { name, address } = mesh;
+        return [meshKey(mesh), { name, bytes, ...(address === undefined ? {} : { address }) }];
       }),
     );
     return new Map(named);

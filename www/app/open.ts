@@ -13,7 +13,8 @@ import { perform } from './task.ts';
 /** In bytes. The core's memory ends at 4 GiB, and holds a file beside the mesh that is made of it. */
 const LARGEST_FILE = 2 ** 30;
 
-async function bytesOf(file: File): Promise<NamedBytes> {
+/** The bytes of a file. Throws {@link FileRefused}. */
+export async function bytesOf(file: File): Promise<NamedBytes> {
   if (file.size > LARGEST_FILE) {
     throw new FileRefused(`${file.name} ${SENTENCES.tooLarge}`);
   }
@@ -48,7 +49,8 @@ export async function openFiles(store: Store, files: readonly File[], side: Side
   );
 }
 
-function demoEvents(demo: Demo): Event[] {
+/** The events that bring a demo onto the page. */
+export function demoEvents(demo: Demo): Event[] {
   const built = buildDemo(demo.id);
   if (built === undefined) {
     throw new FileRefused(SENTENCES.noDemo);
@@ -85,11 +87,6 @@ export async function openDemo(store: Store, id: string): Promise<boolean> {
     },
   );
   return outcome === 'done';
-}
-
-/** The demo that the page's address names. */
-export function linkedDemo(): string | null {
-  return new URLSearchParams(location.hash.slice(1)).get('demo');
 }
 
 /** Keeps the demo's link in the address while the demo is on the page, and takes it out when other meshes have come. */

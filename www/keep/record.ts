@@ -28,7 +28,7 @@ const MOST_LISTED = 100_000;
 const Text = v.pipe(v.string(), v.maxLength(LONGEST_TEXT));
 /** SHA-256 in base64url. */
 const Hash = v.pipe(v.string(), v.regex(/^[\w-]{43}$/));
-const MeshRecord = v.object({ name: Text, hash: Hash });
+const MeshRecord = v.object({ name: Text, hash: Hash, address: v.exactOptional(Text) });
 const Point = v.nullable(v.union([Index, v.object({ face: Index, barycentric: v.strictTuple([Weight, Weight, Weight]) })]));
 const PairRecord = v.object({
   id: v.pipe(Index, v.minValue(1)),
@@ -175,7 +175,11 @@ export function recordOf(
   { id, saved, ui }: { readonly id: string; readonly saved: number; readonly ui: Ui },
   hashes: ReadonlyMap<MeshFile, string>,
 ): SessionRecord {
-  const mesh = once((file: MeshFile): MeshRecord => ({ name: file.name, hash: hashes.get(file) ?? '' }));
+  const mesh = once((file: MeshFile): MeshRecord => ({
+    name: file.name,
+    hash: hashes.get(file) ?? '',
+    ...(file.address === undefined ? {} : { address: file.address }),
+  }));
   const table: Pair[] = [];
   const place = once((pair: Pair) => table.push(pair) - 1);
   const places = once((list: readonly Pair[]) => list.map(place));

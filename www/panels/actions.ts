@@ -1,5 +1,6 @@
 /** What the page's parts ask for, and what each of them is given. */
 import type { Side, SurfacePoint } from '../landmarks.ts';
+import type { prospectSentence } from '../messages.ts';
 import type { Event } from '../store/events.ts';
 import type { Axis, Doubt, State } from '../store/state.ts';
 import type { Shell } from './shell.ts';
@@ -22,6 +23,17 @@ export type CameraCommand =
 export interface Actions {
   readonly dispatch: (event: Event) => void;
   readonly openFiles: (files: readonly File[], side: Side | null) => void;
+  /** The click that the link which was opened waits for. */
+  readonly acceptLink: () => void;
+  /** Gives that link up. */
+  readonly cancelLink: () => void;
+  /** The link to what is on the page; `null` where there can be none. */
+  readonly sharedLink: () => Promise<{ readonly url: string; readonly prospect: Parameters<typeof prospectSentence>[0] } | null>;
+  readonly saveProject: () => void;
+  /** Saves what the views show as a picture of twice the screen's size. */
+  readonly savePicture: () => void;
+  /** Begins anew with the newer build of the page. */
+  readonly reload: () => void;
   readonly openDemo: (id: string) => void;
   readonly run: () => void;
   /** Looks for places of one mesh that are worth a landmark. */

@@ -49,7 +49,7 @@ export function FileInputs({ state, actions }: { readonly state: State; readonly
   };
   return (
     <>
-      <FileInput id="mesh-files" accept={meshes === '' ? '' : `${meshes},.json`} multiple onFiles={open(null)} />
+      <FileInput id="mesh-files" accept={meshes === '' ? '' : `${meshes},.json,.zip`} multiple onFiles={open(null)} />
       <FileInput id="source-file" accept={meshes} onFiles={open(0)} />
       <FileInput id="target-file" accept={meshes} onFiles={open(1)} />
       <FileInput id="landmark-file" accept=".json" onFiles={open(null)} />

@@ -10,6 +10,7 @@ import { DropVeil } from './drop.tsx';
 import { ErrorBanner } from './error.tsx';
 import { DemoLine, Invitation } from './invitation.tsx';
 import { VIEW_IDS } from './names.ts';
+import { Notices } from './notices.tsx';
 import { Legend, PictureBar } from './picture-bar.tsx';
 import { Toasts } from './toasts.tsx';
 import { ViewBar } from './view-bar.tsx';
@@ -62,6 +63,7 @@ export function Stage(props: PartProps): VNode {
       <PictureBar state={state} actions={actions} />
       <DemoLine state={state} actions={actions} />
       <Toasts state={state} actions={actions} />
+      <Notices state={state} actions={actions} />
       <ErrorBanner state={state} actions={actions} />
       <DropVeil actions={actions} />
     </main>

@@ -16,8 +16,14 @@ const THEMES: readonly (readonly [Theme, string, IconName])[] = [
   ['dark', 'Dark', 'dark'],
 ];
 
-function ExportMenu({ state }: Pick<PartProps, 'state'>): VNode {
-  const files = exportsOf(state);
+function ExportMenu({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
+  const picture = {
+    format: 'PNG',
+    title: 'Picture of the views',
+    about: 'What both views show, twice as large as on the screen',
+    save: actions.savePicture,
+  };
+  const files = state.meshes.every((file) => file === null) ? exportsOf(state) : [...exportsOf(state), picture];
   return (
     <Popover icon="use" label="Export" text="Export" place="down end" disabled={files.length === 0}>
       {(close) =>
@@ -98,9 +104,9 @@ export function TopBar({ state, actions, shell }: PartProps): VNode {
       <Move kind="redo" state={state} actions={actions} />
       <span class="divide" />
       <Popover icon="share" label="Share" text="Share" place="down end" disabled={!state.ready}>
-        {() => <Share state={state} />}
+        {() => <Share state={state} actions={actions} />}
       </Popover>
-      <ExportMenu state={state} />
+      <ExportMenu state={state} actions={actions} />
       <span class="divide" />
       <IconButton
         icon="help"

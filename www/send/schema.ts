@@ -3,10 +3,12 @@ import * as v from 'valibot';
 import type { Pair, SurfacePoint } from '../landmarks.ts';
 import type { RunOptions } from '../report.ts';
 import type { Camera, Style, Work } from '../store/state.ts';
+import { INITIAL } from '../store/state.ts';
 
 /** More pairs than a map was ever made of. */
 export const MOST_PAIRS = 10_000;
-const LONGEST_TEXT = 200;
+/** Longer than any name, label or sentence that is meant for eyes. */
+const LONGEST_TEXT = 10_000;
 /** A camera is some ten numbers. */
 const LONGEST_CAMERA = 32;
 const MOST_OWN_CONES = 1000;
@@ -72,6 +74,6 @@ export const SentWorkSchema = v.object({
   up: v.strictTuple([Axis, Axis]),
   groundTruth: v.nullable(Text),
   options: Options,
-  cameras: Cameras,
-  style: StyleSchema,
+  cameras: v.fallback(Cameras, [null, null]),
+  style: v.fallback(StyleSchema, INITIAL.ui.style),
 }) satisfies v.GenericSchema<SentWork>;

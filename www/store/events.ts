@@ -5,6 +5,7 @@ import type { LandmarkFile, Side, Suggestion, SurfacePoint } from '../landmarks.
 import type { Finding, Report } from '../report.ts';
 import type { History } from './history.ts';
 import type { Task } from './job.ts';
+import type { Receiving } from './receiving.ts';
 import type { SidePoint } from './side-marks.ts';
 import type { Axis, Camera, Demo, MeshFile, Offer, Style, Ui, Work } from './state.ts';
 
@@ -94,6 +95,10 @@ export type Event =
   /** A sentence that goes by itself, with a button that takes the last step back where `undo` is true. */
   | { readonly kind: 'toast'; readonly sentence: string; readonly undo: boolean }
   | { readonly kind: 'toast-closed' }
+  /** The link that was opened waits for something, or for nothing any more. */
+  | { readonly kind: 'receiving'; readonly receiving: Receiving }
+  /** There is a newer build of the page. */
+  | { readonly kind: 'outdated' }
   /** Work of an earlier visit can be continued. */
   | { readonly kind: 'offered'; readonly offer: Offer }
   /** The offer was answered. */

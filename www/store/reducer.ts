@@ -163,6 +163,10 @@ export function update(state: State, event: Event): State {
       return { ...state, toast: { sentence: event.sentence, undo: event.undo } };
     case 'toast-closed':
       return patched(state, { toast: null });
+    case 'receiving':
+      return { ...state, receiving: event.receiving };
+    case 'outdated':
+      return { ...state, isOutdated: true };
     case 'offered':
       return { ...state, offer: event.offer };
     case 'offer-closed':

@@ -5,6 +5,7 @@ import type { Finding, Report } from '../report.ts';
 import type { History } from './history.ts';
 import { NO_HISTORY } from './history.ts';
 import type { Job } from './job.ts';
+import type { Receiving } from './receiving.ts';
 import type { Demo, Work } from './work.ts';
 import { NO_WORK } from './work.ts';
 
@@ -83,6 +84,10 @@ export interface State extends Work {
   /** Those doubts while they are about what is on the page; else none. */
   readonly findings: readonly Doubt[];
   readonly toast: Toast | null;
+  /** What the link that was opened waits for. */
+  readonly receiving: Receiving;
+  /** Whether a newer build of the page waits for a reload. */
+  readonly isOutdated: boolean;
   readonly offer: Offer | null;
   readonly error: string | null;
 }
@@ -109,6 +114,8 @@ export const INITIAL: State = {
   found: null,
   findings: [],
   toast: null,
+  receiving: { kind: 'nothing' },
+  isOutdated: false,
   offer: null,
   error: null,
 };

@@ -10,6 +10,8 @@ import type { LoadedMesh } from '../wasm/conemap.js';
 export interface MeshFile {
   readonly name: string;
   readonly bytes: Uint8Array;
+  /** Where a link to this mesh finds it; there is none for a file from a disk. */
+  readonly address?: string;
   /** Of the core's memory; given back when neither the page nor its history holds the mesh. */
   readonly mesh: LoadedMesh;
   readonly vertexCount: number;

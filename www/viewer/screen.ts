@@ -14,9 +14,16 @@ export function samplesOf(): number {
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(name)) ? 1 : 4;
 }
 
-/** Gives a canvas as many pixels as the screen shows; its size in pixels per CSS pixel. */
-export function fitCanvas(canvas: HTMLCanvasElement): number {
-  const ratio = window.devicePixelRatio;
+/** What every browser with WebGL 2 that is met draws on, in pixels of a side. */
+const LARGEST_SIDE = 8192;
+
+/**
+ * Gives a canvas `times` as many pixels a side as the screen shows, or as many as can be drawn; its size in pixels per CSS
+ * pixel.
+ */
+export function fitCanvas(canvas: HTMLCanvasElement, times = 1): number {
+  const side = Math.max(1, canvas.clientWidth, canvas.clientHeight) * window.devicePixelRatio;
+  const ratio = window.devicePixelRatio * Math.min(times, Math.max(1, LARGEST_SIDE / side));
   const width = Math.max(1, Math.round(canvas.clientWidth * ratio));
   const height = Math.max(1, Math.round(canvas.clientHeight * ratio));
   if (canvas.width !== width || canvas.height !== height) {
@@ -26,9 +33,14 @@ export function fitCanvas(canvas: HTMLCanvasElement): number {
   return ratio;
 }
 
-/** Tells a renderer its canvas's size and where the elements of both views lie in it. */
-export function fitViewer(viewer: Viewer, canvas: HTMLCanvasElement, elements: readonly [HTMLElement, HTMLElement]): void {
-  const ratio = fitCanvas(canvas);
+/** Tells a renderer its canvas's size, `times` that of the screen, and where the elements of both views lie in it. */
+export function fitViewer(
+  viewer: Viewer,
+  canvas: HTMLCanvasElement,
+  elements: readonly [HTMLElement, HTMLElement],
+  times = 1,
+): void {
+  const ratio = fitCanvas(canvas, times);
   const { width, height } = canvas;
   viewer.resize(width, height, ratio);
   const frame = canvas.getBoundingClientRect();

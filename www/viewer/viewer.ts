@@ -410,6 +410,23 @@ export class Views {
     }
   }
 
+  /** The views as they are, with `times` as many pixels a side as on the screen, as a PNG; `null` without a renderer. */
+  async picture(times: number): Promise<Blob | null> {
+    const viewer = this.#viewer;
+    if (viewer === null || this.#lost) {
+      return null;
+    }
+    fitViewer(viewer, this.#canvas, this.#elements, times);
+    viewer.render(performance.now());
+    // The browser takes the pixels at once, before the next frame has the screen's size again, and packs them later.
+    const picture = new Promise<Blob | null>((resolve) => {
+      this.#canvas.toBlob(resolve, 'image/png');
+    });
+    this.#resized = true;
+    this.#requestFrame();
+    return picture;
+  }
+
   /** A view's box in the window. */
   box(side: Side): Box {
     return this.#elements[side].getBoundingClientRect();
