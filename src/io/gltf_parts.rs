@@ -41,18 +41,17 @@ pub fn parts_of(bytes: &[u8]) -> GltfParts {
 ///
 /// # Errors
 /// [`ReadError::Malformed`] with the names of the buffers that were not found or are too short, [`ReadError::TooLarge`].
-pub fn packed<'a>(
-    bytes: &[u8],
-    find: impl Fn(&str) -> Option<&'a [u8]>,
-) -> Result<PackedGltf, ReadError> {
+pub fn packed<'a>(bytes: &[u8], find: impl Fn(&str) -> Option<&'a [u8]>) -> Result<PackedGltf, ReadError> {
     let malformed =
         |problem: String| ReadError::Malformed { format: Format::Gltf, place: Place::Header, problem };
     let mut root = text_gltf(bytes).ok_or_else(|| malformed("it is no glTF text file".into()))?;
     let mut packer = Packer::default();
-    let missing: Vec<_> =
-        parts_of(bytes).buffers.into_iter().filter(|name| find(name).is_none()).collect();
+    let missing: Vec<_> = parts_of(bytes).buffers.into_iter().filter(|name| find(name).is_none()).collect();
     if !missing.is_empty() {
-        return Err(malformed(format!("its data is in other files that are missing: {}", missing.join(", "))));
+        return Err(malformed(format!(
+            "its data is in other files that are missing: {}",
+            missing.join(", ")
+        )));
     }
     let mut starts = Vec::new();
     for buffer in entries(&root, "buffers") {
@@ -221,7 +220,7 @@ mod tests {
         let indices = vec![9, 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];
         let text = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
             "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
-            "accessors":[{"bufferView":1,"componentType":5126,"count":4,"type":"VEC3"},
+            "accessors":[{"bufferView":1,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,1]},
                 {"bufferView":0,"byteOffset":1,"componentType":5121,"count":12,"type":"SCALAR"}],
             "bufferViews":[{"buffer":0,"byteLength":13},{"buffer":1,"byteLength":48}],
             "images":[{"uri":"skin%20of%20cat.png"},{"uri":"lost.jpg"}],
@@ -259,7 +258,8 @@ mod tests {
     fn missing_and_short_parts_are_named() {
         let (text, positions, indices) = parts();
         let says = |find: &dyn Fn(&str) -> Option<Vec<u8>>| {
-            let files: Vec<_> = parts_of(text.as_bytes()).buffers.into_iter().map(|name| (find(&name), name)).collect();
+            let files: Vec<_> =
+                parts_of(text.as_bytes()).buffers.into_iter().map(|name| (find(&name), name)).collect();
             let find = |wanted: &str| {
                 files.iter().find(|(_, name)| name == wanted).and_then(|(content, _)| content.as_deref())
             };
@@ -269,7 +269,9 @@ mod tests {
             says(&|_| None),
             "glTF file, header: its data is in other files that are missing: a/indices.bin, positions.bin"
         );
-        let short = says(&|name| Some(if name == "positions.bin" { positions[..40].to_vec() } else { indices.clone() }));
+        let short = says(&|name| {
+            Some(if name == "positions.bin" { positions[..40].to_vec() } else { indices.clone() })
+        });
         assert_eq!(short, "glTF file, header: positions.bin has 40 bytes of 48: it may be cut off");
     }
 

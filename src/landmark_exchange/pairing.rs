@@ -20,7 +20,8 @@ pub(super) fn partners(source: &[PlacedMark], target: &[PlacedMark]) -> Result<P
     if let [Some(in_source), Some(in_target)] = &by_label
         && in_source.len() == in_target.len()
     {
-        let partner = |(number, mark): (usize, &PlacedMark)| Some([number, *in_target.get(mark.label.as_str())?]);
+        let partner =
+            |(number, mark): (usize, &PlacedMark)| Some([number, *in_target.get(mark.label.as_str())?]);
         let numbers: Option<Vec<_>> = source.iter().enumerate().map(partner).collect();
         if let Some(numbers) = numbers {
             return Ok(Partners { numbers, labels_differ: false });

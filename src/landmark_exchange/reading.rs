@@ -36,7 +36,10 @@ pub struct PairLandmarks {
 ///
 /// # Errors
 /// [`ExchangeError`] with the number of the file.
-pub fn read_pairs(files: &[GivenFile<'_>], surfaces: [Surface<'_>; 2]) -> Result<PairLandmarks, ExchangeError> {
+pub fn read_pairs(
+    files: &[GivenFile<'_>],
+    surfaces: [Surface<'_>; 2],
+) -> Result<PairLandmarks, ExchangeError> {
     let [source, target] = surfaces;
     match files {
         [file] => match content(file, 0)? {
@@ -45,14 +48,16 @@ pub fn read_pairs(files: &[GivenFile<'_>], surfaces: [Surface<'_>; 2]) -> Result
                 Ok(PairLandmarks { file, formats: vec![format], distances, remarks: Vec::new() })
             }
             (format, Content::Sides([a, b])) => {
-                let sides = [place(&a, source, MeshSide::Source, 0)?, place(&b, target, MeshSide::Target, 0)?];
+                let sides =
+                    [place(&a, source, MeshSide::Source, 0)?, place(&b, target, MeshSide::Target, 0)?];
                 paired(sides, vec![format])
             }
             (_, Content::Side(_)) => Err(ExchangeError::OneMeshOnly),
         },
         [first, second] => {
             let (a, b) = (one_side(first, 0)?, one_side(second, 1)?);
-            let sides = [place(&a.1, source, MeshSide::Source, 0)?, place(&b.1, target, MeshSide::Target, 1)?];
+            let sides =
+                [place(&a.1, source, MeshSide::Source, 0)?, place(&b.1, target, MeshSide::Target, 1)?];
             paired(sides, vec![a.0, b.0])
         }
         _ => Err(ExchangeError::FileCount { count: files.len() }),
@@ -63,7 +68,11 @@ pub fn read_pairs(files: &[GivenFile<'_>], surfaces: [Surface<'_>; 2]) -> Result
 ///
 /// # Errors
 /// [`ExchangeError`].
-pub fn read_side(file: GivenFile<'_>, surface: Surface<'_>, side: MeshSide) -> Result<SideLandmarks, ExchangeError> {
+pub fn read_side(
+    file: GivenFile<'_>,
+    surface: Surface<'_>,
+    side: MeshSide,
+) -> Result<SideLandmarks, ExchangeError> {
     let (_, list) = one_side(&file, 0)?;
     place(&list, surface, side, 0)
 }

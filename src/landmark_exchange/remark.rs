@@ -109,6 +109,10 @@ pub(super) struct Short(pub(super) f64);
 impl fmt::Display for Short {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rounded: f64 = format!("{:.3e}", self.0).parse().unwrap_or(self.0);
-        if self.0 == 0.0 || (1e-3..1e6).contains(&self.0) { write!(f, "{rounded}") } else { write!(f, "{rounded:e}") }
+        if self.0 == 0.0 || (1e-3..1e6).contains(&self.0) {
+            write!(f, "{rounded}")
+        } else {
+            write!(f, "{rounded:e}")
+        }
     }
 }

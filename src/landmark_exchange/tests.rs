@@ -49,7 +49,12 @@ fn place_of(mesh: &CheckedMesh, side: MeshSide, pairs: &[[LandmarkPoint; 2]]) ->
 }
 
 /// Landmarks that were read are those that were written.
-fn assert_same(read: &PairLandmarks, written: &LandmarkFile, meshes: [&CheckedMesh; 2], format: LandmarkFormat) {
+fn assert_same(
+    read: &PairLandmarks,
+    written: &LandmarkFile,
+    meshes: [&CheckedMesh; 2],
+    format: LandmarkFormat,
+) {
     assert_eq!(read.file.pairs.len(), written.pairs.len(), "{format}");
     for (mesh, side) in meshes.into_iter().zip([MeshSide::Source, MeshSide::Target]) {
         let size = surface(mesh).size();
@@ -63,7 +68,10 @@ fn assert_same(read: &PairLandmarks, written: &LandmarkFile, meshes: [&CheckedMe
         for (read, written) in read.iter().zip(written) {
             match (read, written) {
                 (LandmarkPoint::Vertex(v), LandmarkPoint::Vertex(w)) => assert_eq!(v, w, "{format}, {pair}"),
-                (LandmarkPoint::OnFace { face, barycentric: a }, LandmarkPoint::OnFace { face: f, barycentric: b }) => {
+                (
+                    LandmarkPoint::OnFace { face, barycentric: a },
+                    LandmarkPoint::OnFace { face: f, barycentric: b },
+                ) => {
                     if exact {
                         assert_eq!((face, &a[..2]), (f, &b[..2]), "{format}, {pair}");
                         assert!((a[2] - b[2]).abs() < 1e-15);
@@ -84,7 +92,9 @@ fn what_is_written_reads_back_to_the_same_points_in_every_format() {
     let meshes = [&a, &b];
     for seed in 0..20 {
         let file = landmarks(meshes, seed);
-        for (format, space) in LandmarkFormat::ALL.into_iter().zip([Space::Lps, Space::Ras].into_iter().cycle()) {
+        for (format, space) in
+            LandmarkFormat::ALL.into_iter().zip([Space::Lps, Space::Ras].into_iter().cycle())
+        {
             let surfaces = meshes.map(|mesh| Surface { mesh, space });
             if format.holds() != Holds::One {
                 let bytes = write_pairs(format, &file, surfaces).unwrap();
@@ -93,7 +103,8 @@ fn what_is_written_reads_back_to_the_same_points_in_every_format() {
                 assert_same(&read, &file, meshes, format);
             }
             if format.holds() != Holds::Both {
-                let write = |side: MeshSide| write_side(format, &file, surfaces[side as usize], side).unwrap();
+                let write =
+                    |side: MeshSide| write_side(format, &file, surfaces[side as usize], side).unwrap();
                 let bytes = [write(MeshSide::Source), write(MeshSide::Target)];
                 let given = bytes.each_ref().map(|bytes| GivenFile { name: "side", bytes });
                 let read = read_pairs(&given, surfaces).unwrap();
@@ -112,7 +123,8 @@ fn table(points: &[(&str, DVec3)]) -> String {
 }
 
 fn pairs(files: &[&str], meshes: [&CheckedMesh; 2]) -> Result<PairLandmarks, ExchangeError> {
-    let given: Vec<_> = files.iter().map(|text| GivenFile { name: "a.csv", bytes: text.as_bytes() }).collect();
+    let given: Vec<_> =
+        files.iter().map(|text| GivenFile { name: "a.csv", bytes: text.as_bytes() }).collect();
     read_pairs(&given, meshes.map(surface))
 }
 
@@ -192,7 +204,11 @@ fn points_off_the_surface_are_told_and_far_ones_refused() {
     let far = pairs(&[&plain, &text(0.5)], [&ball, &ball]).unwrap_err();
     assert_eq!(far.file(), Some(1));
     assert!(far.to_string().starts_with("landmark 2 (\"left\") of the target lies 1.7"), "{far}");
-    assert!(far.to_string().ends_with("50 % of the mesh's size: units or coordinate systems may differ, or it is another mesh"));
+    assert!(
+        far.to_string().ends_with(
+            "50 % of the mesh's size: units or coordinate systems may differ, or it is another mesh"
+        )
+    );
 }
 
 #[test]
@@ -225,7 +241,10 @@ fn what_would_bring_far_points_onto_the_surface_is_advised() {
 
     // A declared system is one of the two; a mesh whose file names none is in LPS.
     let slicer = |space: &str, p: DVec3| {
-        format!("# Markups fiducial file version = 4.11\n# CoordinateSystem = {space}\n0,{},{},{},0,0,0,1,1,1,0,a,,\n", p.x, p.y, p.z)
+        format!(
+            "# Markups fiducial file version = 4.11\n# CoordinateSystem = {space}\n0,{},{},{},0,0,0,1,1,1,0,a,,\n",
+            p.x, p.y, p.z
+        )
     };
     let p = places[0].1;
     let turned = DVec3::new(-p.x, -p.y, p.z);
@@ -256,8 +275,14 @@ fn files_that_do_not_go_together_are_told() {
         let error = pairs(files, [&ball, &ball]).unwrap_err();
         (error.file(), error.to_string())
     };
-    assert_eq!(says(&[&one]).1, "this file holds the landmarks of one mesh: give a second file for the other mesh");
-    assert_eq!(says(&[&one, both]), (Some(1), "this file holds the landmarks of both meshes: give it alone".to_owned()));
+    assert_eq!(
+        says(&[&one]).1,
+        "this file holds the landmarks of one mesh: give a second file for the other mesh"
+    );
+    assert_eq!(
+        says(&[&one, both]),
+        (Some(1), "this file holds the landmarks of both meshes: give it alone".to_owned())
+    );
     assert_eq!(says(&[]).1, "landmarks are in one file or in two, but 0 were given");
     assert_eq!(says(&[&one, "hello"]).0, Some(1));
     let wrap = "{\"nose\": [3, 0.5, 0.25], \"tail\": [9999, 0.5, 0.5]}";
@@ -277,9 +302,18 @@ fn files_that_do_not_go_together_are_told() {
 fn many_remarks_name_the_farthest_points() {
     let ball = body(DVec3::ONE);
     let size = surface(&ball).size();
-    let rows: Vec<_> = ball.mesh.positions().iter().take(12).enumerate().map(|(k, p)| ("", *p * (1.0 + (0.02 + 0.01 * k as f64) * size))).collect();
+    let rows: Vec<_> = ball
+        .mesh
+        .positions()
+        .iter()
+        .take(12)
+        .enumerate()
+        .map(|(k, p)| ("", *p * (1.0 + (0.02 + 0.01 * k as f64) * size)))
+        .collect();
     let file = table(&rows);
-    let side = read_side(GivenFile { name: "a.csv", bytes: file.as_bytes() }, surface(&ball), MeshSide::Source).unwrap();
+    let side =
+        read_side(GivenFile { name: "a.csv", bytes: file.as_bytes() }, surface(&ball), MeshSide::Source)
+            .unwrap();
     let farthest = |remark: &Remark| match remark {
         Remark::OffSurface { index, .. } => Some(*index),
         _ => None,

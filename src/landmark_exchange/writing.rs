@@ -50,7 +50,8 @@ pub fn write_side(
 /// The landmarks of one side with their places in space and on faces.
 fn marks(file: &LandmarkFile, surface: Surface<'_>, side: MeshSide) -> Result<SurfaceMarks, LandmarkError> {
     let on_mesh = points(surface.mesh, side, &file.pairs)?;
-    let label = |pair: usize| file.labels.as_ref().and_then(|labels| labels.get(pair)).cloned().unwrap_or_default();
+    let label =
+        |pair: usize| file.labels.as_ref().and_then(|labels| labels.get(pair)).cloned().unwrap_or_default();
     let mark = |(pair, point): (usize, crate::mesh::SurfacePoint)| {
         let on_file = surface.mesh.with_file_corners(point);
         // Weights as they were given, without what rounding makes of them.

@@ -1,8 +1,8 @@
 //! The pipeline in the worker.
 
 use super::failure;
-use crate::landmark_exchange::GivenFile;
 use crate::job::{Job, JobError, JobFiles, TargetImage};
+use crate::landmark_exchange::GivenFile;
 use crate::monitor::{Cancelled, Monitor, PlannedStage, Progress, Stage, Step};
 use crate::pipeline::{Choices, MapResult, PipelineOptions};
 use glam::{DVec2, DVec3};

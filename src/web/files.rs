@@ -1,8 +1,8 @@
 //! Mesh files, landmark files and demos.
 
 use super::failure;
-use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 use crate::io::gltf_parts::{self, GltfParts};
+use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 use crate::io::landmark_formats::Space;
 use crate::landmark_exchange::Surface;
 use crate::landmark_suggestion::{Suggestion, suggest};

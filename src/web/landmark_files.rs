@@ -2,11 +2,12 @@
 
 use super::failure;
 use super::files::LoadedMesh;
+use crate::io;
 use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 use crate::io::landmark_formats::{self, Content, Holds, LandmarkFormat, detect};
-use crate::io;
 use crate::landmark_exchange::{
-    ExchangeError, GivenFile, PairLandmarks, PlacedMark, Remark, Surface, read_pairs, read_side, write_pairs, write_side,
+    ExchangeError, GivenFile, PairLandmarks, PlacedMark, Remark, Surface, read_pairs, read_side, write_pairs,
+    write_side,
 };
 use crate::landmarks::{MeshSide, check_side};
 use serde::Serialize;
@@ -127,16 +128,21 @@ pub fn landmark_content(name: &str, bytes: &[u8]) -> Result<Option<String>, JsVa
 /// # Errors
 /// `{"code": "landmarks", "message"}`.
 #[wasm_bindgen(js_name = readLandmarkSide)]
-pub fn read_landmark_side(name: &str, bytes: &[u8], mesh: &LoadedMesh, side: usize) -> Result<String, JsValue> {
+pub fn read_landmark_side(
+    name: &str,
+    bytes: &[u8],
+    mesh: &LoadedMesh,
+    side: usize,
+) -> Result<String, JsValue> {
     let side = side_of(side);
-    let read = read_side(GivenFile { name, bytes }, mesh.surface(), side).map_err(|e| exchange_failure(&e))?;
+    let read =
+        read_side(GivenFile { name, bytes }, mesh.surface(), side).map_err(|e| exchange_failure(&e))?;
     let points = read.marks.iter().filter_map(|mark| mark.point);
     let pairs: Vec<_> = points.map(|point| [point; 2]).collect();
     check_side(&mesh.checked, side, &pairs).map_err(|e| failure("landmarks", e))?;
     let marks = read.marks.into_iter();
-    let marks = marks
-        .map(|PlacedMark { label, point, distance }| ReadMark { label, point, distance })
-        .collect();
+    let marks =
+        marks.map(|PlacedMark { label, point, distance }| ReadMark { label, point, distance }).collect();
     as_json(&ReadSide { marks, remarks: sentences(&read.remarks) })
 }
 
@@ -152,15 +158,15 @@ pub fn read_landmark_pairs(
     target: &LoadedMesh,
 ) -> Result<String, JsValue> {
     let contents: Vec<Vec<u8>> = contents.iter().map(js_sys::Uint8Array::to_vec).collect();
-    let files: Vec<_> =
-        names.iter().zip(&contents).map(|(name, bytes)| GivenFile { name, bytes }).collect();
+    let files: Vec<_> = names.iter().zip(&contents).map(|(name, bytes)| GivenFile { name, bytes }).collect();
     let read = read_pairs(&files, [source.surface(), target.surface()]).map_err(|e| exchange_failure(&e))?;
     let PairLandmarks { file, distances, remarks, .. } = read;
     as_json(&ReadPairs { file, distances, remarks: sentences(&remarks) })
 }
 
 fn format_and_file(format: &str, landmarks: &[u8]) -> Result<(LandmarkFormat, LandmarkFile), JsValue> {
-    let format = LandmarkFormat::of_id(format).ok_or_else(|| failure("landmarks", "there is no such format"))?;
+    let format =
+        LandmarkFormat::of_id(format).ok_or_else(|| failure("landmarks", "there is no such format"))?;
     Ok((format, landmark_file::read(landmarks).map_err(|e| failure("landmarks", e))?))
 }
 

@@ -496,7 +496,8 @@ fn bad_remeshing_is_refused_in_a_sentence() {
 
 /// Runs `conemap landmarks` on meshes, with the files to read and to write.
 fn landmarks(meshes: [&Path; 2], input: &[&Path], output: &[&Path], flags: &[&str]) -> std::process::Output {
-    let mut arguments = vec![OsStr::new("landmarks"), meshes[0].as_os_str(), meshes[1].as_os_str(), OsStr::new("--in")];
+    let mut arguments =
+        vec![OsStr::new("landmarks"), meshes[0].as_os_str(), meshes[1].as_os_str(), OsStr::new("--in")];
     arguments.extend(input.iter().map(|path| path.as_os_str()));
     if !output.is_empty() {
         arguments.push(OsStr::new("--out"));
@@ -537,19 +538,36 @@ fn landmark_files_are_converted_there_and_back() {
     let told = landmarks(meshes, &wrap, &[&back], &[]);
     assert!(told.status.success(), "{}", errors(&told));
     assert_eq!(landmark_file::read(&std::fs::read(&back).unwrap()).unwrap().pairs, file.pairs);
-    assert!(String::from_utf8(told.stdout).unwrap().starts_with(" pair        source        target  label\n    1"));
+    assert!(
+        String::from_utf8(told.stdout)
+            .unwrap()
+            .starts_with(" pair        source        target  label\n    1")
+    );
 
     let says = |output: std::process::Output| {
         assert_eq!(output.status.code(), Some(1));
         errors(&output)
     };
-    assert!(says(landmarks(meshes, &[&pairs], &[&folder.join("c.pp")], &[])).contains("c.pp: a MeshLab point file holds the landmarks of one mesh"));
-    assert!(says(landmarks(meshes, &[&folder.join("a.fcsv")], &[], &[])).contains("a.fcsv: this file holds the landmarks of one mesh"));
-    assert!(says(landmarks(meshes, &[&pairs], &[&folder.join("c.what")], &[])).contains("choose a format with --format"));
+    assert!(
+        says(landmarks(meshes, &[&pairs], &[&folder.join("c.pp")], &[]))
+            .contains("c.pp: a MeshLab point file holds the landmarks of one mesh")
+    );
+    assert!(
+        says(landmarks(meshes, &[&folder.join("a.fcsv")], &[], &[]))
+            .contains("a.fcsv: this file holds the landmarks of one mesh")
+    );
+    assert!(
+        says(landmarks(meshes, &[&pairs], &[&folder.join("c.what")], &[]))
+            .contains("choose a format with --format")
+    );
     let moved = std::fs::read_to_string(folder.join("a.csv")).unwrap().replacen("\n,", "\n,1000", 1);
     std::fs::write(folder.join("moved.csv"), moved).unwrap();
     let sentence = says(landmarks(meshes, &[&folder.join("moved.csv")], &[], &[]));
-    assert!(sentence.contains("moved.csv: landmark") && sentence.contains("units or coordinate systems may differ"), "{sentence}");
+    assert!(
+        sentence.contains("moved.csv: landmark")
+            && sentence.contains("units or coordinate systems may differ"),
+        "{sentence}"
+    );
 }
 
 #[test]

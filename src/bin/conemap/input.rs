@@ -26,8 +26,9 @@ pub fn mesh_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let is_below = |name: &str| Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
     let names = parts.buffers.into_iter().chain(parts.images).filter(|name| is_below(name));
-    let contents: BTreeMap<String, Vec<u8>> =
-        names.filter_map(|name| std::fs::read(folder.join(&name)).ok().map(|content| (name, content))).collect();
+    let contents: BTreeMap<String, Vec<u8>> = names
+        .filter_map(|name| std::fs::read(folder.join(&name)).ok().map(|content| (name, content)))
+        .collect();
     let find = |name: &str| contents.get(name).map(Vec::as_slice);
     let packed = gltf_parts::packed(&own, find).map_err(|e| format!("{}: {e}", path.display()))?;
     Ok(packed.bytes)

@@ -25,7 +25,8 @@ pub fn run(arguments: &LandmarksArguments) -> Result<(), Failure> {
     for (surface, side) in surfaces.into_iter().zip(SIDES) {
         check_side(surface.mesh, side, &landmarks.file.pairs)?;
     }
-    let [source_name, target_name] = paths.map(|path| path.file_name().map(|name| name.to_string_lossy().into()));
+    let [source_name, target_name] =
+        paths.map(|path| path.file_name().map(|name| name.to_string_lossy().into()));
     landmarks.file.source = landmarks.file.source.or(source_name);
     landmarks.file.target = landmarks.file.target.or(target_name);
     write(arguments, &landmarks, surfaces)?;
@@ -81,7 +82,8 @@ fn as_text(landmarks: &PairLandmarks) -> String {
 
 fn as_json(landmarks: &PairLandmarks) -> Result<String, Failure> {
     let labels = landmarks.file.labels.as_deref().unwrap_or_default();
-    let pair = |(pair, distances): (usize, &[f64; 2])| json!({ "label": labels.get(pair), "distances": distances });
+    let pair =
+        |(pair, distances): (usize, &[f64; 2])| json!({ "label": labels.get(pair), "distances": distances });
     let pairs: Vec<_> = landmarks.distances.iter().enumerate().map(pair).collect();
     let remarks = landmarks.remarks.iter();
     let remarks: Vec<_> = remarks.map(|r| json!({ "kind": r.kind(), "sentence": r.to_string() })).collect();

@@ -13,14 +13,17 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<MarkList>, Problem> {
     let lines = lines(bytes)?;
     let last = lines.len();
     let mut lines = lines.into_iter().filter(|(_, line)| !line.trim().is_empty()).skip(1);
-    let (number, line) = lines
-        .next()
-        .ok_or_else(|| (Place::Line(last), "the number of points is missing: the file may be cut off".to_owned()))?;
+    let (number, line) = lines.next().ok_or_else(|| {
+        (Place::Line(last), "the number of points is missing: the file may be cut off".to_owned())
+    })?;
     let count = point_count(Some(line.trim()), number, bytes.len())?;
     let mut marks = Vec::with_capacity(count);
     for point in 0..count {
         let (number, line) = lines.next().ok_or_else(|| {
-            (Place::Line(last), format!("the file ends before point {} of {count}: it may be cut off", point + 1))
+            (
+                Place::Line(last),
+                format!("the file ends before point {} of {count}: it may be cut off", point + 1),
+            )
         })?;
         marks.push(mark(line, number)?);
     }

@@ -26,7 +26,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<MarkList>, Problem> {
             Event::Empty(element) => add(&element, line, &mut list)?,
             Event::End(_) => depth = depth.saturating_sub(1),
             Event::Eof if depth > 0 => {
-                return Err((Place::Line(line), "the file ends before its last element: it may be cut off".into()));
+                return Err((
+                    Place::Line(line),
+                    "the file ends before its last element: it may be cut off".into(),
+                ));
             }
             Event::Eof => return Ok(vec![list]),
             _ => {}
@@ -90,7 +93,8 @@ pub(super) fn write(side: &SurfaceMarks) -> Vec<u8> {
     for mark in &side.marks {
         let [x, y, z] = mark.position.to_array();
         let label = one_line(&mark.label);
-        text += &format!(" <point x=\"{x}\" y=\"{y}\" z=\"{z}\" active=\"1\" name=\"{}\"/>\n", escape(&label));
+        text +=
+            &format!(" <point x=\"{x}\" y=\"{y}\" z=\"{z}\" active=\"1\" name=\"{}\"/>\n", escape(&label));
     }
     text += "</PickedPoints>\n";
     text.into_bytes()

@@ -113,13 +113,22 @@ fn parameters(header: &str, line: usize, bytes: usize) -> Result<Parameters, Pro
     check_count(cells / 3, line)?;
     // A number takes at least a digit and what separates it.
     if cells > bytes / 2 + 1 {
-        return Err((Place::Line(line), format!("it announces {cells} numbers, more than the file can hold")));
+        return Err((
+            Place::Line(line),
+            format!("it announces {cells} numbers, more than the file can hold"),
+        ));
     }
     let missing = match words.get(3) {
         None | Some(&"0") => None,
         Some(_) => words.get(4).map(|word| coordinate(Some(word), line)).transpose()?,
     };
-    Ok(Parameters { rows, columns, row_labels: labels(1), has_column_labels: labels(2) == Labels::Listed, missing })
+    Ok(Parameters {
+        rows,
+        columns,
+        row_labels: labels(1),
+        has_column_labels: labels(2) == Labels::Listed,
+        missing,
+    })
 }
 
 /// The words behind the parameters with their lines.
@@ -132,7 +141,9 @@ struct Words<'a, I: Iterator<Item = (usize, &'a str)>> {
 impl<'a, I: Iterator<Item = (usize, &'a str)>> Words<'a, I> {
     fn next(&mut self) -> Result<(usize, &'a str), Problem> {
         let last = self.last;
-        self.words.next().ok_or_else(|| (Place::Line(last), "the file ends before its matrix: it may be cut off".into()))
+        self.words
+            .next()
+            .ok_or_else(|| (Place::Line(last), "the file ends before its matrix: it may be cut off".into()))
     }
 
     fn label(&mut self) -> Result<String, Problem> {

@@ -2,8 +2,8 @@
 
 use super::content::{Content, MarkList};
 use super::{
-    LandmarkFormat, LandmarkReadError, MAX_BYTES, comma_separated, detect, fcsv, idav, meshlab, nts, slicer_json,
-    tps, wrap,
+    LandmarkFormat, LandmarkReadError, MAX_BYTES, comma_separated, detect, fcsv, idav, meshlab, nts,
+    slicer_json, tps, wrap,
 };
 use crate::io::landmark_file;
 
@@ -42,7 +42,8 @@ fn content(format: LandmarkFormat, lists: Vec<MarkList>) -> Result<Content, Land
         return Err(LandmarkReadError::Empty { format });
     }
     let count = lists.len();
-    let names: Vec<_> = lists.iter().take(10).map(|list| list.name.chars().take(40).collect::<String>()).collect();
+    let names: Vec<_> =
+        lists.iter().take(10).map(|list| list.name.chars().take(40).collect::<String>()).collect();
     match <[MarkList; 2]>::try_from(lists) {
         Ok(sides) => Ok(Content::Sides(sides)),
         Err(mut lists) if count == 1 => Ok(Content::Side(lists.swap_remove(0))),

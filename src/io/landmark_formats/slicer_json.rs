@@ -70,7 +70,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<MarkList>, Problem> {
     lists
         .map(|markup| {
             check_count(markup.control_points.len(), 1)?;
-            let marks = markup.control_points.into_iter().map(ControlPoint::mark).collect::<Result<_, _>>()?;
+            let marks =
+                markup.control_points.into_iter().map(ControlPoint::mark).collect::<Result<_, _>>()?;
             Ok(MarkList { name: markup.name, space: Some(markup.coordinate_system), marks })
         })
         .collect()

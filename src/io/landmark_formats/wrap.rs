@@ -32,7 +32,11 @@ struct PointsVisitor;
 
 impl PointsVisitor {
     fn check<E: Error>(count: usize) -> Result<(), E> {
-        if count > MAX_POINTS { Err(E::custom(format!("there are more than {MAX_POINTS} points"))) } else { Ok(()) }
+        if count > MAX_POINTS {
+            Err(E::custom(format!("there are more than {MAX_POINTS} points")))
+        } else {
+            Ok(())
+        }
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::content::SurfaceMarks;
 use super::{
-    Holds, LandmarkFormat, LandmarkWriteError, comma_separated, fcsv, idav, meshlab, nts, slicer_json, tps, wrap,
+    Holds, LandmarkFormat, LandmarkWriteError, comma_separated, fcsv, idav, meshlab, nts, slicer_json, tps,
+    wrap,
 };
 
 /// Writes the landmarks of one mesh, or of source and target, which must then be as many.
