@@ -12,6 +12,9 @@ use glam::{DMat4, DVec3, DVec4};
 use gltf::accessor::{DataType, Dimensions};
 use gltf::mesh::Mode;
 use gltf::{Accessor, Gltf, Node, Primitive, Semantic};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use std::collections::BTreeMap;
 
 /// Nodes deeper than this are refused: the scene is a tree, unless someone wants to hurt us.
 const MAX_DEPTH: usize = 64;
@@ -20,6 +23,7 @@ const MAX_CORNERS: usize = 60_000_000;
 
 pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
     let header = |problem: String| (Place::Header, problem);
+    check_positions(bytes).map_err(header)?;
     let gltf = Gltf::from_slice(bytes).map_err(|e| header(format!("it cannot be read: {e}")))?;
     let buffers = buffers(&gltf).map_err(header)?;
     let mut reader = Reader { buffers, soup: PolygonSoup::default() };
@@ -33,6 +37,39 @@ pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
         return Err(header("its scene has no triangles".into()));
     }
     Ok(weld(soup))
+}
+
+/// Refuses positions that name no accessor: the library looks them up before it checks that they are there.
+fn check_positions(bytes: &[u8]) -> Result<(), String> {
+    #[derive(Deserialize)]
+    struct Root {
+        #[serde(default)]
+        accessors: Vec<IgnoredAny>,
+        #[serde(default)]
+        meshes: Vec<Mesh>,
+    }
+    #[derive(Deserialize)]
+    struct Mesh {
+        #[serde(default)]
+        primitives: Vec<Attributes>,
+    }
+    #[derive(Deserialize)]
+    struct Attributes {
+        #[serde(default)]
+        attributes: BTreeMap<String, usize>,
+    }
+    let unreadable = |e: &dyn std::fmt::Display| format!("it cannot be read: {e}");
+    let root: Root = if bytes.starts_with(b"glTF") {
+        let glb = gltf::Glb::from_slice(bytes).map_err(|e| unreadable(&e))?;
+        serde_json::from_slice(&glb.json).map_err(|e| unreadable(&e))?
+    } else {
+        serde_json::from_slice(bytes).map_err(|e| unreadable(&e))?
+    };
+    let mut primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let is_missing = |primitive: &Attributes| {
+        primitive.attributes.get("POSITION").is_some_and(|number| *number >= root.accessors.len())
+    };
+    if primitives.any(is_missing) { Err("a primitive's positions are not there".into()) } else { Ok(()) }
 }
 
 fn buffers(gltf: &Gltf) -> Result<Vec<Vec<u8>>, String> {

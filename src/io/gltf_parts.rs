@@ -220,7 +220,7 @@ mod tests {
         let indices = vec![9, 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];
         let text = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
             "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
-            "accessors":[{"bufferView":1,"componentType":5126,"count":4,"type":"VEC3"},
+            "accessors":[{"bufferView":1,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,1]},
                 {"bufferView":0,"byteOffset":1,"componentType":5121,"count":12,"type":"SCALAR"}],
             "bufferViews":[{"buffer":0,"byteLength":13},{"buffer":1,"byteLength":48}],
             "images":[{"uri":"skin%20of%20cat.png"},{"uri":"lost.jpg"}],

@@ -137,7 +137,8 @@ impl Placement<'_> {
         side: MeshSide,
         file: usize,
     ) -> Result<(), ExchangeError> {
-        let far = |(_, mark): &(usize, &PlacedMark)| !(mark.distance <= REFUSED * self.size);
+        let limit = REFUSED * self.size;
+        let far = |(_, mark): &(usize, &PlacedMark)| mark.distance > limit || mark.distance.is_nan();
         let farthest =
             marks.iter().enumerate().filter(far).max_by(|(_, a), (_, b)| a.distance.total_cmp(&b.distance));
         let Some((index, mark)) = farthest else {

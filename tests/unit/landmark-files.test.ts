@@ -117,7 +117,7 @@ function tetrahedron(): [NamedBytes, NamedBytes] {
     nodes: [{ mesh: 0 }],
     meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
     accessors: [
-      { bufferView: 0, componentType: 5126, count: 4, type: 'VEC3' },
+      { bufferView: 0, componentType: 5126, count: 4, type: 'VEC3', min: [0, 0, 0], max: [1, 1, 1] },
       { bufferView: 1, componentType: 5121, count: 12, type: 'SCALAR' },
     ],
     bufferViews: [

@@ -85,7 +85,8 @@ impl LandmarkFormat {
         let name = name.to_ascii_lowercase();
         let matching = |format: &Self| name.ends_with(&format!(".{}", format.ending()));
         let dta = name.ends_with(".dta").then_some(Self::Nts);
-        Self::ALL.into_iter().filter(matching).max_by_key(|format| format.ending().len()).or(dta)
+        // The last of equally long ones is taken, so that Wrap's ending means the program's own.
+        Self::ALL.into_iter().rev().filter(matching).max_by_key(|format| format.ending().len()).or(dta)
     }
 
     /// The ending of its files' names, without the first dot. Wrap's is shared with the program's own.

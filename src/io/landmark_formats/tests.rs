@@ -273,10 +273,11 @@ proptest! {
         }
     }
 
+    /// At least two points: a matrix with one point a row has the points of one specimen.
     #[test]
     fn what_is_written_reads_back_to_the_last_bit(
         format in 0_usize..LandmarkFormat::ALL.len(),
-        rows in proptest::collection::vec(("[ -~]{0,12}", [-1e6_f64..1e6, -1.0..1.0, -1e-9..1e-9], 0_u32..1000, 0.0_f64..1.0, 0.0_f64..1.0), 1..20),
+        rows in proptest::collection::vec(("[ -~]{0,12}", [-1e6_f64..1e6, -1.0..1.0, -1e-9..1e-9], 0_u32..1000, 0.0_f64..1.0, 0.0_f64..1.0), 2..20),
         both in proptest::bool::ANY,
     ) {
         let format = LandmarkFormat::ALL[format];

@@ -99,7 +99,11 @@ pub fn fields(line: &str, separator: char) -> Vec<String> {
 /// A label as a field between commas.
 pub fn field(label: &str) -> String {
     let label = one_line(label);
-    if label.contains([',', '"', ';', '\t']) { format!("\"{}\"", label.replace('"', "\"\"")) } else { label }
+    if label.contains([',', '"', ';', '\t']) || label.starts_with('#') {
+        format!("\"{}\"", label.replace('"', "\"\""))
+    } else {
+        label
+    }
 }
 
 /// A label on one line.
@@ -123,7 +127,7 @@ mod tests {
 
     #[test]
     fn fields_are_what_they_were_before_they_were_joined() {
-        for label in ["", "tip", "left, upper", "a \"good\" one", "\"", "x;y", "ear,\"left\""] {
+        for label in ["", "tip", "left, upper", "a \"good\" one", "\"", "x;y", "#7", "ear,\"left\""] {
             let line = format!("{},1, 2 ,{}", field(label), field(label));
             assert_eq!(fields(&line, ','), [label, "1", "2", label]);
         }

@@ -3,7 +3,7 @@
 //! outlines are no landmarks and are passed over.
 
 use super::content::{Mark, MarkList, Spot, SurfaceMarks};
-use super::text::{check_count, coordinate, coordinates, lines, one_line, point_count, position};
+use super::text::{check_count, coordinate, coordinates, lines, one_line, point_count, position, usable};
 use crate::io::problem::{Place, Problem};
 
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<MarkList>, Problem> {
@@ -59,7 +59,7 @@ fn scale(list: &mut MarkList, factor: f64, line: usize) -> Result<(), Problem> {
     for mark in &mut list.marks {
         if let Some(Spot::InSpace(p)) = &mut mark.spot {
             *p *= factor;
-            if !(p.abs().max_element() < 1e100) {
+            if p.to_array().iter().any(|x| usable(*x).is_none()) {
                 return Err((Place::Line(line), "with this scale the coordinates are too large".into()));
             }
         }
