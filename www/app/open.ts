@@ -67,18 +67,18 @@ export function demoEvents(demo: Demo): Event[] {
   ];
 }
 
-/** Opens a demo and puts its link into the address. */
-export async function openDemo(store: Store, id: string): Promise<void> {
+/** Opens a demo; `false` where it does not come onto the page, because there is none or because of something else that came. */
+export async function openDemo(store: Store, id: string): Promise<boolean> {
   const demo = store.state.demos.find((candidate) => candidate.id === id);
   if (demo === undefined) {
     store.dispatch({ kind: 'error', sentence: SENTENCES.noDemo });
-    return;
+    return false;
   }
   if (store.state.job.kind === 'running') {
     store.dispatch({ kind: 'error', sentence: SENTENCES.whileRunning });
-    return;
+    return false;
   }
-  await perform(
+  const outcome = await perform(
     store,
     `Building the demo “${demo.title}”…`,
     () => demo,
@@ -86,6 +86,7 @@ export async function openDemo(store: Store, id: string): Promise<void> {
       store.dispatch(...demoEvents(demo));
     },
   );
+  return outcome === 'done';
 }
 
 /** Keeps the demo's link in the address while the demo is on the page, and takes it out when other meshes have come. */
