@@ -156,18 +156,16 @@ async function showFirst(demos: readonly Demo[]): Promise<void> {
   if (store.state.job.kind !== 'idle' || store.state.history.past.length > 0) {
     return;
   }
-  if (!(await links.follow())) {
-    await openFirst(demos);
+  const followed = await links.follow();
+  if (followed === 'none' ? await openFirst(demos) : followed === 'opened') {
+    store.dispatch({ kind: 'history-begun' });
   }
-  store.dispatch({ kind: 'history-begun' });
 }
 
-/** Opens the demo that a stranger sees first. */
-async function openFirst(demos: readonly Demo[]): Promise<void> {
+/** Opens the demo that a stranger sees first; whether it has come. */
+async function openFirst(demos: readonly Demo[]): Promise<boolean> {
   const [first] = demos;
-  if (first !== undefined) {
-    await openDemo(store, first.id);
-  }
+  return first !== undefined && openDemo(store, first.id);
 }
 
 async function start(): Promise<void> {

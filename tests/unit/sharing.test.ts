@@ -115,7 +115,7 @@ describe('a link', () => {
     const before = sentWorkOf(receiver.state);
     const links = new Links(receiver);
     address.hash = hash;
-    expect(await links.follow()).toBe(true);
+    expect(await links.follow()).toBe('followed');
     expect(receiver.state.receiving).toMatchObject({ kind: 'files' });
     await links.take([
       { name: 'cat.obj', bytes: octahedron(3) },
@@ -185,11 +185,11 @@ describe('a link', () => {
       ['#source=http://data.example/cat.obj', 'https'],
     ] as const) {
       address.hash = hash;
-      expect(await links.follow()).toBe(true);
+      expect(await links.follow()).toBe('followed');
       expect(store.state.error).toContain(sentence);
     }
     address.hash = '#top';
-    expect(await links.follow()).toBe(false);
+    expect(await links.follow()).toBe('none');
     expect(store.state.pairs).toBe(before);
   });
 });

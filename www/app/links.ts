@@ -48,24 +48,23 @@ export class Links {
     return reading.kind === 'none' ? null : isDemo ? reading.link.demo : location.hash;
   }
 
-  /** Follows the link in the page's address; whether there is one. A link that must ask or wait goes on by itself. */
-  async follow(): Promise<boolean> {
+  /** Follows the link in the page's address. A link that must ask or wait goes on by itself, and one that is refused says why. */
+  async follow(): Promise<'none' | 'opened' | 'followed'> {
     const { state, dispatch } = this.#store;
     const reading = readLink(location.hash, new URL(document.baseURI));
     switch (reading.kind) {
       case 'none':
-        return false;
+        return 'none';
       case 'refused':
         forget();
         dispatch({ kind: 'error', sentence: LINK_REFUSED[reading.fault] });
-        return true;
+        return 'followed';
       case 'link':
         if (state.job.kind === 'running') {
           dispatch({ kind: 'error', sentence: SENTENCES.whileRunning });
-        } else {
-          await this.#begin(reading.link);
+          return 'followed';
         }
-        return true;
+        return (await this.#begin(reading.link)) ? 'opened' : 'followed';
     }
   }
 
@@ -100,19 +99,19 @@ export class Links {
     }
   }
 
-  async #begin(link: Link): Promise<void> {
+  /** Begins with a link; whether the demo that it names has come. */
+  async #begin(link: Link): Promise<boolean> {
     const { demo, work } = link;
     if (demo === null) {
       this.#receiver.receive(link);
-    } else if (work === null) {
-      this.#receiver.cancel();
-      if (demo !== this.#store.state.demo?.id) {
-        await openDemo(this.#store, demo);
-      }
-    } else {
-      this.#receiver.cancel();
-      await this.#openDemoWork(demo, work);
+      return false;
     }
+    this.#receiver.cancel();
+    if (work !== null) {
+      await this.#openDemoWork(demo, work);
+      return false;
+    }
+    return demo !== this.#store.state.demo?.id && openDemo(this.#store, demo);
   }
 
   async #openDemoWork(id: string, work: NonNullable<Link['work']>): Promise<void> {
