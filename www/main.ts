@@ -121,8 +121,9 @@ function fail(sentence: string): void {
 async function showFirst(demos: readonly Demo[]): Promise<void> {
   const first = linkedDemo() ?? demos[0]?.id;
   if (first !== undefined && store.state.job.kind === 'idle' && store.state.history.past.length === 0) {
-    await openDemo(store, first);
-    store.dispatch({ kind: 'history-begun' });
+    if (await openDemo(store, first)) {
+      store.dispatch({ kind: 'history-begun' });
+    }
   }
 }
 

@@ -65,18 +65,18 @@ function demoEvents(demo: Demo): Event[] {
   ];
 }
 
-/** Opens a demo and puts its link into the address. */
-export async function openDemo(store: Store, id: string): Promise<void> {
+/** Opens a demo; `false` where it does not come onto the page, because there is none or because of something else that came. */
+export async function openDemo(store: Store, id: string): Promise<boolean> {
   const demo = store.state.demos.find((candidate) => candidate.id === id);
   if (demo === undefined) {
     store.dispatch({ kind: 'error', sentence: SENTENCES.noDemo });
-    return;
+    return false;
   }
   if (store.state.job.kind === 'running') {
     store.dispatch({ kind: 'error', sentence: SENTENCES.whileRunning });
-    return;
+    return false;
   }
-  await perform(
+  const outcome = await perform(
     store,
     `Building the demo “${demo.title}”…`,
     () => demo,
@@ -84,6 +84,7 @@ export async function openDemo(store: Store, id: string): Promise<void> {
       store.dispatch(...demoEvents(demo));
     },
   );
+  return outcome === 'done';
 }
 
 /** The demo that the page's address names. */
