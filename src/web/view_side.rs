@@ -112,6 +112,12 @@ impl Side {
         self.fit();
     }
 
+    /// Whether the camera is as at the start: nobody has turned it or brought it elsewhere.
+    pub fn is_first_look(&self) -> bool {
+        let (Camera { yaw, pitch, roll, .. }, first) = (self.camera, Camera::first(self.camera.up));
+        self.look == Look::Whole && (yaw, pitch, roll) == (first.yaw, first.pitch, first.roll)
+    }
+
     /// Another axis points up; where the user has not moved the camera, the whole mesh stays in view.
     pub fn set_up(&mut self, up: UpAxis) {
         self.camera.set_up(up);

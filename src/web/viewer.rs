@@ -378,10 +378,10 @@ impl Viewer {
         Ok(())
     }
 
-    /// Where a camera stands, for [`Viewer::set_camera`]; `undefined` before the user has moved it.
+    /// Where a camera stands, for [`Viewer::set_camera`]; `undefined` at the first look.
     pub fn camera(&self, side: usize) -> Option<Vec<f32>> {
         let side = self.side(side);
-        (side.look == Look::Chosen).then(|| side.camera.to_numbers().to_vec())
+        (!side.is_first_look()).then(|| side.camera.to_numbers().to_vec())
     }
 
     /// Puts a camera where one stood.

@@ -11,7 +11,7 @@ export type Direction = 'front' | 'back' | 'left' | 'right' | 'top' | 'bottom';
 /** How long a camera glides, in ms: long enough for the eye to follow, short enough not to wait for. */
 const GLIDE = 180;
 
-/** Where a camera stands; `null` where the user has not moved it. */
+/** Where a camera stands; `null` at the first look. */
 export function cameraOf(viewer: Viewer, side: Side): Camera | null {
   const numbers = viewer.camera(side);
   return numbers === undefined ? null : [...numbers];
