@@ -167,13 +167,14 @@ fn line_vertex(
     let reach = max(length(along), 1e-6);
     let across = vec2<f32>(-along.y, along.x) / reach;
     // A pixel more than the line, where its edge fades.
-    let reach_across = side * (view.size_and_style.w + 1.0);
+    let reach_across = sign(side) * (view.size_and_style.w + 1.0);
     var out: LineOut;
     out.clip = here;
     let shift = across * reach_across * 2.0 / size;
     out.clip.x += shift.x * here.w;
     out.clip.y += shift.y * here.w;
-    out.across = reach_across;
+    // At the end the direction is reversed: there the other sign means the same edge.
+    out.across = select(reach_across, -reach_across, abs(side) > 1.5);
     return out;
 }
 

@@ -34,7 +34,8 @@ pub struct LineVertex {
     pub position: [f32; 3],
     /// The other end.
     pub other: [f32; 3],
-    /// Which side of the line: +1 or -1.
+    /// Which side of the direction to the other end: positive or negative; of size 1 at the segment's begin and 2 at its end, where
+    /// that direction is reversed.
     pub side: f32,
 }
 
@@ -121,8 +122,7 @@ pub fn ribbons(strips: &[Vec<Vec3>]) -> (Vec<LineVertex>, Vec<u32>) {
     for segment in strips.iter().flat_map(|strip| strip.windows(2)) {
         let [a, b] = [segment[0].to_array(), segment[1].to_array()];
         let first = vertices.len() as u32;
-        // The side is relative to the direction to the other end, so it changes sign there.
-        for (position, other, side) in [(a, b, 1.0), (a, b, -1.0), (b, a, -1.0), (b, a, 1.0)] {
+        for (position, other, side) in [(a, b, 1.0), (a, b, -1.0), (b, a, -2.0), (b, a, 2.0)] {
             vertices.push(LineVertex { position, other, side });
         }
         indices.extend([0, 1, 2, 2, 1, 3].map(|k| first + k));

@@ -15,8 +15,9 @@ interface Drawn {
   readonly triangles: number;
 }
 
-/** From the middle of a pin's head to its number, and down to its place, in CSS pixels. */
+/** From the middle of a pin's head to its number, also of a raised one, and down to its place, in CSS pixels. */
 const NUMBER_BESIDE = 8;
+const RAISED_BESIDE = 10;
 const STEM = 17;
 
 /** Longer than a glide and a rest. */
@@ -61,10 +62,11 @@ async function heads(page: Page, view: string): Promise<Map<string, Spot>> {
       .filter((span) => !(span as HTMLElement).hidden)
       .map((span) => {
         const box = span.getBoundingClientRect();
-        return [span.textContent, { x: box.left, y: box.top + box.height / 2 }] as const;
+        const spot = { x: box.left, y: box.top + box.height / 2 };
+        return { number: span.textContent, spot, raised: span.classList.contains('raised') };
       }),
   );
-  return new Map(list.map(([number, { x, y }]) => [number, { x: x - NUMBER_BESIDE, y }]));
+  return new Map(list.map(({ number, spot, raised }) => [number, { x: spot.x - (raised ? RAISED_BESIDE : NUMBER_BESIDE), y: spot.y }]));
 }
 
 /** A pin that is seen, away from all others. */

@@ -31,11 +31,11 @@ export class Labels {
       const label = labels[index];
       const visible = label !== undefined && (places[3 * index + 2] ?? 0) > 0.5;
       item.hidden = !visible;
+      item.classList.toggle('raised', visible && label.raised);
       if (visible) {
         if (item.textContent !== label.text) {
           item.textContent = label.text;
         }
-        item.classList.toggle('raised', label.raised);
         const x = (((places[3 * index] ?? 0) + 1) / 2) * width + (label.raised ? BESIDE.raised : BESIDE.plain);
         const y = ((1 - (places[3 * index + 1] ?? 0)) / 2) * height;
         item.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translateY(-50%)`;
