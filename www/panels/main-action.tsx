@@ -38,7 +38,7 @@ function FinishOrCancel({ state, actions }: { readonly state: State; readonly ac
           Cancel
         </button>
       </div>
-      <p class="reason">Finishing early gives a whole, proven map, only less smooth.</p>
+      <p class="reason">A map finished early is whole and proven, too.</p>
     </>
   );
 }

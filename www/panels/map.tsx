@@ -78,7 +78,7 @@ export function MapPanel({ state, actions }: PartProps): VNode {
   return (
     <div class="content">
       {state.job.kind === 'running' && (
-        <section>
+        <section hidden={state.job.energies.flat().length < 2}>
           <h3>The map becomes smoother</h3>
           <EnergyCurve energies={state.job.energies} />
         </section>

@@ -5,6 +5,7 @@ import { byId } from '../dom.ts';
 import { hint } from '../messages.ts';
 import type { Running } from '../store/job.ts';
 import { wholePairs } from '../store/order.ts';
+import { isCurrent } from '../store/staleness.ts';
 import type { State } from '../store/state.ts';
 import { asked, waitingCount } from '../store/waiting.ts';
 import type { PartProps } from './actions.ts';
@@ -34,7 +35,7 @@ function restSentence(state: State, probe: Probe | null): string {
     case 'error':
       return state.result === null ? 'No map was made.' : 'No new map was made; the last one is shown.';
     case 'done':
-      return 'The map is done.';
+      return isCurrent(state) ? 'The map is done.' : '';
     case 'idle':
     case 'running':
       return state.ready ? '' : 'Loading…';

@@ -12,7 +12,7 @@ export function UsePanel({ state, actions }: PartProps): VNode {
     <div class="content">
       {shownResult(state) !== null && (
         <section>
-          <h3>Show the target’s pattern on the source</h3>
+          <h3>What the meshes show</h3>
           <SurfaceChoice state={state} actions={actions} group="carried" />
         </section>
       )}
