@@ -1,4 +1,5 @@
-//! The command line: `conemap check`, `conemap map`, `conemap suggest`, `conemap flow` and `conemap remesh`.
+//! The command line: `conemap check`, `conemap map`, `conemap suggest`, `conemap flow`, `conemap landmarks` and
+//! `conemap remesh`.
 //!
 //! Progress and errors go to standard error; the exit code is 0 only for a converged, certified result.
 #![allow(clippy::print_stderr, reason = "a command line prints")]
@@ -15,6 +16,8 @@ mod flow;
 mod input;
 #[path = "conemap/interrupt.rs"]
 mod interrupt;
+#[path = "conemap/landmarks.rs"]
+mod landmarks;
 #[path = "conemap/map.rs"]
 mod map;
 #[path = "conemap/remesh.rs"]
@@ -32,6 +35,7 @@ fn main() -> ExitCode {
         arguments::Command::Map(options) => map::run(options),
         arguments::Command::Suggest(options) => suggest::run(options),
         arguments::Command::Flow(options) => flow::run(options),
+        arguments::Command::Landmarks(options) => landmarks::run(options),
         arguments::Command::Remesh(options) => remesh::run(options),
     };
     match outcome {

@@ -1,4 +1,4 @@
-//! One job: two mesh files and a landmark file in, a map out, told in the files' own numbers.
+//! One job: two mesh files and their landmark files in, a map out, told in the files' own numbers.
 //!
 //! The pipeline knows checked meshes and landmarks that are vertices. A user has files: with vertices that no face uses, faces
 //! that were turned, landmarks inside faces. A job goes from the ones to the others and back; the command line, the page and
@@ -11,7 +11,8 @@ pub use error::{JobError, JobFile};
 pub use outputs::OutputFile;
 
 use crate::io;
-use crate::io::landmark_file::{self, LandmarkFile};
+use crate::io::landmark_formats::Space;
+use crate::landmark_exchange::{GivenFile, PairLandmarks, Remark, Surface, read_pairs};
 use crate::landmarks::{MeshSide, PlacedLandmarks, place};
 use crate::mesh::SurfacePoint;
 use crate::mesh::check::{CheckedMesh, closed_genus_zero};
@@ -29,8 +30,8 @@ pub struct JobFiles<'a> {
     pub source: &'a [u8],
     /// A mesh of any known format.
     pub target: &'a [u8],
-    /// A landmark file.
-    pub landmarks: &'a [u8],
+    /// A landmark file of any known format that holds the landmarks of both meshes, or the source's and the target's.
+    pub landmarks: &'a [GivenFile<'a>],
 }
 
 /// Which target is mapped onto.
@@ -81,6 +82,7 @@ pub struct Job {
     repairs: [RepairReport; 2],
     placed: PlacedLandmarks,
     labels: Vec<String>,
+    remarks: Vec<Remark>,
     ground_truth: GroundTruth,
     target_image: TargetImage,
 }
@@ -101,7 +103,9 @@ impl Job {
         let target = read_mesh(MeshSide::Target, files.target, mesh_faults)?;
         let repairs = [source.report, target.report];
         let (source, mut target) = (source.checked, target.checked);
-        let mut file: LandmarkFile = landmark_file::read(files.landmarks)?;
+        let surfaces = [(&source, files.source), (&target, files.target)]
+            .map(|(mesh, bytes)| Surface { mesh, space: Space::of_mesh(bytes) });
+        let PairLandmarks { mut file, remarks, .. } = read_pairs(files.landmarks, surfaces)?;
         if target_image == TargetImage::Mirrored {
             target.mesh = mirrored(&target.mesh)?;
             file.pairs.iter_mut().for_each(|[_, point]| *point = point.mirrored());
@@ -113,7 +117,7 @@ impl Job {
             _ => GroundTruth::Unknown,
         };
         let labels = file.labels.unwrap_or_default();
-        Ok(Self { meshes: [source, target], repairs, placed, labels, ground_truth, target_image })
+        Ok(Self { meshes: [source, target], repairs, placed, labels, remarks, ground_truth, target_image })
     }
 
     /// What was repaired of the source and of the target.
@@ -124,6 +128,11 @@ impl Job {
     /// Number of landmark pairs.
     pub fn landmark_count(&self) -> usize {
         self.placed.landmarks.len()
+    }
+
+    /// What there is to know about the landmarks as they were read.
+    pub fn landmark_remarks(&self) -> &[Remark] {
+        &self.remarks
     }
 
     /// Landmark pairs that do not fit and limbs without one, with the numbers of the files.

@@ -1,10 +1,13 @@
 //! Mesh files, landmark files and demos.
 
 use super::failure;
+use crate::io::gltf_parts::{self, GltfParts};
 use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
-use crate::landmark_suggestion::{Suggestion, suggest};
+use crate::io::landmark_formats::Space;
+use crate::landmark_exchange::Surface;
+use crate::landmark_suggestion::{Suggestion, kept, suggest};
 use crate::landmarks::{self, MeshSide};
-use crate::mesh::check::{CheckedMesh, closed_genus_zero};
+use crate::mesh::check::CheckedMesh;
 use crate::mesh::mirror::mirrored;
 use crate::mesh::{FaceId, SurfacePoint, VertexId};
 use crate::monitor::Silent;
@@ -16,6 +19,15 @@ use wasm_bindgen::prelude::*;
 #[wasm_bindgen]
 pub struct LoadedMesh {
     pub(super) checked: CheckedMesh,
+    /// The coordinate system that its file names.
+    pub(super) space: Space,
+}
+
+impl LoadedMesh {
+    /// The mesh as landmark files are brought onto it.
+    pub(super) fn surface(&self) -> Surface<'_> {
+        Surface { mesh: &self.checked, space: self.space }
+    }
 }
 
 #[wasm_bindgen]
@@ -39,18 +51,46 @@ impl LoadedMesh {
     }
 }
 
-pub(super) fn checked(bytes: &[u8]) -> Result<CheckedMesh, JsValue> {
-    let soup = io::read_mesh(bytes).map_err(|e| failure("file", e))?;
-    closed_genus_zero(&soup).map_err(|e| failure("mesh", e))
+/// The files that a mesh file names and needs beside it: buffers, and pictures of textures.
+#[wasm_bindgen]
+pub struct MeshParts {
+    parts: GltfParts,
 }
 
-/// Reads and checks a mesh file of any known format.
+#[wasm_bindgen]
+impl MeshParts {
+    /// Without these it cannot be read.
+    pub fn buffers(&self) -> Vec<String> {
+        self.parts.buffers.clone()
+    }
+
+    /// Pictures; without them it has no texture.
+    pub fn images(&self) -> Vec<String> {
+        self.parts.images.clone()
+    }
+}
+
+/// The files that a mesh file names, by what it calls them.
+#[wasm_bindgen(js_name = meshParts)]
+pub fn mesh_parts(bytes: &[u8]) -> MeshParts {
+    MeshParts { parts: gltf_parts::parts_of(bytes) }
+}
+
+/// A mesh file with the files that it names as one file that needs no other. `names` are what the mesh file calls them.
 ///
 /// # Errors
-/// `{"code": "file" | "mesh", "message"}`.
-#[wasm_bindgen(js_name = readMesh)]
-pub fn read_mesh(bytes: &[u8]) -> Result<LoadedMesh, JsValue> {
-    Ok(LoadedMesh { checked: checked(bytes)? })
+/// `{"code": "file", "message"}` that names the parts that are missing.
+#[wasm_bindgen(js_name = packMesh)]
+pub fn pack_mesh(
+    bytes: &[u8],
+    names: Vec<String>,
+    contents: Vec<js_sys::Uint8Array>,
+) -> Result<Vec<u8>, JsValue> {
+    let contents: Vec<Vec<u8>> = contents.iter().map(js_sys::Uint8Array::to_vec).collect();
+    let find = |wanted: &str| {
+        names.iter().zip(&contents).find(|(name, _)| *name == wanted).map(|(_, content)| content.as_slice())
+    };
+    Ok(gltf_parts::packed(bytes, find).map_err(|e| failure("file", e))?.bytes)
 }
 
 /// The mesh formats in words.
@@ -105,10 +145,9 @@ pub fn suggest_landmarks(loaded: &LoadedMesh, landmarks: &str, count: usize) -> 
     let nearest = |point: LandmarkPoint| match point {
         LandmarkPoint::Vertex(v) => vertex_from_file.get(v as usize).copied().flatten(),
         LandmarkPoint::OnFace { face, barycentric } => {
-            let point = SurfacePoint { face: FaceId(face), barycentric };
-            let corners = mesh.triangles().get(point.face)?;
-            let w = checked.with_file_corners(point).barycentric;
-            (0..3).max_by(|&a: &usize, &b| w[a].total_cmp(&w[b])).map(|k| corners[k])
+            let face = checked.face_from_file(FaceId(face))?;
+            let w = checked.with_file_corners(SurfacePoint { face, barycentric }).barycentric;
+            (0..3).max_by(|&a: &usize, &b| w[a].total_cmp(&w[b])).map(|k| mesh.triangles()[face][k])
         }
     };
     let mut marked: Vec<VertexId> = points.into_iter().filter_map(nearest).collect();
@@ -118,6 +157,8 @@ pub fn suggest_landmarks(loaded: &LoadedMesh, landmarks: &str, count: usize) -> 
     let entry = |s: &Suggestion| json!({ "point": numbers[s.vertex.index()], "reason": s.reason, "partner": s.partner });
     // The page asks outside of a worker, where nobody could ask to stop.
     let suggestions = suggest(mesh, &marked, count, &mut Silent).map_err(|e| failure("cancelled", e))?;
+    // What a repair made up has no number in the file, and takes no landmark.
+    let suggestions = kept(&suggestions, |v| numbers[v.index()] < vertex_from_file.len());
     let found: Vec<_> = suggestions.iter().map(entry).collect();
     Ok(serde_json::Value::from(found).to_string())
 }
@@ -158,9 +199,11 @@ pub fn mirror_target(target: &LoadedMesh, landmarks: &[u8]) -> Result<MirroredTa
                 LandmarkPoint::Vertex(known.map_or(v, |v| v.0))
             }
             LandmarkPoint::OnFace { face, barycentric } => {
-                let point = SurfacePoint { face: FaceId(face), barycentric };
-                let barycentric = target.checked.with_file_corners(point).barycentric;
-                LandmarkPoint::OnFace { face, barycentric }
+                let known = target.checked.face_from_file(FaceId(face));
+                known.map_or(*point, |face| {
+                    let on_mesh = target.checked.with_file_corners(SurfacePoint { face, barycentric });
+                    LandmarkPoint::OnFace { face: face.0, barycentric: on_mesh.barycentric }
+                })
             }
         };
         *point = on_mesh.mirrored();

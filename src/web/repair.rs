@@ -3,6 +3,7 @@
 use super::failure;
 use super::files::LoadedMesh;
 use crate::io;
+use crate::io::landmark_formats::Space;
 use crate::mesh::repair::{ChangeReport, RepairOptions, RepairedMesh, repaired};
 use serde_json::json;
 use wasm_bindgen::prelude::*;
@@ -11,13 +12,15 @@ use wasm_bindgen::prelude::*;
 #[wasm_bindgen]
 pub struct MeshReport {
     mesh: RepairedMesh,
+    /// The coordinate system that its file names.
+    space: Space,
 }
 
 #[wasm_bindgen]
 impl MeshReport {
-    /// The mesh, as `readMesh` gives it.
+    /// The mesh.
     pub fn mesh(&self) -> LoadedMesh {
-        LoadedMesh { checked: self.mesh.checked.clone() }
+        LoadedMesh { checked: self.mesh.checked.clone(), space: self.space }
     }
 
     /// What was repaired, in a sentence without a full stop ("2 holes were capped (0.4 % of the area), 13 duplicate vertices were
@@ -46,5 +49,5 @@ impl MeshReport {
 pub fn repair_mesh(bytes: &[u8]) -> Result<MeshReport, JsValue> {
     let soup = io::read_mesh(bytes).map_err(|e| failure("file", e))?;
     let mesh = repaired(&soup, &RepairOptions::default()).map_err(|e| failure("mesh", e))?;
-    Ok(MeshReport { mesh })
+    Ok(MeshReport { mesh, space: Space::of_mesh(bytes) })
 }
