@@ -52,7 +52,8 @@ pub fn write_side(
 /// The same point of a face that the file has, where it is a vertex of a face that a repair made: other programs know the file.
 fn in_file(checked: &CheckedMesh, point: SurfacePoint) -> SurfacePoint {
     let is_made = |face: FaceId| checked.file_from_face(face).index() >= checked.file_faces();
-    let Some(corner) = point.barycentric.iter().position(|w| *w == 1.0).filter(|_| is_made(point.face)) else {
+    let Some(corner) = point.barycentric.iter().position(|w| *w == 1.0).filter(|_| is_made(point.face))
+    else {
         return point;
     };
     let v = checked.mesh.triangles()[point.face][corner];

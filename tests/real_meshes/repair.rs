@@ -3,6 +3,7 @@
 use crate::data::{BAD, OPEN};
 use conemap::io;
 use conemap::job::{Job, JobFiles, MeshFaults, ReadOptions, TargetImage};
+use conemap::landmark_exchange::GivenFile;
 use conemap::mesh::repair::{Change, Parts, RepairOptions, repaired};
 use conemap::monitor::Silent;
 use conemap::pipeline::{PipelineOptions, Warning};
@@ -66,6 +67,7 @@ fn every_file_is_repaired_or_refused(data: &Path) {
 fn maps(data: &Path, source: &str, target: &str, pairs: &str) {
     let pairs = format!("pairs/{pairs}.json");
     let [source, target, landmarks] = [source, target, pairs.as_str()].map(|name| read(&data.join(name)));
+    let landmarks = [GivenFile { name: &pairs, bytes: &landmarks }];
     let files = JobFiles { source: &source, target: &target, landmarks: &landmarks };
     let strict = ReadOptions { mesh_faults: MeshFaults::Refused, ..ReadOptions::default() };
     assert!(Job::read(files, strict, &mut Silent).is_err());
