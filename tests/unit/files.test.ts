@@ -79,5 +79,6 @@ test('a mesh with faults is repaired, and one that cannot be is refused in the c
   const at = (face: number): boolean =>
     areMarksGood({ meshes: [open, null], pairs: [pair(1, { face, barycentric: [0.2, 0.3, 0.5] }, null)] });
   expect([at(0), at(1), at(2), at(3), at(4)]).toEqual([true, true, true, false, false]);
-  expect(() => meshFile({ name: 'flat.obj', bytes: bytes('v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n') })).toThrow(/^flat\.obj: .*open sheet/);
+  const twin = 'v 10 0 0\nv 12 0 0\nv 10 3 0\nv 10 0 4\nf 6 8 7\nf 6 7 9\nf 7 8 9\nf 8 6 9\n';
+  expect(() => meshFile({ name: 'twins.obj', bytes: bytes(OBJ + twin) })).toThrow(/^twins\.obj: .*2 separate parts/);
 });
