@@ -1,4 +1,4 @@
-//! The command line: `conemap map`, `conemap suggest`, `conemap flow` and `conemap remesh`.
+//! The command line: `conemap map`, `query`, `report`, `export`, `suggest`, `flow` and `remesh`.
 //!
 //! Progress and errors go to standard error; the exit code is 0 only for a converged, certified result.
 #![allow(clippy::print_stderr, reason = "a command line prints")]
@@ -15,8 +15,12 @@ mod input;
 mod interrupt;
 #[path = "conemap/map.rs"]
 mod map;
+#[path = "conemap/query.rs"]
+mod query;
 #[path = "conemap/remesh.rs"]
 mod remesh;
+#[path = "conemap/saved.rs"]
+mod saved;
 #[path = "conemap/suggest.rs"]
 mod suggest;
 
@@ -27,6 +31,9 @@ fn main() -> ExitCode {
     let arguments = arguments::Arguments::parse();
     let outcome = match &arguments.command {
         arguments::Command::Map(options) => map::run(options),
+        arguments::Command::Query(options) => query::run(options),
+        arguments::Command::Report(options) => saved::report(options),
+        arguments::Command::Export(options) => saved::export(options),
         arguments::Command::Suggest(options) => suggest::run(options),
         arguments::Command::Flow(options) => flow::run(options),
         arguments::Command::Remesh(options) => remesh::run(options),

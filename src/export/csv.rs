@@ -1,24 +1,8 @@
-//! Vertex images as comma-separated values.
+//! Distortion as comma-separated values.
 
-use crate::mesh::{FaceId, SurfacePoint};
+use crate::mesh::FaceId;
 use crate::pipeline::TriangleDistortion;
 use std::fmt::Write;
-
-/// One line per vertex of the source's file ([`crate::mesh::check::CheckedMesh::by_file_vertex`]):
-/// `source_vertex,target_face,b0,b1,b2`; the last four are empty where there is no image.
-pub fn vertex_images(images: &[Option<SurfacePoint>]) -> Vec<u8> {
-    let mut text = String::from("source_vertex,target_face,b0,b1,b2\n");
-    for (v, image) in images.iter().enumerate() {
-        // Writing to a string does not fail.
-        let _ = match image {
-            Some(SurfacePoint { face, barycentric: [a, b, c] }) => {
-                writeln!(text, "{v},{},{a},{b},{c}", face.0)
-            }
-            None => writeln!(text, "{v},,,,"),
-        };
-    }
-    text.into_bytes()
-}
 
 /// One line per triangle of the overlay, numbered as in the textured GLB: `triangle,source_face,target_face,density,angle,
 /// area`. `faces` gives a face of the mapped meshes its number in the source's or the target's file.
@@ -49,12 +33,6 @@ mod tests {
     use super::*;
     use crate::surface_map::measures::distortion::LocalDistortion;
 
-    #[test]
-    fn numbers_come_back() {
-        let point = SurfacePoint { face: FaceId(17), barycentric: [0.1, 0.2, 0.7] };
-        let text = String::from_utf8(vertex_images(&[Some(point), None])).unwrap();
-        assert_eq!(text, "source_vertex,target_face,b0,b1,b2\n0,17,0.1,0.2,0.7\n1,,,,\n");
-    }
     #[test]
     fn distortions_name_the_files_faces() {
         let local = LocalDistortion { density: 1.25, angle: 1.5, area: 0.5 };

@@ -2,20 +2,24 @@
 //!
 //! The pipeline knows checked meshes and landmarks that are vertices. A user has files: with vertices that no face uses, faces
 //! that were turned, landmarks inside faces. A job goes from the ones to the others and back; the command line, the page and
-//! other bindings go through it.
+//! other bindings go through it. What is taken away is made of a map file's content, whether it was just computed or read
+//! ([`TakenMap`]).
 
 mod error;
 mod outputs;
+mod saved;
+mod taken;
 
+pub use crate::mesh::mirror::TargetImage;
 pub use error::{JobError, JobFile};
 pub use outputs::OutputFile;
+pub use saved::{MapFiles, OpenMap, OpenMapError};
+pub use taken::{OutputKind, TakenMap};
 
-use crate::io;
 use crate::io::landmark_file::{self, LandmarkFile};
 use crate::landmarks::{MeshSide, PlacedLandmarks, place};
+use crate::map_file::{FileMesh, FileMeshError};
 use crate::mesh::SurfacePoint;
-use crate::mesh::check::{CheckedMesh, closed_genus_zero};
-use crate::mesh::mirror::{mirrored, mirrored_point};
 use crate::monitor::{Cancelled, Monitor, Stage};
 use crate::pipeline::{
     self, FindingReport, GroundTruth, MapInput, MapResult, PipelineError, PipelineOptions, findings,
@@ -32,24 +36,14 @@ pub struct JobFiles<'a> {
     pub landmarks: &'a [u8],
 }
 
-/// Which target is mapped onto.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum TargetImage {
-    /// The target as it is in its file.
-    #[default]
-    AsGiven,
-    /// Its mirror image, for landmarks whose left and right are exchanged; results are told of the target as given.
-    Mirrored,
-}
-
 /// Checked meshes with their landmarks, ready for the pipeline.
 #[derive(Clone, Debug)]
 pub struct Job {
-    meshes: [CheckedMesh; 2],
+    meshes: [FileMesh; 2],
     placed: PlacedLandmarks,
-    labels: Vec<String>,
+    /// As given.
+    landmarks: LandmarkFile,
     ground_truth: GroundTruth,
-    target_image: TargetImage,
 }
 
 impl Job {
@@ -63,21 +57,21 @@ impl Job {
         monitor: &mut dyn Monitor,
     ) -> Result<Self, JobError> {
         monitor.enter(Stage::Landmarks);
-        let source = checked_mesh(MeshSide::Source, files.source)?;
-        let mut target = checked_mesh(MeshSide::Target, files.target)?;
-        let mut file: LandmarkFile = landmark_file::read(files.landmarks)?;
+        let source = file_mesh(MeshSide::Source, files.source)?;
+        let mut target = file_mesh(MeshSide::Target, files.target)?;
+        let landmarks: LandmarkFile = landmark_file::read(files.landmarks)?;
+        let mut pairs = landmarks.pairs.clone();
         if target_image == TargetImage::Mirrored {
-            target.mesh = mirrored(&target.mesh)?;
-            file.pairs.iter_mut().for_each(|[_, point]| *point = point.mirrored());
+            target = target.into_mirrored()?;
+            pairs.iter_mut().for_each(|[_, point]| *point = point.mirrored());
         }
-        let placed = place([&source, &target], &file.pairs)?;
-        let is_same = source.mesh.triangles() == target.mesh.triangles();
-        let ground_truth = match file.ground_truth {
+        let placed = place([source.checked(), target.checked()], &pairs)?;
+        let is_same = source.mesh().triangles() == target.mesh().triangles();
+        let ground_truth = match landmarks.ground_truth {
             Some(_) if is_same => GroundTruth::SameConnectivity,
             _ => GroundTruth::Unknown,
         };
-        let labels = file.labels.unwrap_or_default();
-        Ok(Self { meshes: [source, target], placed, labels, ground_truth, target_image })
+        Ok(Self { meshes: [source, target], placed, landmarks, ground_truth })
     }
 
     /// Number of landmark pairs.
@@ -90,9 +84,10 @@ impl Job {
     /// # Errors
     /// [`Cancelled`].
     pub fn findings(&self, monitor: &mut dyn Monitor) -> Result<Vec<FindingReport>, Cancelled> {
-        let numbers = self.meshes.each_ref().map(CheckedMesh::file_from_vertex);
+        let numbers = self.meshes.each_ref().map(|mesh| mesh.checked().file_from_vertex());
         let number = |side: usize, v: usize| numbers[side].get(v).copied().unwrap_or(v);
-        let found = findings(self.input(), &self.labels, monitor)?;
+        let labels = self.landmarks.labels.as_deref().unwrap_or_default();
+        let found = findings(self.input(), labels, monitor)?;
         Ok(found.into_iter().map(|finding| finding.renumbered(number)).collect())
     }
 
@@ -121,21 +116,18 @@ impl Job {
 
     /// A point of the mapped source as one of the source's file.
     fn on_source_file(&self, point: SurfacePoint) -> SurfacePoint {
-        self.meshes[0].with_file_corners(self.placed.source.on_original(point))
+        self.meshes[0].on_file(self.placed.source.on_original(point))
     }
 
     /// A point of the mapped target as one of the target's file, also where it was mirrored.
     fn on_target_file(&self, point: SurfacePoint) -> SurfacePoint {
-        let point = self.placed.target.on_original(point);
-        let as_given = match self.target_image {
-            TargetImage::AsGiven => point,
-            TargetImage::Mirrored => mirrored_point(point),
-        };
-        self.meshes[1].with_file_corners(as_given)
+        self.meshes[1].on_file(self.placed.target.on_original(point))
     }
 }
 
-fn checked_mesh(side: MeshSide, bytes: &[u8]) -> Result<CheckedMesh, JobError> {
-    let soup = io::read_mesh(bytes).map_err(|error| JobError::Read { side, error })?;
-    closed_genus_zero(&soup).map_err(|fault| JobError::Mesh { side, fault })
+fn file_mesh(side: MeshSide, bytes: &[u8]) -> Result<FileMesh, JobError> {
+    FileMesh::read(bytes).map_err(|error| match error {
+        FileMeshError::Read(error) => JobError::Read { side, error },
+        FileMeshError::Mesh(fault) => JobError::Mesh { side, fault },
+    })
 }

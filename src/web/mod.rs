@@ -2,6 +2,7 @@
 
 mod compute;
 mod files;
+mod saved;
 mod viewer;
 
 use serde_json::json;

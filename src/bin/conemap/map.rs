@@ -4,7 +4,7 @@ use crate::arguments::MapArguments;
 use crate::clock::Clock;
 use crate::input::{self, Failure};
 use crate::interrupt;
-use conemap::job::{Job, JobError, JobFile, JobFiles, TargetImage};
+use conemap::job::{Job, JobError, JobFile, JobFiles, OutputKind, TargetImage};
 use conemap::pipeline::{FindingReport, MapResult, Method, PipelineOptions, RepairKind};
 
 /// Maps, writes what was asked for, and tells the certificate; an error where there is no certified map.
@@ -23,8 +23,14 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
     result.report.set_seconds(clock.stop());
     result.report.findings = findings;
     tell(&result);
+    if let Some(path) = &arguments.map {
+        let map = job.map_file(&result, &arguments.choices);
+        let map =
+            map.ok_or("--map: this map has no pieces (the method `thesis`, or a map without an overlay)")?;
+        input::write(path, &job.taken(&map).output(OutputKind::Map)?)?;
+    }
     if let Some(folder) = &arguments.out {
-        for file in job.outputs(&result)? {
+        for file in job.outputs(&result, &arguments.choices)? {
             input::write(&folder.join(file.name), &file.bytes)?;
         }
     }
