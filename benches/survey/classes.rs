@@ -73,8 +73,9 @@ fn one(arguments: &Arguments, name: &str, vertices: usize) -> String {
     let mut fresh = Candidates::new([&sides[0].coarse.mesh, &sides[1].coarse.mesh], &coarse);
     let mut best = [f64::INFINITY; 2];
     let mut count = [0; 2];
-    let all = (usize::MAX / 4, f64::INFINITY);
-    let singles: Vec<Candidate> = fresh.twists(&chosen.candidate, all, &mut Silent).expect("not stopped");
+    let mut twists =
+        |of: &Candidate| fresh.twists(of, usize::MAX / 4, f64::INFINITY, &mut Silent).expect("not stopped");
+    let singles: Vec<Candidate> = twists(&chosen.candidate);
     for single in &singles {
         let value = judge(single);
         if value < 1.1 * known {
@@ -89,7 +90,7 @@ fn one(arguments: &Arguments, name: &str, vertices: usize) -> String {
         if arguments.depth < 2 {
             continue;
         }
-        for double in fresh.twists(single, all, &mut Silent).expect("not stopped") {
+        for double in twists(single) {
             let value = judge(&double);
             best[1] = f64::min(best[1], value);
             count[1] += 1;

@@ -3,7 +3,7 @@
 use super::crossings;
 use super::directions::{ANGLE_TOLERANCE, Around};
 use super::judged::{Judged, Prescribed};
-use super::tracer::{Line, trace};
+use super::tracer::{Goal, Line, trace};
 use crate::math::predicates::orient2d;
 use crate::math::scalar::atan2;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
@@ -99,8 +99,9 @@ fn with_lines(flat: Certificate, judged: &Judged<'_>, prescribed: &Prescribed<'_
     let mut max_landmark_error: f64 = 0.0;
     let mut lines: Vec<Line> = Vec::new();
     for h in base.edges() {
-        let goal = judged.landmark_vertices[base.head(h).index()];
-        let line = trace(judged, &judged.starts[h], (prescribed.lengths[h], goal, TOLERANCE));
+        let vertex = judged.landmark_vertices[base.head(h).index()];
+        let goal = Goal { vertex, length: prescribed.lengths[h], tolerance: TOLERANCE };
+        let line = trace(judged, &judged.starts[h], &goal);
         match &line.end {
             Some(end) => {
                 let around = &around[base.head(h)];

@@ -26,21 +26,28 @@ pub(super) struct End {
     pub error: f64,
 }
 
-/// Follows the line of a length from `start`; it ends at `goal` where it comes within `tolerance` of it.
-pub(super) fn trace(
-    judged: &Judged<'_>,
-    start: &Start,
-    (length, goal, tolerance): (f64, VertexId, f64),
-) -> Line {
+/// Where a line is to end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Goal {
+    /// The vertex.
+    pub vertex: VertexId,
+    /// The length of the line.
+    pub length: f64,
+    /// The largest distance between the end of the line and a corner of the vertex at which the line has arrived.
+    pub tolerance: f64,
+}
+
+/// Follows the line from `start` towards its goal.
+pub(super) fn trace(judged: &Judged<'_>, start: &Start, goal: &Goal) -> Line {
     let mut line = Line { begin: start.corner, crossings: Vec::new(), end: None };
     let origin = judged.corners[start.corner];
-    let ends = [origin, origin + start.direction * length];
+    let ends = [origin, origin + start.direction * goal.length];
     let (mut face, mut motion) = (start.corner.face(), Rigid2::IDENTITY);
     let mut exit = start.corner.next();
     // A line crosses a triangle more than once only where the surface is thin.
     for _ in 0..4 * judged.mesh.face_count() {
         let [p, q] = ends.map(|end| motion.apply(end));
-        if let Some(corner) = corner_near(judged, face, goal, (q, tolerance)) {
+        if let Some(corner) = corner_near(judged, face, goal, q) {
             let back = Start { corner, direction: (p - q).normalize_or_zero() };
             line.end = Some(End { back, error: judged.corners[corner].distance(q) });
             return line;
@@ -62,16 +69,12 @@ pub(super) fn trace(
     line
 }
 
-/// The corner of a face at the vertex `goal` within a distance of a point.
-fn corner_near(
-    judged: &Judged<'_>,
-    face: FaceId,
-    goal: VertexId,
-    (point, distance): (DVec2, f64),
-) -> Option<HalfedgeId> {
+/// The corner of a face at which a line that ends at a point has arrived.
+fn corner_near(judged: &Judged<'_>, face: FaceId, goal: &Goal, end: DVec2) -> Option<HalfedgeId> {
     let corners = [0, 1, 2].map(|k| HalfedgeId::of(face, k));
-    let is_near =
-        |c: &HalfedgeId| judged.mesh.tail(*c) == goal && judged.corners[*c].distance(point) <= distance;
+    let is_near = |c: &HalfedgeId| {
+        judged.mesh.tail(*c) == goal.vertex && judged.corners[*c].distance(end) <= goal.tolerance
+    };
     corners.into_iter().find(is_near)
 }
 

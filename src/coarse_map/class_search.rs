@@ -84,7 +84,7 @@ pub fn choose_class<'a>(
         let mut judge =
             |candidate: &Candidate, monitor: &mut dyn Monitor| finalists.judge(candidate, monitor);
         let near = &mut Portion::new(monitor, share(0.5), share(1.0));
-        let more = layout::neighbours((&mut candidates, &around), &mut judge, options.search, near)?;
+        let more = layout::neighbours(&mut candidates, &around, &mut judge, options.search, near)?;
         search.judged.extend(more);
     }
     search.rival = finalists.compare_finer(&mut Portion::new(monitor, DECIDED, 1.0))?;

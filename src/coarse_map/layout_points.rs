@@ -11,12 +11,12 @@ use crate::monitor::Monitor;
 use crate::surface_map::MapError;
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
 use crate::surface_map::parametrisation::embedding::Embedding;
-use crate::surface_map::parametrisation::level::ParametrisedLevel;
+use crate::surface_map::parametrisation::level::{LandmarkedLevel, ParametrisedLevel, Snapshot};
 use crate::surface_map::parametrisation::problem::FlatRelaxOptions;
 use crate::surface_map::parametrisation::rest_triangle::RestTriangle;
 use glam::DVec3;
 use std::sync::Arc;
-use typed_index_collections::{TiSlice, TiVec, ti_vec};
+use typed_index_collections::{TiVec, ti_vec};
 
 /// A vertex of a patched mesh that the layout added: on an edge of the mesh before, or inside a face.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -50,12 +50,12 @@ pub fn without_layout_points<'a>(
     let first = coarse.vertex_count();
     let added: Vec<Added> =
         (first..patched.mesh.vertex_count()).map(|v| origin(patched, coarse, v.into())).collect();
-    let mut refined = ParametrisedLevel::on_level(
-        (CollapsibleMesh::new(&patched.mesh), patched.mesh.positions()),
-        &patched.landmark_vertices,
-        surface.clone(),
-        (embedding, |h| h),
-    );
+    let refined = LandmarkedLevel {
+        mesh: CollapsibleMesh::new(&patched.mesh),
+        positions: patched.mesh.positions(),
+        landmarks: &patched.landmark_vertices,
+    };
+    let mut refined = ParametrisedLevel::on_level(refined, surface.clone(), embedding, |h| h);
     let mut left: Vec<VertexId> = (first..patched.mesh.vertex_count()).map(VertexId::from).collect();
     let kind = |v: VertexId| added.get(v.index().wrapping_sub(first)).copied();
     take_out(&mut refined, &mut left, kind);
@@ -65,7 +65,7 @@ pub fn without_layout_points<'a>(
         if left.is_empty() {
             break;
         }
-        let rest = pulled_together(&refined, patched.mesh.positions(), (&left, closeness), kind);
+        let rest = pulled_together(&refined, &left, closeness, kind);
         refined.relax_to(&rest, options, monitor)?;
         take_out(&mut refined, &mut left, kind);
     }
@@ -73,18 +73,18 @@ pub fn without_layout_points<'a>(
         let near = nearest_landmarks(patched, &left);
         return Err(MapError::LayoutPoints { left: left.len(), near });
     }
-    let (level, embedding) = refined.snapshot();
+    let Snapshot { level, embedding } = refined.snapshot();
     let same = |h: HalfedgeId| {
         let (tail, head) = (level.mesh.tail(h), level.mesh.head(h));
         let own = coarse.halfedge_between(tail, head).unwrap_or(h);
         HalfedgeId::of(mesh.coarse.faces[own.face()], own.corner())
     };
-    Ok(ParametrisedLevel::on_level(
-        (mesh.mesh.clone(), mesh.full.positions()),
-        mesh.landmarks,
-        surface.clone(),
-        (&embedding, same),
-    ))
+    let full = LandmarkedLevel {
+        mesh: mesh.mesh.clone(),
+        positions: mesh.full.positions(),
+        landmarks: mesh.landmarks,
+    };
+    Ok(ParametrisedLevel::on_level(full, surface.clone(), &embedding, same))
 }
 
 /// The landmarks nearest in space to some vertices, each once.
@@ -127,11 +127,11 @@ fn is_along(v: VertexId, w: VertexId, added: impl Fn(VertexId) -> Option<Added>)
 /// beside count as much as others, so that they really draw the two together.
 fn pulled_together(
     level: &ParametrisedLevel<'_>,
-    positions: &TiSlice<VertexId, DVec3>,
-    (left, closeness): (&[VertexId], f64),
+    left: &[VertexId],
+    closeness: f64,
     added: impl Fn(VertexId) -> Option<Added>,
 ) -> Vec<RestTriangle> {
-    let mesh = level.mesh();
+    let (mesh, positions) = (level.mesh(), level.positions());
     let mut rest: TiVec<VertexId, DVec3> = positions.to_owned();
     let mut is_left = ti_vec![false; positions.len()];
     for &v in left {

@@ -24,7 +24,7 @@ use crate::surface_map::overlay::overlay;
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
 use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
 use crate::surface_map::parametrisation::initial::{self, InitialOptions};
-use crate::surface_map::parametrisation::level::ParametrisedLevel;
+use crate::surface_map::parametrisation::level::{ParametrisedLevel, Snapshot};
 use crate::surface_map::relaxation::dent_energy::DentEnergy;
 use crate::surface_map::relaxation::dents::{self, DentOptions};
 use crate::surface_map::relaxation::map_relaxation::{self, MapRelaxationOptions, Relaxed};
@@ -109,9 +109,9 @@ impl CoarseMap<'_> {
 
     fn present(&self) -> [PresentLevel; 2] {
         [0, 1].map(|k| {
-            let (level, mut embedding) = self.levels[k].snapshot();
+            let Snapshot { level, mut embedding } = self.levels[k].snapshot();
             let landmarks: TiVec<LandmarkId, VertexId> = level.numbers(self.landmarks[k]).collect();
-            mend_anchors(&mut embedding, (&level.mesh, &landmarks), &self.surface);
+            mend_anchors(&mut embedding, &level.mesh, &landmarks, &self.surface);
             PresentLevel { level, landmarks, embedding }
         })
     }
@@ -333,5 +333,5 @@ pub fn solve_fine(
         }
     }
     map.heal(&options.dents);
-    Ok(map.levels.map(|level| level.snapshot().1))
+    Ok(map.levels.map(|level| level.snapshot().embedding))
 }

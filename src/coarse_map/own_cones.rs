@@ -11,7 +11,7 @@ use super::mesh_with_coarse::MeshWithCoarse;
 use super::multilevel::{CoarseMap, LevelImages, solve_fine};
 use super::options::MultilevelOptions;
 use crate::geodesic::distances;
-use crate::landmark_suggestion::farthest_points;
+use crate::landmark_suggestion::{Spread, farthest_points};
 use crate::layout::SearchOptions;
 use crate::mesh::closest_point::closest_point;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
@@ -65,6 +65,15 @@ impl<T> Rounds<T> {
     pub fn new(options: &OwnConeOptions) -> Self {
         Self((0..options.rounds).map(|_| OnceCell::new()).collect())
     }
+}
+
+/// Owners of all that the rounds make.
+#[derive(Clone, Copy)]
+pub struct Owners<'a> {
+    /// Of both meshes with own landmarks.
+    pub meshes: &'a Rounds<LandmarkedMesh>,
+    /// Of these meshes with their coarse levels.
+    pub levels: &'a Rounds<MeshWithCoarse<'a>>,
 }
 
 /// Both meshes with own landmarks after the user's, and the coarse map of all.
@@ -127,7 +136,7 @@ pub struct Start<'a> {
 /// Cancellation only.
 pub fn add<'a>(
     start: Start<'_>,
-    (fulls, all_levels): (&'a Rounds<LandmarkedMesh>, &'a Rounds<MeshWithCoarse<'a>>),
+    owners: Owners<'a>,
     multilevel: &MultilevelOptions,
     own: &OwnConeOptions,
     monitor: &mut dyn Monitor,
@@ -140,18 +149,18 @@ pub fn add<'a>(
     let mut best: Option<OwnCones<'a>> = None;
     let mut before: Vec<VertexId> = Vec::new();
     let mut without_gain = 0;
-    for (round, (full_cell, levels_cell)) in fulls.0.iter().zip(&all_levels.0).enumerate() {
+    for (round, (full_cell, levels_cell)) in owners.meshes.0.iter().zip(&owners.levels.0).enumerate() {
         let share = |done: f64| (round as f64 + done) / own.rounds as f64;
         if monitor.wants_result() {
             break;
         }
         let placing = &mut Portion::new(monitor, share(0.0), share(0.1));
-        let pairs = pairs(full, &images, (&before, own.count), placing)?;
+        let pairs = pairs(full, &images, &before, own.count, placing)?;
         let Some(with_own) = with(inputs, full, &pairs).filter(|_| without_gain < own.patience) else {
             break;
         };
         without_gain += 1;
-        before = pairs.iter().map(|pair| pair.0).collect();
+        before = pairs.iter().map(|pair| pair.source).collect();
         let with_own = full_cell.get_or_init(|| with_own);
         let levels = levels_cell.get_or_init(|| {
             [0, 1].map(|k| MeshWithCoarse::new(&with_own[k].refined.mesh, &with_own[k].landmarks, vertices))
@@ -196,14 +205,23 @@ const LEAST_DISTANCE: f64 = 0.03;
 /// would distort. Chosen by hand.
 const SNAP: f64 = 0.15;
 
+/// A point of the program's own, to be a landmark.
+struct OwnPair {
+    /// A vertex of the source with the user's landmarks.
+    source: VertexId,
+    /// Its image on the target.
+    target: SurfacePoint,
+}
+
 /// At most `count` points of the source, far from the landmarks and from those of the round before, with their images on the
 /// target.
 fn pairs(
     full: &[LandmarkedMesh; 2],
     images: &LevelImages,
-    (before, count): (&[VertexId], usize),
+    before: &[VertexId],
+    count: usize,
     monitor: &mut dyn Monitor,
-) -> Result<Vec<(VertexId, SurfacePoint)>, Cancelled> {
+) -> Result<Vec<OwnPair>, Cancelled> {
     let [source, target] = &images.levels;
     let mesh = &source.mesh;
     let user: Vec<VertexId> = source.numbers(&full[0].landmarks).collect();
@@ -214,8 +232,8 @@ fn pairs(
         .collect();
     let mut free = vec![true; mesh.vertex_count()];
     avoid.iter().for_each(|&v| free[v.index()] = false);
-    let wanted = (count, LEAST_DISTANCE);
-    let chosen = farthest_points((mesh, distances(mesh, &avoid)), wanted, |v| free[v.index()], monitor)?;
+    let wanted = Spread { count, least_distance: LEAST_DISTANCE };
+    let chosen = farthest_points(mesh, distances(mesh, &avoid), wanted, |v| free[v.index()], monitor)?;
     let mut places: Vec<DVec3> =
         full[1].landmarks.iter().map(|&v| full[1].refined.mesh.positions()[v]).collect();
     let mut pairs = Vec::new();
@@ -228,7 +246,7 @@ fn pairs(
         let [a, b, c] = target.mesh.corners(image.face);
         let point = snapped(closest_point(&full[1].refined.mesh, place, (b - a).cross(c - a)));
         places.push(place);
-        pairs.push((source.vertices[v], point));
+        pairs.push(OwnPair { source: source.vertices[v], target: point });
     }
     Ok(pairs)
 }
@@ -242,14 +260,14 @@ fn snapped(point: SurfacePoint) -> SurfacePoint {
 fn with(
     inputs: [&SurfaceMesh; 2],
     full: &[LandmarkedMesh; 2],
-    pairs: &[(VertexId, SurfacePoint)],
+    pairs: &[OwnPair],
 ) -> Option<[LandmarkedMesh; 2]> {
     if pairs.is_empty() {
         return None;
     }
-    let at = |pair: &(VertexId, SurfacePoint)| SurfacePoint::at_vertex(&full[0].refined.mesh, pair.0);
+    let at = |pair: &OwnPair| SurfacePoint::at_vertex(&full[0].refined.mesh, pair.source);
     let points: [Vec<SurfacePoint>; 2] =
-        [pairs.iter().map(at).collect(), pairs.iter().map(|pair| pair.1).collect()];
+        [pairs.iter().map(at).collect(), pairs.iter().map(|pair| pair.target).collect()];
     let side = |k: usize| full[k].with_room_at(inputs[k], &points[k]).ok();
     let ((mut source, from), (mut target, onto)) = (side(0)?, side(1)?);
     for (s, t) in from.into_iter().zip(onto) {

@@ -5,6 +5,7 @@
 //! between lengths. The mesh is then cut along a tree of its edges that joins the landmarks and developed breadth first.
 
 use super::metric::ConeMetric;
+use crate::intrinsic::Move;
 use crate::math::min_queue::shortest_paths;
 use crate::math::rigid2::{complex_mul, conj_mul};
 use crate::math::triangle::{lay_out, signed_double_area};
@@ -59,11 +60,11 @@ pub(crate) fn mesh_displacements(metric: &ConeMetric) -> TiVec<HalfedgeId, DVec2
         let turn = conj_mul(along[t], -along[h]).normalize_or(DVec2::X);
         let old =
             moves.map(
-                |(from, _)| {
+                |Move { from, .. }| {
                     if from.face() == t.face() { complex_mul(turn, along[from]) } else { along[from] }
                 },
             );
-        moves.iter().zip(old).for_each(|((_, to), d)| along[*to] = d);
+        moves.iter().zip(old).for_each(|(Move { to, .. }, d)| along[*to] = d);
         along[h] = -(along[h.next()] + along[h.prev()]);
         along[t] = -along[h];
     }
@@ -76,7 +77,7 @@ fn cut_tree(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> TiVec<HalfedgeId, boo
     let mut cut = ti_vec![false; mesh.face_count() * 3];
     let Some(&root) = landmarks.first() else { return cut };
     let links = |v: u32| mesh.star(VertexId(v)).map(|h| (mesh.head(h).0, mesh.length(h), h));
-    shortest_paths((mesh.vertex_count(), root.0), links, |v, h| arrived_by[VertexId(v)] = Some(h));
+    shortest_paths(mesh.vertex_count(), root.0, links, |v, h| arrived_by[VertexId(v)] = Some(h));
     for &landmark in landmarks {
         let mut v = landmark;
         while let Some(h) = arrived_by[v].filter(|&h| !cut[h]) {
@@ -102,12 +103,12 @@ fn develop(
         uvs[h] = start;
         uvs[h.next()] = start + complex_mul(turn, along[h]);
         uvs[h.prev()] = uvs[h.next()] + complex_mul(turn, along[h.next()]);
-        for side in [h, h.next(), h.prev()] {
-            let t = mesh.twin(side);
-            if !cut[side] && !std::mem::replace(&mut placed[t.face()], true) {
-                let back = -complex_mul(turn, along[side]);
+        for exit in [h, h.next(), h.prev()] {
+            let t = mesh.twin(exit);
+            if !cut[exit] && !std::mem::replace(&mut placed[t.face()], true) {
+                let back = -complex_mul(turn, along[exit]);
                 let turn = conj_mul(along[t], back).normalize_or(DVec2::X);
-                queue.push_back((t, uvs[side.next()], turn));
+                queue.push_back((t, uvs[exit.next()], turn));
             }
         }
     }

@@ -117,18 +117,17 @@ impl<'a> Newton<'a> {
         let (mut residual, mut step, mut start) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
         let (mut graph, mut cg) = (Graph::default(), CgWorkspace::default());
         self.update();
-        let first = self.residual(&mut residual);
-        self.report.residuals.push(first);
-        let mut error = first;
+        let mut error = self.residual(&mut residual);
+        self.report.residuals.push(error);
         while error >= self.options.tolerance && self.report.newton_steps < self.options.max_steps {
-            monitor.step(Step { fraction: self.fraction(first, error), residual: Some(error) })?;
+            monitor.step(Step { fraction: self.fraction(error), residual: Some(error) })?;
             self.metric.hessian(&self.state, &mut graph);
             let preconditioner = ApproximateCholesky::new(&graph);
             // Inexact Newton: a tolerance that falls with the curvature error (radians) keeps the quadratic convergence. 1000
             // iterations bound what a breakdown costs.
             let tolerance = (0.1 * error).clamp(1e-8, 0.1);
             let options = CgOptions { tolerance, max_iterations: LINEAR_ITERATIONS };
-            let solved = match cg.solve(&graph, &preconditioner, (&residual, &mut step), &options) {
+            let solved = match cg.solve(&graph, &preconditioner, &residual, &mut step, &options) {
                 Ok(solved) => solved,
                 // No step at all: the line search would take it for a step that lowers the energy.
                 Err(CgError::NotDefinite { report, .. }) if report.iterations == 0 => break,
@@ -141,7 +140,7 @@ impl<'a> Newton<'a> {
             };
             self.report.cg_iterations += solved.iterations;
             start.copy_from_slice(self.metric.log_radii.as_ref());
-            if !self.line_search(&start, &step, (&mut residual, first), monitor)? {
+            if !self.line_search(&start, &step, &mut residual, monitor)? {
                 break;
             }
             error = self.residual(&mut residual);
@@ -161,9 +160,9 @@ impl<'a> Newton<'a> {
     }
 
     /// Progress on a logarithmic scale of the residual.
-    fn fraction(&self, first: f64, error: f64) -> f64 {
+    fn fraction(&self, error: f64) -> f64 {
         let scale = |x: f64| crate::math::scalar::ln((x / self.options.tolerance).max(1.0));
-        let whole = scale(first);
+        let whole = scale(self.report.residuals[0]);
         if whole > 0.0 { (1.0 - scale(error) / whole).clamp(0.0, 1.0) } else { 1.0 }
     }
 
@@ -190,7 +189,7 @@ impl<'a> Newton<'a> {
         &mut self,
         start: &[f64],
         step: &[f64],
-        (residual, at_first): (&mut [f64], f64),
+        residual: &mut [f64],
         monitor: &mut dyn Monitor,
     ) -> Result<bool, Cancelled> {
         let slope = |r: &[f64]| r.iter().zip(step).map(|(a, b)| a * b).sum::<f64>();
@@ -206,7 +205,7 @@ impl<'a> Newton<'a> {
             if valid && error.is_finite() && slope(residual) >= -0.1 * first {
                 return Ok(true);
             }
-            monitor.step(Step { fraction: self.fraction(at_first, self.best()), residual: None })?;
+            monitor.step(Step { fraction: self.fraction(self.best()), residual: None })?;
             t *= 0.5;
         }
         self.metric.log_radii.iter_mut().zip(start).for_each(|(u, s)| *u = *s);

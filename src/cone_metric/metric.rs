@@ -1,7 +1,7 @@
 //! The state of the flow: an intrinsic triangulation with inversive distances and radii.
 
 use super::scheme::Scheme;
-use crate::intrinsic::IntrinsicTriangulation;
+use crate::intrinsic::{IntrinsicTriangulation, Move};
 use crate::math::decorated::{
     flipped_inversive_distance, half_edge_weight, inversive_distance, squared_length, tilt,
 };
@@ -73,7 +73,7 @@ impl ConeMetric {
             self.flip(h);
             flips += 1;
             let t = self.triangulation.twin(h);
-            [h.next(), h.prev(), t.next(), t.prev()].into_iter().for_each(|side| queue.push(side));
+            [h.next(), h.prev(), t.next(), t.prev()].into_iter().for_each(|x| queue.push(x));
         }
         flips
     }
@@ -84,8 +84,8 @@ impl ConeMetric {
         let l = [self.etas[t.next()], self.etas[t.prev()]];
         let eta = flipped_inversive_distance(self.eps, self.etas[h], k, l);
         let moves = self.triangulation.flip(h);
-        let old = moves.map(|(from, _)| self.etas[from]);
-        moves.iter().zip(old).for_each(|((_, to), eta)| self.etas[*to] = eta);
+        let old = moves.map(|Move { from, .. }| self.etas[from]);
+        moves.iter().zip(old).for_each(|(Move { to, .. }, eta)| self.etas[*to] = eta);
         self.etas[h] = eta;
         self.etas[t] = eta;
     }

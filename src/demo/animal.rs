@@ -1,8 +1,7 @@
 //! Four-legged shapes from one skeleton with different proportions. The nose points to +x, the left side to +z, up is +y.
 
-use super::implicit::{RoundCone, SmoothUnion};
-use super::polygonise::polygonise;
-use super::shape::Shape;
+use super::implicit::RoundCone;
+use super::shape::{Shape, Skeleton};
 use glam::{DVec2, DVec3};
 
 /// Proportions; the body is about 2 long.
@@ -72,14 +71,14 @@ fn build(b: &Build) -> Shape {
     let nose = skull + flat(b.head.0);
     let tail = b.tail.0.map(|p| rump + flat(p));
     let root = rump + DVec3::new(-0.12, 0.12, 0.0);
-    let mut cones = vec![
+    let cones = vec![
         RoundCone::new(chest, rump, b.body),
         RoundCone::new(chest + DVec3::new(0.05, 0.1, 0.0), skull, b.neck.1),
         RoundCone::new(skull, nose, b.head.1),
         RoundCone::new(root, tail[0], [b.tail.1 * 1.15, b.tail.1]),
         RoundCone::new(tail[0], tail[1], [b.tail.1, b.tail.1 * 0.8]),
     ];
-    let mut points = vec![
+    let points = vec![
         ("nose", nose + flat(b.head.0.normalize()) * b.head.1[1]),
         ("tail tip", tail[1] + (tail[1] - tail[0]).normalize() * b.tail.1),
         ("withers", chest + DVec3::new(-0.15, b.body[0], 0.0)),
@@ -88,12 +87,11 @@ fn build(b: &Build) -> Shape {
         ("belly", DVec3::new(0.0, b.height - 0.5 * (b.body[0] + b.body[1]), 0.0)),
         ("throat", skull.midpoint(chest) + DVec3::new(0.22, -0.22, 0.0)),
     ];
+    let mut skeleton = Skeleton { cones, points };
     for (side, names) in [(1.0, LEFT), (-1.0, RIGHT)] {
-        add_limbs(b, side, skull, (&mut cones, &mut points), names);
+        add_limbs(b, side, skull, &mut skeleton, names);
     }
-    let shape = SmoothUnion { cones, blend: b.blend };
-    let mesh = polygonise(|p| shape.value(p), shape.bounds(), b.cell);
-    Shape { mesh, points }
+    skeleton.fleshed(b.blend, b.cell)
 }
 
 const LEFT: [&str; 6] =
@@ -105,7 +103,7 @@ fn add_limbs(
     b: &Build,
     side: f64,
     skull: DVec3,
-    (cones, points): (&mut Vec<RoundCone>, &mut Vec<(&'static str, DVec3)>),
+    Skeleton { cones, points }: &mut Skeleton,
     names: [&'static str; 6],
 ) {
     let outwards = DVec3::Z * side;

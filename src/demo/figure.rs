@@ -1,8 +1,7 @@
 //! A figure with two arms and two legs in two poses. It looks along +z; its left side is +x, up is +y.
 
-use super::implicit::{RoundCone, SmoothUnion};
-use super::polygonise::polygonise;
-use super::shape::Shape;
+use super::implicit::RoundCone;
+use super::shape::{Shape, Skeleton};
 use glam::{DVec2, DVec3};
 
 /// Directions of the bones of one side; lengths are the same in all poses.
@@ -50,13 +49,13 @@ fn build(limbs: [Limbs; 2], spine: DVec3, cell: f64) -> Shape {
     let hips = DVec3::ZERO;
     let shoulders = hips + spine * 0.82;
     let head = shoulders + spine * 0.46 + DVec3::Z * 0.03;
-    let mut cones = vec![
+    let cones = vec![
         RoundCone::new(hips, shoulders - spine * 0.12, [0.25, 0.27]),
         RoundCone::new(shoulders - spine * 0.1, head, [0.15, 0.12]),
         RoundCone::new(head, head + spine * 0.14, [0.20, 0.21]),
         RoundCone::new(head + DVec3::new(0.0, 0.03, 0.16), head + DVec3::new(0.0, 0.02, 0.25), [0.07, 0.05]),
     ];
-    let mut points = vec![
+    let points = vec![
         ("crown", head + spine * 0.35),
         ("nose", head + DVec3::new(0.0, 0.02, 0.30)),
         ("nape", shoulders.midpoint(head) - DVec3::Z * 0.14),
@@ -65,13 +64,12 @@ fn build(limbs: [Limbs; 2], spine: DVec3, cell: f64) -> Shape {
         ("navel", hips + spine * 0.25 + DVec3::Z * 0.25),
         ("lower back", hips + spine * 0.2 - DVec3::Z * 0.25),
     ];
+    let mut skeleton = Skeleton { cones, points };
     for (k, names) in [LEFT, RIGHT].into_iter().enumerate() {
         let side = if k == 0 { 1.0 } else { -1.0 };
-        add_side(limbs[k], DVec2::new(side, 0.0), [hips, shoulders], (&mut cones, &mut points), names);
+        add_side(limbs[k], DVec2::new(side, 0.0), [hips, shoulders], &mut skeleton, names);
     }
-    let shape = SmoothUnion { cones, blend: 0.12 };
-    let mesh = polygonise(|p| shape.value(p), shape.bounds(), cell);
-    Shape { mesh, points }
+    skeleton.fleshed(0.12, cell)
 }
 
 const LEFT: [&str; 6] = ["left hand", "left elbow", "left foot", "left knee", "left shoulder", "left hip"];
@@ -82,7 +80,7 @@ fn add_side(
     limbs: Limbs,
     side: DVec2,
     [hips, shoulders]: [DVec3; 2],
-    (cones, points): (&mut Vec<RoundCone>, &mut Vec<(&'static str, DVec3)>),
+    Skeleton { cones, points }: &mut Skeleton,
     names: [&'static str; 6],
 ) {
     let out = side.extend(0.0);

@@ -39,7 +39,7 @@ pub fn textured_source(common: &CommonMesh, distortion: &[f64]) -> Result<Vec<u8
     ];
     let accessor = |view: usize, kind: &str| json!({ "bufferView": view, "componentType": 5126, "count": vertices, "type": kind });
     let bounded = |view: usize, values: &[f32]| {
-        let (low, high) = bounds(values);
+        let [low, high] = bounds(values);
         let mut accessor = accessor(view, "VEC3");
         accessor["min"] = json!(low);
         accessor["max"] = json!(high);
@@ -109,13 +109,14 @@ fn floats(values: &[f32]) -> Vec<u8> {
     values.iter().flat_map(|x| x.to_le_bytes()).collect()
 }
 
-fn bounds(positions: &[f32]) -> ([f32; 3], [f32; 3]) {
+/// Lowest and highest coordinates.
+fn bounds(positions: &[f32]) -> [[f32; 3]; 2] {
     let fold = |start: f32, pick: fn(f32, f32) -> f32| {
         positions
             .chunks_exact(3)
             .fold([start; 3], |m, p| [pick(m[0], p[0]), pick(m[1], p[1]), pick(m[2], p[2])])
     };
-    (fold(f32::INFINITY, f32::min), fold(f32::NEG_INFINITY, f32::max))
+    [fold(f32::INFINITY, f32::min), fold(f32::NEG_INFINITY, f32::max)]
 }
 
 #[derive(Default)]

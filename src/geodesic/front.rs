@@ -40,6 +40,15 @@ struct Edge {
     b: DVec2,
 }
 
+/// How far the front has been unfolded from a settled edge.
+#[derive(Clone, Copy)]
+struct Unfolded {
+    /// Faces, with the one beyond the present edge.
+    faces: u32,
+    /// The least distance at which an edge on the way will be settled.
+    bound: f64,
+}
+
 impl<'a> Front<'a> {
     /// A front that starts from seeds where they are not seeds already.
     pub(super) fn new(
@@ -108,13 +117,12 @@ impl<'a> Front<'a> {
         let Some(source) = source_below(length, [at_a, at_b]) else { return };
         let edge = Edge { beyond: h, a: DVec2::ZERO, b: DVec2::new(length, 0.0) };
         let window = Window { source, left: edge.a, right: edge.b };
-        self.follow(edge, window, (1, f64::INFINITY));
+        self.follow(edge, window, Unfolded { faces: 1, bound: f64::INFINITY });
     }
 
     /// Offers the corner beyond an edge its distance and goes on through the face's other sides. After the first faces it goes on
-    /// only to corners nearer than `bound`, the least distance at which an edge on the way will be settled: farther ones are
-    /// reached from that edge.
-    fn follow(&mut self, edge: Edge, window: Window, (crossed, bound): (u32, f64)) {
+    /// only to corners nearer than the bound: farther ones are reached from the edge that is settled there.
+    fn follow(&mut self, edge: Edge, window: Window, Unfolded { faces, bound }: Unfolded) {
         let (mesh, h) = (self.mesh, edge.beyond);
         let corner = mesh.tail(h.prev());
         if self.is_settled(corner) {
@@ -123,7 +131,7 @@ impl<'a> Front<'a> {
         let [ab, bc, ca] = [h, h.next(), h.prev()].map(|x| mesh.length(x));
         let place = apex([edge.a, edge.b], [ab, bc, ca]);
         let through = place.distance(window.source);
-        if through.is_nan() || (crossed > FREE_FACES && through >= bound) {
+        if through.is_nan() || (faces > FREE_FACES && through >= bound) {
             return;
         }
         // A line through the edge is no shorter than this: else rounding has turned an edge too short for the plane.
@@ -135,11 +143,11 @@ impl<'a> Front<'a> {
         if left.is_some() && right.is_some() {
             self.offer(corner, through);
         }
-        if crossed == MOST_FACES {
+        if faces == MOST_FACES {
             return;
         }
         let at_corner = self.distance[corner];
-        let onwards = |end: f64| (crossed + 1, bound.min(max(end, at_corner)));
+        let onwards = |end: f64| Unfolded { faces: faces + 1, bound: bound.min(max(end, at_corner)) };
         let ends = [mesh.tail(h), mesh.head(h)].map(|v| self.distance[v]);
         if let Some(window) = left {
             let edge = Edge { beyond: mesh.twin(h.prev()), a: edge.a, b: place };

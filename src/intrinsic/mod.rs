@@ -15,6 +15,15 @@ pub struct IntrinsicTriangulation {
     flips: Vec<HalfedgeId>,
 }
 
+/// Where per-halfedge data goes in a flip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Move {
+    /// The halfedge that has them before.
+    pub from: HalfedgeId,
+    /// The halfedge that has them after.
+    pub to: HalfedgeId,
+}
+
 impl IntrinsicTriangulation {
     /// The connectivity of a mesh.
     pub fn of_mesh(mesh: &SurfaceMesh) -> Self {
@@ -72,11 +81,11 @@ impl IntrinsicTriangulation {
     /// Replaces the diagonal of the diamond around `h` by the other one.
     ///
     /// `h` = ij in ijk and its twin ji in jil become lk in lki and kl in klj. Returns where per-halfedge data of the four
-    /// sides goes, as (from, to) pairs: all reads come before all writes.
+    /// sides goes: all reads come before all writes.
     ///
     /// # Panics
     /// When the edge is not flippable.
-    pub fn flip(&mut self, h: HalfedgeId) -> [(HalfedgeId, HalfedgeId); 4] {
+    pub fn flip(&mut self, h: HalfedgeId) -> [Move; 4] {
         assert!(self.is_flippable(h));
         self.flips.push(h);
         let moves = self.flip_moves(h);
@@ -85,24 +94,24 @@ impl IntrinsicTriangulation {
     }
 
     /// Undoes the last flip; returns its halfedge and where per-halfedge data of the four sides goes.
-    pub fn unflip(&mut self) -> Option<(HalfedgeId, [(HalfedgeId, HalfedgeId); 4])> {
+    pub fn unflip(&mut self) -> Option<(HalfedgeId, [Move; 4])> {
         let h = self.flips.pop()?;
-        let moves = self.flip_moves(h).map(|(from, to)| (to, from));
+        let moves = self.flip_moves(h).map(|Move { from, to }| Move { from: to, to: from });
         self.glue(h, &moves);
         Some((h, moves))
     }
 
-    fn flip_moves(&self, h: HalfedgeId) -> [(HalfedgeId, HalfedgeId); 4] {
+    fn flip_moves(&self, h: HalfedgeId) -> [Move; 4] {
         let t = self.twins[h];
         let (hn, hp, tn, tp) = (h.next(), h.prev(), t.next(), t.prev());
-        [(hp, hn), (tn, hp), (tp, tn), (hn, tp)]
+        [(hp, hn), (tn, hp), (tp, tn), (hn, tp)].map(|(from, to)| Move { from, to })
     }
 
-    fn glue(&mut self, h: HalfedgeId, moves: &[(HalfedgeId, HalfedgeId); 4]) {
+    fn glue(&mut self, h: HalfedgeId, moves: &[Move; 4]) {
         let t = self.twins[h];
-        let old = moves.map(|(from, _)| (self.tails[from], self.twins[from]));
-        let moved = |g: HalfedgeId| moves.iter().find(|m| m.0 == g).map_or(g, |m| m.1);
-        for ((_, to), (tail, twin)) in moves.iter().zip(old) {
+        let old = moves.map(|m| (self.tails[m.from], self.twins[m.from]));
+        let moved = |g: HalfedgeId| moves.iter().find(|m| m.from == g).map_or(g, |m| m.to);
+        for (Move { to, .. }, (tail, twin)) in moves.iter().zip(old) {
             let twin = moved(twin);
             self.tails[*to] = tail;
             self.twins[*to] = twin;

@@ -22,12 +22,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
     let header = |problem: String| (Place::Header, problem);
     let gltf = Gltf::from_slice(bytes).map_err(|e| header(format!("it cannot be read: {e}")))?;
     let buffers = buffers(&gltf).map_err(header)?;
-    let mut soup = PolygonSoup::default();
+    let mut reader = Reader { buffers, soup: PolygonSoup::default() };
     let scene = gltf.default_scene().or_else(|| gltf.scenes().next());
     let scene = scene.ok_or_else(|| header("it has no scene".into()))?;
     for node in scene.nodes() {
-        add_node(&node, (DMat4::IDENTITY, 0), &buffers, &mut soup).map_err(header)?;
+        reader.add_node(&node, &DMat4::IDENTITY, 0).map_err(header)?;
     }
+    let soup = reader.soup;
     if soup.polygons.is_empty() {
         return Err(header("its scene has no triangles".into()));
     }
@@ -49,47 +50,47 @@ fn buffers(gltf: &Gltf) -> Result<Vec<Vec<u8>>, String> {
     gltf.buffers().map(load).collect()
 }
 
-fn add_node(
-    node: &Node<'_>,
-    (parent, depth): (DMat4, usize),
-    buffers: &[Vec<u8>],
-    soup: &mut PolygonSoup,
-) -> Result<(), String> {
-    if depth > MAX_DEPTH {
-        return Err("its nodes are nested too deeply".into());
-    }
-    let columns = node.transform().matrix().map(|c| DVec4::from_array(c.map(f64::from)));
-    let world = parent * DMat4::from_cols(columns[0], columns[1], columns[2], columns[3]);
-    if let Some(mesh) = node.mesh() {
-        for primitive in mesh.primitives() {
-            add_primitive(&primitive, &world, buffers, soup)?;
-        }
-    }
-    node.children().try_for_each(|child| add_node(&child, (world, depth + 1), buffers, soup))
+/// The triangles read so far, and the buffers from which they come.
+struct Reader {
+    buffers: Vec<Vec<u8>>,
+    soup: PolygonSoup,
 }
 
-fn add_primitive(
-    primitive: &Primitive<'_>,
-    world: &DMat4,
-    buffers: &[Vec<u8>],
-    soup: &mut PolygonSoup,
-) -> Result<(), String> {
-    if primitive.mode() != Mode::Triangles {
-        return Ok(());
+impl Reader {
+    /// Adds a node and all below it; `depth` nodes lie above it.
+    fn add_node(&mut self, node: &Node<'_>, parent: &DMat4, depth: usize) -> Result<(), String> {
+        if depth > MAX_DEPTH {
+            return Err("its nodes are nested too deeply".into());
+        }
+        let columns = node.transform().matrix().map(|c| DVec4::from_array(c.map(f64::from)));
+        let world = *parent * DMat4::from_cols(columns[0], columns[1], columns[2], columns[3]);
+        if let Some(mesh) = node.mesh() {
+            for primitive in mesh.primitives() {
+                self.add_primitive(&primitive, &world)?;
+            }
+        }
+        node.children().try_for_each(|child| self.add_node(&child, &world, depth + 1))
     }
-    let accessor = primitive.get(&Semantic::Positions).ok_or("a primitive has no positions")?;
-    let start = soup.positions.len();
-    soup.positions.extend(positions(&accessor, buffers)?.into_iter().map(|p| world.transform_point3(p)));
-    let indices = match primitive.indices() {
-        Some(accessor) => indices(&accessor, buffers)?,
-        None => (0..(soup.positions.len() - start) as u32).collect(),
-    };
-    if soup.positions.len() + indices.len() + 3 * soup.polygons.len() > MAX_CORNERS {
-        return Err(format!("it has more than {MAX_CORNERS} corners"));
+
+    fn add_primitive(&mut self, primitive: &Primitive<'_>, world: &DMat4) -> Result<(), String> {
+        if primitive.mode() != Mode::Triangles {
+            return Ok(());
+        }
+        let Self { buffers, soup } = self;
+        let accessor = primitive.get(&Semantic::Positions).ok_or("a primitive has no positions")?;
+        let start = soup.positions.len();
+        soup.positions.extend(positions(&accessor, buffers)?.into_iter().map(|p| world.transform_point3(p)));
+        let indices = match primitive.indices() {
+            Some(accessor) => indices(&accessor, buffers)?,
+            None => (0..(soup.positions.len() - start) as u32).collect(),
+        };
+        if soup.positions.len() + indices.len() + 3 * soup.polygons.len() > MAX_CORNERS {
+            return Err(format!("it has more than {MAX_CORNERS} corners"));
+        }
+        let corner = |i: u32| i.saturating_add(start as u32);
+        soup.polygons.extend(indices.chunks_exact(3).map(|t| t.iter().map(|&i| corner(i)).collect()));
+        Ok(())
     }
-    let corner = |i: u32| i.saturating_add(start as u32);
-    soup.polygons.extend(indices.chunks_exact(3).map(|t| t.iter().map(|&i| corner(i)).collect()));
-    Ok(())
 }
 
 fn positions(accessor: &Accessor<'_>, buffers: &[Vec<u8>]) -> Result<Vec<DVec3>, String> {

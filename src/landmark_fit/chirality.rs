@@ -21,7 +21,8 @@ const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
 pub(super) fn agreement(
     meshes: [&SurfaceMesh; 2],
     landmarks: &Landmarks,
-    (distances, target_of): (&LandmarkDistances, &[usize]),
+    distances: &LandmarkDistances,
+    target_of: &[usize],
 ) -> f64 {
     let source: Vec<DVec3> = landmarks.source.iter().map(|&v| meshes[0].positions()[v]).collect();
     let target = target_of.iter().map(|&j| meshes[1].positions()[landmarks.target[j]]).collect();

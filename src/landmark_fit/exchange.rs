@@ -8,7 +8,7 @@
 use super::directions::Directions;
 use super::distances::Fit;
 use super::finding::Finding;
-use super::orders::pair_agreement;
+use super::orders::{Vote, pair_vote};
 use crate::layout::LandmarkDistances;
 use crate::math::scalar::{max, min};
 use crate::monitor::{Cancelled, Monitor, Step};
@@ -69,7 +69,7 @@ impl<'a> Exchange<'a> {
     /// What others say about two pairs; `None` where the agreement is certainly above `limit`. `target_of` tells which
     /// pair's target each pair has.
     fn opinion(&self, target_of: &[usize], pair: [usize; 2], limit: f64) -> Option<Opinion> {
-        let (unanimity, strength) = self.sides(target_of, pair);
+        let Vote { agreement: unanimity, strength } = self.distance_vote(target_of, pair);
         let sides = unanimity * strength / (strength + WEAK_SIDES);
         if 0.5 * (sides - 1.0) > limit {
             return None;
@@ -77,15 +77,16 @@ impl<'a> Exchange<'a> {
         let [a, b] = pair;
         let mut exchanged = target_of.to_vec();
         exchanged.swap(a, b);
-        let (now, strength) = pair_agreement(self.directions, target_of, pair);
-        let (then, strength_then) = pair_agreement(self.directions, &exchanged, pair);
-        let strength = min(strength, strength_then);
-        let orders = 0.5 * self.handedness * (now - then) * strength / (strength + WEAK_ORDERS);
+        let now = pair_vote(self.directions, target_of, pair);
+        let then = pair_vote(self.directions, &exchanged, pair);
+        let strength = min(now.strength, then.strength);
+        let difference = now.agreement - then.agreement;
+        let orders = 0.5 * self.handedness * difference * strength / (strength + WEAK_ORDERS);
         Some(Opinion { agreement: 0.5 * (sides + orders), orders, unanimity })
     }
 
-    /// The vote of the distances, from -1 to 1, and the mean product of both sides' u in size.
-    fn sides(&self, target_of: &[usize], [a, b]: [usize; 2]) -> (f64, f64) {
+    /// The vote of the distances; its strength is the mean product of both sides' u in size.
+    fn distance_vote(&self, target_of: &[usize], [a, b]: [usize; 2]) -> Vote {
         let [source, target] = &self.distances;
         let (onto_a, onto_b) = (&target[target_of[a]], &target[target_of[b]]);
         let apart = [source[a][b], onto_a[target_of[b]]];
@@ -104,9 +105,9 @@ impl<'a> Exchange<'a> {
             }
         }
         if total == 0.0 {
-            return (0.0, 0.0);
+            return Vote { agreement: 0.0, strength: 0.0 };
         }
-        (agree / total, agree.abs() / sum)
+        Vote { agreement: agree / total, strength: agree.abs() / sum }
     }
 
     /// The exchange of two targets that is called for most, where one clearly is.

@@ -52,7 +52,7 @@ pub fn landmark_fit(
     let mut fit = Fit::new(landmarks, distances);
     let mirrored = |target_of: &[usize]| {
         let orders = orders::agreement(&directions, distances, target_of);
-        let places = chirality::agreement(meshes, landmarks, (distances, target_of));
+        let places = chirality::agreement(meshes, landmarks, distances, target_of);
         let mean = (2.0 * orders + places) / 3.0;
         (landmarks.len() >= LEAST_FOR_ORDERS && mean < MIRRORED).then_some(mean)
     };

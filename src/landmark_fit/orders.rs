@@ -45,9 +45,18 @@ pub(super) fn agreement(directions: &Directions, distances: &LandmarkDistances, 
     votes.agreement().unwrap_or(1.0)
 }
 
-/// Agreement of the orders around either of two landmarks that contain the other, from -1 to 1, and the mean weight of a
-/// triple in radians; `target_of` tells which pair's target each pair has.
-pub(super) fn pair_agreement(directions: &Directions, target_of: &[usize], [a, b]: [usize; 2]) -> (f64, f64) {
+/// What others say about two pairs.
+#[derive(Clone, Copy)]
+pub(super) struct Vote {
+    /// From -1 to 1.
+    pub agreement: f64,
+    /// How much it says: 0 for nothing, in the unit of those who vote.
+    pub strength: f64,
+}
+
+/// The vote of the orders around either of two landmarks that contain the other; its strength is the mean weight of a triple
+/// in radians. `target_of` tells which pair's target each pair has.
+pub(super) fn pair_vote(directions: &Directions, target_of: &[usize], [a, b]: [usize; 2]) -> Vote {
     let mut votes = Votes::default();
     for (at, to) in [(a, b), (b, a)] {
         let source = directions.turns(0, at, to);
@@ -61,7 +70,7 @@ pub(super) fn pair_agreement(directions: &Directions, target_of: &[usize], [a, b
             }
         }
     }
-    (votes.agreement().unwrap_or(0.0), votes.total / max(votes.count as f64, 1.0))
+    Vote { agreement: votes.agreement().unwrap_or(0.0), strength: votes.total / max(votes.count as f64, 1.0) }
 }
 
 /// The landmarks nearest to one on both meshes together, the nearest first.

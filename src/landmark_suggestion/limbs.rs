@@ -35,7 +35,7 @@ pub fn unmarked_limbs(
     let monitor = &mut Portion::new(monitor, TIPS_SHARE, 1.0);
     for (k, &tip) in tips.iter().enumerate() {
         monitor.step(Step { fraction: k as f64 / tips.len() as f64, residual: None })?;
-        if landmarks.is_empty() || thinnest(mesh, &areas, (tip, marked..to_landmark[tip])) < THIN {
+        if landmarks.is_empty() || thinnest(mesh, &areas, tip, marked..to_landmark[tip]) < THIN {
             unmarked.push(tip);
         }
     }
@@ -46,7 +46,7 @@ pub fn unmarked_limbs(
 const TIPS_SHARE: f64 = 0.8;
 
 /// The least area of a disc around a vertex, relative to the flat one, among radii of a range; infinite for none.
-fn thinnest(mesh: &SurfaceMesh, areas: &[f64], (centre, radii): (VertexId, Range<f64>)) -> f64 {
+fn thinnest(mesh: &SurfaceMesh, areas: &[f64], centre: VertexId, radii: Range<f64>) -> f64 {
     if radii.is_empty() {
         return f64::INFINITY;
     }

@@ -120,7 +120,8 @@ impl<'a> Candidates<'a> {
     pub fn twists(
         &mut self,
         of: &Candidate,
-        (count, largest_ratio): (usize, f64),
+        count: usize,
+        largest_ratio: f64,
         monitor: &mut dyn Monitor,
     ) -> Result<Vec<Candidate>, LayoutError> {
         let mut found: Vec<Candidate> = Vec::new();

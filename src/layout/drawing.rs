@@ -8,7 +8,7 @@ use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
 
 /// One of the two meshes with the paths drawn so far.
 #[derive(Clone, Debug)]
-pub(super) struct Side {
+pub(super) struct MeshWithPaths {
     pub mesh: RefinableMesh,
     /// Vertex of each landmark.
     pub landmarks: Vec<VertexId>,
@@ -30,7 +30,7 @@ pub(super) struct Plan {
 /// The drawing on both meshes.
 #[derive(Clone, Debug)]
 pub(super) struct Drawing {
-    pub sides: [Side; 2],
+    pub sides: [MeshWithPaths; 2],
     /// Landmarks of each path, smaller first.
     pub ends: Vec<[usize; 2]>,
     /// Paths around each landmark, counter-clockwise.
@@ -56,14 +56,14 @@ pub(super) type SlotPairs = [Vec<usize>; 2];
 impl Drawing {
     /// Nothing drawn yet.
     pub fn new(source: &SurfaceMesh, target: &SurfaceMesh, landmarks: &Landmarks) -> Self {
-        let side = |mesh: &SurfaceMesh, vertices: &[VertexId]| Side {
+        let bare = |mesh: &SurfaceMesh, vertices: &[VertexId]| MeshWithPaths {
             mesh: RefinableMesh::new(mesh, vertices),
             landmarks: vertices.to_vec(),
             paths: Vec::new(),
             lengths: Vec::new(),
         };
         Self {
-            sides: [side(source, &landmarks.source), side(target, &landmarks.target)],
+            sides: [bare(source, &landmarks.source), bare(target, &landmarks.target)],
             ends: Vec::new(),
             rotation: vec![Vec::new(); landmarks.len()],
         }
@@ -99,7 +99,7 @@ impl Drawing {
                 all.retain(|(slot, _)| allowed[e].contains(slot));
                 all.into_iter().map(|(_, sector)| sector).collect::<Vec<_>>()
             });
-            let found = self.search(planner, (free, ends), [&sectors[0], &sectors[1]], limits[free]);
+            let found = self.search(planner, free, ends, [&sectors[0], &sectors[1]], limits[free]);
             let first = found?;
             let slots = self.slots(free, ends, &first)?;
             if tried == Some(slots) {
@@ -107,7 +107,7 @@ impl Drawing {
             }
             tried = Some(slots);
             let other = 1 - free;
-            let Some(second) = self.search_in_slots(planner, (other, ends), slots, limits[other]) else {
+            let Some(second) = self.search_in_slots(planner, other, ends, slots, limits[other]) else {
                 continue;
             };
             let found = if free == 0 { [first, second] } else { [second, first] };
@@ -126,8 +126,8 @@ impl Drawing {
         ends: [usize; 2],
         slots: [usize; 2],
     ) -> Option<Plan> {
-        let source = self.search_in_slots(planner, (0, ends), slots, f64::INFINITY)?;
-        let target = self.search_in_slots(planner, (1, ends), slots, f64::INFINITY)?;
+        let source = self.search_in_slots(planner, 0, ends, slots, f64::INFINITY)?;
+        let target = self.search_in_slots(planner, 1, ends, slots, f64::INFINITY)?;
         Some(Plan { ends, found: [source, target] })
     }
 
@@ -135,22 +135,24 @@ impl Drawing {
     pub fn search_in_slots(
         &self,
         planner: &mut Planner<'_>,
-        (side, ends): (usize, [usize; 2]),
+        side: usize,
+        ends: [usize; 2],
         slots: [usize; 2],
         limit: f64,
     ) -> Option<FoundPath> {
         let [a, b] = [0, 1].map(|e| self.sectors(side, ends[e]).swap_remove(slots[e]));
-        self.search(planner, (side, ends), [&[a], &[b]], limit)
+        self.search(planner, side, ends, [&[a], &[b]], limit)
     }
 
     fn search(
         &self,
         planner: &mut Planner<'_>,
-        (side, ends): (usize, [usize; 2]),
+        side: usize,
+        ends: [usize; 2],
         sectors: [&[Sector]; 2],
         limit: f64,
     ) -> Option<FoundPath> {
-        let Side { mesh, landmarks, .. } = &self.sides[side];
+        let MeshWithPaths { mesh, landmarks, .. } = &self.sides[side];
         let query = Query {
             ends: ends.map(|i| landmarks[i]),
             sectors,
@@ -161,7 +163,7 @@ impl Drawing {
         planner.searches[side].shortest(mesh, &query)
     }
 
-    /// For every landmark and place of its rotation the face of the drawing to its counter-clockwise side.
+    /// For every landmark and place of its rotation the face of the drawing that follows counter-clockwise.
     ///
     /// Faces of a connected drawing are discs: two places can be joined when their face is the same.
     pub fn faces_by_slot(&self) -> Vec<Vec<usize>> {
@@ -236,11 +238,11 @@ impl Drawing {
 
     /// Replaces a path on one mesh by another in the sector beside it.
     pub fn exchange(&mut self, side: usize, path: usize, found: &FoundPath) -> Option<()> {
-        let side = &mut self.sides[side];
-        side.realise(&found.nodes)?;
-        side.unmark(path);
-        side.paths.swap_remove(path);
-        side.lengths.swap_remove(path);
+        let drawn = &mut self.sides[side];
+        drawn.realise(&found.nodes)?;
+        drawn.unmark(path);
+        drawn.paths.swap_remove(path);
+        drawn.lengths.swap_remove(path);
         Some(())
     }
 
@@ -278,7 +280,7 @@ impl Drawing {
         if around.is_empty() {
             return Some(0);
         }
-        let Side { mesh, landmarks, .. } = &self.sides[side];
+        let MeshWithPaths { mesh, landmarks, .. } = &self.sides[side];
         let (EndStep::Along(neighbour) | EndStep::After(neighbour)) = step;
         let start = mesh.halfedge_between(landmarks[landmark], neighbour)?;
         let mut h = start;
@@ -302,7 +304,7 @@ impl Plan {
     }
 }
 
-impl Side {
+impl MeshWithPaths {
     fn is_free(&self, node: Node) -> bool {
         match node {
             Node::Vertex(v) => !self.mesh.used[v],

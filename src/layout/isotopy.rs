@@ -68,18 +68,14 @@ impl Class {
         let mut walk = Walk { patched, on_path: &self.on_path[side], crossed: Vec::new() };
         let seed = self.some_face[side][strip[0].index()]?;
         let at_start = |f: FaceId| patched.mesh.triangles()[f].contains(&start);
-        let (mut at, _) = walk.go(seed, |f, _| at_start(f))?;
+        let mut at = walk.go(seed, |h| at_start(h.face()))?.face();
         walk.crossed.clear();
         for next in &strip[1..] {
-            let into = |f: FaceId, k: usize| {
-                patched.face_origin[patched.mesh.twin(HalfedgeId::of(f, k)).face()] == *next
-            };
-            let (face, k) = walk.go(at, into)?;
-            let exit = HalfedgeId::of(face, k);
+            let exit = walk.go(at, |h| patched.face_origin[patched.mesh.twin(h).face()] == *next)?;
             walk.cross(exit);
             at = patched.mesh.twin(exit).face();
         }
-        walk.go(at, |f, _| patched.mesh.triangles()[f].contains(&end))?;
+        walk.go(at, |h| patched.mesh.triangles()[h.face()].contains(&end))?;
         Some(self.without_turns_at_ends(walk.crossed, ends))
     }
 
@@ -100,20 +96,19 @@ struct Walk<'a> {
 }
 
 impl Walk<'_> {
-    /// Goes inside one input face to the nearest refined face with a side (0, 1 or 2) that is asked for.
-    fn go(&mut self, from: FaceId, wanted: impl Fn(FaceId, usize) -> bool) -> Option<(FaceId, usize)> {
+    /// Goes inside one input face to the nearest refined face with a halfedge that is wanted.
+    fn go(&mut self, from: FaceId, wanted: impl Fn(HalfedgeId) -> bool) -> Option<HalfedgeId> {
         let mesh = &self.patched.mesh;
         let origin = self.patched.face_origin[from];
-        // Few refined faces lie in an input face: a list of those reached and the side by which they were entered will do.
+        // Few refined faces lie in an input face: a list of those reached and the halfedge by which they were entered will do.
         let mut reached: Vec<(FaceId, Option<HalfedgeId>)> = vec![(from, None)];
         let mut queue = VecDeque::from([from]);
         while let Some(face) = queue.pop_front() {
-            if let Some(k) = (0..3).find(|&k| wanted(face, k)) {
+            if let Some(h) = face.halfedges().into_iter().find(|&h| wanted(h)) {
                 self.cross_all(&reached, face);
-                return Some((face, k));
+                return Some(h);
             }
-            for k in 0..3 {
-                let h = HalfedgeId::of(face, k);
+            for h in face.halfedges() {
                 let next = mesh.twin(h).face();
                 if self.patched.face_origin[next] == origin && reached.iter().all(|r| r.0 != next) {
                     reached.push((next, Some(h)));

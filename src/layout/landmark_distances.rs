@@ -57,8 +57,14 @@ impl LandmarkDistances {
 /// The path graph of a mesh without paths as one array.
 struct Links {
     begin: Vec<u32>,
-    /// Node and length.
-    links: Vec<(u32, f64)>,
+    links: Vec<Link>,
+}
+
+/// A link of the path graph.
+struct Link {
+    /// The node that it leads to.
+    node: u32,
+    length: f64,
 }
 
 impl Links {
@@ -68,14 +74,14 @@ impl Links {
         for node in 0..nodes as u32 {
             let from = position(mesh, node);
             for_each_link(mesh, node, |next, _| {
-                graph.links.push((next, from.distance(position(mesh, next))));
+                graph.links.push(Link { node: next, length: from.distance(position(mesh, next)) });
             });
             graph.begin.push(graph.links.len() as u32);
         }
         graph
     }
 
-    fn of(&self, node: usize) -> &[(u32, f64)] {
+    fn of(&self, node: usize) -> &[Link] {
         &self.links[self.begin[node] as usize..self.begin[node + 1] as usize]
     }
 
@@ -84,11 +90,11 @@ impl Links {
     /// Not inlined: a browser optimises a function from one call to the next, never within a call.
     #[inline(never)]
     fn distances_to(&self, mesh: &RefinableMesh, landmark: VertexId) -> TiVec<VertexId, f64> {
-        let links = |node: u32| self.of(node as usize).iter().map(|&(next, length)| (next, length, ()));
-        let distance = shortest_paths((self.begin.len() - 1, landmark.0), links, |_, ()| ());
+        let links = |node: u32| self.of(node as usize).iter().map(|link| (link.node, link.length, ()));
+        let distance = shortest_paths(self.begin.len() - 1, landmark.0, links, |_, ()| ());
         let vertices = mesh.positions.len();
         let mut field: TiVec<VertexId, f64> = distance[..vertices].iter().copied().collect();
-        self.reach_landmarks(mesh, landmark, (&distance, &mut field));
+        self.reach_landmarks(mesh, landmark, &distance, &mut field);
         field
     }
 
@@ -97,13 +103,14 @@ impl Links {
         &self,
         mesh: &RefinableMesh,
         landmark: VertexId,
-        (distance, field): (&[f64], &mut TiVec<VertexId, f64>),
+        distance: &[f64],
+        field: &mut TiVec<VertexId, f64>,
     ) {
         for v in (0..mesh.positions.len()).map(VertexId::from) {
             if !mesh.used[v] || v == landmark {
                 continue;
             }
-            let from = |&(node, length): &(u32, f64)| distance[node as usize] + length;
+            let from = |link: &Link| distance[link.node as usize] + link.length;
             let free = self.of(v.index()).iter().map(from).fold(f64::INFINITY, f64::min);
             let edge = mesh
                 .halfedge_between(v, landmark)

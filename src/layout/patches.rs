@@ -1,7 +1,7 @@
 //! From a finished drawing to patches: the base domain's faces, flood filled, with a validator.
 
 use super::base_layout::{BaseLayout, LayoutReport, PatchedMesh};
-use super::drawing::{Drawing, Side};
+use super::drawing::{Drawing, MeshWithPaths};
 use crate::base_domain::BaseDomain;
 use crate::landmarks::Landmarks;
 use crate::mesh::{FaceId, HalfedgeId, MeshError, RefinedMesh, SurfaceMesh, VertexId};
@@ -89,7 +89,7 @@ pub(super) fn finish(
 }
 
 fn patched(
-    mut side: Side,
+    mut side: MeshWithPaths,
     ends: &[[usize; 2]],
     base: &BaseDomain,
     input: &SurfaceMesh,
@@ -112,7 +112,7 @@ fn patched(
 }
 
 fn paths_by_halfedge(
-    side: &Side,
+    side: &MeshWithPaths,
     ends: &[[usize; 2]],
     base: &BaseDomain,
 ) -> Result<TiVec<HalfedgeId, Vec<VertexId>>, PatchFault> {

@@ -295,12 +295,12 @@ pub(super) fn for_each_link(mesh: &RefinableMesh, node: u32, mut call: impl FnMu
         return;
     }
     let h = HalfedgeId(node - vertices);
-    for side in [h, mesh.twins[h]] {
-        let apex = mesh.apex(side);
+    for beside in [h, mesh.twins[h]] {
+        let apex = mesh.apex(beside);
         if !mesh.used[apex] {
             call(apex.0, true);
         }
-        for other in [side.next(), side.prev()] {
+        for other in [beside.next(), beside.prev()] {
             if !mesh.on_path[other] {
                 call(midpoint_node(mesh, other), true);
             }

@@ -128,7 +128,8 @@ pub fn search(
 /// # Errors
 /// As [`search()`].
 pub fn untwist(
-    (candidates, start): (&mut Candidates<'_>, Candidate),
+    candidates: &mut Candidates<'_>,
+    start: Candidate,
     judge: &mut Judge<'_>,
     options: &SearchOptions,
     monitor: &mut dyn Monitor,
@@ -150,15 +151,15 @@ pub fn untwist(
 /// # Errors
 /// [`LayoutError::Cancelled`].
 pub fn neighbours(
-    (candidates, of): (&mut Candidates<'_>, &Candidate),
+    candidates: &mut Candidates<'_>,
+    of: &Candidate,
     judge: &mut Judge<'_>,
     options: &SearchOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<Judged>, LayoutError> {
     let mut search = Search { judge, options, monitor, best: None, report: SearchReport::default() };
     let mut without_gain = 0;
-    let wanted = (options.twists, options.twist_ratio);
-    for candidate in candidates.twists(of, wanted, &mut search.between())? {
+    for candidate in candidates.twists(of, options.twists, options.twist_ratio, &mut search.between())? {
         without_gain = if search.judge(candidate, Origin::Twist)? { 0 } else { without_gain + 1 };
         if without_gain >= options.patience || search.monitor.wants_result() {
             break;
@@ -211,7 +212,7 @@ impl Search<'_, '_> {
             let SearchOptions { twist_ratio, ambiguous_ratio, .. } = *self.options;
             let ratio = if self.is_clear() { ambiguous_ratio } else { twist_ratio };
             let best = best.clone();
-            let around = candidates.twists(&best, (left, ratio), &mut self.between())?;
+            let around = candidates.twists(&best, left, ratio, &mut self.between())?;
             let mut better = false;
             for candidate in around {
                 left -= 1;

@@ -37,7 +37,7 @@ pub(super) fn plausible(drawing: &Drawing, planner: &mut Planner<'_>, largest_ra
     for inside in groups(drawing) {
         let Some(tree) = Tree::new(drawing, &inside) else { continue };
         for turn in [Turn::CounterClockwise, Turn::Clockwise] {
-            if let Some((_, _, ratio)) = tree.turned_path(planner, turn)
+            if let Some(TurnedPath { ratio, .. }) = tree.turned_path(planner, turn)
                 && ratio <= largest_ratio
             {
                 twists.push(Twist { inside: inside.clone(), turn, ratio });
@@ -112,6 +112,15 @@ struct Tree {
     between: usize,
 }
 
+/// A path of one mesh that goes round a group of landmarks once more.
+struct TurnedPath {
+    /// 0 on the source, 1 on the target.
+    side: usize,
+    found: FoundPath,
+    /// Its length relative to that of the path that it replaces.
+    ratio: f64,
+}
+
 impl Tree {
     /// `None` where a group is not connected by paths inside it.
     fn new(complete: &Drawing, inside: &[bool]) -> Option<Self> {
@@ -144,17 +153,16 @@ impl Tree {
 
     /// The tree of the neighbouring class.
     fn turned(mut self, planner: &mut Planner<'_>, turn: Turn) -> Option<Self> {
-        let (side, found, _) = self.turned_path(planner, turn)?;
+        let TurnedPath { side, found, .. } = self.turned_path(planner, turn)?;
         self.drawing.exchange(side, self.between, &found)?;
         Some(self)
     }
 
-    /// The path that goes round once more, on the mesh where it is the shorter relative to the path that it replaces, and
-    /// that ratio.
-    fn turned_path(&self, planner: &mut Planner<'_>, turn: Turn) -> Option<(usize, FoundPath, f64)> {
+    /// The path that goes round once more, on the mesh where it is the shorter relative to the path that it replaces.
+    fn turned_path(&self, planner: &mut Planner<'_>, turn: Turn) -> Option<TurnedPath> {
         let drawing = &self.drawing;
         let ends = drawing.ends[self.between];
-        let mut best: Option<(usize, FoundPath, f64)> = None;
+        let mut best: Option<TurnedPath> = None;
         for side in 0..2 {
             // A turn of one mesh is the opposite turn of the other.
             let after = (turn == Turn::CounterClockwise) == (side == 1);
@@ -163,11 +171,11 @@ impl Tree {
                 let own = around.iter().position(|&p| p == self.between).unwrap_or(0);
                 if after { own } else { (own + around.len() - 1) % around.len() }
             });
-            let found = drawing.search_in_slots(planner, (side, ends), slots, f64::INFINITY);
+            let found = drawing.search_in_slots(planner, side, ends, slots, f64::INFINITY);
             let Some(found) = found else { continue };
             let ratio = found.length / drawing.sides[side].lengths[self.between];
-            if best.as_ref().is_none_or(|b| ratio < b.2) {
-                best = Some((side, found, ratio));
+            if best.as_ref().is_none_or(|b| ratio < b.ratio) {
+                best = Some(TurnedPath { side, found, ratio });
             }
         }
         best
@@ -236,7 +244,7 @@ mod tests {
             all.push(candidate);
         }
         let first = all[0].clone();
-        all.extend(candidates.twists(&first, (4, 3.0), &mut Silent).unwrap());
+        all.extend(candidates.twists(&first, 4, 3.0, &mut Silent).unwrap());
         assert!(all.len() >= 5);
         for (k, a) in all.iter().enumerate() {
             assert!(all[..k].iter().all(|b| !same_class(&a.layout, &b.layout)));

@@ -20,14 +20,22 @@ pub fn squares(m: &DMat2) -> f64 {
     m.x_axis.length_squared() + m.y_axis.length_squared()
 }
 
-/// The eigenvalues of the symmetric matrix (xx xy; xy yy), the larger one first, with a unit eigenvector of the first; that of
-/// the second is perpendicular to it.
+/// Eigenvalues and eigenvectors of a symmetric matrix.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SymmetricEigen {
+    /// The eigenvalues, the larger one first.
+    pub values: [f64; 2],
+    /// A unit eigenvector of the first; that of the second is perpendicular to it.
+    pub first: DVec2,
+}
+
+/// The eigenvalues and eigenvectors of the symmetric matrix (xx xy; xy yy).
 #[inline]
-pub fn symmetric_eigen([xx, xy, yy]: [f64; 3]) -> ([f64; 2], DVec2) {
+pub fn symmetric_eigen([xx, xy, yy]: [f64; 3]) -> SymmetricEigen {
     let (mean, difference) = (0.5 * (xx + yy), 0.5 * (xx - yy));
     let root = (difference * difference + xy * xy).sqrt();
     let first = DVec2::new(xy, mean + root - xx).normalize_or(DVec2::X);
-    ([mean + root, mean - root], first)
+    SymmetricEigen { values: [mean + root, mean - root], first }
 }
 
 #[cfg(test)]
@@ -53,7 +61,7 @@ mod tests {
     fn eigenvectors_are_stretched_by_their_eigenvalues() {
         for [xx, xy, yy] in [[2.0, 0.5, 1.0], [-1.0, 3.0, 4.0], [1.0, -1e-3, 1.0]] {
             let m = DMat2::from_cols(DVec2::new(xx, xy), DVec2::new(xy, yy));
-            let (values, first) = symmetric_eigen([xx, xy, yy]);
+            let SymmetricEigen { values, first } = symmetric_eigen([xx, xy, yy]);
             assert!((m * first).abs_diff_eq(first * values[0], 1e-12));
             assert!((m * first.perp()).abs_diff_eq(first.perp() * values[1], 1e-12));
             assert!(values[0] >= values[1]);

@@ -85,12 +85,14 @@ impl<K: Ord, V> PartialOrd for Queued<K, V> {
     }
 }
 
-/// Lengths of shortest paths from a node of a graph to all nodes, infinite where there is none (Dijkstra 1959).
+/// Lengths of shortest paths from `start` to all of the `nodes` nodes of a graph, infinite where there is none (Dijkstra
+/// 1959).
 ///
 /// `links` are the links of a node, each with the node that it leads to and its length, which is not negative. `reached` is told
 /// of each node reached on a shorter path than before, with the path's last link.
 pub fn shortest_paths<L, I: IntoIterator<Item = (u32, f64, L)>>(
-    (nodes, start): (usize, u32),
+    nodes: usize,
+    start: u32,
     links: impl Fn(u32) -> I,
     mut reached: impl FnMut(u32, L),
 ) -> Vec<f64> {
@@ -140,7 +142,7 @@ mod tests {
         });
         let mut before = vec![None; 50];
         // The last node has no link.
-        let distance = shortest_paths((50, 0), links, |node, from| before[node as usize] = Some(from));
+        let distance = shortest_paths(50, 0, links, |node, from| before[node as usize] = Some(from));
         for node in 0..side * side {
             assert_eq!(distance[node as usize], f64::from(node % side + 10 * (node / side)));
             assert_eq!(before[node as usize].is_none(), node == 0);

@@ -408,6 +408,7 @@ fn orient(triangles: &mut [Triangle], edges: &EdgeTable) -> Result<TiVec<FaceId,
     Ok(turned)
 }
 
+/// The vertex of each vertex of the file, `None` where no triangle has it, and the vertices' positions.
 fn used_vertices(
     soup: &PolygonSoup,
     triangles: &[Triangle],

@@ -57,6 +57,14 @@ pub fn insert(mesh: &SurfaceMesh, points: &[SurfacePoint]) -> Result<Insertion, 
     })
 }
 
+/// A corner that a face gets.
+#[derive(Clone, Copy)]
+struct Corner {
+    vertex: VertexId,
+    /// Its barycentric coordinates in the original face.
+    origin: DVec3,
+}
+
 struct Refinement {
     positions: TiVec<VertexId, DVec3>,
     faces: TiVec<FaceId, [VertexId; 3]>,
@@ -66,7 +74,7 @@ struct Refinement {
 
 impl Refinement {
     fn insert(&mut self, point: &SurfacePoint) -> VertexId {
-        let (face, weights) = self.child(point);
+        let SurfacePoint { face, barycentric: weights } = self.child(point);
         if let Some(k) = (0..3).find(|&k| weights[k] > 1.0 - SNAP) {
             return self.faces[face][k];
         }
@@ -79,16 +87,17 @@ impl Refinement {
         let position = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
         let v = self.positions.push_and_get_key(position);
         let origins = self.corner_origins[face];
-        let here = origins[0] * weights[0] + origins[1] * weights[1] + origins[2] * weights[2];
+        let origin = origins[0] * weights[0] + origins[1] * weights[1] + origins[2] * weights[2];
+        let corner = Corner { vertex: v, origin };
         for k in 1..3 {
-            self.replace_corner(face, k, (v, here));
+            self.replace_corner(face, k, corner);
         }
-        self.set_corner(face, 2, (v, here));
+        self.set_corner(face, 2, corner);
         v
     }
 
-    /// The face among those of an original face that contains the point, with its coordinates there.
-    fn child(&self, point: &SurfacePoint) -> (FaceId, DVec3) {
+    /// A point of the original mesh as a point of the face that contains it.
+    fn child(&self, point: &SurfacePoint) -> SurfacePoint {
         let goal = DVec3::from_array(point.barycentric);
         let coordinates = |f: FaceId| {
             let [p, q, r] = self.corner_origins[f];
@@ -98,22 +107,23 @@ impl Refinement {
         let added = (0..self.faces.len()).map(FaceId::from).filter(|&f| self.face_origin[f] == point.face);
         let all = added.map(|f| (f, coordinates(f)));
         let best = all.max_by(|a, b| a.1.min_element().total_cmp(&b.1.min_element()));
-        best.unwrap_or((point.face, goal))
+        let (face, weights) = best.unwrap_or((point.face, goal));
+        SurfacePoint { face, barycentric: weights.to_array() }
     }
 
     /// Adds a copy of a face with corner `k - 1` replaced: the child opposite that corner.
-    fn replace_corner(&mut self, face: FaceId, k: usize, (v, origin): (VertexId, DVec3)) {
+    fn replace_corner(&mut self, face: FaceId, k: usize, corner: Corner) {
         let (mut corners, mut origins) = (self.faces[face], self.corner_origins[face]);
-        corners[k - 1] = v;
-        origins[k - 1] = origin;
+        corners[k - 1] = corner.vertex;
+        origins[k - 1] = corner.origin;
         self.faces.push(corners);
         self.corner_origins.push(origins);
         self.face_origin.push(self.face_origin[face]);
     }
 
-    fn set_corner(&mut self, face: FaceId, k: usize, (v, origin): (VertexId, DVec3)) {
-        self.faces[face][k] = v;
-        self.corner_origins[face][k] = origin;
+    fn set_corner(&mut self, face: FaceId, k: usize, corner: Corner) {
+        self.faces[face][k] = corner.vertex;
+        self.corner_origins[face][k] = corner.origin;
     }
 
     /// Splits the edge ab at the given share of the way to b, in both its faces.
@@ -126,9 +136,9 @@ impl Refinement {
             let place = |w: VertexId| self.faces[face].iter().position(|&x| x == w).unwrap_or(0);
             let (ka, kb) = (place(a), place(b));
             let origins = self.corner_origins[face];
-            let here = origins[ka].lerp(origins[kb], share);
-            self.replace_corner(face, ka + 1, (v, here));
-            self.set_corner(face, kb, (v, here));
+            let corner = Corner { vertex: v, origin: origins[ka].lerp(origins[kb], share) };
+            self.replace_corner(face, ka + 1, corner);
+            self.set_corner(face, kb, corner);
         }
         v
     }

@@ -215,7 +215,7 @@ mod tests {
     fn solve(graph: &Graph, b: &[f64], x: &mut [f64], max_iterations: usize) -> CgReport {
         let options = CgOptions { tolerance: 1e-10, max_iterations };
         let preconditioner = ApproximateCholesky::new(graph);
-        CgWorkspace::default().solve(graph, &preconditioner, (b, x), &options).unwrap()
+        CgWorkspace::default().solve(graph, &preconditioner, b, x, &options).unwrap()
     }
 
     /// A grid with weights over six orders of magnitude.

@@ -176,7 +176,7 @@ mod tests {
         let (mut x, mut ax) = (vec![DVec2::ZERO; 100], vec![DVec2::ZERO; 100]);
         let options = CgOptions { tolerance: 1e-12, max_iterations: 300 };
         let sweeps = matrix.gauss_seidel(&mut memory);
-        let report = CgWorkspace::default().solve(&matrix, &sweeps, (&b, &mut x), &options).unwrap();
+        let report = CgWorkspace::default().solve(&matrix, &sweeps, &b, &mut x, &options).unwrap();
         assert!(report.iterations < 120, "{report:?}");
         matrix.apply(&x, &mut ax);
         let error = ax.iter().zip(&b).map(|(p, q)| (*p - *q).length()).fold(0.0, f64::max);

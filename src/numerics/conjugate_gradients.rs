@@ -137,7 +137,8 @@ impl<T: Entry> CgWorkspace<T> {
         &mut self,
         operator: &impl LinearOperator<T>,
         preconditioner: &impl Preconditioner<T>,
-        (b, x): (&[T], &mut [T]),
+        b: &[T],
+        x: &mut [T],
         options: &CgOptions,
     ) -> Result<CgReport, CgError> {
         let n = b.len();
@@ -222,7 +223,7 @@ mod tests {
         let b = vec![1.0; diagonal.len()];
         let options = CgOptions { tolerance: 1e-12, max_iterations };
         let mut workspace = CgWorkspace::default();
-        let result = workspace.solve(&Diagonal(diagonal.to_vec()), &Identity, (&b, &mut x), &options);
+        let result = workspace.solve(&Diagonal(diagonal.to_vec()), &Identity, &b, &mut x, &options);
         (result, x)
     }
 
@@ -255,7 +256,7 @@ mod tests {
         let mut x = [1.0];
         let options = CgOptions { tolerance: 1e-3, max_iterations: 0 };
         let mut workspace = CgWorkspace::default();
-        let report = workspace.solve(&Diagonal(vec![1.0]), &Identity, (&[0.0], &mut x), &options).unwrap();
+        let report = workspace.solve(&Diagonal(vec![1.0]), &Identity, &[0.0], &mut x, &options).unwrap();
         assert_eq!((report, x), (CgReport { iterations: 0, relative_residual: 0.0 }, [0.0]));
     }
 }

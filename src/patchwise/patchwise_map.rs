@@ -64,9 +64,9 @@ pub fn patchwise_map(
         let inside = vertices_inside(&source.region(&from), &from.corners, &layout.source.mesh, &mut taken);
         let Some(onto) = onto else { continue };
         let faces = Bins::new(target.region(&onto), &onto.corners);
-        for (v, weights) in inside {
+        for Inside { vertex, weights } in inside {
             let q = (0..3).map(|k| onto.corners[k] * weights[k]).sum();
-            images[v] = faces.locate(q).map(|point| refined.on_input(inputs[1], point));
+            images[vertex] = faces.locate(q).map(|point| refined.on_input(inputs[1], point));
         }
     }
     let unmapped = images.iter().filter(|image| image.is_none()).count();
@@ -74,24 +74,31 @@ pub fn patchwise_map(
     Ok(PatchwiseMap { target_from_source: images, unmapped_share, inverted_patches })
 }
 
-/// The vertices not yet taken over a straight triangle, with their barycentric coordinates in it; takes them.
+/// A vertex over a straight triangle.
+struct Inside {
+    vertex: VertexId,
+    /// Its barycentric coordinates in the triangle.
+    weights: [f64; 3],
+}
+
+/// The vertices not yet taken over a straight triangle; takes them.
 fn vertices_inside(
     region: &[Placed],
     triangle: &[DVec2; 3],
     mesh: &SurfaceMesh,
     taken: &mut TiVec<VertexId, bool>,
-) -> Vec<(VertexId, [f64; 3])> {
+) -> Vec<Inside> {
     let mut inside = Vec::new();
     for placed in region {
-        for (v, &p) in mesh.triangles()[placed.face].into_iter().zip(&placed.corners) {
+        for (vertex, &p) in mesh.triangles()[placed.face].into_iter().zip(&placed.corners) {
             // Vertices that the layout added come after those of the input mesh.
-            if v.index() >= taken.len() || taken[v] {
+            if vertex.index() >= taken.len() || taken[vertex] {
                 continue;
             }
             let weights = weights(triangle, p);
             if weights.iter().all(|&w| w >= -INSIDE) {
-                taken[v] = true;
-                inside.push((v, weights));
+                taken[vertex] = true;
+                inside.push(Inside { vertex, weights });
             }
         }
     }

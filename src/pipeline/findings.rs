@@ -5,8 +5,8 @@ use crate::landmark_fit::{Finding, MOST_COMPARED, Repair, landmark_fit};
 use crate::landmark_suggestion::unmarked_limbs;
 use crate::landmarks::Landmarks;
 use crate::layout::LandmarkDistances;
-use crate::mesh::VertexId;
 use crate::mesh::coarsening::Level;
+use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Stage};
 use serde::Serialize;
 
@@ -168,18 +168,20 @@ pub fn findings(
     let Landmarks { source, target } = input.landmarks;
     let numbers =
         |level: &Level, ends: Vec<VertexId>| ends.iter().map(|&v| level.vertices[v].index()).collect();
-    let ((source, from), (target, onto)) = (coarse((input.source, source)), coarse((input.target, target)));
-    let meshes = [&source.mesh, &target.mesh];
-    let landmarks = Landmarks { source: from, target: onto };
+    let levels = [coarse(input.source, source), coarse(input.target, target)];
+    let landmarks = Landmarks {
+        source: levels[0].numbers(source).collect(),
+        target: levels[1].numbers(target).collect(),
+    };
+    let meshes = [&levels[0].mesh, &levels[1].mesh];
     let mut found = Vec::new();
     if landmarks.len() <= MOST_COMPARED {
         let distances = LandmarkDistances::new(meshes, &landmarks);
         found = landmark_fit(meshes, &landmarks, &distances, &mut Portion::new(monitor, 0.0, 0.5))?;
     }
     let mut reports: Vec<_> = found.iter().map(|finding| FindingReport::new(finding, labels)).collect();
-    for (side, (level, marks)) in
-        [(&source, &landmarks.source), (&target, &landmarks.target)].iter().enumerate()
-    {
+    for (side, marks) in [&landmarks.source, &landmarks.target].into_iter().enumerate() {
+        let level = &levels[side];
         let half = &mut Portion::new(monitor, 0.5 + 0.25 * side as f64, 0.75 + 0.25 * side as f64);
         let ends: Vec<usize> = numbers(level, unmarked_limbs(&level.mesh, marks, half)?);
         if !ends.is_empty() {
@@ -189,10 +191,9 @@ pub fn findings(
     Ok(reports)
 }
 
-fn coarse((mesh, landmarks): (&crate::mesh::SurfaceMesh, &[VertexId])) -> (Level, Vec<VertexId>) {
-    let level = Level::coarse(mesh, landmarks, COARSE_VERTICES.max(2 * landmarks.len()));
-    let numbers = level.numbers(landmarks).collect();
-    (level, numbers)
+/// The level of a mesh on which its distances are measured.
+fn coarse(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> Level {
+    Level::coarse(mesh, landmarks, COARSE_VERTICES.max(2 * landmarks.len()))
 }
 
 #[cfg(test)]

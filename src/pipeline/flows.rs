@@ -32,14 +32,14 @@ impl Flows {
         options: &PipelineOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<Self, PipelineError> {
-        let source =
+        let (_, source) =
             metric_of(MeshSide::Source, input, base, options, monitor).map_err(PipelineError::source_flow)?;
-        let target =
+        let (metric, target) =
             metric_of(MeshSide::Target, input, base, options, monitor).map_err(PipelineError::target_flow)?;
         Ok(Self {
             cones: cones(input, base, options),
-            target_atlas: Some(flat_atlas(input.target, &target.0, &input.landmarks.target)),
-            reports: [Some(source.1), Some(target.1)],
+            target_atlas: Some(flat_atlas(input.target, &metric, &input.landmarks.target)),
+            reports: [Some(source), Some(target)],
             faces: input.target.face_count(),
         })
     }
@@ -107,19 +107,20 @@ fn metric_of(
         MeshSide::Target => (Stage::TargetConeMetric, input.target, &input.landmarks.target),
     };
     monitor.enter(stage);
-    cone_metric((mesh, landmarks), base, options, monitor)
+    cone_metric(mesh, landmarks, base, options, monitor)
 }
 
 /// Curvature of each landmark's cone.
 fn cones(input: MapInput<'_>, base: &BaseDomain, options: &PipelineOptions) -> Vec<f64> {
     let target = &input.landmarks.target;
-    let goal = curvature((input.target, target), base, options.cones);
+    let goal = curvature(input.target, target, base, options.cones);
     target.iter().map(|&v| goal[v]).collect()
 }
 
 /// Target curvature of each vertex.
 fn curvature(
-    (mesh, landmarks): (&SurfaceMesh, &[VertexId]),
+    mesh: &SurfaceMesh,
+    landmarks: &[VertexId],
     base: &BaseDomain,
     cones: Cones,
 ) -> TiVec<VertexId, f64> {
@@ -131,10 +132,11 @@ fn curvature(
 
 /// The flat cone metric of a mesh with its landmarks.
 pub(super) fn cone_metric(
-    marked: (&SurfaceMesh, &[VertexId]),
+    mesh: &SurfaceMesh,
+    landmarks: &[VertexId],
     base: &BaseDomain,
     options: &PipelineOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<(ConeMetric, FlowReport), FlowError> {
-    flow(marked.0, &curvature(marked, base, options.cones), &options.flow, monitor)
+    flow(mesh, &curvature(mesh, landmarks, base, options.cones), &options.flow, monitor)
 }

@@ -4,7 +4,7 @@ use super::{Base, MapInput, PipelineError, PipelineOptions};
 use crate::base_domain;
 use crate::coarse_map::class_search::{Chosen, ClassSearchOptions, choose_class};
 use crate::coarse_map::multilevel::{CoarseMap, solve_coarse, solve_fine};
-use crate::coarse_map::own_cones::{self, Refined, Rounds, Start};
+use crate::coarse_map::own_cones::{self, Owners, Refined, Rounds, Start};
 use crate::coarse_map::{LEAST_PER_LANDMARK, LandmarkedMesh, MeshWithCoarse, coarse_landmarks};
 use crate::landmarks::Landmarks;
 use crate::layout::{self, BaseLayout, LayoutError, SearchOptions, SearchReport};
@@ -132,14 +132,14 @@ fn solve(
 ) -> Result<Solved, PipelineError> {
     monitor.enter(Stage::ClassSearch);
     let sides = [0, 1].map(|k| MeshWithCoarse::new(&full[k].refined.mesh, &full[k].landmarks, vertices));
-    let (layout, search, map) = coarse(input, &sides, options, &search, monitor)?;
+    let Coarse { layout, search, map } = coarse(input, &sides, options, &search, monitor)?;
     if has_own_cones(input.landmarks.len(), options) {
         monitor.enter(Stage::OwnCones);
     }
-    let rounds = (Rounds::new(&options.own_cones), Rounds::new(&options.own_cones));
+    let (meshes, levels) = (Rounds::new(&options.own_cones), Rounds::new(&options.own_cones));
     let start = Start { inputs: [input.source, input.target], full, map: &map, vertices };
-    let cells = (&rounds.0, &rounds.1);
-    let own = own_cones::add(start, cells, &options.multilevel, &options.own_cones, monitor)?;
+    let owners = Owners { meshes: &meshes, levels: &levels };
+    let own = own_cones::add(start, owners, &options.multilevel, &options.own_cones, monitor)?;
     monitor.enter(Stage::Relaxation);
     if let Some(own) = own
         && let Some(refined) = own.refined(&options.multilevel, monitor)?
@@ -152,6 +152,13 @@ fn solve(
     Ok(Solved { layout, search, surface, embeddings, with_own: None })
 }
 
+/// A coarse map with its layout.
+struct Coarse<'a> {
+    layout: BaseLayout,
+    search: SearchReport,
+    map: CoarseMap<'a>,
+}
+
 /// The coarse map of least mean log density among the classes of layouts that are tried.
 fn coarse<'a>(
     input: MapInput<'_>,
@@ -159,7 +166,7 @@ fn coarse<'a>(
     options: &PipelineOptions,
     search: &SearchOptions,
     monitor: &mut dyn Monitor,
-) -> Result<(BaseLayout, SearchReport, CoarseMap<'a>), PipelineError> {
+) -> Result<Coarse<'a>, PipelineError> {
     match options.base {
         Base::Joint => {
             let PipelineOptions { multilevel, class, .. } = options;
@@ -167,7 +174,7 @@ fn coarse<'a>(
             let chosen = choose_class(sides, search_options, &mut Portion::new(monitor, 0.0, 0.9))?;
             let Chosen { candidate, search, mut map } = chosen;
             map.finish(&options.multilevel, &mut Portion::new(monitor, 0.9, 1.0))?;
-            Ok((candidate.layout, search, map))
+            Ok(Coarse { layout: candidate.layout, search, map })
         }
         Base::Qem => {
             let landmarks = coarse_landmarks(sides);
@@ -183,7 +190,7 @@ fn coarse<'a>(
                 _ => LayoutError::NoMap { layouts: 1, near: Vec::new() }.into(),
             })?;
             map.finish(&options.multilevel, &mut Portion::new(monitor, 0.8, 1.0))?;
-            Ok((layout, SearchReport::default(), map))
+            Ok(Coarse { layout, search: SearchReport::default(), map })
         }
     }
 }

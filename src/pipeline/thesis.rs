@@ -24,17 +24,16 @@ pub(super) fn run(
     monitor.enter(Stage::BaseDomain);
     let layout = draw(input, options, monitor)?;
     let refined = |side: &PatchedMesh, monitor: &mut dyn Monitor| {
-        cone_metric((&side.mesh, &side.landmark_vertices.raw), &layout.base, options, monitor)
+        cone_metric(&side.mesh, &side.landmark_vertices.raw, &layout.base, options, monitor)
     };
     let flows = Flows::new(input, &layout.base, options, monitor)?;
     monitor.enter(Stage::PatchwiseMap);
-    let source =
+    let (source, _) =
         refined(&layout.source, &mut Portion::new(monitor, 0.0, 0.4)).map_err(PipelineError::source_flow)?;
-    let target =
+    let (target, _) =
         refined(&layout.target, &mut Portion::new(monitor, 0.4, 0.8)).map_err(PipelineError::target_flow)?;
-    let metrics = [&source.0, &target.0];
     let last = &mut Portion::new(monitor, 0.8, 1.0);
-    let map = patchwise_map(&layout, [input.source, input.target], metrics, last)?;
+    let map = patchwise_map(&layout, [input.source, input.target], [&source, &target], last)?;
     monitor.enter(Stage::Transfer);
     Ok(result(input, layout, &flows, map))
 }

@@ -29,19 +29,20 @@ impl<'a> OrientedSurface<'a> {
         Self { mesh, normals, bends }
     }
 
-    /// The way along the normal from a point to the surface near a vertex, and the unit normal there: the surface is taken
-    /// for a paraboloid, so that it matters little which vertex of which triangulation is the nearest.
-    fn distance(&self, near: VertexId, p: DVec3) -> (f64, DVec3) {
+    /// The foot of a point on the surface near a vertex: the surface is taken for a paraboloid, so that it matters little
+    /// which vertex of which triangulation is the nearest.
+    fn foot(&self, near: VertexId, p: DVec3) -> Foot {
         let normal = self.normals[near];
         let away = p - self.mesh.positions()[near];
         let along = away - normal * away.dot(normal);
         let turn = self.bends[near] * along;
         // Where the normal turns by much within a step, it is an edge and no paraboloid.
         if turn.length_squared() > LARGEST_TURN * LARGEST_TURN {
-            return (-away.dot(normal), normal);
+            return Foot { distance: -away.dot(normal), normal };
         }
         // Its height above the tangent plane is half the bend, the normal its gradient's.
-        (0.5 * along.dot(turn) - away.dot(normal), (normal - turn).normalize_or(normal))
+        let distance = 0.5 * along.dot(turn) - away.dot(normal);
+        Foot { distance, normal: (normal - turn).normalize_or(normal) }
     }
 
     /// The vertex nearest to p among its neighbours, downhill from a vertex.
@@ -61,6 +62,15 @@ impl<'a> OrientedSurface<'a> {
             }
         }
     }
+}
+
+/// Where the normal through a point near the surface meets it.
+#[derive(Clone, Copy, Debug)]
+struct Foot {
+    /// The way to it along the normal.
+    distance: f64,
+    /// Unit normal there.
+    normal: DVec3,
 }
 
 /// Largest turn of the normal, in radians, from a vertex to the point that is nearest to it.
@@ -166,7 +176,7 @@ impl Fitter {
         let mut fit = None;
         for _ in 0..options.max_steps {
             let at = motion.apply(centre.position);
-            let sums = self.sums(points, (&motion, at), (onto, options), total);
+            let sums = self.sums(points, total, &motion, onto, options.noise);
             let Normal { mut matrix, mut right, misfit } = sums;
             for k in 0..3 {
                 matrix[(k, k)] += LEAST_RESISTANCE;
@@ -195,31 +205,34 @@ impl Fitter {
         fit
     }
 
+    /// The normal equations of a patch moved by `motion`; the weights of its points sum to `total`.
     fn sums(
         &mut self,
         points: &mut [PatchPoint],
-        (motion, at): (&Rigid3, DVec3),
-        (onto, options): (&OrientedSurface<'_>, &FitOptions),
         total: f64,
+        motion: &Rigid3,
+        onto: &OrientedSurface<'_>,
+        noise: f64,
     ) -> Normal {
+        let centre = motion.apply(points[0].position);
         self.distances.clear();
         self.normals.clear();
         self.arms.clear();
         for p in points.iter_mut() {
             let y = motion.apply(p.position);
             p.near = onto.nearest(p.near, y);
-            let (distance, normal) = onto.distance(p.near, y);
+            let Foot { distance, normal } = onto.foot(p.near, y);
             self.distances.push(distance);
             // Normals within 60 degrees.
             let agrees = (motion.rotation * p.normal).dot(normal) > 0.5;
             self.normals.push(if agrees { normal } else { DVec3::ZERO });
-            self.arms.push(y - at);
+            self.arms.push(y - centre);
         }
         self.sorted.clear();
         self.sorted.extend(self.distances.iter().map(|d| d.abs()));
         self.sorted.sort_unstable_by(f64::total_cmp);
         // The robust scale is the median distance. Chosen by hand.
-        let knee = max(1.5 * self.sorted[self.sorted.len() / 2], options.noise);
+        let knee = max(1.5 * self.sorted[self.sorted.len() / 2], noise);
         let mut sums = Normal { matrix: Matrix6::zeros(), right: Vector6::zeros(), misfit: 0.0 };
         for (k, p) in points.iter().enumerate() {
             let (distance, n) = (self.distances[k], self.normals[k]);
@@ -309,7 +322,7 @@ mod tests {
             let [p, q, r] = ball.corners(f);
             let outwards = (p + q * 0.7 + r * 0.8).normalize();
             let near = surface.nearest(ball.triangles()[f][0], outwards * 1.003);
-            let (distance, normal) = surface.distance(near, outwards * 1.003);
+            let Foot { distance, normal } = surface.foot(near, outwards * 1.003);
             let plane = (ball.positions()[near] - outwards * 1.003).dot(surface.normals[near]);
             let errors = |distance: f64, normal: DVec3| [(distance + 0.003).abs(), normal.distance(outwards)];
             for (worst, found) in

@@ -47,6 +47,13 @@ struct Segment {
     face: FaceId,
 }
 
+/// A point of a chain.
+pub(super) struct ChainPoint {
+    pub position: DVec3,
+    /// A face of the given surface beside it.
+    pub face: FaceId,
+}
+
 impl Creases {
     /// The sharp edges of a surface: where the normals of two faces differ by more than `angle`, in lines of at least some
     /// edges of the new `length`.
@@ -110,19 +117,19 @@ impl Creases {
         }
     }
 
-    /// The nearest point of a chain, with a face beside it.
-    pub fn nearest(&self, p: DVec3, chain: u32) -> (DVec3, FaceId) {
+    /// The nearest point of a chain.
+    pub fn nearest(&self, p: DVec3, chain: u32) -> ChainPoint {
         let place = p.to_array().into();
         let found = self.hierarchy.find_best(
             f64::MAX,
             |node, _| node.aabb().distance_to_local_point(place, true),
             |k, _| {
                 let segment = self.segments.get(k as usize).filter(|segment| segment.chain == chain)?;
-                let nearest = nearest_between(p, segment.ends);
-                Some((nearest.distance(p), (nearest, segment.face)))
+                let position = nearest_between(p, segment.ends);
+                Some((position.distance(p), ChainPoint { position, face: segment.face }))
             },
         );
-        found.map_or((p, FaceId(0)), |(_, (_, nearest))| nearest)
+        found.map_or(ChainPoint { position: p, face: FaceId(0) }, |(_, (_, nearest))| nearest)
     }
 }
 

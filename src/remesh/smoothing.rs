@@ -1,6 +1,6 @@
 //! Vertices move in their tangent planes, and back onto the surface.
 
-use super::creases::Kind;
+use super::creases::{ChainPoint, Kind};
 use super::working::{Place, Working, distance};
 use crate::math::scalar::min;
 use crate::math::triangle;
@@ -59,9 +59,9 @@ impl Working<'_> {
         let Place { position, normal, near } = self.places[v];
         let step = goal - position;
         if let Kind::Along(chain) = self.creases.kind(v) {
-            let (position, near) = self.creases.nearest(position + share * step, chain);
-            let normal = self.original.nearest_facing(position, normal, near);
-            return Place { position, normal: self.original.normal(normal.point), near };
+            let ChainPoint { position, face } = self.creases.nearest(position + share * step, chain);
+            let normal = self.original.nearest_facing(position, normal, face);
+            return Place { position, normal: self.original.normal(normal.point), near: face };
         }
         let tangential = step - normal * step.dot(normal);
         let nearest = self.original.nearest_facing(position + share * tangential, normal, near);

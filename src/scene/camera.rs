@@ -18,6 +18,15 @@ pub struct Camera {
     pub target: Vec3,
 }
 
+/// A line of sight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where it enters the view's depth.
+    pub origin: Vec3,
+    /// Unit direction.
+    pub direction: Vec3,
+}
+
 impl Default for Camera {
     fn default() -> Self {
         // From ahead, a little from the right and from above; from 4 radii the whole unit ball is seen.
@@ -82,15 +91,15 @@ impl Camera {
         self.distance = (self.distance * factor).clamp(0.15, 20.0);
     }
 
-    /// The ray through a point of the view: origin and direction. `at` runs from (-1, -1) bottom left to (1, 1).
-    pub fn ray(&self, at: Vec2, aspect: f32) -> (Vec3, Vec3) {
+    /// The ray through a point of the view. `at` runs from (-1, -1) bottom left to (1, 1).
+    pub fn ray(&self, at: Vec2, aspect: f32) -> Ray {
         let inverse = self.view_projection(aspect).inverse();
         let unproject = |depth: f32| {
             let p = inverse * Vec4::new(at.x, at.y, depth, 1.0);
             p.truncate() / p.w
         };
-        let near = unproject(0.0);
-        (near, (unproject(1.0) - near).normalize())
+        let origin = unproject(0.0);
+        Ray { origin, direction: (unproject(1.0) - origin).normalize() }
     }
 
     /// Where a point is seen, from (-1, -1) to (1, 1), with its depth; `None` behind the camera.
@@ -130,7 +139,7 @@ mod tests {
         let p = Vec3::new(0.3, -0.4, 0.5);
         for aspect in [0.5, 1.7] {
             let seen = camera.project(p, aspect).unwrap();
-            let (origin, direction) = camera.ray(seen.truncate(), aspect);
+            let Ray { origin, direction } = camera.ray(seen.truncate(), aspect);
             assert!((p - origin).cross(direction).length() < 1e-3);
         }
     }

@@ -5,5 +5,5 @@ pub mod camera;
 pub mod picking;
 
 pub use buffers::{LineVertex, MarkerInstance, SurfaceVertex};
-pub use camera::Camera;
+pub use camera::{Camera, Ray};
 pub use picking::Picker;

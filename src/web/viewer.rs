@@ -7,7 +7,7 @@ use crate::io::landmark_file::LandmarkPoint;
 use crate::mesh::check::CheckedMesh;
 use crate::mesh::{FaceId, SurfacePoint};
 use crate::scene::buffers::{Frame, landmark_colour, ribbons, surface};
-use crate::scene::{Camera, MarkerInstance, Picker, SurfaceVertex};
+use crate::scene::{Camera, MarkerInstance, Picker, Ray, SurfaceVertex};
 use glam::{DVec3, Vec2, Vec3};
 use serde::Deserialize;
 use serde_json::json;
@@ -273,7 +273,7 @@ impl Viewer {
     pub fn pick(&self, side: usize, x: f32, y: f32) -> Option<String> {
         let side = &self.sides[side.min(1)];
         let mesh = side.mesh.as_ref()?;
-        let (origin, direction) = side.camera.ray(Vec2::new(x, y), side.aspect());
+        let Ray { origin, direction } = side.camera.ray(Vec2::new(x, y), side.aspect());
         let from = mesh.frame.unplace(origin);
         let along = (mesh.frame.unplace(origin + direction) - from).normalize();
         let hit = mesh.picker.as_ref()?.pick(&mesh.checked.mesh, from, along)?;

@@ -26,12 +26,12 @@ fn limbs_turned_by_a_whole_turn_are_turned_back() {
     let mut candidates = Candidates::new(meshes, &landmarks);
     let straight = candidates.next(&mut Silent).expect("not stopped").expect("a layout");
     let least = mean_log(&straight.layout, &mut Silent).expect("not stopped").expect("a map");
-    for twisted in candidates.twists(&straight, (2, 3.0), &mut Silent).expect("not stopped") {
+    for twisted in candidates.twists(&straight, 2, 3.0, &mut Silent).expect("not stopped") {
         assert!(!same_class(&straight.layout, &twisted.layout));
         let mut fresh = Candidates::new(meshes, &landmarks);
         let options = SearchOptions::default();
         let (found, report) =
-            layout::untwist((&mut fresh, twisted), &mut judge, &options, &mut Silent).expect("a layout");
+            layout::untwist(&mut fresh, twisted, &mut judge, &options, &mut Silent).expect("a layout");
         let before = report.judged[0].mean_log.unwrap_or(f64::INFINITY);
         let after = report.mean_log().expect("a map");
         assert!(before > 1.2 * least, "a whole turn distorts: {before} against {least}");

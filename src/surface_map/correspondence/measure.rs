@@ -2,6 +2,7 @@
 
 use super::pieces::{Correspondence, MappedPiece, share};
 use crate::math::matrix2::squares;
+use crate::math::quantile::Weighted;
 use crate::math::scalar::{ln, max};
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::surface_map::measures::distortion::{
@@ -42,7 +43,7 @@ pub fn distortion(meshes: [&SurfaceMesh; 2], map: &Correspondence) -> Distortion
             dented[0] += source_area;
             dented[1] += target_area;
         }
-        densities.push((density, source_area));
+        densities.push(Weighted { value: density, weight: source_area });
         face_sums[piece.faces[0]][0] += density * source_area;
         face_sums[piece.faces[0]][1] += source_area;
     }
@@ -55,19 +56,15 @@ pub fn distortion(meshes: [&SurfaceMesh; 2], map: &Correspondence) -> Distortion
     result
 }
 
-/// The certain pieces of largest density, given (density, source area) of each piece.
-fn worst_pieces(
-    meshes: [&SurfaceMesh; 2],
-    map: &Correspondence,
-    densities: &[(f64, f64)],
-) -> Vec<WorstPiece> {
+/// The certain pieces of largest density, given the density of each piece with its source area.
+fn worst_pieces(meshes: [&SurfaceMesh; 2], map: &Correspondence, densities: &[Weighted]) -> Vec<WorstPiece> {
     let mut order: Vec<usize> = (0..densities.len()).filter(|&k| map.pieces[k].is_certain).collect();
-    order.sort_by(|&a, &b| densities[b].0.total_cmp(&densities[a].0));
+    order.sort_by(|&a, &b| densities[b].value.total_cmp(&densities[a].value));
     let worst = order.into_iter().take(WORST);
     worst
         .map(|k| {
             let piece = &map.pieces[k];
-            let (density, area) = densities[k];
+            let Weighted { value: density, weight: area } = densities[k];
             let [source, target] = [0, 1].map(|side| middle(meshes[side], map, side, piece));
             WorstPiece { density, area, source, target }
         })

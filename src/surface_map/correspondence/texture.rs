@@ -91,11 +91,7 @@ impl Patch {
 }
 
 /// The texture coordinates of a piece: those of the triangle that holds its middle.
-fn patch_of(
-    (drawing, inside): (&TextureDrawing, &[u32]),
-    target: &SurfaceMesh,
-    ring: &[DVec2],
-) -> Option<Patch> {
+fn patch_of(drawing: &TextureDrawing, inside: &[u32], target: &SurfaceMesh, ring: &[DVec2]) -> Option<Patch> {
     let middle = ring.iter().sum::<DVec2>() / ring.len() as f64;
     let depth = |patch: &Patch| patch.weights(middle).into_iter().fold(f64::INFINITY, f64::min);
     let patches = inside.iter().filter_map(|&k| Patch::new(drawing, target, k));
@@ -132,7 +128,9 @@ pub fn common_mesh(
     for (number, piece) in map.pieces.iter().enumerate() {
         map.ring(meshes[1], 1, piece, &mut places);
         let triangles = inside.as_ref().map(|inside| &inside[piece.faces[1]][..]);
-        let patch = texture.zip(triangles).and_then(|drawing| patch_of(drawing, meshes[1], &places));
+        let patch = texture
+            .zip(triangles)
+            .and_then(|(drawing, inside)| patch_of(drawing, inside, meshes[1], &places));
         ring.clear();
         for (&vertex, &place) in map.corners[piece.corners.clone()].iter().zip(&places) {
             let uv = patch.as_ref().map_or(DVec2::ZERO, |patch| patch.uv(place));

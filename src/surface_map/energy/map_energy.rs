@@ -18,7 +18,7 @@
 //! which is 1 + y far below the knee k and grows like the stretch itself above it (pseudo-Huber; Charbonnier et al. 1997).
 
 use super::density::{Density, HessianTerm, Signed};
-use crate::math::matrix2::{cofactor, squares, symmetric_eigen};
+use crate::math::matrix2::{SymmetricEigen, cofactor, squares, symmetric_eigen};
 use crate::math::scalar::max;
 use glam::DMat2;
 
@@ -114,7 +114,7 @@ impl Density for MapEnergy {
         let (h11, h22) = (own + squares * bend * s2 * s2, own + squares * bend * s1 * s1);
         let h12 = squares * (3.0 * slope + q * bend) + by_area;
         // Those of the 2 x 2 block of stretches.
-        let ([larger, smaller], first) = symmetric_eigen([h11, h12, h22]);
+        let SymmetricEigen { values: [larger, smaller], first } = symmetric_eigen([h11, h12, h22]);
         let turning = squares * slope + by_area;
         [
             svd.stretch(max(larger, 0.0), [first.x, first.y]),

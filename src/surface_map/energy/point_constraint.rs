@@ -57,7 +57,7 @@ mod tests {
     #[test]
     fn the_derivatives_are_difference_quotients() {
         for knee in [1e-3, 0.01, 0.1, 1e6, 1e12] {
-            assert_derivatives(&constraint(knee), (CORNERS, HATS), knee > 1.0);
+            assert_derivatives(&constraint(knee), CORNERS, HATS, knee > 1.0);
         }
     }
 

@@ -32,7 +32,8 @@ pub(super) mod testing {
     /// dominates the gradient's, or agrees with it where `is_exact`.
     pub fn assert_derivatives(
         energy: &impl VertexEnergy,
-        (corners, hats): ([DVec3; 3], [DVec2; 3]),
+        corners: [DVec3; 3],
+        hats: [DVec2; 3],
         is_exact: bool,
     ) {
         for place in [[0.2, 0.3], [0.1, 0.1], [0.6, 0.3]].map(DVec2::from) {

@@ -3,7 +3,7 @@
 //! On each piece of the overlay the map is affine with singular values s1, s2 (both surfaces scaled to area 1).
 
 use crate::math::matrix2::squares;
-use crate::math::quantile::quantile;
+use crate::math::quantile::{Weighted, quantile, sort_by_value};
 use crate::math::scalar::{ln, max, min};
 use crate::math::triangle::lay_out;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
@@ -126,7 +126,7 @@ pub fn distortion(source: Parametrised<'_>, target: Parametrised<'_>, overlay: &
             dented[0] += source_area;
             dented[1] += target_area;
         }
-        densities.push((density, source_area));
+        densities.push(Weighted { value: density, weight: source_area });
         face_sums[piece.source_face][0] += density * source_area;
         face_sums[piece.source_face][1] += source_area;
     }
@@ -139,11 +139,11 @@ pub fn distortion(source: Parametrised<'_>, target: Parametrised<'_>, overlay: &
     result
 }
 
-/// The [`WORST`] pieces of largest density, given (density, source area) of each piece.
+/// The [`WORST`] pieces of largest density, given that of each piece with its source area as its weight.
 fn worst_pieces(
     [source, target]: [Parametrised<'_>; 2],
     overlay: &Overlay,
-    densities: &[(f64, f64)],
+    densities: &[Weighted],
 ) -> Vec<WorstPiece> {
     let is_certain = |piece: &Piece| {
         let triangles =
@@ -151,7 +151,7 @@ fn worst_pieces(
         is_certain(piece.area, [&triangles[0], &triangles[1]])
     };
     let mut order: Vec<usize> = (0..densities.len()).collect();
-    order.sort_by(|&a, &b| densities[b].0.total_cmp(&densities[a].0));
+    order.sort_by(|&a, &b| densities[b].value.total_cmp(&densities[a].value));
     let worst = order.into_iter().filter(|&k| is_certain(&overlay.pieces[k])).take(WORST);
     worst
         .map(|k| {
@@ -161,7 +161,7 @@ fn worst_pieces(
                 let sum = corners.iter().map(|corner| DVec3::from(of(corner))).sum::<DVec3>();
                 (sum / corners.len() as f64).to_array()
             };
-            let (density, area) = densities[k];
+            let Weighted { value: density, weight: area } = densities[k];
             WorstPiece {
                 density,
                 area,
@@ -209,7 +209,7 @@ pub fn image_distortion(
         if density > DENTED {
             (0..2).for_each(|k| dented[k] += areas[k]);
         }
-        densities.push((density, areas[0]));
+        densities.push(Weighted { value: density, weight: areas[0] });
     }
     result.dented = max(dented[0] / result.source_area, dented[1] / result.target_area);
     result.mean_log = 0.5 * (logs[0] / result.source_area + logs[1] / result.target_area);
@@ -224,13 +224,13 @@ pub(in crate::surface_map) fn in_plane([p, q, r]: [DVec3; 3], scale: f64) -> DMa
 }
 
 impl Distortion {
-    /// Mean, quantiles and maximum of (density, source area) pairs.
-    pub(in crate::surface_map) fn summarise(&mut self, mut densities: Vec<(f64, f64)>) {
-        self.mean = densities.iter().map(|(d, a)| d * a).sum::<f64>() / self.source_area;
-        densities.sort_by(|a, b| a.0.total_cmp(&b.0));
+    /// Mean, quantiles and maximum of densities, their weights the source areas.
+    pub(in crate::surface_map) fn summarise(&mut self, mut densities: Vec<Weighted>) {
+        self.mean = densities.iter().map(|d| d.value * d.weight).sum::<f64>() / self.source_area;
+        sort_by_value(&mut densities);
         self.median = quantile(&densities, 0.5);
         self.p95 = quantile(&densities, 0.95);
-        self.max = densities.last().map_or(1.0, |d| d.0);
+        self.max = densities.last().map_or(1.0, |d| d.value);
     }
 }
 

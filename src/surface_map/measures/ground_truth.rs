@@ -1,6 +1,6 @@
 //! Distance to the true images, where the truth is known.
 
-use crate::math::quantile::quantile;
+use crate::math::quantile::{Weighted, quantile, sort_by_value};
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 
 /// Distances between images and true images, in units of sqrt(target area).
@@ -21,13 +21,14 @@ pub fn same_connectivity_error(
 ) -> GroundTruthError {
     let scale = 1.0 / target.area().sqrt();
     let distance = |(v, image): (VertexId, SurfacePoint)| {
-        (image.position(target).distance(target.positions()[v]) * scale, 1.0)
+        let value = image.position(target).distance(target.positions()[v]) * scale;
+        Weighted { value, weight: 1.0 }
     };
     let mut distances: Vec<_> = images.map(distance).collect();
-    distances.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by_value(&mut distances);
     GroundTruthError {
-        mean: distances.iter().map(|d| d.0).sum::<f64>() / distances.len() as f64,
+        mean: distances.iter().map(|d| d.value).sum::<f64>() / distances.len() as f64,
         p95: quantile(&distances, 0.95),
-        max: distances.last().map_or(f64::NAN, |d| d.0),
+        max: distances.last().map_or(f64::NAN, |d| d.value),
     }
 }

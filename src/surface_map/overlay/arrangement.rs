@@ -5,7 +5,7 @@
 
 use super::pieces::{OverlayError, SideOf};
 use super::seats::Seats;
-use super::trace::Traces;
+use super::trace::Traced;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::DVec2;
@@ -63,16 +63,11 @@ pub(super) struct Arrangement {
 
 impl Arrangement {
     /// Sorts the crossings along the target edges, links the darts and merges the stars of the landmarks.
-    pub fn fill(
-        &mut self,
-        source: Parametrised<'_>,
-        target: Parametrised<'_>,
-        (seats, traces): (&Seats, &Traces),
-    ) -> Result<(), OverlayError> {
-        self.sort(target, traces);
-        self.number(source, target, traces);
-        self.link(source, target, traces);
-        self.merge_stars(source, target, (seats, traces))
+    pub fn fill(&mut self, traced: Traced<'_>) -> Result<(), OverlayError> {
+        self.sort(traced);
+        self.number(traced);
+        self.link(traced);
+        self.merge_stars(traced)
     }
 
     /// The source halfedge of a dart, or its target halfedge.
@@ -112,7 +107,7 @@ impl Arrangement {
     }
 
     /// Counting sort by target edge, then by place on the edge; equal places by number.
-    fn sort(&mut self, target: Parametrised<'_>, traces: &Traces) {
+    fn sort(&mut self, Traced { target, traces, .. }: Traced<'_>) {
         let mesh = target.mesh;
         self.ranges.clear();
         self.ranges.resize(mesh.face_count() * 3, [0; 2]);
@@ -145,7 +140,7 @@ impl Arrangement {
     }
 
     /// Numbers the darts, edge by edge, each in both directions: first those of the source.
-    fn number(&mut self, source: Parametrised<'_>, target: Parametrised<'_>, traces: &Traces) {
+    fn number(&mut self, Traced { source, target, traces, .. }: Traced<'_>) {
         let mut dart = 0;
         let mut put =
             |darts: &mut TiVec<HalfedgeId, u32>, [h, twin]: [HalfedgeId; 2], [begin, end]: [u32; 2]| {
@@ -178,7 +173,7 @@ impl Arrangement {
 
     /// What follows each dart: at the end of its halfedge the next halfedge of the face; at a crossing each dart turns to
     /// its left. The trace, seen going east, crosses `exit` going north.
-    fn link(&mut self, source: Parametrised<'_>, target: Parametrised<'_>, traces: &Traces) {
+    fn link(&mut self, Traced { source, target, traces, .. }: Traced<'_>) {
         let [mesh, below] = [source.mesh, target.mesh];
         for h in mesh.edges() {
             let twin = mesh.twin(h);
@@ -203,12 +198,8 @@ impl Arrangement {
     }
 
     /// At landmarks both stars share a vertex: around it, the next outgoing dart clockwise may be of the other mesh.
-    fn merge_stars(
-        &mut self,
-        source: Parametrised<'_>,
-        target: Parametrised<'_>,
-        (seats, traces): (&Seats, &Traces),
-    ) -> Result<(), OverlayError> {
+    fn merge_stars(&mut self, traced: Traced<'_>) -> Result<(), OverlayError> {
+        let Traced { source, target, seats, traces } = traced;
         let [mesh, below] = [source.mesh, target.mesh];
         self.last_in_wedge.resize(below.face_count() * 3, None);
         let landmarks = source.landmark_vertices.iter().zip(target.landmark_vertices);
@@ -245,12 +236,7 @@ impl Arrangement {
     }
 
     /// Fills `darts`.
-    pub fn describe(
-        &mut self,
-        source: Parametrised<'_>,
-        target: Parametrised<'_>,
-        (seats, traces): (&Seats, &Traces),
-    ) {
+    pub fn describe(&mut self, Traced { source, target, seats, traces }: Traced<'_>) {
         let [mesh, below] = [source.mesh, target.mesh];
         self.number_vertices(source, target);
         self.source_halfedges = mesh.face_count() as u32 * 3;

@@ -47,7 +47,8 @@ pub struct LineSection {
 /// anchor that was turned too far in one step is mistaken. Lines that start at right anchors arrive, and tell the others.
 pub fn mend_anchors(
     embedding: &mut Embedding,
-    (mesh, landmarks): (&SurfaceMesh, &Landmarks),
+    mesh: &SurfaceMesh,
+    landmarks: &Landmarks,
     surface: &ConeSurface,
 ) {
     let base = &surface.base;
@@ -108,7 +109,8 @@ pub fn base_line(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -
             line.end_error = corners[corner].distance(q);
             // Far above rounding, and far below the distance of any other landmark.
             if line.end_error < 1e-6 * length {
-                line.arrival = Some(arrived(surface, h, (corner, corners[corner]), [p, q]));
+                line.arrival =
+                    Some(arrived(surface, h, corner, [corners[corner], corners[corner] + (p - q)]));
             }
             line.points.push(SurfacePoint::at_vertex(side.mesh, goal));
             line.sections.push(LineSection { face, ends: [p, q], exit: None });
@@ -130,17 +132,11 @@ pub fn base_line(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -
     line
 }
 
-/// The anchor at the end of base halfedge `h`, which arrives at a corner along the segment p q.
-fn arrived(
-    surface: &ConeSurface,
-    h: HalfedgeId,
-    (corner, at): (HalfedgeId, DVec2),
-    [p, q]: [DVec2; 2],
-) -> Anchor {
+/// The anchor at the end of base halfedge `h`, which arrives at a corner; `way_back` lies along it, from the corner on.
+fn arrived(surface: &ConeSurface, h: HalfedgeId, corner: HalfedgeId, way_back: [DVec2; 2]) -> Anchor {
     let back = surface.base.mesh.twin(h);
     let chart = surface.charts[back.face()];
-    let onto = [at, at + (p - q)];
-    let motion = Rigid2::between_segments([chart[back.corner()], chart[back.next().corner()]], onto);
+    let motion = Rigid2::between_segments([chart[back.corner()], chart[back.next().corner()]], way_back);
     Anchor { corner, chart: back.face(), motion }
 }
 
@@ -148,7 +144,7 @@ fn arrived(
 pub fn start(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -> Start {
     let landmark = surface.base.tail(h);
     let fan = Fan::new(surface, landmark);
-    let angle = fan.halfedges().iter().find(|(b, _)| *b == h).map_or(0.0, |(_, angle)| *angle);
+    let angle = fan.angle_of(h).unwrap_or(0.0);
     let anchor = side.embedding.anchors[landmark];
     let past = |w: &Wedge| (angle - w.begin).rem_euclid(fan.total);
     let outside = |w: &Wedge| (past(w) - w.width).max(0.0);

@@ -13,9 +13,6 @@ use typed_index_collections::TiVec;
 
 const NONE: u32 = u32::MAX;
 
-/// The parts that cells are made of.
-pub(super) type Parts<'a> = (&'a Seats, &'a Traces, &'a Arrangement);
-
 /// A vertex of one mesh in a face of the other.
 #[derive(Clone, Copy, Debug)]
 struct Inside {
@@ -42,23 +39,18 @@ pub(super) struct Cells {
 
 /// Source and target with the parts of their arrangement.
 #[derive(Clone, Copy)]
-struct View<'a> {
-    source: Parametrised<'a>,
-    target: Parametrised<'a>,
-    seats: &'a Seats,
-    traces: &'a Traces,
-    arrangement: &'a Arrangement,
+pub(super) struct View<'a> {
+    pub source: Parametrised<'a>,
+    pub target: Parametrised<'a>,
+    pub seats: &'a Seats,
+    pub traces: &'a Traces,
+    pub arrangement: &'a Arrangement,
 }
 
 impl Cells {
     /// Makes the pieces and checks them.
-    pub fn fill(
-        &mut self,
-        [source, target]: [Parametrised<'_>; 2],
-        (seats, traces, arrangement): Parts<'_>,
-        overlay: &mut Overlay,
-    ) -> Result<(), OverlayError> {
-        let view = View { source, target, seats, traces, arrangement };
+    pub fn fill(&mut self, view: View<'_>, overlay: &mut Overlay) -> Result<(), OverlayError> {
+        let View { source, target, traces, arrangement, .. } = view;
         self.reset(view, overlay);
         // Source darts in the order of their faces, so that neighbouring pieces have neighbouring numbers; then the rest.
         for h in source.mesh.halfedges() {
@@ -241,7 +233,7 @@ impl Cells {
         let (source, target) = match halfedge {
             Side::Source(h) => match view.seats.wedges[h] {
                 Some(wedge) => (unit(h.corner()), unit(corner_in(below, t, below.tail(wedge)))),
-                None => (unit(h.corner()), self.source_in_target(view, (VertexId(vertex), h), t)?),
+                None => (unit(h.corner()), self.source_in_target(view, h, t)?),
             },
             Side::Target(x) if is_source => (unit(corner_in(mesh, s, VertexId(vertex))), unit(x.corner())),
             Side::Target(x) => (self.target_in_source(view, x, piece)?, unit(x.corner())),
@@ -252,9 +244,10 @@ impl Cells {
     fn source_in_target(
         &mut self,
         view: View<'_>,
-        (v, h): (VertexId, HalfedgeId),
+        h: HalfedgeId,
         t: FaceId,
     ) -> Result<[f64; 3], OverlayError> {
+        let v = view.source.mesh.tail(h);
         let inside = self.source_inside[v].get_or_insert_with(|| {
             let seat = &view.seats.seats[h];
             let at = seat.motion.apply(view.seats.corners[h]);

@@ -92,7 +92,7 @@ impl Locator {
         }
         let mut result = Err(LocateError { vertex: 0 });
         for seed in surface.base.landmarks() {
-            result = self.fill_from([source, target], (surface, seed), locations);
+            result = self.fill_from([source, target], surface, seed, locations);
             if result.is_ok() {
                 break;
             }
@@ -107,7 +107,8 @@ impl Locator {
     fn fill_from(
         &mut self,
         [source, target]: [Parametrised<'_>; 2],
-        (surface, seed): (&ConeSurface, LandmarkId),
+        surface: &ConeSurface,
+        seed: LandmarkId,
         locations: &mut Locations,
     ) -> Result<(), LocateError> {
         let mesh = source.mesh;
@@ -128,7 +129,7 @@ impl Locator {
             let lost = LocateError { vertex: v.index() };
             let begin = at_landmarks.len() as u32;
             if let Some(apex) = self.apexes[v] {
-                turn_around_cone(source, target, (at, apex), at_landmarks).ok_or(lost)?;
+                turn_around_cone([source, target], at, apex, at_landmarks).ok_or(lost)?;
             }
             by_vertex[v] = at;
             self.queue.push((v, [begin, at_landmarks.len() as u32]));
@@ -210,9 +211,9 @@ impl Corners {
 ///
 /// `None` where that face is not at the apex, or the apex is not met after a turn.
 fn turn_around_cone(
-    source: Parametrised<'_>,
-    target: Parametrised<'_>,
-    (at, apex): (Location, VertexId),
+    [source, target]: [Parametrised<'_>; 2],
+    at: Location,
+    apex: VertexId,
     all: &mut Vec<Location>,
 ) -> Option<()> {
     /// Faces around a landmark, at most: a walk that rounding keeps from arriving ends there.

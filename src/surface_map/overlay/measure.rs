@@ -8,7 +8,7 @@ use super::arrangement::Arrangement;
 use super::location::Locations;
 use super::pieces::{OverlayError, SideOf, face_area};
 use super::seats::Seats;
-use super::trace::Traces;
+use super::trace::{Traced, Traces};
 use crate::math::rigid2::{Rigid2, complex_mul};
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh};
 use crate::surface_map::parametrisation::embedding::Parametrised;
@@ -75,9 +75,10 @@ impl Measure {
         locations: &Locations,
     ) -> Result<(), OverlayError> {
         self.is_exchanged = false;
-        self.seats.fill(source, target, locations, 0)?;
-        self.traces.fill(source, target, &self.seats)?;
-        self.arrangement.fill(source, target, (&self.seats, &self.traces))?;
+        let Self { seats, traces, arrangement, .. } = self;
+        seats.fill(source, target, locations, 0)?;
+        traces.fill(source, target, seats)?;
+        arrangement.fill(Traced { source, target, seats, traces })?;
         self.label(source.mesh, target.mesh)?;
         self.sweep_source(source, target)?;
         self.sweep_target(target)?;
@@ -120,13 +121,14 @@ impl Measure {
             (SideOf::Source, false) | (SideOf::Target, true) => SideOf::Source,
             (SideOf::Target, false) | (SideOf::Source, true) => SideOf::Target,
         };
-        mesh.edges().flat_map(move |h| self.segments_of(mesh, (side, h)))
+        mesh.edges().flat_map(move |h| self.segments_of(mesh, side, h))
     }
 
     fn segments_of(
         &self,
         mesh: &SurfaceMesh,
-        (side, h): (SideOf, HalfedgeId),
+        side: SideOf,
+        h: HalfedgeId,
     ) -> impl Iterator<Item = Segment> + use<'_> {
         let first = |h: HalfedgeId| match side {
             SideOf::Source => self.arrangement.source_dart(h),

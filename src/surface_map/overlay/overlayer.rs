@@ -5,11 +5,11 @@
 //! shortest edge.
 
 use super::arrangement::Arrangement;
-use super::cells::Cells;
+use super::cells::{Cells, View};
 use super::location::Locations;
 use super::pieces::{Overlay, OverlayError};
 use super::seats::Seats;
-use super::trace::Traces;
+use super::trace::{Traced, Traces};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 
 /// Attempts at an overlay, all but the first with the source shifted.
@@ -39,7 +39,7 @@ impl Overlayer {
     ) -> Result<(), OverlayError> {
         let mut result = Ok(());
         for attempt in 0..ATTEMPTS {
-            result = self.attempt([source, target], locations, (attempt, overlay));
+            result = self.attempt([source, target], locations, attempt, overlay);
             if result.is_ok() {
                 break;
             }
@@ -51,15 +51,17 @@ impl Overlayer {
         &mut self,
         [source, target]: [Parametrised<'_>; 2],
         locations: &Locations,
-        (attempt, overlay): (usize, &mut Overlay),
+        attempt: usize,
+        overlay: &mut Overlay,
     ) -> Result<(), OverlayError> {
-        self.seats.fill(source, target, locations, attempt)?;
-        self.traces.fill(source, target, &self.seats)?;
-        self.arrangement.fill(source, target, (&self.seats, &self.traces))?;
+        let Self { seats, traces, arrangement, cells } = self;
+        seats.fill(source, target, locations, attempt)?;
+        traces.fill(source, target, seats)?;
+        let traced = Traced { source, target, seats, traces };
+        arrangement.fill(traced)?;
         overlay.shifts = attempt;
-        self.arrangement.describe(source, target, (&self.seats, &self.traces));
-        let parts = (&self.seats, &self.traces, &self.arrangement);
-        self.cells.fill([source, target], parts, overlay)
+        arrangement.describe(traced);
+        cells.fill(View { source, target, seats, traces, arrangement }, overlay)
     }
 }
 

@@ -60,7 +60,7 @@ impl Traces {
         let tracer = Tracer { source, target, seats, most: target.mesh.face_count() + 1000 };
         for h in mesh.edges() {
             let begin = self.crossings.len() as u32;
-            tracer.trace(h, (&mut self.crossings, &mut self.motions))?;
+            tracer.trace(h, Log { crossings: &mut self.crossings, motions: &mut self.motions })?;
             let range = [begin, self.crossings.len() as u32];
             self.ranges[h] = range;
             self.ranges[mesh.twin(h)] = range;
@@ -74,6 +74,15 @@ impl Traces {
     }
 }
 
+/// Source and target with the seats of the source's corners and the traces of its edges.
+#[derive(Clone, Copy)]
+pub(super) struct Traced<'a> {
+    pub source: Parametrised<'a>,
+    pub target: Parametrised<'a>,
+    pub seats: &'a Seats,
+    pub traces: &'a Traces,
+}
+
 struct Tracer<'a> {
     source: Parametrised<'a>,
     target: Parametrised<'a>,
@@ -83,7 +92,10 @@ struct Tracer<'a> {
 }
 
 /// Where a trace writes its crossings and motions.
-type Log<'l> = (&'l mut Vec<Crossing>, &'l mut Vec<Rigid2>);
+struct Log<'l> {
+    crossings: &'l mut Vec<Crossing>,
+    motions: &'l mut Vec<Rigid2>,
+}
 
 /// A trace on its way.
 struct Walk {
@@ -103,26 +115,32 @@ struct Exit {
     left: f64,
 }
 
+/// Where a trace passes from a face to the next.
+struct Passage {
+    /// The target halfedge that it leaves through.
+    exit: HalfedgeId,
+    /// Where on the source edge, up to rounding.
+    along_source: f64,
+    /// Where on `exit`, up to rounding.
+    along_target: f64,
+}
+
 impl Walk {
-    /// Goes on through a halfedge of the present face.
+    /// Passes from the present face to the next.
     #[inline]
-    fn cross(
-        &mut self,
-        target: Parametrised<'_>,
-        (exit, along_source, along_target): (HalfedgeId, f64, f64),
-        log: &mut Log<'_>,
-    ) {
+    fn cross(&mut self, target: Parametrised<'_>, passage: Passage, log: &mut Log<'_>) {
+        let Passage { exit, along_source, along_target } = passage;
         let transition = &target.embedding.transitions[exit];
         let entered = target.mesh.twin(exit);
         self.along = along_source.clamp(self.along, 1.0);
         if *transition != Rigid2::IDENTITY {
             self.seat.motion = transition.after(&self.seat.motion);
             self.line = [self.seat.motion.apply(self.ends[0]), self.seat.motion.apply(self.ends[1])];
-            self.motion = log.1.len() as u32;
-            log.1.push(self.seat.motion);
+            self.motion = log.motions.len() as u32;
+            log.motions.push(self.seat.motion);
         }
         self.seat.face = entered.face();
-        log.0.push(Crossing {
+        log.crossings.push(Crossing {
             edge: self.edge,
             exit,
             entered,
@@ -162,7 +180,8 @@ impl Tracer<'_> {
             }
             let from = signed_double_area(a, b, p);
             let along_target = exit.right / (exit.right - exit.left);
-            walk.cross(self.target, (x, from / (from - to), along_target), &mut log);
+            let passage = Passage { exit: x, along_source: from / (from - to), along_target };
+            walk.cross(self.target, passage, &mut log);
             before = Some(exit);
         }
         self.step_over(walk, &end, log)
@@ -243,8 +262,8 @@ impl Tracer<'_> {
         let ends = [walk.edge, walk.edge.next()].map(|h| self.source.mesh.tail(h).index());
         for x in way.ok_or(OverlayError::Lost { edge: ends })?.into_iter().flatten() {
             let [a, b] = [x, x.next()].map(|x| self.target.embedding.corners[x]);
-            let along = (walk.line[1] - a).dot(b - a) / (b - a).length_squared();
-            walk.cross(self.target, (x, 1.0, along), &mut log);
+            let along_target = (walk.line[1] - a).dot(b - a) / (b - a).length_squared();
+            walk.cross(self.target, Passage { exit: x, along_source: 1.0, along_target }, &mut log);
         }
         Ok(())
     }

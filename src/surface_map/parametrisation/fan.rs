@@ -14,10 +14,17 @@ use std::sync::Arc;
 /// the cone.
 pub struct Fan<'a> {
     surface: &'a ConeSurface,
-    /// Base halfedges that start at the landmark with the angle of each.
-    halfedges: Vec<(HalfedgeId, f64)>,
+    /// Base halfedges that start at the landmark.
+    spokes: Vec<Spoke>,
     /// Angle of the whole cone.
     pub total: f64,
+}
+
+/// A base halfedge that starts at a landmark.
+#[derive(Clone, Copy, Debug)]
+struct Spoke {
+    halfedge: HalfedgeId,
+    angle: f64,
 }
 
 /// A face of a mesh at a landmark with the angles that it covers.
@@ -40,30 +47,30 @@ impl<'a> Fan<'a> {
     /// The fan of a landmark.
     pub fn new(surface: &'a ConeSurface, landmark: LandmarkId) -> Self {
         let mut total = 0.0;
-        let mut halfedges = Vec::new();
+        let mut spokes = Vec::new();
         for h in surface.base.star(landmark) {
-            halfedges.push((h, total));
+            spokes.push(Spoke { halfedge: h, angle: total });
             let lengths = [h, h.prev()].map(|x| surface.lengths[x]);
             total += angle_from_lengths(surface.lengths[h.next()], lengths);
         }
-        Self { surface, halfedges, total }
+        Self { surface, spokes, total }
     }
 
-    /// The base halfedges that start at the landmark with the angle of each.
-    pub fn halfedges(&self) -> &[(HalfedgeId, f64)] {
-        &self.halfedges
+    /// The angle of a base halfedge; `None` where it does not start at the landmark.
+    pub fn angle_of(&self, h: HalfedgeId) -> Option<f64> {
+        self.spokes.iter().find(|spoke| spoke.halfedge == h).map(|spoke| spoke.angle)
     }
 
     /// Place in the fan of an anchor's chart.
     fn place(&self, anchor: &Anchor) -> usize {
-        self.halfedges.iter().position(|(h, _)| h.face() == anchor.chart).unwrap_or(0)
+        self.spokes.iter().position(|spoke| spoke.halfedge.face() == anchor.chart).unwrap_or(0)
     }
 
     /// The angle of a direction given in the plane of the anchor's face; within half a turn of the middle of its chart.
     pub fn angle(&self, anchor: &Anchor, direction: DVec2) -> f64 {
         let place = self.place(anchor);
-        let (base, begin) = self.halfedges[place];
-        let end = self.halfedges.get(place + 1).map_or(self.total, |next| next.1);
+        let Spoke { halfedge: base, angle: begin } = self.spokes[place];
+        let end = self.spokes.get(place + 1).map_or(self.total, |next| next.angle);
         let half = 0.5 * (end - begin);
         let corners = self.surface.charts[anchor.chart];
         let axis = anchor.motion.rotate(corners[base.next().corner()] - corners[base.corner()]);
@@ -96,18 +103,18 @@ impl<'a> Fan<'a> {
 
     /// The motion from the chart at `place` to the chart at `to`, counted on and on around the cone.
     fn around(&self, place: usize, to: i64) -> Rigid2 {
-        let n = self.halfedges.len() as i64;
+        let n = self.spokes.len() as i64;
         let transitions = &self.surface.transitions;
         let mut motion = Rigid2::IDENTITY;
         let mut at = place as i64;
         let to = to.clamp(at - MOST_TURNS * n, at + MOST_TURNS * n);
         while at < to {
             // Counter-clockwise: out through the side that ends at the landmark.
-            motion = transitions[self.halfedges[at.rem_euclid(n) as usize].0.prev()].after(&motion);
+            motion = transitions[self.spokes[at.rem_euclid(n) as usize].halfedge.prev()].after(&motion);
             at += 1;
         }
         while at > to {
-            motion = transitions[self.halfedges[at.rem_euclid(n) as usize].0].after(&motion);
+            motion = transitions[self.spokes[at.rem_euclid(n) as usize].halfedge].after(&motion);
             at -= 1;
         }
         motion
@@ -115,20 +122,20 @@ impl<'a> Fan<'a> {
 
     /// The motion from the plane of one anchor's face to that of another's, `turns` whole turns back around the cone.
     pub fn between(&self, from: &Anchor, to: &Anchor, turns: i64) -> Rigid2 {
-        let goal = (self.place(to) as i64).saturating_sub(turns.saturating_mul(self.halfedges.len() as i64));
+        let goal = (self.place(to) as i64).saturating_sub(turns.saturating_mul(self.spokes.len() as i64));
         let charts = self.around(self.place(from), goal);
         to.motion.after(&charts).after(&from.motion.inverse())
     }
 
     /// The same anchor with the chart that contains an angle, that of its halfedge.
     pub fn recharted(&self, anchor: &Anchor, angle: f64) -> Anchor {
-        let n = self.halfedges.len() as i64;
+        let n = self.spokes.len() as i64;
         let turns = (angle / self.total).floor();
         let rest = angle - turns * self.total;
-        let inside = self.halfedges.iter().rposition(|(_, begin)| *begin <= rest).unwrap_or(0);
+        let inside = self.spokes.iter().rposition(|spoke| spoke.angle <= rest).unwrap_or(0);
         let to = (turns as i64).saturating_mul(n).saturating_add(inside as i64);
         let motion = anchor.motion.after(&self.around(self.place(anchor), to).inverse());
-        Anchor { corner: anchor.corner, chart: self.halfedges[inside].0.face(), motion }
+        Anchor { corner: anchor.corner, chart: self.spokes[inside].halfedge.face(), motion }
     }
 }
 

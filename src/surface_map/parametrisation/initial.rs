@@ -7,7 +7,7 @@
 use super::coarsen_to_base::coarsen_to_base;
 use super::cone_surface::ConeSurface;
 use super::embedding::{Anchor, Embedding, Parametrised};
-use super::level::ParametrisedLevel;
+use super::level::{LandmarkedLevel, ParametrisedLevel};
 use super::problem::{FlatRelaxOptions, FlatRelaxReport};
 use super::unknowns::Unknowns;
 use crate::landmarks::LandmarkId;
@@ -61,7 +61,7 @@ pub fn embed(
     let mesh = coarsen_to_base(patched, &surface.base).map_err(|left| MapError::NotCoarsened { left })?;
     let mut level = on_charts(mesh, patched, surface);
     let report = refine(&mut level, patched.mesh.vertex_count(), options, monitor)?;
-    Ok((level.snapshot().1, report))
+    Ok((level.snapshot().embedding, report))
 }
 
 /// The base domain's own parametrisation: every live face is its chart.
@@ -91,12 +91,9 @@ fn on_charts<'a>(
         anchors[landmark[mesh.tail(h)]] = Anchor { corner: h, chart, motion: Rigid2::IDENTITY };
     }
     let places: Vec<HalfedgeId> = halfedges.iter().map(|&h| base_halfedge(&mesh, h)).collect();
-    let mut level = ParametrisedLevel::new(
-        (mesh, patched.mesh.positions()),
-        &patched.landmark_vertices,
-        surface.clone(),
-        anchors,
-    );
+    let level =
+        LandmarkedLevel { mesh, positions: patched.mesh.positions(), landmarks: &patched.landmark_vertices };
+    let mut level = ParametrisedLevel::new(level, surface.clone(), anchors);
     for (&h, b) in halfedges.iter().zip(places) {
         level.set(h, surface.charts[b.face()][b.corner()], surface.transitions[b]);
     }

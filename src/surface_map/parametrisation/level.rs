@@ -22,6 +22,16 @@ use glam::{DVec2, DVec3};
 use std::sync::Arc;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
+/// A level of a mesh with its landmarks.
+pub struct LandmarkedLevel<'a> {
+    /// The connectivity of the level.
+    pub mesh: CollapsibleMesh,
+    /// Positions of all vertices of the full resolution.
+    pub positions: &'a TiSlice<VertexId, DVec3>,
+    /// The vertex of each landmark.
+    pub landmarks: &'a TiSlice<LandmarkId, VertexId>,
+}
+
 /// A level of a mesh with its parametrisation.
 #[derive(Clone)]
 pub struct ParametrisedLevel<'a> {
@@ -35,15 +45,23 @@ pub struct ParametrisedLevel<'a> {
     star: Star,
 }
 
+/// A level as a mesh of its own with its parametrisation.
+pub struct Snapshot {
+    /// The mesh.
+    pub level: Level,
+    /// Its parametrisation.
+    pub embedding: Embedding,
+}
+
 impl<'a> ParametrisedLevel<'a> {
     /// A level with anchored landmarks. Its corners and transitions have no values yet: [`ParametrisedLevel::set`] gives them
     /// to each live halfedge.
     pub fn new(
-        (mesh, positions): (CollapsibleMesh, &'a TiSlice<VertexId, DVec3>),
-        landmarks: &TiSlice<LandmarkId, VertexId>,
+        level: LandmarkedLevel<'a>,
         surface: Arc<ConeSurface>,
         anchors: TiVec<LandmarkId, Anchor>,
     ) -> Self {
+        let LandmarkedLevel { mesh, positions, landmarks } = level;
         let slots = mesh.face_slots() * 3;
         let mut is_landmark = ti_vec![false; positions.len()];
         landmarks.iter().for_each(|&v| is_landmark[v] = true);
@@ -59,16 +77,17 @@ impl<'a> ParametrisedLevel<'a> {
         }
     }
 
-    /// The same parametrisation on a level of a finer mesh whose faces correspond.
+    /// The same parametrisation on a level of a finer mesh whose faces correspond: `halfedge` gives the level's halfedge of
+    /// each one of the embedding.
     pub fn on_level(
-        (mesh, positions): (CollapsibleMesh, &'a TiSlice<VertexId, DVec3>),
-        landmarks: &TiSlice<LandmarkId, VertexId>,
+        level: LandmarkedLevel<'a>,
         surface: Arc<ConeSurface>,
-        (embedding, halfedge): (&Embedding, impl Fn(HalfedgeId) -> HalfedgeId),
+        embedding: &Embedding,
+        halfedge: impl Fn(HalfedgeId) -> HalfedgeId,
     ) -> Self {
         let anchor = |a: &Anchor| Anchor { corner: halfedge(a.corner), ..*a };
         let anchors = embedding.anchors.iter().map(anchor).collect();
-        let mut level = Self::new((mesh, positions), landmarks, surface, anchors);
+        let mut level = Self::new(level, surface, anchors);
         for h in embedding.corners.keys() {
             level.corners[halfedge(h)] = embedding.corners[h];
             level.transitions[halfedge(h)] = embedding.transitions[h];
@@ -79,6 +98,11 @@ impl<'a> ParametrisedLevel<'a> {
     /// The connectivity of the present level.
     pub fn mesh(&self) -> &CollapsibleMesh {
         &self.mesh
+    }
+
+    /// Positions of all vertices of the full resolution.
+    pub fn positions(&self) -> &'a TiSlice<VertexId, DVec3> {
+        self.positions
     }
 
     /// Number of vertices of the full resolution.
@@ -98,7 +122,7 @@ impl<'a> ParametrisedLevel<'a> {
     }
 
     /// The present level as a mesh of its own with its parametrisation.
-    pub fn snapshot(&self) -> (Level, Embedding) {
+    pub fn snapshot(&self) -> Snapshot {
         let level = Level::of(&self.mesh, self.positions);
         let mut number: TiVec<FaceId, FaceId> = ti_vec![FaceId(u32::MAX); self.mesh.face_slots()];
         level.faces.iter_enumerated().for_each(|(small, &full)| number[full] = small);
@@ -110,7 +134,7 @@ impl<'a> ParametrisedLevel<'a> {
             transitions: Arc::new(level.mesh.halfedges().map(|h| self.transitions[full(h)]).collect()),
             anchors: Arc::new(self.anchors.iter().map(anchor).collect()),
         };
-        (level, embedding)
+        Snapshot { level, embedding }
     }
 
     /// Takes the corners of a snapshot of this level that was relaxed elsewhere.

@@ -74,6 +74,18 @@ impl FaceHessian {
     }
 }
 
+/// The derivatives of an energy that has a share of the flat one, from which Newton's direction is taken.
+pub(in crate::surface_map) struct Derivatives<'a> {
+    /// The gradient of the whole energy.
+    pub slope: &'a [DVec2],
+    /// Weight of the flat energy, whose Hessian is added.
+    pub barrier: f64,
+    /// By triangle the Hessian of the rest by the Jacobian.
+    pub by_triangle: &'a [FaceHessian],
+    /// Further Hessians by unknown.
+    pub by_unknown: &'a [(u32, DMat2)],
+}
+
 /// Triangles, unknowns and the matrix of one relaxation.
 pub struct FlatProblem {
     triangles: Vec<FlatTriangle>,
@@ -101,10 +113,10 @@ impl NewtonSolver {
     ///
     /// A system that is not solved to the tolerance is counted, and its last iterate is the step: that goes downhill, as every
     /// iterate from 0 does, and every caller goes along it only as far as its energy falls.
-    fn step(&mut self, matrix: &BlockCsr, (downhill, step): (&[DVec2], &mut [DVec2]), tolerance: f64) {
+    fn step(&mut self, matrix: &BlockCsr, downhill: &[DVec2], step: &mut [DVec2], tolerance: f64) {
         let options = CgOptions { tolerance, max_iterations: LINEAR_ITERATIONS };
         let sweeps = matrix.gauss_seidel(&mut self.inverse_diagonal);
-        let report = match self.workspace.solve(matrix, &sweeps, (downhill, step), &options) {
+        let report = match self.workspace.solve(matrix, &sweeps, downhill, step, &options) {
             Ok(report) => report,
             Err(error) => {
                 self.inexact += 1;
@@ -211,43 +223,33 @@ impl FlatProblem {
         }
     }
 
-    /// Newton's direction for a slope, with the Hessian of this energy (scaled) and further Hessians by triangle and by
-    /// unknown.
-    ///
-    /// `damping` is added to the diagonal, relative to it.
+    /// Newton's direction at z, up to a relative residual of `tolerance`. `damping` is added to the Hessian's diagonal, relative
+    /// to it.
     pub(in crate::surface_map) fn direction(
         &mut self,
         z: &[DVec2],
-        (barrier, damping): (f64, f64),
-        (hessians, by_unknown): (&[FaceHessian], &[(u32, DMat2)]),
-        (slope, tolerance): (&[DVec2], f64),
+        derivatives: &Derivatives<'_>,
+        damping: f64,
+        tolerance: f64,
     ) -> Vec<DVec2> {
         self.matrix.clear();
-        self.add_hessian(z, barrier);
-        for (t, hessian) in hessians.iter().enumerate() {
+        self.add_hessian(z, derivatives.barrier);
+        for (t, hessian) in derivatives.by_triangle.iter().enumerate() {
             self.add_face(t, hessian);
         }
-        for (unknown, hessian) in by_unknown {
+        for (unknown, hessian) in derivatives.by_unknown {
             self.matrix.add_at(self.matrix.place(*unknown, *unknown), *hessian);
         }
         self.matrix.regularise(damping);
-        let downhill: Vec<DVec2> = slope.iter().map(|g| -*g).collect();
+        let downhill: Vec<DVec2> = derivatives.slope.iter().map(|g| -*g).collect();
         let mut step = vec![DVec2::ZERO; z.len()];
-        self.solver.step(&self.matrix, (&downhill, &mut step), tolerance);
+        self.solver.step(&self.matrix, &downhill, &mut step, tolerance);
         step
     }
 
     /// Directions so far whose linear system was not solved to its tolerance.
     pub(in crate::surface_map) fn inexact_steps(&self) -> usize {
         self.solver.inexact
-    }
-
-    /// The triangle's corners as unknowns: number and motion, `None` where fixed.
-    pub(in crate::surface_map) fn free_corner(&self, t: usize, k: usize) -> Option<(usize, Rigid2)> {
-        match self.triangles[t].corners[k] {
-            Corner::Free(v, motion) => Some((v as usize, motion)),
-            Corner::Fixed(_) => None,
-        }
     }
 
     /// The triangles.
@@ -286,9 +288,9 @@ impl FlatProblem {
             self.gradient(z, &mut slope);
             self.assemble(z);
             slope.iter_mut().for_each(|g| *g = -*g);
-            self.solver.step(&self.matrix, (&slope, &mut step), options.linear_tolerance);
+            self.solver.step(&self.matrix, &slope, &mut step, options.linear_tolerance);
             let descent: f64 = slope.iter().zip(&step).map(|(g, d)| g.dot(*d)).sum();
-            let Some(next) = self.line_search(z, &step, &mut trial, (energy, descent)) else { break };
+            let Some(next) = self.line_search(z, &step, &mut trial, energy, descent) else { break };
             z.copy_from_slice(&trial);
             let gained = energy - next;
             energy = next;
@@ -302,13 +304,15 @@ impl FlatProblem {
         Ok(report)
     }
 
-    /// The energy after an Armijo step, written to `trial`; `None` where no step lowers it.
+    /// The energy after an Armijo step from z, written to `trial`; `None` where no step lowers it. `descent` is what the slope
+    /// at z promises of the whole step.
     fn line_search(
         &self,
         z: &[DVec2],
         step: &[DVec2],
         trial: &mut [DVec2],
-        (energy, descent): (f64, f64),
+        energy: f64,
+        descent: f64,
     ) -> Option<f64> {
         // At most 0.9 of the way to the first triangle without area, then halvings until the energy falls by 1e-4 of what the
         // slope promises (Armijo). 2^-40 of a step gains nothing.

@@ -57,12 +57,9 @@ impl<'a> Unknowns<'a> {
         FlatProblem::new(self.mesh.faces().map(triangle).collect(), self.free.len())
     }
 
-    /// A corner as an unknown: number and motion, `None` where fixed.
-    pub fn sight(&self, h: HalfedgeId) -> Option<(u32, Rigid2)> {
-        match self.sights[h] {
-            Corner::Free(number, motion) => Some((number, motion)),
-            Corner::Fixed(_) => None,
-        }
+    /// The start of a halfedge as seen from its face.
+    pub fn sight(&self, h: HalfedgeId) -> Corner {
+        self.sights[h]
     }
 
     /// The unknowns of an embedding with the same transitions.

@@ -6,7 +6,7 @@
 
 use super::clipping::BoxedTriangle;
 use super::dent_energy::DentEnergy;
-use crate::math::matrix2::symmetric_eigen;
+use crate::math::matrix2::{SymmetricEigen, symmetric_eigen};
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::{ln, max, min};
 use crate::math::triangle::signed_double_area;
@@ -60,6 +60,14 @@ pub struct CoveredStar {
     pub covers: Vec<Cover>,
     /// Where the origin is in the plane of the first face.
     pub origin: DVec2,
+}
+
+/// A better place for the vertex in the middle of a star.
+pub struct Improved {
+    /// Relative to the origin of the star.
+    pub z: DVec2,
+    /// Logarithm of the cost there.
+    pub log_cost: f64,
 }
 
 /// Both sides with what overlaps their faces, by their overlay.
@@ -171,8 +179,8 @@ impl CoveredStar {
         Some(cost)
     }
 
-    /// A better place with its cost's logarithm, by one step of Newton's method.
-    pub fn improved(&self, z: DVec2, least: f64, energy: &DentEnergy) -> Option<(DVec2, f64)> {
+    /// A better place by one step of Newton's method; `least` is the logarithm of the cost at z.
+    pub fn improved(&self, z: DVec2, least: f64, energy: &DentEnergy) -> Option<Improved> {
         let at = |z: DVec2| self.cost(z, energy).map(ln);
         let height = |ray: &Ray| {
             let [p, q] = ray.ring;
@@ -192,7 +200,7 @@ impl CoveredStar {
             if let Some(cost) = at(z + step)
                 && cost < least
             {
-                return Some((z + step, cost));
+                return Some(Improved { z: z + step, log_cost: cost });
             }
             step *= 0.3;
         }
@@ -202,9 +210,9 @@ impl CoveredStar {
 
 /// Newton's step with the Hessian's eigenvalues made positive, no longer than `longest`.
 fn newton(slope: DVec2, [xx, xy, yy]: [f64; 3], longest: f64) -> Option<DVec2> {
-    let (eigenvalues, first) = symmetric_eigen([xx, xy, yy]);
+    let SymmetricEigen { values, first } = symmetric_eigen([xx, xy, yy]);
     let least = slope.length() / longest;
-    let [a, b] = eigenvalues.map(|eigenvalue| max(eigenvalue.abs(), least));
+    let [a, b] = values.map(|value| max(value.abs(), least));
     let step = -(first * (first.dot(slope) / a) + first.perp() * (first.perp().dot(slope) / b));
     step.is_finite().then_some(step)
 }

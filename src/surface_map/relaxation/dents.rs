@@ -72,18 +72,18 @@ pub fn heal(
     let mut moved = false;
     for sweep in 0..options.sweeps + options.deep_sweeps {
         let depth = if sweep < options.sweeps { 1.0 } else { DEEP };
-        let (mut dented, worst) = healer.worst(&faces, (depth * energy.brink, most));
-        if worst.is_empty() {
+        let Dents { faces: mut dented, vertices } = healer.dents(&faces, depth * energy.brink, most);
+        if vertices.is_empty() {
             break;
         }
-        for vertex in worst {
+        for vertex in vertices {
             let Some(star) = healer.settled(vertex) else {
                 healer.at_rest.insert(vertex);
                 continue;
             };
             moved = true;
-            healer.wake(vertex.0, &star);
-            match vertex.0 {
+            healer.wake(vertex.side, &star);
+            match vertex.side {
                 0 => dented.extend(star.rays.iter().map(|ray| ray.halfedge.face())),
                 _ => dented.extend(star.covers.iter().map(|cover| cover.face)),
             }
@@ -111,24 +111,35 @@ fn dented(sides: [Parametrised<'_>; 2], overlay: &Overlay, brink: f64) -> BTreeS
     pieces.map(|piece| piece.source_face).collect()
 }
 
+/// A vertex of one of both meshes.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct SheetVertex {
+    /// 0 of the source, 1 of the target.
+    side: usize,
+    vertex: VertexId,
+}
+
+/// Dents, and what may be moved to heal them.
+struct Dents {
+    /// Source faces.
+    faces: BTreeSet<FaceId>,
+    /// Vertices of the worst pieces, the worst first.
+    vertices: Vec<SheetVertex>,
+}
+
 struct Healer<'a> {
     sheets: [Sheet<'a>; 2],
     energy: DentEnergy,
     /// Vertices that do not move any further while nothing moves around them.
-    at_rest: BTreeSet<(usize, VertexId)>,
+    at_rest: BTreeSet<SheetVertex>,
 }
 
 impl Healer<'_> {
-    /// Which of some source faces have dents, and the vertices of their worst pieces that may move, with their sides: the worst
-    /// first, at most `most`.
-    fn worst(
-        &self,
-        faces: &BTreeSet<FaceId>,
-        (brink, most): (f64, usize),
-    ) -> (BTreeSet<FaceId>, Vec<(usize, VertexId)>) {
+    /// The dents among some source faces, with at most `most` vertices.
+    fn dents(&self, faces: &BTreeSet<FaceId>, brink: f64, most: usize) -> Dents {
         let [source, target] = &self.sheets;
         let target_inverse = |t: FaceId| target.jacobian(t).inverse();
-        let mut found: BTreeMap<(usize, VertexId), f64> = BTreeMap::new();
+        let mut found: BTreeMap<SheetVertex, f64> = BTreeMap::new();
         let mut dented = BTreeSet::new();
         for &s in faces {
             let a = source.jacobian(s);
@@ -139,28 +150,29 @@ impl Healer<'_> {
                     continue;
                 }
                 dented.insert(s);
-                let on_source = source.side.mesh.triangles()[s].map(|v| (0, v));
-                let on_target = target.side.mesh.triangles()[partner.face].map(|v| (1, v));
-                for (k, v) in on_source.into_iter().chain(on_target) {
-                    if !self.sheets[k].is_landmark[v] && !self.at_rest.contains(&(k, v)) {
-                        let worst = found.entry((k, v)).or_default();
+                let on_source = source.side.mesh.triangles()[s].map(|vertex| SheetVertex { side: 0, vertex });
+                let on_target =
+                    target.side.mesh.triangles()[partner.face].map(|vertex| SheetVertex { side: 1, vertex });
+                for v in on_source.into_iter().chain(on_target) {
+                    if !self.sheets[v.side].is_landmark[v.vertex] && !self.at_rest.contains(&v) {
+                        let worst = found.entry(v).or_default();
                         *worst = max(*worst, density);
                     }
                 }
             }
         }
-        let mut found: Vec<((usize, VertexId), f64)> = found.into_iter().collect();
+        let mut found: Vec<(SheetVertex, f64)> = found.into_iter().collect();
         found.sort_by(|a, b| b.1.total_cmp(&a.1));
         found.truncate(most);
-        (dented, found.into_iter().map(|(vertex, _)| vertex).collect())
+        Dents { faces: dented, vertices: found.into_iter().map(|(vertex, _)| vertex).collect() }
     }
 
     /// The vertices around one that has moved may move again.
-    fn wake(&mut self, k: usize, star: &CoveredStar) {
-        let own = star.rays.iter().map(|ray| (k, ray.halfedge.face()));
-        for (k, f) in own.chain(star.covers.iter().map(|cover| (1 - k, cover.face))) {
-            for v in self.sheets[k].side.mesh.triangles()[f] {
-                self.at_rest.remove(&(k, v));
+    fn wake(&mut self, side: usize, star: &CoveredStar) {
+        let own = star.rays.iter().map(|ray| (side, ray.halfedge.face()));
+        for (side, f) in own.chain(star.covers.iter().map(|cover| (1 - side, cover.face))) {
+            for vertex in self.sheets[side].side.mesh.triangles()[f] {
+                self.at_rest.remove(&SheetVertex { side, vertex });
             }
         }
     }
@@ -173,17 +185,17 @@ impl Healer<'_> {
     }
 
     /// Moves one vertex to lower the cost of its star; the star where it moved.
-    fn settled(&mut self, (k, v): (usize, VertexId)) -> Option<CoveredStar> {
-        let star = CoveredStar::around(&self.sheets[k], &self.sheets[1 - k], v);
+    fn settled(&mut self, SheetVertex { side, vertex }: SheetVertex) -> Option<CoveredStar> {
+        let star = CoveredStar::around(&self.sheets[side], &self.sheets[1 - side], vertex);
         if !star.is_covered() {
             return None;
         }
         let start = ln(star.cost(DVec2::ZERO, &self.energy)?);
         let (mut z, mut least) = (DVec2::ZERO, start);
         for _ in 0..3 {
-            let Some((next, cost)) = star.improved(z, least, &self.energy) else { break };
-            let gained = least - cost;
-            (z, least) = (next, cost);
+            let Some(better) = star.improved(z, least, &self.energy) else { break };
+            let gained = least - better.log_cost;
+            (z, least) = (better.z, better.log_cost);
             if gained < 0.01 {
                 break;
             }
@@ -191,7 +203,7 @@ impl Healer<'_> {
         if least > start - REST {
             return None;
         }
-        self.place(k, &star, z).then_some(star)
+        self.place(side, &star, z).then_some(star)
     }
 
     /// Moves the vertex in the middle of a star; `false`, unchanged, where rounding turns a triangle over.

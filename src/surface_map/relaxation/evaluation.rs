@@ -1,6 +1,6 @@
 //! The energy of a map at one state, with what its derivatives need.
 
-use crate::math::quantile::quantile;
+use crate::math::quantile::{Weighted, quantile, sort_by_value};
 use crate::math::rigid2;
 use crate::math::scalar::ln;
 use crate::math::triangle::hat_gradients;
@@ -12,6 +12,7 @@ use crate::surface_map::overlay::Measure;
 use crate::surface_map::overlay::location::Locations;
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use crate::surface_map::parametrisation::problem::{FlatProblem, unrotate};
+use crate::surface_map::parametrisation::rest_triangle::Corner;
 use crate::surface_map::parametrisation::unknowns::Unknowns;
 use glam::{DMat2, DVec2};
 use typed_index_collections::TiVec;
@@ -40,7 +41,8 @@ impl Evaluation {
     /// Jacobians and energy of an overlay whose moving side is at z.
     pub fn measure(
         &mut self,
-        (problem, z): (&FlatProblem, &[DVec2]),
+        problem: &FlatProblem,
+        z: &[DVec2],
         fixed_inverses: &TiVec<FaceId, DMat2>,
         map_energy: &impl Density,
     ) {
@@ -60,7 +62,8 @@ impl Evaluation {
     pub fn constrain(
         &mut self,
         [from, onto]: [Parametrised<'_>; 2],
-        (unknowns, constraints): (&Unknowns<'_>, &[(VertexId, impl VertexEnergy)]),
+        unknowns: &Unknowns<'_>,
+        constraints: &[(VertexId, impl VertexEnergy)],
         locations: &Locations,
     ) {
         self.constrained = 0.0;
@@ -68,7 +71,7 @@ impl Evaluation {
         self.constraint_hessians.clear();
         for (v, constraint) in constraints {
             let at = &locations.by_vertex[*v];
-            let Some((unknown, sight)) = unknowns.sight(at.corner) else { continue };
+            let Corner::Free(unknown, sight) = unknowns.sight(at.corner) else { continue };
             let q = at.motion.apply(from.embedding.corners[at.corner]);
             let p = onto.embedding.triangle(at.face);
             let hats = hat_gradients(p);
@@ -114,10 +117,11 @@ impl Evaluation {
         let local = pieces.map(|(piece, c)| {
             let a = &self.jacobians[piece.source_face.index()];
             let j = *c * *a;
-            (map_energy.distortion(&j), piece.area / a.determinant() * (1.0 + j.determinant()))
+            let weight = piece.area / a.determinant() * (1.0 + j.determinant());
+            Weighted { value: map_energy.distortion(&j), weight }
         });
-        let mut local: Vec<(f64, f64)> = local.collect();
-        local.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut local: Vec<Weighted> = local.collect();
+        sort_by_value(&mut local);
         quantile(&local, 0.5)
     }
 }

@@ -16,8 +16,8 @@ use crate::surface_map::overlay::SideOf;
 use crate::surface_map::overlay::location::{Locations, Locator};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
 use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
-use crate::surface_map::parametrisation::problem::{FaceHessian, FlatProblem, unrotate};
-use crate::surface_map::parametrisation::rest_triangle::rest_jacobian;
+use crate::surface_map::parametrisation::problem::{Derivatives, FaceHessian, FlatProblem, unrotate};
+use crate::surface_map::parametrisation::rest_triangle::{Corner, rest_jacobian};
 use crate::surface_map::parametrisation::unknowns::Unknowns;
 use glam::{DMat2, DVec2};
 use typed_index_collections::TiVec;
@@ -238,12 +238,9 @@ impl<'a> Relaxation<'a> {
         if located.is_err() || self.trial.overlay.fill([from, onto], &self.locations).is_err() {
             return false;
         }
-        self.trial.measure((&self.problems[moving], z), &self.inverses[1 - moving], &self.map_energy);
-        self.trial.constrain(
-            [from, onto],
-            (&self.unknowns[moving], self.constraints[moving]),
-            &self.locations,
-        );
+        self.trial.measure(&self.problems[moving], z, &self.inverses[1 - moving], &self.map_energy);
+        let (unknowns, constraints) = (&self.unknowns[moving], self.constraints[moving]);
+        self.trial.constrain([from, onto], unknowns, constraints, &self.locations);
         self.trial.total = self.trial.energy + self.trial.constrained + self.options.barrier * flat;
         true
     }
@@ -255,9 +252,13 @@ impl<'a> Relaxation<'a> {
         let slope = self.gradient(&z);
         let hessians = self.hessians();
         let problem = &mut self.problems[moving];
-        let weights = (self.options.barrier, self.damping[moving]);
-        let hessians = (&hessians[..], &self.present.constraint_hessians[..]);
-        let step = problem.direction(&z, weights, hessians, (&slope, LINEAR_TOLERANCE));
+        let derivatives = Derivatives {
+            slope: &slope,
+            barrier: self.options.barrier,
+            by_triangle: &hessians,
+            by_unknown: &self.present.constraint_hessians,
+        };
+        let step = problem.direction(&z, &derivatives, self.damping[moving], LINEAR_TOLERANCE);
         let descent: f64 = -slope.iter().zip(&step).map(|(g, d)| g.dot(*d)).sum::<f64>();
         if descent.is_nan() || descent <= 0.0 {
             return false;
@@ -295,7 +296,7 @@ impl<'a> Relaxation<'a> {
         self.present.overlay.exchange_roles();
         let problem = &self.problems[self.moving];
         let z = self.unknowns[self.moving].points(&self.embeddings[self.moving]);
-        self.present.measure((problem, &z), &self.inverses[1 - self.moving], &self.map_energy);
+        self.present.measure(problem, &z, &self.inverses[1 - self.moving], &self.map_energy);
         let flat = problem.energy(&z).unwrap_or(f64::INFINITY);
         self.locate_constrained();
         self.present.total = self.present.energy + self.present.constrained + self.options.barrier * flat;
@@ -310,7 +311,7 @@ impl<'a> Relaxation<'a> {
         if !constraints.is_empty() && self.locator.fill(sides, self.surface, &mut self.locations).is_err() {
             constraints = &[];
         }
-        self.present.constrain(sides, (&self.unknowns[moving], constraints), &self.locations);
+        self.present.constrain(sides, &self.unknowns[moving], constraints, &self.locations);
     }
 
     /// The energy of the map and its constraints, without the barrier; 4 for an isometry.
@@ -325,12 +326,11 @@ impl<'a> Relaxation<'a> {
         problem.gradient(z, &mut slope);
         slope.iter_mut().for_each(|g| *g *= self.options.barrier);
         self.present.constraint_slopes.iter().for_each(|(v, own)| slope[*v as usize] += *own);
-        for (t, face) in self.face_derivatives().iter().enumerate() {
-            let triangle = &problem.triangles()[t];
+        for (triangle, face) in problem.triangles().iter().zip(self.face_derivatives()) {
             for k in 0..3 {
-                if let Some((v, motion)) = problem.free_corner(t, k) {
+                if let Corner::Free(v, motion) = &triangle.corners[k] {
                     let pull = face.by_jacobian * triangle.hats[k] + face.by_corner[k];
-                    slope[v] += unrotate(&motion, pull);
+                    slope[*v as usize] += unrotate(motion, pull);
                 }
             }
         }
