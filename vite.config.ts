@@ -1,10 +1,17 @@
 import { defineConfig } from 'vite';
+import { serviceWorker } from './www/offline/build.ts';
 
 export default defineConfig({
+  // Every address is relative, so that the built page works from any folder of a static host.
   base: './',
+  publicDir: 'www/public',
   worker: { format: 'es' },
+  plugins: [serviceWorker()],
+  oxc: { jsx: { runtime: 'automatic', importSource: 'preact' } },
   build: {
     target: 'es2022',
+    // The first that know light-dark(), with which every colour is written once.
+    cssTarget: ['chrome123', 'firefox120', 'safari17.5'],
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
   },

@@ -159,7 +159,11 @@ pub fn check_side(
     distinct(&inserted.vertices, side)
 }
 
-fn points(
+/// The landmark points of one side as points of its mesh, in the order of the pairs.
+///
+/// # Errors
+/// [`LandmarkError`] with the number of the first pair whose point the mesh does not have.
+pub fn points(
     mesh: &CheckedMesh,
     side: MeshSide,
     pairs: &[[LandmarkPoint; 2]],

@@ -15,6 +15,7 @@ pub mod geodesic;
 pub mod intrinsic;
 pub mod io;
 pub mod job;
+pub mod landmark_exchange;
 pub mod landmark_fit;
 pub mod landmark_suggestion;
 pub mod landmarks;

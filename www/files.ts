@@ -1,51 +1,24 @@
 /** Tells meshes from landmark files and finds each mesh's side. */
 import { failureOf } from './compute/messages.ts';
 import type { Failure } from './compute/messages.ts';
-import type { LandmarkFile, Side } from './landmarks.ts';
+import type { LandmarkFile, Pair, Side } from './landmarks.ts';
 import { SIDES } from './landmarks.ts';
-import { failureSentence, fileSentence, SENTENCES } from './messages.ts';
+import { contentOf, landmarkFile, pairsRead, sideCalledLike, sideRead } from './landmark-files.ts';
+import type { LandmarkContent } from './landmark-files.ts';
+import { gathered } from './mesh-sets.ts';
+import { failureSentence, fileSentence, remarksSentence, SENTENCES } from './messages.ts';
+import type { NamedBytes } from './named-file.ts';
+import { FileRefused } from './named-file.ts';
 import type { Event } from './store/events.ts';
 import { baseName, landmarkFileOf } from './store/landmark-file.ts';
+import { wholePairs } from './store/order.ts';
 import { update } from './store/reducer.ts';
 import type { MeshFile, State } from './store/state.ts';
-import { checkLandmarks, mirrorTarget, readLandmarks, readMesh } from './wasm/conemap.js';
+import { checkLandmarks, mirrorTarget, readMesh } from './wasm/conemap.js';
 
-/** Some named bytes. */
-export interface NamedBytes {
-  readonly name: string;
-  readonly bytes: Uint8Array;
-}
-
-/** A reason to refuse files, as a sentence. */
-export class FileRefused extends Error {}
-
-function jsonOf(bytes: Uint8Array): unknown {
-  const start = bytes.findIndex((byte) => byte > 0x20 && byte !== 0xef && byte !== 0xbb && byte !== 0xbf);
-  const first = String.fromCharCode(bytes[start] ?? 0);
-  if (first !== '{' && first !== '[') {
-    return undefined;
-  }
-  try {
-    return JSON.parse(new TextDecoder().decode(bytes)) as unknown;
-  } catch {
-    return undefined;
-  }
-}
-
-function isLandmarkFile(file: NamedBytes): boolean {
-  const value = jsonOf(file.bytes);
-  const isObject = typeof value === 'object' && value !== null;
-  if (isObject && 'pairs' in value) {
-    return true;
-  }
-  if (!file.name.toLowerCase().endsWith('.json')) {
-    return false;
-  }
-  if (isObject && !('asset' in value)) {
-    throw new FileRefused(`${file.name}: ${SENTENCES.notLandmarks}`);
-  }
-  return !isObject;
-}
+export type { NamedBytes } from './named-file.ts';
+export { FileRefused } from './named-file.ts';
+export { landmarkFile } from './landmark-files.ts';
 
 /** Reads and checks a mesh. */
 export function meshFile(file: NamedBytes): MeshFile {
@@ -54,6 +27,7 @@ export function meshFile(file: NamedBytes): MeshFile {
     return {
       name: file.name,
       bytes: file.bytes,
+      ...(file.address === undefined ? {} : { address: file.address }),
       mesh,
       vertexCount: mesh.vertexCount,
       faceCount: mesh.faceCount,
@@ -64,31 +38,22 @@ export function meshFile(file: NamedBytes): MeshFile {
   }
 }
 
-/** Reads a landmark file. */
-export function landmarkFile(file: NamedBytes): LandmarkFile {
-  try {
-    return JSON.parse(readLandmarks(file.bytes)) as LandmarkFile;
-  } catch (thrown) {
-    throw new FileRefused(fileSentence(file.name, failureOf(thrown)));
-  }
-}
-
-/** The events that put a target's mirror image in its place, with the landmarks on it. */
-export function mirroredTarget(target: MeshFile, landmarks: LandmarkFile): Event[] {
-  const mirrored = mirrorTarget(target.mesh, new TextEncoder().encode(JSON.stringify(landmarks)));
+/** The event that puts a target's mirror image in its place, with the points of these pairs on it. */
+export function mirroredTarget(target: MeshFile, pairs: readonly Pair[]): Event {
+  // The core mirrors the second points of a file; the first ones may be missing, and are not looked at.
+  const marked = pairs.flatMap(({ points: [, point] }, index) => (point === null ? [] : [[index, point] as const]));
+  const mirrored = mirrorTarget(target.mesh, new TextEncoder().encode(JSON.stringify({ pairs: marked })));
   const name = `${target.name.replace(/( \(mirrored\))?\.[^.]*$/, '')} (mirrored).obj`;
   const file = meshFile({ name, bytes: mirrored.mesh() });
-  const points = landmarkFile({ name: 'landmarks', bytes: mirrored.landmarks() });
+  const images = landmarkFile({ name: 'landmarks', bytes: mirrored.landmarks() }).pairs;
   mirrored.free();
-  return [
-    { kind: 'mesh', side: 1, file },
-    { kind: 'landmarks', file: { ...points, target: name } },
-  ];
+  const points = pairs.map((_, index) => images[marked.findIndex(([of]) => of === index)]?.[1] ?? null);
+  return { kind: 'mirrored', file, points };
 }
 
 /** Why the landmarks of a state are no different points of its meshes; `null` where they are. */
 function misfit(state: State): Failure | null {
-  if (state.pairs.length === 0) {
+  if (wholePairs(state).length === 0) {
     return null;
   }
   const landmarks = new TextEncoder().encode(JSON.stringify(landmarkFileOf(state)));
@@ -105,8 +70,29 @@ function misfit(state: State): Failure | null {
   }
 }
 
-/** Refuses landmarks that do not fit the meshes they would be shown on. */
-function checkFit(file: NamedBytes, events: readonly Event[], state: State): void {
+/** Whether all points of a work, those of half pairs too, are different points of its meshes. */
+export function areMarksGood({ meshes, pairs }: Pick<State, 'meshes' | 'pairs'>): boolean {
+  try {
+    for (const side of SIDES) {
+      const file = meshes[side];
+      const points = pairs.flatMap((pair) => pair.points[side] ?? []);
+      if (file !== null && points.length > 0) {
+        // Only one side of the file is looked at.
+        const landmarks = { pairs: points.map((point) => [point, point]) };
+        checkLandmarks(file.mesh, side, new TextEncoder().encode(JSON.stringify(landmarks)));
+      }
+    }
+    return true;
+  } catch (thrown) {
+    if (thrown instanceof WebAssembly.RuntimeError) {
+      throw thrown;
+    }
+    return false;
+  }
+}
+
+/** Refuses landmarks that do not fit the meshes they would be shown on. Throws {@link FileRefused}. */
+export function checkFit(file: Pick<NamedBytes, 'name'>, events: readonly Event[], state: State): void {
   const failure = misfit(events.reduce(update, state));
   if (failure !== null) {
     const advice = failure.code === 'other-meshes' ? ` ${SENTENCES.otherMeshes}` : '';
@@ -145,30 +131,96 @@ function sidesOf(meshes: readonly NamedBytes[], landmarks: LandmarkFile | null, 
   return [named ?? (state.meshes[0] !== null && state.meshes[1] === null ? 1 : 0)];
 }
 
-/** The events that these files mean; all or none. Throws {@link FileRefused}. */
-export function eventsOf(files: readonly NamedBytes[], over: Side | null, state: State): Event[] {
-  const landmarkFiles = files.filter(isLandmarkFile);
-  const meshFiles = files.filter((file) => !landmarkFiles.includes(file));
-  if (landmarkFiles.length > 1) {
-    throw new FileRefused(SENTENCES.twoLandmarkFiles);
+/** The landmark files among some, and what they mean. */
+interface Landmarks {
+  /** What comes onto the meshes, which are those that it is given. */
+  readonly events: (names: State['meshes']) => Event[];
+  /** The file to name where its landmarks do not fit. */
+  readonly file: NamedBytes;
+  /** The pairs of a file in the meshes' own numbers, which may name the meshes. */
+  readonly pairs: LandmarkFile | null;
+}
+
+/** Sentences about what was read, as an event. */
+function told(remarks: readonly string[]): Event[] {
+  return remarks.length === 0 ? [] : [{ kind: 'error', sentence: remarksSentence(remarks) }];
+}
+
+/** The pairs of files that need both meshes. */
+function pairEvents(files: readonly NamedBytes[], [source, target]: State['meshes']): Event[] {
+  if (source === null || target === null) {
+    throw new FileRefused(`${files[0]?.name ?? ''}: ${SENTENCES.meshesFirst}`);
   }
+  const { file, remarks } = pairsRead(files, source.mesh, target.mesh);
+  const named = { source: source.name, target: target.name, ...file };
+  return [{ kind: 'landmarks', file: named }, ...told(remarks)];
+}
+
+/** The points of a file for one mesh: the one it was dropped on, that is called like it, or that is alone. */
+function sideEvents(file: NamedBytes, over: Side | null, meshes: State['meshes']): Event[] {
+  const names = meshes.map((mesh) => mesh?.name ?? null);
+  const there = SIDES.filter((side) => meshes[side] !== null);
+  const side = over ?? sideCalledLike(file, names) ?? (there.length === 1 ? there[0] : null) ?? null;
+  if (side === null && there.length > 0) {
+    throw new FileRefused(`${file.name}: ${SENTENCES.whichMesh}`);
+  }
+  const mesh = side === null ? null : meshes[side];
+  if (side === null || mesh === null) {
+    throw new FileRefused(`${file.name}: ${SENTENCES.meshesFirst}`);
+  }
+  const { marks, remarks } = sideRead(file, mesh.mesh, side);
+  const points = marks.flatMap(({ label, point }) => (point === null ? [] : [{ label, point }]));
+  return [{ kind: 'side-marks', side, points, name: file.name }, ...told(remarks)];
+}
+
+/** The landmark files that were given, one or one for each mesh; `null` for none. */
+function landmarksOf(files: readonly NamedBytes[], contents: readonly LandmarkContent[], over: Side | null): Landmarks | null {
+  const [first, second] = files;
+  if (first === undefined) {
+    return null;
+  }
+  if (second !== undefined) {
+    if (files.length > 2 || contents.some((content) => content !== 'one')) {
+      throw new FileRefused(SENTENCES.twoLandmarkFiles);
+    }
+    const ordered = (meshes: State['meshes']): NamedBytes[] => {
+      const names = meshes.map((mesh) => mesh?.name ?? null);
+      const swapped = sideCalledLike(first, names) === 1 || sideCalledLike(second, names) === 0;
+      return swapped ? [second, first] : [first, second];
+    };
+    return { events: (meshes) => pairEvents(ordered(meshes), meshes), file: first, pairs: null };
+  }
+  if (contents[0] === 'pairs') {
+    const pairs = landmarkFile(first);
+    return { events: () => [{ kind: 'landmarks', file: pairs }], file: first, pairs };
+  }
+  const isWhole = contents[0] === 'both';
+  const events = (meshes: State['meshes']): Event[] => (isWhole ? pairEvents([first], meshes) : sideEvents(first, over, meshes));
+  return { events, file: first, pairs: null };
+}
+
+/** The events that these files mean; all or none. Throws {@link FileRefused}. */
+export function eventsOf(given: readonly NamedBytes[], over: Side | null, state: State): Event[] {
+  const files = gathered(given).map((file) => ({ file, content: contentOf(file) }));
+  const meshFiles = files.flatMap(({ file, content }) => (content === null ? [file] : []));
+  const marked = files.flatMap(({ file, content }) => (content === null ? [] : [{ file, content }]));
   if (meshFiles.length > 2) {
     throw new FileRefused(SENTENCES.tooManyMeshes);
   }
-  const landmarks = landmarkFiles[0] === undefined ? null : landmarkFile(landmarkFiles[0]);
-  const sides = sidesOf(meshFiles, landmarks, over, state);
+  const landmarks = landmarksOf(marked.map(({ file }) => file), marked.map(({ content }) => content), over);
+  const sides = sidesOf(meshFiles, landmarks?.pairs ?? null, over, state);
   const loaded: MeshFile[] = [];
   try {
     for (const file of meshFiles) {
       loaded.push(meshFile(file));
     }
     const events: Event[] = loaded.map((file, index) => ({ kind: 'mesh', side: sides[index] ?? 0, file }));
-    if (landmarks !== null && landmarkFiles[0] !== undefined) {
-      events.push({ kind: 'landmarks', file: landmarks });
-      checkFit(landmarkFiles[0], events, state);
-      return events;
+    if (landmarks === null) {
+      return [...events, ...keptMisfit(events, state)];
     }
-    return [...events, ...keptMisfit(events, state)];
+    events.push(...landmarks.events(events.reduce(update, state).meshes));
+    checkFit(landmarks.file, events, state);
+    return events;
   } catch (thrown) {
     loaded.forEach((file) => {
       file.mesh.free();

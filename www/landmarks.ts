@@ -4,14 +4,58 @@
 export type Side = 0 | 1;
 export const SIDES: readonly [0, 1] = [0, 1];
 
+/** The side across. */
+export function otherSide(side: Side): Side {
+  return side === 0 ? 1 : 0;
+}
+
 /** A point of a surface: a vertex of the file, or a place in a face. */
 export type SurfacePoint =
   | number
   | { readonly face: number; readonly barycentric: readonly [number, number, number] };
 
+/** Two points that correspond, or one that waits for its partner. */
 export interface Pair {
-  readonly points: readonly [SurfacePoint, SurfacePoint];
+  /** For events, keys of lists and what is selected; never given to another pair while the page is open. */
+  readonly id: number;
+  /** What the page calls it, from 1, and what its colour follows; the others keep theirs when a pair goes. */
+  readonly number: number;
+  /** On the source and on the target; `null` where the point is missing. */
+  readonly points: readonly [SurfacePoint | null, SurfacePoint | null];
   readonly label: string;
+  /** A locked pair is neither moved nor deleted. */
+  readonly locked: boolean;
+}
+
+/** A pair with both its points. */
+export interface WholePair extends Pair {
+  readonly points: readonly [SurfacePoint, SurfacePoint];
+}
+
+export function isWhole(pair: Pair): pair is WholePair {
+  return pair.points[0] !== null && pair.points[1] !== null;
+}
+
+/** Whether two points are the same one. */
+export function isSamePoint(a: SurfacePoint | null, b: SurfacePoint | null): boolean {
+  if (a === null || b === null || typeof a === 'number' || typeof b === 'number') {
+    return a === b;
+  }
+  return a.face === b.face && a.barycentric.every((weight, corner) => weight === b.barycentric[corner]);
+}
+
+/** Steps of a barycentric coordinate: finer than a screen shows, and few digits in a file or link. */
+const STEPS = 10_000;
+
+/** A point as it is kept: a click is rounded once, when it is made, so that file, link and map have the same place. */
+export function rounded(point: SurfacePoint): SurfacePoint {
+  if (typeof point === 'number') {
+    return point;
+  }
+  const [a, b] = point.barycentric;
+  const first = Math.min(STEPS, Math.max(0, Math.round(a * STEPS)));
+  const second = Math.min(STEPS - first, Math.max(0, Math.round(b * STEPS)));
+  return { face: point.face, barycentric: [first / STEPS, second / STEPS, (STEPS - first - second) / STEPS] };
 }
 
 /** A place of one mesh that is worth a landmark. */

@@ -1,31 +1,63 @@
 /** Wires the store, the views, the panels and the worker together. */
+import { openDropped } from './app/dropped.ts';
+import { BROWSER, Keeper } from './app/keep.ts';
 import { listenForUndo } from './app/keys.ts';
 import { mark } from './app/mark.ts';
-import { dropLink, freeReplaced, linkedDemo, openDemo, openFiles } from './app/open.ts';
+import { Links } from './app/links.ts';
+import { followDemo, freeForgotten, openDemo } from './app/open.ts';
+import { saveProject } from './app/projects.ts';
 import { repair } from './app/repair.ts';
 import { Runner } from './app/run.ts';
+import { sharedLink } from './app/sharing.ts';
 import { suggest } from './app/suggest.ts';
 import { compileCore } from './compute/client.ts';
 import { SENTENCES } from './messages.ts';
-import { displayPanel } from './panels/display.ts';
-import { filesPanel } from './panels/files.ts';
-import { findingsPanel } from './panels/findings.ts';
-import { landmarksPanel, lookAtPair } from './panels/landmarks.ts';
-import type { Actions, Panel } from './panels/panel.ts';
-import { resultPanel } from './panels/result.ts';
-import { runPanel } from './panels/run.ts';
+import { download } from './dom.ts';
+import { keepOffline } from './offline/register.ts';
+import type { Side } from './landmarks.ts';
+import type { Actions, CameraCommand } from './panels/actions.ts';
+import { mountPage } from './panels/page.tsx';
 import type { Demo } from './store/state.ts';
 import { Store } from './store/store.ts';
 import { Views } from './viewer/viewer.ts';
-import init, { demoList, landmarkColour } from './wasm/conemap.js';
+import init, { demoList } from './wasm/conemap.js';
+
+/** How much larger a picture of the views is than the screen shows them. */
+const PICTURE_SCALE = 2;
 
 const store = new Store();
 const runner = new Runner(store);
+const links = new Links(store);
+/** Reloads the page into its newer build, when there is one. */
+let reload = (): void => undefined;
+const keeper = new Keeper(store, BROWSER);
 
 const actions: Actions = {
   dispatch: store.dispatch,
   openFiles: (files, side) => {
-    void openFiles(store, files, side);
+    void openDropped(store, links, files, side);
+  },
+  acceptLink: links.accept,
+  cancelLink: () => {
+    links.cancel();
+    // Whoever leaves a link before anything else was there sees what a stranger sees.
+    if (store.state.meshes.every((file) => file === null)) {
+      void openFirst(store.state.demos);
+    }
+  },
+  sharedLink: () => sharedLink(store.state, new URL(document.baseURI)),
+  saveProject: () => {
+    void saveProject(store);
+  },
+  savePicture: () => {
+    void views.picture(PICTURE_SCALE).then((picture) => {
+      if (picture !== null) {
+        download('conemap.png', 'image/png', picture);
+      }
+    });
+  },
+  reload: () => {
+    reload();
   },
   openDemo: (id) => {
     void openDemo(store, id);
@@ -43,17 +75,56 @@ const actions: Actions = {
     runner.cancel();
   },
   repair: (finding) => {
-    repair(store, runner, lookAtPair, finding);
+    repair(store, runner, showPair, finding);
+  },
+  camera: (side, command) => {
+    turn(side, command);
+  },
+  proposedUp: (side) => views.proposedUp(side),
+  lookAtPair: (id) => {
+    views.lookAtPair(id);
+  },
+  lookAtPlaces: ([source, target]) => {
+    views.lookAt(0, source);
+    views.lookAt(1, target);
+    views.ask(0, source);
+  },
+  continueWork: () => {
+    void keeper.accept();
+  },
+  startAnew: () => {
+    void keeper.decline();
   },
 };
 
+/** Opens the list, where the selected pair is, and turns both views to it. */
+function showPair(id: number): void {
+  store.dispatch({ kind: 'ui', ui: { step: 'landmarks', panel: 'open' } });
+  views.lookAtPair(id);
+}
+
+function turn(side: Side, command: CameraCommand): void {
+  switch (command.kind) {
+    case 'fit':
+      views.fit(side);
+      break;
+    case 'reset':
+      views.reset(side);
+      break;
+    case 'look':
+      views.lookFrom(side, command.from);
+      break;
+    case 'roll':
+      views.roll(side, command.degrees);
+      break;
+  }
+}
+
+// The page comes first: the views look for their places in it.
+const page = mountPage(store.state, actions);
+
 const views = new Views(store.state, {
-  picked: (side, point) => {
-    store.dispatch({ kind: 'picked', side, point });
-  },
-  pickDropped: () => {
-    store.dispatch({ kind: 'pick-dropped' });
-  },
+  dispatch: store.dispatch,
   // The views may say this while they show a change; it is the next change then, not one within.
   failed: (sentence) => {
     queueMicrotask(() => {
@@ -65,36 +136,40 @@ const views = new Views(store.state, {
       store.dispatch({ kind: 'error-closed' });
     });
   },
+  probed: page.probed,
 });
-const panels: readonly Panel[] = [
-  filesPanel(actions),
-  runPanel(actions),
-  findingsPanel(actions),
-  resultPanel(),
-  displayPanel(actions, () => {
-    views.reset();
-  }),
-  landmarksPanel(actions, landmarkColour),
-];
 
 store.subscribe((state, previous) => {
+  page.sync(state, previous);
   views.sync(state, previous);
-  for (const panel of panels) {
-    panel.render(state, previous);
-  }
 });
-store.subscribe(freeReplaced);
+store.subscribe(freeForgotten);
 store.subscribe(mark);
-store.subscribe(dropLink);
+store.subscribe(followDemo);
 
 function fail(sentence: string): void {
   store.dispatch({ kind: 'error', sentence });
 }
 
-async function start(): Promise<void> {
-  for (const panel of panels) {
-    panel.render(store.state, null);
+/** Shows what the address names, else the first demo, where nobody has put anything else there. */
+async function showFirst(demos: readonly Demo[]): Promise<void> {
+  if (store.state.job.kind !== 'idle' || store.state.history.past.length > 0) {
+    return;
   }
+  const followed = await links.follow();
+  if (followed === 'none' ? await openFirst(demos) : followed === 'opened') {
+    store.dispatch({ kind: 'history-begun' });
+  }
+}
+
+/** Opens the demo that a stranger sees first; whether it has come. */
+async function openFirst(demos: readonly Demo[]): Promise<boolean> {
+  const [first] = demos;
+  return first !== undefined && openDemo(store, first.id);
+}
+
+async function start(): Promise<void> {
+  const finding = keeper.find(links.named);
   try {
     const core = await compileCore();
     await init({ module_or_path: core });
@@ -107,24 +182,35 @@ async function start(): Promise<void> {
   await views.start();
   const demos = JSON.parse(demoList()) as Demo[];
   store.dispatch({ kind: 'ready', demos });
-  const first = linkedDemo() ?? demos[0]?.id;
-  if (first !== undefined) {
-    await openDemo(store, first);
+  if (!(await keeper.resume(await finding))) {
+    await showFirst(demos);
   }
   // The core lists its quickest demo last.
   const quickest = demos.at(-1);
   if (quickest !== undefined) {
     runner.warmUp(quickest.id);
   }
+  await keepOffline((begin) => {
+    reload = begin;
+    store.dispatch({ kind: 'outdated' });
+  });
 }
 
 window.addEventListener('hashchange', () => {
-  const linked = linkedDemo();
-  if (linked !== null && linked !== store.state.demo?.id) {
-    void openDemo(store, linked);
+  if (store.state.ready) {
+    void links.follow();
   }
 });
 listenForUndo(store);
+// The last sign of life that a browser promises.
+document.addEventListener('visibilitychange', () => {
+  if (document.visibilityState === 'hidden') {
+    void keeper.flush();
+  }
+});
+window.addEventListener('pagehide', () => {
+  void keeper.flush();
+});
 window.addEventListener('error', () => {
   fail(SENTENCES.unexpected);
 });

@@ -1,6 +1,7 @@
 /** The only place that turns codes into sentences. */
 import type { Failure } from './compute/messages.ts';
-import type { Suggestion } from './landmarks.ts';
+import type { Pair, Suggestion } from './landmarks.ts';
+import type { Finding } from './report.ts';
 
 /** A name for each stage of the report's seconds. */
 export function stageName(stage: string): string {
@@ -48,6 +49,65 @@ export function fileSentence(file: string, failure: Failure): string {
   return `${file}: ${failureSentence(failure)}`;
 }
 
+/** A number of things: "1 pair", "12 pairs". */
+export function count(number: number, thing: string): string {
+  return `${number} ${thing}${number === 1 ? '' : 's'}`;
+}
+
+/** A pair by its number, and its label where it has one. */
+export function pairName({ number, label }: Pick<Pair, 'number' | 'label'>): string {
+  return label === '' ? String(number) : `${number} (${label})`;
+}
+
+/** A finding in the page's numbers; `name` gives a pair's name from its place in the run's order. */
+export function findingSentence(finding: Finding, name: (order: number) => string): string {
+  const [first, second] = finding.pairs;
+  if (finding.kind === 'swapped' && first !== undefined && second !== undefined) {
+    return `The targets of the pairs ${name(first)} and ${name(second)} look swapped: exchanged, they lie among the others as on the source. Exchange them.`;
+  }
+  if (finding.kind === 'misplaced' && first !== undefined && finding.near !== null) {
+    return `Pair ${name(first)} does not fit the others: its target is expected elsewhere, near that of pair ${name(finding.near)}.`;
+  }
+  return finding.sentence;
+}
+
+/** A deleted pair. */
+export function pairGone(number: number): string {
+  return `Landmark pair ${number} deleted.`;
+}
+
+/** A mesh without files that it names. */
+export function missingParts(name: string, parts: readonly string[]): string {
+  return `${name}: Drop it together with ${parts.join(', ')}: its data is there.`;
+}
+
+/** What there is to know about landmarks that were read: the first sentence, and how many more there are. */
+export function remarksSentence(remarks: readonly string[]): string {
+  const [first = '', ...more] = remarks;
+  return `${asSentence(first)}${more.length === 0 ? '' : ` ${count(more.length, 'more remark')}.`}`;
+}
+
+/** Pairs that went with meshes or were replaced. */
+export function pairsGone(number: number): string {
+  return `${count(number, 'landmark pair')} went.`;
+}
+
+/** Pairs whose points on one mesh went with it. */
+export function pointsGone(number: number): string {
+  return `${count(number, 'landmark pair')} lost a point with its mesh; the partners wait for new ones.`;
+}
+
+/** Pairs whose points on one mesh went for those of a file. */
+export function pointsReplaced(number: number): string {
+  return `${count(number, 'landmark pair')} lost a point.`;
+}
+
+/** All pairs but the locked ones deleted. */
+export function clearedSentence(deleted: number, locked: number): string {
+  const stayed = locked === 0 ? '' : ` ${count(locked, 'locked pair')} stayed.`;
+  return `${count(deleted, 'landmark pair')} deleted.${stayed}`;
+}
+
 export const SENTENCES = {
   noWebGl:
     'This browser gives no WebGL 2, which the views need. Turn on hardware acceleration or use a current browser.',
@@ -55,23 +115,73 @@ export const SENTENCES = {
   contextLost: 'The graphics card took the views away. They come back as soon as it answers.',
   contextGone: 'The views could not be rebuilt after the graphics card was lost. Reload the page.',
   tooManyMeshes: 'Drop at most two meshes at once: a source and a target.',
-  twoLandmarkFiles: 'Drop one landmark file at a time.',
+  twoLandmarkFiles: 'Drop one landmark file at a time, or one for each mesh.',
+  meshesFirst: 'these landmarks are points in space: load their mesh first, or together with them.',
+  whichMesh: 'these landmarks are for one mesh: drop the file on the view of that mesh.',
+  partsAlone: 'this is a part of a mesh: drop it together with the OBJ or glTF that names it.',
+  brokenZip: 'this zip cannot be unpacked: it may be damaged or cut off.',
+  largeZip: 'this zip unpacks to more than the page can take.',
+  manyInZip: 'this zip holds more than 1000 files: put only the meshes and their parts into it.',
   noDemo: 'There is no demo of that name. Choose one from the menu.',
   whileRunning: 'A map is being computed. Cancel it first, then change the meshes.',
   unreadable: 'could not be read from the disk.',
-  notLandmarks: 'this is JSON, but it has no "pairs" and is no mesh.',
   unexpected: 'Something unexpected went wrong in the page. Your files are untouched; reload if the page no longer answers.',
   otherMeshes: 'Load the meshes of these landmarks first, or together with them.',
   keptMisfit: 'The landmarks are kept: load the mesh that they were made for, or clear them.',
   empty: 'is empty.',
   tooLarge: 'is larger than 1 GiB, more than the page can take.',
   nothingToSuggest: 'No further place to suggest: the landmarks cover this mesh.',
+  bringingBack: 'Bringing back your work…',
+  keepsNothing: 'This browser lets the page keep nothing: save your landmarks as a file before you leave.',
+  keepsNoMore: 'Your work is not kept in this browser any more: save your landmarks as a file before you leave.',
+  noRoom: 'This browser has no room left to keep your work: save your landmarks as a file before you leave.',
+  keptUnreadable: 'Work of an earlier visit could not be read and was left out.',
+  keptByOther: 'Work that another version of this page kept was left as it is.',
+  mirrored: 'The target is its mirror image now, with the landmarks on it.',
+  allLocked: 'All landmark pairs are locked. Unlock those that may go.',
+  upToDate: 'This map is of these meshes, landmarks and options already.',
+  nothingToShare: 'There is nothing to share yet: open a mesh or a demo first.',
+  noLink: 'There is no link to this: it would be too long, or the page was not opened by https, which links to your own files need. Save the project file instead: it holds everything.',
+  aboutProject: 'One file with both meshes, the landmarks, the options and the views; drop it on the page to go on',
+  newVersion: 'A new version of this page is ready.',
   badPoint: 'Some landmarks do not belong to these meshes. Load the meshes that the landmark file was made for.',
 } as const;
 
 /** A point that is picked a second time. */
 export function pointTaken(side: 0 | 1, pair: number): string {
   return `This point of the ${side === 0 ? 'source' : 'target'} belongs to pair ${pair} already. Pick another one.`;
+}
+
+/** A locked pair that was to be moved or deleted. */
+export function pairLocked(pair: number): string {
+  return `Pair ${pair} is locked. Unlock it first.`;
+}
+
+/** What has changed since the map was made, in words. */
+export function staleSentence(changes: {
+  readonly meshes: readonly (0 | 1)[];
+  readonly placed: readonly number[];
+  readonly moved: readonly number[];
+  readonly removed: readonly number[];
+  readonly options: readonly string[];
+}): string {
+  const { meshes, placed, moved, removed, options } = changes;
+  const pairs = (numbers: readonly number[], verb: string): string[] =>
+    numbers.length === 0 ? [] : [`${numbers.length === 1 ? `pair ${numbers[0] ?? ''}` : count(numbers.length, 'pair')} ${verb}`];
+  const words = [
+    ...meshes.map((side) => `the ${side === 0 ? 'source' : 'target'} was replaced`),
+    ...pairs(placed, 'came'),
+    ...pairs(moved, 'moved'),
+    ...pairs(removed, 'went'),
+    ...(options.length === 0 ? [] : ['the options changed']),
+  ];
+  const last = words.pop() ?? 'something changed';
+  return `This map was made before ${words.length === 0 ? last : `${words.join(', ')} and ${last}`}.`;
+}
+
+/** Work of an earlier visit. */
+export function offerSentence(name: string, pairs: number): string {
+  return `Continue with ${name}, ${count(pairs, 'pair')}?`;
 }
 
 /** A suggestion in words. */
@@ -83,24 +193,126 @@ export function suggestionName({ letter, reason, partner }: Suggestion, all: rea
 
 /** What to do next. */
 export function hint(options: {
-  readonly hasSource: boolean;
-  readonly hasTarget: boolean;
-  readonly pendingSide: 0 | 1 | null;
+  /** How many meshes there are, of two. */
+  readonly meshes: number;
+  /** The pair that waits for its other point, and what the mesh is called on which it is asked for. */
+  readonly asked: { readonly pair: number; readonly mesh: string } | null;
+  /** Pairs with both points. */
   readonly pairs: number;
-  /** Points that wait behind the pending one. */
+  /** Half pairs that wait behind the one whose turn it is. */
   readonly waiting: number;
 }): string {
-  if (!options.hasSource || !options.hasTarget) {
-    return 'Drop two closed meshes here, or choose a demo.';
+  if (options.meshes < 2) {
+    return options.meshes === 0 ? 'Drop two closed meshes, or look at a demo.' : 'Drop the other mesh.';
   }
-  if (options.pendingSide !== null) {
-    const other = options.pendingSide === 0 ? 'target' : 'source';
+  if (options.asked !== null) {
     const waiting = options.waiting > 0 ? ` ${options.waiting} more wait; Escape skips this one.` : '';
-    return `Now click the same place on the ${other} to finish pair ${options.pairs + 1}.${waiting}`;
+    return `Pair ${options.asked.pair}: now click the same place on the ${options.asked.mesh}.${waiting}`;
   }
   if (options.pairs < 4) {
     const missing = 4 - options.pairs;
-    return `Click a place on the source to begin a pair. ${missing} more ${missing === 1 ? 'pair is' : 'pairs are'} needed.`;
+    return `Click a place on either mesh to begin a pair. ${missing} more ${missing === 1 ? 'is' : 'are'} needed.`;
   }
-  return 'Click the source to add a pair, or compute the map.';
+  return 'Click a place on either mesh to add a pair, or make the map.';
 }
+
+/** Why a link is not opened. */
+export const LINK_REFUSED = {
+  'too-long': 'This link is longer than any that this page makes, so it is not opened.',
+  newer:
+    'This link was made by a newer version of this page. Reload the page to get that version; if nothing changes, ask for the project file instead.',
+  damaged: 'This link is damaged: perhaps it was cut off on its way. Ask for it again.',
+  'no-mesh': 'This link names no mesh: it needs source= or target= with the address of one.',
+  'no-address': 'This link holds something that is no address of a file. Ask for it again.',
+  'not-https': 'This link names a file whose address does not begin with https://, so nothing is loaded.',
+  'has-password': 'This link names a file whose address holds a user name or a password, so nothing is loaded.',
+} as const;
+export type LinkFault = keyof typeof LINK_REFUSED;
+
+/** Several names in a sentence. */
+export function listed(names: readonly string[]): string {
+  return names.length < 2 ? names.join('') : `${names.slice(0, -1).join(', ')} and ${names.at(-1) ?? ''}`;
+}
+
+/** Why a file of a link did not come. */
+export function fetchSentence(
+  fault: { readonly kind: 'unreachable' | 'moved' | 'too-large' | 'cancelled' } | { readonly kind: 'status'; readonly status: number },
+  name: string,
+  host: string | null,
+): string {
+  const where = host ?? 'this page’s server';
+  switch (fault.kind) {
+    case 'unreachable':
+      return `${where} does not answer, or does not let other pages read ${name}. Download the file there and drop it here.`;
+    case 'moved':
+      return `${where} sends ${name} on to another address, which nobody agreed to. Ask for a link with that address, or download the file and drop it here.`;
+    case 'status':
+      return fault.status === 404
+        ? `${where} has no ${name} at this address. Ask for the link again.`
+        : `${where} did not give ${name} (its answer was ${fault.status}). Try again later, or download the file there and drop it here.`;
+    case 'too-large':
+      return `${name} is larger than 256 MB, the most that is loaded by a link. Download the file and drop it here.`;
+    case 'cancelled':
+      return 'Nothing was loaded.';
+  }
+}
+
+/** What a link asks before files are loaded from other hosts: "Load cat.obj and lion.obj (2 files) from example.org?" */
+export function loadQuestion(hosts: readonly { readonly host: string; readonly names: readonly string[] }[]): string {
+  const parts = hosts.map(({ host, names }) => `${listed(names)}${names.length > 1 ? ` (${names.length} files)` : ''} from ${host}`);
+  return `Load ${listed(parts)}?`;
+}
+
+/** Megabytes to read, as "12.3 MB". */
+function megabytes(bytes: number): string {
+  return `${(bytes / 1e6).toFixed(1)} MB`;
+}
+
+/** What is being loaded, and how much of it is there. */
+export function loadingSentence(file: { readonly name: string; readonly loaded: number; readonly expected: number | null }): string {
+  const of = file.expected === null ? '' : ` of ${megabytes(file.expected)}`;
+  return `Loading ${file.name}: ${megabytes(file.loaded)}${of}`;
+}
+
+/** What a link waits for. */
+export function filesNeeded(names: readonly string[]): string {
+  return `This link needs ${listed(names)}: drop ${names.length === 1 ? 'it' : 'them'} here.`;
+}
+
+/** What to say of files that were dropped for a link and are not the ones that it means. */
+export function otherFiles(given: readonly string[], needed: readonly string[]): string {
+  const isSameName = given.some((name) => needed.includes(name));
+  const what = given.length === 1 ? 'is not a file' : 'are not files';
+  const hint = isSameName ? ' The name fits, but the content differs.' : '';
+  return `${listed(given)} ${what} of this link.${hint} It still needs ${listed(needed)}.`;
+}
+
+/** What whoever opens a link will see. */
+export function prospectSentence(prospect: {
+  readonly needed: readonly string[];
+  readonly loaded: readonly { readonly host: string }[];
+  readonly isLong: boolean;
+}): string {
+  const { needed, loaded, isLong } = prospect;
+  const hosts = listed(loaded.map(({ host }) => host));
+  const sees =
+    needed.length > 0
+      ? `Whoever opens it needs ${listed(needed)} as well: send ${needed.length === 1 ? 'the file' : 'the files'} along, or send the project file, which holds everything.`
+      : loaded.length > 0
+        ? `Whoever opens it sees everything, after one click that loads the meshes from ${hosts}.`
+        : 'Whoever opens it sees everything: meshes, landmarks, options and both views.';
+  return isLong ? `${sees} It is longer than 2,000 characters, and some mail programs cut such links.` : sees;
+}
+
+/** Why a project file is not opened. */
+export const PROJECT_REFUSED = {
+  'no-archive': 'this is no project file, or it is damaged.',
+  'no-project': 'this archive is no project: it has no conemap.json that says so.',
+  newer: 'this project was saved by a newer version of this page. Reload the page to get that version.',
+  damaged: 'this project is damaged: its conemap.json does not say what it should.',
+  'mesh-missing': 'this project is damaged: it lacks a mesh that it names.',
+  'mesh-changed': 'a mesh in this project is not the one that its landmarks were made on.',
+  'too-many': 'this archive holds more than 1,000 files, so it is not opened.',
+  'too-large': 'this archive becomes larger than 1 GiB, so it is not opened.',
+} as const;
+export type ProjectFault = keyof typeof PROJECT_REFUSED;

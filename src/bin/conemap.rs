@@ -1,4 +1,4 @@
-//! The command line: `conemap map`, `query`, `report`, `export`, `suggest`, `flow` and `remesh`.
+//! The command line: `conemap map`, `query`, `report`, `export`, `suggest`, `flow`, `landmarks` and `remesh`.
 //!
 //! Progress and errors go to standard error; the exit code is 0 only for a converged, certified result.
 #![allow(clippy::print_stderr, reason = "a command line prints")]
@@ -13,6 +13,8 @@ mod flow;
 mod input;
 #[path = "conemap/interrupt.rs"]
 mod interrupt;
+#[path = "conemap/landmarks.rs"]
+mod landmarks;
 #[path = "conemap/map.rs"]
 mod map;
 #[path = "conemap/query.rs"]
@@ -36,6 +38,7 @@ fn main() -> ExitCode {
         arguments::Command::Export(options) => saved::export(options),
         arguments::Command::Suggest(options) => suggest::run(options),
         arguments::Command::Flow(options) => flow::run(options),
+        arguments::Command::Landmarks(options) => landmarks::run(options),
         arguments::Command::Remesh(options) => remesh::run(options),
     };
     match outcome {

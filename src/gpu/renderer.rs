@@ -1,8 +1,10 @@
-//! Draws surfaces, lines and balls into the two views of one canvas.
+//! Draws surfaces, lines, balls and pins into the two views of one canvas.
 
 use super::pipelines::{DEPTH, Pipelines, ViewUniform};
 use crate::scene::buffers::unit_ball;
-use crate::scene::{Camera, LineVertex, MarkerInstance, SurfaceVertex};
+use crate::scene::colours::{SCALE_END, distortion_scale};
+use crate::scene::{LineVertex, MarkerInstance, PinInstance, Pose, SurfaceVertex};
+use glam::Mat4;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 /// Why nothing can be drawn.
@@ -26,31 +28,70 @@ pub struct Mesh {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clear(pub [f64; 3]);
 
+/// What the colours of a surface tell.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Paint {
+    /// Nothing.
+    #[default]
+    Plain,
+    /// A checkerboard of the flat metric.
+    Checkerboard,
+    /// The place on the target.
+    Places,
+    /// The distortion.
+    Distortion,
+    /// A checkerboard in space, by the place on the target.
+    Pattern,
+}
+
+/// Colours of both views, linear RGB.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Palette {
+    /// The plain surface.
+    pub surface: [f32; 3],
+    /// The plain surface behind one that has holes.
+    pub under: [f32; 3],
+    /// Lines.
+    pub line: [f32; 3],
+    /// The light and the dark cells of patterns.
+    pub pattern: [[f32; 3]; 2],
+    /// The border of pins.
+    pub rim: [f32; 3],
+}
+
 /// One of the two views: where on the canvas, and what is in it.
 pub struct ViewDraw<'a> {
     /// x, y, width, height in physical pixels from the top left.
     pub rectangle: [f32; 4],
-    /// The camera.
-    pub camera: &'a Camera,
-    /// 0 shaded, 1 checkerboard, 2 colours, 3 distortion.
-    pub style: f32,
-    /// Colour of the plain surface, linear RGB.
-    pub surface_colour: [f32; 3],
-    /// Colour of lines, linear RGB.
-    pub line_colour: [f32; 3],
+    /// Where the camera stands.
+    pub pose: Pose,
+    /// What the surface's colours tell.
+    pub paint: Paint,
+    /// The colours.
+    pub palette: Palette,
     /// Half the width of lines in physical pixels.
     pub line_half_width: f32,
+    /// Share of the way that every vertex of the surface has gone to its image.
+    pub morph: f32,
+    /// From the images' coordinates to the view's.
+    pub world_from_image: Mat4,
     /// The surface.
     pub surface: Option<&'a Mesh>,
     /// A plain surface a little behind it, seen where the surface has holes.
     pub under: Option<&'a Mesh>,
-    /// Colour of the plain surface behind, linear RGB.
-    pub under_colour: [f32; 3],
     /// Ribbons.
     pub lines: Option<&'a Mesh>,
     /// Balls.
     pub balls: &'a [MarkerInstance],
+    /// Pins over everything, the lowest first.
+    pub pins: &'a [PinInstance],
 }
+
+/// How much a hollow takes of the light from around.
+const HOLLOW_SHADE: f32 = 0.75;
+
+/// Of lines behind the surface.
+const HIDDEN_LINE_OPACITY: f32 = 0.14;
 
 /// Everything that belongs to one canvas.
 pub struct Renderer {
@@ -69,6 +110,12 @@ pub struct Renderer {
 struct ViewUniforms {
     front: (wgpu::Buffer, wgpu::BindGroup),
     under: (wgpu::Buffer, wgpu::BindGroup),
+}
+
+/// What is drawn many times in one frame of a view.
+struct Instances {
+    balls: Option<wgpu::Buffer>,
+    pins: Option<wgpu::Buffer>,
 }
 
 /// Depth and multisampled colour at the canvas's size.
@@ -130,17 +177,26 @@ impl Renderer {
 
     /// Uploads a surface.
     pub fn surface_mesh(&self, vertices: &[SurfaceVertex], indices: &[u32]) -> Mesh {
-        let floats = |v: &SurfaceVertex| {
-            v.position.into_iter().chain(v.normal).chain(v.uv).chain([v.distortion]).collect::<Vec<_>>()
+        let floats = |bytes: &mut Vec<u8>, v: &SurfaceVertex| {
+            push(bytes, &v.position);
+            push(bytes, &v.normal);
+            push(bytes, &v.uv);
+            push(bytes, &[v.distortion]);
+            push(bytes, &v.image);
+            push(bytes, &v.image_normal);
+            push(bytes, &[v.hollow]);
         };
-        mesh(&self.device, &vertices.iter().flat_map(floats).collect::<Vec<f32>>(), indices)
+        mesh(&self.device, &packed(vertices, floats), indices)
     }
 
     /// Uploads ribbons.
     pub fn line_mesh(&self, vertices: &[LineVertex], indices: &[u32]) -> Mesh {
-        let floats =
-            |v: &LineVertex| v.position.into_iter().chain(v.other).chain([v.side]).collect::<Vec<_>>();
-        mesh(&self.device, &vertices.iter().flat_map(floats).collect::<Vec<f32>>(), indices)
+        let floats = |bytes: &mut Vec<u8>, v: &LineVertex| {
+            push(bytes, &v.position);
+            push(bytes, &v.other);
+            push(bytes, &[v.side]);
+        };
+        mesh(&self.device, &packed(vertices, floats), indices)
     }
 
     /// Draws one frame. Frames that the browser cannot take now are left out.
@@ -163,7 +219,7 @@ impl Renderer {
                 self.queue.write_buffer(&uniform.under.0, 0, &self.under_uniform(view).bytes());
             }
         }
-        let instances = [0, 1].map(|k: usize| self.instances(views[k].balls));
+        let instances = [0, 1].map(|k: usize| self.instances(&views[k]));
         {
             let (target, resolve_target) = match &self.targets.colour {
                 Some(samples) => (samples, Some(&canvas)),
@@ -193,7 +249,7 @@ impl Renderer {
                 multiview_mask: None,
             });
             for k in 0..2 {
-                self.draw_view(&mut pass, k, &views[k], instances[k].as_ref());
+                self.draw_view(&mut pass, k, &views[k], &instances[k]);
             }
             // WebGL cuts off the resolving of the samples by the last scissor rectangle: both views must be in it.
             pass.set_scissor_rect(0, 0, self.config.width, self.config.height);
@@ -204,13 +260,28 @@ impl Renderer {
 
     fn uniform(&self, view: &ViewDraw<'_>) -> ViewUniform {
         let [_, _, width, height] = view.rectangle;
-        let camera = view.camera;
+        let ViewDraw { pose, palette, .. } = view;
+        let style = match view.paint {
+            Paint::Plain => 0.0,
+            Paint::Checkerboard => 1.0,
+            Paint::Places => 2.0,
+            Paint::Distortion => 3.0,
+            Paint::Pattern => 4.0,
+        };
         ViewUniform {
-            clip_from_world: camera.view_projection(width / height.max(1.0)).to_cols_array_2d(),
-            eye: camera.eye().extend(1.0).to_array(),
-            size_and_style: [width, height, view.style, view.line_half_width],
-            surface: with_alpha(view.surface_colour),
-            line: with_alpha(view.line_colour),
+            clip_from_world: pose.view_projection(width / height.max(1.0)).to_cols_array_2d(),
+            world_from_image: view.world_from_image.to_cols_array_2d(),
+            eye: pose.eye().extend(1.0).to_array(),
+            right: pose.right().extend(0.0).to_array(),
+            up: pose.up().extend(0.0).to_array(),
+            size_and_style: [width, height, style, view.line_half_width],
+            ways: [view.morph, HOLLOW_SHADE, HIDDEN_LINE_OPACITY, SCALE_END],
+            surface: with_alpha(palette.surface),
+            line: with_alpha(palette.line),
+            pattern_light: with_alpha(palette.pattern[0]),
+            pattern_dark: with_alpha(palette.pattern[1]),
+            rim: with_alpha(palette.rim),
+            scale: distortion_scale().map(with_alpha),
         }
     }
 
@@ -218,15 +289,25 @@ impl Renderer {
     fn under_uniform(&self, view: &ViewDraw<'_>) -> ViewUniform {
         let mut uniform = self.uniform(view);
         uniform.size_and_style[2] = -1.0;
-        uniform.surface = with_alpha(view.under_colour);
+        uniform.surface = with_alpha(view.palette.under);
         uniform
     }
 
-    fn instances(&self, balls: &[MarkerInstance]) -> Option<wgpu::Buffer> {
-        let floats =
-            |m: &MarkerInstance| m.centre.into_iter().chain([m.radius]).chain(m.colour).collect::<Vec<_>>();
-        let bytes: Vec<u8> = balls.iter().flat_map(floats).flat_map(f32::to_le_bytes).collect();
-        (!bytes.is_empty()).then(|| buffer(&self.device, &bytes, wgpu::BufferUsages::VERTEX))
+    fn instances(&self, view: &ViewDraw<'_>) -> Instances {
+        let balls = packed(view.balls, |bytes, m| {
+            push(bytes, &m.centre);
+            push(bytes, &[m.radius]);
+            push(bytes, &m.colour);
+        });
+        let pins = packed(view.pins, |bytes, p| {
+            push(bytes, &p.base);
+            push(bytes, &p.colour);
+            push(bytes, &[p.radius, p.stem, p.kind]);
+        });
+        let upload = |bytes: Vec<u8>| {
+            (!bytes.is_empty()).then(|| buffer(&self.device, &bytes, wgpu::BufferUsages::VERTEX))
+        };
+        Instances { balls: upload(balls), pins: upload(pins) }
     }
 
     fn draw_view(
@@ -234,7 +315,7 @@ impl Renderer {
         pass: &mut wgpu::RenderPass<'_>,
         k: usize,
         view: &ViewDraw<'_>,
-        instances: Option<&wgpu::Buffer>,
+        instances: &Instances,
     ) {
         let (full_width, full_height) = (self.config.width as f32, self.config.height as f32);
         let [x, y, width, height] = view.rectangle;
@@ -246,27 +327,50 @@ impl Renderer {
         pass.set_viewport(x, y, width, height, 0.0, 1.0);
         pass.set_scissor_rect(x as u32, y as u32, width as u32, height as u32);
         let ViewUniforms { front, under } = &self.uniforms[k];
-        let meshes = [
-            (view.under, &self.pipelines.surface, under),
-            (view.surface, &self.pipelines.surface, front),
-            (view.lines, &self.pipelines.line, front),
-        ];
-        pass.set_bind_group(0, &front.1, &[]);
-        for (mesh, pipeline, uniform) in meshes.into_iter().filter_map(|(m, p, u)| m.map(|m| (m, p, u))) {
-            pass.set_bind_group(0, &uniform.1, &[]);
+        let Pipelines { surface, line, hidden_line, ball, pin, .. } = &self.pipelines;
+        let draw = |pass: &mut wgpu::RenderPass<'_>, mesh: &Mesh, pipeline: &wgpu::RenderPipeline| {
             pass.set_pipeline(pipeline);
             pass.set_vertex_buffer(0, mesh.vertices.slice(..));
             pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed(0..mesh.index_count, 0, 0..1);
+        };
+        if let Some(mesh) = view.under {
+            pass.set_bind_group(0, &under.1, &[]);
+            draw(pass, mesh, surface);
         }
-        if let Some(instances) = instances {
-            pass.set_pipeline(&self.pipelines.ball);
+        pass.set_bind_group(0, &front.1, &[]);
+        if let Some(mesh) = view.surface {
+            draw(pass, mesh, surface);
+        }
+        if let Some(balls) = &instances.balls {
+            pass.set_pipeline(ball);
             pass.set_vertex_buffer(0, self.ball.vertices.slice(..));
-            pass.set_vertex_buffer(1, instances.slice(..));
+            pass.set_vertex_buffer(1, balls.slice(..));
             pass.set_index_buffer(self.ball.indices.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed(0..self.ball.index_count, 0, 0..view.balls.len() as u32);
         }
+        if let Some(mesh) = view.lines {
+            draw(pass, mesh, hidden_line);
+            draw(pass, mesh, line);
+        }
+        if let Some(pins) = &instances.pins {
+            pass.set_pipeline(pin);
+            pass.set_vertex_buffer(0, pins.slice(..));
+            pass.draw(0..6, 0..view.pins.len() as u32);
+        }
     }
+}
+
+/// Appends numbers to a vertex buffer's bytes.
+fn push(bytes: &mut Vec<u8>, numbers: &[f32]) {
+    numbers.iter().for_each(|x| bytes.extend_from_slice(&x.to_le_bytes()));
+}
+
+/// The bytes of a vertex buffer.
+fn packed<T>(items: &[T], write: impl Fn(&mut Vec<u8>, &T)) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(std::mem::size_of_val(items));
+    items.iter().for_each(|item| write(&mut bytes, item));
+    bytes
 }
 
 fn with_alpha([r, g, b]: [f32; 3]) -> [f32; 4] {
@@ -277,11 +381,10 @@ fn buffer(device: &wgpu::Device, contents: &[u8], usage: wgpu::BufferUsages) -> 
     device.create_buffer_init(&BufferInitDescriptor { label: None, contents, usage })
 }
 
-fn mesh(device: &wgpu::Device, vertices: &[f32], indices: &[u32]) -> Mesh {
-    let vertex_bytes: Vec<u8> = vertices.iter().flat_map(|x| x.to_le_bytes()).collect();
+fn mesh(device: &wgpu::Device, vertices: &[u8], indices: &[u32]) -> Mesh {
     let index_bytes: Vec<u8> = indices.iter().flat_map(|i| i.to_le_bytes()).collect();
     Mesh {
-        vertices: buffer(device, &vertex_bytes, wgpu::BufferUsages::VERTEX),
+        vertices: buffer(device, vertices, wgpu::BufferUsages::VERTEX),
         indices: buffer(device, &index_bytes, wgpu::BufferUsages::INDEX),
         index_count: indices.len() as u32,
     }
@@ -289,7 +392,7 @@ fn mesh(device: &wgpu::Device, vertices: &[f32], indices: &[u32]) -> Mesh {
 
 fn ball(device: &wgpu::Device) -> Mesh {
     let (positions, indices) = unit_ball();
-    mesh(device, &positions, &indices)
+    mesh(device, &packed(&positions, |bytes, x| push(bytes, &[*x])), &indices)
 }
 
 fn view_uniform(device: &wgpu::Device, pipelines: &Pipelines) -> (wgpu::Buffer, wgpu::BindGroup) {

@@ -1,18 +1,33 @@
-// Three things are drawn: surfaces, lines (as ribbons that face the viewer) and balls.
+// Four things are drawn: surfaces, lines (as ribbons that face the viewer), balls, and pins over the picture.
 // One uniform block serves all of them; it is rewritten for each of the two views.
 
 struct View {
     // World to clip space.
     clip_from_world: mat4x4<f32>,
+    // From the images' coordinates, the target's, to this view's: a rigid motion.
+    world_from_image: mat4x4<f32>,
     // xyz: the camera's position.
     eye: vec4<f32>,
-    // xy: size of the view in pixels; z: surface style (-1 plain and a little behind, 0 shaded, 1 checkerboard, 2 colours,
-    // 3 distortion); w: half width of lines in pixels.
+    // xyz: right and up on the screen.
+    right: vec4<f32>,
+    up: vec4<f32>,
+    // xy: size of the view in pixels; z: surface style (-1 plain and a little behind, 0 plain, 1 checkerboard of the flat metric,
+    // 2 colours of the place on the target, 3 distortion, 4 solid pattern); w: half width of lines in pixels.
     size_and_style: vec4<f32>,
+    // x: share of the way that every vertex has gone to its image; y: how strongly hollows are darkened;
+    // z: opacity of lines behind the surface; w: the distortion at the end of the scale.
+    ways: vec4<f32>,
     // rgb: colour of the plain surface.
     surface: vec4<f32>,
     // rgb: colour of lines.
     line: vec4<f32>,
+    // rgb: light and dark colour of patterns.
+    pattern_light: vec4<f32>,
+    pattern_dark: vec4<f32>,
+    // rgb: the border of pins.
+    rim: vec4<f32>,
+    // rgb: the colours of the distortion.
+    scale: array<vec4<f32>, 10>,
 };
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -22,7 +37,9 @@ struct SurfaceOut {
     @location(0) world: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(2) uv: vec2<f32>,
-    @location(3) distortion: f32,
+    // Distortion, and how hollow the place is.
+    @location(3) values: vec2<f32>,
+    @location(4) image: vec3<f32>,
 };
 
 @vertex
@@ -31,78 +48,109 @@ fn surface_vertex(
     @location(1) normal: vec3<f32>,
     @location(2) uv: vec2<f32>,
     @location(3) distortion: f32,
+    @location(4) image: vec3<f32>,
+    @location(5) image_normal: vec3<f32>,
+    @location(6) hollow: f32,
 ) -> SurfaceOut {
+    let way = view.ways.x;
+    let end = (view.world_from_image * vec4<f32>(image, 1.0)).xyz;
+    let end_normal = (view.world_from_image * vec4<f32>(image_normal, 0.0)).xyz;
     var out: SurfaceOut;
-    out.clip = view.clip_from_world * vec4<f32>(position, 1.0);
-    out.world = position;
-    out.normal = normal;
+    out.world = mix(position, end, way);
+    out.clip = view.clip_from_world * vec4<f32>(out.world, 1.0);
+    out.normal = mix(normal, end_normal, way);
     out.uv = uv;
-    out.distortion = distortion;
+    out.values = vec2<f32>(distortion, hollow);
+    out.image = image;
     if view.size_and_style.z < -0.5 {
         out.clip.z += 0.004 * out.clip.w;
     }
     return out;
 }
 
-// A key light that follows the viewer, light from the sky, and a soft rim.
-fn lit(colour: vec3<f32>, world: vec3<f32>, raw_normal: vec3<f32>) -> vec3<f32> {
+// A soft key light from the upper left of the viewer, light from the sky above and a little from the ground, all fixed to the
+// screen, so that a turned surface shows its shape; hollows get less of the light from around.
+fn lit(colour: vec3<f32>, world: vec3<f32>, raw_normal: vec3<f32>, hollow: f32) -> vec3<f32> {
     let to_eye = normalize(view.eye.xyz - world);
     var normal = normalize(raw_normal);
     normal = select(-normal, normal, dot(normal, to_eye) > 0.0);
-    let right = normalize(cross(vec3<f32>(0.0, 1.0, 0.0), to_eye) + vec3<f32>(1e-5, 0.0, 0.0));
-    let key = normalize(to_eye + 0.55 * vec3<f32>(0.0, 1.0, 0.0) - 0.45 * right);
-    let diffuse = max(dot(normal, key), 0.0);
-    let sky = 0.5 + 0.5 * normal.y;
+    let right = view.right.xyz;
+    let up = view.up.xyz;
+    let key = normalize(to_eye + 0.75 * up - 0.55 * right);
+    // Light that wraps around the edge of the shadow.
+    let diffuse = pow(max(0.3 + 0.7 * dot(normal, key), 0.0), 1.5);
+    let sky = 0.5 + 0.5 * dot(normal, up);
+    let around = mix(vec3<f32>(0.20, 0.19, 0.18), vec3<f32>(0.40, 0.42, 0.46), sky);
+    let open = clamp(1.0 - view.ways.y * hollow, 0.35, 1.25);
     let half_way = normalize(key + to_eye);
-    let gloss = pow(max(dot(normal, half_way), 0.0), 40.0) * 0.12;
-    let rim = pow(1.0 - max(dot(normal, to_eye), 0.0), 3.0) * 0.18;
-    return colour * (0.72 * diffuse + 0.16 + 0.22 * sky) + vec3<f32>(gloss + rim * 0.6);
+    let gloss = pow(max(dot(normal, half_way), 0.0), 28.0) * 0.06;
+    // Towards the outline the surface darkens, as clay does: the outline is seen on a light ground, too.
+    let facing = max(dot(normal, to_eye), 0.0);
+    let outline = mix(0.62, 1.0, smoothstep(0.0, 0.55, facing));
+    return colour * (vec3<f32>(0.72, 0.70, 0.67) * diffuse * mix(1.0, open, 0.6) + around * open) * outline + vec3<f32>(gloss * open);
 }
 
-// A checkerboard filtered over the footprint of the pixel: integral of the square wave (Quilez).
+// The integral of a square wave of period 2 and height 1 over the footprint of the pixel (Quilez).
+fn square_wave(x: f32) -> f32 {
+    let w = max(fwidth(x), 1e-5);
+    let wide = 2.0 * (abs(fract((x - 0.5 * w) * 0.5) - 0.5) - abs(fract((x + 0.5 * w) * 0.5) - 0.5)) / w;
+    // Where a pixel sees many cells only their mean is left.
+    return wide * clamp(2.0 - w, 0.0, 1.0);
+}
+
+// A checkerboard, 0 or 1.
 fn checker(p: vec2<f32>) -> f32 {
-    let w = max(fwidth(p), vec2<f32>(1e-5));
-    let i = 2.0 * (abs(fract((p - 0.5 * w) * 0.5) - 0.5) - abs(fract((p + 0.5 * w) * 0.5) - 0.5)) / w;
-    return 0.5 - 0.5 * i.x * i.y;
+    return 0.5 - 0.5 * square_wave(p.x) * square_wave(p.y);
 }
 
-// Distortion by its logarithm, from 1 (none) to 4 and more; the legend of the page has the same colours.
-fn distortion_colour(value: f32) -> vec3<f32> {
-    let stops = array<vec3<f32>, 5>(
-        vec3<f32>(0.913, 0.888, 0.791),
-        vec3<f32>(0.930, 0.624, 0.168),
-        vec3<f32>(0.871, 0.254, 0.045),
-        vec3<f32>(0.546, 0.044, 0.068),
-        vec3<f32>(0.105, 0.010, 0.112),
+// A checkerboard in space, 0 or 1. The axes are turned a little, as a flat part along an axis would flicker between two cells.
+fn solid_checker(place: vec3<f32>) -> f32 {
+    let turn = mat3x3<f32>(
+        vec3<f32>(0.9386, 0.2409, -0.2470),
+        vec3<f32>(-0.2049, 0.9652, 0.1628),
+        vec3<f32>(0.2776, -0.1022, 0.9552),
     );
-    let place = clamp(2.0 * log2(max(value, 1.0)), 0.0, 4.0);
-    var colour = stops[0];
-    for (var k = 1; k < 5; k++) {
-        colour = mix(colour, stops[k], clamp(place - f32(k - 1), 0.0, 1.0));
-    }
-    return colour;
+    let p = turn * place * 9.0 + vec3<f32>(0.37, 0.23, 0.41);
+    return 0.5 - 0.5 * square_wave(p.x) * square_wave(p.y) * square_wave(p.z);
+}
+
+// Colours of the scale by the logarithm of the distortion.
+fn distortion_colour(value: f32) -> vec3<f32> {
+    let place = clamp(9.0 * log(max(value, 1.0)) / log(view.ways.w), 0.0, 9.0);
+    let below = min(i32(place), 8);
+    return mix(view.scale[below].rgb, view.scale[below + 1].rgb, place - f32(below));
+}
+
+// One colour for every place of the target.
+fn place_colour(image: vec3<f32>) -> vec3<f32> {
+    return 0.06 + 0.8 * smoothstep(vec3<f32>(-0.75), vec3<f32>(0.75), image);
 }
 
 @fragment
 fn surface_fragment(in: SurfaceOut) -> @location(0) vec4<f32> {
     let style = view.size_and_style.z;
     let board = checker(in.uv * 36.0);
-    let dark = vec3<f32>(0.035, 0.125, 0.245);
-    let light = vec3<f32>(0.86, 0.85, 0.80);
-    let hue = vec3<f32>(0.5) + 0.42 * cos(6.2831853 * (in.uv.x * 1.1 + vec3<f32>(0.0, 0.33, 0.67)) + in.uv.y * 4.0);
+    let solid = solid_checker(in.image);
+    let light = view.pattern_light.rgb;
+    let dark = view.pattern_dark.rgb;
     var colour = view.surface.rgb;
-    if style > 2.5 {
-        colour = distortion_colour(in.distortion);
+    if style > 3.5 {
+        // A breath of the place's own colour tells far parts of the pattern apart.
+        colour = mix(dark, light, solid) * mix(vec3<f32>(1.0), 0.45 + 1.1 * place_colour(in.image), 0.5);
+    } else if style > 2.5 {
+        colour = distortion_colour(in.values.x);
     } else if style > 1.5 {
-        colour = hue * mix(0.72, 1.0, board);
+        colour = place_colour(in.image);
     } else if style > 0.5 {
         colour = mix(dark, light, board);
     }
-    return vec4<f32>(lit(colour, in.world, in.normal), 1.0);
+    return vec4<f32>(lit(colour, in.world, in.normal, in.values.y), 1.0);
 }
 
 struct LineOut {
     @builtin(position) clip: vec4<f32>,
+    // From the middle of the line in pixels.
+    @location(0) across: f32,
 };
 
 @vertex
@@ -111,25 +159,38 @@ fn line_vertex(
     @location(1) other: vec3<f32>,
     @location(2) side: f32,
 ) -> LineOut {
-    let here = view.clip_from_world * vec4<f32>(position, 1.0);
-    let there = view.clip_from_world * vec4<f32>(other, 1.0);
+    // Towards the viewer by some thousandths of the way, so that lines on the surface are not hidden by it.
+    let here = view.clip_from_world * vec4<f32>(mix(position, view.eye.xyz, 0.003), 1.0);
+    let there = view.clip_from_world * vec4<f32>(mix(other, view.eye.xyz, 0.003), 1.0);
     let size = view.size_and_style.xy;
     let along = (there.xy / there.w - here.xy / here.w) * size;
     let reach = max(length(along), 1e-6);
     let across = vec2<f32>(-along.y, along.x) / reach;
+    // A pixel more than the line, where its edge fades.
+    let reach_across = sign(side) * (view.size_and_style.w + 1.0);
     var out: LineOut;
     out.clip = here;
-    let shift = across * side * view.size_and_style.w * 2.0 / size;
+    let shift = across * reach_across * 2.0 / size;
     out.clip.x += shift.x * here.w;
     out.clip.y += shift.y * here.w;
-    // Towards the viewer, so that lines on the surface are not hidden by it.
-    out.clip.z -= 0.0012 * here.w;
+    // At the end the direction is reversed: there the other sign means the same edge.
+    out.across = select(reach_across, -reach_across, abs(side) > 1.5);
     return out;
+}
+
+// How much of a pixel is covered by what begins at distance 0 and lies at negative distances.
+fn cover(distance: f32) -> f32 {
+    return clamp(0.5 - distance, 0.0, 1.0);
 }
 
 @fragment
 fn line_fragment(in: LineOut) -> @location(0) vec4<f32> {
-    return vec4<f32>(view.line.rgb, 1.0);
+    return vec4<f32>(view.line.rgb, cover(abs(in.across) - view.size_and_style.w));
+}
+
+@fragment
+fn hidden_line_fragment(in: LineOut) -> @location(0) vec4<f32> {
+    return vec4<f32>(view.line.rgb, view.ways.z * cover(abs(in.across) - view.size_and_style.w));
 }
 
 struct BallOut {
@@ -156,5 +217,74 @@ fn ball_vertex(
 
 @fragment
 fn ball_fragment(in: BallOut) -> @location(0) vec4<f32> {
-    return vec4<f32>(lit(in.colour, in.world, in.normal), 1.0);
+    return vec4<f32>(lit(in.colour, in.world, in.normal, 0.0), 1.0);
+}
+
+struct PinOut {
+    @builtin(position) clip: vec4<f32>,
+    // From the place in pixels, y up.
+    @location(0) at: vec2<f32>,
+    @location(1) colour: vec3<f32>,
+    // Radius of the head, length of the stem, kind.
+    @location(2) shape: vec3<f32>,
+};
+
+@vertex
+fn pin_vertex(
+    @builtin(vertex_index) corner: u32,
+    @location(0) base: vec3<f32>,
+    @location(1) colour: vec3<f32>,
+    @location(2) radius: f32,
+    @location(3) stem: f32,
+    @location(4) kind: f32,
+) -> PinOut {
+    // Two triangles: corners 0, 1, 2 and 2, 1, 3 of the box around the pin.
+    let corners = array<u32, 6>(0u, 1u, 2u, 2u, 1u, 3u);
+    let c = corners[corner];
+    let is_right = f32(c & 1u);
+    let is_top = f32(c >> 1u);
+    let margin = radius + 3.0;
+    let at = vec2<f32>(mix(-margin, margin, is_right), mix(-margin, stem + margin, is_top));
+    var out: PinOut;
+    out.clip = view.clip_from_world * vec4<f32>(base, 1.0);
+    let shift = at * 2.0 / view.size_and_style.xy * out.clip.w;
+    out.clip.x += shift.x;
+    out.clip.y += shift.y;
+    // Over everything.
+    out.clip.z = 0.0;
+    out.at = at;
+    out.colour = colour;
+    out.shape = vec3<f32>(radius, stem, kind);
+    return out;
+}
+
+// One colour with an opacity laid over another.
+fn over(upper: vec4<f32>, lower: vec4<f32>) -> vec4<f32> {
+    let alpha = upper.a + lower.a * (1.0 - upper.a);
+    let colour = (upper.rgb * upper.a + lower.rgb * lower.a * (1.0 - upper.a)) / max(alpha, 1e-4);
+    return vec4<f32>(colour, alpha);
+}
+
+@fragment
+fn pin_fragment(in: PinOut) -> @location(0) vec4<f32> {
+    let radius = in.shape.x;
+    let stem = in.shape.y;
+    let head = length(in.at - vec2<f32>(0.0, stem)) - radius;
+    let needle = length(in.at - vec2<f32>(0.0, clamp(in.at.y, 0.0, max(stem - radius, 0.0))));
+    let rim = view.rim.rgb;
+    if in.shape.z > 1.5 {
+        // A ring with a dot in its middle.
+        let ring = abs(head) - 1.25;
+        let dot_ = needle - 1.5;
+        let inner = vec4<f32>(in.colour, max(cover(ring), cover(dot_)));
+        return over(inner, vec4<f32>(rim, 0.8 * max(cover(ring - 1.0), cover(dot_ - 1.0))));
+    }
+    if in.shape.z > 0.5 {
+        // Behind the body: an outline.
+        let outline = max(cover(abs(head) - 0.75), cover(needle - 0.5) * cover(-head));
+        return vec4<f32>(in.colour, 0.5 * outline);
+    }
+    let stem_line = over(vec4<f32>(in.colour, cover(needle - 0.9)), vec4<f32>(rim, 0.7 * cover(needle - 1.9)));
+    let full = over(vec4<f32>(in.colour, cover(head + 1.25)), vec4<f32>(rim, cover(head)));
+    return over(full, stem_line);
 }

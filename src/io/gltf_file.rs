@@ -1,7 +1,7 @@
 //! glTF 2.0: all triangles of the scene in world coordinates, joined at equal coordinates. Vertices are numbered as the
 //! elements of the primitives' positions, one primitive after another as the scene names them.
 //!
-//! Buffers are the binary part of a GLB or data URIs. Accessors are read here with their bounds checked in u64.
+//! Buffers are the binary part of a GLB or data URIs; [`super::gltf_parts`] brings those of other files in. Accessors are read here with their bounds checked in u64.
 
 use super::problem::{Place, Problem};
 use super::reading::weld;
@@ -12,6 +12,9 @@ use glam::{DMat4, DVec3, DVec4};
 use gltf::accessor::{DataType, Dimensions};
 use gltf::mesh::Mode;
 use gltf::{Accessor, Gltf, Node, Primitive, Semantic};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use std::collections::BTreeMap;
 
 /// Nodes deeper than this are refused: the scene is a tree, unless someone wants to hurt us.
 const MAX_DEPTH: usize = 64;
@@ -20,6 +23,7 @@ const MAX_CORNERS: usize = 60_000_000;
 
 pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
     let header = |problem: String| (Place::Header, problem);
+    check_positions(bytes).map_err(header)?;
     let gltf = Gltf::from_slice(bytes).map_err(|e| header(format!("it cannot be read: {e}")))?;
     let buffers = buffers(&gltf).map_err(header)?;
     let mut reader = Reader { buffers, soup: PolygonSoup::default() };
@@ -35,6 +39,39 @@ pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
     Ok(weld(soup))
 }
 
+/// Refuses positions that name no accessor: the library looks them up before it checks that they are there.
+fn check_positions(bytes: &[u8]) -> Result<(), String> {
+    #[derive(Deserialize)]
+    struct Root {
+        #[serde(default)]
+        accessors: Vec<IgnoredAny>,
+        #[serde(default)]
+        meshes: Vec<Mesh>,
+    }
+    #[derive(Deserialize)]
+    struct Mesh {
+        #[serde(default)]
+        primitives: Vec<Attributes>,
+    }
+    #[derive(Deserialize)]
+    struct Attributes {
+        #[serde(default)]
+        attributes: BTreeMap<String, usize>,
+    }
+    let unreadable = |e: &dyn std::fmt::Display| format!("it cannot be read: {e}");
+    let root: Root = if bytes.starts_with(b"glTF") {
+        let glb = gltf::Glb::from_slice(bytes).map_err(|e| unreadable(&e))?;
+        serde_json::from_slice(&glb.json).map_err(|e| unreadable(&e))?
+    } else {
+        serde_json::from_slice(bytes).map_err(|e| unreadable(&e))?
+    };
+    let mut primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let is_missing = |primitive: &Attributes| {
+        primitive.attributes.get("POSITION").is_some_and(|number| *number >= root.accessors.len())
+    };
+    if primitives.any(is_missing) { Err("a primitive's positions are not there".into()) } else { Ok(()) }
+}
+
 fn buffers(gltf: &Gltf) -> Result<Vec<Vec<u8>>, String> {
     let load = |buffer: gltf::Buffer<'_>| match buffer.source() {
         gltf::buffer::Source::Bin => gltf.blob.clone().ok_or_else(|| "its binary part is missing".to_owned()),
@@ -42,7 +79,7 @@ fn buffers(gltf: &Gltf) -> Result<Vec<Vec<u8>>, String> {
             let data = uri.strip_prefix("data:").and_then(|rest| rest.split_once(";base64,"));
             let (_, code) = data.ok_or_else(|| {
                 let short: String = uri.chars().take(40).collect();
-                format!("its data is in another file ({short}): export it as GLB or with embedded buffers")
+                format!("its data is in another file ({short}): give that file too, or export it as GLB")
             })?;
             STANDARD.decode(code).map_err(|e| format!("its embedded buffer is damaged: {e}"))
         }

@@ -136,12 +136,21 @@ pub fn read(bytes: &[u8]) -> Result<LandmarkFile, LandmarkFileError> {
         let problem = words.split(" at line ").next().unwrap_or_default().to_owned();
         LandmarkFileError::Json { line: e.line(), problem }
     };
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let file: LandmarkFile = serde_json::from_slice(bytes).map_err(json)?;
+    check(&file)?;
+    Ok(file)
+}
+
+/// Checks what can be said without the meshes: the number of pairs, weights, and points that two pairs share.
+///
+/// # Errors
+/// [`LandmarkFileError`] with the pairs, the first fault.
+pub fn check(file: &LandmarkFile) -> Result<(), LandmarkFileError> {
     if file.pairs.len() > MAX_PAIRS {
         return Err(LandmarkFileError::TooMany { count: file.pairs.len() });
     }
-    check_points(&file.pairs)?;
-    Ok(file)
+    check_points(&file.pairs)
 }
 
 fn check_points(pairs: &[[LandmarkPoint; 2]]) -> Result<(), LandmarkFileError> {

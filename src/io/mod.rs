@@ -4,7 +4,9 @@
 
 mod format;
 mod gltf_file;
+pub mod gltf_parts;
 pub mod landmark_file;
+pub mod landmark_formats;
 mod obj;
 mod off;
 mod ply;

@@ -1,7 +1,7 @@
 //! Why a job has no result, and which of its files is at fault.
 
 use crate::io::ReadError;
-use crate::io::landmark_file::LandmarkFileError;
+use crate::landmark_exchange::ExchangeError;
 use crate::landmarks::{LandmarkError, MeshSide};
 use crate::mesh::MeshError;
 use crate::mesh::check::MeshFault;
@@ -28,9 +28,9 @@ pub enum JobError {
         /// What is wrong with it.
         fault: MeshFault,
     },
-    /// The landmark file cannot be read.
+    /// The landmark files cannot be read or brought onto the meshes.
     #[error(transparent)]
-    LandmarkFile(#[from] LandmarkFileError),
+    LandmarkFiles(#[from] ExchangeError),
     /// The landmarks do not belong to the meshes.
     #[error(transparent)]
     Landmarks(#[from] LandmarkError),
@@ -55,8 +55,8 @@ pub enum JobFile {
     Source,
     /// The target mesh.
     Target,
-    /// The landmarks.
-    Landmarks,
+    /// A landmark file, by its number among those given.
+    Landmarks(usize),
 }
 
 impl JobError {
@@ -67,7 +67,8 @@ impl JobError {
                 MeshSide::Source => JobFile::Source,
                 MeshSide::Target => JobFile::Target,
             }),
-            Self::LandmarkFile(_) | Self::Landmarks(_) => Some(JobFile::Landmarks),
+            Self::LandmarkFiles(error) => error.file().map(JobFile::Landmarks),
+            Self::Landmarks(_) => Some(JobFile::Landmarks(0)),
             Self::Mirror(_) | Self::Pipeline(_) => None,
         }
     }
@@ -77,7 +78,7 @@ impl JobError {
         match self {
             Self::Read { .. } => "file",
             Self::Mesh { .. } | Self::Mirror(_) => "mesh",
-            Self::LandmarkFile(_) | Self::Landmarks(_) => "landmarks",
+            Self::LandmarkFiles(_) | Self::Landmarks(_) => "landmarks",
             Self::Pipeline(error) => error.code(),
         }
     }

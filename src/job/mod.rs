@@ -1,4 +1,4 @@
-//! One job: two mesh files and a landmark file in, a map out, told in the files' own numbers.
+//! One job: two mesh files and their landmark files in, a map out, told in the files' own numbers.
 //!
 //! The pipeline knows checked meshes and landmarks that are vertices. A user has files: with vertices that no face uses, faces
 //! that were turned, landmarks inside faces. A job goes from the ones to the others and back; the command line, the page and
@@ -16,7 +16,9 @@ pub use outputs::OutputFile;
 pub use saved::{MapFiles, OpenMap, OpenMapError};
 pub use taken::{OutputKind, TakenMap};
 
-use crate::io::landmark_file::{self, LandmarkFile};
+use crate::io::landmark_file::LandmarkFile;
+use crate::io::landmark_formats::Space;
+use crate::landmark_exchange::{GivenFile, PairLandmarks, Remark, Surface, read_pairs};
 use crate::landmarks::{MeshSide, PlacedLandmarks, place};
 use crate::map_file::{FileMesh, FileMeshError};
 use crate::mesh::SurfacePoint;
@@ -32,8 +34,8 @@ pub struct JobFiles<'a> {
     pub source: &'a [u8],
     /// A mesh of any known format.
     pub target: &'a [u8],
-    /// A landmark file.
-    pub landmarks: &'a [u8],
+    /// A landmark file of any known format that holds the landmarks of both meshes, or the source's and the target's.
+    pub landmarks: &'a [GivenFile<'a>],
 }
 
 /// Checked meshes with their landmarks, ready for the pipeline.
@@ -41,8 +43,9 @@ pub struct JobFiles<'a> {
 pub struct Job {
     meshes: [FileMesh; 2],
     placed: PlacedLandmarks,
-    /// As given.
+    /// As given, on the files' meshes.
     landmarks: LandmarkFile,
+    remarks: Vec<Remark>,
     ground_truth: GroundTruth,
 }
 
@@ -59,7 +62,9 @@ impl Job {
         monitor.enter(Stage::Landmarks);
         let source = file_mesh(MeshSide::Source, files.source)?;
         let mut target = file_mesh(MeshSide::Target, files.target)?;
-        let landmarks: LandmarkFile = landmark_file::read(files.landmarks)?;
+        let surfaces = [(&source, files.source), (&target, files.target)]
+            .map(|(mesh, bytes)| Surface { mesh: mesh.checked(), space: Space::of_mesh(bytes) });
+        let PairLandmarks { file: landmarks, remarks, .. } = read_pairs(files.landmarks, surfaces)?;
         let mut pairs = landmarks.pairs.clone();
         if target_image == TargetImage::Mirrored {
             target = target.into_mirrored()?;
@@ -71,12 +76,17 @@ impl Job {
             Some(_) if is_same => GroundTruth::SameConnectivity,
             _ => GroundTruth::Unknown,
         };
-        Ok(Self { meshes: [source, target], placed, landmarks, ground_truth })
+        Ok(Self { meshes: [source, target], placed, landmarks, remarks, ground_truth })
     }
 
     /// Number of landmark pairs.
     pub fn landmark_count(&self) -> usize {
         self.placed.landmarks.len()
+    }
+
+    /// What there is to know about the landmarks as they were read.
+    pub fn landmark_remarks(&self) -> &[Remark] {
+        &self.remarks
     }
 
     /// Landmark pairs that do not fit and limbs without one, with the numbers of the files.

@@ -150,6 +150,14 @@ pub enum SectionProblem {
         /// The piece.
         piece: usize,
     },
+    /// Too many texture triangles in faces that have many pieces.
+    #[error("triangles and pieces that share faces make {pairs} pairs; the limit is {limit}")]
+    Crowded {
+        /// Pairs of a triangle and a piece.
+        pairs: u64,
+        /// The limit.
+        limit: u64,
+    },
     /// Not the text that it should be.
     #[error("it is not JSON")]
     Json,

@@ -23,6 +23,11 @@ use typed_index_collections::TiVec;
 const MOST_CORNERS: usize = 16;
 /// Cones of a base domain, at most: the landmarks of a file and the program's own.
 const MOST_CONES: usize = 2 * landmark_file::MAX_PAIRS;
+/// Pairs of a texture triangle and a piece in the same face, at most: each piece is compared with all triangles of its face. Faces
+/// are only cut at landmarks, so that there are a few triangles for each piece.
+const MOST_PAIRS_IN_FACES: u64 = 1 << 28;
+/// Texture coordinates, at most: beyond, triangles of pictures have no digits left.
+const LARGEST_UV: f64 = 1e6;
 
 /// Which image of its target a map file is made for: the meshes that [`read`] takes must be that.
 ///
@@ -50,7 +55,10 @@ pub fn read(bytes: &[u8], meshes: [&FileMesh; 2]) -> Result<MapFile, MapFileErro
     check_landmarks(&landmarks, meshes)?;
     let correspondence = read_pieces(&container, meshes)?;
     check(meshes.map(FileMesh::mesh), &correspondence)?;
-    let texture = container.has("texture.uvs").then(|| read_texture(&container, meshes[1])).transpose()?;
+    let texture = container
+        .has("texture.uvs")
+        .then(|| read_texture(&container, meshes[1], &correspondence))
+        .transpose()?;
     let layout = container.has("layout.base").then(|| read_layout(&container, meshes)).transpose()?;
     Ok(MapFile {
         correspondence,
@@ -212,18 +220,42 @@ fn read_faces(
     Ok(values.into_iter().map(FaceId).collect())
 }
 
-fn read_texture(container: &Container<'_>, target: &FileMesh) -> Result<TextureDrawing, MapFileError> {
+fn read_texture(
+    container: &Container<'_>,
+    target: &FileMesh,
+    map: &Correspondence,
+) -> Result<TextureDrawing, MapFileError> {
     let places = read_places(container, "texture.vertices", target)?;
     let uvs = container.numbers("texture.uvs")?;
     expect_count("texture.uvs", uvs.len(), 2 * places.len())?;
+    if let Some(index) = uvs.iter().position(|uv| uv.abs() > LARGEST_UV) {
+        return Err(fault("texture.uvs", Some(index), SectionProblem::Number { value: uvs[index] }));
+    }
     let corners = container.integers("texture.triangles")?;
     expect_below("texture.triangles", &corners, places.len())?;
     let (triangles, rest) = corners.as_chunks::<3>();
     expect_count("texture.triangles", corners.len(), corners.len() - rest.len())?;
     let faces = read_faces(container, "texture.faces", triangles.len(), target.mesh().face_count())?;
+    check_crowds(&faces, map, target.mesh().face_count())?;
     let vertices = places.into_iter().zip(uvs.chunks_exact(2));
     let vertex = |(place, uv): (_, &[f64])| TextureVertex { place, uv: DVec2::new(uv[0], uv[1]) };
     Ok(TextureDrawing { vertices: vertices.map(vertex).collect(), triangles: triangles.to_vec(), faces })
+}
+
+/// Whether texture triangles and pieces that share a face of the target are few enough to compare all of them.
+pub(super) fn check_crowds(
+    triangles: &[FaceId],
+    map: &Correspondence,
+    faces: usize,
+) -> Result<(), MapFileError> {
+    let mut inside: TiVec<FaceId, u64> = vec![0; faces].into();
+    triangles.iter().for_each(|&face| inside[face] += 1);
+    let pairs = map.pieces.iter().map(|piece| inside[piece.faces[1]]).sum();
+    if pairs <= MOST_PAIRS_IN_FACES {
+        return Ok(());
+    }
+    let problem = SectionProblem::Crowded { pairs, limit: MOST_PAIRS_IN_FACES };
+    Err(fault("texture.faces", None, problem))
 }
 
 fn read_layout(container: &Container<'_>, meshes: [&FileMesh; 2]) -> Result<FlatLayout, MapFileError> {

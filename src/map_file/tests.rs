@@ -1,5 +1,7 @@
 //! The format without a run: the identity of a small sphere, whole and damaged.
 
+use super::container::{Container, Sections};
+use super::header::{SectionEntry, SectionType};
 use super::*;
 use crate::base_domain::BaseDomain;
 use crate::export::obj;
@@ -174,6 +176,27 @@ fn with_header(bytes: &[u8], change: impl Fn(String) -> String) -> Vec<u8> {
     [&bytes[..12], &(text.len() as u32).to_le_bytes(), &text, &bytes[16 + length..]].concat()
 }
 
+/// A file with one of its sections of integers changed.
+fn with_integers(bytes: &[u8], name: &str, change: impl Fn(&mut Vec<u32>)) -> Vec<u8> {
+    let container = Container::open(bytes).unwrap();
+    let mut sections = Sections::default();
+    for SectionEntry { name: other, kind, .. } in &container.header.sections {
+        match kind {
+            SectionType::U8 => sections.bytes(other, &container.bytes(other).unwrap()),
+            SectionType::U32 => {
+                let mut values = container.integers(other).unwrap();
+                if other == name {
+                    change(&mut values);
+                }
+                sections.integers(other, &values);
+            }
+            SectionType::F64 => sections.numbers(other, &container.numbers(other).unwrap()),
+            SectionType::Other => panic!("the writer knows its types"),
+        }
+    }
+    sections.into_file(container.header.clone())
+}
+
 #[test]
 fn newer_files_are_read_as_far_as_that_is_sound() {
     let (map, meshes) = small();
@@ -208,11 +231,15 @@ fn faults_name_section_and_element() {
         change(&mut map);
         says(&map)
     };
-    let corner = changed(|m| m.correspondence.corners[7] = 9999);
+    let bytes = write(&map, meshes.each_ref());
+    let with = |name: &str, change: fn(&mut Vec<u32>)| {
+        read(&with_integers(&bytes, name, change), meshes.each_ref()).unwrap_err().to_string()
+    };
+    let corner = with("pieces.corners", |corners| corners[7] = 9999);
     assert_eq!(corner, "the map file, section \"pieces.corners\", element 7: 9999 is not below 43");
     let turned = changed(|m| m.correspondence.corners.swap(0, 1));
     assert!(turned.contains("do not fit together at the side") || turned.contains("turned over"), "{turned}");
-    let face = changed(|m| m.correspondence.pieces[2].faces[1] = FaceId(80));
+    let face = with("pieces.target_faces", |faces| faces[2] = 80);
     assert_eq!(face, "the map file, section \"pieces.target_faces\", element 2: 80 is not below 80");
     let elsewhere = changed(|m| m.correspondence.pieces[2].faces[1] = FaceId(70));
     assert!(elsewhere.contains("of piece 2 does not lie in the piece's target face"), "{elsewhere}");
@@ -225,8 +252,21 @@ fn faults_name_section_and_element() {
     assert!(length.contains("section \"layout.lengths\""), "{length}");
     let number = changed(|m| m.cones[1] = f64::NAN);
     assert!(number.contains("section \"cones\", element 1"), "{number}");
+    let uv = changed(|m| m.texture.as_mut().unwrap().vertices[2].uv.x = 1e7);
+    assert!(uv.contains("section \"texture.uvs\", element 4"), "{uv}");
     let empty = read(b"", meshes.each_ref()).unwrap_err();
     assert_eq!(empty, MapFileError::NotAMapFile);
+}
+
+#[test]
+fn textures_that_cannot_be_compared_with_the_pieces_are_refused() {
+    let mut map = small().0.correspondence;
+    let piece = map.pieces[0].clone();
+    let triangles = vec![piece.faces[1]; 1 << 20];
+    assert!(read::check_crowds(&triangles, &map, 80).is_ok());
+    map.pieces.resize(400, piece);
+    let error = read::check_crowds(&triangles, &map, 80).unwrap_err().to_string();
+    assert!(error.contains("section \"texture.faces\"") && error.contains("the limit is 268435456"), "{error}");
 }
 
 /// Whatever happens to a file, it is refused with a sentence or gives a map that passes the check; it never panics, and never

@@ -1,8 +1,9 @@
 //! Vertex data, centred and scaled to radius 1.
 
-use crate::mesh::SurfaceMesh;
+use super::hollows::hollows;
 use crate::mesh::generators::icosphere;
 use crate::mesh::normals::vertex_normals;
+use crate::mesh::{SurfaceMesh, VertexId};
 use glam::{DVec3, Vec3};
 
 /// A vertex of a surface.
@@ -17,6 +18,12 @@ pub struct SurfaceVertex {
     pub uv: [f32; 2],
     /// Distortion of the map, 1 for none.
     pub distortion: f32,
+    /// The place on the target that the map takes it to, in the target's scene coordinates.
+    pub image: [f32; 3],
+    /// The target's unit normal there.
+    pub image_normal: [f32; 3],
+    /// How much it lies in a hollow (positive) or on a ridge (negative), from -1 to 1.
+    pub hollow: f32,
 }
 
 /// A corner of the ribbon that draws a line segment.
@@ -27,8 +34,25 @@ pub struct LineVertex {
     pub position: [f32; 3],
     /// The other end.
     pub other: [f32; 3],
-    /// Which side of the line: +1 or -1.
+    /// Which side of the direction to the other end: positive or negative; of size 1 at the segment's begin and 2 at its end, where
+    /// that direction is reversed.
     pub side: f32,
+}
+
+/// A mark over the picture: a pin, or a ring around a place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct PinInstance {
+    /// The place, in scene coordinates.
+    pub base: [f32; 3],
+    /// Linear red, green, blue.
+    pub colour: [f32; 3],
+    /// Radius of the head or the ring, in pixels.
+    pub radius: f32,
+    /// From the place to the middle of the head, in pixels.
+    pub stem: f32,
+    /// How it is drawn: 0 full, 1 an outline, 2 a ring.
+    pub kind: f32,
 }
 
 /// A ball.
@@ -71,16 +95,24 @@ impl Frame {
     }
 }
 
-/// Vertices and indices of a plain mesh with smooth normals.
+/// Vertices and indices of a plain mesh with smooth normals; each vertex is its own image.
 pub fn surface(mesh: &SurfaceMesh, frame: &Frame) -> (Vec<SurfaceVertex>, Vec<u32>) {
     let normals = vertex_normals(mesh);
-    let vertex = |(p, n): (&DVec3, &DVec3)| SurfaceVertex {
-        position: frame.place(*p).to_array(),
-        normal: n.as_vec3().to_array(),
-        uv: [0.0; 2],
-        distortion: 1.0,
+    let hollows = hollows(mesh, &normals);
+    let vertex = |v: VertexId| {
+        let position = frame.place(mesh.positions()[v]).to_array();
+        let normal = normals[v].as_vec3().to_array();
+        SurfaceVertex {
+            position,
+            normal,
+            uv: [0.0; 2],
+            distortion: 1.0,
+            image: position,
+            image_normal: normal,
+            hollow: hollows[v] as f32,
+        }
     };
-    let vertices = mesh.positions().iter().zip(&normals).map(vertex).collect();
+    let vertices = mesh.vertices().map(vertex).collect();
     (vertices, mesh.triangles().iter().flatten().map(|v| v.0).collect())
 }
 
@@ -90,8 +122,7 @@ pub fn ribbons(strips: &[Vec<Vec3>]) -> (Vec<LineVertex>, Vec<u32>) {
     for segment in strips.iter().flat_map(|strip| strip.windows(2)) {
         let [a, b] = [segment[0].to_array(), segment[1].to_array()];
         let first = vertices.len() as u32;
-        // The side is relative to the direction to the other end, so it changes sign there.
-        for (position, other, side) in [(a, b, 1.0), (a, b, -1.0), (b, a, -1.0), (b, a, 1.0)] {
+        for (position, other, side) in [(a, b, 1.0), (a, b, -1.0), (b, a, -2.0), (b, a, 2.0)] {
             vertices.push(LineVertex { position, other, side });
         }
         indices.extend([0, 1, 2, 2, 1, 3].map(|k| first + k));
@@ -104,17 +135,6 @@ pub fn unit_ball() -> (Vec<f32>, Vec<u32>) {
     let sphere = icosphere(2);
     let positions = sphere.positions().iter().flat_map(|p| p.as_vec3().to_array()).collect();
     (positions, sphere.triangles().iter().flatten().map(|v| v.0).collect())
-}
-
-/// A distinct colour for each landmark: hues by the golden angle, linear RGB.
-pub fn landmark_colour(k: usize) -> [f32; 3] {
-    let hue = (k as f32 * 0.618_034).fract() * 6.0;
-    let channel = |shift: f32| {
-        let x = (hue + shift).rem_euclid(6.0);
-        let level = (x - 3.0).abs() - 1.0;
-        0.08 + 0.82 * level.clamp(0.0, 1.0)
-    };
-    [channel(0.0), channel(4.0), channel(2.0)].map(|c| c * c)
 }
 
 #[cfg(test)]

@@ -2,8 +2,21 @@
 
 pub mod buffers;
 pub mod camera;
+pub mod colours;
+pub mod glide;
+pub mod hollows;
+pub mod map_picking;
+pub mod morph;
 pub mod picking;
+pub mod pins;
+pub mod pose;
+pub mod up_axis;
+pub mod upright;
 
-pub use buffers::{LineVertex, MarkerInstance, SurfaceVertex};
-pub use camera::{Camera, Ray};
+pub use buffers::{LineVertex, MarkerInstance, PinInstance, SurfaceVertex};
+pub use camera::Camera;
+pub use glide::Glide;
+pub use map_picking::{MapPicker, MapPlace};
 pub use picking::Picker;
+pub use pose::{Pose, Ray};
+pub use up_axis::UpAxis;

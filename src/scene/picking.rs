@@ -1,8 +1,9 @@
 //! The surface point under a ray, by a bounding volume hierarchy, in f64.
 
+use crate::mesh::closest_point::closest_in_triangle;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint};
 use glam::DVec3;
-use parry3d_f64::query::{Ray, RayCast};
+use parry3d_f64::query::{PointQueryWithLocation, Ray, RayCast};
 use parry3d_f64::shape::TriMesh;
 
 /// A surface that can be picked.
@@ -26,6 +27,13 @@ impl Picker {
         let point = origin + direction * hit.time_of_impact;
         let face = FaceId::from(id);
         Some(SurfacePoint::clamped(face, shares(mesh.corners(face), point)))
+    }
+
+    /// The point of the mesh nearest to a point in space.
+    pub fn nearest(&self, mesh: &SurfaceMesh, point: DVec3) -> SurfacePoint {
+        let (_, (face, _)) = self.shape.project_local_point_and_get_location(point.to_array().into(), false);
+        let face = FaceId(face);
+        SurfacePoint { face, barycentric: closest_in_triangle(point, mesh.corners(face)) }
     }
 }
 
@@ -51,6 +59,8 @@ mod tests {
                     .normalize();
             let hit = picker.pick(&sphere, direction * 3.0, -direction).unwrap();
             assert!(hit.position(&sphere).normalize().distance(direction) < 1e-9);
+            let nearest = picker.nearest(&sphere, hit.position(&sphere) * 1.001);
+            assert!(nearest.position(&sphere).distance(hit.position(&sphere)) < 1e-3);
         }
         assert!(picker.pick(&sphere, DVec3::splat(3.0), DVec3::X).is_none());
     }

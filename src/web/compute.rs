@@ -2,6 +2,7 @@
 
 use super::{failure, saved};
 use crate::job::{Job, JobError, JobFiles, OutputKind, TargetImage};
+use crate::landmark_exchange::GivenFile;
 use crate::monitor::{Cancelled, Monitor, PlannedStage, Progress, Stage, Step};
 use crate::pipeline::{Choices, MapResult, PipelineOptions};
 use crate::surface_map::measures::transfer::CommonMesh;
@@ -207,7 +208,8 @@ pub fn run_map(
     let choices: Choices = serde_json::from_str(options).map_err(|e| failure("options", e))?;
     let options = PipelineOptions::from(choices);
     let failed = |error: JobError| failure(error.code(), error);
-    let files = JobFiles { source, target, landmarks: landmarks.as_bytes() };
+    let landmarks = [GivenFile { name: "landmarks.json", bytes: landmarks.as_bytes() }];
+    let files = JobFiles { source, target, landmarks: &landmarks };
     let job = Job::read(files, TargetImage::AsGiven, &mut messenger).map_err(failed)?;
     messenger.plan(options.stages(job.landmark_count()));
     let findings = job.findings(&mut messenger).map_err(|stop| failed(stop.into()))?;

@@ -1,7 +1,10 @@
 //! Mesh files, landmark files and demos.
 
 use super::failure;
+use crate::io::gltf_parts::{self, GltfParts};
 use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
+use crate::io::landmark_formats::Space;
+use crate::landmark_exchange::Surface;
 use crate::landmark_suggestion::{Suggestion, suggest};
 use crate::landmarks::{self, MeshSide};
 use crate::mesh::check::{CheckedMesh, closed_genus_zero};
@@ -16,6 +19,15 @@ use wasm_bindgen::prelude::*;
 #[wasm_bindgen]
 pub struct LoadedMesh {
     pub(super) checked: CheckedMesh,
+    /// The coordinate system that its file names.
+    space: Space,
+}
+
+impl LoadedMesh {
+    /// The mesh as landmark files are brought onto it.
+    pub(super) fn surface(&self) -> Surface<'_> {
+        Surface { mesh: &self.checked, space: self.space }
+    }
 }
 
 #[wasm_bindgen]
@@ -50,7 +62,49 @@ pub(super) fn checked(bytes: &[u8]) -> Result<CheckedMesh, JsValue> {
 /// `{"code": "file" | "mesh", "message"}`.
 #[wasm_bindgen(js_name = readMesh)]
 pub fn read_mesh(bytes: &[u8]) -> Result<LoadedMesh, JsValue> {
-    Ok(LoadedMesh { checked: checked(bytes)? })
+    Ok(LoadedMesh { checked: checked(bytes)?, space: Space::of_mesh(bytes) })
+}
+
+/// The files that a mesh file names and needs beside it: buffers, and pictures of textures.
+#[wasm_bindgen]
+pub struct MeshParts {
+    parts: GltfParts,
+}
+
+#[wasm_bindgen]
+impl MeshParts {
+    /// Without these it cannot be read.
+    pub fn buffers(&self) -> Vec<String> {
+        self.parts.buffers.clone()
+    }
+
+    /// Pictures; without them it has no texture.
+    pub fn images(&self) -> Vec<String> {
+        self.parts.images.clone()
+    }
+}
+
+/// The files that a mesh file names, by what it calls them.
+#[wasm_bindgen(js_name = meshParts)]
+pub fn mesh_parts(bytes: &[u8]) -> MeshParts {
+    MeshParts { parts: gltf_parts::parts_of(bytes) }
+}
+
+/// A mesh file with the files that it names as one file that needs no other. `names` are what the mesh file calls them.
+///
+/// # Errors
+/// `{"code": "file", "message"}` that names the parts that are missing.
+#[wasm_bindgen(js_name = packMesh)]
+pub fn pack_mesh(
+    bytes: &[u8],
+    names: Vec<String>,
+    contents: Vec<js_sys::Uint8Array>,
+) -> Result<Vec<u8>, JsValue> {
+    let contents: Vec<Vec<u8>> = contents.iter().map(js_sys::Uint8Array::to_vec).collect();
+    let find = |wanted: &str| {
+        names.iter().zip(&contents).find(|(name, _)| *name == wanted).map(|(_, content)| content.as_slice())
+    };
+    Ok(gltf_parts::packed(bytes, find).map_err(|e| failure("file", e))?.bytes)
 }
 
 /// The mesh formats in words.

@@ -2,7 +2,9 @@
 
 mod compute;
 mod files;
+mod landmark_files;
 mod saved;
+mod view_side;
 mod viewer;
 
 use serde_json::json;

@@ -2,14 +2,18 @@
 
 use super::failure;
 use super::files::LoadedMesh;
-use crate::gpu::{Clear, Mesh, Renderer, ViewDraw};
+use super::view_side::{Landmark, Look, Side, SideMesh};
+use crate::gpu::{Clear, Paint, Palette, Renderer, ViewDraw};
 use crate::io::landmark_file::LandmarkPoint;
-use crate::mesh::check::CheckedMesh;
-use crate::mesh::{FaceId, SurfacePoint};
-use crate::scene::buffers::{Frame, landmark_colour, ribbons, surface};
-use crate::scene::{Camera, MarkerInstance, Picker, Ray, SurfaceVertex};
-use glam::{DVec3, Vec2, Vec3};
+use crate::scene::buffers::ribbons;
+use crate::scene::camera::From as LookFrom;
+use crate::scene::colours::{distortion_scale, landmark_colour};
+use crate::scene::morph::laid_on;
+use crate::scene::upright::proposed_up;
+use crate::scene::{Camera, Glide, MapPicker, MapPlace, MarkerInstance, PinInstance, SurfaceVertex, UpAxis};
+use glam::{DVec3, Mat4, Vec2, Vec3};
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use serde_json::json;
 use wasm_bindgen::prelude::*;
 
@@ -19,11 +23,17 @@ pub fn colour_of_landmark(k: usize) -> Vec<f32> {
     landmark_colour(k).to_vec()
 }
 
+/// The colours of the distortion at even steps of its logarithm from 1 to 4, linear RGB from 0 to 1, three numbers a colour.
+#[wasm_bindgen(js_name = distortionScale)]
+pub fn scale_of_distortion() -> Vec<f32> {
+    distortion_scale().as_flattened().to_vec()
+}
+
 /// What the page wants to see.
-#[derive(Deserialize)]
+#[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase")]
 struct Style {
-    surface: String,
+    surface: SurfaceStyle,
     patch_lines: bool,
     cones: bool,
     markers: bool,
@@ -34,63 +44,49 @@ struct Style {
     holes: bool,
 }
 
-impl Default for Style {
-    fn default() -> Self {
-        Self {
-            surface: "checkerboard".into(),
-            patch_lines: true,
-            cones: true,
-            markers: true,
-            dark: false,
-            holes: false,
+/// What the surfaces' colours tell.
+#[derive(Clone, Copy, Default, Deserialize, PartialEq)]
+#[serde(rename_all = "lowercase")]
+enum SurfaceStyle {
+    #[default]
+    Shaded,
+    Pattern,
+    Checkerboard,
+    Colours,
+    Distortion,
+}
+
+impl SurfaceStyle {
+    fn paint(self) -> Paint {
+        match self {
+            Self::Shaded => Paint::Plain,
+            Self::Pattern => Paint::Pattern,
+            Self::Checkerboard => Paint::Checkerboard,
+            Self::Colours => Paint::Places,
+            Self::Distortion => Paint::Distortion,
         }
+    }
+
+    /// Whether the target's own mesh can show it: what follows from the place on the target alone.
+    fn is_of_places(self) -> bool {
+        matches!(self, Self::Pattern | Self::Colours)
     }
 }
 
-/// Who chose where a camera stands.
-#[derive(Clone, Copy, Default, PartialEq)]
-enum Look {
-    /// Nobody yet: the whole mesh stays in view, also when the window changes.
-    #[default]
-    Whole,
-    /// The user.
-    Chosen,
-}
-
-/// One view with its mesh.
-#[derive(Default)]
-struct Side {
-    look: Look,
-    rectangle: [f32; 4],
-    camera: Camera,
-    mesh: Option<SideMesh>,
-    result: Option<SideResult>,
-    /// Landmarks in pair order; `None` where not picked yet.
-    landmarks: Vec<Option<Vec3>>,
-    /// Points that the page marks itself.
-    suggestions: Vec<Option<Vec3>>,
-}
-
-struct SideMesh {
-    checked: CheckedMesh,
-    frame: Frame,
-    picker: Option<Picker>,
-    surface: Mesh,
-}
-
-struct SideResult {
-    surface: Mesh,
-    lines: Mesh,
-    cones: Vec<f64>,
-}
-
-/// A canvas with two views, source (0) and target (1).
+/// A canvas with two views, source (0) and target (1). Times are in milliseconds, as the browser gives them to animations.
 #[wasm_bindgen]
 pub struct Viewer {
     renderer: Renderer,
     sides: [Side; 2],
     style: Style,
+    map: Option<MapPicker>,
+    /// Share of the way from the source's shape to the target's.
+    morph: f32,
+    /// Lays the target on the source, in scene coordinates.
+    source_from_target: Mat4,
     pixel_ratio: f32,
+    /// The time of the last frame.
+    now: f64,
 }
 
 #[wasm_bindgen]
@@ -102,7 +98,16 @@ impl Viewer {
     pub async fn create(canvas: web_sys::HtmlCanvasElement, samples: u32) -> Result<Viewer, JsValue> {
         let samples = if samples > 1 { 4 } else { 1 };
         let renderer = Renderer::new(canvas, samples).await.map_err(|e| failure("webgl", e))?;
-        Ok(Self { renderer, sides: Default::default(), style: Style::default(), pixel_ratio: 1.0 })
+        Ok(Self {
+            renderer,
+            sides: Default::default(),
+            style: Style::default(),
+            map: None,
+            morph: 0.0,
+            source_from_target: Mat4::IDENTITY,
+            pixel_ratio: 1.0,
+            now: 0.0,
+        })
     }
 
     /// Follows the canvas, in physical pixels.
@@ -114,12 +119,12 @@ impl Viewer {
     /// Where a view is, in physical pixels from the top left.
     #[wasm_bindgen(js_name = setViewport)]
     pub fn set_viewport(&mut self, side: usize, x: f32, y: f32, width: f32, height: f32) {
-        let side = &mut self.sides[side.min(1)];
+        let side = self.side_mut(side);
         let rectangle = [x, y, width, height];
         if side.rectangle != rectangle {
             side.rectangle = rectangle;
             if side.look == Look::Whole {
-                side.look_at_all();
+                side.fit();
             }
         }
     }
@@ -127,55 +132,48 @@ impl Viewer {
     /// Shows a mesh; its landmarks and result go.
     #[wasm_bindgen(js_name = setMesh)]
     pub fn set_mesh(&mut self, side: usize, mesh: &LoadedMesh) {
-        let checked = mesh.checked.clone();
-        let frame = Frame::of(&checked.mesh);
-        let (vertices, indices) = surface(&checked.mesh, &frame);
-        let uploaded = self.renderer.surface_mesh(&vertices, &indices);
-        let picker = Picker::new(&checked.mesh);
-        let side = &mut self.sides[side.min(1)];
-        side.mesh = Some(SideMesh { checked, frame, picker, surface: uploaded });
-        side.result = None;
-        side.landmarks.clear();
-        side.suggestions.clear();
-        side.look_at_all();
+        let shown = SideMesh::new(mesh.checked.clone(), &self.renderer);
+        self.clear_result();
+        let side = self.side_mut(side);
+        side.mesh = Some(shown);
+        side.clear_marks();
+        side.glide = None;
+        side.first_look();
     }
 
     /// Empties a view.
     #[wasm_bindgen(js_name = clearMesh)]
     pub fn clear_mesh(&mut self, side: usize) {
-        let side = &mut self.sides[side.min(1)];
+        self.clear_result();
+        let side = self.side_mut(side);
         side.mesh = None;
-        side.result = None;
-        side.landmarks.clear();
-        side.suggestions.clear();
+        side.clear_marks();
     }
 
-    /// Shows landmarks: a JSON array, in pair order, of landmark points or null.
+    /// Shows landmarks: a JSON array, in pair order, of `{"point", "colour", "raised", "cone"}` or null: `colour` is the number
+    /// that [`colour_of_landmark`] takes, `cone` the curvature of the landmark's cone in radians or null.
     ///
     /// # Errors
     /// `{"code": "landmarks", "message"}`.
     #[wasm_bindgen(js_name = setLandmarks)]
-    pub fn set_landmarks(&mut self, side: usize, points: &str) -> Result<(), JsValue> {
-        let side = &mut self.sides[side.min(1)];
-        side.landmarks = side.placed(points)?;
-        Ok(())
+    pub fn set_landmarks(&mut self, side: usize, marks: &str) -> Result<(), JsValue> {
+        self.side_mut(side).set_landmarks(marks)
     }
 
-    /// Takes suggested points, likewise; they are not drawn, see [`Viewer::suggestions`].
+    /// Takes suggested points, a JSON array of landmark points or null; they are not drawn, see [`Viewer::suggestions`].
     ///
     /// # Errors
     /// `{"code": "landmarks", "message"}`.
     #[wasm_bindgen(js_name = setSuggestions)]
     pub fn set_suggestions(&mut self, side: usize, points: &str) -> Result<(), JsValue> {
-        let side = &mut self.sides[side.min(1)];
-        side.suggestions = side.placed(points)?;
-        Ok(())
+        self.side_mut(side).set_suggestions(points)
     }
 
-    /// Shows a result on one side. `distortion` has a number by vertex, or none.
-    #[wasm_bindgen(js_name = setResult)]
+    /// Takes the map's triangles as one side sees them: positions and normals there, texture coordinates, distortion by point
+    /// (or none), and the images on the target.
+    #[wasm_bindgen(js_name = setOverlay)]
     #[allow(clippy::too_many_arguments, reason = "typed arrays cannot be bundled")]
-    pub fn set_result(
+    pub fn set_overlay(
         &mut self,
         side: usize,
         positions: &[f32],
@@ -183,40 +181,75 @@ impl Viewer {
         uvs: &[f32],
         distortion: &[f32],
         triangles: &[u32],
-        line_points: &[f32],
-        line_starts: &[u32],
-        cones: &[f64],
+        images: &[f32],
+        image_normals: &[f32],
     ) {
-        let side = &mut self.sides[side.min(1)];
-        let Some(mesh) = &side.mesh else { return };
-        let place = |p: &[f32]| mesh.frame.place(DVec3::new(p[0].into(), p[1].into(), p[2].into()));
-        let corners = positions.chunks_exact(3).zip(normals.chunks_exact(3)).zip(uvs.chunks_exact(2));
-        let vertices: Vec<SurfaceVertex> = corners
-            .enumerate()
-            .map(|(k, ((p, n), uv))| SurfaceVertex {
-                position: place(p).to_array(),
-                normal: [n[0], n[1], n[2]],
-                uv: [uv[0], uv[1]],
-                distortion: distortion.get(k).copied().unwrap_or(1.0),
-            })
-            .collect();
-        let points: Vec<Vec3> = line_points.chunks_exact(3).map(place).collect();
-        let strips: Vec<Vec<Vec3>> = line_starts
+        let [Some(target), Some(own)] = [&self.sides[1].mesh, &self.sides[side.min(1)].mesh] else { return };
+        let count = positions.len() / 3;
+        let numbers = [normals.len(), images.len(), image_normals.len()];
+        if numbers.iter().any(|n| *n != 3 * count)
+            || uvs.len() != 2 * count
+            || triangles.iter().any(|&v| v as usize >= count)
+        {
+            return;
+        }
+        let hollows = own.hollows_at(positions, triangles);
+        let three = |a: &[f32], k: usize| [a[3 * k], a[3 * k + 1], a[3 * k + 2]];
+        let vertex = |k: usize| SurfaceVertex {
+            position: own.frame.place(point(three(positions, k))).to_array(),
+            normal: three(normals, k),
+            uv: [uvs[2 * k], uvs[2 * k + 1]],
+            distortion: distortion.get(k).copied().unwrap_or(1.0),
+            image: target.frame.place(point(three(images, k))).to_array(),
+            image_normal: three(image_normals, k),
+            hollow: hollows[k],
+        };
+        let vertices: Vec<SurfaceVertex> = (0..count).map(vertex).collect();
+        let uploaded = self.renderer.surface_mesh(&vertices, triangles);
+        if side == 0 {
+            let (images, places): (Vec<Vec3>, Vec<Vec3>) =
+                vertices.iter().map(|v| (Vec3::from_array(v.image), Vec3::from_array(v.position))).unzip();
+            self.source_from_target = laid_on(&images, &places);
+        }
+        self.side_mut(side).overlay = Some(uploaded);
+    }
+
+    /// Takes patch lines of one side: their points, and where each line starts among them, and one past the end.
+    #[wasm_bindgen(js_name = setLines)]
+    pub fn set_lines(&mut self, side: usize, points: &[f32], starts: &[u32]) {
+        let Some(mesh) = &self.sides[side.min(1)].mesh else { return };
+        let points: Vec<Vec3> =
+            points.chunks_exact(3).map(|p| mesh.frame.place(point([p[0], p[1], p[2]]))).collect();
+        let strips: Vec<Vec<Vec3>> = starts
             .windows(2)
             .filter_map(|w| points.get(w[0] as usize..w[1] as usize).map(<[Vec3]>::to_vec))
             .collect();
-        let (line_vertices, line_indices) = ribbons(&strips);
-        side.result = Some(SideResult {
-            surface: self.renderer.surface_mesh(&vertices, triangles),
-            lines: self.renderer.line_mesh(&line_vertices, &line_indices),
-            cones: cones.to_vec(),
-        });
+        let (vertices, indices) = ribbons(&strips);
+        let uploaded = self.renderer.line_mesh(&vertices, &indices);
+        self.side_mut(side).lines = Some(uploaded);
     }
 
-    /// Shows the plain meshes again.
+    /// Takes the map to be asked by [`Viewer::probe`]: places of its points on both meshes, its distortion there (or none), and its
+    /// triangles.
+    #[wasm_bindgen(js_name = setMap)]
+    pub fn set_map(&mut self, source: &[f32], target: &[f32], distortion: &[f32], triangles: &[u32]) {
+        let points = |a: &[f32]| a.chunks_exact(3).map(|p| point([p[0], p[1], p[2]])).collect();
+        let triangles = triangles.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
+        self.map = MapPicker::new([points(source), points(target)], distortion.to_vec(), triangles);
+    }
+
+    /// Shows the source's shape on its way to the target's: 0 the source's, 1 the target's, laid on it. Needs the source's overlay.
+    #[wasm_bindgen(js_name = setMorph)]
+    pub fn set_morph(&mut self, share: f32) {
+        self.morph = share.clamp(0.0, 1.0);
+    }
+
+    /// Everything of a result goes.
     #[wasm_bindgen(js_name = clearResult)]
     pub fn clear_result(&mut self) {
-        self.sides.iter_mut().for_each(|side| side.result = None);
+        self.sides.iter_mut().for_each(Side::clear_result);
+        self.map = None;
+        self.morph = 0.0;
     }
 
     /// What to show: JSON `{"surface", "patchLines", "cones", "markers", "dark"?, "holes"?}`.
@@ -225,200 +258,368 @@ impl Viewer {
     /// `{"code": "style", "message"}`.
     #[wasm_bindgen(js_name = setStyle)]
     pub fn set_style(&mut self, style: &str) -> Result<(), JsValue> {
-        self.style = serde_json::from_str(style).map_err(|e| failure("style", e))?;
+        self.style = parsed("style", style)?;
         Ok(())
     }
 
-    /// Turns a view by a drag in units of its height.
+    /// From now on, in this time, a view's camera glides to where it is put; without a duration it jumps.
+    pub fn glide(&mut self, side: usize, now: f64, duration: f64) {
+        self.now = now;
+        let side = self.side_mut(side);
+        side.glide = Some(Glide { from: side.pose(now), begin: now, duration });
+    }
+
+    /// A gesture begins that turns a view.
+    pub fn grab(&mut self, side: usize) {
+        let now = self.now;
+        self.side_mut(side).grab(now);
+    }
+
+    /// Turns a view by a drag in units of its height, y up.
     pub fn orbit(&mut self, side: usize, dx: f32, dy: f32) {
-        // Screen y grows upwards here: dragging up looks from below.
-        self.moved(side).orbit(Vec2::new(dx, -dy));
+        self.side_mut(side).moved().orbit(Vec2::new(dx, dy));
     }
 
     /// Moves a view by a drag in units of its height, y up.
     pub fn pan(&mut self, side: usize, dx: f32, dy: f32) {
-        self.moved(side).pan(Vec2::new(dx, -dy));
+        let side = self.side_mut(side);
+        let aspect = side.aspect();
+        side.moved().pan(Vec2::new(dx, dy), aspect);
     }
 
-    /// Multiplies a view's distance.
-    pub fn zoom(&mut self, side: usize, factor: f32) {
-        self.moved(side).zoom(factor);
+    /// Turns the picture counter-clockwise about the middle of the view, in radians.
+    pub fn roll(&mut self, side: usize, angle: f32) {
+        let camera = self.side_mut(side).moved();
+        camera.roll_about(camera.target, angle);
+    }
+
+    /// Multiplies the distance to what is seen at a place of a view, x and y from -1 to 1, y up; the place stays.
+    #[wasm_bindgen(js_name = zoomAt)]
+    pub fn zoom_at(&mut self, side: usize, factor: f32, x: f32, y: f32) {
+        let now = self.now;
+        self.side_mut(side).zoom_at(Vec2::new(x, y), factor, now);
+    }
+
+    /// Brings the whole mesh into the view; the direction stays.
+    pub fn fit(&mut self, side: usize) {
+        self.side_mut(side).fit();
     }
 
     /// Back to the first look.
     #[wasm_bindgen(js_name = resetCamera)]
     pub fn reset_camera(&mut self, side: usize) {
-        self.sides[side.min(1)].look_at_all();
+        self.side_mut(side).first_look();
     }
 
-    /// Where a camera stands, for [`Viewer::set_camera`]; empty before the user has moved it.
-    pub fn camera(&self, side: usize) -> Vec<f32> {
-        let side = &self.sides[side.min(1)];
-        let Camera { yaw, pitch, distance, target } = side.camera;
-        match side.look {
-            Look::Whole => Vec::new(),
-            Look::Chosen => vec![yaw, pitch, distance, target.x, target.y, target.z],
+    /// Looks at the whole mesh from a side: `front`, `back`, `right`, `left`, `top` or `bottom`.
+    ///
+    /// # Errors
+    /// `{"code": "camera", "message"}`.
+    #[wasm_bindgen(js_name = lookFrom)]
+    pub fn look_from(&mut self, side: usize, from: &str) -> Result<(), JsValue> {
+        let from: LookFrom = named("camera", from)?;
+        let side = self.side_mut(side);
+        side.camera.look_from(from);
+        side.fit();
+        // It stays as it was asked for when the mesh is turned upright or the window changes.
+        side.look = Look::Whole;
+        Ok(())
+    }
+
+    /// The axis of the mesh that points up on the screen: `x`, `-x`, `y`, `-y`, `z` or `-z`.
+    ///
+    /// # Errors
+    /// `{"code": "camera", "message"}`.
+    #[wasm_bindgen(js_name = setUp)]
+    pub fn set_up(&mut self, side: usize, axis: &str) -> Result<(), JsValue> {
+        let axis: UpAxis = named("camera", axis)?;
+        self.side_mut(side).set_up(axis);
+        Ok(())
+    }
+
+    /// The axis that seems to point up by the mesh's shape; `undefined` where it does not tell.
+    #[wasm_bindgen(js_name = proposedUp)]
+    pub fn proposed_up(&self, side: usize) -> Option<String> {
+        let axis = proposed_up(&self.side(side).mesh.as_ref()?.checked.mesh)?;
+        serde_json::to_value(axis).ok()?.as_str().map(str::to_owned)
+    }
+
+    /// Brings what is seen at a place of a view to its middle, and turns about it from now on; whether there is anything.
+    #[wasm_bindgen(js_name = centreAt)]
+    pub fn centre_at(&mut self, side: usize, x: f32, y: f32) -> bool {
+        let now = self.now;
+        let side = self.side_mut(side);
+        let Some(place) = side.pick_place(Vec2::new(x, y), now) else { return false };
+        side.moved().centre_on(place);
+        true
+    }
+
+    /// Likewise a landmark point, as JSON.
+    ///
+    /// # Errors
+    /// `{"code": "landmarks", "message"}`.
+    #[wasm_bindgen(js_name = centreOn)]
+    pub fn centre_on(&mut self, side: usize, point: &str) -> Result<(), JsValue> {
+        let point: LandmarkPoint = parsed("landmarks", point)?;
+        let side = self.side_mut(side);
+        if let Some(place) = side.place_of(point) {
+            side.moved().centre_on(place);
         }
+        Ok(())
     }
 
-    /// Puts a camera where another viewer's stood.
+    /// Turns a view to a landmark point, given as JSON, and comes near.
+    ///
+    /// # Errors
+    /// `{"code": "landmarks", "message"}`.
+    pub fn face(&mut self, side: usize, point: &str) -> Result<(), JsValue> {
+        let point: LandmarkPoint = parsed("landmarks", point)?;
+        self.side_mut(side).face(point);
+        Ok(())
+    }
+
+    /// Where a camera stands, for [`Viewer::set_camera`]; `undefined` at the first look.
+    pub fn camera(&self, side: usize) -> Option<Vec<f32>> {
+        let side = self.side(side);
+        (!side.is_first_look()).then(|| side.camera.to_numbers().to_vec())
+    }
+
+    /// Puts a camera where one stood.
+    ///
+    /// # Errors
+    /// `{"code": "camera", "message"}` where these are no numbers of a camera.
     #[wasm_bindgen(js_name = setCamera)]
-    pub fn set_camera(&mut self, side: usize, place: &[f32]) {
-        if let [yaw, pitch, distance, x, y, z] = *place {
-            *self.moved(side) = Camera { yaw, pitch, distance, target: Vec3::new(x, y, z) };
+    pub fn set_camera(&mut self, side: usize, camera: &[f32]) -> Result<(), JsValue> {
+        let side = self.side_mut(side);
+        let camera = Camera::from_numbers(side.camera.up, camera);
+        *side.moved() = camera.ok_or_else(|| failure("camera", "these numbers are no camera's"))?;
+        Ok(())
+    }
+
+    /// Brings the image of what is in the middle of a view to the middle of the other one; whether there is a map and a place.
+    pub fn follow(&mut self, leader: usize) -> bool {
+        let leader = leader.min(1);
+        let view = &self.sides[leader];
+        let Some(mesh) = &view.mesh else { return false };
+        let (from, along) = mesh.ray(view.camera.pose().ray(Vec2::ZERO, view.aspect()));
+        let Some(place) = self.map.as_mut().and_then(|map| map.under_ray(leader, from, along)) else {
+            return false;
+        };
+        let other = &mut self.sides[1 - leader];
+        if let Some(mesh) = &other.mesh {
+            let place = mesh.frame.place(place.positions[1 - leader]);
+            other.moved().centre_on(place);
         }
+        true
+    }
+
+    /// Marks what is seen at a place of a view with a ring.
+    pub fn mark(&mut self, side: usize, x: f32, y: f32) {
+        self.clear_probe();
+        let now = self.now;
+        let side = self.side_mut(side);
+        side.probe = side.pick_place(Vec2::new(x, y), now);
     }
 
     /// The surface point at a place of a view, x and y from -1 to 1, y up: JSON `{"face", "barycentric"}`.
     pub fn pick(&self, side: usize, x: f32, y: f32) -> Option<String> {
-        let side = &self.sides[side.min(1)];
-        let mesh = side.mesh.as_ref()?;
-        let Ray { origin, direction } = side.camera.ray(Vec2::new(x, y), side.aspect());
-        let from = mesh.frame.unplace(origin);
-        let along = (mesh.frame.unplace(origin + direction) - from).normalize();
-        let hit = mesh.picker.as_ref()?.pick(&mesh.checked.mesh, from, along)?;
-        let hit = mesh.checked.with_file_corners(hit);
-        Some(json!({ "face": hit.face.0, "barycentric": hit.barycentric }).to_string())
+        let side = self.side(side);
+        let point = side.pick(Vec2::new(x, y), self.now)?;
+        Some(side.mesh.as_ref()?.in_file(point).to_string())
     }
 
-    /// For each landmark x and y from -1 to 1, y up, and whether the number should be shown (1) or hides behind the
+    /// The number of the pin at a place of a view, among those that the body does not hide; `slack` in pixels of the page.
+    #[wasm_bindgen(js_name = pinAt)]
+    pub fn pin_at(&self, side: usize, x: f32, y: f32, slack: f32) -> Option<usize> {
+        self.side(side).pin_at(Vec2::new(x, y), slack, self.now, self.pixel_ratio)
+    }
+
+    /// Where the place of a pin is seen, x and y from -1 to 1, y up.
+    #[wasm_bindgen(js_name = pinPlace)]
+    pub fn pin_place(&self, side: usize, pin: usize) -> Option<Vec<f32>> {
+        let side = self.side(side);
+        let seen = side.pose(self.now).project(side.base(pin)?, side.aspect())?;
+        Some(vec![seen.x, seen.y])
+    }
+
+    /// The surface point some pixels of the page beside a pin, y up: JSON `{"face", "barycentric"}`.
+    pub fn beside(&self, side: usize, pin: usize, dx: f32, dy: f32) -> Option<String> {
+        let side = self.side(side);
+        let point = side.beside(pin, Vec2::new(dx, dy), self.now, self.pixel_ratio)?;
+        Some(side.mesh.as_ref()?.in_file(point).to_string())
+    }
+
+    /// Asks the map at a place of a view, and marks the place and its partner with rings: JSON `{"points", "positions",
+    /// "distortion"}`, the first two by side, the last null where it is not known. `undefined` where there is no map.
+    pub fn probe(&mut self, side: usize, x: f32, y: f32) -> Option<String> {
+        self.clear_probe();
+        let side = side.min(1);
+        let view = &self.sides[side];
+        let ray = view.pose(self.now).ray(Vec2::new(x, y), view.aspect());
+        let (from, along) = view.mesh.as_ref()?.ray(ray);
+        let place = self.map.as_mut()?.under_ray(side, from, along)?;
+        self.show_probe(place)
+    }
+
+    /// Likewise at a landmark point, given as JSON.
+    #[wasm_bindgen(js_name = probePoint)]
+    pub fn probe_point(&mut self, side: usize, point: &str) -> Option<String> {
+        self.clear_probe();
+        let side = side.min(1);
+        let mesh = self.sides[side].mesh.as_ref()?;
+        let point = mesh.surface_point(serde_json::from_str(point).ok()?)?;
+        let place = self.map.as_mut()?.nearest(side, point.position(&mesh.checked.mesh))?;
+        self.show_probe(place)
+    }
+
+    /// Takes the rings away; whether there were any.
+    #[wasm_bindgen(js_name = clearProbe)]
+    pub fn clear_probe(&mut self) -> bool {
+        let shown = self.sides.iter().any(|side| side.probe.is_some());
+        self.sides.iter_mut().for_each(|side| side.probe = None);
+        shown
+    }
+
+    /// For each landmark x and y of its head from -1 to 1, y up, and whether the number should be shown (1) or hides behind the
     /// surface (0).
     pub fn labels(&self, side: usize) -> Vec<f32> {
-        let side = &self.sides[side.min(1)];
-        side.landmarks.iter().flat_map(|p| side.label(*p)).collect()
+        self.side(side).heads(self.now, self.pixel_ratio)
     }
 
     /// Where the suggested points are, as [`Viewer::labels`].
     pub fn suggestions(&self, side: usize) -> Vec<f32> {
-        let side = &self.sides[side.min(1)];
-        side.suggestions.iter().flat_map(|p| side.label(*p)).collect()
+        self.side(side).suggested(self.now)
     }
 
-    /// Draws a frame.
-    pub fn render(&mut self) {
-        // Colours are linear RGB, chosen by eye; widths are in pixels of the page.
-        let background = if self.style.dark { [0.011, 0.013, 0.018] } else { [0.84, 0.86, 0.88] };
+    /// Draws a frame at a time; whether another one is to follow, as a camera is on its way.
+    pub fn render(&mut self, now: f64) -> bool {
+        self.now = now;
+        for side in &mut self.sides {
+            side.glide = side.glide.filter(|glide| !glide.is_over(now));
+        }
+        let palette = self.palette();
         let balls = [0, 1].map(|k: usize| self.balls(&self.sides[k]));
+        let pins = [0, 1].map(|k: usize| self.pins(&self.sides[k]));
         let style = &self.style;
-        let ratio = self.pixel_ratio;
         let view = |k: usize| {
             let side: &Side = &self.sides[k];
-            let result = side.result.as_ref();
-            let plain = side.mesh.as_ref().map(|m| &m.surface);
-            let textured = match style.surface.as_str() {
-                "checkerboard" => 1.0,
-                "colours" => 2.0,
-                "distortion" => 3.0,
-                _ => 0.0,
-            };
+            let own = side.mesh.as_ref().map(|m| &m.surface);
+            let paint = style.surface.paint();
+            let morph = if k == 0 && side.overlay.is_some() { self.morph } else { 0.0 };
+            let shows_own =
+                morph == 0.0 && (paint == Paint::Plain || (k == 1 && style.surface.is_of_places()));
+            let overlay = side.overlay.as_ref().filter(|_| !shows_own);
             ViewDraw {
                 rectangle: side.rectangle,
-                camera: &side.camera,
-                style: if result.is_some() { textured } else { 0.0 },
-                surface_colour: [0.55, 0.57, 0.60],
-                line_colour: [0.95, 0.42, 0.05],
-                line_half_width: 0.9 * ratio,
-                surface: result.map(|r| &r.surface).or(plain),
-                under: plain.filter(|_| style.holes && result.is_some()),
-                under_colour: [0.26, 0.27, 0.29],
-                lines: result.map(|r| &r.lines).filter(|_| style.patch_lines),
+                pose: side.pose(now),
+                paint: if overlay.is_some() || shows_own { paint } else { Paint::Plain },
+                palette,
+                line_half_width: 0.9 * self.pixel_ratio,
+                morph,
+                world_from_image: self.source_from_target,
+                surface: overlay.or(own),
+                under: own.filter(|_| style.holes && overlay.is_some() && morph == 0.0),
+                lines: side.lines.as_ref().filter(|_| style.patch_lines && morph == 0.0),
                 balls: &balls[k],
+                pins: &pins[k],
             }
         };
         let views = [view(0), view(1)];
+        // Linear RGB, chosen by eye.
+        let background = if style.dark { [0.011, 0.013, 0.018] } else { [0.84, 0.86, 0.88] };
         self.renderer.draw(Clear(background), &views);
+        self.sides.iter().any(|side| side.glide.is_some())
     }
 }
 
 impl Viewer {
-    /// The camera of a side that the user moves.
-    fn moved(&mut self, side: usize) -> &mut Camera {
-        let side = &mut self.sides[side.min(1)];
-        side.look = Look::Chosen;
-        &mut side.camera
+    fn side(&self, side: usize) -> &Side {
+        &self.sides[side.min(1)]
     }
 
-    /// Landmarks in their colours, or cones in red (positive) and blue (negative curvature).
-    fn balls(&self, side: &Side) -> Vec<MarkerInstance> {
-        let cones = side.result.as_ref().filter(|_| self.style.cones).map(|r| &r.cones);
-        let ball = |(k, p): (usize, &Option<Vec3>)| {
-            let centre = (*p)?.to_array();
-            match cones.and_then(|c| c.get(k)) {
-                Some(curvature) => {
-                    // A ball's radius is 0.014 to 0.036 of the surface's and grows with the root of the curvature.
-                    let size = (curvature.abs() as f32 / std::f32::consts::TAU).min(1.0).sqrt();
-                    let colour = if *curvature >= 0.0 { [0.78, 0.04, 0.03] } else { [0.03, 0.16, 0.80] };
-                    Some(MarkerInstance { centre, radius: 0.014 + 0.022 * size, colour })
-                }
-                None if self.style.markers => {
-                    Some(MarkerInstance { centre, radius: 0.02, colour: landmark_colour(k) })
-                }
-                None => None,
-            }
-        };
-        side.landmarks.iter().enumerate().filter_map(ball).collect()
-    }
-}
-
-impl Side {
-    /// The places of a JSON array of landmark points or null.
-    fn placed(&self, points: &str) -> Result<Vec<Option<Vec3>>, JsValue> {
-        let points: Vec<Option<LandmarkPoint>> =
-            serde_json::from_str(points).map_err(|e| failure("landmarks", e))?;
-        let Some(mesh) = &self.mesh else { return Ok(Vec::new()) };
-        let place = |p: Option<LandmarkPoint>| Some(mesh.frame.place(mesh.position(p?)?));
-        Ok(points.into_iter().map(place).collect())
+    fn side_mut(&mut self, side: usize) -> &mut Side {
+        &mut self.sides[side.min(1)]
     }
 
-    /// The first look: the whole mesh, as large as the view allows.
-    fn look_at_all(&mut self) {
-        self.camera = Camera::default();
-        self.look = Look::Whole;
-        let Some(mesh) = &self.mesh else { return };
-        let positions = mesh.checked.mesh.positions();
-        // Some 2000 points tell the size of a mesh well enough; 0.82 leaves a margin around it.
-        let stride = positions.len() / 2000 + 1;
-        let points: Vec<Vec3> = positions.iter().step_by(stride).map(|p| mesh.frame.place(*p)).collect();
-        self.camera.fit(&points, self.aspect(), 0.82);
-    }
-
-    fn aspect(&self) -> f32 {
-        if self.rectangle[3] < 1.0 { 1.0 } else { (self.rectangle[2] / self.rectangle[3]).max(0.05) }
-    }
-
-    fn label(&self, landmark: Option<Vec3>) -> [f32; 3] {
-        let seen = landmark.and_then(|p| Some((p, self.camera.project(p, self.aspect())?)));
-        let Some((p, at)) = seen else { return [0.0; 3] };
-        [at.x, at.y, if self.is_hidden(p) { 0.0 } else { 1.0 }]
-    }
-
-    /// Whether the surface is well in front of a point.
-    fn is_hidden(&self, p: Vec3) -> bool {
-        let Some(mesh) = &self.mesh else { return true };
-        let (eye, at) = (mesh.frame.unplace(self.camera.eye()), mesh.frame.unplace(p));
-        let hit = mesh
-            .picker
-            .as_ref()
-            .and_then(|picker| picker.pick(&mesh.checked.mesh, eye, (at - eye).normalize()));
-        let distance = eye.distance(at);
-        // 1 % of the distance: no point is hidden by its own face.
-        hit.is_some_and(|h| h.position(&mesh.checked.mesh).distance(eye) < distance - 0.01 * distance)
-    }
-}
-
-impl SideMesh {
-    fn position(&self, point: LandmarkPoint) -> Option<DVec3> {
-        let mesh = &self.checked.mesh;
-        match point {
-            LandmarkPoint::Vertex(v) => {
-                let known = self.checked.vertex_from_file.get(v as usize).copied().flatten();
-                known.map(|v| mesh.positions()[v])
-            }
-            LandmarkPoint::OnFace { face, barycentric } => {
-                let inside = (face as usize) < mesh.face_count();
-                let point = SurfacePoint { face: FaceId(face), barycentric };
-                inside.then(|| self.checked.with_file_corners(point).position(mesh))
-            }
+    fn show_probe(&mut self, place: MapPlace) -> Option<String> {
+        let mut points = Vec::new();
+        for (side, position) in self.sides.iter_mut().zip(place.positions) {
+            let mesh = side.mesh.as_ref()?;
+            let point = mesh.picker.as_ref()?.nearest(&mesh.checked.mesh, position);
+            points.push(mesh.in_file(point));
+            side.probe = Some(mesh.frame.place(position));
         }
+        let positions = place.positions.map(|p| p.to_array());
+        Some(json!({ "points": points, "positions": positions, "distortion": place.distortion }).to_string())
     }
+
+    /// Linear RGB, chosen by eye.
+    fn palette(&self) -> Palette {
+        let light = Palette {
+            surface: [0.60, 0.56, 0.50],
+            under: [0.26, 0.27, 0.29],
+            line: [0.62, 0.16, 0.01],
+            pattern: [[0.80, 0.76, 0.68], [0.10, 0.19, 0.32]],
+            rim: [1.0, 1.0, 1.0],
+        };
+        let dark = Palette {
+            surface: [0.50, 0.47, 0.42],
+            line: [0.95, 0.42, 0.05],
+            rim: [0.93, 0.93, 0.93],
+            ..light
+        };
+        if self.style.dark { dark } else { light }
+    }
+
+    /// Pins, hidden ones below and raised ones on top, then the rings of a place that is asked for.
+    fn pins(&self, side: &Side) -> Vec<PinInstance> {
+        let pose = side.pose(self.now);
+        // While the source changes its shape nothing is where it was.
+        let still = self.morph == 0.0 || !std::ptr::eq(side, &self.sides[0]);
+        let shown = side.landmarks.iter().flatten().filter(|_| self.style.markers && still);
+        let mut pins: Vec<(bool, f32, PinInstance)> = shown
+            .map(|Landmark { pin, .. }| {
+                let hidden = side.is_hidden(pin.base, pose);
+                let nearness = (pin.base - pose.eye()).dot(pose.back());
+                (hidden, nearness, pin.instance(hidden, self.pixel_ratio))
+            })
+            .collect();
+        pins.sort_by(|a, b| {
+            let rank = |p: &(bool, f32, PinInstance)| (!p.0, p.2.radius.to_bits());
+            rank(a).cmp(&rank(b)).then(a.1.total_cmp(&b.1))
+        });
+        let ring = side.probe.map(|place| PinInstance {
+            base: place.to_array(),
+            colour: [0.02, 0.02, 0.02],
+            radius: 8.0 * self.pixel_ratio,
+            stem: 0.0,
+            kind: 2.0,
+        });
+        pins.into_iter().map(|(_, _, pin)| pin).chain(ring).collect()
+    }
+
+    /// Cones in red (positive) and blue (negative curvature).
+    fn balls(&self, side: &Side) -> Vec<MarkerInstance> {
+        let ball = |Landmark { pin, cone }: &Landmark| {
+            let curvature = *cone.as_ref()?;
+            // A ball's radius is 0.012 to 0.03 of the surface's and grows with the root of the curvature.
+            let size = (curvature.abs() as f32 / std::f32::consts::TAU).min(1.0).sqrt();
+            let colour = if curvature >= 0.0 { [0.78, 0.04, 0.03] } else { [0.03, 0.16, 0.80] };
+            Some(MarkerInstance { centre: pin.base.to_array(), radius: 0.012 + 0.018 * size, colour })
+        };
+        side.landmarks.iter().flatten().filter(|_| self.style.cones).filter_map(ball).collect()
+    }
+}
+
+fn point(p: [f32; 3]) -> DVec3 {
+    Vec3::from_array(p).as_dvec3()
+}
+
+fn parsed<T: DeserializeOwned>(code: &str, json: &str) -> Result<T, JsValue> {
+    serde_json::from_str(json).map_err(|e| failure(code, e))
+}
+
+/// The variant of an enumeration by its name.
+fn named<T: DeserializeOwned>(code: &str, name: &str) -> Result<T, JsValue> {
+    serde_json::from_value(json!(name)).map_err(|e| failure(code, e))
 }

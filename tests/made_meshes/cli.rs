@@ -493,3 +493,99 @@ fn bad_remeshing_is_refused_in_a_sentence() {
         assert!(!out.exists());
     }
 }
+
+/// Runs `conemap landmarks` on meshes, with the files to read and to write.
+fn landmarks(meshes: [&Path; 2], input: &[&Path], output: &[&Path], flags: &[&str]) -> std::process::Output {
+    let mut arguments =
+        vec![OsStr::new("landmarks"), meshes[0].as_os_str(), meshes[1].as_os_str(), OsStr::new("--in")];
+    arguments.extend(input.iter().map(|path| path.as_os_str()));
+    if !output.is_empty() {
+        arguments.push(OsStr::new("--out"));
+        arguments.extend(output.iter().map(|path| path.as_os_str()));
+    }
+    arguments.extend(flags.iter().map(OsStr::new));
+    conemap(arguments)
+}
+
+#[test]
+fn landmark_files_are_converted_there_and_back() {
+    let folder = folder("landmark_files_are_converted_there_and_back");
+    let [source, target, pairs] = write_bodies(&folder);
+    let meshes = [source.as_path(), target.as_path()];
+    let mut file = landmark_file::read(&std::fs::read(&pairs).unwrap()).unwrap();
+    file.pairs.push([landmark_file::LandmarkPoint::OnFace { face: 7, barycentric: [0.5, 0.375, 0.125] }; 2]);
+    std::fs::write(&pairs, landmark_file::write(&file)).unwrap();
+    let back = folder.join("back.json");
+    for names in [&["a.csv"][..], &["a.tps"], &["a.mrk.json"], &["a.fcsv", "b.pp"], &["a.nts", "b.pts"]] {
+        let files: Vec<_> = names.iter().map(|name| folder.join(name)).collect();
+        let files: Vec<_> = files.iter().map(PathBuf::as_path).collect();
+        for (input, output) in [(&[pairs.as_path()][..], &files[..]), (&files[..], &[back.as_path()][..])] {
+            let told = landmarks(meshes, input, output, &["--json"]);
+            assert!(told.status.success(), "{names:?}: {}", errors(&told));
+            let value: Value = serde_json::from_slice(&told.stdout).unwrap();
+            assert_eq!(value["pairs"].as_array().unwrap().len(), file.pairs.len());
+            assert_eq!(value["remarks"], serde_json::json!([]));
+            let off = value["pairs"][6]["distances"][1].as_f64().unwrap();
+            assert!(off < 1e-12, "{names:?}: {off}");
+        }
+        let read = landmark_file::read(&std::fs::read(&back).unwrap()).unwrap();
+        assert_eq!(read.source.as_deref(), Some("source.obj"));
+        assert_eq!(read.pairs[..6], file.pairs[..6], "{names:?}");
+    }
+    let wrap = [folder.join("a.json"), folder.join("b.json")];
+    let wrap = wrap.each_ref().map(PathBuf::as_path);
+    assert!(landmarks(meshes, &[&pairs], &wrap, &["--format=wrap"]).status.success());
+    let told = landmarks(meshes, &wrap, &[&back], &[]);
+    assert!(told.status.success(), "{}", errors(&told));
+    assert_eq!(landmark_file::read(&std::fs::read(&back).unwrap()).unwrap().pairs, file.pairs);
+    assert!(
+        String::from_utf8(told.stdout)
+            .unwrap()
+            .starts_with(" pair        source        target  label\n    1")
+    );
+
+    let says = |output: std::process::Output| {
+        assert_eq!(output.status.code(), Some(1));
+        errors(&output)
+    };
+    assert!(
+        says(landmarks(meshes, &[&pairs], &[&folder.join("c.pp")], &[]))
+            .contains("c.pp: a MeshLab point file holds the landmarks of one mesh")
+    );
+    assert!(
+        says(landmarks(meshes, &[&folder.join("a.fcsv")], &[], &[]))
+            .contains("a.fcsv: this file holds the landmarks of one mesh")
+    );
+    assert!(
+        says(landmarks(meshes, &[&pairs], &[&folder.join("c.what")], &[]))
+            .contains("choose a format with --format")
+    );
+    let moved = std::fs::read_to_string(folder.join("a.csv")).unwrap().replacen("\n,", "\n,1000", 1);
+    std::fs::write(folder.join("moved.csv"), moved).unwrap();
+    let sentence = says(landmarks(meshes, &[&folder.join("moved.csv")], &[], &[]));
+    assert!(
+        sentence.contains("moved.csv: landmark")
+            && sentence.contains("units or coordinate systems may differ"),
+        "{sentence}"
+    );
+}
+
+#[test]
+fn a_map_is_made_from_the_landmark_files_of_both_meshes() {
+    let folder = folder("a_map_is_made_from_the_landmark_files_of_both_meshes");
+    let [source, target, pairs] = write_bodies(&folder);
+    let files = [folder.join("source.fcsv"), folder.join("target.pts")];
+    let files = files.each_ref().map(PathBuf::as_path);
+    assert!(landmarks([&source, &target], &[&pairs], &files, &[]).status.success());
+    let images = |landmarks: &[&Path], out: &str| {
+        let out = folder.join(out);
+        let [map, option, to] = ["map", "--landmarks", "--out"].map(OsStr::new);
+        let mut arguments = vec![map, source.as_os_str(), target.as_os_str(), option];
+        arguments.extend(landmarks.iter().map(|path| path.as_os_str()));
+        arguments.extend([to, out.as_os_str()]);
+        let output = conemap(arguments);
+        assert!(output.status.success(), "{}", errors(&output));
+        std::fs::read(out.join("vertex-images.csv")).unwrap()
+    };
+    assert_eq!(images(&files, "from-two"), images(&[&pairs], "from-one"));
+}

@@ -6,6 +6,7 @@ use conemap::demo;
 use conemap::export;
 use conemap::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 use conemap::job::{Job, JobError, JobFile, JobFiles, TargetImage};
+use conemap::landmark_exchange::GivenFile;
 use conemap::landmarks::MeshSide;
 use conemap::mesh::SurfaceMesh;
 use conemap::monitor::{Cancelled, Monitor, Progress, Silent, Stage, Step};
@@ -34,7 +35,8 @@ impl Files {
 
     fn read(&self, monitor: &mut dyn Monitor) -> Result<Job, JobError> {
         let Self { source, target, landmarks } = self;
-        Job::read(JobFiles { source, target, landmarks }, TargetImage::AsGiven, monitor)
+        let landmarks = [GivenFile { name: "landmarks.json", bytes: landmarks }];
+        Job::read(JobFiles { source, target, landmarks: &landmarks }, TargetImage::AsGiven, monitor)
     }
 }
 
@@ -166,8 +168,8 @@ fn faults_name_their_file() {
         (of(&good.source, b"", &good.landmarks), JobFile::Target, "file"),
         (of(open, &good.target, &good.landmarks), JobFile::Source, "mesh"),
         (of(&good.source, open, &good.landmarks), JobFile::Target, "mesh"),
-        (of(&good.source, &good.target, b"{"), JobFile::Landmarks, "landmarks"),
-        (of(&good.source, &good.target, br#"{"pairs": [[0, 0]]}"#), JobFile::Landmarks, "landmarks"),
+        (of(&good.source, &good.target, b"{"), JobFile::Landmarks(0), "landmarks"),
+        (of(&good.source, &good.target, br#"{"pairs": [[0, 0]]}"#), JobFile::Landmarks(0), "landmarks"),
     ] {
         let error = fault(files);
         assert_eq!((error.file(), error.code()), (Some(file), code), "{error}");

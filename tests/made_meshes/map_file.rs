@@ -6,6 +6,7 @@ use conemap::export::vertex_image::Direction;
 use conemap::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 use conemap::io::read_mesh;
 use conemap::job::{Job, JobFiles, MapFiles, OpenMap, OutputKind, TakenMap, TargetImage};
+use conemap::landmark_exchange::GivenFile;
 use conemap::map_file::MapFile;
 use conemap::math::random::SplitMix;
 use conemap::mesh::mirror::mirrored;
@@ -26,6 +27,7 @@ struct Mapped {
 fn mapped(meshes: [&SurfaceMesh; 2], pairs: Vec<[LandmarkPoint; 2]>, image: TargetImage) -> Mapped {
     let landmarks = landmark_file::write(&LandmarkFile { pairs, ..LandmarkFile::default() });
     let files = meshes.map(export::obj::mesh);
+    let landmarks = [GivenFile { name: "landmarks.json", bytes: &landmarks }];
     let given = JobFiles { source: &files[0], target: &files[1], landmarks: &landmarks };
     let job = Job::read(given, image, &mut Silent).unwrap();
     let result = job.run(&PipelineOptions::default(), &mut Silent).unwrap();

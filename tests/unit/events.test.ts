@@ -1,217 +1,450 @@
 /** Each kind of event: what it changes, and that it changes nothing else. */
 import { expect, test } from 'vitest';
 import type { RunOptions } from '../../www/report.ts';
+import { change } from '../../www/store/change.ts';
 import type { Event } from '../../www/store/events.ts';
-import { update } from '../../www/store/reducer.ts';
-import type { State, Style } from '../../www/store/state.ts';
+import type { Offer, State, Style, Ui } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
-import { DEMO, DONE, FOUR, mesh, OUTPUT, pair, READY, REPORT, RUNNING, suggestion, SWAPPED } from './fixtures.ts';
+import { workOf } from '../../www/store/work.ts';
+import { DEMO, DONE, DOUBT, FOUR, mesh, OUTPUT, pair, READY, REPORT, RUNNING, suggestion, SWAPPED } from './fixtures.ts';
 
 interface Case<K extends Event['kind']> {
   readonly before: State;
   readonly event: Omit<Extract<Event, { kind: K }>, 'kind'>;
-  /** Every part of the state that is not named here stays the same object. */
+  /** The name of the step; `null` where there is none. */
+  readonly step: string | null;
+  /** Every part of the state that is not named here stays the same object, but the history, which `step` tells. */
   readonly changes: Partial<State>;
 }
 
 const TASK = { sentence: 'Reading the files…' };
 const PROGRESS = { stage: 'relaxation', sentence: 'Relaxing the map', share: 0.5, residual: null, energy: 5 };
-const [HORSE, A, B] = [mesh('horse.off'), suggestion(5, 'A'), suggestion(6, 'B')];
-const PENDING = { side: 0, point: 7 } as const;
+const [HORSE, A, B] = [mesh('horse.stl'), suggestion(5, 'A'), suggestion(6, 'B')];
 const OPTIONS: RunOptions = { method: 'thesis', base: 'qem', cones: 'uniform', class: 'runner-up', ownCones: 10 };
 const STYLE: Style = { surface: 'colours', patchLines: false, cones: false, markers: false };
+const OFFER: Offer = { session: 'a', names: ['cat.off', 'lion.off'], pairs: 12, saved: 1 };
+const [CAT, LION] = READY.meshes;
+const HALF: State = { ...READY, pairs: [...FOUR, pair(5, 7, null)], nextId: 6 };
+const DOUBTS = [DOUBT];
+const DOUBTED: State = { ...READY, found: { doubts: DOUBTS, inputs: workOf(READY) }, findings: DOUBTS };
 const during = (job: Partial<typeof RUNNING>): State => ({ ...READY, job: { ...RUNNING, ...job } });
+const ui = (state: State, patch: Partial<Ui>): Ui => ({ ...state.ui, ...patch });
+const toast = (sentence: string): Pick<State, 'toast'> => ({ toast: { sentence, undo: true } });
+const gone = (work: State): State['history'] => ({ past: [{ name: 'Place pair 9', work: workOf(work) }], future: [], gesture: 1 });
 
 /** The compiler asks for a case of each kind. */
 const CASES: { readonly [K in Event['kind']]: Case<K> } = {
   ready: {
     before: INITIAL,
     event: { demos: [DEMO] },
+    step: null,
     changes: { ready: true, demos: [DEMO] },
   },
   'task-begun': {
     before: DONE,
     event: { task: TASK },
+    step: null,
     changes: { job: { kind: 'busy', task: TASK, then: { kind: 'done' } } },
   },
   'task-ended': {
     before: { ...READY, job: { kind: 'busy', task: TASK, then: { kind: 'error' } } },
     event: { task: TASK },
+    step: null,
     changes: { job: { kind: 'error' } },
   },
   mesh: {
     before: {
-      ...DONE,
+      ...DOUBTED,
+      result: DONE.result,
+      job: { kind: 'done' },
       demo: DEMO,
       groundTruth: 'truth.txt',
-      pending: PENDING,
-      queue: [8],
       suggestions: [[A], [B]],
-      history: [[]],
-      findings: [SWAPPED],
-      style: STYLE,
+      ui: ui(READY, { selected: 2, hovered: 3, cameras: [[1], [2]] }),
     },
     event: { side: 0, file: HORSE },
+    step: 'Open horse.stl',
     changes: {
-      meshes: [HORSE, DONE.meshes[1]],
+      meshes: [HORSE, LION],
+      up: ['z', 'y'],
       demo: null,
       pairs: [],
       named: [null, null],
       groundTruth: null,
-      pending: null,
-      queue: [],
       suggestions: [[], [B]],
-      history: [],
-      result: null,
       findings: [],
       job: { kind: 'idle' },
-      style: { ...STYLE, surface: 'shaded' },
+      ui: ui(READY, { cameras: [null, [2]] }),
+      ...toast('4 landmark pairs went.'),
+    },
+  },
+  mirrored: {
+    before: { ...DOUBTED, demo: DEMO, groundTruth: 'truth.txt', suggestions: [[A], [B]] },
+    event: { file: HORSE, points: [20, 21, 22, 23] },
+    step: 'Mirror the target',
+    changes: {
+      meshes: [CAT, HORSE],
+      demo: null,
+      pairs: [pair(1, 0, 20), pair(2, 1, 21), pair(3, 2, 22), pair(4, 3, 23)],
+      named: ['cat.off', 'horse.stl'],
+      groundTruth: null,
+      suggestions: [[A], []],
+      findings: [],
+      ui: READY.ui,
+      job: { kind: 'idle' },
+      ...toast('The target is its mirror image now, with the landmarks on it.'),
+    },
+  },
+  'swap-meshes': {
+    before: { ...READY, demo: DEMO, up: ['y', '-z'], pairs: [pair(1, 0, 10), pair(2, null, 11, 'nose')], suggestions: [[A], [B]] },
+    event: {},
+    step: 'Exchange the meshes',
+    changes: {
+      meshes: [LION, CAT],
+      up: ['-z', 'y'],
+      demo: null,
+      pairs: [pair(1, 10, 0), pair(2, 11, null, 'nose')],
+      named: ['lion.off', 'cat.off'],
+      suggestions: [[B], [A]],
+      ui: READY.ui,
+      job: { kind: 'idle' },
     },
   },
   landmarks: {
-    before: { ...READY, pending: PENDING, queue: [8], findings: [SWAPPED] },
+    before: { ...DOUBTED, ui: ui(READY, { selected: 2 }) },
     event: {
       file: { source: 'a/horse.off', target: 'b\\camel.off', pairs: [[1, 2]], labels: ['nose'], ground_truth: 'truth.txt' },
     },
+    step: 'Load 1 pair',
     changes: {
-      pairs: [pair(1, 2, 'nose')],
+      pairs: [{ ...pair(5, 1, 2, 'nose'), number: 1 }],
+      nextId: 6,
       named: ['horse.off', 'camel.off'],
       groundTruth: 'truth.txt',
-      pending: null,
-      queue: [],
-      history: [FOUR],
       findings: [],
+      ui: READY.ui,
+      ...toast('4 landmark pairs went.'),
+    },
+  },
+  'side-marks': {
+    before: { ...DOUBTED, error: 'Something failed.' },
+    event: { side: 1, points: [{ label: 'nose', point: 20 }], name: 'cat.fcsv' },
+    step: 'Load cat.fcsv',
+    changes: {
+      pairs: [pair(1, 0, null), pair(2, 1, null), pair(3, 2, null), pair(4, 3, null), pair(5, null, 20, 'nose')],
+      nextId: 6,
+      findings: [],
+      error: null,
+      ...toast('4 landmark pairs lost a point.'),
     },
   },
   demo: {
-    before: { ...READY, history: [[]], error: 'Something failed.' },
+    before: { ...READY, error: 'Something failed.' },
     event: { demo: DEMO },
-    changes: { demo: DEMO, history: [], error: null },
+    step: 'Open the demo “Ball”',
+    changes: { demo: DEMO, error: null },
   },
-  picked: {
-    before: { ...READY, pending: PENDING, findings: [SWAPPED], error: 'Something failed.' },
+  'point-picked': {
+    before: { ...HALF, found: DOUBTED.found, findings: [DOUBT], error: 'Something failed.' },
     event: { side: 1, point: 17 },
-    changes: { pairs: [...FOUR, pair(7, 17)], pending: null, queue: [], history: [FOUR], findings: [], error: null },
+    step: 'Place pair 5',
+    changes: { pairs: [...FOUR, pair(5, 7, 17)], findings: [], error: null, ui: ui(READY, { selected: 5 }) },
+  },
+  'point-moved': {
+    before: { ...DOUBTED, error: 'Something failed.' },
+    event: { id: 2, side: 1, point: 17, gesture: 1 },
+    step: 'Move pair 2',
+    changes: {
+      pairs: [pair(1, 0, 10), pair(2, 1, 17), pair(3, 2, 12), pair(4, 3, 13)],
+      findings: [],
+      error: null,
+      ui: ui(READY, { selected: 2 }),
+    },
   },
   'pick-dropped': {
-    before: { ...READY, pending: PENDING, queue: [8, 9] },
+    before: { ...HALF, pairs: [...HALF.pairs, pair(6, 8, null)], ui: ui(READY, { selected: 5 }) },
     event: {},
-    changes: { pending: { side: 0, point: 8 }, queue: [9] },
-  },
-  suggested: {
-    before: { ...READY, suggestions: [[A], [B]] },
-    event: { side: 1, suggestions: [A, B] },
-    changes: { suggestions: [[A], [A, B]] },
+    step: 'Give up pair 5',
+    changes: { pairs: [...FOUR, pair(6, 8, null)], ui: ui(READY, { selected: 6 }) },
   },
   'suggestions-taken': {
     before: { ...READY, suggestions: [[A, B], [B]] },
     event: { side: 0 },
-    changes: { suggestions: [[], [B]], pending: { side: 0, point: 5 }, queue: [6] },
+    step: 'Take 2 suggestions',
+    changes: {
+      suggestions: [[], [B]],
+      pairs: [...FOUR, pair(5, 5, null), pair(6, 6, null)],
+      nextId: 7,
+      ui: ui(READY, { selected: 5 }),
+    },
   },
   'pair-deleted': {
-    before: { ...READY, findings: [SWAPPED] },
-    event: { index: 1 },
-    changes: { pairs: [pair(0, 10), pair(2, 12), pair(3, 13)], history: [FOUR], findings: [] },
+    before: { ...DOUBTED, ui: ui(READY, { selected: 2, hovered: 2 }) },
+    event: { id: 2 },
+    step: 'Delete pair 2',
+    changes: {
+      pairs: [pair(1, 0, 10), pair(3, 2, 12), pair(4, 3, 13)],
+      findings: [],
+      ui: ui(READY, { selected: 3 }),
+      ...toast('Landmark pair 2 deleted.'),
+    },
   },
   'pair-labelled': {
-    before: READY,
-    event: { index: 2, label: 'tail' },
-    changes: { pairs: [pair(0, 10), pair(1, 11), pair(2, 12, 'tail'), pair(3, 13)] },
+    before: DOUBTED,
+    event: { id: 3, label: 'tail' },
+    step: 'Rename pair 3',
+    changes: { pairs: [pair(1, 0, 10), pair(2, 1, 11), pair(3, 2, 12, 'tail'), pair(4, 3, 13)] },
+  },
+  'pair-locked': {
+    before: DOUBTED,
+    event: { id: 1, locked: true },
+    step: 'Lock pair 1',
+    changes: { pairs: [{ ...pair(1, 0, 10), locked: true }, ...FOUR.slice(1)] },
+  },
+  'pair-moved': {
+    before: DOUBTED,
+    event: { id: 4, to: 1 },
+    step: 'Reorder pair 4',
+    changes: { pairs: [pair(1, 0, 10), pair(4, 3, 13), pair(2, 1, 11), pair(3, 2, 12)] },
   },
   'pairs-cleared': {
-    before: { ...READY, pending: PENDING, queue: [8], findings: [SWAPPED] },
+    before: DOUBTED,
     event: {},
-    changes: { pairs: [], pending: null, queue: [], history: [FOUR], findings: [] },
+    step: 'Delete all pairs',
+    changes: { pairs: [], findings: [], ...toast('4 landmark pairs deleted.') },
   },
   'targets-exchanged': {
-    before: { ...READY, findings: [SWAPPED] },
-    event: { indices: [0, 3] },
-    changes: { pairs: [pair(0, 13), pair(1, 11), pair(2, 12), pair(3, 10)], history: [FOUR], findings: [] },
-  },
-  undo: {
-    before: { ...READY, history: [[pair(8, 8)], [pair(9, 9)]], findings: [SWAPPED] },
-    event: {},
-    changes: { pairs: [pair(9, 9)], history: [[pair(8, 8)]], findings: [] },
+    before: DOUBTED,
+    event: { ids: [1, 4] },
+    step: 'Exchange the targets of pair 1 and pair 4',
+    changes: { pairs: [pair(1, 0, 13), pair(2, 1, 11), pair(3, 2, 12), pair(4, 3, 10)], findings: [] },
   },
   options: {
     before: { ...READY, options: OPTIONS },
     event: { options: { ownCones: null } },
+    step: 'Change the own cones',
     changes: { options: { ...OPTIONS, ownCones: null } },
   },
+  restored: {
+    before: { ...DOUBTED, nextId: 9, ui: ui(READY, { selected: 2 }), history: gone(READY), error: 'Something failed.' },
+    event: {
+      work: { ...workOf(READY), meshes: [HORSE, LION], pairs: [pair(1, 5, 6, 'nose'), pair(7, 8, null)], options: OPTIONS },
+      history: gone({ ...READY, pairs: [pair(20, 0, 0)] }),
+      ui: { theme: 'dark' },
+    },
+    step: 'Continue with horse and lion',
+    changes: {
+      meshes: [HORSE, LION],
+      pairs: [
+        { ...pair(9, 5, 6, 'nose'), number: 1 },
+        { ...pair(15, 8, null), number: 7 },
+      ],
+      nextId: 29,
+      options: OPTIONS,
+      findings: [],
+      error: null,
+      suggestions: [[], []],
+      ui: ui(READY, { theme: 'dark' }),
+      job: { kind: 'idle' },
+      ...toast('Continued with horse and lion.'),
+    },
+  },
+  undo: {
+    before: {
+      ...READY,
+      history: gone({ ...READY, pairs: [pair(9, 9, 9)] }),
+      ...toast('Something went.'),
+      error: 'Something failed.',
+    },
+    event: {},
+    step: null,
+    changes: {
+      pairs: [pair(9, 9, 9)],
+      history: { past: [], future: [{ name: 'Place pair 9', work: workOf(READY) }], gesture: null },
+      toast: null,
+      error: null,
+    },
+  },
+  redo: {
+    before: {
+      ...READY,
+      history: { past: [], future: [{ name: 'Place pair 9', work: workOf({ ...READY, pairs: [pair(9, 9, 9)] }) }], gesture: null },
+    },
+    event: {},
+    step: null,
+    changes: {
+      pairs: [pair(9, 9, 9)],
+      history: { past: [{ name: 'Place pair 9', work: workOf(READY) }], future: [], gesture: null },
+    },
+  },
+  'history-begun': {
+    before: { ...READY, history: gone(READY), ...toast('Something went.') },
+    event: {},
+    step: null,
+    changes: { history: { past: [], future: [], gesture: null }, toast: null },
+  },
+  'pair-selected': {
+    before: READY,
+    event: { id: 3 },
+    step: null,
+    changes: { ui: ui(READY, { selected: 3 }) },
+  },
+  'pair-hovered': {
+    before: READY,
+    event: { id: 3 },
+    step: null,
+    changes: { ui: ui(READY, { hovered: 3 }) },
+  },
+  ui: {
+    before: READY,
+    event: { ui: { step: 'map', theme: 'dark', panel: 'folded', link: 'free' } },
+    step: null,
+    changes: { ui: ui(READY, { step: 'map', theme: 'dark', panel: 'folded', link: 'free' }) },
+  },
   style: {
-    before: { ...READY, style: STYLE },
+    before: { ...READY, ui: ui(READY, { style: STYLE }) },
     event: { style: { markers: true } },
-    changes: { style: { ...STYLE, markers: true } },
+    step: null,
+    changes: { ui: ui(READY, { style: { ...STYLE, markers: true } }) },
+  },
+  up: {
+    before: READY,
+    event: { side: 1, axis: '-x' },
+    step: null,
+    changes: { up: ['y', '-x'] },
+  },
+  'camera-moved': {
+    before: READY,
+    event: { side: 1, camera: [1, 2] },
+    step: null,
+    changes: { ui: ui(READY, { cameras: [null, [1, 2]] }) },
+  },
+  suggested: {
+    before: { ...READY, suggestions: [[A], [B]] },
+    event: { side: 1, suggestions: [A, B] },
+    step: null,
+    changes: { suggestions: [[A], [A, B]] },
   },
   'run-started': {
-    before: { ...DONE, pending: PENDING, queue: [8], findings: [SWAPPED], error: 'Something failed.' },
+    before: { ...DOUBTED, error: 'Something failed.' },
     event: {},
-    changes: { job: RUNNING, pending: null, queue: [], findings: [], error: null },
+    step: null,
+    changes: { job: RUNNING, found: null, findings: [], error: null },
   },
   'run-progress': {
     before: during({ energies: [[6]] }),
     event: { progress: PROGRESS },
+    step: null,
     changes: { job: { ...RUNNING, progress: PROGRESS, energies: [[6, 5]] } },
   },
   'run-relaxes': {
     before: during({ energies: [[6, 5]] }),
     event: {},
+    step: null,
     changes: { job: { ...RUNNING, energies: [[6, 5], []] } },
   },
   'run-finishable': {
     before: during({}),
     event: {},
+    step: null,
     changes: { job: { ...RUNNING, finish: 'possible' } },
   },
   'run-finish': {
     before: during({ finish: 'possible' }),
     event: {},
+    step: null,
     changes: { job: { ...RUNNING, finish: 'asked' } },
   },
   'run-found': {
     before: during({}),
     event: { findings: [SWAPPED] },
-    changes: { findings: [SWAPPED] },
+    step: null,
+    changes: { found: { doubts: [DOUBT], inputs: RUNNING.inputs }, findings: [DOUBT] },
   },
   'run-done': {
     before: { ...during({}), options: OPTIONS },
     event: { output: OUTPUT, report: REPORT },
+    step: null,
     changes: {
       job: { kind: 'done' },
-      result: { output: OUTPUT, report: REPORT, pairs: FOUR, options: OPTIONS },
-      style: { ...READY.style, surface: 'checkerboard' },
+      result: { output: OUTPUT, report: REPORT, inputs: RUNNING.inputs },
+      ui: ui(READY, { style: { ...READY.ui.style, surface: 'pattern' } }),
     },
   },
   'run-failed': {
     before: during({}),
     event: { sentence: 'No map was found.' },
+    step: null,
     changes: { job: { kind: 'error' }, error: 'No map was found.' },
   },
   'run-cancelled': {
     before: during({}),
     event: {},
+    step: null,
     changes: { job: { kind: 'idle' } },
+  },
+  toast: {
+    before: READY,
+    event: { sentence: 'Something went.', undo: true },
+    step: null,
+    changes: toast('Something went.'),
+  },
+  'toast-closed': {
+    before: { ...READY, ...toast('Something went.') },
+    event: {},
+    step: null,
+    changes: { toast: null },
+  },
+  offered: {
+    before: READY,
+    event: { offer: OFFER },
+    step: null,
+    changes: { offer: OFFER },
+  },
+  'offer-closed': {
+    before: { ...READY, offer: OFFER },
+    event: {},
+    step: null,
+    changes: { offer: null },
+  },
+  receiving: {
+    before: READY,
+    event: { receiving: { kind: 'files', missing: [{ side: 0, name: 'cat.off' }] } },
+    step: null,
+    changes: { receiving: { kind: 'files', missing: [{ side: 0, name: 'cat.off' }] } },
+  },
+  outdated: {
+    before: READY,
+    event: {},
+    step: null,
+    changes: { isOutdated: true },
   },
   error: {
     before: READY,
     event: { sentence: 'Something failed.' },
+    step: null,
     changes: { error: 'Something failed.' },
   },
   'error-closed': {
     before: { ...READY, error: 'Something failed.' },
     event: {},
+    step: null,
     changes: { error: null },
   },
 };
 
-test.each(Object.entries(CASES))('%s changes what it should and nothing else', (kind, { before, event, changes }) => {
-  const state = update(before, { kind, ...event } as Event);
+test.each(Object.entries(CASES))('%s changes what it should and nothing else', (kind, { before, event, step, changes }) => {
+  const state = change(before, [{ kind, ...event } as Event]);
   for (const key of Object.keys(before) as (keyof State)[]) {
     if (key in changes) {
       expect(state[key], key).toEqual(changes[key]);
-    } else {
+    } else if (key !== 'history' || step === null) {
       expect(state[key], key).toBe(before[key]);
     }
+  }
+  if (step !== null) {
+    const past = [...before.history.past, { name: step, work: workOf(before) }];
+    expect(state.history).toEqual({ past, future: [], gesture: 'gesture' in event ? event.gesture : null });
   }
   // An event that could be left out would prove nothing.
   expect(state).not.toEqual(before);

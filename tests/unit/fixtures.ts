@@ -2,15 +2,16 @@
 import type { RunOutput } from '../../www/compute/messages.ts';
 import type { Pair, Suggestion, SurfacePoint } from '../../www/landmarks.ts';
 import type { Finding, Report } from '../../www/report.ts';
+import { change } from '../../www/store/change.ts';
 import type { Event } from '../../www/store/events.ts';
 import type { Running } from '../../www/store/job.ts';
-import { update } from '../../www/store/reducer.ts';
-import type { Demo, MeshFile, State } from '../../www/store/state.ts';
+import type { Demo, Doubt, MeshFile, State } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
+import { workOf } from '../../www/store/work.ts';
 import type { LoadedMesh } from '../../www/wasm/conemap.js';
 
 /** A mesh that the core knows nothing of; `freed` counts how often it was given back. */
-export function mesh(name: string): MeshFile & { readonly freed: () => number } {
+export function mesh(name: string, faceCount = 20): MeshFile & { readonly freed: () => number } {
   let freed = 0;
   const loaded = {
     free: () => {
@@ -18,18 +19,19 @@ export function mesh(name: string): MeshFile & { readonly freed: () => number } 
     },
   } as unknown as LoadedMesh;
   const bytes = new TextEncoder().encode(name);
-  return { name, bytes, mesh: loaded, vertexCount: 12, faceCount: 20, turnedFaces: 0, freed: () => freed };
+  return { name, bytes, mesh: loaded, vertexCount: 12, faceCount, turnedFaces: 0, freed: () => freed };
 }
 
-export function pair(source: SurfacePoint, target: SurfacePoint, label = ''): Pair {
-  return { points: [source, target], label };
+/** A pair whose number is its id, as it is until one is deleted. */
+export function pair(id: number, source: SurfacePoint | null, target: SurfacePoint | null, label = ''): Pair {
+  return { id, number: id, points: [source, target], label, locked: false };
 }
 
 export function suggestion(point: number, letter: string): Suggestion {
   return { point, reason: 'tip', letter, partner: null };
 }
 
-export const FOUR: readonly Pair[] = [pair(0, 10), pair(1, 11), pair(2, 12), pair(3, 13)];
+export const FOUR: readonly Pair[] = [pair(1, 0, 10), pair(2, 1, 11), pair(3, 2, 12), pair(4, 3, 13)];
 export const DEMO: Demo = { id: 'ball', title: 'Ball', sentence: 'A ball' };
 export const SWAPPED: Finding = {
   kind: 'swapped',
@@ -43,9 +45,14 @@ export const SWAPPED: Finding = {
   side: null,
   vertices: [],
 };
-export const OUTPUT = { report: '{}' } as RunOutput;
-export const REPORT = { warnings: [] } as unknown as Report;
-export const RUNNING: Running = { kind: 'running', progress: null, finish: 'no', energies: [] };
+/** The same in the page's words. */
+export const DOUBT: Doubt = {
+  ...SWAPPED,
+  sentence: 'The targets of the pairs 1 and 2 look swapped: exchanged, they lie among the others as on the source. Exchange them.',
+  ids: [1, 2],
+};
+export const OUTPUT = { report: '{}', distortion: new Float32Array(3) } as RunOutput;
+export const REPORT = { warnings: [], stopped_early: false } as unknown as Report;
 
 /** Two meshes, four pairs, nothing under way. */
 export const READY: State = {
@@ -54,15 +61,18 @@ export const READY: State = {
   meshes: [mesh('cat.off'), mesh('lion.off')],
   pairs: FOUR,
   named: ['cat.off', 'lion.off'],
+  nextId: 5,
 };
+export const RUNNING: Running = { kind: 'running', inputs: workOf(READY), progress: null, finish: 'no', energies: [] };
 
 /** A map was made from them. */
 export const DONE: State = {
   ...READY,
   job: { kind: 'done' },
-  result: { output: OUTPUT, report: REPORT, pairs: FOUR, options: READY.options },
+  result: { output: OUTPUT, report: REPORT, inputs: workOf(READY) },
 };
 
+/** The state after these events, each a step of its own. */
 export function after(state: State, ...events: readonly Event[]): State {
-  return events.reduce(update, state);
+  return events.reduce((present, event) => change(present, [event]), state);
 }

@@ -12,7 +12,7 @@ type Graph = ReadonlyMap<string, ReadonlySet<string>>;
 /** The imports of every file of the page but the built core, types included. */
 function imports(): Graph {
   const files = readdirSync(WWW, { recursive: true, encoding: 'utf8' }).filter(
-    (file) => file.endsWith('.ts') && !file.startsWith('wasm'),
+    (file) => /\.tsx?$/.test(file) && !file.startsWith('wasm'),
   );
   return new Map(
     files.map((file) => {
@@ -27,7 +27,7 @@ function imports(): Graph {
 function parts(): ReadonlyMap<string, number> {
   const text = readFileSync(join(WWW, '../ARCHITECTURE.md'), 'utf8');
   const list = /(?<=each only with what stands above it:\n\n)(?:- .*\n)+/.exec(text)?.[0] ?? '';
-  const names = (line: string): string[] => [...(line.split(': ')[0] ?? '').matchAll(/`(\w+)/g)].map(([, name]) => name ?? '');
+  const names = (line: string): string[] => [...(line.split(': ')[0] ?? '').matchAll(/`([\w-]+)/g)].map(([, name]) => name ?? '');
   return new Map(list.split('\n').flatMap((line, rank) => names(line).map((name) => [name, rank] as const)));
 }
 

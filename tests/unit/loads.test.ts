@@ -2,7 +2,7 @@
 import { describe, expect, test } from 'vitest';
 import { baseName, landmarkFileOf } from '../../www/store/landmark-file.ts';
 import { INITIAL } from '../../www/store/state.ts';
-import { after, DONE, FOUR, mesh, READY } from './fixtures.ts';
+import { after, DEMO, DONE, FOUR, mesh, pair, READY, suggestion } from './fixtures.ts';
 
 describe('landmarks stay', () => {
   test('where a mesh fills an empty side', () => {
@@ -22,8 +22,20 @@ describe('landmarks stay', () => {
     expect([state.pairs, state.named]).toEqual([FOUR, READY.named]);
   });
 
-  test('on no other mesh', () => {
+  test('on no other mesh: their partners wait for new points', () => {
     const state = after(READY, { kind: 'mesh', side: 1, file: mesh('cat.off') });
+    expect(state.pairs).toEqual([pair(1, 0, null), pair(2, 1, null), pair(3, 2, null), pair(4, 3, null)]);
+    expect(state.named).toEqual(['cat.off', null]);
+    expect(state.toast).toEqual({
+      sentence: '4 landmark pairs lost a point with its mesh; the partners wait for new ones.',
+      undo: true,
+    });
+    const none = after(state, { kind: 'mesh', side: 0, file: mesh('lion.off') });
+    expect([none.pairs, none.named]).toEqual([[], [null, null]]);
+  });
+
+  test('not where they are a demo’s', () => {
+    const state = after({ ...READY, demo: DEMO }, { kind: 'mesh', side: 1, file: mesh('cat.off') });
     expect([state.pairs, state.named]).toEqual([[], [null, null]]);
   });
 });
@@ -46,7 +58,7 @@ test('a mesh that a task brings leaves nothing of the last run after the task', 
 
 test('a landmark file without labels and names gives pairs without them', () => {
   const state = after(READY, { kind: 'landmarks', file: { pairs: [[1, 2]] } });
-  expect(state.pairs).toEqual([{ points: [1, 2], label: '' }]);
+  expect(state.pairs).toEqual([{ ...pair(5, 1, 2), number: 1 }]);
   expect([state.named, state.groundTruth]).toEqual([[null, null], null]);
 });
 
@@ -63,6 +75,48 @@ test('the landmarks are saved as they were read', () => {
   };
   expect(landmarkFileOf(after(READY, { kind: 'landmarks', file }))).toEqual(file);
   expect(landmarkFileOf(after(INITIAL, { kind: 'landmarks', file: { pairs: [[1, 2]] } }))).toEqual({ pairs: [[1, 2]] });
+});
+
+test('half pairs are in no file', () => {
+  const state = after(READY, { kind: 'point-picked', side: 0, point: 7 });
+  expect(landmarkFileOf(state).pairs).toHaveLength(4);
+});
+
+test('a mirror image keeps ids, labels, locks and half pairs', () => {
+  const before = { ...READY, pairs: [{ ...pair(7, 1, 2, 'nose'), locked: true }, pair(8, 3, null), pair(9, null, 5)] };
+  const state = after(before, { kind: 'mirrored', file: mesh('lion (mirrored).obj'), points: [12, null, 15] });
+  expect(state.pairs).toEqual([{ ...pair(7, 1, 12, 'nose'), locked: true }, pair(8, 3, null), pair(9, null, 15)]);
+  expect(after(state, { kind: 'undo' }).pairs).toBe(before.pairs);
+});
+
+test('what is known of a mesh goes with it: suggestions, camera, which way is up', () => {
+  const before = after(
+    READY,
+    { kind: 'suggested', side: 0, suggestions: [suggestion(1, 'A')] },
+    { kind: 'camera-moved', side: 0, camera: [1, 2, 3] },
+    { kind: 'up', side: 0, axis: '-x' },
+  );
+  const swapped = after(before, { kind: 'swap-meshes' });
+  expect(swapped.suggestions).toEqual([[], [suggestion(1, 'A')]]);
+  expect([swapped.ui.cameras, swapped.up]).toEqual([
+    [null, [1, 2, 3]],
+    ['y', '-x'],
+  ]);
+  expect(after(swapped, { kind: 'undo' })).toMatchObject({ suggestions: before.suggestions, ui: before.ui, up: before.up });
+});
+
+test('a mesh that comes back stands as it stood last', () => {
+  const state = after(
+    READY,
+    { kind: 'pair-deleted', id: 1 },
+    { kind: 'up', side: 1, axis: 'z' },
+    { kind: 'mesh', side: 1, file: mesh('horse.stl') },
+    { kind: 'up', side: 1, axis: 'x' },
+  );
+  const back = after(state, { kind: 'undo' });
+  expect(back.up).toEqual(['y', 'z']);
+  // The step before was made while it stood otherwise.
+  expect(after(back, { kind: 'undo' }).up).toEqual(['y', 'z']);
 });
 
 test('a name loses its folders of either kind', () => {

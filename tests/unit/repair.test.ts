@@ -2,30 +2,31 @@
 import { beforeEach, expect, test, vi } from 'vitest';
 import { repair } from '../../www/app/repair.ts';
 import { Runner } from '../../www/app/run.ts';
-import type { Finding } from '../../www/report.ts';
+import type { Doubt } from '../../www/store/state.ts';
+import { wholePairs } from '../../www/store/order.ts';
 import { Store } from '../../www/store/store.ts';
-import { pair, READY, SWAPPED } from './fixtures.ts';
+import { DOUBT, pair, READY } from './fixtures.ts';
 
 let store: Store;
 let runner: Runner;
-const looked = vi.fn<(index: number) => void>();
+const looked = vi.fn<(id: number) => void>();
 
 beforeEach(() => {
   looked.mockReset();
   store = new Store();
   runner = new Runner(store);
-  const pairs = READY.pairs.map(({ points }) => points);
+  const pairs = wholePairs(READY).map(({ points }) => points);
   store.dispatch({ kind: 'ready', demos: [] }, { kind: 'landmarks', file: { pairs } }, { kind: 'run-started' });
 });
 
 test('swapped pairs get each other’s target, and the run with the old ones ends', () => {
-  repair(store, runner, looked, SWAPPED);
-  expect(store.state.pairs.slice(0, 2)).toEqual([pair(0, 11), pair(1, 10)]);
+  repair(store, runner, looked, DOUBT);
+  expect(store.state.pairs.slice(0, 2)).toEqual([pair(1, 0, 11), pair(2, 1, 10)]);
   expect(store.state.job).toEqual({ kind: 'idle' });
 });
 
 test('limbs are marked by rings of their side; the run goes on', () => {
-  const limbs: Finding = { ...SWAPPED, kind: 'unmarked_limbs', repair: 'mark', side: 1, vertices: [40, 50] };
+  const limbs: Doubt = { ...DOUBT, kind: 'unmarked_limbs', repair: 'mark', side: 1, vertices: [40, 50] };
   repair(store, runner, looked, limbs);
   expect(store.state.suggestions[0]).toEqual([]);
   expect(store.state.suggestions[1]).toMatchObject([
@@ -36,7 +37,8 @@ test('limbs are marked by rings of their side; the run goes on', () => {
 });
 
 test('a doubtful pair is looked at', () => {
-  repair(store, runner, looked, { ...SWAPPED, kind: 'misplaced', repair: 'check', pairs: [3] });
-  expect(looked.mock.calls).toEqual([[3]]);
+  repair(store, runner, looked, { ...DOUBT, kind: 'misplaced', repair: 'check', pairs: [3], ids: [4] });
+  expect(looked.mock.calls).toEqual([[4]]);
+  expect(store.state.ui.selected).toBe(4);
   expect(store.state.job.kind).toBe('running');
 });

@@ -2,8 +2,9 @@
 import { beforeEach, expect, test, vi } from 'vitest';
 import { Runner } from '../../www/app/run.ts';
 import type { RunRequest, WarmUpRequest, WorkerMessage } from '../../www/compute/messages.ts';
+import { wholePairs } from '../../www/store/order.ts';
 import { Store } from '../../www/store/store.ts';
-import { FOUR, mesh, OUTPUT, SWAPPED } from './fixtures.ts';
+import { DOUBT, mesh, OUTPUT, READY, SWAPPED } from './fixtures.ts';
 
 class FakeWorker extends EventTarget {
   static made: FakeWorker[] = [];
@@ -28,6 +29,7 @@ class FakeWorker extends EventTarget {
   }
 }
 
+const POINTS = wholePairs(READY).map(({ points }) => points);
 const CORE = {} as WebAssembly.Module;
 let store: Store;
 let runner: Runner;
@@ -53,7 +55,7 @@ beforeEach(() => {
     { kind: 'ready', demos: [] },
     { kind: 'mesh', side: 0, file: mesh('cat.off') },
     { kind: 'mesh', side: 1, file: mesh('lion.off') },
-    { kind: 'landmarks', file: { pairs: FOUR.map(({ points }) => points) } },
+    { kind: 'landmarks', file: { pairs: POINTS } },
   );
 });
 
@@ -61,7 +63,7 @@ test('gets the meshes, landmarks and options of the page', () => {
   const request = started().posted[0] as RunRequest;
   const text = (bytes: Uint8Array): string => new TextDecoder().decode(bytes);
   expect([text(request.source), text(request.target)]).toEqual(['cat.off', 'lion.off']);
-  expect(JSON.parse(request.landmarks)).toMatchObject({ pairs: FOUR.map(({ points }) => points) });
+  expect(JSON.parse(request.landmarks)).toMatchObject({ pairs: POINTS });
   expect(request.options).toEqual(store.state.options);
   expect(request.module).toBe(CORE);
   expect(store.state.job.kind).toBe('running');
@@ -85,7 +87,7 @@ test('brings what the worker says into the state, up to the map', () => {
   worker.says({ kind: 'found', findings: [SWAPPED] });
   worker.says({ kind: 'relaxes' });
   worker.says({ kind: 'progress', stage: 'relaxation', sentence: 'Relaxing the map', share: 0.5, residual: null, energy: 5 });
-  expect(store.state).toMatchObject({ findings: [SWAPPED], job: { finish: 'possible', energies: [[5]] } });
+  expect(store.state).toMatchObject({ findings: [DOUBT], job: { finish: 'possible', energies: [[5]] } });
   runner.finish();
   expect(store.state.job).toMatchObject({ finish: 'asked' });
   worker.says({ kind: 'done', output: { ...OUTPUT, report: '{"warnings":["few"]}' } });
@@ -104,6 +106,16 @@ test('that is cancelled ends its worker and hears nothing more', () => {
   expect(worker.ended).toBe(true);
   worker.says({ kind: 'done', output: OUTPUT });
   expect(store.state).toMatchObject({ job: { kind: 'idle' }, result: null });
+});
+
+test('is not made where it would make the same map again', () => {
+  started().says({ kind: 'done', output: { ...OUTPUT, report: '{"warnings":[],"stopped_early":false}' } });
+  runner.start();
+  expect(FakeWorker.made).toHaveLength(1);
+  expect(store.state.toast?.sentence).toMatch(/already/);
+  store.dispatch({ kind: 'options', options: { method: 'thesis' } });
+  started();
+  expect(FakeWorker.made).toHaveLength(2);
 });
 
 test('ends the warming of the core, which does not begin during a run', () => {

@@ -1,51 +1,7 @@
-import { existsSync, readFileSync, writeFileSync } from 'node:fs';
-import { basename } from 'node:path';
-import { fileURLToPath } from 'node:url';
+import { readFileSync, writeFileSync } from 'node:fs';
 import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
-
-const ROOT = fileURLToPath(new URL('../../', import.meta.url));
-const SHARED = `${ROOT}../shared`;
-const DATA = `${SHARED}/data`;
-const RUN_TIMEOUT = 200_000;
-
-function needsSharedData(): void {
-  test.skip(
-    !existsSync(SHARED),
-    'the real meshes (../shared/data: cat.off, lion.off, cat-lion.json, open-teapot.off) are not here',
-  );
-}
-
-function fail(message: string): never {
-  throw new Error(message);
-}
-
-async function open(page: Page, hash = ''): Promise<void> {
-  await page.goto(`/${hash}`);
-  await expect(page.locator('body')).toHaveAttribute('data-ready', 'true', { timeout: 120_000 });
-}
-
-/** Drops files on the page as a user does. */
-async function drop(page: Page, paths: readonly string[]): Promise<void> {
-  const files = paths.map((path) => ({ name: basename(path), base64: readFileSync(path).toString('base64') }));
-  const transfer = await page.evaluateHandle((given) => {
-    const data = new DataTransfer();
-    for (const { name, base64 } of given) {
-      const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-      data.items.add(new File([bytes], name));
-    }
-    return data;
-  }, files);
-  await page.dispatchEvent('body', 'dragover', { dataTransfer: transfer });
-  await page.dispatchEvent('body', 'drop', { dataTransfer: transfer });
-}
-
-async function runMap(page: Page): Promise<void> {
-  await page.locator('#run').click();
-  await expect(page.locator('body')).toHaveAttribute('data-state', /done|error/, { timeout: RUN_TIMEOUT });
-  await expect(page.locator('#error')).toBeHidden();
-  await expect(page.locator('#result')).toContainText(/Certified bijective: 0 of [\d,]+ triangles flipped/);
-}
+import { DATA, drop, fail, needsSharedData, open, openDemo, openStep, pairs, ROOT, RUN_TIMEOUT, runMap, showSurface } from './page.ts';
 
 interface Half {
   readonly colours: number;
@@ -124,15 +80,16 @@ test('two real meshes and their landmarks give a certified map', async ({ page }
   await drop(page, [`${DATA}/sumner/lion.off`, `${DATA}/sumner/cat.off`, `${DATA}/pairs/cat-lion.json`]);
   await expect(page.locator('#view-source')).toContainText('cat.off');
   await expect(page.locator('#view-target')).toContainText('lion.off');
-  const rows = page.locator('#landmark-list li');
+  await openStep(page, 'landmarks');
+  const rows = pairs(page);
   await expect(rows.nth(10)).toBeVisible();
-  const pairs = await rows.count();
+  const count = await rows.count();
 
   await runMap(page);
   await page.waitForTimeout(1500);
   await page.screenshot({ path: `${ROOT}test-results/cat-lion.png` });
   await expect(page.locator('#result')).toContainText(/classes? tried/);
-  await page.getByRole('radio', { name: 'Distortion' }).check();
+  await showSurface(page, 'Distortion');
   await expect(page.locator('.scale')).toBeVisible();
   await page.waitForTimeout(1500);
   await page.screenshot({ path: `${ROOT}test-results/cat-lion-distortion.png` });
@@ -142,22 +99,28 @@ test('two real meshes and their landmarks give a certified map', async ({ page }
   }
 
   const download = page.waitForEvent('download');
+  await openStep(page, 'use');
   await page.getByRole('button', { name: 'GLB' }).click();
   expect((await download).suggestedFilename()).toBe('conemap.glb');
 
+  await openStep(page, 'landmarks');
   await pickOn(page, '#view-source', async () => (await page.locator('#landmark-list .pending').count()) === 1);
-  await pickOn(page, '#view-target', async () => (await page.locator('#landmark-list [data-pair]').count()) === pairs + 1);
-  await expect(rows).toHaveCount(pairs + 1);
-  await expect(page.getByText('before your latest changes')).toBeVisible();
-  await page.getByRole('button', { name: `Delete pair ${pairs + 1}`, exact: true }).click();
-  await expect(rows).toHaveCount(pairs);
+  await pickOn(page, '#view-target', async () => (await rows.count()) === count + 1);
+  await expect(rows).toHaveCount(count + 1);
+  await openStep(page, 'map');
+  await expect(page.locator('#result')).toContainText(`This map was made before pair ${count + 1} came.`);
+  await openStep(page, 'landmarks');
+  await page.getByRole('button', { name: `Delete pair ${count + 1}`, exact: true }).click();
+  await expect(rows).toHaveCount(count);
 
   await drop(page, [`${DATA}/bad/open-teapot.off`]);
   await expect(page.locator('#error')).toBeVisible();
   await expect(page.locator('#error')).toContainText('open-teapot.off');
   await expect(page.locator('#error')).toContainText(/surface is open/i);
-  await expect(rows).toHaveCount(pairs);
+  await expect(rows).toHaveCount(count);
+  await openStep(page, 'map');
   await expect(page.locator('#result')).toContainText('Certified');
+  await expect(page.locator('#result')).not.toContainText('was made before');
   await page.getByRole('button', { name: 'Close the message' }).click();
   await expect(page.locator('#error')).toBeHidden();
 });
@@ -172,12 +135,14 @@ test('pairs that do not fit are named and repaired by a click', async ({ page })
   const swapped = test.info().outputPath('cat-lion.json');
   writeFileSync(swapped, JSON.stringify({ ...file, pairs: exchanged }));
   await drop(page, [`${DATA}/sumner/lion.off`, `${DATA}/sumner/cat.off`, swapped]);
-  await expect(page.locator('#landmark-list li')).toHaveCount(file.pairs.length);
+  await openStep(page, 'landmarks');
+  await expect(pairs(page)).toHaveCount(file.pairs.length);
   await page.locator('#run').click();
   await expect(page.locator('#findings')).toContainText('look swapped', { timeout: RUN_TIMEOUT });
   await page.getByRole('button', { name: 'Swap these two pairs' }).first().click();
   await expect(page.locator('#findings')).toBeHidden();
   await expect(page.locator('body')).not.toHaveAttribute('data-state', 'running');
+  await openStep(page, 'landmarks');
   const download = page.waitForEvent('download');
   await page.getByRole('button', { name: 'Save file' }).click();
   const saved = readFileSync(await (await download).path(), 'utf8');
@@ -194,8 +159,7 @@ test('both views are drawn with several samples a pixel', async ({ page }) => {
       return typeof value === 'string' && /swiftshader/i.test(value) ? 'a graphics card' : value;
     });
   });
-  await open(page);
-  await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
+  await openDemo(page, '');
   for (const half of await readHalves(page)) {
     expect(half.covered).toBeGreaterThan(0.03);
     expect(half.colours).toBeGreaterThan(20);
@@ -203,21 +167,21 @@ test('both views are drawn with several samples a pixel', async ({ page }) => {
 });
 
 test('a run can be cancelled and nothing is lost', async ({ page }) => {
-  await open(page);
-  await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
-  const pairs = await page.locator('#landmark-list li').count();
+  await openDemo(page, '');
+  await openStep(page, 'landmarks');
+  const count = await pairs(page).count();
   await page.evaluate(() => {
     document.querySelector<HTMLButtonElement>('#run')?.click();
     document.querySelector<HTMLButtonElement>('#cancel')?.click();
   });
   await expect(page.locator('body')).toHaveAttribute('data-state', 'idle');
   await expect(page.locator('#run')).toBeEnabled();
-  await expect(page.locator('#landmark-list li')).toHaveCount(pairs);
+  await openStep(page, 'landmarks');
+  await expect(pairs(page)).toHaveCount(count);
 });
 
 test('the views come back after a lost graphics context', async ({ page }) => {
-  await open(page);
-  await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
+  await openDemo(page, '');
   const lose = await page.evaluateHandle(() =>
     document.querySelector<HTMLCanvasElement>('#canvas')?.getContext('webgl2')?.getExtension('WEBGL_lose_context'),
   );
@@ -235,9 +199,10 @@ test('the views come back after a lost graphics context', async ({ page }) => {
 test('each demo opens by its link and maps', async ({ page }) => {
   test.setTimeout(900_000);
   await open(page);
+  await openStep(page, 'meshes');
   const ids = await page
-    .locator('#demo-select option')
-    .evaluateAll((options) => options.map((option) => (option as HTMLOptionElement).value).filter((id) => id !== ''));
+    .locator('[data-demo-id]')
+    .evaluateAll((buttons) => buttons.map((button) => (button as HTMLButtonElement).dataset['demoId'] ?? ''));
   expect(ids.length).toBeGreaterThanOrEqual(3);
   for (const id of ids) {
     await page.goto('about:blank');

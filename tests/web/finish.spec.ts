@@ -1,29 +1,17 @@
 /** A run that is asked for its result before it is done. */
-import { existsSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
 import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
-
-const ROOT = fileURLToPath(new URL('../../', import.meta.url));
-const SHARED = `${ROOT}../shared`;
-const DATA = `${SHARED}/data`;
-
-async function open(page: Page): Promise<void> {
-  await page.goto('/');
-  await expect(page.locator('body')).toHaveAttribute('data-ready', 'true', { timeout: 120_000 });
-  await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
-}
+import { DATA, finished, needsSharedData, openDemo, openStep, pairs } from './page.ts';
 
 /** The energy that the result shows. */
 async function energyOf(page: Page): Promise<number> {
-  await expect(page.locator('body')).toHaveAttribute('data-state', /done|error/, { timeout: 200_000 });
-  await expect(page.locator('#error')).toBeHidden();
+  await finished(page);
   await expect(page.locator('#result')).toContainText(/Certified bijective.*: 0 of [\d,]+ triangles flipped/);
-  return Number(/Energy([\d.]+)/.exec(await page.locator('#result').innerText().then((text) => text.replace(/\s/g, '')))?.[1]);
+  return Number(/Energy([\d.]+)/.exec((await page.locator('#details').textContent()) ?? '')?.[1]);
 }
 
 test('Finish now gives a certified map that is marked as finished early', async ({ page }) => {
-  await open(page);
+  await openDemo(page, '');
   await page.locator('#run').click();
   await page.locator('#finish').click();
   await expect(page.locator('#finish')).toBeHidden();
@@ -56,14 +44,15 @@ test('Finish now gives a certified map that is marked as finished early', async 
 });
 
 test('a run on real meshes finishes when asked during its relaxation', async ({ page }) => {
-  test.skip(!existsSync(SHARED), 'the real meshes (../shared/data) are not here');
-  await open(page);
+  needsSharedData();
+  await openDemo(page, '');
   await page.locator('#source-file').setInputFiles(`${DATA}/sumner/horse.off`);
   await expect(page.locator('#view-source')).toContainText('horse.off');
   await page.locator('#target-file').setInputFiles(`${DATA}/sumner/camel.off`);
   await expect(page.locator('#view-target')).toContainText('camel.off');
   await page.locator('#landmark-file').setInputFiles(`${DATA}/pairs/horse-camel.json`);
-  await expect(page.locator('#landmark-list li')).toHaveCount(33, { timeout: 60_000 });
+  await openStep(page, 'landmarks');
+  await expect(pairs(page)).toHaveCount(33, { timeout: 60_000 });
   await page.locator('#run').click();
   await expect(page.locator('.energy-curve')).toBeVisible({ timeout: 120_000 });
   // Every level has a piece of its own, and each falls: y grows downwards.

@@ -1,6 +1,6 @@
 /** Landmark files and picks that cannot be: named at once, and nothing is lost. */
-import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
+import { openDemo, openStep, pairs } from './page.ts';
 
 /** A tetrahedron with its edges' middles: vertices and faces, from 1 as in OBJ files. */
 const VERTICES = ['1 1 1', '1 -1 -1', '-1 1 -1', '-1 -1 1', '1 0 0', '0 0 -1', '0 1 0', '0 0 1', '0 -1 0', '-1 0 0'];
@@ -13,20 +13,15 @@ function tetrahedron(unused: number): string {
   return [...Array<string>(unused).fill('v 9 9 9'), ...VERTICES.map((v) => `v ${v}`), ...faces].join('\n');
 }
 
-async function open(page: Page): Promise<void> {
-  await page.goto('/#demo=horse-cat');
-  await expect(page.locator('body')).toHaveAttribute('data-ready', 'true', { timeout: 120_000 });
-  await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
-}
-
 function file(name: string, text: string): { name: string; mimeType: string; buffer: Buffer } {
   return { name, mimeType: 'application/octet-stream', buffer: Buffer.from(text) };
 }
 
 test('landmark files that cannot be used are refused with the numbers of their pairs', async ({ page }) => {
-  await open(page);
-  const rows = page.locator('#landmark-list [data-pair]');
-  const pairs = await rows.count();
+  await openDemo(page);
+  await openStep(page, 'landmarks');
+  const rows = pairs(page);
+  const count = await rows.count();
   const cases = [
     ['[[1, 2], [3, 4], [1, 5], [6, 7]]', /^wrong\.json: Landmark pairs 1 and 3 \(the first is 1\) have the same point of the source\.$/],
     ['[[1, 2], [3, 999999], [8, 5], [6, 7]]', /^wrong\.json: Landmark pair 2 .* names vertex 999999, but the target has [\d]+ vertices\. Load the meshes/],
@@ -37,14 +32,15 @@ test('landmark files that cannot be used are refused with the numbers of their p
   for (const [list, sentence] of cases) {
     await page.locator('#landmark-file').setInputFiles(file('wrong.json', `{"pairs": ${list}}`));
     await expect(page.locator('#error p')).toHaveText(sentence);
-    await expect(rows).toHaveCount(pairs);
+    await expect(rows).toHaveCount(count);
     await expect(page.locator('#view-source')).toContainText('horse-cat-source.obj');
     await expect(page.locator('#run')).toBeEnabled();
   }
 });
 
 test('landmarks speak of the vertices of the file', async ({ page }) => {
-  await open(page);
+  await openDemo(page);
+  await openStep(page, 'landmarks');
   await page.locator('#source-file').setInputFiles(file('a.obj', tetrahedron(1)));
   await expect(page.locator('#view-source')).toContainText('a.obj');
   await page.locator('#target-file').setInputFiles(file('b.obj', tetrahedron(1)));
@@ -53,19 +49,21 @@ test('landmarks speak of the vertices of the file', async ({ page }) => {
   await expect(page.locator('#error p')).toHaveText(/^unused\.json: Landmark pair 3 .* names vertex 0, which no face of the source uses\./);
   const text = '{"source": "a.obj", "target": "b.obj", "pairs": [[1, 1], [2, 2], [3, 3], [4, 4]]}';
   await page.locator('#landmark-file').setInputFiles(file('fine.json', text));
-  await expect(page.locator('#landmark-list [data-pair]')).toHaveCount(4);
+  await openStep(page, 'landmarks');
+  await expect(pairs(page)).toHaveCount(4);
 
   // A mesh of the same name without that many vertices: the landmarks stay, and are named.
   const bare = [...VERTICES.slice(0, 4).map((v) => `v ${v}`), 'f 1 2 3', 'f 1 4 2', 'f 1 3 4', 'f 2 4 3'].join('\n');
   await page.locator('#target-file').setInputFiles(file('b.obj', bare));
   await expect(page.locator('#error p')).toHaveText(/^Landmark pair 4 .* names vertex 4, but the target has 4 vertices\. The landmarks are kept/);
-  await expect(page.locator('#landmark-list [data-pair]')).toHaveCount(4);
+  await expect(pairs(page)).toHaveCount(4);
   await page.locator('#target-file').setInputFiles(file('b.obj', tetrahedron(1)));
   await expect(page.locator('#error')).toBeHidden();
 
   await page.locator('#run').click();
   await expect(page.locator('#result')).toContainText(/Certified bijective: 0 of/, { timeout: 60_000 });
   const download = page.waitForEvent('download');
+  await openStep(page, 'use');
   await page.getByRole('button', { name: 'CSV', exact: true }).click();
   const stream = await (await download).createReadStream();
   let csv = '';
@@ -78,11 +76,12 @@ test('landmarks speak of the vertices of the file', async ({ page }) => {
   expect(lines.slice(2).every((line) => !line.includes(',,'))).toBe(true);
 });
 
-test('a point that is picked twice is named', async ({ page }) => {
-  await open(page);
+test('a click on a pin takes it and picks nothing', async ({ page }) => {
+  await openDemo(page);
+  await openStep(page, 'landmarks');
   await page.getByRole('button', { name: 'Clear all' }).click();
-  const pairs = page.locator('#landmark-list [data-pair]');
-  const pending = page.locator('#landmark-list .pending');
+  const rows = pairs(page);
+  const raised = page.locator('#view-source .labels .raised');
   const middle = async (view: string): Promise<void> => {
     const box = await page.locator(view).boundingBox();
     expect(box).not.toBeNull();
@@ -92,22 +91,28 @@ test('a point that is picked twice is named', async ({ page }) => {
     await page.waitForTimeout(600);
   };
   await middle('#view-source');
-  await expect(pending).toHaveCount(1);
   await middle('#view-target');
-  await expect(pairs).toHaveCount(1);
+  await expect(rows).toHaveCount(1);
+  await page.locator('#view-source').focus();
+  await page.keyboard.press('Escape');
+  await page.mouse.move(5, 5);
+  await expect(raised).toHaveCount(0);
+  // The pin stands where the first click was.
   await middle('#view-source');
-  await expect(page.locator('#error p')).toHaveText('This point of the source belongs to pair 1 already. Pick another one.');
-  await expect(pending).toHaveCount(0);
-  await expect(pairs).toHaveCount(1);
+  await page.mouse.move(5, 5);
+  await expect(raised).toHaveText('1');
+  await expect(page.locator('#error')).toBeHidden();
+  await expect(rows).toHaveCount(1);
 });
 
 test('the list has the colours of the markers, each another', async ({ page }) => {
-  await open(page);
+  await openDemo(page);
+  await openStep(page, 'landmarks');
   const colours = await page
     .locator('#landmark-list .swatch')
     .evaluateAll((swatches) => swatches.map((swatch) => getComputedStyle(swatch).backgroundColor));
   expect(colours.length).toBeGreaterThan(3);
   expect(new Set(colours).size).toBe(colours.length);
   // The first landmark is red, as its marker.
-  expect(colours[0]).toMatch(/^color\(srgb-linear 0\.81\d* 0\.006\d* 0\.006\d*\)$/);
+  expect(colours[0]).toMatch(/^color\(srgb-linear 0\.67\d* 0\.019\d* 0\.046\d*\)$/);
 });

@@ -39,8 +39,10 @@ export default defineConfig({
   reporter: 'list',
   use: {
     baseURL: address,
-    viewport: { width: 1000, height: 640 },
+    viewport: { width: 1280, height: 800 },
     actionTimeout: 60_000,
+    // The page's own requests are what most tests look at; those of visits without a network allow it.
+    serviceWorkers: 'block',
     launchOptions: {
       ...(existsSync(chromium) ? { executablePath: chromium } : {}),
       args: [

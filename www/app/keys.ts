@@ -1,14 +1,37 @@
 /** Keys of the whole page; those of a view are the viewer's. */
 import type { Store } from '../store/store.ts';
 
-/** Ctrl+Z takes back the last change of the landmarks, but in a text field what was typed there. */
+/** Whether keys are typed into this element. */
+function isTyped(target: EventTarget | null): boolean {
+  return (
+    target instanceof HTMLTextAreaElement ||
+    (target instanceof HTMLInputElement && ['text', 'search', 'number', 'url'].includes(target.type)) ||
+    (target instanceof HTMLElement && target.isContentEditable)
+  );
+}
+
+/** What a key asks of the history: Ctrl+Z, and Ctrl+Shift+Z or Ctrl+Y, on a Mac with Cmd. */
+export function moveOf(event: Pick<KeyboardEvent, 'key' | 'ctrlKey' | 'metaKey' | 'shiftKey' | 'altKey'>): 'undo' | 'redo' | null {
+  if (!(event.ctrlKey || event.metaKey) || event.altKey) {
+    return null;
+  }
+  switch (event.key.toLowerCase()) {
+    case 'z':
+      return event.shiftKey ? 'redo' : 'undo';
+    case 'y':
+      return event.shiftKey ? null : 'redo';
+    default:
+      return null;
+  }
+}
+
+/** The keys of the history go through the steps of the work, but in a text field through what was typed there. */
 export function listenForUndo(store: Store): void {
   window.addEventListener('keydown', (event) => {
-    const typing = event.target instanceof HTMLInputElement && event.target.type === 'text';
-    const undoes = (event.ctrlKey || event.metaKey) && !event.shiftKey && event.key.toLowerCase() === 'z';
-    if (undoes && !typing && store.state.job.kind !== 'running') {
+    const kind = moveOf(event);
+    if (kind !== null && !isTyped(event.target) && store.state.job.kind !== 'running') {
       event.preventDefault();
-      store.dispatch({ kind: 'undo' });
+      store.dispatch({ kind });
     }
   });
 }

@@ -2,9 +2,9 @@
 import type { NamedBytes } from '../files.ts';
 import { eventsOf, FileRefused, landmarkFile, meshFile } from '../files.ts';
 import type { Side } from '../landmarks.ts';
-import { SIDES } from '../landmarks.ts';
 import { SENTENCES } from '../messages.ts';
 import type { Event } from '../store/events.ts';
+import { heldMeshes } from '../store/history.ts';
 import type { Demo, State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { buildDemo } from '../wasm/conemap.js';
@@ -13,7 +13,8 @@ import { perform } from './task.ts';
 /** In bytes. The core's memory ends at 4 GiB, and holds a file beside the mesh that is made of it. */
 const LARGEST_FILE = 2 ** 30;
 
-async function bytesOf(file: File): Promise<NamedBytes> {
+/** The bytes of a file. Throws {@link FileRefused}. */
+export async function bytesOf(file: File): Promise<NamedBytes> {
   if (file.size > LARGEST_FILE) {
     throw new FileRefused(`${file.name} ${SENTENCES.tooLarge}`);
   }
@@ -48,7 +49,8 @@ export async function openFiles(store: Store, files: readonly File[], side: Side
   );
 }
 
-function demoEvents(demo: Demo): Event[] {
+/** The events that bring a demo onto the page. */
+export function demoEvents(demo: Demo): Event[] {
   const built = buildDemo(demo.id);
   if (built === undefined) {
     throw new FileRefused(SENTENCES.noDemo);
@@ -65,46 +67,45 @@ function demoEvents(demo: Demo): Event[] {
   ];
 }
 
-/** Opens a demo and puts its link into the address. */
-export async function openDemo(store: Store, id: string): Promise<void> {
+/** Opens a demo; `false` where it does not come onto the page, because there is none or because of something else that came. */
+export async function openDemo(store: Store, id: string): Promise<boolean> {
   const demo = store.state.demos.find((candidate) => candidate.id === id);
   if (demo === undefined) {
     store.dispatch({ kind: 'error', sentence: SENTENCES.noDemo });
-    return;
+    return false;
   }
   if (store.state.job.kind === 'running') {
     store.dispatch({ kind: 'error', sentence: SENTENCES.whileRunning });
-    return;
+    return false;
   }
-  await perform(
+  const outcome = await perform(
     store,
     `Building the demo “${demo.title}”…`,
     () => demo,
     () => {
       store.dispatch(...demoEvents(demo));
-      history.replaceState(null, '', `#demo=${encodeURIComponent(id)}`);
     },
   );
+  return outcome === 'done';
 }
 
-/** The demo that the page's address names. */
-export function linkedDemo(): string | null {
-  return new URLSearchParams(location.hash.slice(1)).get('demo');
-}
-
-/** Takes the demo's link out of the address when other meshes have come. */
-export function dropLink(state: State, previous: State): void {
-  if (previous.demo !== null && state.demo === null) {
-    history.replaceState(null, '', location.pathname + location.search);
+/** Keeps the demo's link in the address while the demo is on the page, and takes it out when other meshes have come. */
+export function followDemo(state: State, previous: State): void {
+  if (previous.demo !== state.demo) {
+    const link = state.demo === null ? '' : `#demo=${encodeURIComponent(state.demo.id)}`;
+    history.replaceState(null, '', location.pathname + location.search + link);
   }
 }
 
-/** Gives back the core's memory of meshes that are shown no more. */
-export function freeReplaced(state: State, previous: State): void {
-  for (const side of SIDES) {
-    const old = previous.meshes[side];
-    if (old !== null && old !== state.meshes[side]) {
-      old.mesh.free();
+/** Gives back the core's memory of meshes that no step leads back to. */
+export function freeForgotten(state: State, previous: State): void {
+  if (state.history === previous.history && state.meshes === previous.meshes) {
+    return;
+  }
+  const held = heldMeshes(state.history, state);
+  for (const file of heldMeshes(previous.history, previous)) {
+    if (!held.has(file)) {
+      file.mesh.free();
     }
   }
 }

@@ -1,27 +1,26 @@
 /** Does what a finding about the landmarks asks for. */
 import { mirroredTarget } from '../files.ts';
-import type { Finding } from '../report.ts';
-import { landmarkFileOf } from '../store/landmark-file.ts';
+import type { Doubt } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import type { Runner } from './run.ts';
 import { lettered } from './suggest.ts';
 import { sentenceOf } from './task.ts';
 
 /** Repairs; a run with the old pairs ends. `lookAtPair` brings a pair before the user's eyes. */
-export function repair(store: Store, runner: Runner, lookAtPair: (index: number) => void, finding: Finding): void {
+export function repair(store: Store, runner: Runner, lookAtPair: (id: number) => void, finding: Doubt): void {
   const { state, dispatch } = store;
   try {
     switch (finding.repair) {
       case 'swap':
         runner.cancel();
-        dispatch({ kind: 'targets-exchanged', indices: finding.pairs });
+        dispatch({ kind: 'targets-exchanged', ids: finding.ids });
         break;
       case 'mirror_target': {
         const target = state.meshes[1];
         if (target !== null) {
-          const events = mirroredTarget(target, landmarkFileOf(state));
+          const event = mirroredTarget(target, state.pairs);
           runner.cancel();
-          dispatch(...events);
+          dispatch(event);
         }
         break;
       }
@@ -32,7 +31,10 @@ export function repair(store: Store, runner: Runner, lookAtPair: (index: number)
         }
         break;
       case 'check':
-        lookAtPair(finding.pairs[0] ?? 0);
+        if (finding.ids[0] !== undefined) {
+          dispatch({ kind: 'pair-selected', id: finding.ids[0] });
+          lookAtPair(finding.ids[0]);
+        }
         break;
     }
   } catch (thrown) {

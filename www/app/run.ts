@@ -1,10 +1,10 @@
 /** The run of the page: starts it, ends it, asks it for its result. */
 import { startRun, warmUp } from '../compute/client.ts';
 import type { Run, RunListener } from '../compute/client.ts';
-import { failureSentence } from '../messages.ts';
+import { failureSentence, SENTENCES } from '../messages.ts';
 import type { Report } from '../report.ts';
 import { landmarkFileOf } from '../store/landmark-file.ts';
-import { canRun } from '../store/readiness.ts';
+import { canRun, needsRun } from '../store/readiness.ts';
 import type { Store } from '../store/store.ts';
 
 /** Holds the workers: beside the store the only thing of the page that changes. */
@@ -36,6 +36,10 @@ export class Runner {
     const { state, dispatch } = this.#store;
     const [source, target] = state.meshes;
     if (this.#core === null || source === null || target === null || !canRun(state)) {
+      return;
+    }
+    if (!needsRun(state)) {
+      dispatch({ kind: 'toast', sentence: SENTENCES.upToDate, undo: false });
       return;
     }
     this.#endWarmUp();

@@ -45,8 +45,8 @@ export async function suggest(store: Store, side: Side): Promise<void> {
       if (file !== state.meshes[side]) {
         return;
       }
-      const marked = pointsOf(state, side).concat(state.pending?.side === side ? state.queue : []);
-      const json = suggestLandmarks(file.mesh, JSON.stringify(marked.filter((point) => point !== null)), SUGGESTIONS);
+      const marked = pointsOf(state, side).filter((point) => point !== null);
+      const json = suggestLandmarks(file.mesh, JSON.stringify(marked), SUGGESTIONS);
       const suggestions = lettered(JSON.parse(json) as Found[]);
       store.dispatch({ kind: 'suggested', side, suggestions });
       if (suggestions.length === 0) {

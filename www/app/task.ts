@@ -24,6 +24,9 @@ export function sentenceOf(thrown: unknown): string {
   return thrown instanceof FileRefused ? thrown.message : failureSentence(failureOf(thrown));
 }
 
+/** What became of a work: done, broken off with a sentence, or left out because another one had begun. */
+export type Outcome = 'done' | 'failed' | 'left-out';
+
 /**
  * Prepares something, then works on it. The sentence is there to read before the work holds the page up. Where another
  * task has begun meanwhile the work is left out, so that a slow one does not overwrite a later one.
@@ -33,18 +36,21 @@ export async function perform<T>(
   sentence: string,
   prepare: () => Promise<T> | T,
   work: (prepared: T) => void,
-): Promise<void> {
+): Promise<Outcome> {
   const task: Task = { sentence };
   store.dispatch({ kind: 'task-begun', task });
   try {
     const prepared = await prepare();
     await painted();
     const { job } = store.state;
-    if (job.kind === 'busy' && job.task === task) {
-      work(prepared);
+    if (job.kind !== 'busy' || job.task !== task) {
+      return 'left-out';
     }
+    work(prepared);
+    return 'done';
   } catch (thrown) {
     store.dispatch({ kind: 'error', sentence: sentenceOf(thrown) });
+    return 'failed';
   } finally {
     store.dispatch({ kind: 'task-ended', task });
   }

@@ -3,35 +3,105 @@ import type { Progress, RunOutput } from '../compute/messages.ts';
 import type { RunOptions } from '../report.ts';
 import type { LandmarkFile, Side, Suggestion, SurfacePoint } from '../landmarks.ts';
 import type { Finding, Report } from '../report.ts';
+import type { History } from './history.ts';
 import type { Task } from './job.ts';
-import type { Demo, MeshFile, Style } from './state.ts';
+import type { Receiving } from './receiving.ts';
+import type { SidePoint } from './side-marks.ts';
+import type { Axis, Camera, Demo, MeshFile, Offer, Style, Ui, Work } from './state.ts';
 
 export type Event =
+  /** The core is there. */
   | { readonly kind: 'ready'; readonly demos: readonly Demo[] }
+  /** Work other than a run begins. */
   | { readonly kind: 'task-begun'; readonly task: Task }
+  /** It is over. */
   | { readonly kind: 'task-ended'; readonly task: Task }
+
+  // Steps: undo takes them back. Events that are dispatched together are one step.
+
+  /** A mesh comes in the place of a side's. */
   | { readonly kind: 'mesh'; readonly side: Side; readonly file: MeshFile }
+  /** The target's mirror image comes in its place; `points` are the pairs' points on it, in their order. */
+  | { readonly kind: 'mirrored'; readonly file: MeshFile; readonly points: readonly (SurfacePoint | null)[] }
+  /** The source becomes the target and the other way round, with their points. */
+  | { readonly kind: 'swap-meshes' }
+  /** The pairs of a file come in the place of the present ones. */
   | { readonly kind: 'landmarks'; readonly file: LandmarkFile }
+  /** The points of a file for one mesh alone come in the place of those on it; `name` is the file's. */
+  | { readonly kind: 'side-marks'; readonly side: Side; readonly points: readonly SidePoint[]; readonly name: string }
+  /** The meshes and landmarks that came before it are this demo's. */
   | { readonly kind: 'demo'; readonly demo: Demo }
-  | { readonly kind: 'picked'; readonly side: Side; readonly point: SurfacePoint }
+  /** A point is placed: it completes the pair that waits for it, or begins one. */
+  | { readonly kind: 'point-picked'; readonly side: Side; readonly point: SurfacePoint }
+  /** A pair's point is elsewhere; all moves with one `gesture` number are one step. */
+  | { readonly kind: 'point-moved'; readonly id: number; readonly side: Side; readonly point: SurfacePoint; readonly gesture: number }
+  /** The half pair whose turn it is goes; without one, nothing is selected any more. */
   | { readonly kind: 'pick-dropped' }
-  | { readonly kind: 'suggested'; readonly side: Side; readonly suggestions: readonly Suggestion[] }
+  /** All suggestions of a side become half pairs. */
   | { readonly kind: 'suggestions-taken'; readonly side: Side }
-  | { readonly kind: 'pair-deleted'; readonly index: number }
-  | { readonly kind: 'pair-labelled'; readonly index: number; readonly label: string }
+  | { readonly kind: 'pair-deleted'; readonly id: number }
+  | { readonly kind: 'pair-labelled'; readonly id: number; readonly label: string }
+  | { readonly kind: 'pair-locked'; readonly id: number; readonly locked: boolean }
+  /** A pair comes to another place of the list, from 0. */
+  | { readonly kind: 'pair-moved'; readonly id: number; readonly to: number }
+  /** All pairs go but the locked ones. */
   | { readonly kind: 'pairs-cleared' }
-  | { readonly kind: 'targets-exchanged'; readonly indices: readonly number[] }
-  | { readonly kind: 'undo' }
+  /** Two pairs get each other's target. */
+  | { readonly kind: 'targets-exchanged'; readonly ids: readonly number[] }
   | { readonly kind: 'options'; readonly options: Partial<RunOptions> }
+  /** Kept work comes: with its own steps where nothing was done on the page, else as a step. */
+  | { readonly kind: 'restored'; readonly work: Work; readonly history: History; readonly ui: Partial<Ui> }
+  /** The last step is taken back. */
+  | { readonly kind: 'undo' }
+  /** The step that was taken back last is made again. */
+  | { readonly kind: 'redo' }
+  /** What is on the page is the first state: there is nothing to go back to. */
+  | { readonly kind: 'history-begun' }
+
+  // How the page is looked at.
+
+  /** `null` selects none. */
+  | { readonly kind: 'pair-selected'; readonly id: number | null }
+  /** `null` when the mouse leaves. */
+  | { readonly kind: 'pair-hovered'; readonly id: number | null }
+  /** A step is chosen, the panel folded, another theme or link of the cameras chosen. */
+  | { readonly kind: 'ui'; readonly ui: Partial<Pick<Ui, 'step' | 'theme' | 'panel' | 'link'>> }
   | { readonly kind: 'style'; readonly style: Partial<Style> }
+  /** A mesh is turned upright. */
+  | { readonly kind: 'up'; readonly side: Side; readonly axis: Axis }
+  /** A camera has come to rest; `null` as at the start. */
+  | { readonly kind: 'camera-moved'; readonly side: Side; readonly camera: Camera | null }
+  /** Places of one mesh that are worth a landmark, in the place of the earlier ones. */
+  | { readonly kind: 'suggested'; readonly side: Side; readonly suggestions: readonly Suggestion[] }
+
+  // The run.
+
   | { readonly kind: 'run-started' }
   | { readonly kind: 'run-progress'; readonly progress: Progress }
+  /** A relaxation begins: energies do not compare with those before. */
   | { readonly kind: 'run-relaxes' }
+  /** From now on the run can be asked to finish. */
   | { readonly kind: 'run-finishable' }
+  /** It is asked. */
   | { readonly kind: 'run-finish' }
+  /** Doubts about the landmarks of the run. */
   | { readonly kind: 'run-found'; readonly findings: readonly Finding[] }
   | { readonly kind: 'run-done'; readonly output: RunOutput; readonly report: Report }
   | { readonly kind: 'run-failed'; readonly sentence: string }
   | { readonly kind: 'run-cancelled' }
+
+  // What the page says.
+
+  /** A sentence that goes by itself, with a button that takes the last step back where `undo` is true. */
+  | { readonly kind: 'toast'; readonly sentence: string; readonly undo: boolean }
+  | { readonly kind: 'toast-closed' }
+  /** The link that was opened waits for something, or for nothing any more. */
+  | { readonly kind: 'receiving'; readonly receiving: Receiving }
+  /** There is a newer build of the page. */
+  | { readonly kind: 'outdated' }
+  /** Work of an earlier visit can be continued. */
+  | { readonly kind: 'offered'; readonly offer: Offer }
+  /** The offer was answered. */
+  | { readonly kind: 'offer-closed' }
   | { readonly kind: 'error'; readonly sentence: string }
   | { readonly kind: 'error-closed' };

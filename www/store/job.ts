@@ -1,5 +1,6 @@
 /** What the page does: one thing at a time, so that no run starts while files are being read. */
 import type { Progress } from '../compute/messages.ts';
+import type { Work } from './work.ts';
 
 /** How the last run ended; `idle` before the first one and after the meshes changed. */
 export interface Rest {
@@ -22,6 +23,8 @@ export interface Busy {
 /** A run under way. */
 export interface Running {
   readonly kind: 'running';
+  /** What it makes a map of; the page may have changed since. */
+  readonly inputs: Work;
   readonly progress: Progress | null;
   /** Whether it can be asked to finish, and whether it was. */
   readonly finish: 'no' | 'possible' | 'asked';
@@ -31,7 +34,10 @@ export interface Running {
 
 export type Job = Rest | Busy | Running;
 
-export const STARTED: Running = { kind: 'running', progress: null, finish: 'no', energies: [] };
+/** A run of this work that has just begun. */
+export function started(inputs: Work): Running {
+  return { kind: 'running', inputs, progress: null, finish: 'no', energies: [] };
+}
 
 /** A task begins, in place of another one; during a run none does. */
 export function begun(job: Job, task: Task): Job {
@@ -52,18 +58,18 @@ export function ended(job: Job, task: Task): Job {
   return job.kind === 'busy' && job.task === task ? job.then : job;
 }
 
-/** What was made is gone: nothing is left of the last run. */
-export function forgotten(job: Job): Job {
-  const idle = { kind: 'idle' } as const;
+/** Other meshes have come; `isMapped` where the last map is theirs. A run goes on until somebody ends it. */
+export function settled(job: Job, isMapped: boolean): Job {
+  const rest: Rest = { kind: isMapped ? 'done' : 'idle' };
   switch (job.kind) {
     case 'running':
       return job;
     case 'busy':
-      return { ...job, then: idle };
+      return { ...job, then: rest };
     case 'idle':
     case 'done':
     case 'error':
-      return idle;
+      return rest;
   }
 }
 

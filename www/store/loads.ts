@@ -1,41 +1,74 @@
-/** Changes by files: a mesh of one side, a landmark file. */
-import type { LandmarkFile, Side } from '../landmarks.ts';
-import { forgotten } from './job.ts';
+/** Changes by files: a mesh of one side, its mirror image, an exchange of both, a landmark file. */
+import type { LandmarkFile, Pair, Side, SurfacePoint } from '../landmarks.ts';
 import { baseName } from './landmark-file.ts';
-import { withPairs, withSuggestions } from './pairs.ts';
-import type { MeshFile, State } from './state.ts';
+import { withNewPairs } from './pairs.ts';
+import type { State } from './state.ts';
+import type { MeshFile } from './work.ts';
+import { upOf } from './work.ts';
 
-/** A mesh in its place. Landmarks stay where the side was empty, and for the mesh that their file names. */
+/** One of two replaced. */
+function withSide<T>(both: readonly [T, T], side: Side, one: T): readonly [T, T] {
+  return side === 0 ? [one, both[1]] : [both[0], one];
+}
+
+/** The pairs without their points on one side; those that have no other go. */
+function halves(pairs: readonly Pair[], lost: Side): Pair[] {
+  return pairs
+    .map((pair): Pair => ({ ...pair, points: withSide(pair.points, lost, null) }))
+    .filter(({ points }) => points.some((point) => point !== null));
+}
+
+/**
+ * A mesh in its place. Landmarks stay where the side was empty, and for the mesh that their file names; else the points of the
+ * other side stay and wait for new partners, unless they are a demo's.
+ */
 export function withMesh(state: State, side: Side, file: MeshFile): State {
-  const meshes: [MeshFile | null, MeshFile | null] = [...state.meshes];
-  const first = meshes[side] === null;
-  meshes[side] = file;
-  const keeps = first || state.named[side] === file.name;
+  const keeps = state.meshes[side] === null || state.named[side] === file.name;
+  const rest = state.demo === null ? halves(state.pairs, side) : [];
   return {
     ...state,
-    meshes,
+    meshes: withSide(state.meshes, side, file),
+    up: withSide(state.up, side, upOf(file.name)),
     demo: null,
-    pairs: keeps ? state.pairs : [],
-    named: keeps ? state.named : [null, null],
+    pairs: keeps ? state.pairs : rest,
+    named: keeps ? state.named : rest.length > 0 ? withSide(state.named, side, null) : [null, null],
     groundTruth: keeps ? state.groundTruth : null,
-    pending: null,
-    queue: [],
-    suggestions: withSuggestions(state, side, []),
-    history: [],
-    result: null,
-    findings: [],
-    job: forgotten(state.job),
-    style: { ...state.style, surface: 'shaded' },
+  };
+}
+
+/** The target's mirror image in its place; the pairs stay, with their points on it. */
+export function withMirrored(state: State, file: MeshFile, points: readonly (SurfacePoint | null)[]): State {
+  return {
+    ...state,
+    meshes: withSide(state.meshes, 1, file),
+    demo: null,
+    pairs: state.pairs.map((pair, index) => ({ ...pair, points: withSide(pair.points, 1, points[index] ?? null) })),
+    named: withSide(state.named, 1, file.name),
+    groundTruth: null,
+  };
+}
+
+/** Source and target exchanged, with all that belongs to them. */
+export function withSwap(state: State): State {
+  const swapped = <T>([source, target]: readonly [T, T]): readonly [T, T] => [target, source];
+  if (state.meshes.every((file) => file === null) && state.pairs.length === 0) {
+    return state;
+  }
+  return {
+    ...state,
+    meshes: swapped(state.meshes),
+    up: swapped(state.up),
+    demo: null,
+    pairs: state.pairs.map((pair) => ({ ...pair, points: swapped(pair.points) })),
+    named: swapped(state.named),
   };
 }
 
 /** The pairs of a file in place of the present ones. */
 export function withLandmarks(state: State, file: LandmarkFile): State {
-  const pairs = file.pairs.map((points, index) => ({ points, label: file.labels?.[index] ?? '' }));
+  const made = file.pairs.map((points, index) => ({ points, label: file.labels?.[index] ?? '' }));
   return {
-    ...withPairs(state, pairs),
-    pending: null,
-    queue: [],
+    ...withNewPairs({ ...state, pairs: [] }, made),
     named: [
       file.source === undefined ? null : baseName(file.source),
       file.target === undefined ? null : baseName(file.target),

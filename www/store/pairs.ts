@@ -1,14 +1,26 @@
-/** Changes of the landmark pairs: picks, points that wait for their partner, suggestions, undo. */
+/** Changes of the landmark pairs. A change that is refused says why and leaves them as they are. */
 import type { Pair, Side, Suggestion, SurfacePoint } from '../landmarks.ts';
-import { pointTaken } from '../messages.ts';
+import { isSamePoint, otherSide, rounded } from '../landmarks.ts';
+import { pairLocked, pointTaken, SENTENCES } from '../messages.ts';
 import type { State } from './state.ts';
+import { asked, waitingFor } from './waiting.ts';
 
-/** More steps than anybody takes back; it bounds the memory of a page that stays open for days. */
-const MAX_HISTORY = 200;
+/** Points by side, one of them exchanged. */
+function withPoint(points: Pair['points'], side: Side, point: SurfacePoint | null): Pair['points'] {
+  return side === 0 ? [point, points[1]] : [points[0], point];
+}
 
-/** Other pairs; the present ones can be had back. */
-export function withPairs(state: State, pairs: readonly Pair[]): State {
-  return { ...state, pairs, findings: [], history: [...state.history, state.pairs].slice(-MAX_HISTORY) };
+/** A pair in place of the one with its id. */
+function replaced(pairs: readonly Pair[], pair: Pair): readonly Pair[] {
+  return pairs.map((other) => (other.id === pair.id ? pair : other));
+}
+
+function pairOf(state: State, id: number): Pair | null {
+  return state.pairs.find((pair) => pair.id === id) ?? null;
+}
+
+function selecting(state: State, selected: number | null): State {
+  return state.ui.selected === selected ? state : { ...state, ui: { ...state.ui, selected } };
 }
 
 /** The suggestions of one side replaced. */
@@ -16,79 +28,142 @@ export function withSuggestions(state: State, side: Side, suggestions: readonly 
   return side === 0 ? [suggestions, state.suggestions[1]] : [state.suggestions[0], suggestions];
 }
 
+/** Pairs made of points, with the next ids and numbers. */
+export function withNewPairs(state: State, made: readonly Pick<Pair, 'points' | 'label'>[]): State {
+  const highest = state.pairs.reduce((most, { number }) => Math.max(most, number), 0);
+  const pairs = made.map(({ points, label }, index) => ({
+    id: state.nextId + index,
+    number: highest + 1 + index,
+    points,
+    label,
+    locked: false,
+  }));
+  return { ...state, pairs: [...state.pairs, ...pairs], nextId: state.nextId + made.length };
+}
+
+/** The pair that holds a point of a side, other than `except`. */
+function holder(state: State, side: Side, point: SurfacePoint, except: number | null): Pair | null {
+  return state.pairs.find(({ id, points }) => id !== except && isSamePoint(points[side], point)) ?? null;
+}
+
 /** A point of one side is picked: half a pair, or the other half of one. */
-export function withPick(state: State, side: Side, point: SurfacePoint): State {
-  const { pending } = state;
-  const isSame = (other: SurfacePoint): boolean => JSON.stringify(other) === JSON.stringify(point);
-  const pair = state.pairs.findIndex(({ points }) => isSame(points[side]));
-  if (pair >= 0) {
-    return { ...state, error: pointTaken(side, pair + 1) };
+export function withPick(state: State, side: Side, picked: SurfacePoint): State {
+  const point = rounded(picked);
+  const other = holder(state, side, point, null);
+  if (other !== null) {
+    return { ...state, error: pointTaken(side, other.number) };
   }
   const left = state.suggestions[side].filter((suggestion) => suggestion.point !== point);
   const taken = left.length < state.suggestions[side].length;
   const suggestions = taken ? withSuggestions(state, side, left) : state.suggestions;
-  if (pending === null || pending.side === side) {
-    return { ...state, suggestions, pending: { side, point }, error: null };
+  const present = { ...state, suggestions, error: null };
+  const half = waitingFor(state, side);
+  if (half === null) {
+    // Earlier halves have their turn first.
+    const turn = asked(state);
+    const begun = withNewPairs(present, [{ points: withPoint([null, null], side, point), label: '' }]);
+    return selecting(begun, turn?.side === otherSide(side) ? turn.pair.id : state.nextId);
   }
-  const points: readonly [SurfacePoint, SurfacePoint] = side === 1 ? [pending.point, point] : [point, pending.point];
-  return {
-    ...withPairs(state, [...state.pairs, { points, label: '' }]),
-    suggestions,
-    error: null,
-    ...nextInQueue(state, pending.side),
-  };
+  const pairs = replaced(state.pairs, { ...half, points: withPoint(half.points, side, point) });
+  const next = pairs.find(({ points }) => points[side] === null);
+  return selecting({ ...present, pairs }, next?.id ?? half.id);
 }
 
-/** The next point of a side that waits for its partner. */
-function nextInQueue(state: State, side: Side): Pick<State, 'pending' | 'queue'> {
-  const [point, ...queue] = state.queue;
-  return { pending: point === undefined ? null : { side, point }, queue };
+/** A point of a pair is elsewhere on its surface. */
+export function withPointMoved(state: State, id: number, side: Side, moved: SurfacePoint): State {
+  const pair = pairOf(state, id);
+  const point = rounded(moved);
+  if (pair === null || isSamePoint(pair.points[side], point)) {
+    return state;
+  }
+  if (pair.locked) {
+    return { ...state, error: pairLocked(pair.number) };
+  }
+  const other = holder(state, side, point, id);
+  if (other !== null) {
+    return { ...state, error: pointTaken(side, other.number) };
+  }
+  const pairs = replaced(state.pairs, { ...pair, points: withPoint(pair.points, side, point) });
+  return selecting({ ...state, pairs, error: null }, id);
 }
 
-/** The pending point given up; the next one has its turn. */
+/** The half pair whose turn it is given up; the next one has its turn. */
 export function withPickDropped(state: State): State {
-  return state.pending === null ? state : { ...state, ...nextInQueue(state, state.pending.side) };
+  const turn = asked(state);
+  if (turn === null) {
+    return selecting(state, null);
+  }
+  const pairs = state.pairs.filter((pair) => pair !== turn.pair);
+  const next = waitingFor({ pairs, ui: state.ui }, turn.side);
+  return selecting({ ...state, pairs }, next?.id ?? null);
 }
 
-/** All suggestions of a side, the first one to be paired now. */
+/** All suggestions of a side as half pairs, the first one to be completed now. */
 export function withAllTaken(state: State, side: Side): State {
-  const points = state.suggestions[side].map((suggestion) => suggestion.point);
-  const waiting = state.pending?.side === side ? [state.pending.point, ...state.queue] : [];
-  const queued = { ...state, queue: [...waiting, ...points] };
-  return { ...queued, suggestions: withSuggestions(state, side, []), ...nextInQueue(queued, side) };
+  const free = state.suggestions[side].filter(({ point }) => holder(state, side, point, null) === null);
+  const halves = free.map(({ point }) => ({ points: withPoint([null, null], side, point), label: '' }));
+  const taken = withNewPairs({ ...state, suggestions: withSuggestions(state, side, []) }, halves);
+  const turn = waitingFor(taken, otherSide(side));
+  return turn === null ? taken : selecting(taken, turn.id);
 }
 
 /** Two pairs with each other's target. */
-export function withTargetsExchanged(state: State, indices: readonly number[]): State {
-  const [a, b] = indices.map((index) => state.pairs[index]);
-  if (a === undefined || b === undefined) {
+export function withTargetsExchanged(state: State, ids: readonly number[]): State {
+  const [a, b] = ids.map((id) => pairOf(state, id));
+  if (a === undefined || b === undefined || a === null || b === null || a === b) {
     return state;
   }
-  const given = (pair: Pair, other: Pair): Pair => ({ ...pair, points: [pair.points[0], other.points[1]] });
-  return withPairs(
-    state,
-    state.pairs.map((pair) => (pair === a ? given(a, b) : pair === b ? given(b, a) : pair)),
-  );
-}
-
-/** One pair less. */
-export function withPairDeleted(state: State, index: number): State {
-  return withPairs(
-    state,
-    state.pairs.filter((_, other) => other !== index),
-  );
-}
-
-/** A pair with another label, which changes no map and is not undone. */
-export function withLabel(state: State, index: number, label: string): State {
-  return { ...state, pairs: state.pairs.map((pair, other) => (other === index ? { ...pair, label } : pair)) };
-}
-
-/** One step back: first the points that wait, then the last change of the pairs. */
-export function withUndo(state: State): State {
-  if (state.pending !== null) {
-    return { ...state, pending: null, queue: [] };
+  const locked = [a, b].find((pair) => pair.locked);
+  if (locked !== undefined) {
+    return { ...state, error: pairLocked(locked.number) };
   }
-  const last = state.history.at(-1);
-  return last === undefined ? state : { ...state, pairs: last, findings: [], history: state.history.slice(0, -1) };
+  const given = (pair: Pair, other: Pair): Pair => ({ ...pair, points: [pair.points[0], other.points[1]] });
+  return { ...state, pairs: replaced(replaced(state.pairs, given(a, b)), given(b, a)) };
+}
+
+/** One pair less; the next one in the list is selected in place of it. */
+export function withPairDeleted(state: State, id: number): State {
+  const index = state.pairs.findIndex((pair) => pair.id === id);
+  const pair = state.pairs[index];
+  if (pair === undefined) {
+    return state;
+  }
+  if (pair.locked) {
+    return { ...state, error: pairLocked(pair.number) };
+  }
+  const pairs = state.pairs.filter((other) => other !== pair);
+  const selected = state.ui.selected === id ? (pairs[Math.min(index, pairs.length - 1)]?.id ?? null) : state.ui.selected;
+  return selecting({ ...state, pairs }, selected);
+}
+
+/** No pairs but the locked ones. */
+export function withPairsCleared(state: State): State {
+  const pairs = state.pairs.filter(({ locked }) => locked);
+  if (pairs.length === state.pairs.length) {
+    return pairs.length === 0 ? state : { ...state, error: SENTENCES.allLocked };
+  }
+  return { ...state, pairs };
+}
+
+/** A pair with another label. */
+export function withLabel(state: State, id: number, label: string): State {
+  const pair = pairOf(state, id);
+  return pair === null || pair.label === label ? state : { ...state, pairs: replaced(state.pairs, { ...pair, label }) };
+}
+
+/** A pair locked or free. */
+export function withLock(state: State, id: number, locked: boolean): State {
+  const pair = pairOf(state, id);
+  return pair === null || pair.locked === locked ? state : { ...state, pairs: replaced(state.pairs, { ...pair, locked }) };
+}
+
+/** A pair at another place of the list. */
+export function withPairAt(state: State, id: number, to: number): State {
+  const pair = pairOf(state, id);
+  if (pair === null || !Number.isInteger(to)) {
+    return state;
+  }
+  const others = state.pairs.filter((other) => other !== pair);
+  const place = Math.min(Math.max(to, 0), others.length);
+  return state.pairs[place] === pair ? state : { ...state, pairs: [...others.slice(0, place), pair, ...others.slice(place)] };
 }

@@ -2,11 +2,12 @@
 import type { Side, SurfacePoint } from '../landmarks.ts';
 import type { State } from './state.ts';
 
-/** Points of one side in pair order; the pending pair last, `null` where it is not picked yet. */
-export function pointsOf(state: State, side: Side): (SurfacePoint | null)[] {
-  const points: (SurfacePoint | null)[] = state.pairs.map((pair) => pair.points[side]);
-  if (state.pending !== null) {
-    points.push(state.pending.side === side ? state.pending.point : null);
+/** Points of one side by their pair's number less 1, so that number and colour belong together; `null` where there is none. */
+export function pointsOf({ pairs }: Pick<State, 'pairs'>, side: Side): (SurfacePoint | null)[] {
+  const most = pairs.reduce((highest, { number }) => Math.max(highest, number), 0);
+  const points = Array.from<SurfacePoint | null>({ length: most }).fill(null);
+  for (const pair of pairs) {
+    points[pair.number - 1] = pair.points[side];
   }
   return points;
 }

@@ -1,4 +1,6 @@
 /** Whether the page can compute a map. */
+import { wholePairs } from './order.ts';
+import { isCurrent } from './staleness.ts';
 import type { State } from './state.ts';
 
 /** The least number of pairs that a map needs: a base domain is at least a tetrahedron. */
@@ -12,6 +14,11 @@ export function canRun(state: State): boolean {
     state.job.kind !== 'busy' &&
     state.meshes[0] !== null &&
     state.meshes[1] !== null &&
-    state.pairs.length >= MIN_PAIRS
+    wholePairs(state).length >= MIN_PAIRS
   );
+}
+
+/** Whether a run would make anything else than what is there: a map that is current and was not finished early stays as it is. */
+export function needsRun(state: State): boolean {
+  return !isCurrent(state) || state.result?.report.stopped_early === true;
 }

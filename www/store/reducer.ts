@@ -1,24 +1,73 @@
-/** The one way to change the state: `update(state, event)`, without side effects. */
+/** What each event makes of the state: `update(state, event)`, without side effects and without a record of the steps. */
+import type { Side } from '../landmarks.ts';
 import type { Event } from './events.ts';
-import { advanced, begun, ended, STARTED } from './job.ts';
-import { withLandmarks, withMesh } from './loads.ts';
+import { NO_HISTORY, redone, undone } from './history.ts';
+import { advanced, begun, ended, started } from './job.ts';
+import type { Running } from './job.ts';
+import { withLandmarks, withMesh, withMirrored, withSwap } from './loads.ts';
+import { doubtsOf } from './order.ts';
 import {
   withAllTaken,
   withLabel,
+  withLock,
+  withPairAt,
   withPairDeleted,
-  withPairs,
+  withPairsCleared,
   withPick,
   withPickDropped,
+  withPointMoved,
   withSuggestions,
   withTargetsExchanged,
-  withUndo,
 } from './pairs.ts';
-import type { Running } from './job.ts';
-import type { State } from './state.ts';
+import { withRestored } from './restore.ts';
+import { withFindings } from './settle.ts';
+import { withSideMarks } from './side-marks.ts';
+import type { Result, State, Style } from './state.ts';
+import { shownResult } from './staleness.ts';
+import type { Axis } from './work.ts';
+import { workOf } from './work.ts';
 
 /** A change of the run under way; without one, none. */
 function withRun(state: State, change: (job: Running) => Running): State {
   return state.job.kind === 'running' ? { ...state, job: change(state.job) } : state;
+}
+
+/** An object with other fields; the same one where none is other. */
+function patched<T extends object>(object: T, patch: Partial<T>): T {
+  const isOther = (Object.keys(patch) as (keyof T)[]).some((key) => patch[key] !== object[key]);
+  return isOther ? { ...object, ...patch } : object;
+}
+
+function withUi(state: State, patch: Partial<State['ui']>): State {
+  return patched(state, { ui: patched(state.ui, patch) });
+}
+
+function withStyle(state: State, patch: Partial<Style>): State {
+  return withUi(state, { style: patched(state.ui.style, patch) });
+}
+
+/** Whether an id is a pair's; `null` is none and always good. */
+function isPair({ pairs }: State, id: number | null): boolean {
+  return id === null || pairs.some((pair) => pair.id === id);
+}
+
+/** Another step's work; how its meshes stand stays, where they are the same ones. */
+function withStep(state: State, step: ReturnType<typeof undone>): State {
+  if (step === null) {
+    return state;
+  }
+  const { work, history } = step;
+  const up = (side: Side): Axis => (work.meshes[side] === state.meshes[side] ? state : work).up[side];
+  const stands = work.meshes === state.meshes ? state.up : ([up(0), up(1)] as const);
+  return { ...state, ...work, up: stands, history, toast: null, error: null };
+}
+
+/** A map came; what a plain surface cannot show is shown. */
+function withResult(state: State, result: Result): State {
+  const done = { ...state, job: { kind: 'done' } as const, result };
+  const { surface } = state.ui.style;
+  const isShown = surface !== 'shaded' && (surface !== 'distortion' || result.output.distortion.length > 0);
+  return isShown ? done : withStyle(done, { surface: 'pattern' });
 }
 
 /** The state after an event. */
@@ -32,34 +81,64 @@ export function update(state: State, event: Event): State {
       return { ...state, job: ended(state.job, event.task) };
     case 'mesh':
       return withMesh(state, event.side, event.file);
+    case 'mirrored':
+      return withMirrored(state, event.file, event.points);
+    case 'swap-meshes':
+      return withSwap(state);
     case 'landmarks':
       return withLandmarks(state, event.file);
+    case 'side-marks':
+      return withSideMarks(state, event.side, event.points);
     case 'demo':
-      return { ...state, demo: event.demo, history: [], error: null };
-    case 'picked':
+      return { ...state, demo: event.demo, error: null };
+    case 'point-picked':
       return withPick(state, event.side, event.point);
+    case 'point-moved':
+      return withPointMoved(state, event.id, event.side, event.point);
     case 'pick-dropped':
       return withPickDropped(state);
-    case 'suggested':
-      return { ...state, suggestions: withSuggestions(state, event.side, event.suggestions) };
     case 'suggestions-taken':
       return withAllTaken(state, event.side);
     case 'pair-deleted':
-      return withPairDeleted(state, event.index);
+      return withPairDeleted(state, event.id);
     case 'pair-labelled':
-      return withLabel(state, event.index, event.label);
+      return withLabel(state, event.id, event.label);
+    case 'pair-locked':
+      return withLock(state, event.id, event.locked);
+    case 'pair-moved':
+      return withPairAt(state, event.id, event.to);
     case 'pairs-cleared':
-      return { ...withPairs(state, []), pending: null, queue: [] };
+      return withPairsCleared(state);
     case 'targets-exchanged':
-      return withTargetsExchanged(state, event.indices);
-    case 'undo':
-      return withUndo(state);
+      return withTargetsExchanged(state, event.ids);
     case 'options':
-      return { ...state, options: { ...state.options, ...event.options } };
+      return patched(state, { options: patched(state.options, event.options) });
+    case 'restored':
+      return withRestored(state, event, event.ui);
+    case 'undo':
+      return withStep(state, undone(state.history, workOf(state)));
+    case 'redo':
+      return withStep(state, redone(state.history, workOf(state)));
+    case 'history-begun':
+      return patched(state, { history: NO_HISTORY, toast: null });
+    case 'pair-selected':
+      return isPair(state, event.id) ? withUi(state, { selected: event.id }) : state;
+    case 'pair-hovered':
+      return isPair(state, event.id) ? withUi(state, { hovered: event.id }) : state;
+    case 'ui':
+      return withUi(state, event.ui);
     case 'style':
-      return { ...state, style: { ...state.style, ...event.style } };
+      return withStyle(state, event.style);
+    case 'up':
+      return patched(state, { up: event.side === 0 ? [event.axis, state.up[1]] : [state.up[0], event.axis] });
+    case 'camera-moved': {
+      const [source, target] = state.ui.cameras;
+      return withUi(state, { cameras: event.side === 0 ? [event.camera, target] : [source, event.camera] });
+    }
+    case 'suggested':
+      return { ...state, suggestions: withSuggestions(state, event.side, event.suggestions) };
     case 'run-started':
-      return { ...state, job: STARTED, findings: [], error: null, pending: null, queue: [] };
+      return { ...state, job: started(workOf(state)), found: null, findings: [], error: null };
     case 'run-progress':
       return withRun(state, (job) => advanced(job, event.progress));
     case 'run-relaxes':
@@ -69,21 +148,32 @@ export function update(state: State, event: Event): State {
     case 'run-finish':
       return withRun(state, (job) => ({ ...job, finish: 'asked' }));
     case 'run-found':
-      return { ...state, findings: event.findings };
+      return state.job.kind === 'running'
+        ? withFindings({ ...state, found: { doubts: doubtsOf(event.findings, state.job.inputs), inputs: state.job.inputs } })
+        : state;
     case 'run-done':
-      return {
-        ...state,
-        job: { kind: 'done' },
-        result: { output: event.output, report: event.report, pairs: state.pairs, options: state.options },
-        style: { ...state.style, surface: 'checkerboard' },
-      };
+      return state.job.kind === 'running'
+        ? withResult(state, { output: event.output, report: event.report, inputs: state.job.inputs })
+        : state;
     case 'run-failed':
       return { ...state, job: { kind: 'error' }, error: event.sentence };
     case 'run-cancelled':
-      return { ...state, job: { kind: state.result === null ? 'idle' : 'done' } };
+      return { ...state, job: { kind: shownResult(state) === null ? 'idle' : 'done' } };
+    case 'toast':
+      return { ...state, toast: { sentence: event.sentence, undo: event.undo } };
+    case 'toast-closed':
+      return patched(state, { toast: null });
+    case 'receiving':
+      return { ...state, receiving: event.receiving };
+    case 'outdated':
+      return { ...state, isOutdated: true };
+    case 'offered':
+      return { ...state, offer: event.offer };
+    case 'offer-closed':
+      return patched(state, { offer: null });
     case 'error':
       return { ...state, error: event.sentence };
     case 'error-closed':
-      return { ...state, error: null };
+      return patched(state, { error: null });
   }
 }

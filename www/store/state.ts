@@ -1,84 +1,121 @@
 /** The state of the page: everything that it shows follows from it. */
 import type { RunOutput } from '../compute/messages.ts';
-import type { RunOptions } from '../report.ts';
-import type { Pair, Side, Suggestion, SurfacePoint } from '../landmarks.ts';
+import type { Suggestion } from '../landmarks.ts';
 import type { Finding, Report } from '../report.ts';
-import type { LoadedMesh } from '../wasm/conemap.js';
+import type { History } from './history.ts';
+import { NO_HISTORY } from './history.ts';
 import type { Job } from './job.ts';
+import type { Receiving } from './receiving.ts';
+import type { Demo, Work } from './work.ts';
+import { NO_WORK } from './work.ts';
 
-/** A mesh with the bytes it came from; the bytes go to the worker. */
-export interface MeshFile {
-  readonly name: string;
-  readonly bytes: Uint8Array;
-  readonly mesh: LoadedMesh;
-  readonly vertexCount: number;
-  readonly faceCount: number;
-  readonly turnedFaces: number;
-}
-
-export interface Demo {
-  readonly id: string;
-  readonly title: string;
-  readonly sentence: string;
-}
+export type { Axis, Demo, MeshFile, Work } from './work.ts';
 
 export interface Style {
-  readonly surface: 'shaded' | 'checkerboard' | 'colours' | 'distortion';
+  /** Plain clay; a pattern in space, which the map carries to the source; the flat metric's checkerboard; colours of the place on the target; distortion. */
+  readonly surface: 'shaded' | 'pattern' | 'checkerboard' | 'colours' | 'distortion';
   readonly patchLines: boolean;
   readonly cones: boolean;
   readonly markers: boolean;
 }
 
+/** A camera as the views give it and take it back. */
+export type Camera = readonly number[];
+
+/** How the page is looked at. It is kept with the work, but changes of it are no steps. */
+export interface Ui {
+  readonly step: 'meshes' | 'landmarks' | 'map' | 'use' | 'method';
+  readonly theme: 'system' | 'light' | 'dark';
+  readonly panel: 'open' | 'folded';
+  /** Whether a turn of one view turns the other: not, by the same angle, or to the places that the map gives. */
+  readonly link: 'free' | 'linked' | 'map';
+  /** By side; `null` as at the start. */
+  readonly cameras: readonly [Camera | null, Camera | null];
+  readonly style: Style;
+  /** The id of the pair that keys act on and that, where it is half, the next click completes. */
+  readonly selected: number | null;
+  /** The id of the pair under the mouse, in a list or a view. */
+  readonly hovered: number | null;
+}
+
+/** A finding with the ids of its pairs, which the core tells by their order. */
+export interface Doubt extends Finding {
+  readonly ids: readonly number[];
+}
+
 export interface Result {
   readonly output: RunOutput;
   readonly report: Report;
-  /** The landmarks and options it was made from, to tell whether it is still current. */
-  readonly pairs: readonly Pair[];
-  readonly options: RunOptions;
+  /** What it was made from. */
+  readonly inputs: Work;
 }
 
-export interface State {
+/** A sentence that goes by itself. */
+export interface Toast {
+  readonly sentence: string;
+  /** Whether the last step can be taken back from it. */
+  readonly undo: boolean;
+}
+
+/** Work of an earlier visit. */
+export interface Offer {
+  /** The session that is offered. */
+  readonly session: string;
+  readonly names: readonly [string | null, string | null];
+  readonly pairs: number;
+  /** When it was last changed, in ms since 1970. */
+  readonly saved: number;
+}
+
+export interface State extends Work {
   readonly ready: boolean;
   readonly demos: readonly Demo[];
-  readonly demo: Demo | null;
-  readonly meshes: readonly [MeshFile | null, MeshFile | null];
-  readonly pairs: readonly Pair[];
-  /** Names the landmark file gave to the meshes, without folders. */
-  readonly named: readonly [string | null, string | null];
-  readonly groundTruth: string | null;
-  /** A point picked on one side that waits for its partner. */
-  readonly pending: { readonly side: Side; readonly point: SurfacePoint } | null;
-  /** Points of the pending one's side whose turn comes after it. */
-  readonly queue: readonly SurfacePoint[];
+  readonly history: History;
+  /** The id of the next pair. */
+  readonly nextId: number;
   /** Suggested landmarks by side. */
   readonly suggestions: readonly [readonly Suggestion[], readonly Suggestion[]];
-  /** Earlier lists of pairs, latest last. */
-  readonly history: readonly (readonly Pair[])[];
-  readonly options: RunOptions;
-  readonly style: Style;
+  readonly ui: Ui;
   readonly job: Job;
+  /** The last map. It stays when its inputs change, and is current again when they come back. */
   readonly result: Result | null;
-  /** Doubts about the present pairs, from the last run. */
-  readonly findings: readonly Finding[];
+  /** The doubts of the last run, and what it was about. */
+  readonly found: { readonly doubts: readonly Doubt[]; readonly inputs: Work } | null;
+  /** Those doubts while they are about what is on the page; else none. */
+  readonly findings: readonly Doubt[];
+  readonly toast: Toast | null;
+  /** What the link that was opened waits for. */
+  readonly receiving: Receiving;
+  /** Whether a newer build of the page waits for a reload. */
+  readonly isOutdated: boolean;
+  readonly offer: Offer | null;
   readonly error: string | null;
 }
 
 export const INITIAL: State = {
+  ...NO_WORK,
   ready: false,
   demos: [],
-  demo: null,
-  meshes: [null, null],
-  pairs: [],
-  named: [null, null],
-  groundTruth: null,
-  pending: null,
-  queue: [],
+  history: NO_HISTORY,
+  nextId: 1,
   suggestions: [[], []],
-  history: [],
-  options: { method: 'relaxed', base: 'joint', cones: 'base-domain', class: 'best', ownCones: null },
-  style: { surface: 'shaded', patchLines: true, cones: true, markers: true },
+  ui: {
+    step: 'meshes',
+    theme: 'system',
+    panel: 'open',
+    link: 'linked',
+    cameras: [null, null],
+    style: { surface: 'shaded', patchLines: false, cones: false, markers: true },
+    selected: null,
+    hovered: null,
+  },
   job: { kind: 'idle' },
   result: null,
+  found: null,
   findings: [],
+  toast: null,
+  receiving: { kind: 'nothing' },
+  isOutdated: false,
+  offer: null,
   error: null,
 };

@@ -1,6 +1,6 @@
 /** Holds the state and tells its listeners of every change. It is the only thing on the page that holds it. */
+import { change } from './change.ts';
 import type { Event } from './events.ts';
-import { update } from './reducer.ts';
 import type { State } from './state.ts';
 import { INITIAL } from './state.ts';
 
@@ -20,10 +20,10 @@ export class Store {
     this.#listeners.push(listener);
   }
 
-  /** Changes the state; several events are one change. */
+  /** Changes the state; events that come together are one change and one step. */
   readonly dispatch = (...events: readonly Event[]): void => {
     const previous = this.#state;
-    this.#state = events.reduce(update, previous);
+    this.#state = change(previous, events);
     if (this.#state === previous) {
       return;
     }

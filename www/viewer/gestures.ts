@@ -1,4 +1,4 @@
-/** Mouse, pen, touch and keys become camera moves and picks. */
+/** Mouse, pen and touch become moves of cameras and pins, and picks. */
 import type { Side } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
 
@@ -10,16 +10,36 @@ export interface Box {
   readonly height: number;
 }
 
-/** What gestures do; lengths in units of the view's height, y up; picks in [-1, 1], y up. */
+/** A place of a view: x and y from -1 to 1, y up. */
+export interface Place {
+  readonly x: number;
+  readonly y: number;
+}
+
+/** What gestures do; lengths in units of the view's height, y up. */
 export interface GestureTarget {
   box(side: Side): Box;
+  focus(side: Side): void;
+  /** A gesture begins that may turn the view. */
+  grab(side: Side): void;
   orbit(side: Side, dx: number, dy: number): void;
   pan(side: Side, dx: number, dy: number): void;
-  zoom(side: Side, factor: number): void;
-  reset(side: Side): void;
-  pick(side: Side, x: number, y: number): void;
-  cancelPick(): void;
-  focus(side: Side): void;
+  /** Counter-clockwise, in radians. */
+  roll(side: Side, angle: number): void;
+  /** Brings what is seen at a place nearer by a factor; `smoothly` for single steps, not for what follows a hand. */
+  zoom(side: Side, factor: number, at: Place, way: 'smoothly' | 'at once'): void;
+  /** Takes the pin under the pointer, if there is one; `slack` in CSS pixels. */
+  takePin(side: Side, at: Place, slack: number): boolean;
+  /** The pin that was taken follows. */
+  dragPin(at: Place): void;
+  /** The pin that was taken is let go, having moved or not. */
+  dropPin(outcome: 'moved' | 'clicked' | 'given up'): void;
+  pick(side: Side, at: Place): void;
+  /** A click that may become a double click. */
+  firstClick(side: Side, at: Place): void;
+  doubleClick(side: Side, at: Place): void;
+  hover(side: Side, at: Place): void;
+  leave(): void;
 }
 
 interface Finger {
@@ -27,12 +47,15 @@ interface Finger {
   y: number;
 }
 
+/** What one finger or the mouse does. */
+type Mode = 'turn' | 'move' | 'pin' | 'nothing';
+
 /** How far a pointer may travel between press and release and still click, in CSS pixels: hands and fingers tremble. */
 const CLICK_SLACK = 5;
-/** An arrow key's step in heights of the view. A height turns by 4 rad, so that this is 14°: 26 presses go round. */
-const KEY_STEP = 0.06;
-/** A zoom key's factor: five presses double the size. */
-const KEY_ZOOM = 1.15;
+/** How far beside a pin's head a pointer still takes it, in CSS pixels; fingers are wider. */
+const PIN_SLACK = { mouse: 3, touch: 12 };
+/** In ms: a second click within this time makes a double click. As systems have it, but a click must not wait for long. */
+const DOUBLE_CLICK = 280;
 /** What a wheel tells for one notch: 100 pixels (Chromium), or 3 lines (Firefox). */
 const NOTCH_PIXELS = 100;
 const NOTCH_LINES = 3;
@@ -43,162 +66,243 @@ const NOTCH_ZOOM = 0.16;
 /** A pinch on a touchpad comes as a wheel with Ctrl, in steps of some pixels: five times as strong, the mesh follows the fingers. */
 const PINCH_ZOOM = 5 * NOTCH_ZOOM;
 
-/** Listens on the canvas; the views' own elements give the boxes and take the keys. */
-export function listen(canvas: HTMLCanvasElement, views: readonly [HTMLElement, HTMLElement], target: GestureTarget): void {
-  const fingers = new Map<number, Finger>();
-  let side: Side = 0;
-  let moved = 0;
-  let many = false;
-  let panning = false;
+/** Listens on a canvas with two views. */
+export class Gestures {
+  readonly #target: GestureTarget;
+  readonly #fingers = new Map<number, Finger>();
+  #side: Side = 0;
+  #travelled = 0;
+  #mode: Mode = 'nothing';
+  /** A click that waits whether another one follows. */
+  #click: { readonly side: Side; readonly x: number; readonly y: number; readonly timer: number } | null = null;
 
-  const sideAt = (x: number, y: number): Side | null => {
+  constructor(canvas: HTMLCanvasElement, target: GestureTarget) {
+    this.#target = target;
+    canvas.addEventListener('pointerdown', (event) => {
+      this.#press(event);
+      try {
+        canvas.setPointerCapture(event.pointerId);
+      } catch {
+        // The pointer is gone already.
+      }
+      event.preventDefault();
+    });
+    canvas.addEventListener('pointermove', (event) => {
+      this.#move(event);
+    });
+    canvas.addEventListener('pointerup', (event) => {
+      this.#lift(event, 'up');
+    });
+    canvas.addEventListener('pointercancel', (event) => {
+      this.#lift(event, 'cancelled');
+    });
+    canvas.addEventListener('pointerleave', () => {
+      if (this.#fingers.size === 0) {
+        target.leave();
+      }
+    });
+    canvas.addEventListener('contextmenu', (event) => {
+      event.preventDefault();
+    });
+    canvas.addEventListener('wheel', (event) => { this.#turnWheel(event); }, { passive: false });
+  }
+
+  /** Takes a click that waits for a second one as it is: what follows refers to its outcome. */
+  settle(): void {
+    const click = this.#click;
+    if (click !== null) {
+      this.#click = null;
+      clearTimeout(click.timer);
+      this.#target.pick(click.side, this.#place(click.side, click));
+    }
+  }
+
+  #press(event: PointerEvent): void {
+    const finger = { x: event.clientX, y: event.clientY };
+    if (this.#fingers.size === 0) {
+      const under = this.#sideAt(finger);
+      if (under === null) {
+        return;
+      }
+      this.#side = under;
+      this.#travelled = 0;
+      this.#target.focus(under);
+      this.#mode = this.#modeOf(event, finger);
+      if (this.#mode === 'turn') {
+        this.#target.grab(under);
+      }
+    } else {
+      this.#endPin('given up');
+      this.#mode = 'nothing';
+    }
+    this.#fingers.set(event.pointerId, finger);
+  }
+
+  #modeOf(event: PointerEvent, finger: Finger): Mode {
+    if (event.button !== 0 || event.shiftKey) {
+      return 'move';
+    }
+    if (this.#isSecondClick(finger)) {
+      return 'turn';
+    }
+    this.settle();
+    const slack = event.pointerType === 'touch' ? PIN_SLACK.touch : PIN_SLACK.mouse;
+    return this.#target.takePin(this.#side, this.#place(this.#side, finger), slack) ? 'pin' : 'turn';
+  }
+
+  #isSecondClick(finger: Finger): boolean {
+    const click = this.#click;
+    return click?.side === this.#side && Math.hypot(finger.x - click.x, finger.y - click.y) <= CLICK_SLACK;
+  }
+
+  #move(event: PointerEvent): void {
+    const finger = this.#fingers.get(event.pointerId);
+    if (finger === undefined) {
+      this.#hover(event);
+      return;
+    }
+    const before = { ...finger };
+    finger.x = event.clientX;
+    finger.y = event.clientY;
+    this.#travelled += Math.hypot(finger.x - before.x, finger.y - before.y);
+    if (this.#fingers.size > 1) {
+      this.#moveMany(finger, before);
+    } else if (this.#travelled > CLICK_SLACK) {
+      this.settle();
+      this.#moveOne(finger, before);
+    }
+  }
+
+  #moveOne(finger: Finger, before: Finger): void {
+    const { height } = this.#target.box(this.#side);
+    const dx = (finger.x - before.x) / height;
+    const dy = -(finger.y - before.y) / height;
+    switch (this.#mode) {
+      case 'turn':
+        this.#target.orbit(this.#side, dx, dy);
+        break;
+      case 'move':
+        this.#target.pan(this.#side, dx, dy);
+        break;
+      case 'pin':
+        this.#target.dragPin(this.#place(this.#side, finger));
+        break;
+      case 'nothing':
+        break;
+    }
+  }
+
+  /** Two fingers move, turn and stretch the picture; three and more only move it. */
+  #moveMany(finger: Finger, before: Finger): void {
+    const { height } = this.#target.box(this.#side);
+    const others = [...this.#fingers.values()].filter((candidate) => candidate !== finger);
+    const count = others.length + 1;
+    this.#target.pan(this.#side, (finger.x - before.x) / count / height, -(finger.y - before.y) / count / height);
+    const [other] = others;
+    if (count !== 2 || other === undefined) {
+      return;
+    }
+    const was = { x: before.x - other.x, y: before.y - other.y };
+    const is = { x: finger.x - other.x, y: finger.y - other.y };
+    const lengths = [Math.hypot(was.x, was.y), Math.hypot(is.x, is.y)] as const;
+    if (lengths[0] > 1 && lengths[1] > 1) {
+      const middle = { x: (finger.x + other.x) / 2, y: (finger.y + other.y) / 2 };
+      this.#target.zoom(this.#side, lengths[1] / lengths[0], this.#place(this.#side, middle), 'at once');
+      // On the screen y goes down, so that this angle goes clockwise.
+      const clockwise = Math.atan2(was.x * is.y - was.y * is.x, was.x * is.x + was.y * is.y);
+      this.#target.roll(this.#side, -clockwise);
+    }
+  }
+
+  #lift(event: PointerEvent, how: 'up' | 'cancelled'): void {
+    const finger = this.#fingers.get(event.pointerId);
+    if (finger === undefined) {
+      return;
+    }
+    this.#fingers.delete(event.pointerId);
+    if (this.#fingers.size > 0) {
+      return;
+    }
+    const clicks = how === 'up' && this.#travelled <= CLICK_SLACK;
+    if (this.#mode === 'pin') {
+      this.#endPin(clicks ? 'clicked' : how === 'up' ? 'moved' : 'given up');
+    } else if (clicks && this.#mode === 'turn') {
+      this.#clicked(finger);
+    }
+    this.#mode = 'nothing';
+  }
+
+  #endPin(outcome: 'moved' | 'clicked' | 'given up'): void {
+    if (this.#mode === 'pin') {
+      this.#target.dropPin(outcome);
+    }
+  }
+
+  #clicked(finger: Finger): void {
+    const side = this.#side;
+    const at = this.#place(side, finger);
+    const first = this.#click;
+    if (first !== null && this.#isSecondClick(finger)) {
+      clearTimeout(first.timer);
+      this.#click = null;
+      this.#target.doubleClick(side, at);
+      return;
+    }
+    this.settle();
+    const timer = window.setTimeout(() => {
+      this.settle();
+    }, DOUBLE_CLICK);
+    this.#click = { side, x: finger.x, y: finger.y, timer };
+    this.#target.firstClick(side, at);
+  }
+
+  #hover(event: PointerEvent): void {
+    const at = { x: event.clientX, y: event.clientY };
+    const click = this.#click;
+    if (click !== null) {
+      if (Math.hypot(at.x - click.x, at.y - click.y) <= CLICK_SLACK) {
+        return;
+      }
+      this.settle();
+    }
+    if (event.pointerType === 'touch') {
+      return;
+    }
+    const side = this.#sideAt(at);
+    if (side === null) {
+      this.#target.leave();
+    } else {
+      this.#target.hover(side, this.#place(side, at));
+    }
+  }
+
+  #turnWheel(event: WheelEvent): void {
+    const at = { x: event.clientX, y: event.clientY };
+    const under = this.#sideAt(at);
+    if (under === null) {
+      return;
+    }
+    event.preventDefault();
+    const notches = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY / NOTCH_PIXELS : event.deltaY / NOTCH_LINES;
+    const bounded = Math.max(-MOST_NOTCHES, Math.min(MOST_NOTCHES, notches));
+    const factor = Math.exp(-bounded * (event.ctrlKey ? PINCH_ZOOM : NOTCH_ZOOM));
+    // A wheel goes in notches; a touchpad in many small steps, which are smooth already.
+    const way = event.ctrlKey || Math.abs(notches) < 0.5 ? 'at once' : 'smoothly';
+    this.#target.zoom(under, factor, this.#place(under, at), way);
+  }
+
+  #sideAt({ x, y }: Finger): Side | null {
     for (const candidate of SIDES) {
-      const box = target.box(candidate);
+      const box = this.#target.box(candidate);
       if (x >= box.left && x < box.left + box.width && y >= box.top && y < box.top + box.height) {
         return candidate;
       }
     }
     return null;
-  };
-
-  canvas.addEventListener('pointerdown', (event) => {
-    if (fingers.size === 0) {
-      const under = sideAt(event.clientX, event.clientY);
-      if (under === null) {
-        return;
-      }
-      side = under;
-      moved = 0;
-      many = false;
-      panning = event.button !== 0 || event.shiftKey;
-      target.focus(side);
-    }
-    fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
-    many ||= fingers.size > 1;
-    try {
-      canvas.setPointerCapture(event.pointerId);
-    } catch {
-      // The pointer is gone already.
-    }
-    event.preventDefault();
-  });
-
-  canvas.addEventListener('pointermove', (event) => {
-    const finger = fingers.get(event.pointerId);
-    if (finger === undefined) {
-      return;
-    }
-    const height = target.box(side).height;
-    const dx = event.clientX - finger.x;
-    const dy = event.clientY - finger.y;
-    moved += Math.hypot(dx, dy);
-    if (fingers.size >= 2) {
-      const other = [...fingers].find(([id]) => id !== event.pointerId)?.[1];
-      if (other !== undefined) {
-        const before = Math.hypot(finger.x - other.x, finger.y - other.y);
-        const after = Math.hypot(event.clientX - other.x, event.clientY - other.y);
-        if (before > 1 && after > 1) {
-          target.zoom(side, after / before);
-        }
-        target.pan(side, dx / 2 / height, -dy / 2 / height);
-      }
-    } else if (moved > CLICK_SLACK) {
-      if (panning) {
-        target.pan(side, dx / height, -dy / height);
-      } else if (!many) {
-        target.orbit(side, dx / height, -dy / height);
-      }
-    }
-    finger.x = event.clientX;
-    finger.y = event.clientY;
-  });
-
-  const lift = (event: PointerEvent, clicks: boolean): void => {
-    if (!fingers.delete(event.pointerId) || fingers.size > 0) {
-      return;
-    }
-    if (clicks && moved <= CLICK_SLACK && !many && !panning) {
-      const box = target.box(side);
-      target.pick(
-        side,
-        (2 * (event.clientX - box.left)) / box.width - 1,
-        1 - (2 * (event.clientY - box.top)) / box.height,
-      );
-    }
-  };
-  canvas.addEventListener('pointerup', (event) => {
-    lift(event, true);
-  });
-  canvas.addEventListener('pointercancel', (event) => {
-    lift(event, false);
-  });
-  canvas.addEventListener('contextmenu', (event) => {
-    event.preventDefault();
-  });
-  canvas.addEventListener(
-    'wheel',
-    (event) => {
-      const under = sideAt(event.clientX, event.clientY);
-      if (under === null) {
-        return;
-      }
-      event.preventDefault();
-      const notches = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY / NOTCH_PIXELS : event.deltaY / NOTCH_LINES;
-      const bounded = Math.max(-MOST_NOTCHES, Math.min(MOST_NOTCHES, notches));
-      target.zoom(under, Math.exp(-bounded * (event.ctrlKey ? PINCH_ZOOM : NOTCH_ZOOM)));
-    },
-    { passive: false },
-  );
-
-  for (const candidate of SIDES) {
-    views[candidate].addEventListener('keydown', (event) => {
-      if (keyMove(target, candidate, event)) {
-        event.preventDefault();
-      }
-    });
   }
-}
 
-function keyMove(target: GestureTarget, side: Side, event: KeyboardEvent): boolean {
-  if (event.ctrlKey || event.metaKey || event.altKey) {
-    return false;
-  }
-  const move = (dx: number, dy: number): boolean => {
-    if (event.shiftKey) {
-      target.pan(side, dx, dy);
-    } else {
-      target.orbit(side, dx, dy);
-    }
-    return true;
-  };
-  switch (event.key) {
-    case 'ArrowLeft':
-      return move(-KEY_STEP, 0);
-    case 'ArrowRight':
-      return move(KEY_STEP, 0);
-    case 'ArrowUp':
-      return move(0, KEY_STEP);
-    case 'ArrowDown':
-      return move(0, -KEY_STEP);
-    case '+':
-    case '=':
-      target.zoom(side, KEY_ZOOM);
-      return true;
-    case '-':
-      target.zoom(side, 1 / KEY_ZOOM);
-      return true;
-    case '0':
-    case 'Home':
-      target.reset(side);
-      return true;
-    case 'Enter':
-    case ' ':
-      target.pick(side, 0, 0);
-      return true;
-    case 'Escape':
-      target.cancelPick();
-      return true;
-    default:
-      return false;
+  #place(side: Side, { x, y }: Finger): Place {
+    const box = this.#target.box(side);
+    return { x: (2 * (x - box.left)) / box.width - 1, y: 1 - (2 * (y - box.top)) / box.height };
   }
 }

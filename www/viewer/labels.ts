@@ -1,6 +1,15 @@
 /** The landmarks' numbers over a view. */
 import { make } from '../dom.ts';
 
+/** A number and how it stands out. */
+export interface Label {
+  readonly text: string;
+  readonly raised: boolean;
+}
+
+/** From the middle of a pin's head to its number, in CSS pixels: the head's radius and a little. */
+const BESIDE = { plain: 8, raised: 10 };
+
 /** One view's numbers. */
 export class Labels {
   readonly #layer = make('div', { class: 'labels', 'aria-hidden': 'true' });
@@ -10,21 +19,26 @@ export class Labels {
     view.prepend(this.#layer);
   }
 
-  /** Places the numbers: x, y in [-1, 1] (y up) and visible (0 or 1) for each landmark. */
-  place(places: Float32Array, width: number, height: number): void {
-    const count = Math.floor(places.length / 3);
-    while (this.#items.length < count) {
-      const item = make('span', {}, String(this.#items.length + 1));
+  /** Places the numbers beside their pins' heads: x, y in [-1, 1] (y up) and visible (0 or 1) for each. */
+  place(labels: readonly Label[], places: Float32Array, width: number, height: number): void {
+    while (this.#items.length < labels.length) {
+      const item = make('span');
+      item.style.inset = '0 auto auto 0';
       this.#layer.append(item);
       this.#items.push(item);
     }
     this.#items.forEach((item, index) => {
-      const visible = index < count && (places[3 * index + 2] ?? 0) > 0.5;
+      const label = labels[index];
+      const visible = label !== undefined && (places[3 * index + 2] ?? 0) > 0.5;
       item.hidden = !visible;
+      item.classList.toggle('raised', visible && label.raised);
       if (visible) {
-        const x = (((places[3 * index] ?? 0) + 1) / 2) * width;
+        if (item.textContent !== label.text) {
+          item.textContent = label.text;
+        }
+        const x = (((places[3 * index] ?? 0) + 1) / 2) * width + (label.raised ? BESIDE.raised : BESIDE.plain);
         const y = ((1 - (places[3 * index + 1] ?? 0)) / 2) * height;
-        item.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+        item.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translateY(-50%)`;
       }
     });
   }

@@ -4,38 +4,35 @@ import { byId } from '../dom.ts';
 import type { Side, SurfacePoint } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
 import { failureSentence, SENTENCES } from '../messages.ts';
-import { pointsOf } from '../store/points.ts';
-import { hasItsCones } from '../store/staleness.ts';
-import type { State } from '../store/state.ts';
+import type { Event } from '../store/events.ts';
+import { hasItsCones, shownResult } from '../store/staleness.ts';
+import type { Axis, Camera, State } from '../store/state.ts';
 import { Viewer } from '../wasm/conemap.js';
+import type { Direction } from './cameras.ts';
+import { cameraOf, Cameras } from './cameras.ts';
 import type { Box } from './gestures.ts';
-import { listen } from './gestures.ts';
+import { Hands } from './hands.ts';
+import { HELP } from './keys.ts';
 import { Labels } from './labels.ts';
+import { Picture } from './picture.ts';
+import { labelsOf, marksOf } from './pins.ts';
+import type { Probe } from './probe.ts';
+import { probeOf } from './probe.ts';
 import { Rings } from './rings.ts';
+import { fitCanvas, fitViewer, samplesOf, whenResized } from './screen.ts';
 
 /** What the views tell the page. */
 export interface ViewListener {
-  picked(side: Side, point: SurfacePoint): void;
-  pickDropped(): void;
+  dispatch(event: Event): void;
   failed(sentence: string): void;
   /** The views are back: what they said is void. */
   recovered(): void;
+  /** What the map says of the place under the mouse; `null` when the mouse has left. */
+  probed(probe: Probe | null): void;
 }
 
-const HELP =
-  'Arrow keys turn, with Shift they move; plus and minus zoom; 0 resets; Enter picks the point in the middle.';
-
-/** Samples a pixel: four, but one where a processor draws in place of a graphics card. */
-function samplesOf(): number {
-  const gl = document.createElement('canvas').getContext('webgl2');
-  if (gl === null) {
-    return 4;
-  }
-  const info = gl.getExtension('WEBGL_debug_renderer_info');
-  const name: unknown = gl.getParameter(info === null ? gl.RENDERER : info.UNMASKED_RENDERER_WEBGL);
-  gl.getExtension('WEBGL_lose_context')?.loseContext();
-  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(name)) ? 1 : 4;
-}
+/** A camera has come to rest when it has not moved for this time, in ms. */
+const REST = 400;
 
 /** The views of the page. */
 export class Views {
@@ -44,13 +41,21 @@ export class Views {
   readonly #labels: readonly [Labels, Labels];
   readonly #rings: readonly [Rings, Rings];
   readonly #listener: ViewListener;
+  readonly #cameras: Cameras;
+  readonly #picture = new Picture();
+  readonly #hands: Hands;
+  readonly #dark = window.matchMedia('(prefers-color-scheme: dark)');
   #viewer: Viewer | null = null;
   #state: State;
   #frame = 0;
+  /** A frame is being made: what changes now is in it. */
+  #drawing = false;
   #resized = true;
   #started = false;
   #lost = false;
-  readonly #dark = window.matchMedia('(prefers-color-scheme: dark)');
+  /** Where the cameras were when the page was last told. */
+  #told: [Camera | null, Camera | null] = [null, null];
+  #rest = 0;
 
   constructor(state: State, listener: ViewListener) {
     const canvas = byId('canvas');
@@ -63,107 +68,236 @@ export class Views {
     this.#elements = [byId('view-source'), byId('view-target')];
     this.#labels = [new Labels(this.#elements[0]), new Labels(this.#elements[1])];
     this.#rings = [new Rings(this.#elements[0], 'source'), new Rings(this.#elements[1], 'target')];
+    this.#cameras = new Cameras((action) => {
+      this.#with(action);
+    });
     for (const side of SIDES) {
       const element = this.#elements[side];
       element.tabIndex = 0;
       element.setAttribute('role', 'group');
       element.setAttribute('aria-label', `${side === 0 ? 'Source' : 'Target'} view. ${HELP}`);
     }
-    this.#listen();
+    this.#hands = new Hands(this.#canvas, this.#elements, {
+      viewer: () => (this.#lost ? null : this.#viewer),
+      state: () => this.#state,
+      picture: this.#picture,
+      cameras: this.#cameras,
+      box: (side) => this.box(side),
+      act: (action) => {
+        this.#with(action);
+      },
+      moved: (side) => {
+        this.#moved(side);
+      },
+      dispatch: (event) => {
+        listener.dispatch(event);
+      },
+      probed: (probe) => {
+        listener.probed(probe);
+      },
+    });
+    this.#listenToWindow();
   }
 
   /** Makes the renderer; says a sentence where there is none. */
   async start(): Promise<void> {
     this.#started = true;
-    if (this.#lost) {
-      return;
+    if (!this.#lost) {
+      await this.#make(SENTENCES.noWebGl);
     }
-    this.#fitCanvas();
-    try {
-      const viewer = await Viewer.create(this.#canvas, samplesOf());
-      this.#viewer = viewer;
-      this.#resized = true;
-      this.#sync(null);
-    } catch (thrown) {
-      console.error(thrown);
-      this.#listener.failed(SENTENCES.noWebGl);
-    }
+  }
+
+  /** Shows the source's shape on its way to the target's, where there is a map: 0 the source's, 1 the target's. */
+  morph(share: number): void {
+    this.#with((viewer) => {
+      if (this.#picture.bringOverlay(viewer, 0)) {
+        viewer.setMorph(share);
+      }
+    });
   }
 
   /** Follows the state. */
   sync(state: State, previous: State): void {
     this.#state = state;
-    if (this.#viewer !== null) {
+    if (this.#viewer !== null && !this.#lost) {
       this.#sync(previous);
     }
   }
 
-  /** Both cameras as at the start. */
-  reset(): void {
+  /** Brings the whole mesh into a view; the direction stays. */
+  fit(side: Side | 'both'): void {
+    this.#command(side, (each) => {
+      this.#cameras.fit(each);
+    });
+  }
+
+  /** The first look. */
+  reset(side: Side | 'both' = 'both'): void {
+    this.#command(side, (each) => {
+      this.#cameras.reset(each);
+    });
+  }
+
+  /** Looks at the whole mesh from one of six sides. */
+  lookFrom(side: Side | 'both', from: Direction): void {
+    this.#command(side, (each) => {
+      this.#cameras.lookFrom(each, from);
+    });
+  }
+
+  /** Turns the picture counter-clockwise, in degrees. */
+  roll(side: Side | 'both', degrees: number): void {
+    this.#command(side, (each) => {
+      this.#cameras.roll(each, (degrees * Math.PI) / 180);
+    });
+  }
+
+  /** Multiplies the size of what is seen in the middle of a view. */
+  zoom(side: Side | 'both', factor: number): void {
+    this.#command(side, (each) => {
+      this.#cameras.zoom(each, factor, { x: 0, y: 0 });
+    });
+  }
+
+  /** The axis of a mesh that seems to point up by its shape, to be offered; `null` where the shape does not tell. */
+  proposedUp(side: Side): Axis | null {
+    return (this.#viewer?.proposedUp(side) as Axis | undefined) ?? null;
+  }
+
+  /** Turns a view to a point and comes near. */
+  lookAt(side: Side, point: SurfacePoint): void {
+    this.#cameras.face(side, JSON.stringify(point));
+    this.#moved();
+  }
+
+  /** Turns both views to a pair's points. */
+  lookAtPair(id: number): void {
+    const pair = this.#state.pairs.find((candidate) => candidate.id === id);
     for (const side of SIDES) {
-      this.#with((viewer) => {
-        viewer.resetCamera(side);
-      });
+      const point = pair?.points[side] ?? null;
+      if (point !== null) {
+        this.lookAt(side, point);
+      }
     }
+  }
+
+  /** Asks the map about a point, and marks it and its partner with rings until the mouse moves; `null` without a map. */
+  ask(side: Side, point: SurfacePoint): Probe | null {
+    let probe: Probe | null = null;
+    this.#with((viewer) => {
+      probe = this.#picture.bringMap(viewer) ? probeOf(side, viewer.probePoint(side, JSON.stringify(point))) : null;
+    });
+    return probe;
+  }
+
+  #command(side: Side | 'both', action: (side: Side) => void): void {
+    if (side !== 'both') {
+      action(side);
+    } else if (this.#cameras.linked) {
+      action(0);
+    } else {
+      SIDES.forEach(action);
+    }
+    this.#moved();
   }
 
   #sync(previous: State | null): void {
     const state = this.#state;
+    const result = shownResult(state);
+    const isOther = previous === null || shownResult(previous) !== result;
+    const isOtherMesh = previous?.meshes !== state.meshes;
+    const changes = {
+      picture: isOther || isOtherMesh || previous.ui.style !== state.ui.style || previous.ui.theme !== state.ui.theme,
+      up: isOtherMesh || previous.up !== state.up,
+      pins:
+        isOther ||
+        isOtherMesh ||
+        previous.pairs !== state.pairs ||
+        previous.ui.selected !== state.ui.selected ||
+        previous.ui.hovered !== state.ui.hovered,
+      suggestions: isOtherMesh || previous.suggestions !== state.suggestions,
+      cameras: previous?.ui.cameras !== state.ui.cameras,
+    };
+    this.#cameras.linked = state.ui.link !== 'free';
+    if (!Object.values(changes).includes(true)) {
+      return;
+    }
     this.#with((viewer) => {
-      if (previous?.result !== state.result) {
-        viewer.clearResult();
+      if (isOther) {
+        this.#picture.take(viewer, result);
       }
-      for (const side of SIDES) {
-        const file = state.meshes[side];
-        if (previous?.meshes[side] !== file) {
-          if (file === null) {
-            viewer.clearMesh(side);
-          } else {
-            viewer.setMesh(side, file.mesh);
-          }
-        }
+      if (isOtherMesh) {
+        this.#setMeshes(viewer, previous);
       }
-      if (state.result !== null && previous?.result !== state.result) {
-        const { output } = state.result;
-        for (const side of SIDES) {
-          const part = output.sides[side];
-          viewer.setResult(
-            side,
-            part.positions,
-            part.normals,
-            output.uvs,
-            output.distortion,
-            output.triangles,
-            part.linePoints,
-            part.lineStarts,
-            output.cones,
-          );
-        }
+      if (changes.up) {
+        this.#setUp(previous);
       }
-      if (
-        previous?.pairs !== state.pairs ||
-        previous.pending !== state.pending ||
-        previous.meshes !== state.meshes
-      ) {
+      if (changes.cameras) {
+        this.#setCameras();
+      }
+      if (changes.pins) {
         this.#setLandmarks(viewer);
       }
-      if (previous?.suggestions !== state.suggestions || previous.meshes !== state.meshes) {
+      if (changes.suggestions) {
         this.#setSuggestions(viewer);
       }
-      if (previous?.style !== state.style || previous.result !== state.result || previous.pairs !== state.pairs) {
+      if (changes.picture) {
         this.#setStyle(viewer);
       }
     });
   }
 
+  #setMeshes(viewer: Viewer, previous: State | null): void {
+    for (const side of SIDES) {
+      const file = this.#state.meshes[side];
+      if (previous?.meshes[side] === file) {
+        continue;
+      }
+      this.#told[side] = null;
+      if (file === null) {
+        viewer.clearMesh(side);
+      } else {
+        viewer.setMesh(side, file.mesh);
+      }
+    }
+  }
+
+  /** A mesh that comes stands as it should at once; one that is there is turned before one's eyes. */
+  #setUp(previous: State | null): void {
+    const { up, meshes } = this.#state;
+    for (const side of SIDES) {
+      if (previous?.meshes[side] !== meshes[side]) {
+        this.#cameras.setUp(side, up[side], 'at once');
+      } else if (previous.up[side] !== up[side]) {
+        this.#cameras.setUp(side, up[side]);
+        this.#moved();
+      }
+    }
+  }
+
+  /** Cameras that somebody else has put somewhere. */
+  #setCameras(): void {
+    for (const side of SIDES) {
+      const camera = this.#state.ui.cameras[side];
+      if (camera !== this.#told[side]) {
+        this.#told[side] = camera;
+        this.#cameras.restore(side, camera);
+      }
+    }
+  }
+
   #setStyle(viewer: Viewer): void {
-    const { style, result } = this.#state;
+    const { style, theme } = this.#state.ui;
+    const result = shownResult(this.#state);
+    if (result !== null) {
+      this.#picture.bring(viewer, style);
+    }
     viewer.setStyle(
       JSON.stringify({
         ...style,
         surface: result === null ? 'shaded' : style.surface,
         cones: style.cones && hasItsCones(this.#state),
-        dark: this.#dark.matches,
+        dark: theme === 'dark' || (theme === 'system' && this.#dark.matches),
         holes: result !== null && result.report.certificate === null,
       }),
     );
@@ -171,17 +305,8 @@ export class Views {
 
   #setLandmarks(viewer: Viewer): void {
     for (const side of SIDES) {
-      if (this.#state.meshes[side] === null) {
-        continue;
-      }
-      try {
-        viewer.setLandmarks(side, JSON.stringify(pointsOf(this.#state, side)));
-      } catch (thrown) {
-        if (thrown instanceof WebAssembly.RuntimeError) {
-          throw thrown;
-        }
-        viewer.setLandmarks(side, '[]');
-        this.#listener.failed(SENTENCES.badPoint);
+      if (this.#state.meshes[side] !== null) {
+        viewer.setLandmarks(side, marksOf(this.#state, side));
       }
     }
   }
@@ -191,9 +316,7 @@ export class Views {
       const suggestions = this.#state.meshes[side] === null ? [] : this.#state.suggestions[side];
       viewer.setSuggestions(side, JSON.stringify(suggestions.map((suggestion) => suggestion.point)));
       this.#rings[side].show(suggestions, ({ point }) => {
-        if (this.#state.job.kind !== 'running') {
-          this.#listener.picked(side, point);
-        }
+        this.#listener.dispatch({ kind: 'point-picked', side, point });
       });
     }
   }
@@ -213,39 +336,95 @@ export class Views {
   }
 
   #requestFrame(): void {
-    if (this.#frame === 0) {
-      this.#frame = requestAnimationFrame(() => {
+    if (this.#frame === 0 && !this.#drawing) {
+      this.#frame = requestAnimationFrame((now) => {
         this.#frame = 0;
-        this.#draw();
+        this.#drawing = true;
+        const more = this.#draw(now);
+        this.#drawing = false;
+        if (more) {
+          this.#requestFrame();
+        }
       });
     }
   }
 
-  #draw(): void {
+  /** Draws a frame; whether another one is to follow. */
+  #draw(now: number): boolean {
     const viewer = this.#viewer;
     if (viewer === null || this.#lost) {
-      return;
+      return false;
     }
     try {
       if (this.#resized) {
         this.#resized = false;
-        this.#fit(viewer);
+        fitViewer(viewer, this.#canvas, this.#elements);
       }
-      viewer.render();
-      for (const side of SIDES) {
-        const box = this.box(side);
-        this.#labels[side].place(
-          this.#state.style.markers ? viewer.labels(side) : new Float32Array(),
-          box.width,
-          box.height,
-        );
-        this.#rings[side].place(viewer.suggestions(side), box.width, box.height);
-      }
+      this.#hands.follow(viewer);
+      const more = viewer.render(now);
+      this.#placeMarks(viewer);
+      return more;
     } catch (thrown) {
       console.error(thrown);
       this.#viewer = null;
       this.#listener.failed(SENTENCES.contextGone);
+      return false;
     }
+  }
+
+  #placeMarks(viewer: Viewer): void {
+    const labels = this.#state.ui.style.markers ? labelsOf(this.#state) : [];
+    for (const side of SIDES) {
+      const { width, height } = this.box(side);
+      this.#labels[side].place(labels, viewer.labels(side), width, height);
+      this.#rings[side].place(viewer.suggestions(side), width, height);
+    }
+  }
+
+  /** Cameras have moved: where the map links them, the other one follows; the page is told when they rest. */
+  #moved(leader?: Side): void {
+    if (leader !== undefined && this.#state.ui.link === 'map') {
+      this.#with((viewer) => {
+        if (this.#picture.bringMap(viewer)) {
+          viewer.follow(leader);
+        }
+      });
+    }
+    clearTimeout(this.#rest);
+    this.#rest = window.setTimeout(() => {
+      this.#tell();
+    }, REST);
+  }
+
+  #tell(): void {
+    const viewer = this.#viewer;
+    if (viewer === null || this.#lost) {
+      return;
+    }
+    for (const side of SIDES) {
+      const camera = cameraOf(viewer, side);
+      if (JSON.stringify(camera) !== JSON.stringify(this.#told[side])) {
+        this.#told[side] = camera;
+        this.#listener.dispatch({ kind: 'camera-moved', side, camera });
+      }
+    }
+  }
+
+  /** The views as they are, with `times` as many pixels a side as on the screen, as a PNG; `null` without a renderer. */
+  async picture(times: number): Promise<Blob | null> {
+    const viewer = this.#viewer;
+    if (viewer === null || this.#lost) {
+      return null;
+    }
+    fitViewer(viewer, this.#canvas, this.#elements, times);
+    viewer.render(performance.now());
+    // The browser takes the pixels at once, before the next frame has the screen's size again, and packs them later.
+    const picture = new Promise<Blob | null>((resolve) => {
+      this.#canvas.toBlob(resolve, 'image/png');
+    });
+    this.#resized = true;
+    this.#requestFrame();
+    return picture;
   }
 
   /** A view's box in the window. */
@@ -253,52 +432,11 @@ export class Views {
     return this.#elements[side].getBoundingClientRect();
   }
 
-  /** Gives the canvas as many pixels as the screen shows; its size in pixels per CSS pixel. */
-  #fitCanvas(): number {
-    const ratio = window.devicePixelRatio;
-    const width = Math.max(1, Math.round(this.#canvas.clientWidth * ratio));
-    const height = Math.max(1, Math.round(this.#canvas.clientHeight * ratio));
-    if (this.#canvas.width !== width || this.#canvas.height !== height) {
-      this.#canvas.width = width;
-      this.#canvas.height = height;
-    }
-    return ratio;
-  }
-
-  #fit(viewer: Viewer): void {
-    const ratio = this.#fitCanvas();
-    const { width, height } = this.#canvas;
-    viewer.resize(width, height, ratio);
-    const frame = this.#canvas.getBoundingClientRect();
-    for (const side of SIDES) {
-      const box = this.box(side);
-      const left = Math.max(0, Math.round((box.left - frame.left) * ratio));
-      const top = Math.max(0, Math.round((box.top - frame.top) * ratio));
-      const right = Math.min(width, Math.round((box.left - frame.left + box.width) * ratio));
-      const bottom = Math.min(height, Math.round((box.top - frame.top + box.height) * ratio));
-      viewer.setViewport(side, left, top, Math.max(1, right - left), Math.max(1, bottom - top));
-    }
-  }
-
-  #listen(): void {
-    const refit = (): void => {
+  #listenToWindow(): void {
+    whenResized([this.#canvas, ...this.#elements], () => {
       this.#resized = true;
       this.#requestFrame();
-    };
-    const observer = new ResizeObserver(refit);
-    observer.observe(this.#canvas);
-    this.#elements.forEach((element) => {
-      observer.observe(element);
     });
-    const watchRatio = (): void => {
-      window
-        .matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`)
-        .addEventListener('change', () => {
-          refit();
-          watchRatio();
-        }, { once: true });
-    };
-    watchRatio();
     this.#dark.addEventListener('change', () => {
       this.#with((viewer) => {
         this.#setStyle(viewer);
@@ -313,59 +451,30 @@ export class Views {
       this.#lost = false;
       void this.#rebuild();
     });
-    listen(this.#canvas, this.#elements, {
-      box: (side) => this.box(side),
-      orbit: (side, dx, dy) => {
-        this.#with((viewer) => {
-          viewer.orbit(side, dx, dy);
-        });
-      },
-      pan: (side, dx, dy) => {
-        this.#with((viewer) => {
-          viewer.pan(side, dx, dy);
-        });
-      },
-      zoom: (side, factor) => {
-        this.#with((viewer) => {
-          // The renderer takes the factor of the distance.
-          viewer.zoom(side, 1 / factor);
-        });
-      },
-      reset: (side) => {
-        this.#with((viewer) => {
-          viewer.resetCamera(side);
-        });
-      },
-      pick: (side, x, y) => {
-        this.#pick(side, x, y);
-      },
-      cancelPick: () => {
-        this.#listener.pickDropped();
-      },
-      focus: (side) => {
-        this.#elements[side].focus({ preventScroll: true });
-      },
-    });
   }
 
-  #pick(side: Side, x: number, y: number): void {
-    if (this.#state.meshes[side] === null || this.#state.job.kind === 'running') {
-      return;
+  /** Makes a renderer; where that fails a sentence is said. */
+  async #make(otherwise: string): Promise<'made' | 'failed'> {
+    fitCanvas(this.#canvas);
+    try {
+      this.#viewer = await Viewer.create(this.#canvas, samplesOf());
+      this.#resized = true;
+      this.#sync(null);
+      return 'made';
+    } catch (thrown) {
+      console.error(thrown);
+      this.#listener.failed(otherwise);
+      return 'failed';
     }
-    this.#with((viewer) => {
-      const hit = viewer.pick(side, x, y);
-      if (hit !== undefined) {
-        this.#listener.picked(side, JSON.parse(hit) as SurfacePoint);
-      }
-    });
   }
 
+  /** A new renderer in place of the one whose context was lost. */
   async #rebuild(): Promise<void> {
     const old = this.#viewer;
     this.#viewer = null;
-    let cameras: readonly Float32Array[] = [];
+    let cameras: readonly (Camera | null)[] = [null, null];
     try {
-      cameras = SIDES.map((side) => old?.camera(side) ?? new Float32Array());
+      cameras = SIDES.map((side) => (old === null ? null : cameraOf(old, side)));
       old?.free();
     } catch (thrown) {
       console.warn(thrown);
@@ -373,18 +482,11 @@ export class Views {
     if (!this.#started) {
       return;
     }
-    try {
-      const viewer = await Viewer.create(this.#canvas, samplesOf());
-      this.#viewer = viewer;
-      this.#resized = true;
-      this.#sync(null);
-      cameras.forEach((camera, side) => {
-        viewer.setCamera(side, camera);
-      });
+    if ((await this.#make(SENTENCES.contextGone)) === 'made') {
+      for (const side of SIDES) {
+        this.#cameras.restore(side, cameras[side] ?? null);
+      }
       this.#listener.recovered();
-    } catch (thrown) {
-      console.error(thrown);
-      this.#listener.failed(SENTENCES.contextGone);
     }
   }
 }

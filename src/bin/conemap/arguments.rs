@@ -3,6 +3,7 @@
 use clap::{Args, Parser, Subcommand};
 use conemap::cone_metric::Scheme;
 use conemap::io::Format;
+use conemap::io::landmark_formats::LandmarkFormat;
 use conemap::pipeline::Choices;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -31,6 +32,8 @@ pub enum Command {
     Suggest(SuggestArguments),
     /// Deform one mesh conformally to a flat metric with prescribed cones.
     Flow(FlowArguments),
+    /// Convert landmark files, or tell how far their points lie off the meshes.
+    Landmarks(LandmarksArguments),
     /// Give a mesh even triangles, as many as wanted, with vertices on its surface.
     Remesh(RemeshArguments),
 }
@@ -43,8 +46,10 @@ pub struct MapArguments {
     pub source: PathBuf,
     /// Target mesh, likewise.
     pub target: PathBuf,
-    /// Landmark file: JSON with `pairs: [[source, target], ...]`, each side a 0-based vertex or `{"face", "barycentric"}`.
-    #[arg(long)]
+    /// The target's landmark file, where --landmarks names that of the source.
+    pub target_landmarks: Option<PathBuf>,
+    /// Landmark file.
+    #[arg(long, value_name = "FILE", help = landmarks_help("Landmark file"))]
     pub landmarks: PathBuf,
     /// What is chosen of the run.
     #[command(flatten)]
@@ -133,6 +138,46 @@ pub struct SuggestArguments {
     /// Vertices (0-based) that are landmarks already: the suggestions keep away from them.
     #[arg(long, value_name = "VERTEX", value_delimiter = ',')]
     pub beside: Vec<usize>,
+}
+
+/// `conemap landmarks`.
+#[derive(Debug, Args)]
+pub struct LandmarksArguments {
+    /// Source mesh.
+    #[arg(help = mesh_help("Source mesh"))]
+    pub source: PathBuf,
+    /// Target mesh, likewise.
+    pub target: PathBuf,
+    /// Landmark files to read.
+    #[arg(long = "in", value_name = "FILE", num_args = 1..=2, required = true, help = landmarks_help("Landmark file of both meshes, or that of the source and that of the target"))]
+    pub inputs: Vec<PathBuf>,
+    /// Landmark file of both meshes to write, or that of the source and that of the target.
+    #[arg(long = "out", value_name = "FILE", num_args = 1..=2)]
+    pub outputs: Vec<PathBuf>,
+    /// The format to write, if not the one that the ending of the name says.
+    #[arg(long, value_parser = landmark_format, value_name = "FORMAT", help = format_help())]
+    pub format: Option<LandmarkFormat>,
+    /// Print the points' distances and what there is to know about them as JSON instead of text.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// The formats of landmark files.
+fn landmarks_help(name: &str) -> String {
+    format!("{name}: {}", LandmarkFormat::NAMES)
+}
+
+/// The words of the formats.
+fn format_words() -> String {
+    LandmarkFormat::ALL.map(LandmarkFormat::id).join(", ")
+}
+
+fn format_help() -> String {
+    format!("Format to write, if not the one that the ending of the name says: {}", format_words())
+}
+
+fn landmark_format(text: &str) -> Result<LandmarkFormat, String> {
+    LandmarkFormat::of_id(text).ok_or_else(|| format!("`{text}` is none of {}", format_words()))
 }
 
 /// What a mesh must be.

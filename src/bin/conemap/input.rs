@@ -1,9 +1,11 @@
 //! Meshes and landmarks from files, with errors that name the file.
 
-use conemap::io;
+use conemap::io::{self, gltf_parts};
+use conemap::landmark_exchange::GivenFile;
 use conemap::mesh::check::{CheckedMesh, closed_genus_zero};
+use std::collections::BTreeMap;
 use std::error::Error;
-use std::path::Path;
+use std::path::{Component, Path};
 
 /// What the command line fails with: a sentence.
 pub type Failure = Box<dyn Error>;
@@ -13,10 +15,50 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     std::fs::read(path).map_err(|e| format!("{}: {e}", path.display()).into())
 }
 
+/// Reads the file of a mesh, with what it keeps in files beside it.
+pub fn mesh_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    let own = bytes(path)?;
+    let parts = gltf_parts::parts_of(&own);
+    if parts.buffers.is_empty() {
+        return Ok(own);
+    }
+    // What a file names is read from its own folder and those below, and from nowhere else.
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let is_below = |name: &str| Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+    let names = parts.buffers.into_iter().chain(parts.images).filter(|name| is_below(name));
+    let contents: BTreeMap<String, Vec<u8>> = names
+        .filter_map(|name| std::fs::read(folder.join(&name)).ok().map(|content| (name, content)))
+        .collect();
+    let find = |name: &str| contents.get(name).map(Vec::as_slice);
+    let packed = gltf_parts::packed(&own, find).map_err(|e| format!("{}: {e}", path.display()))?;
+    Ok(packed.bytes)
+}
+
 /// Reads and checks a mesh.
 pub fn mesh(path: &Path) -> Result<CheckedMesh, Failure> {
-    let soup = io::read_mesh(&bytes(path)?).map_err(|e| format!("{}: {e}", path.display()))?;
+    checked(path, &mesh_bytes(path)?)
+}
+
+/// Checks a mesh that was read from a file.
+pub fn checked(path: &Path, bytes: &[u8]) -> Result<CheckedMesh, Failure> {
+    let soup = io::read_mesh(bytes).map_err(|e| format!("{}: {e}", path.display()))?;
     closed_genus_zero(&soup).map_err(|e| format!("{}: {e}", path.display()).into())
+}
+
+/// Files with their names.
+pub struct NamedFiles(Vec<(String, Vec<u8>)>);
+
+impl NamedFiles {
+    /// Reads files.
+    pub fn read<P: AsRef<Path>>(paths: &[P]) -> Result<Self, Failure> {
+        let file = |path: &P| Ok((path.as_ref().display().to_string(), bytes(path.as_ref())?));
+        Ok(Self(paths.iter().map(file).collect::<Result<_, Failure>>()?))
+    }
+
+    /// As landmark files.
+    pub fn given(&self) -> Vec<GivenFile<'_>> {
+        self.0.iter().map(|(name, bytes)| GivenFile { name, bytes }).collect()
+    }
 }
 
 /// Writes a file, with the folder above it.

@@ -6,12 +6,14 @@ use crate::input::{self, Failure};
 use crate::interrupt;
 use conemap::job::{Job, JobError, JobFile, JobFiles, OutputKind, TargetImage};
 use conemap::pipeline::{FindingReport, MapResult, Method, PipelineOptions, RepairKind};
+use std::path::PathBuf;
 
 /// Maps, writes what was asked for, and tells the certificate; an error where there is no certified map.
 pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
     let mut clock = Clock::start();
     let job = read(arguments, &mut clock)?;
     let options = PipelineOptions::from(arguments.choices);
+    clock.suspend(|| job.landmark_remarks().iter().for_each(|remark| eprintln!("landmarks: {remark}")));
     clock.plan(options.stages(job.landmark_count()));
     let findings = job.findings(&mut clock)?;
     clock.suspend(|| findings.iter().for_each(tell_finding));
@@ -42,16 +44,20 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
 
 /// Reads the files; a fault is told with the file's name.
 fn read(arguments: &MapArguments, clock: &mut Clock) -> Result<Job, Failure> {
-    let [source, target, landmarks] = [&arguments.source, &arguments.target, &arguments.landmarks];
-    let bytes = [input::bytes(source)?, input::bytes(target)?, input::bytes(landmarks)?];
-    let files = JobFiles { source: &bytes[0], target: &bytes[1], landmarks: &bytes[2] };
+    let [source, target] = [&arguments.source, &arguments.target];
+    let landmarks: Vec<&PathBuf> =
+        std::iter::once(&arguments.landmarks).chain(&arguments.target_landmarks).collect();
+    let bytes = [input::mesh_bytes(source)?, input::mesh_bytes(target)?];
+    let landmark_files = input::NamedFiles::read(&landmarks)?;
+    let files = JobFiles { source: &bytes[0], target: &bytes[1], landmarks: &landmark_files.given() };
     let target_image = if arguments.mirror_target { TargetImage::Mirrored } else { TargetImage::AsGiven };
     Job::read(files, target_image, clock).map_err(|error: JobError| {
-        let file = error.file().map(|file| match file {
-            JobFile::Source => source,
-            JobFile::Target => target,
-            JobFile::Landmarks => landmarks,
-        });
+        let file = match error.file() {
+            Some(JobFile::Source) => Some(source),
+            Some(JobFile::Target) => Some(target),
+            Some(JobFile::Landmarks(number)) => landmarks.get(number).copied(),
+            None => None,
+        };
         file.map_or_else(|| error.to_string(), |path| format!("{}: {error}", path.display())).into()
     })
 }

@@ -11,7 +11,7 @@ use std::path::Path;
 /// Opens a map file with its meshes; a fault is told with the file's name.
 pub fn open(arguments: &SavedMapArguments) -> Result<OpenMap, Failure> {
     let [map, source, target] = [&arguments.map, &arguments.source, &arguments.target];
-    let bytes = [input::bytes(map)?, input::bytes(source)?, input::bytes(target)?];
+    let bytes = [input::bytes(map)?, input::mesh_bytes(source)?, input::mesh_bytes(target)?];
     OpenMap::read(MapFiles { map: &bytes[0], source: &bytes[1], target: &bytes[2] }).map_err(|error| {
         let file = match error.side() {
             Some(MeshSide::Source) => source,

@@ -1,0 +1,22 @@
+//! Landmark files of many programs brought onto meshes, and landmarks on meshes written as such files.
+//!
+//! Points in space are put on the nearest point of the surface, with their distances told; the lists of two meshes are paired
+//! by equal labels, or else by order.
+
+mod pairing;
+mod problem;
+mod projection;
+mod reading;
+mod remark;
+mod surface;
+mod writing;
+
+pub use problem::{Advice, ExchangeError};
+pub use projection::{PlacedMark, SideLandmarks};
+pub use reading::{GivenFile, PairLandmarks, read_pairs, read_side};
+pub use remark::Remark;
+pub use surface::Surface;
+pub use writing::{ExchangeWriteError, write_pairs, write_side};
+
+#[cfg(test)]
+mod tests;

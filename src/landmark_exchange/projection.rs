@@ -1,0 +1,202 @@
+//! The landmarks of one mesh from its file to its surface.
+
+use super::problem::{Advice, ExchangeError};
+use super::remark::Remark;
+use super::surface::Surface;
+use crate::io::landmark_file::LandmarkPoint;
+use crate::io::landmark_formats::{MarkList, Spot};
+use crate::landmarks::MeshSide;
+use crate::mesh::surface_index::SurfaceIndex;
+use crate::mesh::{FaceId, SurfacePoint};
+use glam::DVec3;
+
+/// From this distance on, in units of the square root of the area, a landmark off the surface is told.
+const TOLD: f64 = 0.01;
+/// From this distance on it is refused.
+const REFUSED: f64 = 0.2;
+/// Within this distance landmarks lie on a surface, where a way is sought to bring them there.
+const FITS: f64 = 0.05;
+/// Within this distance of a vertex a landmark is the vertex.
+const AT_VERTEX: f64 = 1e-9;
+/// At most so many remarks of one kind name their landmarks.
+const NAMED: usize = 5;
+/// At most so many landmarks are looked at for advice.
+const LOOKED_AT: usize = 200;
+/// Between millimetres, centimetres, decimetres, metres and inches.
+const UNITS: [f64; 8] = [1000.0, 0.001, 10.0, 0.1, 100.0, 0.01, 25.4, 1.0 / 25.4];
+
+/// A landmark on its mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedMark {
+    /// Its name, empty for none.
+    pub label: String,
+    /// The point; `None` where its file says that it was not placed.
+    pub point: Option<LandmarkPoint>,
+    /// How far off the surface its file has it, in the units of the mesh; 0 where the file has it on the surface.
+    pub distance: f64,
+}
+
+/// The landmarks of one mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SideLandmarks {
+    /// The landmarks in the order of their file.
+    pub marks: Vec<PlacedMark>,
+    /// What there is to know about them.
+    pub remarks: Vec<Remark>,
+}
+
+/// What places the landmarks of one list.
+struct Placement<'a> {
+    surface: Surface<'a>,
+    size: f64,
+    /// The number in the file of each vertex of the mesh.
+    numbers: Vec<usize>,
+    /// Where there are points in space.
+    index: Option<SurfaceIndex<'a>>,
+}
+
+/// Brings the landmarks of a list, of the file of this number, onto their mesh.
+///
+/// # Errors
+/// [`ExchangeError::MissingFace`] and [`ExchangeError::FarOff`].
+pub(super) fn place(
+    list: &MarkList,
+    surface: Surface<'_>,
+    side: MeshSide,
+    file: usize,
+) -> Result<SideLandmarks, ExchangeError> {
+    let has_places = list.marks.iter().any(|mark| matches!(mark.spot, Some(Spot::InSpace(_))));
+    let placement = Placement {
+        surface,
+        size: surface.size(),
+        numbers: surface.mesh.file_from_vertex(),
+        index: has_places.then(|| SurfaceIndex::new(&surface.mesh.mesh)),
+    };
+    let mut marks = Vec::with_capacity(list.marks.len());
+    for (index, mark) in list.marks.iter().enumerate() {
+        let label = mark.label.clone();
+        marks.push(match mark.spot {
+            None => PlacedMark { label, point: None, distance: 0.0 },
+            Some(Spot::OnMesh(point)) => {
+                let point = placement.on_mesh(point).map_err(|face| {
+                    let faces = surface.mesh.mesh.face_count();
+                    ExchangeError::MissingFace { file, side, index, label: label.clone(), face, faces }
+                })?;
+                PlacedMark { label, point: Some(point), distance: 0.0 }
+            }
+            Some(Spot::InSpace(p)) => placement.nearest(label, placement.in_mesh_space(list, p)),
+        });
+    }
+    placement.check_distances(list, &marks, side, file)?;
+    let remarks = placement.remarks(&marks, side);
+    Ok(SideLandmarks { marks, remarks })
+}
+
+impl Placement<'_> {
+    /// A point of a face, as a vertex where it is one; the face's number where the mesh does not have it.
+    fn on_mesh(&self, point: LandmarkPoint) -> Result<LandmarkPoint, u32> {
+        let LandmarkPoint::OnFace { face, barycentric } = point else {
+            return Ok(point);
+        };
+        let mesh = &self.surface.mesh.mesh;
+        let corners = mesh.triangles().get(FaceId(face)).ok_or(face)?;
+        let on_mesh = self.surface.mesh.with_file_corners(SurfacePoint { face: FaceId(face), barycentric });
+        let corner = on_mesh.barycentric.iter().position(|w| *w == 1.0);
+        Ok(corner.map_or(point, |k| LandmarkPoint::Vertex(self.numbers[corners[k].index()] as u32)))
+    }
+
+    fn in_mesh_space(&self, list: &MarkList, p: DVec3) -> DVec3 {
+        list.space.map_or(p, |space| space.to(self.surface.space, p))
+    }
+
+    /// The nearest point of the surface, as a vertex where it is one.
+    fn nearest(&self, label: String, p: DVec3) -> PlacedMark {
+        let Some(index) = &self.index else {
+            return PlacedMark { label, point: None, distance: 0.0 };
+        };
+        let found = index.nearest(p);
+        let mesh = &self.surface.mesh.mesh;
+        let at = found.point.position(mesh);
+        let corners = mesh.triangles()[found.point.face];
+        let vertex = corners.iter().find(|v| mesh.positions()[**v].distance(at) <= AT_VERTEX * self.size);
+        let point = match vertex {
+            Some(v) => LandmarkPoint::Vertex(self.numbers[v.index()] as u32),
+            None => {
+                let SurfacePoint { face, barycentric } = self.surface.mesh.with_file_corners(found.point);
+                LandmarkPoint::OnFace { face: face.0, barycentric }
+            }
+        };
+        PlacedMark { label, point: Some(point), distance: found.distance }
+    }
+
+    /// Refuses points that are far from the mesh, the farthest named.
+    fn check_distances(
+        &self,
+        list: &MarkList,
+        marks: &[PlacedMark],
+        side: MeshSide,
+        file: usize,
+    ) -> Result<(), ExchangeError> {
+        let limit = REFUSED * self.size;
+        let far = |(_, mark): &(usize, &PlacedMark)| mark.distance > limit || mark.distance.is_nan();
+        let farthest =
+            marks.iter().enumerate().filter(far).max_by(|(_, a), (_, b)| a.distance.total_cmp(&b.distance));
+        let Some((index, mark)) = farthest else {
+            return Ok(());
+        };
+        Err(ExchangeError::FarOff {
+            file,
+            side,
+            index,
+            label: mark.label.clone(),
+            distance: mark.distance,
+            share: mark.distance / self.size,
+            advice: self.advice(list),
+        })
+    }
+
+    /// How the points of a list would lie on the mesh.
+    fn advice(&self, list: &MarkList) -> Option<Advice> {
+        let index = self.index.as_ref()?;
+        let in_space = list.marks.iter().filter_map(|mark| match mark.spot {
+            Some(Spot::InSpace(p)) => Some(self.in_mesh_space(list, p)),
+            _ => None,
+        });
+        let points: Vec<DVec3> = in_space.take(LOOKED_AT).collect();
+        let fit = |turned: &dyn Fn(DVec3) -> DVec3| {
+            points.iter().all(|p| index.nearest(turned(*p)).distance <= FITS * self.size)
+        };
+        if fit(&crate::io::landmark_formats::half_turned) {
+            return Some(Advice::HalfTurn);
+        }
+        UNITS.into_iter().find(|factor| fit(&|p| p * *factor)).map(Advice::Scale)
+    }
+
+    /// What there is to know: points that were not placed, and those that are somewhat off the surface, the farthest first.
+    fn remarks(&self, marks: &[PlacedMark], side: MeshSide) -> Vec<Remark> {
+        let unplaced = marks.iter().enumerate().filter(|(_, mark)| mark.point.is_none());
+        let unplaced: Vec<_> = unplaced
+            .map(|(index, mark)| Remark::NotPlaced { side, index, label: mark.label.clone() })
+            .collect();
+        let mut off: Vec<_> =
+            marks.iter().enumerate().filter(|(_, mark)| mark.distance > TOLD * self.size).collect();
+        off.sort_by(|(_, a), (_, b)| b.distance.total_cmp(&a.distance));
+        let off: Vec<_> = off
+            .into_iter()
+            .map(|(index, mark)| {
+                let (label, distance) = (mark.label.clone(), mark.distance);
+                Remark::OffSurface { side, index, label, distance, share: distance / self.size }
+            })
+            .collect();
+        let mut remarks = Vec::new();
+        for (mut all, off_surface) in [(unplaced, false), (off, true)] {
+            let count = all.len().saturating_sub(NAMED);
+            all.truncate(NAMED);
+            remarks.append(&mut all);
+            if count > 0 {
+                remarks.push(Remark::More { side, count, off_surface });
+            }
+        }
+        remarks
+    }
+}

@@ -1,0 +1,118 @@
+//! What there is to know about landmarks that were read.
+
+use crate::landmarks::MeshSide;
+use std::fmt;
+
+/// What there is to know about landmarks that were read. Landmarks are counted from 1 in words, from 0 in fields.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Remark {
+    /// A landmark that its file says was not placed.
+    NotPlaced {
+        /// The mesh.
+        side: MeshSide,
+        /// The landmark, 0-based in its list.
+        index: usize,
+        /// Its name.
+        label: String,
+    },
+    /// A landmark that was far from the surface.
+    OffSurface {
+        /// The mesh.
+        side: MeshSide,
+        /// The landmark, 0-based in its list.
+        index: usize,
+        /// Its name.
+        label: String,
+        /// Its distance in the units of the mesh.
+        distance: f64,
+        /// The distance in units of the square root of the mesh's area.
+        share: f64,
+    },
+    /// More landmarks of the kinds above, beside those that were named.
+    More {
+        /// The mesh.
+        side: MeshSide,
+        /// How many.
+        count: usize,
+        /// Whether they were far from the surface, and not left out.
+        off_surface: bool,
+    },
+    /// The labels of the two lists differ.
+    PairedByOrder,
+}
+
+impl Remark {
+    /// A stable word for programs.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::NotPlaced { .. } | Self::More { off_surface: false, .. } => "not_placed",
+            Self::OffSurface { .. } | Self::More { off_surface: true, .. } => "off_surface",
+            Self::PairedByOrder => "paired_by_order",
+        }
+    }
+}
+
+/// A landmark's number and name in words.
+pub(super) struct Named<'a> {
+    index: usize,
+    label: &'a str,
+}
+
+impl<'a> Named<'a> {
+    pub(super) fn new(index: &usize, label: &'a str) -> Self {
+        Self { index: *index, label }
+    }
+}
+
+impl fmt::Display for Named<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "landmark {}", self.index + 1)?;
+        if self.label.is_empty() {
+            return Ok(());
+        }
+        let short: String = self.label.chars().take(60).filter(|c| !c.is_control()).collect();
+        write!(f, " (\"{short}\")")
+    }
+}
+
+impl fmt::Display for Remark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotPlaced { side, index, label } => {
+                let mark = Named::new(index, label);
+                write!(f, "{mark} of the {side} has no position in its file and is left out")
+            }
+            Self::OffSurface { side, index, label, distance, share } => {
+                let mark = Named::new(index, label);
+                write!(
+                    f,
+                    "{mark} of the {side} lies {} off the surface, {:.1} % of the mesh's size: it is put on the nearest point",
+                    Short(*distance),
+                    100.0 * share
+                )
+            }
+            Self::More { side, count, off_surface } => {
+                let what = if *off_surface { "lie so far off the surface" } else { "have no position" };
+                write!(f, "{count} more landmarks of the {side} {what}")
+            }
+            Self::PairedByOrder => {
+                f.write_str("the labels of source and target differ: the landmarks are paired by their order")
+            }
+        }
+    }
+}
+
+/// A length with four significant digits.
+pub(super) struct Short(pub(super) f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let rounded: f64 = format!("{:.3e}", self.0).parse().unwrap_or(self.0);
+        if self.0 == 0.0 || (1e-3..1e6).contains(&self.0) {
+            write!(f, "{rounded}")
+        } else {
+            write!(f, "{rounded:e}")
+        }
+    }
+}

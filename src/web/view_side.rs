@@ -1,0 +1,321 @@
+//! One of the two views: its mesh, its camera, and what is marked on it.
+
+use super::failure;
+use crate::gpu::{Mesh, Renderer};
+use crate::io::landmark_file::LandmarkPoint;
+use crate::mesh::check::CheckedMesh;
+use crate::mesh::normals::vertex_normals;
+use crate::mesh::{FaceId, SurfacePoint};
+use crate::scene::buffers::{Frame, surface};
+use crate::scene::colours::landmark_colour;
+use crate::scene::hollows::carried;
+use crate::scene::pins::{Pin, STEM, Stand, distance_to_pin};
+use crate::scene::{Camera, Glide, Picker, Pose, Ray, UpAxis};
+use glam::{DVec3, Vec2, Vec3};
+use rustc_hash::FxHashMap;
+use serde::Deserialize;
+use serde_json::json;
+use wasm_bindgen::prelude::*;
+
+/// Share of the view that a mesh fills at first.
+const SHARE: f32 = 0.82;
+
+/// Who chose where a camera stands.
+#[derive(Clone, Copy, Default, PartialEq)]
+pub(super) enum Look {
+    /// Nobody yet: the whole mesh stays in view, also when the window changes.
+    #[default]
+    Whole,
+    /// The user.
+    Chosen,
+}
+
+/// A landmark as the page tells it.
+#[derive(Deserialize)]
+struct Mark {
+    point: LandmarkPoint,
+    colour: usize,
+    raised: bool,
+    /// Curvature of its cone, in radians.
+    cone: Option<f64>,
+}
+
+/// A landmark with its cone.
+#[derive(Clone, Copy)]
+pub(super) struct Landmark {
+    pub pin: Pin,
+    pub cone: Option<f64>,
+}
+
+/// One view.
+#[derive(Default)]
+pub(super) struct Side {
+    pub look: Look,
+    pub rectangle: [f32; 4],
+    pub camera: Camera,
+    pub glide: Option<Glide>,
+    pub mesh: Option<SideMesh>,
+    /// The map's own triangles on this side.
+    pub overlay: Option<Mesh>,
+    pub lines: Option<Mesh>,
+    /// In pair order; `None` where not picked yet.
+    pub landmarks: Vec<Option<Landmark>>,
+    /// Points that the page marks itself.
+    pub suggestions: Vec<Option<Vec3>>,
+    /// A place that is asked for, or its partner.
+    pub probe: Option<Vec3>,
+}
+
+/// A mesh that is shown.
+pub(super) struct SideMesh {
+    pub checked: CheckedMesh,
+    pub frame: Frame,
+    pub picker: Option<Picker>,
+    pub surface: Mesh,
+    /// How much each vertex lies in a hollow, by the bits of its position in single precision.
+    pub hollows: FxHashMap<[u32; 3], f32>,
+}
+
+impl Side {
+    /// Where the camera stands at a time, in milliseconds.
+    pub fn pose(&self, now: f64) -> Pose {
+        let end = self.camera.pose();
+        self.glide.map_or(end, |glide| glide.at(now, end))
+    }
+
+    /// The camera, which the user moves.
+    pub fn moved(&mut self) -> &mut Camera {
+        self.look = Look::Chosen;
+        &mut self.camera
+    }
+
+    /// Width by height.
+    pub fn aspect(&self) -> f32 {
+        if self.rectangle[3] < 1.0 { 1.0 } else { (self.rectangle[2] / self.rectangle[3]).max(0.05) }
+    }
+
+    /// Moves the camera, which keeps its direction, so that the whole mesh is seen as large as the view allows.
+    pub fn fit(&mut self) {
+        self.look = Look::Whole;
+        let Some(mesh) = &self.mesh else { return };
+        let positions = mesh.checked.mesh.positions();
+        // Some 2000 points tell the size of a mesh well enough.
+        let stride = positions.len() / 2000 + 1;
+        let points: Vec<Vec3> = positions.iter().step_by(stride).map(|p| mesh.frame.place(*p)).collect();
+        let aspect = self.aspect();
+        self.camera.fit(&points, aspect, SHARE);
+    }
+
+    /// The first look: the whole mesh from ahead and a little above.
+    pub fn first_look(&mut self) {
+        self.camera = Camera::first(self.camera.up);
+        self.fit();
+    }
+
+    /// Whether the camera is as at the start: nobody has turned it or brought it elsewhere.
+    pub fn is_first_look(&self) -> bool {
+        let (Camera { yaw, pitch, roll, .. }, first) = (self.camera, Camera::first(self.camera.up));
+        self.look == Look::Whole && (yaw, pitch, roll) == (first.yaw, first.pitch, first.roll)
+    }
+
+    /// Another axis points up; where the user has not moved the camera, the whole mesh stays in view.
+    pub fn set_up(&mut self, up: UpAxis) {
+        self.camera.set_up(up);
+        if self.look == Look::Whole {
+            self.fit();
+        }
+    }
+
+    /// Everything that is marked goes.
+    pub fn clear_marks(&mut self) {
+        self.landmarks.clear();
+        self.suggestions.clear();
+        self.probe = None;
+    }
+
+    /// What a result has brought goes.
+    pub fn clear_result(&mut self) {
+        self.overlay = None;
+        self.lines = None;
+        self.probe = None;
+    }
+
+    /// Landmarks from a JSON array of marks or null.
+    pub fn set_landmarks(&mut self, marks: &str) -> Result<(), JsValue> {
+        let marks: Vec<Option<Mark>> = serde_json::from_str(marks).map_err(|e| failure("landmarks", e))?;
+        let landmark = |mark: Option<Mark>| {
+            let Mark { point, colour, raised, cone } = mark?;
+            let stand = if raised { Stand::Raised } else { Stand::Plain };
+            let pin = Pin { base: self.place_of(point)?, colour: landmark_colour(colour), stand };
+            Some(Landmark { pin, cone })
+        };
+        self.landmarks = marks.into_iter().map(landmark).collect();
+        Ok(())
+    }
+
+    /// Suggested points from a JSON array of landmark points or null.
+    pub fn set_suggestions(&mut self, points: &str) -> Result<(), JsValue> {
+        let points: Vec<Option<LandmarkPoint>> =
+            serde_json::from_str(points).map_err(|e| failure("landmarks", e))?;
+        self.suggestions = points.into_iter().map(|p| self.place_of(p?)).collect();
+        Ok(())
+    }
+
+    /// Where a landmark point is, in scene coordinates; `None` where the mesh has no such point.
+    pub fn place_of(&self, point: LandmarkPoint) -> Option<Vec3> {
+        let mesh = self.mesh.as_ref()?;
+        Some(mesh.frame.place(mesh.surface_point(point)?.position(&mesh.checked.mesh)))
+    }
+
+    /// The surface point seen at a place of the view, x and y from -1 to 1, y up.
+    pub fn pick(&self, at: Vec2, now: f64) -> Option<SurfacePoint> {
+        let mesh = self.mesh.as_ref()?;
+        let (from, along) = mesh.ray(self.pose(now).ray(at, self.aspect()));
+        mesh.picker.as_ref()?.pick(&mesh.checked.mesh, from, along)
+    }
+
+    /// Likewise its place in scene coordinates.
+    pub fn pick_place(&self, at: Vec2, now: f64) -> Option<Vec3> {
+        let mesh = self.mesh.as_ref()?;
+        Some(mesh.frame.place(self.pick(at, now)?.position(&mesh.checked.mesh)))
+    }
+
+    /// Makes sure that the camera turns about a point that is seen: where the pivot has gone out of the view, it becomes the
+    /// point in the middle.
+    pub fn grab(&mut self, now: f64) {
+        let seen = self.pose(now).project(self.camera.pivot, self.aspect());
+        if seen.is_none_or(|p| p.truncate().abs().max_element() > 1.0)
+            && let Some(place) = self.pick_place(Vec2::ZERO, now)
+        {
+            self.camera.pivot = place;
+        }
+    }
+
+    /// Multiplies the distance to what is seen at a place of the view, which stays there.
+    pub fn zoom_at(&mut self, at: Vec2, factor: f32, now: f64) {
+        let pose = self.pose(now);
+        let point = self.pick_place(at, now).unwrap_or_else(|| pose.in_target_plane(at, self.aspect()));
+        self.moved().zoom_about(point, factor);
+    }
+
+    /// Turns the camera to a point of the mesh, whose normal then comes to the viewer.
+    pub fn face(&mut self, point: LandmarkPoint) {
+        let Some(mesh) = &self.mesh else { return };
+        let Some(point) = mesh.surface_point(point) else { return };
+        let surface = &mesh.checked.mesh;
+        let normals = vertex_normals(surface);
+        let corners = surface.triangles()[point.face];
+        let normal: DVec3 = (0..3).map(|k| point.barycentric[k] * normals[corners[k]]).sum();
+        let place = mesh.frame.place(point.position(surface));
+        self.moved().face(place, normal.normalize_or(DVec3::Z).as_vec3());
+    }
+
+    /// Where a pin stands.
+    pub fn base(&self, pin: usize) -> Option<Vec3> {
+        Some(self.landmarks.get(pin).copied().flatten()?.pin.base)
+    }
+
+    /// The point of the mesh that lies some pixels of the page beside a pin, x to the right and y up on the screen.
+    pub fn beside(&self, pin: usize, by: Vec2, now: f64, pixel_ratio: f32) -> Option<SurfacePoint> {
+        let base = self.base(pin)?;
+        let pose = self.pose(now);
+        let pixel = pose.height_at(base, self.aspect()) * pixel_ratio / self.rectangle[3].max(1.0);
+        let moved = base + (pose.right() * by.x + pose.up() * by.y) * pixel;
+        let mesh = self.mesh.as_ref()?;
+        Some(mesh.picker.as_ref()?.nearest(&mesh.checked.mesh, mesh.frame.unplace(moved)))
+    }
+
+    /// The number of the pin under the pointer, among those that the body does not hide.
+    pub fn pin_at(&self, at: Vec2, slack: f32, now: f64, pixel_ratio: f32) -> Option<usize> {
+        let half = 0.5 * Vec2::new(self.rectangle[2], self.rectangle[3]) / pixel_ratio;
+        let pose = self.pose(now);
+        let distance = |landmark: &Option<Landmark>| {
+            let base = (*landmark)?.pin.base;
+            let seen = pose.project(base, self.aspect())?.truncate();
+            distance_to_pin(seen * half, at * half, slack).filter(|_| !self.is_hidden(base, pose))
+        };
+        let found = self.landmarks.iter().enumerate().filter_map(|(k, mark)| Some((k, distance(mark)?)));
+        found.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)
+    }
+
+    /// Where the heads of the pins are: x and y from -1 to 1, y up, and 1 where the body does not hide it.
+    pub fn heads(&self, now: f64, pixel_ratio: f32) -> Vec<f32> {
+        let stem = 2.0 * STEM * pixel_ratio / self.rectangle[3].max(1.0);
+        let place = |mark: &Option<Landmark>| self.label(mark.map(|mark| mark.pin.base), stem, now);
+        self.landmarks.iter().flat_map(place).collect()
+    }
+
+    /// Where the suggested points are, likewise.
+    pub fn suggested(&self, now: f64) -> Vec<f32> {
+        self.suggestions.iter().flat_map(|p| self.label(*p, 0.0, now)).collect()
+    }
+
+    fn label(&self, place: Option<Vec3>, above: f32, now: f64) -> [f32; 3] {
+        let pose = self.pose(now);
+        let seen = place.and_then(|p| Some((p, pose.project(p, self.aspect())?)));
+        let Some((p, at)) = seen else { return [0.0; 3] };
+        [at.x, at.y + above, if self.is_hidden(p, pose) { 0.0 } else { 1.0 }]
+    }
+
+    /// Whether the surface is well in front of a point.
+    pub fn is_hidden(&self, p: Vec3, pose: Pose) -> bool {
+        let Some(mesh) = &self.mesh else { return true };
+        let (eye, at) = (mesh.frame.unplace(pose.eye()), mesh.frame.unplace(p));
+        let hit = mesh
+            .picker
+            .as_ref()
+            .and_then(|picker| picker.pick(&mesh.checked.mesh, eye, (at - eye).normalize()));
+        let distance = eye.distance(at);
+        // 1 % of the distance: no point is hidden by its own face.
+        hit.is_some_and(|h| h.position(&mesh.checked.mesh).distance(eye) < distance - 0.01 * distance)
+    }
+}
+
+impl SideMesh {
+    /// A mesh, and its vertices as they are drawn.
+    pub fn new(checked: CheckedMesh, renderer: &Renderer) -> Self {
+        let frame = Frame::of(&checked.mesh);
+        let (vertices, indices) = surface(&checked.mesh, &frame);
+        let surface = renderer.surface_mesh(&vertices, &indices);
+        let bits = |p: &DVec3| p.as_vec3().to_array().map(f32::to_bits);
+        let hollows =
+            checked.mesh.positions().iter().map(bits).zip(vertices.iter().map(|v| v.hollow)).collect();
+        let picker = Picker::new(&checked.mesh);
+        Self { checked, frame, picker, surface, hollows }
+    }
+
+    /// How much points of a finer triangulation lie in hollows; `positions` are in input coordinates, three numbers a point.
+    pub fn hollows_at(&self, positions: &[f32], triangles: &[u32]) -> Vec<f32> {
+        let bits = |p: &[f32]| [p[0], p[1], p[2]].map(f32::to_bits);
+        let known: Vec<Option<f32>> =
+            positions.chunks_exact(3).map(|p| self.hollows.get(&bits(p)).copied()).collect();
+        carried(&known, triangles)
+    }
+
+    /// A ray of the scene in input coordinates.
+    pub fn ray(&self, Ray { origin, direction }: Ray) -> (DVec3, DVec3) {
+        let from = self.frame.unplace(origin);
+        (from, (self.frame.unplace(origin + direction) - from).normalize())
+    }
+
+    /// The point of the mesh that a landmark point names; `None` where there is none.
+    pub fn surface_point(&self, point: LandmarkPoint) -> Option<SurfacePoint> {
+        let mesh = &self.checked.mesh;
+        match point {
+            LandmarkPoint::Vertex(v) => {
+                let known = self.checked.vertex_from_file.get(v as usize).copied().flatten();
+                known.map(|v| SurfacePoint::at_vertex(mesh, v))
+            }
+            LandmarkPoint::OnFace { face, barycentric } => {
+                let point = SurfacePoint { face: FaceId(face), barycentric };
+                ((face as usize) < mesh.face_count()).then(|| self.checked.with_file_corners(point))
+            }
+        }
+    }
+
+    /// A point of the mesh as landmark files write it.
+    pub fn in_file(&self, point: SurfacePoint) -> serde_json::Value {
+        let point = self.checked.with_file_corners(point);
+        json!({ "face": point.face.0, "barycentric": point.barycentric })
+    }
+}

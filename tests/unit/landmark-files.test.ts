@@ -1,0 +1,162 @@
+/** Landmark files of other programs, and meshes in several files, with the core that has been built. */
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { zipSync } from 'fflate';
+import { beforeAll, describe, expect, test } from 'vitest';
+import { eventsOf, FileRefused, meshFile } from '../../www/files.ts';
+import type { NamedBytes } from '../../www/files.ts';
+import { contentOf, filesOf, formatList, landmarkFile, pairsRead, sideCalledLike, sideRead } from '../../www/landmark-files.ts';
+import type { LandmarkFile, Side } from '../../www/landmarks.ts';
+import { gathered } from '../../www/mesh-sets.ts';
+import type { MeshFile, State } from '../../www/store/state.ts';
+import { INITIAL } from '../../www/store/state.ts';
+import { buildDemo, initSync, landmarkEndings } from '../../www/wasm/conemap.js';
+import { after } from './fixtures.ts';
+
+let source: MeshFile;
+let target: MeshFile;
+let landmarks: LandmarkFile;
+let open: State;
+
+beforeAll(() => {
+  const path = fileURLToPath(new URL('../../www/wasm/conemap_bg.wasm', import.meta.url));
+  initSync({ module: readFileSync(path) });
+  const demo = buildDemo('horse-cat');
+  if (demo === undefined) {
+    throw new Error('the demo is gone');
+  }
+  source = meshFile({ name: 'horse.obj', bytes: demo.source() });
+  target = meshFile({ name: 'cat.obj', bytes: demo.target() });
+  landmarks = { ...landmarkFile({ name: 'a.json', bytes: demo.landmarks() }), source: 'horse.obj', target: 'cat.obj' };
+  open = after(INITIAL, { kind: 'mesh', side: 0, file: source }, { kind: 'mesh', side: 1, file: target });
+});
+
+function text(name: string, content: string): NamedBytes {
+  return { name, bytes: new TextEncoder().encode(content) };
+}
+
+function format(id: string): ReturnType<typeof formatList>[number] {
+  const found = formatList().find((candidate) => candidate.id === id);
+  if (found === undefined) {
+    throw new Error(`${id} is no format`);
+  }
+  return found;
+}
+
+function refusal(files: readonly NamedBytes[], over: Side | null, state: State): string {
+  try {
+    eventsOf(files, over, state);
+  } catch (thrown) {
+    if (thrown instanceof FileRefused) {
+      return thrown.message;
+    }
+    throw thrown;
+  }
+  throw new Error('nothing was refused');
+}
+
+describe('landmark files', () => {
+  test('of every format give the landmarks back that were written', () => {
+    for (const info of formatList()) {
+      const files = filesOf(info, landmarks, source.mesh, target.mesh);
+      const contents = files.map(contentOf);
+      expect(contents, info.id).toEqual(info.id === 'conemap' ? ['pairs'] : info.holds === 'one' ? ['one', 'one'] : ['both']);
+      const read = pairsRead(files, source.mesh, target.mesh);
+      expect(read.file.pairs, info.id).toEqual(landmarks.pairs);
+      expect(read.remarks).toEqual([]);
+      expect(landmarkEndings().split(',')).toContain(`.${info.ending.split('.').at(-1) ?? ''}`);
+    }
+  });
+
+  test('for one mesh go onto the side they are dropped on, or that is called like them', () => {
+    const [horse, cat] = filesOf(format('fcsv'), landmarks, source.mesh, target.mesh);
+    if (horse === undefined || cat === undefined) {
+      throw new Error('two files were expected');
+    }
+    expect([horse.name, cat.name]).toEqual(['horse.fcsv', 'cat.fcsv']);
+    expect(sideCalledLike(cat, ['horse.obj', 'cat.obj'])).toBe(1);
+    const points = landmarks.pairs.map(([, point]) => point);
+    expect(sideRead(cat, target.mesh, 1).marks.map(({ point }) => point)).toEqual(points);
+    for (const [file, over] of [[cat, null], [{ ...cat, name: 'points.fcsv' }, 1]] as const) {
+      const state = after(open, ...eventsOf([file], over, open));
+      expect(state.pairs.map((pair) => pair.points)).toEqual(points.map((point) => [null, point]));
+    }
+    // The second completes the first, and both together are one step, in whatever order they come.
+    const both = after(open, ...eventsOf([cat, horse], null, open));
+    expect(both.pairs.map((pair) => pair.points)).toEqual(landmarks.pairs);
+    const one = after(open, ...eventsOf([cat], null, open));
+    const then = after(one, ...eventsOf([horse], null, one));
+    expect(then.pairs.map((pair) => pair.points)).toEqual(landmarks.pairs);
+  });
+
+  test('that cannot be placed are refused with what to do', () => {
+    const far = text('far.csv', 'name,x,y,z\nnose,1e6,0,0\n');
+    expect(refusal([far], 0, open)).toMatch(/^far\.csv: Landmark 1 \("nose"\) of the source lies .* off the surface/);
+    expect(refusal([far], null, open)).toMatch(/drop the file on the view of that mesh/);
+    expect(refusal([far], 0, INITIAL)).toMatch(/^far\.csv: .*load their mesh first/);
+    expect(refusal([far, far, far], null, open)).toMatch(/one for each mesh/);
+    expect(refusal([text('a.csv', 'name,x,y,z\nnose,one,0,0\n')], 0, open)).toBe(
+      'a.csv: CSV file, line 2: "one" should be a coordinate.',
+    );
+    expect(refusal([text('a.json', '{"x": 1}')], null, open)).toMatch(/^a\.json: This is no landmark file that can be read: use Conemap JSON, /);
+    const nearby = text('near.csv', 'name,x,y,z\nnose,1e6,0,0\n');
+    const [horse] = filesOf(format('csv'), landmarks, source.mesh, target.mesh);
+    expect(horse === undefined ? '' : refusal([horse, nearby], null, open)).toMatch(/one for each mesh/);
+  });
+});
+
+/** A tetrahedron as glTF, its buffer in a file of its own. */
+function tetrahedron(): [NamedBytes, NamedBytes] {
+  const corners = [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1];
+  const faces = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];
+  const bytes = new Uint8Array([...new Uint8Array(new Float32Array(corners).buffer), ...faces]);
+  const gltf = {
+    asset: { version: '2.0' },
+    scene: 0,
+    scenes: [{ nodes: [0] }],
+    nodes: [{ mesh: 0 }],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
+    accessors: [
+      { bufferView: 0, componentType: 5126, count: 4, type: 'VEC3', min: [0, 0, 0], max: [1, 1, 1] },
+      { bufferView: 1, componentType: 5121, count: 12, type: 'SCALAR' },
+    ],
+    bufferViews: [
+      { buffer: 0, byteLength: 48 },
+      { buffer: 0, byteOffset: 48, byteLength: 12 },
+    ],
+    buffers: [{ byteLength: 60, uri: 'tetra%20hedron.bin' }],
+  };
+  return [text('tetra.gltf', JSON.stringify(gltf)), { name: 'tetra hedron.bin', bytes }];
+}
+
+describe('meshes in several files', () => {
+  test('are one file when all are there, and the missing ones are named', () => {
+    const [gltf, buffer] = tetrahedron();
+    const state = after(INITIAL, ...eventsOf([buffer, gltf], 0, INITIAL));
+    expect([state.meshes[0]?.name, state.meshes[0]?.faceCount]).toEqual(['tetra.glb', 4]);
+    expect(refusal([gltf], 0, INITIAL)).toBe('tetra.gltf: Drop it together with tetra hedron.bin: its data is there.');
+    expect(refusal([buffer], 0, INITIAL)).toMatch(/^tetra hedron\.bin: this is a part of a mesh/);
+  });
+
+  test('come out of a zip with their folders, materials and pictures', () => {
+    const [gltf, buffer] = tetrahedron();
+    const bytes = zipSync({
+      'model/tetra.gltf': gltf.bytes,
+      'model/tetra hedron.bin': buffer.bytes,
+      'model/skin.mtl': new Uint8Array(5),
+      '__MACOSX/model/._tetra.gltf': new Uint8Array(5),
+    });
+    const state = after(INITIAL, ...eventsOf([{ name: 'all.zip', bytes }], null, INITIAL));
+    expect([state.meshes[0]?.name, state.meshes[0]?.faceCount]).toEqual(['tetra.glb', 4]);
+    const cut = bytes.slice(0, bytes.length / 2);
+    expect(refusal([{ name: 'all.zip', bytes: cut }], null, INITIAL)).toMatch(/^all\.zip: this zip cannot be unpacked/);
+  });
+
+  test('do not come out of a zip that unpacks to too much', () => {
+    const bytes = zipSync({ 'a.obj': new Uint8Array(2 ** 25) });
+    expect(bytes.length).toBeLessThan(2 ** 17);
+    expect(() => gathered([{ name: 'bomb.zip', bytes }])).toThrow(/unpacks to more than the page can take/);
+    const many = zipSync(Object.fromEntries(Array.from({ length: 1001 }, (_, index) => [`${index}.obj`, new Uint8Array(1)])));
+    expect(() => gathered([{ name: 'many.zip', bytes: many }])).toThrow(/more than 1000 files/);
+  });
+});

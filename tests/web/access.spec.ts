@@ -1,0 +1,117 @@
+/** What everybody can use: no finding of axe in light and dark, in every step; all sizes of windows; the keyboard. */
+import { AxeBuilder } from '@axe-core/playwright';
+import type { Page } from '@playwright/test';
+import { expect, test } from '@playwright/test';
+import { openDemo, openStep, runMap } from './page.ts';
+
+const RULES = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
+
+async function expectNoFindings(page: Page, where: string): Promise<void> {
+  const { violations } = await new AxeBuilder({ page }).withTags(RULES).analyze();
+  const told = violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(' ')).join(', ')}`);
+  expect(told, where).toEqual([]);
+}
+
+for (const scheme of ['light', 'dark'] as const) {
+  test(`axe finds nothing, ${scheme}`, async ({ page }) => {
+    await page.emulateMedia({ colorScheme: scheme });
+    await openDemo(page);
+    for (const step of ['meshes', 'landmarks', 'map', 'use', 'method'] as const) {
+      await openStep(page, step);
+      await expectNoFindings(page, `${step}, idle`);
+    }
+    await openStep(page, 'map');
+    await runMap(page);
+    await page.locator('#result summary').click();
+    await page.locator('#details summary').first().click();
+    for (const step of ['map', 'landmarks', 'use', 'method'] as const) {
+      await openStep(page, step);
+      await expectNoFindings(page, `${step}, done`);
+    }
+    await page.getByRole('button', { name: /^Picture: / }).click();
+    await page.getByRole('radio', { name: 'Distortion' }).check();
+    await expectNoFindings(page, 'picture');
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('?');
+    await expect(page.getByRole('dialog')).toBeVisible();
+    await expectNoFindings(page, 'help');
+  });
+}
+
+test('the chosen theme stays over a reload', async ({ page }) => {
+  await page.emulateMedia({ colorScheme: 'light' });
+  await openDemo(page);
+  const ground = (): Promise<string> => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  const light = await ground();
+  await page.getByRole('button', { name: 'Light or dark' }).click();
+  await page.getByRole('button', { name: 'Dark', exact: true }).click();
+  const dark = await ground();
+  expect(dark).not.toBe(light);
+  await page.reload();
+  await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
+  expect(await ground()).toBe(dark);
+});
+
+test('the main action is in sight, and nothing scrolls sideways, from a phone to a large screen', async ({ page }) => {
+  for (const [width, height] of [[360, 640], [360, 800], [800, 400], [1280, 800], [2560, 1440]] as const) {
+    await page.setViewportSize({ width, height });
+    await openDemo(page);
+    for (const step of ['landmarks', 'map'] as const) {
+      await openStep(page, step);
+      await expect(page.locator('#run'), `${width} x ${height}`).toBeInViewport({ ratio: 1 });
+    }
+    const sizes = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
+    expect(sizes[0], `${width} x ${height}`).toBe(sizes[1]);
+    for (const view of ['#view-source', '#view-target']) {
+      const box = await page.locator(view).boundingBox();
+      expect(Math.min(box?.width ?? 0, box?.height ?? 0), `${view} at ${width} x ${height}`).toBeGreaterThan(60);
+    }
+  }
+});
+
+test('steps open by keys, and their panel folds away', async ({ page }) => {
+  await openDemo(page);
+  const names = ['Meshes', 'Landmarks', 'Map', 'Use', 'Method'];
+  await page.locator('body').press('1');
+  for (const [index, name] of names.entries()) {
+    if (index > 0) {
+      await page.keyboard.press(String(index + 1));
+    }
+    await expect(page.locator('#panel h2').first()).toContainText(name);
+  }
+  const wide = (await page.locator('#stage').boundingBox())?.width ?? 0;
+  await page.keyboard.press('5');
+  await expect(page.locator('#panel')).toBeHidden();
+  expect((await page.locator('#stage').boundingBox())?.width).toBeGreaterThan(wide + 300);
+  await page.keyboard.press('3');
+  await expect(page.locator('#run')).toBeVisible();
+});
+
+test('the divider shares the width by drag, keys and double-click', async ({ page }) => {
+  await openDemo(page);
+  const share = async (): Promise<number> => {
+    const [view, stage] = [await page.locator('#view-source').boundingBox(), await page.locator('#stage').boundingBox()];
+    return (view?.width ?? 0) / (stage?.width ?? 1);
+  };
+  const divider = page.getByRole('separator');
+  const box = await divider.boundingBox();
+  const stage = await page.locator('#stage').boundingBox();
+  expect(box !== null && stage !== null).toBe(true);
+  if (box !== null && stage !== null) {
+    await page.mouse.move(box.x + box.width / 2, box.y + 30);
+    await page.mouse.down();
+    await page.mouse.move(stage.x + 0.3 * stage.width, box.y + 60, { steps: 5 });
+    await page.mouse.up();
+  }
+  expect(await share()).toBeCloseTo(0.3, 1);
+  await divider.press('ArrowRight');
+  expect(await share()).toBeCloseTo(0.35, 1);
+  await divider.press('End');
+  expect(await share()).toBeCloseTo(1, 2);
+  await divider.dblclick({ position: { x: 6, y: 40 } });
+  expect(await share()).toBeCloseTo(0.5, 2);
+  await page.getByRole('button', { name: 'Show the target alone' }).click();
+  await expect(page.locator('#view-source')).toBeHidden();
+  await page.getByRole('button', { name: 'Show both views' }).click();
+  await expect(page.locator('#view-source')).toBeVisible();
+});

@@ -1,0 +1,224 @@
+/** Nothing is lost: steps taken back and made again, reloads, new visits, and two tabs. */
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import type { Page } from '@playwright/test';
+import { expect, test } from '@playwright/test';
+import { buildDemo, initSync } from '../../www/wasm/conemap.js';
+
+interface Upload {
+  readonly name: string;
+  readonly mimeType: string;
+  readonly buffer: Buffer;
+}
+
+function upload(name: string, data: string | Uint8Array): Upload {
+  return { name, mimeType: 'application/octet-stream', buffer: Buffer.from(data) };
+}
+
+/** The mirror image of an OBJ file: x turned, and every triangle with it. */
+function mirrored(obj: string): string {
+  return obj
+    .replace(/^v (\S+)/gm, (_, x: string) => `v ${-Number(x)}`)
+    .replace(/^f (\S+) (\S+) (\S+)/gm, 'f $1 $3 $2');
+}
+
+/** The files of a demo, as a user's own. */
+function ownFiles(): { readonly horse: Upload; readonly cat: Upload; readonly turned: Upload; readonly landmarks: Upload; readonly pairs: number } {
+  initSync({ module: readFileSync(fileURLToPath(new URL('../../www/wasm/conemap_bg.wasm', import.meta.url))) });
+  const demo = buildDemo('horse-cat');
+  if (demo === undefined) {
+    throw new Error('there is no demo horse-cat');
+  }
+  const text = (bytes: Uint8Array): string => new TextDecoder().decode(bytes);
+  const landmarks = JSON.parse(text(demo.landmarks())) as { pairs: unknown[] };
+  return {
+    horse: upload('horse.obj', demo.source()),
+    cat: upload('cat.obj', demo.target()),
+    turned: upload('cat.obj', mirrored(text(demo.target()))),
+    landmarks: upload('horse-cat.json', JSON.stringify({ ...landmarks, source: 'horse.obj', target: 'cat.obj' })),
+    pairs: landmarks.pairs.length,
+  };
+}
+
+async function open(page: Page, hash = ''): Promise<void> {
+  await page.goto(`/${hash}`);
+  await expect(page.locator('body')).toHaveAttribute('data-ready', 'true', { timeout: 120_000 });
+  await expect(page.locator('body')).toHaveAttribute('data-state', 'idle', { timeout: 60_000 });
+}
+
+async function shows(page: Page, source: string, target: string, pairs: number): Promise<void> {
+  await expect(page.locator('#view-source')).toContainText(source);
+  await expect(page.locator('#view-target')).toContainText(target);
+  await expect(page.locator('body')).toHaveAttribute('data-pairs', String(pairs));
+}
+
+/** Opens the user's own files one after the other. */
+async function openOwn(page: Page, target: Upload): Promise<number> {
+  const { horse, landmarks, pairs } = ownFiles();
+  await page.locator('#source-file').setInputFiles(horse);
+  await expect(page.locator('#view-source')).toContainText('horse.obj');
+  await page.locator('#target-file').setInputFiles(target);
+  await expect(page.locator('#view-target')).toContainText('cat.obj');
+  await page.locator('#landmark-file').setInputFiles(landmarks);
+  await shows(page, 'horse.obj', 'cat.obj', pairs);
+  return pairs;
+}
+
+/** Waits until the browser has kept work with so many pairs. */
+async function kept(page: Page, pairs: number): Promise<void> {
+  const counts = (): Promise<number[]> =>
+    page.evaluate(
+      () =>
+        new Promise<number[]>((resolve, reject) => {
+          const opening = indexedDB.open('conemap');
+          opening.onerror = () => {
+            reject(new Error('the store does not open'));
+          };
+          opening.onsuccess = () => {
+            const database = opening.result;
+            const all = database.transaction('sessions').objectStore('sessions').getAll();
+            all.onsuccess = () => {
+              database.close();
+              resolve((all.result as { work: { pairs: unknown[] } }[]).map(({ work }) => work.pairs.length));
+            };
+          };
+        }),
+    );
+  await expect.poll(counts).toContain(pairs);
+}
+
+test('a target that was mirrored is taken back with all landmarks, and mirrored again', async ({ page }) => {
+  await open(page, '#demo=horse-cat');
+  const pairs = await openOwn(page, ownFiles().turned);
+  await page.locator('#run').click();
+  await page.getByRole('button', { name: 'Mirror the target' }).click({ timeout: 120_000 });
+  await shows(page, 'horse.obj', 'cat (mirrored).obj', pairs);
+  await expect(page.getByText('The target is its mirror image now')).toBeVisible();
+  await page.keyboard.press('Control+z');
+  await shows(page, 'horse.obj', 'cat.obj', pairs);
+  await page.keyboard.press('Control+Shift+Z');
+  await shows(page, 'horse.obj', 'cat (mirrored).obj', pairs);
+  await page.keyboard.press('Control+z');
+  await page.keyboard.press('Control+y');
+  await shows(page, 'horse.obj', 'cat (mirrored).obj', pairs);
+  // Back to the first step: the landmarks, the target, the source.
+  for (let step = 0; step < 4; step++) {
+    await page.keyboard.press('Control+z');
+  }
+  await expect(page.locator('body')).toHaveAttribute('data-demo', 'horse-cat');
+  await shows(page, 'horse-cat-source.obj', 'horse-cat-target.obj', pairs);
+  await page.keyboard.press('Control+z');
+  await shows(page, 'horse-cat-source.obj', 'horse-cat-target.obj', pairs);
+  await expect(page.locator('#error')).toBeHidden();
+});
+
+test('a demo chosen over landmarks is undone from its note, and a map that was made is there again', async ({ page }) => {
+  test.setTimeout(300_000);
+  await open(page, '#demo=horse-cat');
+  const pairs = await openOwn(page, ownFiles().cat);
+  await page.locator('#run').click();
+  await expect(page.locator('body')).toHaveAttribute('data-state', 'done', { timeout: 200_000 });
+  await page.evaluate(() => {
+    location.hash = '#demo=horse-cat';
+  });
+  await shows(page, 'horse-cat-source.obj', 'horse-cat-target.obj', pairs);
+  await expect(page.locator('body')).toHaveAttribute('data-state', 'idle');
+  await page.getByRole('button', { name: 'Undo', exact: true }).first().click();
+  await shows(page, 'horse.obj', 'cat.obj', pairs);
+  await expect(page.locator('body')).toHaveAttribute('data-state', 'done');
+  await expect(page.locator('body')).toHaveAttribute('data-demo', '');
+  expect(new URL(page.url()).hash).toBe('');
+});
+
+test('a reload in the middle goes on with the work and its steps', async ({ page }) => {
+  await open(page, '#demo=horse-cat');
+  const pairs = await openOwn(page, ownFiles().cat);
+  await kept(page, pairs);
+  await page.reload();
+  await expect(page.locator('body')).toHaveAttribute('data-ready', 'true', { timeout: 120_000 });
+  await shows(page, 'horse.obj', 'cat.obj', pairs);
+  await expect(page.getByRole('button', { name: 'Start anew' })).toBeHidden();
+  await page.keyboard.press('Control+z');
+  await shows(page, 'horse.obj', 'cat.obj', 0);
+  await page.keyboard.press('Control+z');
+  await page.keyboard.press('Control+z');
+  await shows(page, 'horse-cat-source.obj', 'horse-cat-target.obj', pairs);
+  await page.keyboard.press('Control+y');
+  await page.keyboard.press('Control+y');
+  await page.keyboard.press('Control+y');
+  await shows(page, 'horse.obj', 'cat.obj', pairs);
+  await expect(page.locator('#run')).toBeEnabled();
+});
+
+test('a step made just before the page goes is kept', async ({ page }) => {
+  await open(page, '#demo=horse-cat');
+  const pairs = await openOwn(page, ownFiles().cat);
+  await kept(page, pairs);
+  await page.keyboard.press('Control+z');
+  await page.reload();
+  await shows(page, 'horse.obj', 'cat.obj', 0);
+});
+
+test('a new visit is asked whether to continue, beside a linked demo too', async ({ page, context }) => {
+  await open(page, '#demo=horse-cat');
+  const pairs = await openOwn(page, ownFiles().cat);
+  await kept(page, pairs);
+  await page.close();
+
+  const second = await context.newPage();
+  await open(second, '#demo=horse-cat');
+  await expect(second.getByText(`Continue with horse and cat, ${pairs} pairs?`)).toBeVisible();
+  await shows(second, 'horse-cat-source.obj', 'horse-cat-target.obj', pairs);
+  await second.getByRole('button', { name: 'Continue', exact: true }).click();
+  await shows(second, 'horse.obj', 'cat.obj', pairs);
+  await second.keyboard.press('Control+z');
+  await shows(second, 'horse.obj', 'cat.obj', 0);
+  await kept(second, 0);
+  await second.keyboard.press('Control+y');
+  await kept(second, pairs);
+  await second.close();
+
+  const third = await context.newPage();
+  await open(third);
+  await third.getByRole('button', { name: 'Start anew' }).click();
+  await expect(third.getByRole('button', { name: 'Start anew' })).toBeHidden();
+  await third.close();
+
+  const fourth = await context.newPage();
+  await open(fourth);
+  await fourth.waitForTimeout(1000);
+  await expect(fourth.getByRole('button', { name: 'Start anew' })).toBeHidden();
+});
+
+test('two tabs do not disturb each other', async ({ page, context }) => {
+  await open(page, '#demo=horse-cat');
+  const pairs = await openOwn(page, ownFiles().cat);
+  await kept(page, pairs);
+  const other = await context.newPage();
+  await open(other, '#demo=horse-cat');
+  await expect(other.getByRole('button', { name: 'Start anew' })).toBeHidden();
+  await other.locator('#landmark-file').setInputFiles(upload('four.json', '{"pairs": [[1, 2], [30, 40], [500, 600], [700, 800]]}'));
+  await shows(other, 'horse-cat-source.obj', 'horse-cat-target.obj', 4);
+  await kept(other, 4);
+  await shows(page, 'horse.obj', 'cat.obj', pairs);
+  await page.keyboard.press('Control+z');
+  await kept(page, 0);
+  await other.reload();
+  await page.reload();
+  await shows(other, 'horse-cat-source.obj', 'horse-cat-target.obj', 4);
+  await shows(page, 'horse.obj', 'cat.obj', 0);
+});
+
+test('keys that are typed into a field are the field’s', async ({ page }) => {
+  await open(page, '#demo=horse-cat');
+  const pairs = await openOwn(page, ownFiles().cat);
+  await page.evaluate(() => {
+    const field = document.createElement('input');
+    field.id = 'a-field';
+    field.type = 'text';
+    document.body.append(field);
+  });
+  await page.locator('#a-field').fill('nose');
+  await page.keyboard.press('Control+z');
+  await shows(page, 'horse.obj', 'cat.obj', pairs);
+});

@@ -1,0 +1,93 @@
+/** What the tests of the page do again and again. */
+import { existsSync, readFileSync } from 'node:fs';
+import { basename } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import type { Locator, Page } from '@playwright/test';
+import { expect, test } from '@playwright/test';
+
+export const ROOT = fileURLToPath(new URL('../../', import.meta.url));
+const SHARED = `${ROOT}../shared`;
+export const DATA = `${SHARED}/data`;
+export const RUN_TIMEOUT = 200_000;
+
+/** Leaves a test out where the real meshes are not here. */
+export function needsSharedData(): void {
+  test.skip(
+    !existsSync(SHARED),
+    'the real meshes (../shared/data: cat.off, lion.off, cat-lion.json, open-teapot.off) are not here',
+  );
+}
+
+export function fail(message: string): never {
+  throw new Error(message);
+}
+
+/** Opens the page and waits for the core. */
+export async function open(page: Page, hash = ''): Promise<void> {
+  await page.goto(`/${hash}`);
+  await expect(page.locator('body')).toHaveAttribute('data-ready', 'true', { timeout: 120_000 });
+}
+
+/** Opens the page with a demo, ready to be mapped. */
+export async function openDemo(page: Page, hash = '#demo=horse-cat'): Promise<void> {
+  await open(page, hash);
+  await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
+}
+
+/** Opens a step's panel; it stays open where it is. */
+export async function openStep(page: Page, step: 'meshes' | 'landmarks' | 'map' | 'use' | 'method'): Promise<void> {
+  const button = page.locator(`#step-${step}`);
+  const isOpen = (await button.getAttribute('aria-current')) === 'step' && (await page.locator('#panel .content').isVisible());
+  if (!isOpen) {
+    await button.click();
+  }
+  await expect(page.locator('#panel .content')).toBeVisible();
+}
+
+/** The rows of the whole pairs. */
+export function pairs(page: Page): Locator {
+  return page.locator('#landmark-list [data-pair]');
+}
+
+/** Drops files on the page as a user does. */
+export async function drop(page: Page, paths: readonly string[]): Promise<void> {
+  await dropContents(
+    page,
+    paths.map((path) => ({ name: basename(path), content: readFileSync(path) })),
+  );
+}
+
+/** Drops files that are on no disk. */
+export async function dropContents(page: Page, given: readonly { readonly name: string; readonly content: Buffer | string }[]): Promise<void> {
+  const files = given.map(({ name, content }) => ({ name, base64: Buffer.from(content).toString('base64') }));
+  const transfer = await page.evaluateHandle((list) => {
+    const data = new DataTransfer();
+    for (const { name, base64 } of list) {
+      const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+      data.items.add(new File([bytes], name));
+    }
+    return data;
+  }, files);
+  await page.dispatchEvent('body', 'dragover', { dataTransfer: transfer });
+  await page.dispatchEvent('body', 'drop', { dataTransfer: transfer });
+}
+
+/** Waits for the end of a run, which must have gone well. */
+export async function finished(page: Page): Promise<void> {
+  await expect(page.locator('body')).toHaveAttribute('data-state', /done|error/, { timeout: RUN_TIMEOUT });
+  await expect(page.locator('#error')).toBeHidden();
+}
+
+/** Makes the map and waits for its certificate. */
+export async function runMap(page: Page): Promise<void> {
+  await page.locator('#run').click();
+  await finished(page);
+  await expect(page.locator('#result')).toContainText(/Certified bijective: 0 of [\d,]+ triangles flipped/);
+}
+
+/** Chooses what the surfaces show, on the canvas. */
+export async function showSurface(page: Page, name: string): Promise<void> {
+  await page.getByRole('button', { name: /^Picture: / }).click();
+  await page.getByRole('radio', { name }).check();
+  await page.keyboard.press('Escape');
+}

@@ -1,0 +1,302 @@
+/** Cameras and pins under the hand: turned, zoomed, dragged and nudged as a user does, read off where the pins' numbers are. */
+import type { Page } from '@playwright/test';
+import { expect, test } from '@playwright/test';
+import { fail, openStep, showSurface } from './page.ts';
+
+interface Spot {
+  readonly x: number;
+  readonly y: number;
+}
+
+/** What was drawn since it was last asked. */
+interface Drawn {
+  readonly calls: number;
+  /** Triangles of the largest call. */
+  readonly triangles: number;
+}
+
+/** From the middle of a pin's head to its number, also of a raised one, and down to its place, in CSS pixels. */
+const NUMBER_BESIDE = 8;
+const RAISED_BESIDE = 10;
+const STEM = 17;
+
+/** Longer than a glide and a rest. */
+const SETTLED = 900;
+
+async function open(page: Page): Promise<void> {
+  await page.addInitScript(() => {
+    const drawn = { calls: 0, triangles: 0 };
+    Reflect.set(window, 'drawn', drawn);
+    const { prototype } = WebGL2RenderingContext;
+    for (const name of ['drawElements', 'drawElementsInstanced', 'drawArrays', 'drawArraysInstanced'] as const) {
+      const draw: (...rest: number[]) => void = Reflect.get(prototype, name);
+      Reflect.set(prototype, name, function (this: WebGL2RenderingContext, ...rest: number[]) {
+        drawn.calls += 1;
+        if (name.startsWith('drawElements')) {
+          drawn.triangles = Math.max(drawn.triangles, (rest[1] ?? 0) / 3);
+        }
+        draw.apply(this, rest);
+      });
+    }
+  });
+  await page.goto('/#demo=horse-cat');
+  await expect(page.locator('body')).toHaveAttribute('data-ready', 'true', { timeout: 120_000 });
+  await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
+  await page.waitForTimeout(SETTLED);
+}
+
+async function drawn(page: Page): Promise<Drawn> {
+  return page.evaluate(() => {
+    const counts = Reflect.get(window, 'drawn') as { calls: number; triangles: number };
+    const copy = { ...counts };
+    counts.calls = 0;
+    counts.triangles = 0;
+    return copy;
+  });
+}
+
+/** The middles of the pins' heads in the window by their numbers, of those that the body does not hide. */
+async function heads(page: Page, view: string): Promise<Map<string, Spot>> {
+  const list = await page.locator(`${view} .labels span`).evaluateAll((spans) =>
+    spans
+      .filter((span) => !(span as HTMLElement).hidden)
+      .map((span) => {
+        const box = span.getBoundingClientRect();
+        const spot = { x: box.left, y: box.top + box.height / 2 };
+        return { number: span.textContent, spot, raised: span.classList.contains('raised') };
+      }),
+  );
+  return new Map(list.map(({ number, spot, raised }) => [number, { x: spot.x - (raised ? RAISED_BESIDE : NUMBER_BESIDE), y: spot.y }]));
+}
+
+/** A pin that is seen, away from all others. */
+async function lonelyPin(page: Page, view: string): Promise<string> {
+  const all = [...(await heads(page, view))];
+  const nearest = (index: number): number =>
+    Math.min(...all.map(([, spot], other) => (other === index ? Infinity : distance(spot, all[index]?.[1] ?? spot))));
+  const best = all.map((_, index) => index).sort((a, b) => nearest(b) - nearest(a))[0] ?? fail('no pin is seen');
+  return all[best]?.[0] ?? fail('no pin is seen');
+}
+
+async function headOf(page: Page, view: string, number: string): Promise<Spot> {
+  return (await heads(page, view)).get(number) ?? fail(`pin ${number} of ${view} is not seen`);
+}
+
+function distance(a: Spot, b: Spot): number {
+  return Math.hypot(a.x - b.x, a.y - b.y);
+}
+
+/** How far the pins that are seen before and after have moved. */
+function moves(before: ReadonlyMap<string, Spot>, after: ReadonlyMap<string, Spot>): number[] {
+  return [...before].flatMap(([number, spot]) => {
+    const now = after.get(number);
+    return now === undefined ? [] : [distance(spot, now)];
+  });
+}
+
+test('frames are drawn only when something is seen to change', async ({ page }) => {
+  await open(page);
+  const faces = Number(/([\d,]+) triangles/.exec(await page.locator('#view-source').innerText())?.[1]?.replace(',', ''));
+  await drawn(page);
+  await page.waitForTimeout(1500);
+  expect((await drawn(page)).calls).toBe(0);
+
+  // A run tells its progress in words: no frame.
+  await page.locator('#run').click();
+  await expect(page.locator('body')).toHaveAttribute('data-state', 'running');
+  await drawn(page);
+  await page.waitForTimeout(1000);
+  await expect(page.locator('body')).toHaveAttribute('data-state', 'running');
+  expect((await drawn(page)).calls).toBe(0);
+  await expect(page.locator('body')).toHaveAttribute('data-state', 'done', { timeout: 200_000 });
+
+  // The plain view draws the user's own triangles, and the map's many more only where they are asked for.
+  await showSurface(page, 'Plain');
+  await page.waitForTimeout(SETTLED);
+  await drawn(page);
+  await page.locator('#view-source').focus();
+  await page.keyboard.press('ArrowLeft');
+  await page.waitForTimeout(SETTLED);
+  const plain = await drawn(page);
+  expect(plain.calls).toBeGreaterThan(1);
+  expect(plain.triangles).toBeLessThanOrEqual(1.5 * faces);
+  await showSurface(page, 'Distortion');
+  await page.waitForTimeout(SETTLED);
+  expect((await drawn(page)).triangles).toBeGreaterThan(1.5 * faces);
+});
+
+test('the cameras turn together and glide', async ({ page }) => {
+  await open(page);
+  const before = [await heads(page, '#view-source'), await heads(page, '#view-target')] as const;
+  const box = (await page.locator('#view-source').boundingBox()) ?? fail('no box');
+  // On the ground beside the body nothing is taken.
+  await page.mouse.move(box.x + 8, box.y + box.height - 30);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 48, box.y + box.height - 30, { steps: 4 });
+  await page.mouse.up();
+  await page.waitForTimeout(SETTLED);
+  for (const [index, view] of ['#view-source', '#view-target'].entries()) {
+    const moved = moves(before[index] ?? fail('no view'), await heads(page, view));
+    expect(Math.max(...moved), view).toBeGreaterThan(5);
+  }
+  // Back as at the start: the pins are where they were.
+  await page.locator('#view-source').focus();
+  await page.keyboard.press('0');
+  await page.waitForTimeout(SETTLED);
+  for (const [index, view] of ['#view-source', '#view-target'].entries()) {
+    const moved = moves(before[index] ?? fail('no view'), await heads(page, view));
+    expect(Math.max(...moved), view).toBeLessThan(1);
+  }
+});
+
+test('the wheel brings nearer what is under the mouse, which stays there', async ({ page }) => {
+  await open(page);
+  const number = await lonelyPin(page, '#view-source');
+  const before = await heads(page, '#view-source');
+  const head = before.get(number) ?? fail('not seen');
+  await page.mouse.move(head.x, head.y + STEM);
+  for (let notch = 0; notch < 3; notch++) {
+    await page.mouse.wheel(0, -100);
+    await page.waitForTimeout(100);
+  }
+  await page.waitForTimeout(SETTLED);
+  const after = await heads(page, '#view-source');
+  expect(distance(head, after.get(number) ?? fail('gone'))).toBeLessThan(4);
+  // All others go away from it.
+  const base = { x: head.x, y: head.y + STEM };
+  const grown = [...after].filter(([other]) => other !== number && before.has(other)).map(([other, spot]) => {
+    const old = before.get(other) ?? fail('not seen');
+    return distance({ x: spot.x, y: spot.y + STEM }, base) / distance({ x: old.x, y: old.y + STEM }, base);
+  });
+  expect(grown.length).toBeGreaterThan(0);
+  expect(Math.min(...grown)).toBeGreaterThan(1.2);
+});
+
+test('a double click brings a place to the middle, and a click alone still picks', async ({ page }) => {
+  await open(page);
+  await openStep(page, 'landmarks');
+  await page.getByRole('button', { name: 'Clear all' }).click();
+  const box = (await page.locator('#view-source').boundingBox()) ?? fail('no box');
+  const middle = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+  await page.mouse.click(middle.x + 20, middle.y);
+  await expect(page.locator('#view-source .labels span:visible')).toHaveCount(1);
+  const before = await headOf(page, '#view-source', '1');
+  expect(Math.abs(before.x - middle.x - 20)).toBeLessThan(2);
+  expect(Math.abs(before.y + STEM - middle.y)).toBeLessThan(2);
+  await page.mouse.dblclick(middle.x - 25, middle.y);
+  await page.waitForTimeout(SETTLED);
+  // No second point, and the first one moved to the right with the place that is in the middle now.
+  await expect(page.locator('#view-source .labels span:visible')).toHaveCount(1);
+  const after = await headOf(page, '#view-source', '1');
+  expect(after.x - before.x).toBeGreaterThan(10);
+});
+
+test('a pin is dragged on its surface, and one step takes it back', async ({ page }) => {
+  await open(page);
+  const number = await lonelyPin(page, '#view-source');
+  const start = await headOf(page, '#view-source', number);
+  const others = await heads(page, '#view-source');
+  const box = (await page.locator('#view-source').boundingBox()) ?? fail('no box');
+  const inwards = Math.sign(box.x + box.width / 2 - start.x) || 1;
+  await page.mouse.move(start.x, start.y);
+  await page.mouse.down();
+  await page.mouse.move(start.x + inwards * 6, start.y, { steps: 3 });
+  await page.mouse.move(start.x + inwards * 12, start.y, { steps: 6 });
+  await page.mouse.up();
+  await page.waitForTimeout(SETTLED);
+  const end = await headOf(page, '#view-source', number);
+  expect(Math.abs(end.x - start.x - inwards * 12)).toBeLessThan(2.5);
+  others.delete(number);
+  // The camera has not moved.
+  expect(Math.max(...moves(others, await heads(page, '#view-source')))).toBeLessThan(1);
+  await page.keyboard.press('Control+z');
+  await page.waitForTimeout(SETTLED);
+  expect(distance(start, await headOf(page, '#view-source', number))).toBeLessThan(1);
+});
+
+test('a pin that was clicked obeys the keys', async ({ page }) => {
+  await open(page);
+  await openStep(page, 'landmarks');
+  const number = await lonelyPin(page, '#view-source');
+  const pairs = await page.locator('#landmark-list [data-pair]').count();
+  const start = await headOf(page, '#view-source', number);
+  const left = start.x > ((await page.locator('#view-source').boundingBox())?.x ?? 0) + 200;
+  await page.mouse.click(start.x, start.y);
+  await expect(page.locator('#view-source .labels .raised')).toHaveText(number);
+  await expect(page.locator('#view-target .labels .raised')).toHaveCount(1);
+  await page.mouse.move(5, 5);
+  await page.keyboard.press(left ? 'Shift+ArrowLeft' : 'Shift+ArrowRight');
+  await page.waitForTimeout(300);
+  const coarse = await headOf(page, '#view-source', number);
+  expect(Math.abs(coarse.x - start.x)).toBeGreaterThan(3);
+  await page.keyboard.press(left ? 'ArrowRight' : 'ArrowLeft');
+  await page.waitForTimeout(300);
+  const fine = await headOf(page, '#view-source', number);
+  expect(distance(fine, coarse)).toBeLessThan(2);
+  expect(distance(fine, coarse)).toBeGreaterThan(0.2);
+  await page.keyboard.press('Delete');
+  await expect(page.locator('#landmark-list [data-pair]')).toHaveCount(pairs - 1);
+  // The next one is selected; let go, the arrow keys turn again.
+  await page.keyboard.press('Escape');
+  await expect(page.locator('#view-source .labels .raised')).toHaveCount(0);
+  const before = await heads(page, '#view-source');
+  await page.keyboard.press('ArrowLeft');
+  await page.waitForTimeout(SETTLED);
+  expect(Math.max(...moves(before, await heads(page, '#view-source')))).toBeGreaterThan(5);
+});
+
+test('keys zoom, look from six sides and fit', async ({ page }) => {
+  await open(page);
+  const view = page.locator('#view-source');
+  await view.focus();
+  const spread = async (): Promise<number> => {
+    const all = [...(await heads(page, '#view-source')).values()];
+    return Math.max(...all.map(({ x }) => x)) - Math.min(...all.map(({ x }) => x));
+  };
+  const before = await spread();
+  await page.keyboard.press('PageDown');
+  await page.waitForTimeout(SETTLED);
+  const small = await spread();
+  expect(small).toBeLessThan(0.85 * before);
+  await page.keyboard.press('PageUp');
+  await page.waitForTimeout(SETTLED);
+  expect(Math.abs((await spread()) - before)).toBeLessThan(3);
+  for (const key of ['F', 'B', 'L', 'R', 'T', 'U']) {
+    const earlier = await heads(page, '#view-source');
+    await page.keyboard.press(`Shift+${key}`);
+    await page.waitForTimeout(SETTLED);
+    const later = await heads(page, '#view-source');
+    const changes = [...earlier].some(([number, spot]) => distance(spot, later.get(number) ?? { x: -99, y: -99 }) > 3);
+    expect(changes, key).toBe(true);
+    const box = (await view.boundingBox()) ?? fail('no box');
+    for (const { x, y } of later.values()) {
+      expect(x > box.x && x < box.x + box.width && y + STEM > box.y && y < box.y + box.height, key).toBe(true);
+    }
+  }
+  await page.keyboard.press('q');
+  await page.keyboard.press('PageDown');
+  await page.waitForTimeout(SETTLED);
+  const away = await spread();
+  await page.keyboard.press('f');
+  await page.waitForTimeout(SETTLED);
+  expect(await spread()).not.toBeCloseTo(away, 0);
+});
+
+test('with a map the place under the mouse is marked in both views', async ({ page }) => {
+  await open(page);
+  await page.locator('#run').click();
+  await expect(page.locator('body')).toHaveAttribute('data-state', 'done', { timeout: 200_000 });
+  await page.waitForTimeout(SETTLED);
+  const box = (await page.locator('#view-source').boundingBox()) ?? fail('no box');
+  const target = (await page.locator('#view-target').boundingBox()) ?? fail('no box');
+  await page.mouse.move(box.x + 6, box.y + box.height - 6);
+  await page.waitForTimeout(SETTLED);
+  const without = await page.screenshot({ clip: target });
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.waitForTimeout(SETTLED);
+  const withRing = await page.screenshot({ clip: target });
+  expect(withRing.equals(without)).toBe(false);
+  await page.mouse.move(box.x + 6, box.y + box.height - 6);
+  await page.waitForTimeout(SETTLED);
+  expect((await page.screenshot({ clip: target })).equals(without)).toBe(true);
+});

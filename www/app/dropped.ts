@@ -1,0 +1,38 @@
+/** Files that are dropped, chosen or pasted: for a link that waits for them, a project, or meshes and landmarks. */
+import type { Side } from '../landmarks.ts';
+import { isProject } from '../send/project.ts';
+import type { Store } from '../store/store.ts';
+import type { Links } from './links.ts';
+import { bytesOf, openFiles } from './open.ts';
+import { openProject } from './projects.ts';
+import { sentenceOf } from './task.ts';
+
+const PROJECT = /\.zip$/i;
+
+/** Brings files where they belong; `side` is the view they were dropped on or chosen for. */
+export async function openDropped(store: Store, links: Links, files: readonly File[], side: Side | null): Promise<void> {
+  const { ready, job } = store.state;
+  const [first] = files;
+  const isForLink = links.waits;
+  if (!ready || first === undefined) {
+    return;
+  }
+  if (job.kind === 'running' || (!isForLink && !(files.length === 1 && PROJECT.test(first.name)))) {
+    await openFiles(store, files, side);
+    return;
+  }
+  try {
+    const named = await Promise.all(files.map(bytesOf));
+    const [only] = named;
+    if (only !== undefined && named.length === 1 && isProject(only.bytes)) {
+      links.cancel();
+      await openProject(store, only);
+    } else if (isForLink) {
+      await links.take(named);
+    } else {
+      await openFiles(store, files, side);
+    }
+  } catch (thrown) {
+    store.dispatch({ kind: 'error', sentence: sentenceOf(thrown) });
+  }
+}

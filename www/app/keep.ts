@@ -1,0 +1,390 @@
+/** Keeps the work in the browser as it changes, and brings it back: after a reload at once, on a new visit when asked for. */
+import type { NamedBytes } from '../files.ts';
+import { areMarksGood, FileRefused, meshFile } from '../files.ts';
+import type { Choice } from '../keep/choice.ts';
+import { choiceOf } from '../keep/choice.ts';
+import { Database } from '../keep/database.ts';
+import type { MeshRecord, SessionRecord } from '../keep/record.ts';
+import { keptOf, meshesOf, meshKey, readSession, recordOf, workFrom } from '../keep/record.ts';
+import type { Tabs } from '../keep/tabs.ts';
+import { browserTabs } from '../keep/tabs.ts';
+import { SENTENCES } from '../messages.ts';
+import { hashOf } from '../send/hash.ts';
+import { heldMeshes, NO_HISTORY } from '../store/history.ts';
+import type { MeshFile, Offer, State } from '../store/state.ts';
+import type { Store } from '../store/store.ts';
+import { isSameWork } from '../store/work.ts';
+import { perform } from './task.ts';
+
+/** What the keeper needs of the browser and the core. */
+export interface Surroundings {
+  /** Opens the store; `closed` is told when it can be used no more. */
+  open(closed: () => void): Promise<Database>;
+  /** Throws where the browser has no locks. */
+  readonly tabs: () => Tabs;
+  /** What this tab remembers over a reload. */
+  readonly memory: () => Pick<Storage, 'getItem' | 'setItem'>;
+  readonly newId: () => string;
+  /** In ms since 1970. */
+  readonly now: () => number;
+  /** The hash of bytes; `null` where the browser gives none. */
+  readonly hash: (bytes: Uint8Array<ArrayBuffer>) => Promise<string | null>;
+  /** Reads and checks a mesh. Throws `FileRefused`. */
+  readonly read: (file: NamedBytes) => MeshFile;
+  /** How long changes are gathered before they are written, in ms. */
+  readonly delay: number;
+}
+
+/** The browser that the page is in. */
+export const BROWSER: Surroundings = {
+  open: (closed) => Database.open(closed),
+  tabs: () => browserTabs(navigator.locks),
+  memory: () => sessionStorage,
+  newId: () => crypto.randomUUID(),
+  now: () => Date.now(),
+  hash: hashOf,
+  read: meshFile,
+  delay: 400,
+};
+
+/** What was kept for this tab, and what can be offered. */
+export interface Found {
+  readonly own: SessionRecord | null;
+  readonly offer: Offer | null;
+  /** A sentence about what cannot be read. */
+  readonly note: string | null;
+}
+
+const NOTHING: Found = { own: null, offer: null, note: null };
+/** Where a tab remembers its session. */
+const MEMORY_KEY = 'conemap-session';
+/** How long a lock is waited for, in ms: a page that was just reloaded may still hold it; a tab that was copied holds it on. */
+const PATIENCE = 500;
+
+/** How long the store may take to open, in ms: the page does not wait for one that never does. */
+const LONGEST_OPENING = 3000;
+
+/** What is promised, if it comes in time. Throws where it does not. */
+function within<T>(milliseconds: number, promised: Promise<T>): Promise<T> {
+  return new Promise((resolve, reject) => {
+    const timer = setTimeout(() => {
+      reject(new Error(`no answer in ${milliseconds} ms`));
+    }, milliseconds);
+    promised.then(resolve, reject).finally(() => {
+      clearTimeout(timer);
+    });
+  });
+}
+
+/** Whether nothing that is kept has changed. */
+function isKept(state: State, previous: State): boolean {
+  const [ui, before] = [state.ui, previous.ui];
+  return (
+    isSameWork(state, previous) &&
+    state.up === previous.up &&
+    state.history === previous.history &&
+    ui.step === before.step &&
+    ui.panel === before.panel &&
+    ui.link === before.link &&
+    ui.cameras === before.cameras &&
+    ui.style === before.style
+  );
+}
+
+function offerOf(record: SessionRecord | null): Offer | null {
+  if (record === null) {
+    return null;
+  }
+  const { id, work, saved } = record;
+  const [source, target] = work.meshes;
+  return { session: id, names: [source?.name ?? null, target?.name ?? null], pairs: work.pairs.length, saved };
+}
+
+function noteOf({ hasOthers, hasBroken }: Choice): string | null {
+  return hasOthers ? SENTENCES.keptByOther : hasBroken ? SENTENCES.keptUnreadable : null;
+}
+
+export class Keeper {
+  readonly #store: Store;
+  readonly #around: Surroundings;
+  readonly #hashes = new WeakMap<MeshFile, Promise<string | null>>();
+  #database: Database | null = null;
+  #tabs: Tabs | null = null;
+  #id = '';
+  /** Hashes of the meshes of what is written; `null` before anything is. */
+  #written: ReadonlySet<string> | null = null;
+  /** The session that this one continues, until that is written. */
+  #absorbed: string | null = null;
+  #timer: ReturnType<typeof setTimeout> | null = null;
+  #writing: Promise<void> = Promise.resolve();
+  #said = false;
+
+  constructor(store: Store, around: Surroundings) {
+    this.#store = store;
+    this.#around = around;
+  }
+
+  /**
+   * Finds what was kept. `linked` is the demo that the address names: a tab that comes to another one than it had begins a
+   * session of its own, and leaves the earlier one to be offered.
+   */
+  async find(linked: string | null): Promise<Found> {
+    try {
+      const opening = this.#around.open(() => {
+        this.#close(SENTENCES.keepsNoMore);
+      });
+      this.#database = await within(LONGEST_OPENING, opening);
+      this.#tabs = this.#around.tabs();
+      const found = await this.#look(this.#database, this.#tabs, linked);
+      this.#store.subscribe((state, previous) => {
+        this.#follow(state, previous);
+      });
+      return found;
+    } catch (thrown) {
+      console.warn(thrown);
+      this.#database = null;
+      return { ...NOTHING, note: SENTENCES.keepsNothing };
+    }
+  }
+
+  /** Brings back what this tab had, and shows what can be continued; whether this tab's work is on the page now. */
+  async resume({ own, offer, note }: Found): Promise<boolean> {
+    const { dispatch } = this.#store;
+    if (offer !== null) {
+      dispatch({ kind: 'offered', offer });
+    }
+    if (note !== null) {
+      dispatch({ kind: 'toast', sentence: note, undo: false });
+    }
+    if (own === null) {
+      return false;
+    }
+    this.#written = own.id === this.#id ? new Set(own.hashes) : null;
+    const isThere = await this.#restore(own);
+    if (!isThere && this.#tabs !== null) {
+      // What comes onto the page in place of it is not written over it.
+      const tabs = this.#tabs;
+      await this.#quietly(() => this.#begin(tabs));
+    }
+    return isThere;
+  }
+
+  /** Brings the offered work onto the page; this tab's session continues it. */
+  async accept(): Promise<void> {
+    const { state, dispatch } = this.#store;
+    if (state.offer === null || this.#database === null) {
+      return;
+    }
+    const id = state.offer.session;
+    dispatch({ kind: 'offer-closed' });
+    const reading = readSession(await this.#database.session(id).catch(() => undefined));
+    if (reading.kind !== 'session') {
+      dispatch({ kind: 'error', sentence: SENTENCES.keptUnreadable });
+    } else if (await this.#restore(reading.record)) {
+      const isOpen = (await this.#tabs?.open())?.has(id) ?? false;
+      this.#absorbed = isOpen ? null : id;
+      this.#schedule();
+    }
+  }
+
+  /** The offered work is not asked about again. */
+  async decline(): Promise<void> {
+    const { offer } = this.#store.state;
+    this.#store.dispatch({ kind: 'offer-closed' });
+    if (offer !== null) {
+      await this.#quietly((database) => database.decline(offer.session));
+    }
+  }
+
+  /** Writes what waits at once: the page may be about to go. Settled when it is written. */
+  flush(): Promise<void> {
+    if (this.#timer !== null) {
+      clearTimeout(this.#timer);
+      this.#timer = null;
+      this.#writing = this.#writing.then(() => this.#write());
+    }
+    return this.#writing;
+  }
+
+  /** This tab's session and the one to offer, out of all. */
+  async #look(database: Database, tabs: Tabs, linked: string | null): Promise<Found> {
+    const before = this.#around.memory().getItem(MEMORY_KEY);
+    const isMine = before !== null && (await tabs.claim(before, PATIENCE));
+    const reading = before === null ? null : readSession(await database.session(before));
+    const record = reading?.kind === 'session' ? reading.record : null;
+    const own = linked === null || linked === record?.work.demo ? record : null;
+    if (isMine && own !== null) {
+      this.#id = before;
+    } else {
+      // A copied tab continues with a copy; other work than this tab's leaves what it had.
+      if (isMine) {
+        tabs.release(before);
+      }
+      await this.#begin(tabs);
+    }
+    const open = new Set(await tabs.open());
+    if (isMine && before !== this.#id) {
+      // The browser may need a moment to see that it is free.
+      open.delete(before);
+    }
+    const choice = choiceOf(await database.sessions(), open);
+    await database.remove(choice.obsolete);
+    return { own, offer: offerOf(choice.latest), note: noteOf(choice) };
+  }
+
+  /** From now on this tab has a session of its own, of which nothing is written. */
+  async #begin(tabs: Tabs): Promise<void> {
+    this.#id = this.#around.newId();
+    this.#written = null;
+    await tabs.claim(this.#id, PATIENCE);
+    this.#around.memory().setItem(MEMORY_KEY, this.#id);
+  }
+
+  /** Puts a session's work onto the page; `false` where it does not come, and says why where it cannot be read. */
+  async #restore(record: SessionRecord): Promise<boolean> {
+    const outcome = await perform(
+      this.#store,
+      SENTENCES.bringingBack,
+      () => this.#bytesOf(meshesOf(record)),
+      (named) => {
+        const files = this.#read(named);
+        try {
+          const { work, history } = workFrom(record, files, this.#store.state.demos);
+          if (!areMarksGood(work)) {
+            throw new FileRefused(SENTENCES.keptUnreadable);
+          }
+          const areStepsGood = [...history.past, ...history.future].every((step) => areMarksGood(step.work));
+          this.#store.dispatch({ kind: 'restored', work, ui: record.ui, history: areStepsGood ? history : NO_HISTORY });
+        } finally {
+          this.#freeUnused(files);
+        }
+      },
+    );
+    if (outcome === 'failed') {
+      await this.#quietly(async (database) => database.decline(record.id));
+    }
+    return outcome === 'done';
+  }
+
+  async #bytesOf(meshes: readonly MeshRecord[]): Promise<ReadonlyMap<string, NamedBytes>> {
+    const named = await Promise.all(
+      meshes.map(async (mesh): Promise<readonly [string, NamedBytes]> => {
+        const bytes = (await this.#database?.mesh(mesh.hash)) ?? null;
+        if (bytes === null) {
+          throw new FileRefused(SENTENCES.keptUnreadable);
+        }
+        const { name, address } = mesh;
+        return [meshKey(mesh), { name, bytes, ...(address === undefined ? {} : { address }) }];
+      }),
+    );
+    return new Map(named);
+  }
+
+  /** The meshes by key; all or none. */
+  #read(named: ReadonlyMap<string, NamedBytes>): ReadonlyMap<string, MeshFile> {
+    const files = new Map<string, MeshFile>();
+    try {
+      for (const [key, file] of named) {
+        files.set(key, this.#around.read(file));
+      }
+      return files;
+    } catch (thrown) {
+      files.forEach((file) => {
+        file.mesh.free();
+      });
+      throw thrown;
+    }
+  }
+
+  /** Gives back the meshes that did not come onto the page or into its history. */
+  #freeUnused(files: ReadonlyMap<string, MeshFile>): void {
+    const held = heldMeshes(this.#store.state.history, this.#store.state);
+    for (const file of files.values()) {
+      if (!held.has(file)) {
+        file.mesh.free();
+      }
+    }
+  }
+
+  #follow(state: State, previous: State): void {
+    if (this.#isMade(state) && !isKept(state, previous)) {
+      this.#schedule();
+    }
+  }
+
+  /** Whether somebody made something: a page that only shows a demo would push out what somebody made before. */
+  #isMade({ history }: State): boolean {
+    return this.#written !== null || this.#absorbed !== null || history.past.length + history.future.length > 0;
+  }
+
+  #schedule(): void {
+    if (this.#database !== null && this.#timer === null) {
+      this.#timer = setTimeout(() => {
+        void this.flush();
+      }, this.#around.delay);
+    }
+  }
+
+  async #hashOf(file: MeshFile): Promise<string> {
+    const known = this.#hashes.get(file);
+    // What the page holds lies in its own memory, and is no buffer that threads share.
+    const hash = known ?? this.#around.hash(file.bytes as Uint8Array<ArrayBuffer>);
+    this.#hashes.set(file, hash);
+    const value = await hash;
+    if (value === null) {
+      throw new Error('no hash of a mesh');
+    }
+    return value;
+  }
+
+  async #write(): Promise<void> {
+    const { state } = this.#store;
+    if (this.#database === null || !this.#isMade(state)) {
+      return;
+    }
+    try {
+      const kept = keptOf(state);
+      const hashes = new Map<MeshFile, string>();
+      for (const file of kept.files) {
+        hashes.set(file, await this.#hashOf(file));
+      }
+      const record = recordOf(kept, { id: this.#id, saved: this.#around.now(), ui: state.ui }, hashes);
+      const needed = new Set(record.hashes);
+      const fresh = new Map([...hashes].flatMap(([file, hash]) => (this.#written?.has(hash) === true ? [] : [[hash, file.bytes]])));
+      const dropped = [...(this.#written ?? [])].filter((hash) => !needed.has(hash));
+      await this.#database.write({ record, fresh, dropped, absorbed: this.#absorbed });
+      this.#written = needed;
+      this.#absorbed = null;
+      this.#said = false;
+    } catch (thrown) {
+      console.warn(thrown);
+      const isFull = thrown instanceof DOMException && thrown.name === 'QuotaExceededError';
+      this.#say(isFull ? SENTENCES.noRoom : SENTENCES.keepsNoMore);
+    }
+  }
+
+  /** Does something with the store that the user need not hear of where it fails. */
+  async #quietly(action: (database: Database) => Promise<void>): Promise<void> {
+    try {
+      if (this.#database !== null) {
+        await action(this.#database);
+      }
+    } catch (thrown) {
+      console.warn(thrown);
+    }
+  }
+
+  /** The store cannot be used any more. */
+  #close(sentence: string): void {
+    this.#database = null;
+    this.#say(sentence);
+  }
+
+  /** Says that nothing is kept, once until something is again. */
+  #say(sentence: string): void {
+    if (!this.#said) {
+      this.#said = true;
+      this.#store.dispatch({ kind: 'toast', sentence, undo: false });
+    }
+  }
+}

@@ -1,0 +1,177 @@
+/** Links into the page: follows the one in the address, asks what it must ask, and puts what it brings onto the page. */
+import type { NamedBytes } from '../files.ts';
+import { checkFit, landmarkFile } from '../files.ts';
+import { fetchSentence, LINK_REFUSED, otherFiles, SENTENCES } from '../messages.ts';
+import type { Link } from '../send/link.ts';
+import { readLink } from '../send/link.ts';
+import type { Delivery } from '../send/receiver.ts';
+import { Receiver } from '../send/receiver.ts';
+import type { Event } from '../store/events.ts';
+import type { MeshFile, Work } from '../store/state.ts';
+import type { Store } from '../store/store.ts';
+import { demoEvents, openDemo } from './open.ts';
+import { place, withMeshes } from './sent-work.ts';
+import { perform } from './task.ts';
+
+const ORIGIN = 'The link';
+
+/** Takes the link out of the page's address, so that a reload does not put it over later work. */
+function forget(): void {
+  history.replaceState(null, '', location.pathname + location.search);
+}
+
+/** Follows links. */
+export class Links {
+  readonly #store: Store;
+  readonly #receiver: Receiver;
+
+  constructor(store: Store) {
+    this.#store = store;
+    this.#receiver = new Receiver({
+      changed: (receiving) => {
+        store.dispatch({ kind: 'receiving', receiving });
+      },
+      delivered: (delivery) => {
+        void this.#open(delivery);
+      },
+      failed: (fault, { name, host }) => {
+        forget();
+        store.dispatch({ kind: 'error', sentence: fetchSentence(fault, name, host) });
+      },
+    });
+  }
+
+  /** What the page's address names: a demo by its id, or another link by all that it says; `null` for nothing. */
+  get named(): string | null {
+    const reading = readLink(location.hash, new URL(document.baseURI));
+    const isDemo = reading.kind === 'link' && reading.link.work === null && reading.link.demo !== null;
+    return reading.kind === 'none' ? null : isDemo ? reading.link.demo : location.hash;
+  }
+
+  /** Follows the link in the page's address. A link that must ask or wait goes on by itself, and one that is refused says why. */
+  async follow(): Promise<'none' | 'opened' | 'followed'> {
+    const { state, dispatch } = this.#store;
+    const reading = readLink(location.hash, new URL(document.baseURI));
+    switch (reading.kind) {
+      case 'none':
+        return 'none';
+      case 'refused':
+        forget();
+        dispatch({ kind: 'error', sentence: LINK_REFUSED[reading.fault] });
+        return 'followed';
+      case 'link':
+        if (state.job.kind === 'running') {
+          dispatch({ kind: 'error', sentence: SENTENCES.whileRunning });
+          return 'followed';
+        }
+        return (await this.#begin(reading.link)) ? 'opened' : 'followed';
+    }
+  }
+
+  /** The click that the link waits for. */
+  readonly accept = (): void => {
+    this.#receiver.accept();
+  };
+
+  /** Gives the link up. */
+  readonly cancel = (): void => {
+    forget();
+    this.#receiver.cancel();
+  };
+
+  /** Whether the link waits for files. */
+  get waits(): boolean {
+    return this.#receiver.receiving.kind === 'files';
+  }
+
+  /** Takes the files that the link waits for, and tells them from others. */
+  async take(files: readonly NamedBytes[]): Promise<void> {
+    const others = await this.#receiver.take(files);
+    const { receiving } = this.#receiver;
+    if (others.length > 0 && receiving.kind === 'files') {
+      const sentence = otherFiles(
+        others.map(({ name }) => name),
+        receiving.missing.map(({ name }) => name),
+      );
+      this.#store.dispatch({ kind: 'error', sentence });
+    } else {
+      this.#store.dispatch({ kind: 'error-closed' });
+    }
+  }
+
+  /** Begins with a link; whether the demo that it names has come. */
+  async #begin(link: Link): Promise<boolean> {
+    const { demo, work } = link;
+    if (demo === null) {
+      this.#receiver.receive(link);
+      return false;
+    }
+    this.#receiver.cancel();
+    if (work !== null) {
+      await this.#openDemoWork(demo, work);
+      return false;
+    }
+    return demo !== this.#store.state.demo?.id && openDemo(this.#store, demo);
+  }
+
+  async #openDemoWork(id: string, work: NonNullable<Link['work']>): Promise<void> {
+    const demo = this.#store.state.demos.find((candidate) => candidate.id === id);
+    forget();
+    if (demo === undefined) {
+      this.#store.dispatch({ kind: 'error', sentence: SENTENCES.noDemo });
+      return;
+    }
+    await perform(
+      this.#store,
+      'Opening the link…',
+      () => demo,
+      () => {
+        const meshes = demoMeshes(demoEvents(demo));
+        try {
+          place(this.#store, ORIGIN, work, meshes, demo);
+        } catch (thrown) {
+          meshes.forEach((file) => file?.mesh.free());
+          throw thrown;
+        }
+      },
+    );
+  }
+
+  async #open({ link, meshes, landmarks }: Delivery): Promise<void> {
+    forget();
+    const arriving = meshes.map((mesh) => mesh && { ...mesh, address: mesh.address?.url ?? null });
+    await perform(
+      this.#store,
+      'Opening the link…',
+      () => link,
+      () => {
+        withMeshes(arriving, (loaded) => {
+          if (link.work !== null) {
+            place(this.#store, ORIGIN, link.work, loaded, null);
+          } else {
+            this.#placeFiles(loaded, landmarks);
+          }
+        });
+      },
+    );
+  }
+
+  #placeFiles(meshes: Work['meshes'], landmarks: NamedBytes | null): void {
+    const events = meshes.flatMap((file, side): Event[] => (file === null ? [] : [{ kind: 'mesh', side: side === 0 ? 0 : 1, file }]));
+    if (landmarks !== null) {
+      events.push({ kind: 'landmarks', file: landmarkFile(landmarks) });
+      checkFit(landmarks, events, this.#store.state);
+    }
+    this.#store.dispatch(...events);
+  }
+}
+
+function demoMeshes(events: readonly Event[]): Work['meshes'] {
+  const meshes: [MeshFile | null, MeshFile | null] = [null, null];
+  for (const event of events) {
+    if (event.kind === 'mesh') {
+      meshes[event.side] = event.file;
+    }
+  }
+  return meshes;
+}

@@ -1,0 +1,64 @@
+/** Project files: everything on the page as one file, and back. */
+import { download } from '../dom.ts';
+import type { NamedBytes } from '../files.ts';
+import { FileRefused } from '../files.ts';
+import { PROJECT_REFUSED } from '../messages.ts';
+import { inWorker } from '../send/archiving.ts';
+import type { Project, ProjectMesh } from '../send/project.ts';
+import { PROJECT_ENDING, ProjectRefused, readProject, writeProject } from '../send/project.ts';
+import { landmarkFileOf } from '../store/landmark-file.ts';
+import { shownResult } from '../store/staleness.ts';
+import type { MeshFile, State } from '../store/state.ts';
+import type { Store } from '../store/store.ts';
+import { workName } from '../store/work.ts';
+import { place, sentWorkOf, withMeshes } from './sent-work.ts';
+import { perform } from './task.ts';
+
+function projectMesh(file: MeshFile | null): ProjectMesh | null {
+  return file && { name: file.name, bytes: file.bytes, address: file.address ?? null };
+}
+
+/** What is on the page as a project; the map's own file is in it where the result has one. */
+function projectOf(state: State): Project {
+  const result = shownResult(state);
+  return {
+    meshes: [projectMesh(state.meshes[0]), projectMesh(state.meshes[1])],
+    work: sentWorkOf(state),
+    result: result && { map: null, report: result.output.report },
+  };
+}
+
+/** Saves the project under the names of its meshes. */
+export async function saveProject(store: Store): Promise<void> {
+  const { state } = store;
+  await perform(
+    store,
+    'Packing the project…',
+    () => writeProject(projectOf(state), JSON.stringify(landmarkFileOf(state), null, 1), inWorker),
+    (bytes) => {
+      download(`${workName(state.meshes.map((file) => file?.name ?? null))}${PROJECT_ENDING}`, 'application/zip', bytes);
+    },
+  );
+}
+
+async function projectIn({ name, bytes }: NamedBytes): Promise<Project> {
+  try {
+    return await readProject(bytes, inWorker);
+  } catch (thrown) {
+    throw thrown instanceof ProjectRefused ? new FileRefused(`${name}: ${PROJECT_REFUSED[thrown.fault]}`) : thrown;
+  }
+}
+
+/** Brings a project onto the page, as one step. */
+export async function openProject(store: Store, file: NamedBytes): Promise<void> {
+  await perform(
+    store,
+    'Unpacking the project…',
+    () => projectIn(file),
+    ({ meshes, work }) => {
+      withMeshes(meshes, (loaded) => {
+        place(store, file.name, work, loaded, null);
+      });
+    },
+  );
+}

@@ -1,0 +1,72 @@
+/** Work that comes from elsewhere or goes there: between the page's state and the form that links and projects have. */
+import { areMarksGood, checkFit, FileRefused, meshFile } from '../files.ts';
+import { SENTENCES } from '../messages.ts';
+import type { SentWork } from '../send/schema.ts';
+import type { Event } from '../store/events.ts';
+import { NO_HISTORY } from '../store/history.ts';
+import type { Demo, MeshFile, State, Work } from '../store/state.ts';
+import type { Store } from '../store/store.ts';
+
+/** A mesh as it arrives. */
+export interface ArrivingMesh {
+  readonly name: string;
+  readonly bytes: Uint8Array;
+  /** Where it was loaded from; `null` where it was given by hand. */
+  readonly address: string | null;
+}
+
+/** The work on the page and how it is looked at, without the meshes. */
+export function sentWorkOf({ pairs, up, groundTruth, options, ui }: State): SentWork {
+  return {
+    pairs: pairs.map(({ number, points, label, locked }) => ({ number, points, label, locked })),
+    up,
+    groundTruth,
+    options,
+    cameras: ui.cameras,
+    style: ui.style,
+  };
+}
+
+function arrived({ name, bytes, address }: ArrivingMesh): MeshFile {
+  return meshFile({ name, bytes, ...(address === null ? {} : { address }) });
+}
+
+/** Does something with meshes that arrive, read and checked; where it fails, the core's memory of them is given back. */
+export function withMeshes<T>(arriving: readonly (ArrivingMesh | null)[], work: (meshes: Work['meshes']) => T): T {
+  const loaded: (MeshFile | null)[] = [];
+  try {
+    for (const mesh of arriving) {
+      loaded.push(mesh === null ? null : arrived(mesh));
+    }
+    return work([loaded[0] ?? null, loaded[1] ?? null]);
+  } catch (thrown) {
+    for (const mesh of loaded) {
+      mesh?.mesh.free();
+    }
+    throw thrown;
+  }
+}
+
+/**
+ * Puts work that was sent onto the page, as one step. `origin` is what a sentence calls the link or file where its points do
+ * not belong to the meshes.
+ */
+export function place(store: Store, origin: string, sent: SentWork, meshes: Work['meshes'], demo: Demo | null): void {
+  const work: Work = {
+    meshes,
+    up: sent.up,
+    demo,
+    pairs: sent.pairs.map((pair, index) => ({ ...pair, id: index + 1 })),
+    named: [meshes[0]?.name ?? null, meshes[1]?.name ?? null],
+    groundTruth: sent.groundTruth,
+    options: sent.options,
+  };
+  const ui = { style: sent.style, cameras: sent.cameras };
+  const events: Event[] = [{ kind: 'restored', work, ui, history: NO_HISTORY }];
+  checkFit({ name: origin }, events, store.state);
+  // The core looks at whole pairs; half ones are points of the meshes, too.
+  if (!areMarksGood(work)) {
+    throw new FileRefused(`${origin}: ${SENTENCES.badPoint}`);
+  }
+  store.dispatch(...events);
+}

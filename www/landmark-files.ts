@@ -1,0 +1,140 @@
+/** Landmark files of many programs: what they hold, their landmarks on the meshes, and landmarks as such files. */
+import { failureOf } from './compute/messages.ts';
+import type { LandmarkFile, Side, SurfacePoint } from './landmarks.ts';
+import { fileSentence, failureSentence } from './messages.ts';
+import type { NamedBytes } from './named-file.ts';
+import { FileRefused } from './named-file.ts';
+import type { LandmarkFormatInfo, LoadedMesh } from './wasm/conemap.js';
+import {
+  landmarkContent,
+  landmarkFormats,
+  readLandmarkPairs,
+  readLandmarks,
+  readLandmarkSide,
+  writeLandmarkPairs,
+  writeLandmarkSide,
+} from './wasm/conemap.js';
+
+/** Landmarks of one mesh, of both, or pairs in the meshes' own numbers, which need no mesh to be read. */
+export type LandmarkContent = 'one' | 'both' | 'pairs';
+
+/** A landmark of one mesh. */
+export interface SideMark {
+  readonly label: string;
+  /** `null` where the file says that it was not placed. */
+  readonly point: SurfacePoint | null;
+  /** How far off the surface the file has it, in the units of the mesh. */
+  readonly distance: number;
+}
+
+/** The landmarks of one mesh, and sentences about them. */
+export interface SideRead {
+  readonly marks: readonly SideMark[];
+  readonly remarks: readonly string[];
+}
+
+/** The landmarks of both meshes, and sentences about them. */
+export interface PairsRead {
+  readonly file: LandmarkFile;
+  /** How far off their surfaces the files have both points, in the units of the meshes. */
+  readonly distances: readonly (readonly [number, number])[];
+  readonly remarks: readonly string[];
+}
+
+/** The formats of landmark files. */
+export function formatList(): readonly LandmarkFormatInfo[] {
+  return JSON.parse(landmarkFormats()) as LandmarkFormatInfo[];
+}
+
+/** What the core says, as a refusal of a file. */
+function refusal(file: NamedBytes | undefined, thrown: unknown): FileRefused {
+  const failure = failureOf(thrown);
+  return new FileRefused(file === undefined ? failureSentence(failure) : fileSentence(file.name, failure));
+}
+
+/** Which of several files the core blames; `undefined` for none or all. */
+function blamed(files: readonly NamedBytes[], thrown: unknown): NamedBytes | undefined {
+  try {
+    const value: unknown = typeof thrown === 'string' ? JSON.parse(thrown) : null;
+    const isObject = typeof value === 'object' && value !== null;
+    return isObject && 'file' in value && typeof value.file === 'number' ? files[value.file] : undefined;
+  } catch {
+    return undefined;
+  }
+}
+
+/** What a file holds; `null` where it is no landmark file. Throws {@link FileRefused} for one that cannot be read. */
+export function contentOf(file: NamedBytes): LandmarkContent | null {
+  try {
+    return (landmarkContent(file.name, file.bytes) as LandmarkContent | undefined) ?? null;
+  } catch (thrown) {
+    throw refusal(file, thrown);
+  }
+}
+
+/** Reads a file of the program's own format. */
+export function landmarkFile(file: NamedBytes): LandmarkFile {
+  try {
+    return JSON.parse(readLandmarks(file.bytes)) as LandmarkFile;
+  } catch (thrown) {
+    throw refusal(file, thrown);
+  }
+}
+
+/** Reads the landmarks of one mesh. */
+export function sideRead(file: NamedBytes, mesh: LoadedMesh, side: Side): SideRead {
+  try {
+    return JSON.parse(readLandmarkSide(file.name, file.bytes, mesh, side)) as SideRead;
+  } catch (thrown) {
+    throw refusal(file, thrown);
+  }
+}
+
+/** Reads the landmarks of both meshes from one file that holds both, or from the source's and the target's. */
+export function pairsRead(files: readonly NamedBytes[], source: LoadedMesh, target: LoadedMesh): PairsRead {
+  try {
+    const names = files.map(({ name }) => name);
+    const contents = files.map(({ bytes }) => bytes);
+    return JSON.parse(readLandmarkPairs(names, contents, source, target)) as PairsRead;
+  } catch (thrown) {
+    throw refusal(blamed(files, thrown), thrown);
+  }
+}
+
+/** A name without its folders and its ending. */
+function stemOf(name: string): string {
+  return name.replace(/^.*[/\\]/, '').replace(/\.(mrk\.)?[^.]*$/, '');
+}
+
+/**
+ * Landmarks as files of a format: one where it holds both meshes, else one for each mesh, called after it. The landmark file
+ * should name its meshes.
+ */
+export function filesOf(
+  format: LandmarkFormatInfo,
+  file: LandmarkFile,
+  source: LoadedMesh,
+  target: LoadedMesh,
+): readonly NamedBytes[] {
+  const bytes = new TextEncoder().encode(JSON.stringify(file));
+  try {
+    if (format.holds !== 'one') {
+      return [{ name: `landmarks.${format.ending}`, bytes: writeLandmarkPairs(format.id, bytes, source, target) }];
+    }
+    const stems = [stemOf(file.source ?? 'source'), stemOf(file.target ?? 'target')] as const;
+    const names = stems[0] === stems[1] ? ([`${stems[0]}-source`, `${stems[1]}-target`] as const) : stems;
+    return [
+      { name: `${names[0]}.${format.ending}`, bytes: writeLandmarkSide(format.id, bytes, source, 0) },
+      { name: `${names[1]}.${format.ending}`, bytes: writeLandmarkSide(format.id, bytes, target, 1) },
+    ];
+  } catch (thrown) {
+    throw refusal(undefined, thrown);
+  }
+}
+
+/** The side of a landmark file for one mesh that is called like it; `null` where it is like none or both. */
+export function sideCalledLike(file: NamedBytes, meshes: readonly (string | null)[]): Side | null {
+  const stem = stemOf(file.name).toLowerCase();
+  const [isSource, isTarget] = meshes.map((name) => name !== null && stemOf(name).toLowerCase() === stem);
+  return isSource === isTarget ? null : isSource === true ? 0 : 1;
+}

@@ -1,0 +1,110 @@
+/** Meshes that come in several files or in a zip: everything that belongs to one becomes one file. */
+import type { Unzipped } from 'fflate';
+import { unzipSync } from 'fflate';
+import { failureOf } from './compute/messages.ts';
+import { fileSentence, missingParts, SENTENCES } from './messages.ts';
+import type { NamedBytes } from './named-file.ts';
+import { endingOf, FileRefused } from './named-file.ts';
+import { meshParts, packMesh } from './wasm/conemap.js';
+
+/** Files that belong to a mesh and are none themselves. */
+const COMPANIONS = new Set(['mtl', 'png', 'jpg', 'jpeg', 'webp', 'bmp', 'tga', 'tif', 'tiff', 'bin', 'ktx2']);
+
+/** What a zip may hold, unpacked, in bytes; and how often its own size that may be. */
+const LARGEST_CONTENT = 2 ** 30;
+const LARGEST_RATIO = 200;
+/** Small zips may be packed tighter than the ratio says. */
+const ALWAYS_ALLOWED = 2 ** 24;
+const MOST_FILES = 1000;
+
+function isZip({ bytes }: NamedBytes): boolean {
+  return bytes[0] === 0x50 && bytes[1] === 0x4b && (bytes[2] === 3 || bytes[2] === 5);
+}
+
+/** Whether an entry is a file to look at: no folder, and none of the copies that macOS puts beside files. */
+function isFile(path: string): boolean {
+  return !path.endsWith('/') && !/(^|\/)(__MACOSX\/|\._|\.DS_Store$)/.test(path);
+}
+
+/** The files of a zip, by their paths in it. Sizes are compared with the limits before anything is unpacked. */
+function filesOfZip(zip: NamedBytes): NamedBytes[] {
+  let total = 0;
+  let count = 0;
+  const limit = Math.min(LARGEST_CONTENT, Math.max(ALWAYS_ALLOWED, LARGEST_RATIO * zip.bytes.length));
+  const refuse = (sentence: string): never => {
+    throw new FileRefused(`${zip.name}: ${sentence}`);
+  };
+  let files: Unzipped;
+  try {
+    files = unzipSync(zip.bytes, {
+      filter: ({ name, originalSize }) => {
+        count += 1;
+        if (count > MOST_FILES) {
+          refuse(SENTENCES.manyInZip);
+        }
+        if (!isFile(name)) {
+          return false;
+        }
+        total += originalSize;
+        return total > limit ? refuse(SENTENCES.largeZip) : true;
+      },
+    });
+  } catch (thrown) {
+    throw thrown instanceof FileRefused ? thrown : new FileRefused(`${zip.name}: ${SENTENCES.brokenZip}`);
+  }
+  return Object.entries(files).map(([name, bytes]) => ({ name, bytes }));
+}
+
+/** All files, those of zips in the place of the zips. */
+function unzipped(files: readonly NamedBytes[]): NamedBytes[] {
+  return files.flatMap((file) => (isZip(file) ? filesOfZip(file) : [file]));
+}
+
+/** The file that another one calls so: by its path beside it, or else by its bare name. */
+function called(name: string, by: NamedBytes, files: readonly NamedBytes[]): NamedBytes | null {
+  const folder = by.name.slice(0, by.name.lastIndexOf('/') + 1);
+  const path = folder + name.replace(/^\.\//, '');
+  const bare = (path: string): string => path.slice(path.lastIndexOf('/') + 1);
+  return files.find((file) => file.name === path) ?? files.find((file) => bare(file.name) === bare(name)) ?? null;
+}
+
+/** A mesh with the files that it names packed into it; itself where it names none. */
+function packed(mesh: NamedBytes, files: readonly NamedBytes[]): NamedBytes {
+  const parts = meshParts(mesh.bytes);
+  const [buffers, images] = [parts.buffers(), parts.images()];
+  parts.free();
+  if (buffers.length === 0) {
+    return mesh;
+  }
+  const found = new Map([...buffers, ...images].map((name) => [name, called(name, mesh, files)]));
+  const missing = buffers.filter((name) => (found.get(name) ?? null) === null);
+  if (missing.length > 0) {
+    throw new FileRefused(missingParts(mesh.name, missing));
+  }
+  const there = [...found].flatMap(([name, file]) => (file === null ? [] : [[name, file.bytes] as const]));
+  try {
+    const bytes = packMesh(
+      mesh.bytes,
+      there.map(([name]) => name),
+      there.map(([, content]) => content),
+    );
+    return { name: mesh.name.replace(/\.[^.]*$/, '.glb'), bytes };
+  } catch (thrown) {
+    throw new FileRefused(fileSentence(mesh.name, failureOf(thrown)));
+  }
+}
+
+/**
+ * The files with zips unpacked and what belongs to a mesh packed into it; names are without folders. Materials and pictures of
+ * an OBJ are not used and go. Throws {@link FileRefused}.
+ */
+export function gathered(given: readonly NamedBytes[]): NamedBytes[] {
+  const files = unzipped(given);
+  const wholes = files.filter(({ name }) => !COMPANIONS.has(endingOf(name)));
+  if (wholes.length === 0 && files.length > 0) {
+    throw new FileRefused(`${files[0]?.name ?? ''}: ${SENTENCES.partsAlone}`);
+  }
+  return wholes
+    .map((file) => packed(file, files))
+    .map(({ name, bytes }) => ({ name: name.slice(name.lastIndexOf('/') + 1), bytes }));
+}

@@ -1,0 +1,64 @@
+/** What the page's parts ask for, and what each of them is given. */
+import type { Side, SurfacePoint } from '../landmarks.ts';
+import type { prospectSentence } from '../messages.ts';
+import type { Event } from '../store/events.ts';
+import type { Axis, Doubt, State } from '../store/state.ts';
+import type { Shell } from './shell.ts';
+
+/** A side to look from. */
+export type Direction = 'front' | 'back' | 'left' | 'right' | 'top' | 'bottom';
+
+/** What a view's camera can be asked to do. */
+export type CameraCommand =
+  /** To bring the whole mesh into sight. */
+  | { readonly kind: 'fit' }
+  /** To go back to the first look. */
+  | { readonly kind: 'reset' }
+  /** To look at the whole mesh from a side. */
+  | { readonly kind: 'look'; readonly from: Direction }
+  /** To turn the picture counter-clockwise. */
+  | { readonly kind: 'roll'; readonly degrees: number };
+
+/** What panels ask for beyond a change of state. */
+export interface Actions {
+  readonly dispatch: (event: Event) => void;
+  readonly openFiles: (files: readonly File[], side: Side | null) => void;
+  /** The click that the link which was opened waits for. */
+  readonly acceptLink: () => void;
+  /** Gives that link up. */
+  readonly cancelLink: () => void;
+  /** The link to what is on the page; `null` where there can be none. */
+  readonly sharedLink: () => Promise<{ readonly url: string; readonly prospect: Parameters<typeof prospectSentence>[0] } | null>;
+  readonly saveProject: () => void;
+  /** Saves what the views show as a picture of twice the screen's size. */
+  readonly savePicture: () => void;
+  /** Begins anew with the newer build of the page. */
+  readonly reload: () => void;
+  readonly openDemo: (id: string) => void;
+  readonly run: () => void;
+  /** Looks for places of one mesh that are worth a landmark. */
+  readonly suggest: (side: Side) => void;
+  /** Asks the run for its result. */
+  readonly finish: () => void;
+  readonly cancel: () => void;
+  readonly repair: (finding: Doubt) => void;
+  /** Moves the camera of a view. */
+  readonly camera: (side: Side, command: CameraCommand) => void;
+  /** The axis of a mesh that seems to point up by its shape; `null` where the shape does not tell. */
+  readonly proposedUp: (side: Side) => Axis | null;
+  /** Turns both views to a pair's points. */
+  readonly lookAtPair: (id: number) => void;
+  /** Turns both views to these places. */
+  readonly lookAtPlaces: (places: readonly [SurfacePoint, SurfacePoint]) => void;
+  /** Takes up the work of an earlier visit. */
+  readonly continueWork: () => void;
+  /** Leaves it, and begins anew. */
+  readonly startAnew: () => void;
+}
+
+/** Every part of the page is given this. */
+export interface PartProps {
+  readonly state: State;
+  readonly actions: Actions;
+  readonly shell: Shell;
+}

@@ -1,0 +1,78 @@
+/** Files dropped anywhere on the page, or pasted. */
+import type { VNode } from 'preact';
+import { useEffect, useState } from 'preact/hooks';
+import { byId } from '../dom.ts';
+import type { Side } from '../landmarks.ts';
+import { SIDES } from '../landmarks.ts';
+import type { Actions } from './actions.ts';
+import { VIEW_IDS } from './names.ts';
+
+/** Which view lies under a point of the window. */
+function sideAt(x: number, y: number): Side | null {
+  for (const side of SIDES) {
+    const box = byId(VIEW_IDS[side]).getBoundingClientRect();
+    if (x >= box.left && x < box.right && y >= box.top && y < box.bottom) {
+      return side;
+    }
+  }
+  return null;
+}
+
+/** What is dragged over the page: `null` nothing, else the view under it. */
+type Over = { readonly side: Side | null } | null;
+
+function listen(actions: Actions, show: (over: Over) => void): () => void {
+  const over = (event: DragEvent): void => {
+    event.preventDefault();
+    if (event.dataTransfer?.types.includes('Files') === true) {
+      show({ side: sideAt(event.clientX, event.clientY) });
+    }
+  };
+  const leave = (event: DragEvent): void => {
+    if (event.relatedTarget === null) {
+      show(null);
+    }
+  };
+  const take = (files: FileList | undefined, side: Side | null): void => {
+    if (files !== undefined && files.length > 0) {
+      actions.openFiles([...files], side);
+    }
+  };
+  const drop = (event: DragEvent): void => {
+    event.preventDefault();
+    show(null);
+    take(event.dataTransfer?.files, sideAt(event.clientX, event.clientY));
+  };
+  const paste = (event: ClipboardEvent): void => {
+    take(event.clipboardData?.files, null);
+  };
+  window.addEventListener('dragover', over);
+  window.addEventListener('dragleave', leave);
+  window.addEventListener('drop', drop);
+  window.addEventListener('paste', paste);
+  return () => {
+    window.removeEventListener('dragover', over);
+    window.removeEventListener('dragleave', leave);
+    window.removeEventListener('drop', drop);
+    window.removeEventListener('paste', paste);
+  };
+}
+
+/** A veil over the views that says where the files go, while some are dragged. */
+export function DropVeil({ actions }: { readonly actions: Actions }): VNode | null {
+  const [over, setOver] = useState<Over>(null);
+  useEffect(() => listen(actions, setOver), [actions]);
+  if (over === null) {
+    return null;
+  }
+  return (
+    <div class="drop-veil">
+      {(['Source', 'Target'] as const).map((name, side) => (
+        <div key={name} class={over.side === side ? 'half over' : 'half'}>
+          {name}
+          <span class="small">a mesh, both, or landmarks too</span>
+        </div>
+      ))}
+    </div>
+  );
+}

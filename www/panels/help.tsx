@@ -1,0 +1,130 @@
+/** The first steps and the keys. */
+import type { VNode } from 'preact';
+import { Fragment } from 'preact';
+import { useEffect, useRef } from 'preact/hooks';
+import { IconButton } from './controls.tsx';
+import type { Shell } from './shell.ts';
+
+const FIRST_STEPS = [
+  'Drop two closed meshes on the page, or look at a demo.',
+  'Click a place on one mesh, then the same place on the other: four pairs at least, ten are good.',
+  'Press “Map … onto …”: the map is made here in your browser, nothing is sent anywhere.',
+  'Look at the pattern and the worst places; add a pair where the map goes astray, and make it again.',
+];
+
+interface Keys {
+  readonly title: string;
+  readonly keys: readonly (readonly [readonly string[], string])[];
+}
+
+const KEYS: readonly Keys[] = [
+  {
+    title: 'Everywhere',
+    keys: [
+      [['1', '–', '5'], 'open a step'],
+      [['Ctrl', 'Z'], 'undo'],
+      [['Ctrl', 'Shift', 'Z'], 'redo'],
+      [['?'], 'this help'],
+    ],
+  },
+  {
+    title: 'In a view',
+    keys: [
+      [['drag'], 'turn; with Shift or the right button move'],
+      [['wheel'], 'nearer and farther'],
+      [['double-click'], 'look there and turn about it'],
+      [['←', '↑', '→', '↓'], 'turn; with Shift move; a selected landmark is nudged'],
+      [['+', '−'], 'nearer and farther, also Page Up and Page Down'],
+      [['Q', 'E'], 'turn the picture'],
+      [['F'], 'the whole mesh; 0 the first look'],
+      [['Shift', 'F B L R T U'], 'from the front, back, left, right, top, under'],
+      [['Enter'], 'place a landmark in the middle'],
+      [['Del'], 'delete the selected pair'],
+      [['Esc'], 'give up a half pair, or the selection'],
+    ],
+  },
+  {
+    title: 'In the list of landmarks',
+    keys: [
+      [['↑', '↓'], 'select; with Alt reorder'],
+      [['Enter'], 'turn both views to the pair'],
+      [['F2'], 'rename'],
+      [['L'], 'lock'],
+      [['Del'], 'delete'],
+    ],
+  },
+  {
+    title: 'On the line between the views',
+    keys: [
+      [['←', '→'], 'share the width'],
+      [['Enter'], 'one view alone, or both'],
+    ],
+  },
+];
+
+function KeyList({ title, keys }: Keys): VNode {
+  return (
+    <section>
+      <h3>{title}</h3>
+      <dl>
+        {keys.map(([combination, meaning]) => (
+          <Fragment key={meaning}>
+            <dt>
+              {combination.map((key) => (
+                <kbd key={key}>{key}</kbd>
+              ))}
+            </dt>
+            <dd class="quiet">{meaning}</dd>
+          </Fragment>
+        ))}
+      </dl>
+    </section>
+  );
+}
+
+/** The dialog; it covers the page while it is open. */
+export function Help({ shell }: { readonly shell: Shell }): VNode {
+  const dialog = useRef<HTMLDialogElement>(null);
+  const { help } = shell.state;
+  const close = (): void => {
+    shell.set({ help: false });
+  };
+  useEffect(() => {
+    if (help) {
+      dialog.current?.showModal();
+    } else {
+      dialog.current?.close();
+    }
+  }, [help]);
+  return (
+    <dialog
+      ref={dialog}
+      class="help"
+      aria-labelledby="help-title"
+      onClose={close}
+      onClick={(event) => {
+        if (event.target === dialog.current) {
+          close();
+        }
+      }}
+    >
+      <header>
+        <h2 id="help-title">First steps and keys</h2>
+        <IconButton icon="close" label="Close the help" onClick={close} />
+      </header>
+      <div class="columns">
+        <section>
+          <h3>First steps</h3>
+          <ol>
+            {FIRST_STEPS.map((step) => (
+              <li key={step}>{step}</li>
+            ))}
+          </ol>
+        </section>
+        {KEYS.map((keys) => (
+          <KeyList key={keys.title} {...keys} />
+        ))}
+      </div>
+    </dialog>
+  );
+}

@@ -1,0 +1,58 @@
+/** An empty view asks for a mesh; beneath, the demos. */
+import type { VNode } from 'preact';
+import type { Side } from '../landmarks.ts';
+import type { PartProps } from './actions.ts';
+import { Icon } from './icons.tsx';
+import { choose } from './inputs.tsx';
+
+const ASKS = [
+  { title: 'Drop the source here', about: 'The mesh that is carried onto the other.', chooser: 'source-file' },
+  { title: 'Drop the target here', about: 'The mesh that the source is mapped onto.', chooser: 'target-file' },
+] as const;
+
+/** The drop zone of one view; nothing where there is a mesh. */
+export function Invitation({ state, side }: { readonly side: Side } & Pick<PartProps, 'state'>): VNode | null {
+  if (state.meshes[side] !== null || !state.ready || state.job.kind === 'busy') {
+    return null;
+  }
+  const { title, about, chooser } = ASKS[side];
+  return (
+    <div class="invitation">
+      <Icon name="drop" />
+      <h2>{title}</h2>
+      <p>{about} A closed surface: OBJ, PLY, STL, OFF, GLB and others.</p>
+      <button
+        type="button"
+        onClick={() => {
+          choose(chooser);
+        }}
+      >
+        Choose a file…
+      </button>
+    </div>
+  );
+}
+
+/** The demos, one press each. */
+export function DemoLine({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode | null {
+  if (!state.meshes.includes(null) || state.demos.length === 0 || state.job.kind === 'busy') {
+    return null;
+  }
+  return (
+    <div class="demo-line">
+      <span>Or look at</span>
+      {state.demos.map((demo) => (
+        <button
+          key={demo.id}
+          type="button"
+          title={demo.sentence}
+          onClick={() => {
+            actions.openDemo(demo.id);
+          }}
+        >
+          {demo.title}
+        </button>
+      ))}
+    </div>
+  );
+}

@@ -1,0 +1,94 @@
+/** The one thing to do now, on top of every panel. */
+import type { VNode } from 'preact';
+import { wholePairs } from '../store/order.ts';
+import { canRun, MIN_PAIRS } from '../store/readiness.ts';
+import { staleness } from '../store/staleness.ts';
+import type { State } from '../store/state.ts';
+import type { Actions, PartProps } from './actions.ts';
+import { choose } from './inputs.tsx';
+import { meshName } from './names.ts';
+
+/** Why no map can be made, or what it would be made of. */
+function reason(state: State): string {
+  const pairs = wholePairs(state).length;
+  if (!state.ready) {
+    return 'Loading…';
+  }
+  if (state.meshes.includes(null)) {
+    return 'A map needs a source and a target mesh.';
+  }
+  if (pairs < MIN_PAIRS) {
+    return `${pairs} of at least ${MIN_PAIRS} landmark pairs.`;
+  }
+  if (state.result === null) {
+    return `With ${pairs} landmark pairs.`;
+  }
+  return staleness(state) === null ? 'The map shown is current.' : 'Something has changed since the map shown.';
+}
+
+function FinishOrCancel({ state, actions }: { readonly state: State; readonly actions: Actions }): VNode {
+  const finishable = state.job.kind === 'running' && state.job.finish === 'possible';
+  return (
+    <>
+      <div class="twins">
+        <button type="button" class="main" disabled={!finishable} onClick={actions.finish}>
+          <span>Finish now</span>
+        </button>
+        <button type="button" onClick={actions.cancel}>
+          Cancel
+        </button>
+      </div>
+      <p class="reason">A map finished early is whole and proven, too.</p>
+    </>
+  );
+}
+
+/** The button, and a line that says why it is as it is. */
+export function MainAction({ state, actions }: PartProps): VNode {
+  const missing = state.meshes.includes(null);
+  const { step } = state.ui;
+  if (state.job.kind === 'running') {
+    return <FinishOrCancel state={state} actions={actions} />;
+  }
+  if (step === 'meshes' && missing) {
+    return (
+      <>
+        <button
+          type="button"
+          class="main"
+          disabled={!state.ready}
+          onClick={() => {
+            choose('mesh-files');
+          }}
+        >
+          <span>Open meshes…</span>
+        </button>
+        <p class="reason">{state.ready ? 'Both at once, with their landmark file if there is one.' : 'Loading…'}</p>
+      </>
+    );
+  }
+  if (step === 'meshes' && wholePairs(state).length < MIN_PAIRS) {
+    return (
+      <>
+        <button
+          type="button"
+          class="main"
+          onClick={() => {
+            actions.dispatch({ kind: 'ui', ui: { step: 'landmarks' } });
+          }}
+        >
+          <span>Place landmarks</span>
+        </button>
+        <p class="reason">{reason(state)}</p>
+      </>
+    );
+  }
+  return (
+    <>
+      <button type="button" id="run" class="main" disabled={!canRun(state)} onClick={actions.run}>
+        <span>{missing ? 'Make the map' : `Map ${meshName(state, 0)} onto ${meshName(state, 1)}`}</span>
+      </button>
+      <p class="reason">{reason(state)}</p>
+    </>
+  );
+}

@@ -1,0 +1,114 @@
+/** The third step: the map, how good it is, and what may be wrong. */
+import type { VNode } from 'preact';
+import { staleSentence } from '../messages.ts';
+import { shownResult, staleness } from '../store/staleness.ts';
+import type { Demo, Result } from '../store/state.ts';
+import type { Actions, PartProps } from './actions.ts';
+import { Certificate } from './certificate.tsx';
+import { Choices } from './choices.tsx';
+import { Fold } from './controls.tsx';
+import { EnergyCurve } from './energy.tsx';
+import { ReportFacts, ReportTimes } from './facts.tsx';
+import { Findings } from './findings.tsx';
+import { Icon } from './icons.tsx';
+import { choose } from './inputs.tsx';
+import { verdictOf } from './verdict.ts';
+import { WorstPlaces } from './worst.tsx';
+
+function Note({ sentence }: { readonly sentence: string }): VNode {
+  return (
+    <div class="note warning">
+      <Icon name="doubt" />
+      <p>{sentence}</p>
+    </div>
+  );
+}
+
+interface ResultProps {
+  readonly result: Result;
+  /** Why it is outdated; `null` where it is not. */
+  readonly stale: string | null;
+  /** Whether the views show it. */
+  readonly shown: boolean;
+  readonly actions: Actions;
+}
+
+function ResultSection({ result, stale, shown, actions }: ResultProps): VNode {
+  const { report } = result;
+  const { level, sentence, more } = verdictOf(report);
+  return (
+    <section id="result" class={stale === null ? '' : 'outdated'} aria-live="polite">
+      {stale !== null && <Note sentence={stale} />}
+      <div class={`verdict dimmed ${level}`}>
+        <p class="sentence">{sentence}</p>
+        <p class="quiet">{more}</p>
+        <Certificate report={report} />
+        {report.warnings.map((warning) => (
+          <Note key={warning.kind} sentence={warning.sentence} />
+        ))}
+      </div>
+      {shown && <WorstPlaces result={result} actions={actions} />}
+    </section>
+  );
+}
+
+function AboutDemo({ demo }: { readonly demo: Demo }): VNode {
+  return (
+    <section>
+      <h3>A demo</h3>
+      <p class="quiet">{demo.sentence}.</p>
+      <div class="row">
+        <button
+          type="button"
+          onClick={() => {
+            choose('mesh-files');
+          }}
+        >
+          Try your own meshes…
+        </button>
+      </div>
+    </section>
+  );
+}
+
+/** The panel's content. */
+export function MapPanel({ state, actions }: PartProps): VNode {
+  const { result } = state;
+  const changes = staleness(state);
+  return (
+    <div class="content">
+      {state.job.kind === 'running' && (
+        <section hidden={state.job.energies.flat().length < 2}>
+          <h3>The map becomes smoother</h3>
+          <EnergyCurve energies={state.job.energies} />
+        </section>
+      )}
+      <Findings state={state} actions={actions} />
+      {result !== null && (
+        <ResultSection
+          result={result}
+          stale={changes === null ? null : staleSentence(changes)}
+          shown={shownResult(state) === result}
+          actions={actions}
+        />
+      )}
+      {result === null && state.job.kind !== 'running' && (
+        <p class="quiet">The map gives every point of the source its partner on the target, through all landmark pairs.</p>
+      )}
+      {state.demo !== null && state.job.kind !== 'running' && <AboutDemo demo={state.demo} />}
+      <section id="details">
+        <Fold title="Details">
+          <h3>How the map is made</h3>
+          <Choices state={state} actions={actions} />
+          {result !== null && (
+            <>
+              <h3>All numbers</h3>
+              <ReportFacts report={result.report} />
+              <ReportTimes report={result.report} />
+            </>
+          )}
+        </Fold>
+      </section>
+    </div>
+  );
+}

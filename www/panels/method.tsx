@@ -1,0 +1,70 @@
+/** The fifth step: how a map is made, and what of it can be seen on the meshes. */
+import type { VNode } from 'preact';
+import { integer } from '../numbers.ts';
+import type { Report } from '../report.ts';
+import type { PartProps } from './actions.ts';
+import { LineChoice } from './picture-bar.tsx';
+
+interface Stage {
+  readonly name: string;
+  readonly about: string;
+  /** What the last run has to say of it. */
+  readonly fact: (report: Report) => string | null;
+}
+
+const STAGES: readonly Stage[] = [
+  {
+    name: 'Base domain',
+    about: 'A coarse mesh joins the landmarks; it is the same for both meshes.',
+    fact: ({ base_domain: base }) => `${integer(base.vertices)} corners, ${integer(base.faces)} triangles`,
+  },
+  {
+    name: 'Layout',
+    about: 'Its edges are drawn on both meshes as paths that do not cross.',
+    fact: ({ layout }) =>
+      layout === null ? null : layout.judged > 1 ? `the best of ${integer(layout.judged)} ways to go round the limbs` : 'one way to go round the limbs',
+  },
+  {
+    name: 'Cones',
+    about: 'Each mesh is laid onto the flat surface of the base triangles, which has a cone at every landmark.',
+    fact: ({ own_landmarks: own }) => (own === 0 ? null : `${integer(own)} cones of the program’s own`),
+  },
+  {
+    name: 'Relaxation',
+    about: 'The map through that surface is smoothed until it distorts both meshes as little as it can.',
+    fact: ({ distortion }) => `energy ${distortion.energy.toFixed(3)}; 4 would be no distortion at all`,
+  },
+  {
+    name: 'Certificate',
+    about: 'A check that shares nothing with the rest proves that the map is one-to-one.',
+    fact: ({ certificate }) => (certificate === null ? 'none for this method' : `${integer(certificate.triangles)} triangles checked`),
+  },
+];
+
+/** The panel's content. */
+export function MethodPanel({ state, actions }: PartProps): VNode {
+  const { result } = state;
+  return (
+    <div class="content">
+      <section>
+        <h3>On the meshes</h3>
+        <LineChoice state={state} actions={actions} />
+      </section>
+      <section>
+        <h3>From landmarks to a map</h3>
+        <ol class="stages">
+          {STAGES.map(({ name, about, fact }) => {
+            const found = result === null ? null : fact(result.report);
+            return (
+              <li key={name}>
+                <strong>{name}</strong>
+                <p class="quiet">{about}</p>
+                {found !== null && <p class="small">{found}</p>}
+              </li>
+            );
+          })}
+        </ol>
+      </section>
+    </div>
+  );
+}

@@ -1,0 +1,70 @@
+/** What waits for the user's word: a link that was opened, and a newer build of the page. */
+import type { VNode } from 'preact';
+import { filesNeeded, loadQuestion, loadingSentence, SENTENCES } from '../messages.ts';
+import type { Receiving } from '../store/receiving.ts';
+import type { Actions, PartProps } from './actions.ts';
+
+interface ReceivingProps {
+  readonly receiving: Receiving;
+  readonly actions: Actions;
+}
+
+/** What the link asks, says or waits for; nothing where there is none. */
+function LinkNotice({ receiving, actions }: ReceivingProps): VNode | null {
+  switch (receiving.kind) {
+    case 'nothing':
+      return null;
+    case 'click':
+      return (
+        <div class="notice" id="link-notice">
+          <p>{loadQuestion(receiving.hosts)}</p>
+          <button type="button" class="main" onClick={actions.acceptLink}>
+            Load
+          </button>
+          <button type="button" onClick={actions.cancelLink}>
+            Don’t load
+          </button>
+        </div>
+      );
+    case 'fetch':
+      return (
+        <div class="notice" id="link-notice">
+          <p>{loadingSentence(receiving)}</p>
+          <progress
+            aria-label="Loaded"
+            max={1}
+            {...(receiving.expected === null ? {} : { value: receiving.loaded / Math.max(1, receiving.expected) })}
+          />
+          <button type="button" onClick={actions.cancelLink}>
+            Cancel
+          </button>
+        </div>
+      );
+    case 'files':
+      return (
+        <div class="notice" id="link-notice">
+          <p>{filesNeeded(receiving.missing.map(({ name }) => name))}</p>
+          <button type="button" onClick={actions.cancelLink}>
+            Leave the link
+          </button>
+        </div>
+      );
+  }
+}
+
+/** The notices over the views; their box stays, so that what comes into it is read out. */
+export function Notices({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
+  return (
+    <div class="notices" role="status">
+      <LinkNotice receiving={state.receiving} actions={actions} />
+      {state.isOutdated && (
+        <div class="notice" id="new-version">
+          <p>{SENTENCES.newVersion}</p>
+          <button type="button" onClick={actions.reload}>
+            Reload
+          </button>
+        </div>
+      )}
+    </div>
+  );
+}

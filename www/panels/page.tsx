@@ -1,0 +1,111 @@
+/** The whole page; it is drawn anew after every change, and only what is other is touched. */
+import type { VNode } from 'preact';
+import { render } from 'preact';
+import { byId } from '../dom.ts';
+import type { State } from '../store/state.ts';
+import type { Actions, PartProps } from './actions.ts';
+import { Help } from './help.tsx';
+import { FileInputs } from './inputs.tsx';
+import { documentName } from './names.ts';
+import { Panel } from './panel.tsx';
+import { openStep, Rail } from './rail.tsx';
+import type { Probe, Theme } from './shell.ts';
+import { Shell } from './shell.ts';
+import { Stage } from './stage.tsx';
+import { StatusLine } from './status.tsx';
+import { stepAfter, STEPS } from './steps.ts';
+import { TopBar } from './top-bar.tsx';
+
+function Page(props: PartProps): VNode {
+  const { state, actions, shell } = props;
+  return (
+    <>
+      <TopBar {...props} />
+      <Rail {...props} />
+      <Stage {...props} />
+      <Panel {...props} />
+      <StatusLine {...props} />
+      <Help shell={shell} />
+      <FileInputs state={state} actions={actions} />
+    </>
+  );
+}
+
+/** Keys of the whole page that open steps and the help; what is typed into a field is the field's. */
+function listenForKeys(state: () => State, actions: Actions, shell: Shell): void {
+  window.addEventListener('keydown', (event) => {
+    const typing = event.target instanceof HTMLInputElement && event.target.type === 'text';
+    if (typing || event.target instanceof HTMLSelectElement || event.ctrlKey || event.metaKey || event.altKey) {
+      return;
+    }
+    const step = STEPS[Number(event.key) - 1];
+    if (event.key === '?') {
+      shell.set({ help: !shell.state.help });
+    } else if (step !== undefined && !shell.state.help) {
+      openStep(state(), actions, step);
+    }
+  });
+}
+
+/** Where the panel is a sheet over the views, as www/styles/phone.css has it. */
+const PHONE = '(max-width: 600px), (max-width: 860px) and (orientation: portrait)';
+
+/** Shows the page light or dark: the style sheets read it from the root element. */
+function applyTheme(theme: Theme): void {
+  document.documentElement.dataset['theme'] = theme;
+}
+
+/** What the page is told. */
+export interface Mounted {
+  /** A change of the state. */
+  readonly sync: (state: State, previous: State) => void;
+  /** What the map says of the place under the mouse. */
+  readonly probed: (probe: Probe | null) => void;
+}
+
+/** Shows the page for the first time; from then on `sync` keeps it in step. */
+export function mountPage(initial: State, actions: Actions): Mounted {
+  const root = byId('app');
+  const shell = new Shell();
+  let state = initial;
+  const draw = (): void => {
+    root.classList.toggle('folded', state.ui.panel === 'folded');
+    render(<Page state={state} actions={actions} shell={shell} />, root);
+  };
+  shell.subscribe(draw);
+  listenForKeys(() => state, actions, shell);
+  applyTheme(shell.theme);
+  draw();
+  if (window.matchMedia(PHONE).matches) {
+    // The views first; the main action is there all the same.
+    queueMicrotask(() => {
+      actions.dispatch({ kind: 'ui', ui: { panel: 'folded' } });
+    });
+  }
+  if (shell.theme !== initial.ui.theme) {
+    queueMicrotask(() => {
+      actions.dispatch({ kind: 'ui', ui: { theme: shell.theme } });
+    });
+  }
+  return {
+    probed: (probe) => {
+      shell.set({ probe });
+    },
+    sync: (next, previous) => {
+      state = next;
+      if (next.ui.theme !== previous.ui.theme) {
+        applyTheme(next.ui.theme);
+        shell.rememberTheme(next.ui.theme);
+      }
+      draw();
+      document.title = next.meshes.every((file) => file === null) ? 'Conemap' : `${documentName(next)} – Conemap`;
+      const step = stepAfter(next, previous);
+      if (step !== null && step !== next.ui.step) {
+        // The next change, not one within this.
+        queueMicrotask(() => {
+          actions.dispatch({ kind: 'ui', ui: { step } });
+        });
+      }
+    },
+  };
+}

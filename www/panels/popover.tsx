@@ -1,0 +1,95 @@
+/** A button that opens a small box at its side. */
+import type { ComponentChildren, VNode } from 'preact';
+import { useEffect, useRef, useState } from 'preact/hooks';
+import type { IconName } from './icons.tsx';
+import { Icon } from './icons.tsx';
+
+interface PopoverProps {
+  readonly icon: IconName;
+  /** What the button is called. */
+  readonly label: string;
+  /** Words beside the icon; without them the label is the tooltip only. */
+  readonly text?: string;
+  /** Where the box opens, seen from the button. */
+  readonly place: 'down start' | 'down end' | 'up start' | 'up end';
+  readonly id?: string;
+  readonly disabled?: boolean;
+  /** What the box holds; `close` shuts it. */
+  readonly children: (close: () => void) => ComponentChildren;
+}
+
+/** Moves the focus to the next or previous button of a box, around its ends. */
+function moveFocus(box: HTMLElement, step: 1 | -1): void {
+  const buttons = [...box.querySelectorAll<HTMLElement>('button:not(:disabled)')];
+  const present = buttons.findIndex((button) => button === document.activeElement);
+  if (present >= 0 || !box.contains(document.activeElement)) {
+    buttons.at((present + step) % Math.max(1, buttons.length))?.focus();
+  }
+}
+
+/** The button and, while it is open, the box. Escape, a press elsewhere and leaving by Tab shut it. */
+export function Popover({ icon, label, text, place, id, disabled, children }: PopoverProps): VNode {
+  const [open, setOpen] = useState(false);
+  const root = useRef<HTMLDivElement>(null);
+  const button = useRef<HTMLButtonElement>(null);
+  const close = (): void => {
+    if (root.current?.contains(document.activeElement) === true) {
+      button.current?.focus();
+    }
+    setOpen(false);
+  };
+  useEffect(() => {
+    if (!open) {
+      return undefined;
+    }
+    const away = (event: Event): void => {
+      if (event.target instanceof Node && root.current?.contains(event.target) !== true) {
+        setOpen(false);
+      }
+    };
+    document.addEventListener('pointerdown', away, true);
+    document.addEventListener('focusin', away);
+    return () => {
+      document.removeEventListener('pointerdown', away, true);
+      document.removeEventListener('focusin', away);
+    };
+  }, [open]);
+  return (
+    <div
+      ref={root}
+      class={`popover ${place}`}
+      onKeyDown={(event) => {
+        if (event.key === 'Escape' && open) {
+          event.stopPropagation();
+          close();
+        }
+        const box = root.current?.querySelector<HTMLElement>('.body');
+        if (open && box && (event.key === 'ArrowDown' || event.key === 'ArrowUp')) {
+          const inBox = box.contains(document.activeElement);
+          if (!inBox || document.activeElement instanceof HTMLButtonElement) {
+            event.preventDefault();
+            moveFocus(box, event.key === 'ArrowDown' ? 1 : -1);
+          }
+        }
+      }}
+    >
+      <button
+        ref={button}
+        type="button"
+        id={id}
+        class={text === undefined ? 'square' : 'bare'}
+        aria-label={label}
+        title={label}
+        aria-expanded={open}
+        disabled={disabled}
+        onClick={() => {
+          setOpen(!open);
+        }}
+      >
+        <Icon name={icon} />
+        {text !== undefined && <span class="word">{text}</span>}
+      </button>
+      {open && <div class="body">{children(close)}</div>}
+    </div>
+  );
+}

@@ -1,0 +1,23 @@
+/** A run under way in words. */
+import { figure } from '../numbers.ts';
+import type { Running } from '../store/job.ts';
+
+/** What a run does. */
+export function runningSentence({ progress, finish }: Running): string {
+  const stage = progress === null ? 'Starting' : progress.sentence;
+  return finish === 'asked' ? `Finishing with the best map so far: ${stage.toLowerCase()}…` : `${stage}…`;
+}
+
+/** The number that a run brings down. */
+export function progressNumber({ progress, energies }: Running): string {
+  if (progress === null) {
+    return '';
+  }
+  const { energy, residual, stage } = progress;
+  if (energy !== null) {
+    const isFinal = stage === 'relaxation';
+    const which = isFinal ? 'Energy' : 'Energy of the map being tried';
+    return `${which} ${energy.toFixed(3)} (4 is an isometry)${isFinal ? `, level ${energies.length}` : ''}`;
+  }
+  return residual === null ? '' : `Residual ${figure(residual)}`;
+}

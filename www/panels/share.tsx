@@ -1,0 +1,76 @@
+/** What the Share button opens: the link to what is on the page, what its receiver will see, and the project file. */
+import type { VNode } from 'preact';
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { prospectSentence, SENTENCES } from '../messages.ts';
+import type { State } from '../store/state.ts';
+import type { Actions } from './actions.ts';
+
+type Shared = Awaited<ReturnType<Actions['sharedLink']>>;
+
+interface LinkBoxProps {
+  readonly shared: NonNullable<Shared>;
+}
+
+/** The link to copy by hand or by a button. */
+function LinkBox({ shared }: LinkBoxProps): VNode {
+  const [copied, setCopied] = useState('');
+  const field = useRef<HTMLInputElement>(null);
+  const copy = (): void => {
+    // A browser that forbids it leaves the link selected.
+    field.current?.select();
+    navigator.clipboard.writeText(shared.url).then(
+      () => {
+        setCopied(shared.url);
+      },
+      () => undefined,
+    );
+  };
+  return (
+    <>
+      <p>{prospectSentence(shared.prospect)}</p>
+      <input
+        ref={field}
+        id="link"
+        type="text"
+        readOnly
+        aria-label="Link"
+        value={shared.url}
+        onFocus={(event) => {
+          event.currentTarget.select();
+        }}
+      />
+      <button type="button" id="copy-link" class="main" onClick={copy}>
+        <span role="status">{copied === shared.url ? 'Copied' : 'Copy link'}</span>
+      </button>
+    </>
+  );
+}
+
+/** The box. */
+export function Share({ state, actions }: { readonly state: State; readonly actions: Actions }): VNode {
+  const [shared, setShared] = useState<Shared | undefined>(undefined);
+  const isEmpty = state.meshes.every((file) => file === null);
+  useEffect(() => {
+    let isLatest = true;
+    void actions.sharedLink().then((link) => {
+      if (isLatest) {
+        setShared(link);
+      }
+    });
+    return () => {
+      isLatest = false;
+    };
+  }, [state.meshes, state.pairs, state.options, state.up, state.ui.cameras, state.ui.style]);
+  if (isEmpty) {
+    return <p>{SENTENCES.nothingToShare}</p>;
+  }
+  return (
+    <div class="share">
+      {shared === null && <p>{SENTENCES.noLink}</p>}
+      {shared !== null && shared !== undefined && <LinkBox shared={shared} />}
+      <button type="button" id="save-project" title={SENTENCES.aboutProject} onClick={actions.saveProject}>
+        Save project file
+      </button>
+    </div>
+  );
+}

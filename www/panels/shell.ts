@@ -1,0 +1,92 @@
+/** What this browser remembers of the page beside the state: how the views share the width, light or dark, open help. */
+import type { State } from '../store/state.ts';
+
+export type Theme = State['ui']['theme'];
+
+/** What the map says of the place under the mouse. */
+export interface Probe {
+  /** The distortion there, 1 for none; `null` where it is not known. */
+  readonly distortion: number | null;
+}
+
+export interface ShellState {
+  /** The source view's share of the stage, 0 to 1. */
+  readonly split: number;
+  /** Whether the keys and first steps are shown. */
+  readonly help: boolean;
+  /** `null` while the mouse is elsewhere, or there is no map to ask. */
+  readonly probe: Probe | null;
+}
+
+interface Remembered {
+  readonly split?: number;
+  readonly theme?: Theme;
+}
+
+const KEY = 'conemap-page';
+
+/** Takes what is sound of something that was stored. */
+export function remembered(text: string | null): Remembered {
+  let value: unknown = null;
+  try {
+    value = JSON.parse(text ?? 'null');
+  } catch {
+    return {};
+  }
+  if (typeof value !== 'object' || value === null) {
+    return {};
+  }
+  const { split, theme } = value as Readonly<Record<string, unknown>>;
+  return {
+    ...(typeof split === 'number' && split >= 0 && split <= 1 ? { split } : {}),
+    ...(theme === 'system' || theme === 'light' || theme === 'dark' ? { theme } : {}),
+  };
+}
+
+function stored(): Remembered {
+  try {
+    return remembered(localStorage.getItem(KEY));
+  } catch {
+    // A browser may forbid storage; then nothing is remembered.
+    return {};
+  }
+}
+
+function store(change: Remembered): void {
+  try {
+    localStorage.setItem(KEY, JSON.stringify({ ...stored(), ...change }));
+  } catch {
+    // See stored().
+  }
+}
+
+/** Holds it and tells one listener of changes. */
+export class Shell {
+  #state: ShellState = { split: stored().split ?? 0.5, help: false, probe: null };
+  #listener = (): void => undefined;
+
+  get state(): ShellState {
+    return this.#state;
+  }
+
+  /** The theme of the last visit. */
+  get theme(): Theme {
+    return stored().theme ?? 'system';
+  }
+
+  subscribe(listener: () => void): void {
+    this.#listener = listener;
+  }
+
+  readonly set = (change: Partial<ShellState>): void => {
+    this.#state = { ...this.#state, ...change };
+    if (change.split !== undefined) {
+      store({ split: change.split });
+    }
+    this.#listener();
+  };
+
+  readonly rememberTheme = (theme: Theme): void => {
+    store({ theme });
+  };
+}

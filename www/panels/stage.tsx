@@ -1,0 +1,71 @@
+/** Both views with all that lies on them. */
+import type { VNode } from 'preact';
+import { integer } from '../numbers.ts';
+import type { Side } from '../landmarks.ts';
+import { SIDES } from '../landmarks.ts';
+import type { MeshFile, State } from '../store/state.ts';
+import type { PartProps } from './actions.ts';
+import { Divider } from './divider.tsx';
+import { DropVeil } from './drop.tsx';
+import { ErrorBanner } from './error.tsx';
+import { DemoLine, Invitation } from './invitation.tsx';
+import { VIEW_IDS } from './names.ts';
+import { Notices } from './notices.tsx';
+import { Legend, PictureBar } from './picture-bar.tsx';
+import { Toasts } from './toasts.tsx';
+import { ViewBar } from './view-bar.tsx';
+
+function turned(file: MeshFile): string {
+  return file.turnedFaces === 0 ? '' : `, ${integer(file.turnedFaces)} turned to look outwards`;
+}
+
+function Caption({ state, side }: { readonly state: State; readonly side: Side }): VNode {
+  const file = state.meshes[side];
+  return (
+    <p class="caption clipped">
+      {file !== null && (
+        <>
+          {side === 0 ? 'Source' : 'Target'} <strong>{file.name}</strong>{' '}
+          <span class="facts">
+            {integer(file.faceCount)} triangles{turned(file)}
+          </span>
+        </>
+      )}
+    </p>
+  );
+}
+
+function Pane({ side, ...props }: { readonly side: Side } & PartProps): VNode {
+  const share = side === 0 ? props.shell.state.split : 1 - props.shell.state.split;
+  return (
+    <div class={share === 0 ? 'pane shut' : 'pane'}>
+      {/* The renderer lays its numbers and rings into this element, before the caption. */}
+      <div id={VIEW_IDS[side]} class="view">
+        <Caption state={props.state} side={side} />
+      </div>
+      <Invitation state={props.state} side={side} />
+      <ViewBar {...props} side={side} />
+    </div>
+  );
+}
+
+/** The stage. */
+export function Stage(props: PartProps): VNode {
+  const { state, actions, shell } = props;
+  return (
+    <main id="stage" aria-label="Meshes" style={{ '--split': String(shell.state.split) }}>
+      <canvas id="canvas" aria-hidden="true" />
+      {SIDES.map((side) => (
+        <Pane key={side} {...props} side={side} />
+      ))}
+      <Divider shell={shell} />
+      <Legend state={state} />
+      <PictureBar state={state} actions={actions} />
+      <DemoLine state={state} actions={actions} />
+      <Toasts state={state} actions={actions} />
+      <Notices state={state} actions={actions} />
+      <ErrorBanner state={state} actions={actions} />
+      <DropVeil actions={actions} />
+    </main>
+  );
+}

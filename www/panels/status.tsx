@@ -1,0 +1,123 @@
+/** The line below: what to do next, how far the run is, and how to end it. */
+import type { VNode } from 'preact';
+import { useLayoutEffect, useRef, useState } from 'preact/hooks';
+import { byId } from '../dom.ts';
+import { hint } from '../messages.ts';
+import type { Running } from '../store/job.ts';
+import { wholePairs } from '../store/order.ts';
+import { isCurrent } from '../store/staleness.ts';
+import type { State } from '../store/state.ts';
+import { asked, waitingCount } from '../store/waiting.ts';
+import type { PartProps } from './actions.ts';
+import { meshName } from './names.ts';
+import { progressNumber, runningSentence } from './progress.ts';
+import type { Probe } from './shell.ts';
+import { largestStretch } from './verdict.ts';
+
+function nextClick(state: State): string {
+  const next = asked(state);
+  return hint({
+    meshes: state.meshes.filter((file) => file !== null).length,
+    asked: next === null ? null : { pair: next.pair.number, mesh: meshName(state, next.side) },
+    pairs: wholePairs(state).length,
+    waiting: next === null ? 0 : waitingCount(state, next.side) - 1,
+  });
+}
+
+/** What the line says when nothing runs; empty where the hint says it all. */
+function restSentence(state: State, probe: Probe | null): string {
+  if (probe !== null && probe.distortion !== null && state.job.kind !== 'busy') {
+    return `Here stretched up to ${largestStretch(probe.distortion).toFixed(2)} times`;
+  }
+  switch (state.job.kind) {
+    case 'busy':
+      return state.job.task.sentence;
+    case 'error':
+      return state.result === null ? 'No map was made.' : 'No new map was made; the last one is shown.';
+    case 'done':
+      return isCurrent(state) ? 'The map is done.' : '';
+    case 'idle':
+    case 'running':
+      return state.ready ? '' : 'Loading…';
+  }
+}
+
+/** Keeps the keyboard's place when the button that it was on goes away. */
+function useKeptFocus(running: boolean, finishable: boolean): { readonly current: HTMLButtonElement | null } {
+  const finish = useRef<HTMLButtonElement>(null);
+  const before = useRef(running);
+  useLayoutEffect(() => {
+    const active = document.activeElement;
+    const lost = active === document.body || active?.closest('[hidden]') !== null;
+    if (lost && (before.current !== running || active === finish.current)) {
+      (running ? byId('cancel') : document.getElementById('run'))?.focus();
+    }
+    before.current = running;
+  }, [running, finishable]);
+  return finish;
+}
+
+function RunButtons({ job, actions }: { readonly job: Running | null } & Pick<PartProps, 'actions'>): VNode {
+  const finishable = job?.finish === 'possible';
+  const finish = useKeptFocus(job !== null, finishable);
+  return (
+    <>
+      <button
+        ref={finish}
+        type="button"
+        id="finish"
+        hidden={!finishable}
+        title="Stop improving the map and show it: whole and certified, only less relaxed"
+        onClick={actions.finish}
+      >
+        Finish now
+      </button>
+      <button type="button" id="cancel" hidden={job === null} onClick={actions.cancel}>
+        Cancel
+      </button>
+    </>
+  );
+}
+
+/** From this share and time in ms on the time that is left can be guessed. */
+const GUESSED = { share: 0.15, elapsed: 1000 };
+
+/** A guess in words; empty while there is none. */
+function timeLeft(share: number, elapsed: number): string {
+  if (share < GUESSED.share || elapsed < GUESSED.elapsed) {
+    return '';
+  }
+  return `about ${Math.max(1, Math.round((elapsed * (1 - share)) / share / 1000))} s left`;
+}
+
+function Progress({ job }: { readonly job: Running }): VNode {
+  const [start] = useState(() => performance.now());
+  const share = job.progress?.share ?? 0;
+  return (
+    <>
+      <span class="residual">{progressNumber(job)}</span>
+      <span class="left quiet">{timeLeft(share, performance.now() - start)}</span>
+      <progress max={1} value={share} aria-label="Progress of the map" />
+    </>
+  );
+}
+
+/** The line. */
+export function StatusLine({ state, actions, shell }: PartProps): VNode {
+  const job = state.job.kind === 'running' ? state.job : null;
+  const next = job !== null || !state.ready ? '' : nextClick(state);
+  return (
+    <footer id="status-line">
+      <p id="hint" role="status" class="clipped" title={next} hidden={next === ''}>
+        {next}
+      </p>
+      <div class="progress">
+        <p id="status" role="status" class={job === null ? 'sentence quiet' : 'sentence'}>
+          {job === null ? restSentence(state, shell.state.probe) : runningSentence(job)}
+        </p>
+        {job !== null && <Progress job={job} />}
+        <RunButtons job={job} actions={actions} />
+      </div>
+    </footer>
+  );
+}

@@ -1,0 +1,53 @@
+/** The steps of the work: how far each is, and which one opens by itself. */
+import { wholePairs } from '../store/order.ts';
+import { canRun, MIN_PAIRS } from '../store/readiness.ts';
+import { isCurrent } from '../store/staleness.ts';
+import type { State } from '../store/state.ts';
+
+export type Step = State['ui']['step'];
+export const STEPS: readonly Step[] = ['meshes', 'landmarks', 'map', 'use', 'method'];
+
+export type Mark = 'empty' | 'ready' | 'running' | 'done' | 'outdated';
+
+function hasMeshes(state: State): boolean {
+  return !state.meshes.includes(null);
+}
+
+function hasPairs(state: State): boolean {
+  return wholePairs(state).length >= MIN_PAIRS;
+}
+
+/** How far a step is. */
+export function markOf(state: State, step: Step): Mark {
+  const result = state.result === null ? null : isCurrent(state) ? 'done' : 'outdated';
+  switch (step) {
+    case 'meshes':
+      return state.job.kind === 'busy' ? 'running' : hasMeshes(state) ? 'done' : 'empty';
+    case 'landmarks':
+      if (state.findings.some((finding) => finding.repair !== 'mark')) {
+        return 'outdated';
+      }
+      return hasPairs(state) ? 'done' : hasMeshes(state) ? 'ready' : 'empty';
+    case 'map':
+      return state.job.kind === 'running' ? 'running' : (result ?? (canRun(state) ? 'ready' : 'empty'));
+    case 'use':
+    case 'method':
+      return result === null ? 'empty' : result === 'done' ? 'ready' : 'outdated';
+  }
+}
+
+/** The step that a change opens; `null` where the user stays. */
+export function stepAfter(state: State, previous: State): Step | null {
+  if (state.job.kind === 'running' && previous.job.kind !== 'running') {
+    return 'map';
+  }
+  if (state.history.past.length <= previous.history.past.length) {
+    // Nothing new: a step was taken back.
+    return null;
+  }
+  if (state.meshes !== previous.meshes && hasMeshes(state) && state.meshes[0] !== previous.meshes[1]) {
+    return hasPairs(state) ? 'map' : 'landmarks';
+  }
+  // A landmark file beside meshes that were there.
+  return state.ui.step === 'meshes' && hasMeshes(state) && hasPairs(state) && !hasPairs(previous) ? 'map' : null;
+}

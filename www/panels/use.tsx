@@ -1,0 +1,40 @@
+/** The fourth step: what the map is good for, and what can be taken away. */
+import type { VNode } from 'preact';
+import { shownResult } from '../store/staleness.ts';
+import type { PartProps } from './actions.ts';
+import { exportsOf } from './exports.ts';
+import { SurfaceChoice } from './picture-bar.tsx';
+
+/** The panel's content. */
+export function UsePanel({ state, actions }: PartProps): VNode {
+  const files = exportsOf(state);
+  return (
+    <div class="content">
+      {shownResult(state) !== null && (
+        <section>
+          <h3>What the meshes show</h3>
+          <SurfaceChoice state={state} actions={actions} group="carried" />
+        </section>
+      )}
+      <section>
+        <h3>Take away</h3>
+        {state.result === null && (
+          <p class="quiet">The map’s files come here once it is made: the textured mesh, the images of all vertices, the report.</p>
+        )}
+        <ul class="export-list" aria-label="Downloads">
+          {files.map((file) => (
+            <li key={file.format}>
+              <div>
+                <p>{file.title}</p>
+                <p class="quiet small">{file.about}</p>
+              </div>
+              <button type="button" onClick={file.save} title={`Save: ${file.about}`}>
+                {file.format}
+              </button>
+            </li>
+          ))}
+        </ul>
+      </section>
+    </div>
+  );
+}

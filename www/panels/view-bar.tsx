@@ -1,0 +1,189 @@
+/** The camera's buttons on a view. */
+import type { VNode } from 'preact';
+import { useState } from 'preact/hooks';
+import type { Side } from '../landmarks.ts';
+import { shownResult } from '../store/staleness.ts';
+import type { Axis, State } from '../store/state.ts';
+import type { Direction, PartProps } from './actions.ts';
+import { IconButton } from './controls.tsx';
+import { SIDE_NAMES } from './names.ts';
+import { Popover } from './popover.tsx';
+
+type Props = { readonly side: Side } & PartProps;
+
+const DIRECTIONS: readonly (readonly [Direction, string])[] = [
+  ['front', 'Front'],
+  ['back', 'Back'],
+  ['left', 'Left'],
+  ['right', 'Right'],
+  ['top', 'Top'],
+  ['bottom', 'Bottom'],
+];
+
+const AXES: readonly (readonly [Axis, string])[] = [
+  ['y', 'Y up'],
+  ['z', 'Z up'],
+  ['x', 'X up'],
+  ['-y', 'Y down'],
+  ['-z', 'Z down'],
+  ['-x', 'X down'],
+];
+
+const LINKS: readonly (readonly [State['ui']['link'], string])[] = [
+  ['linked', 'Turn both together'],
+  ['map', 'Both to corresponding places'],
+  ['free', 'Each by itself'],
+];
+
+/** In degrees: six presses turn by a right angle. */
+const ROLL = 15;
+
+function Sides({ actions, side }: Props): VNode {
+  return (
+    <Popover icon="sides" label={`Look at the ${SIDE_NAMES[side]} from a side`} place="up start">
+      {() => (
+        <div class="tiles">
+          {DIRECTIONS.map(([from, text]) => (
+            <button
+              key={from}
+              type="button"
+              onClick={() => {
+                actions.camera(side, { kind: 'look', from });
+              }}
+            >
+              {text}
+            </button>
+          ))}
+        </div>
+      )}
+    </Popover>
+  );
+}
+
+/** The axes, with the one that the shape proposes; it is asked when the box opens. */
+function AxisChoice({ state, actions, side }: Props): VNode {
+  const [proposed] = useState(() => actions.proposedUp(side));
+  return (
+    <>
+      <p class="title">Turn upright</p>
+      <div class="tiles">
+        {AXES.map(([axis, text]) => (
+          <button
+            key={axis}
+            type="button"
+            aria-pressed={state.up[side] === axis}
+            onClick={() => {
+              actions.dispatch({ kind: 'up', side, axis });
+            }}
+          >
+            {text}
+          </button>
+        ))}
+      </div>
+      {proposed !== null && proposed !== state.up[side] && (
+        <p class="small title">By its shape: {AXES.find(([axis]) => axis === proposed)?.[1]}</p>
+      )}
+    </>
+  );
+}
+
+function Upright(props: Props): VNode {
+  const { actions, side } = props;
+  return (
+    <Popover icon="upright" label={`Turn the ${SIDE_NAMES[side]} upright`} place="up start">
+      {() => (
+        <>
+          <AxisChoice {...props} />
+          <p class="title">Turn the picture</p>
+          <div class="row">
+            <IconButton
+              icon="rollLeft"
+              label="Turn the picture to the left (Q)"
+              onClick={() => {
+                actions.camera(side, { kind: 'roll', degrees: ROLL });
+              }}
+            />
+            <IconButton
+              icon="roll"
+              label="Turn the picture to the right (E)"
+              onClick={() => {
+                actions.camera(side, { kind: 'roll', degrees: -ROLL });
+              }}
+            />
+            <button
+              type="button"
+              class="bare"
+              onClick={() => {
+                actions.camera(side, { kind: 'reset' });
+              }}
+            >
+              As at first
+            </button>
+          </div>
+        </>
+      )}
+    </Popover>
+  );
+}
+
+function Link({ state, actions }: Props): VNode {
+  const hasMap = shownResult(state) !== null;
+  return (
+    <Popover icon={state.ui.link === 'free' ? 'unlink' : 'link'} label="Link the cameras" place="up start">
+      {(close) =>
+        LINKS.map(([link, text]) => (
+          <button
+            key={link}
+            type="button"
+            aria-pressed={state.ui.link === link}
+            disabled={link === 'map' && !hasMap}
+            onClick={() => {
+              close();
+              actions.dispatch({ kind: 'ui', ui: { link } });
+            }}
+          >
+            {text}
+          </button>
+        ))
+      }
+    </Popover>
+  );
+}
+
+function Alone({ shell, side }: Props): VNode {
+  const alone = side === 0 ? 1 : 0;
+  const isAlone = shell.state.split === alone;
+  return (
+    <IconButton
+      icon="wide"
+      label={isAlone ? 'Show both views' : `Show the ${SIDE_NAMES[side]} alone`}
+      pressed={isAlone}
+      onClick={() => {
+        shell.set({ split: isAlone ? 0.5 : alone });
+      }}
+    />
+  );
+}
+
+/** The bar of one view. */
+export function ViewBar(props: Props): VNode | null {
+  const { state, actions, side } = props;
+  if (state.meshes[side] === null) {
+    return null;
+  }
+  return (
+    <div class="view-bar" role="group" aria-label={`Camera of the ${SIDE_NAMES[side]}`}>
+      <IconButton
+        icon="fit"
+        label={`Fit the ${SIDE_NAMES[side]} into its view (F)`}
+        onClick={() => {
+          actions.camera(side, { kind: 'fit' });
+        }}
+      />
+      <Sides {...props} />
+      <Upright {...props} />
+      {side === 0 && <Link {...props} />}
+      <Alone {...props} />
+    </div>
+  );
+}

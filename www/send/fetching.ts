@@ -1,0 +1,99 @@
+/** Fetches files that a link names: without credentials or referrer, bounded in size, and given up at a word. */
+import type { Address } from './address.ts';
+
+/** The most bytes that one file of a link may have. */
+export const LARGEST_FETCHED = 256 * 1024 * 1024;
+
+/** Why a file was not fetched; `status` is the server's answer where it gave one. */
+export type FetchFault =
+  | { readonly kind: 'unreachable' }
+  | { readonly kind: 'moved' }
+  | { readonly kind: 'status'; readonly status: number }
+  | { readonly kind: 'too-large' }
+  | { readonly kind: 'cancelled' };
+
+/** A file that could not be fetched. */
+export class FetchRefused extends Error {
+  readonly fault: FetchFault;
+  readonly address: Address;
+
+  constructor(fault: FetchFault, address: Address) {
+    super(`${address.url}: ${fault.kind}`);
+    this.fault = fault;
+    this.address = address;
+  }
+}
+
+/** What a fetch is given beside its address. */
+export interface FetchTerms {
+  readonly signal: AbortSignal;
+  /** Hears of bytes that came and of how many are expected, `null` where the server does not say. */
+  readonly progress: (loaded: number, expected: number | null) => void;
+}
+
+/** The length that the server tells; it may lie. */
+function toldLength(response: Response): number | null {
+  const told = response.headers.get('content-length');
+  return told !== null && /^\d{1,15}$/.test(told) ? Number(told) : null;
+}
+
+async function answer(address: Address, signal: AbortSignal): Promise<Response> {
+  const response = await fetch(address.url, {
+    credentials: 'omit',
+    referrerPolicy: 'no-referrer',
+    // Whoever agreed to one host did not agree to the next one, and the browser does not say which it is.
+    redirect: 'manual',
+    signal,
+  });
+  const refuse = async (fault: FetchFault): Promise<never> => {
+    await response.body?.cancel();
+    throw new FetchRefused(fault, address);
+  };
+  if (response.type === 'opaqueredirect') {
+    return refuse({ kind: 'moved' });
+  }
+  if (!response.ok) {
+    return refuse({ kind: 'status', status: response.status });
+  }
+  if ((toldLength(response) ?? 0) > LARGEST_FETCHED) {
+    return refuse({ kind: 'too-large' });
+  }
+  return response;
+}
+
+async function bodyOf(response: Response, address: Address, terms: FetchTerms): Promise<Uint8Array<ArrayBuffer>> {
+  const expected = toldLength(response);
+  const pieces: Uint8Array[] = [];
+  let size = 0;
+  const reader = response.body?.getReader();
+  for (let next = await reader?.read(); next?.done === false; next = await reader?.read()) {
+    pieces.push(next.value);
+    size += next.value.length;
+    if (size > LARGEST_FETCHED) {
+      await reader?.cancel();
+      throw new FetchRefused({ kind: 'too-large' }, address);
+    }
+    // What is packed on its way comes out longer than what was told.
+    terms.progress(size, expected !== null && size <= expected ? expected : null);
+  }
+  const bytes = new Uint8Array(size);
+  let end = 0;
+  for (const piece of pieces) {
+    bytes.set(piece, end);
+    end += piece.length;
+  }
+  return bytes;
+}
+
+/** The bytes at an address. Throws {@link FetchRefused}. */
+export async function fetchBytes(address: Address, terms: FetchTerms): Promise<Uint8Array<ArrayBuffer>> {
+  try {
+    return await bodyOf(await answer(address, terms.signal), address, terms);
+  } catch (thrown) {
+    if (thrown instanceof FetchRefused) {
+      throw thrown;
+    }
+    // The browser tells a host that does not answer from one that lets no other page read by no sign.
+    throw new FetchRefused({ kind: terms.signal.aborted ? 'cancelled' : 'unreachable' }, address);
+  }
+}

@@ -1,0 +1,204 @@
+/**
+ * The project file, `.conemap.zip`: both meshes byte for byte, the work on them, and the map where there is one, in one
+ * archive. `conemap.json` says what is in it, and is what is read; `landmarks.json` beside it is for other programs.
+ */
+import * as v from 'valibot';
+import type { ProjectFault } from '../messages.ts';
+import { addressOf, LONGEST_ADDRESS, shownName } from './address.ts';
+import type { Archiver, Entries } from './archive.ts';
+import { ArchiveRefused, isArchive, readArchive } from './archive.ts';
+import { hashOf } from './hash.ts';
+import type { SentWork } from './schema.ts';
+import { SentWorkSchema } from './schema.ts';
+
+export const PROJECT_ENDING = '.conemap.zip';
+
+/** What is written; higher ones are not read. */
+const VERSION = 1;
+const MANIFEST = 'conemap.json';
+const LANDMARKS = 'landmarks.json';
+const MAP = 'map.conemap';
+const REPORT = 'report.json';
+/** In bytes, of the manifest: some 100 for each of 10,000 pairs. */
+const LARGEST_MANIFEST = 4_000_000;
+
+/** A mesh of a project. */
+export interface ProjectMesh {
+  readonly name: string;
+  /** As the file was given. */
+  readonly bytes: Uint8Array;
+  /** Where it was loaded from; `null` where it was given by hand. */
+  readonly address: string | null;
+}
+
+/** What a project file holds. */
+export interface Project {
+  readonly meshes: readonly [ProjectMesh | null, ProjectMesh | null];
+  readonly work: SentWork;
+  /** The map's own file and the report of its run, where there is a map. */
+  readonly result: { readonly map: Uint8Array | null; readonly report: string } | null;
+}
+
+/** A project file that is not opened. */
+export class ProjectRefused extends Error {
+  readonly fault: ProjectFault;
+
+  constructor(fault: ProjectFault) {
+    super(fault);
+    this.fault = fault;
+  }
+}
+
+const MeshEntry = v.nullable(
+  v.object({
+    name: v.pipe(v.string(), v.minLength(1), v.maxLength(1000)),
+    entry: v.pipe(v.string(), v.regex(/^(?:source|target)\/[^/\\]+$/)),
+    /** SHA-256 of its bytes in base64url; `null` where the page could not tell. */
+    hash: v.nullable(v.pipe(v.string(), v.regex(/^[\w-]{43}$/))),
+    address: v.nullable(v.pipe(v.string(), v.maxLength(LONGEST_ADDRESS))),
+  }),
+);
+type MeshEntry = v.InferOutput<typeof MeshEntry>;
+
+const Versioned = v.object({ format: v.literal('conemap-project'), version: v.pipe(v.number(), v.integer(), v.minValue(1)) });
+const Manifest = v.object({
+  ...Versioned.entries,
+  meshes: v.strictTuple([MeshEntry, MeshEntry]),
+  work: SentWorkSchema,
+  /** Which of the files of the result are there. */
+  result: v.nullable(v.object({ map: v.nullable(v.literal(MAP)), report: v.literal(REPORT) })),
+});
+type Manifest = v.InferOutput<typeof Manifest>;
+
+function entryOf(folder: string, { name }: ProjectMesh): string {
+  return `${folder}/${shownName(name).replace(/[:*?"<>|]/g, '_') || 'mesh'}`;
+}
+
+async function meshEntry(folder: string, mesh: ProjectMesh | null): Promise<MeshEntry> {
+  return mesh === null
+    ? null
+    : { name: mesh.name, entry: entryOf(folder, mesh), hash: await hashOf(mesh.bytes), address: mesh.address };
+}
+
+async function entriesOf(project: Project, landmarks: string): Promise<Entries> {
+  const { meshes, work, result } = project;
+  const [source, target] = [await meshEntry('source', meshes[0]), await meshEntry('target', meshes[1])];
+  const manifest: Manifest = {
+    format: 'conemap-project',
+    version: VERSION,
+    meshes: [source, target],
+    // Checked lists are not read-only; these are not written to.
+    work: work as Manifest['work'],
+    result: result === null ? null : { map: result.map === null ? null : MAP, report: REPORT },
+  };
+  const text = new TextEncoder();
+  const entries: Record<string, Uint8Array> = {
+    [MANIFEST]: text.encode(JSON.stringify(manifest, null, 1)),
+    [LANDMARKS]: text.encode(landmarks),
+  };
+  [source, target].forEach((entry, side) => {
+    const mesh = meshes[side];
+    if (entry !== null && mesh !== null && mesh !== undefined) {
+      entries[entry.entry] = mesh.bytes;
+    }
+  });
+  if (result !== null) {
+    entries[REPORT] = text.encode(result.report);
+    if (result.map !== null) {
+      entries[MAP] = result.map;
+    }
+  }
+  return entries;
+}
+
+function refusal(thrown: unknown): unknown {
+  return thrown instanceof ArchiveRefused ? new ProjectRefused(thrown.fault) : thrown;
+}
+
+function manifestBytes(archive: Uint8Array): Uint8Array | undefined {
+  try {
+    return readArchive(archive, [MANIFEST], LARGEST_MANIFEST)[MANIFEST];
+  } catch (thrown) {
+    if (thrown instanceof ArchiveRefused && thrown.fault === 'too-large') {
+      throw new ProjectRefused('damaged');
+    }
+    throw refusal(thrown);
+  }
+}
+
+function parsed(bytes: Uint8Array): unknown {
+  try {
+    return JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(bytes)) as unknown;
+  } catch {
+    throw new ProjectRefused('damaged');
+  }
+}
+
+/** Whether these bytes are an archive that says of itself that it is a project, whole or not. */
+export function isProject(bytes: Uint8Array): boolean {
+  try {
+    return isArchive(bytes) && manifestBytes(bytes) !== undefined;
+  } catch {
+    return false;
+  }
+}
+
+function manifestOf(archive: Uint8Array): Manifest {
+  const bytes = manifestBytes(archive);
+  if (bytes === undefined) {
+    throw new ProjectRefused('no-project');
+  }
+  const value = parsed(bytes);
+  const versioned = v.safeParse(Versioned, value);
+  if (!versioned.success) {
+    throw new ProjectRefused('no-project');
+  }
+  if (versioned.output.version > VERSION) {
+    throw new ProjectRefused('newer');
+  }
+  const manifest = v.safeParse(Manifest, value);
+  if (!manifest.success) {
+    throw new ProjectRefused('damaged');
+  }
+  return manifest.output;
+}
+
+async function meshOf(entry: MeshEntry, files: Entries): Promise<ProjectMesh | null> {
+  if (entry === null) {
+    return null;
+  }
+  const bytes = files[entry.entry];
+  if (bytes === undefined) {
+    throw new ProjectRefused('mesh-missing');
+  }
+  const hash = entry.hash === null ? null : await hashOf(bytes);
+  if (hash !== null && hash !== entry.hash) {
+    throw new ProjectRefused('mesh-changed');
+  }
+  const address = entry.address === null ? 'no-address' : addressOf(entry.address, new URL('https://none.invalid/'));
+  return { name: shownName(entry.name), bytes, address: typeof address === 'string' ? null : address.url };
+}
+
+/**
+ * The project in an archive, whose bytes are gone afterwards. The files of a result are taken as they are, and judged by
+ * whoever opens them. Throws {@link ProjectRefused}.
+ */
+export async function readProject(archive: Uint8Array, archiver: Archiver): Promise<Project> {
+  const { meshes, work, result } = manifestOf(archive);
+  const names = [...meshes.map((mesh) => mesh?.entry), result?.report, result?.map].filter((name) => typeof name === 'string');
+  const files = await archiver.read(archive, names).catch((thrown: unknown) => {
+    throw refusal(thrown);
+  });
+  const report = result === null ? undefined : files[result.report];
+  const map = files[MAP];
+  return {
+    meshes: [await meshOf(meshes[0], files), await meshOf(meshes[1], files)],
+    work,
+    result: report === undefined ? null : { map: map ?? null, report: new TextDecoder().decode(report) },
+  };
+}
+
+/** The project as one file; `landmarks` is the landmark file of its whole pairs. */
+export async function writeProject(project: Project, landmarks: string, archiver: Archiver): Promise<Uint8Array<ArrayBuffer>> {
+  return archiver.write(await entriesOf(project, landmarks));
+}

@@ -1,0 +1,79 @@
+/** The shape of what comes by links and project files beside the meshes, and the bounds of its parts. */
+import * as v from 'valibot';
+import type { Pair, SurfacePoint } from '../landmarks.ts';
+import type { RunOptions } from '../report.ts';
+import type { Camera, Style, Work } from '../store/state.ts';
+import { INITIAL } from '../store/state.ts';
+
+/** More pairs than a map was ever made of. */
+export const MOST_PAIRS = 10_000;
+/** Longer than any name, label or sentence that is meant for eyes. */
+const LONGEST_TEXT = 10_000;
+/** A camera is some ten numbers. */
+const LONGEST_CAMERA = 32;
+const MOST_OWN_CONES = 1000;
+
+/** A number of a vertex, face or place in a list. */
+export const Index = v.pipe(v.number(), v.integer(), v.minValue(0), v.maxValue(2 ** 32 - 1));
+/** Whether three weights belong together is the core's to judge, as in a landmark file. */
+export const Weight = v.pipe(v.number(), v.finite(), v.minValue(-1), v.maxValue(2));
+export const Text = v.pipe(v.string(), v.maxLength(LONGEST_TEXT));
+export const Axis = v.picklist(['x', '-x', 'y', '-y', 'z', '-z']);
+export const Options = v.object({
+  method: v.picklist(['relaxed', 'thesis']),
+  base: v.picklist(['joint', 'qem']),
+  cones: v.picklist(['base-domain', 'uniform']),
+  class: v.picklist(['best', 'runner-up']),
+  ownCones: v.nullable(v.pipe(Index, v.maxValue(MOST_OWN_CONES))),
+}) satisfies v.GenericSchema<RunOptions>;
+export const Cameras = v.strictTuple([
+  v.nullable(v.pipe(v.array(v.pipe(v.number(), v.finite())), v.maxLength(LONGEST_CAMERA))),
+  v.nullable(v.pipe(v.array(v.pipe(v.number(), v.finite())), v.maxLength(LONGEST_CAMERA))),
+]) satisfies v.GenericSchema<readonly [Camera | null, Camera | null]>;
+export const StyleSchema = v.object({
+  surface: v.picklist(['shaded', 'pattern', 'checkerboard', 'colours', 'distortion']),
+  patchLines: v.boolean(),
+  cones: v.boolean(),
+  markers: v.boolean(),
+}) satisfies v.GenericSchema<Style>;
+
+const Point = v.nullable(
+  v.union([Index, v.object({ face: Index, barycentric: v.strictTuple([Weight, Weight, Weight]) })]),
+) satisfies v.GenericSchema<SurfacePoint | null>;
+
+/** A pair without its id, which is of one page only. */
+export type SentPair = Omit<Pair, 'id'>;
+
+/** Everything but the meshes: the work on them, and how it was looked at. */
+export interface SentWork extends Pick<Work, 'up' | 'groundTruth' | 'options'> {
+  readonly pairs: readonly SentPair[];
+  readonly cameras: readonly [Camera | null, Camera | null];
+  readonly style: Style;
+}
+
+/** Whether every pair has a point, and a number of its own. */
+export function areSound(pairs: readonly SentPair[]): boolean {
+  const numbers = new Set(pairs.map(({ number }) => number));
+  return numbers.size === pairs.length && pairs.every(({ points }) => points[0] !== null || points[1] !== null);
+}
+
+/** The work as a project file holds it. */
+export const SentWorkSchema = v.object({
+  pairs: v.pipe(
+    v.array(
+      v.object({
+        number: v.pipe(Index, v.minValue(1)),
+        points: v.strictTuple([Point, Point]),
+        label: Text,
+        locked: v.boolean(),
+      }),
+    ),
+    v.maxLength(MOST_PAIRS),
+    v.check((pairs) => areSound(pairs)),
+  ),
+  up: v.strictTuple([Axis, Axis]),
+  groundTruth: v.nullable(Text),
+  options: Options,
+  cameras: v.fallback(Cameras, [null, null]),
+  style: v.fallback(StyleSchema, INITIAL.ui.style),
+}) satisfies v.GenericSchema<SentWork>;

@@ -1,0 +1,62 @@
+/** What follows from other work on the page: what spoke of the work before it is brought in line. */
+import { SIDES } from '../landmarks.ts';
+import { heldMeshes } from './history.ts';
+import { settled } from './job.ts';
+import { changesBetween, shownResult } from './staleness.ts';
+import type { State } from './state.ts';
+
+const NONE: State['findings'] = [];
+
+/** The id where it is still a pair's. */
+function present(state: State, id: number | null): number | null {
+  return state.pairs.some((pair) => pair.id === id) ? id : null;
+}
+
+/** Whether the doubts of the last run are about the landmarks and meshes on the page. */
+function areAbout(state: State): boolean {
+  const changes = state.found === null ? null : changesBetween(state.found.inputs, state);
+  return changes === null || [changes.meshes, changes.placed, changes.moved, changes.removed].every((list) => list.length === 0);
+}
+
+/** The state with its doubts where they are about it. */
+export function withFindings(state: State): State {
+  const findings = state.found !== null && areAbout(state) ? state.found.doubts : NONE;
+  return findings === state.findings || findings.length + state.findings.length === 0 ? state : { ...state, findings };
+}
+
+/** The last map, unless its meshes can come back by no step. */
+function reachableResult(state: State): State['result'] {
+  const { result } = state;
+  if (result === null || shownResult(state) !== null) {
+    return result;
+  }
+  const held = heldMeshes(state.history, state);
+  return result.inputs.meshes.every((file) => file === null || held.has(file)) ? result : null;
+}
+
+/** The state in line with its work, which was another one before. */
+export function inLine(state: State, before: State): State {
+  const selected = present(state, state.ui.selected);
+  const hovered = present(state, state.ui.hovered);
+  const isSelected = selected === state.ui.selected && hovered === state.ui.hovered;
+  const pruned = isSelected ? state : { ...state, ui: { ...state.ui, selected, hovered } };
+  const next = withFindings({ ...pruned, result: reachableResult(pruned) });
+  if (next.meshes === before.meshes) {
+    return next;
+  }
+  // What is known of a mesh goes with it to the other side.
+  const follow = <T>(both: readonly [T, T], none: T): readonly [T, T] => {
+    const of = (file: State['meshes'][0]): T => {
+      const side = SIDES.find((candidate) => file !== null && before.meshes[candidate] === file);
+      return side === undefined ? none : both[side];
+    };
+    return [of(next.meshes[0]), of(next.meshes[1])];
+  };
+  return {
+    ...next,
+    suggestions: follow(before.suggestions, []),
+    // A session that comes back brings its cameras along.
+    ui: next.ui.cameras === before.ui.cameras ? { ...next.ui, cameras: follow(before.ui.cameras, null) } : next.ui,
+    job: settled(next.job, shownResult(next) !== null),
+  };
+}

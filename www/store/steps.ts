@@ -1,0 +1,106 @@
+/** Steps of the work in words: their names, and what is said where they drop something. */
+import type { Pair } from '../landmarks.ts';
+import { clearedSentence, count, pairGone, pairsGone, pointsGone, pointsReplaced, SENTENCES } from '../messages.ts';
+import type { Event } from './events.ts';
+import type { State, Toast } from './state.ts';
+
+type Of<K extends Event['kind']> = Extract<Event, { kind: K }>;
+
+/** What an event did, as a command; the kinds that make no step have no name. */
+type Names = { readonly [K in Event['kind']]?: (event: Of<K>, before: State, after: State) => string };
+
+/** A pair by its number. */
+function called(state: State, id: number): string {
+  return `pair ${state.pairs.find((pair) => pair.id === id)?.number ?? ''}`.trim();
+}
+
+/** What a pick did: the pair that is there or changed after it. */
+function pickName(before: State, after: State): string {
+  const pair = after.pairs.find((candidate) => !before.pairs.includes(candidate));
+  const isBegun = after.pairs.length > before.pairs.length;
+  return pair === undefined ? 'Place a point' : `${isBegun ? 'Begin' : 'Place'} pair ${pair.number}`;
+}
+
+const OPTION_NAMES = {
+  method: 'method',
+  base: 'base domain',
+  cones: 'cone angles',
+  class: 'class',
+  ownCones: 'own cones',
+} as const;
+
+const NAMES: Names = {
+  mesh: ({ file }) => `Open ${file.name}`,
+  mirrored: () => 'Mirror the target',
+  'swap-meshes': () => 'Exchange the meshes',
+  landmarks: ({ file }) => `Load ${count(file.pairs.length, 'pair')}`,
+  'side-marks': ({ name }) => `Load ${name}`,
+  demo: ({ demo }) => `Open the demo “${demo.title}”`,
+  'point-picked': (_, before, after) => pickName(before, after),
+  'point-moved': ({ id }, before) => `Move ${called(before, id)}`,
+  'pick-dropped': (_, before, after) => {
+    const pair = before.pairs.find((candidate) => !after.pairs.includes(candidate));
+    return `Give up pair ${pair?.number ?? ''}`.trim();
+  },
+  'suggestions-taken': (_, before, after) => `Take ${count(after.pairs.length - before.pairs.length, 'suggestion')}`,
+  'pair-deleted': ({ id }, before) => `Delete ${called(before, id)}`,
+  'pair-labelled': ({ id }, before) => `Rename ${called(before, id)}`,
+  'pair-locked': ({ id, locked }, before) => `${locked ? 'Lock' : 'Unlock'} ${called(before, id)}`,
+  'pair-moved': ({ id }, before) => `Reorder ${called(before, id)}`,
+  'pairs-cleared': () => 'Delete all pairs',
+  'targets-exchanged': ({ ids }, before) => `Exchange the targets of ${ids.map((id) => called(before, id)).join(' and ')}`,
+  options: ({ options }) => {
+    const [key] = Object.keys(options) as (keyof typeof OPTION_NAMES)[];
+    return `Change the ${key === undefined ? 'options' : OPTION_NAMES[key]}`;
+  },
+};
+
+function nameOf(event: Event, before: State, after: State): string | null {
+  // The table's type says that the function under a kind takes its events; the compiler cannot follow that through a union.
+  const name = NAMES[event.kind] as ((event: Event, before: State, after: State) => string) | undefined;
+  return name?.(event, before, after) ?? null;
+}
+
+/** The name of the step that these events made together. */
+export function stepName(events: readonly Event[], before: State, after: State): string {
+  const demo = events.find((event) => event.kind === 'demo');
+  const meshes = events.filter((event) => event.kind === 'mesh');
+  if (demo === undefined && meshes.length > 1) {
+    return `Open ${meshes.map(({ file }) => file.name).join(' and ')}`;
+  }
+  const named = demo ?? meshes[0] ?? events.findLast((event) => event.kind in NAMES);
+  return (named === undefined ? null : nameOf(named, before, after)) ?? 'Change';
+}
+
+/** How many pairs lost a point or went. */
+function droppedCount(before: State, after: State): number {
+  const pointsOf = ({ points }: Pair): number => points.filter((point) => point !== null).length;
+  const later = new Map(after.pairs.map((pair) => [pair.id, pointsOf(pair)]));
+  return before.pairs.filter((pair) => pointsOf(pair) > (later.get(pair.id) ?? 0)).length;
+}
+
+/** What is said of a step that drops work, beside the way back; `null` where it drops none. */
+export function toastOf(events: readonly Event[], before: State, after: State): Toast | null {
+  const undo = true;
+  if (events.some(({ kind }) => kind === 'mirrored')) {
+    return { sentence: SENTENCES.mirrored, undo };
+  }
+  const dropped = droppedCount(before, after);
+  const kinds = new Set(events.map(({ kind }) => kind));
+  if (dropped === 0 || kinds.has('pick-dropped')) {
+    return null;
+  }
+  if (kinds.has('pair-deleted')) {
+    const gone = before.pairs.find(({ id }) => !after.pairs.some((pair) => pair.id === id));
+    return { sentence: pairGone(gone?.number ?? 0), undo };
+  }
+  if (kinds.has('pairs-cleared')) {
+    return { sentence: clearedSentence(dropped, after.pairs.length), undo };
+  }
+  if (kinds.has('side-marks')) {
+    return { sentence: pointsReplaced(dropped), undo };
+  }
+  const stay = new Set(after.pairs.map(({ id }) => id));
+  const areHalf = before.pairs.some(({ id }) => stay.has(id));
+  return { sentence: areHalf ? pointsGone(dropped) : pairsGone(dropped), undo };
+}

@@ -1,0 +1,72 @@
+/** What a map brings to the picture: each of its buffers goes to the renderer when the picture needs it, and not before. */
+import type { Side } from '../landmarks.ts';
+import { SIDES } from '../landmarks.ts';
+import type { Result, Style } from '../store/state.ts';
+import type { Viewer } from '../wasm/conemap.js';
+
+/** The sides on which a style is drawn on the map's own triangles; the meshes themselves can show the others. */
+const OVERLAYS: Readonly<Record<Style['surface'], readonly Side[]>> = {
+  shaded: [],
+  // What follows from the place on the target, the target's mesh shows.
+  pattern: [0],
+  colours: [0],
+  checkerboard: [0, 1],
+  distortion: [0, 1],
+};
+
+/** Knows what one renderer has. */
+export class Picture {
+  #result: Result | null = null;
+  #overlays = new Set<Side>();
+  #lines = false;
+  #map = false;
+
+  /** Another map, or none; what was of the last one goes. */
+  take(viewer: Viewer, result: Result | null): void {
+    viewer.clearResult();
+    this.#result = result;
+    this.#overlays = new Set();
+    this.#lines = false;
+    this.#map = false;
+  }
+
+  /** Brings the map's triangles on one side; whether there is a map. */
+  bringOverlay(viewer: Viewer, side: Side): boolean {
+    const result = this.#result;
+    if (result !== null && !this.#overlays.has(side)) {
+      const { uvs, distortion, triangles, sides } = result.output;
+      const { positions, normals } = sides[side];
+      viewer.setOverlay(side, positions, normals, uvs, distortion, triangles, sides[1].positions, sides[1].normals);
+      this.#overlays.add(side);
+    }
+    return result !== null;
+  }
+
+  /** Brings what a style needs. */
+  bring(viewer: Viewer, style: Style): void {
+    const result = this.#result;
+    if (result === null) {
+      return;
+    }
+    const { output } = result;
+    for (const side of OVERLAYS[style.surface]) {
+      this.bringOverlay(viewer, side);
+    }
+    if (style.patchLines && !this.#lines) {
+      for (const side of SIDES) {
+        viewer.setLines(side, output.sides[side].linePoints, output.sides[side].lineStarts);
+      }
+      this.#lines = true;
+    }
+  }
+
+  /** Brings the map to be asked at single places; whether there is one. */
+  bringMap(viewer: Viewer): boolean {
+    if (this.#result !== null && !this.#map) {
+      const { sides, distortion, triangles } = this.#result.output;
+      viewer.setMap(sides[0].positions, sides[1].positions, distortion, triangles);
+      this.#map = true;
+    }
+    return this.#map;
+  }
+}

@@ -1,0 +1,146 @@
+/** Landmarks under the hand: which pin is under the pointer, taken, dragged, nudged. */
+import type { Pair, Side, SurfacePoint } from '../landmarks.ts';
+import type { Event } from '../store/events.ts';
+import { wholePairs } from '../store/order.ts';
+import { hasItsCones, shownResult } from '../store/staleness.ts';
+import type { State } from '../store/state.ts';
+import type { Viewer } from '../wasm/conemap.js';
+import type { Place } from './gestures.ts';
+import type { Label } from './labels.ts';
+
+/** Nudges of one pin that follow each other within this time, in ms, are one step. */
+const NUDGES_TOGETHER = 1000;
+
+/** How far beside a pin a pointer that only hovers still finds it, in CSS pixels. */
+const HOVER_SLACK = 2;
+
+interface Drag {
+  readonly side: Side;
+  readonly pair: Pair;
+  readonly gesture: number;
+  /** From the pointer to the point, in places of the view. */
+  readonly offset: Place;
+  /** Where the pointer has gone since the last frame. */
+  at: Place | null;
+}
+
+/** The pairs' colours and cones in the renderer's words: a JSON array in pair order. */
+export function marksOf(state: State, side: Side): string {
+  const { ui, pairs } = state;
+  const cones = conesOf(state);
+  const marks = pairs.map(({ id, number, points }) => {
+    const point = points[side];
+    const raised = id === ui.selected || id === ui.hovered;
+    return point === null ? null : { point, colour: number - 1, raised, cone: cones.get(id) ?? null };
+  });
+  return JSON.stringify(marks);
+}
+
+/** Curvatures of the last map's cones by pair id, while they are where the pairs are. */
+function conesOf(state: State): ReadonlyMap<number, number> {
+  const result = shownResult(state);
+  if (result === null || !hasItsCones(state)) {
+    return new Map();
+  }
+  return new Map(wholePairs(result.inputs).map(({ id }, order) => [id, result.output.cones[order] ?? 0]));
+}
+
+/** The pairs' numbers, in pair order. */
+export function labelsOf({ pairs, ui }: State): readonly Label[] {
+  return pairs.map(({ id, number }) => ({ text: String(number), raised: id === ui.selected || id === ui.hovered }));
+}
+
+/** Moves pins; what they do goes to the store. */
+export class Pins {
+  readonly #dispatch: (event: Event) => void;
+  #drag: Drag | null = null;
+  #gesture = 0;
+  #nudged: { readonly id: number; readonly side: Side; readonly at: number } | null = null;
+
+  constructor(dispatch: (event: Event) => void) {
+    this.#dispatch = dispatch;
+  }
+
+  /** Whether a pin is in the hand. */
+  get isDragging(): boolean {
+    return this.#drag !== null;
+  }
+
+  /** The pair whose pin is under the pointer. */
+  under(viewer: Viewer, state: State, side: Side, at: Place): Pair | null {
+    const index = state.ui.style.markers ? viewer.pinAt(side, at.x, at.y, HOVER_SLACK) : undefined;
+    return index === undefined ? null : (state.pairs[index] ?? null);
+  }
+
+  /** Takes the pin under the pointer; whether there is one. */
+  take(viewer: Viewer, state: State, side: Side, at: Place, slack: number): boolean {
+    const index = state.ui.style.markers ? viewer.pinAt(side, at.x, at.y, slack) : undefined;
+    const pair = index === undefined ? undefined : state.pairs[index];
+    const place = index === undefined ? undefined : viewer.pinPlace(side, index);
+    if (pair === undefined || place === undefined) {
+      return false;
+    }
+    this.#gesture += 1;
+    const offset = { x: (place[0] ?? 0) - at.x, y: (place[1] ?? 0) - at.y };
+    this.#drag = { side, pair, gesture: this.#gesture, offset, at: null };
+    return true;
+  }
+
+  /** The pin in the hand is to follow the pointer, in the next frame. */
+  drag(at: Place): void {
+    if (this.#drag !== null && !this.#drag.pair.locked) {
+      this.#drag.at = at;
+    }
+  }
+
+  /** Moves the pin in the hand to where the pointer has gone; off the body it stays. */
+  follow(viewer: Viewer): void {
+    const drag = this.#drag;
+    const at = drag?.at ?? null;
+    if (drag === null || at === null) {
+      return;
+    }
+    const { side, pair, gesture, offset } = drag;
+    drag.at = null;
+    const hit = viewer.pick(side, at.x + offset.x, at.y + offset.y);
+    if (hit !== undefined) {
+      this.#dispatch({ kind: 'point-moved', id: pair.id, side, point: JSON.parse(hit) as SurfacePoint, gesture });
+    }
+  }
+
+  /** Lets the pin in the hand go; a click selects it, and what is given up goes back. */
+  drop(outcome: 'moved' | 'clicked' | 'given up'): void {
+    const drag = this.#drag;
+    this.#drag = null;
+    if (drag === null) {
+      return;
+    }
+    const { side, pair, gesture } = drag;
+    const point = pair.points[side];
+    if (outcome === 'clicked') {
+      this.#dispatch({ kind: 'pair-selected', id: pair.id });
+    } else if (outcome === 'given up' && point !== null) {
+      this.#dispatch({ kind: 'point-moved', id: pair.id, side, point, gesture });
+    }
+  }
+
+  /** Moves the selected pair's pin of a side by CSS pixels, y up; whether there is one. */
+  nudge(viewer: Viewer, state: State, side: Side, dx: number, dy: number): boolean {
+    const index = state.pairs.findIndex(({ id }) => id === state.ui.selected);
+    const pair = state.pairs[index];
+    if (pair === undefined || pair.points[side] === null) {
+      return false;
+    }
+    const point = viewer.beside(side, index, dx, dy);
+    if (point !== undefined) {
+      const now = performance.now();
+      const last = this.#nudged;
+      if (last?.id !== pair.id || last.side !== side || now - last.at > NUDGES_TOGETHER) {
+        this.#gesture += 1;
+      }
+      this.#nudged = { id: pair.id, side, at: now };
+      this.#dispatch({ kind: 'point-moved', id: pair.id, side, point: JSON.parse(point) as SurfacePoint, gesture: this.#gesture });
+    }
+    return true;
+  }
+}
