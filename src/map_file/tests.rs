@@ -266,7 +266,10 @@ fn textures_that_cannot_be_compared_with_the_pieces_are_refused() {
     assert!(read::check_crowds(&triangles, &map, 80).is_ok());
     map.pieces.resize(400, piece);
     let error = read::check_crowds(&triangles, &map, 80).unwrap_err().to_string();
-    assert!(error.contains("section \"texture.faces\"") && error.contains("the limit is 268435456"), "{error}");
+    assert!(
+        error.contains("section \"texture.faces\"") && error.contains("the limit is 268435456"),
+        "{error}"
+    );
 }
 
 /// Whatever happens to a file, it is refused with a sentence or gives a map that passes the check; it never panics, and never
