@@ -56,6 +56,7 @@ test('landmarks speak of the vertices of the file', async ({ page }) => {
   const bare = [...VERTICES.slice(0, 4).map((v) => `v ${v}`), 'f 1 2 3', 'f 1 4 2', 'f 1 3 4', 'f 2 4 3'].join('\n');
   await page.locator('#target-file').setInputFiles(file('b.obj', bare));
   await expect(page.locator('#error p')).toHaveText(/^Landmark pair 4 .* names vertex 4, but the target has 4 vertices\. The landmarks are kept/);
+  await openStep(page, 'landmarks');
   await expect(pairs(page)).toHaveCount(4);
   await page.locator('#target-file').setInputFiles(file('b.obj', tetrahedron(1)));
   await expect(page.locator('#error')).toBeHidden();

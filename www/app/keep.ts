@@ -113,6 +113,8 @@ export class Keeper {
   #id = '';
   /** Hashes of the meshes of what is written; `null` before anything is. */
   #written: ReadonlySet<string> | null = null;
+  /** Sessions of earlier visits that could be offered when the page was opened. */
+  #offerable: readonly string[] = [];
   /** The session that this one continues, until that is written. */
   #absorbed: string | null = null;
   #timer: ReturnType<typeof setTimeout> | null = null;
@@ -187,12 +189,14 @@ export class Keeper {
     }
   }
 
-  /** The offered work is not asked about again. */
+  /** Neither the offered work nor what is older is asked about again. */
   async decline(): Promise<void> {
     const { offer } = this.#store.state;
     this.#store.dispatch({ kind: 'offer-closed' });
     if (offer !== null) {
-      await this.#quietly((database) => database.decline(offer.session));
+      const open = (await this.#tabs?.open()) ?? new Set<string>();
+      const closed = this.#offerable.filter((id) => !open.has(id));
+      await this.#quietly((database) => database.decline(closed));
     }
   }
 
@@ -228,6 +232,7 @@ export class Keeper {
       open.delete(before);
     }
     const choice = choiceOf(await database.sessions(), open);
+    this.#offerable = choice.offerable;
     await database.remove(choice.obsolete);
     return { own, offer: offerOf(choice.latest), note: noteOf(choice) };
   }
@@ -261,7 +266,7 @@ export class Keeper {
       },
     );
     if (outcome === 'failed') {
-      await this.#quietly(async (database) => database.decline(record.id));
+      await this.#quietly((database) => database.decline([record.id]));
     }
     return outcome === 'done';
   }

@@ -13,6 +13,8 @@ const Outline = v.object({ id: v.string(), saved: v.fallback(v.number(), 0) });
 export interface Choice {
   /** The latest one that nobody declined. */
   readonly latest: SessionRecord | null;
+  /** Ids of all that could be offered, the latest first. */
+  readonly offerable: readonly string[];
   /** Ids of those that cannot be read, and of all but the latest. */
   readonly obsolete: readonly string[];
   /** Whether some were kept by another version of the page, which are left as they are. */
@@ -45,8 +47,10 @@ export function choiceOf(all: readonly unknown[], open: ReadonlySet<string>): Ch
   }
   const kept = new Set(sound.map(({ id }) => id));
   const records = sound.flatMap(({ reading }) => (reading.kind === 'session' ? [reading.record] : []));
+  const offerable = records.filter(({ declined }) => !declined);
   return {
-    latest: records.find(({ declined }) => !declined) ?? null,
+    latest: offerable[0] ?? null,
+    offerable: offerable.map(({ id }) => id),
     obsolete: closed.filter(({ id }) => !kept.has(id)).map(({ id }) => id),
     hasOthers: sound.some(({ reading }) => reading.kind === 'other-version'),
     hasBroken,

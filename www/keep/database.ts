@@ -78,6 +78,15 @@ export class Database {
   async write({ record, fresh, dropped, absorbed }: Writing): Promise<void> {
     const transaction = this.#database.transaction(['sessions', 'meshes'], 'readwrite');
     const [sessions, meshes] = [transaction.objectStore('sessions'), transaction.objectStore('meshes')];
+    if (fresh.size === 0 && dropped.length === 0 && absorbed === null) {
+      // Asked for in one go and ended: so it is done even where the page goes at once.
+      await whole(transaction, async () => {
+        const putting = sessions.put(record);
+        transaction.commit();
+        await putting;
+      });
+      return;
+    }
     await whole(transaction, async () => {
       for (const [hash, bytes] of fresh) {
         if ((await meshes.getKey(hash)) === undefined) {
@@ -113,13 +122,15 @@ export class Database {
     return bytes instanceof Uint8Array ? bytes : null;
   }
 
-  /** A session is not offered again. */
-  async decline(id: string): Promise<void> {
+  /** These sessions are not offered again. */
+  async decline(ids: readonly string[]): Promise<void> {
     const transaction = this.#database.transaction('sessions', 'readwrite');
     await whole(transaction, async () => {
-      const record = await transaction.store.get(id);
-      if (record !== undefined) {
-        await transaction.store.put({ ...record, declined: true });
+      for (const id of ids) {
+        const record = await transaction.store.get(id);
+        if (record !== undefined) {
+          await transaction.store.put({ ...record, declined: true });
+        }
       }
     });
   }

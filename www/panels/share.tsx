@@ -40,8 +40,11 @@ function LinkBox({ shared }: LinkBoxProps): VNode {
         }}
       />
       <button type="button" id="copy-link" class="main" onClick={copy}>
-        <span role="status">{copied === shared.url ? 'Copied' : 'Copy link'}</span>
+        {copied === shared.url ? 'Copied' : 'Copy link'}
       </button>
+      <span role="status" class="unseen">
+        {copied === shared.url ? 'The link is copied.' : ''}
+      </span>
     </>
   );
 }
