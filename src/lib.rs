@@ -20,6 +20,7 @@ pub mod landmark_fit;
 pub mod landmark_suggestion;
 pub mod landmarks;
 pub mod layout;
+pub mod map_file;
 pub mod math;
 pub mod mesh;
 pub mod monitor;

@@ -1,5 +1,4 @@
-//! The command line: `conemap check`, `conemap map`, `conemap suggest`, `conemap flow`, `conemap landmarks` and
-//! `conemap remesh`.
+//! The command line: `conemap check`, `map`, `query`, `report`, `export`, `suggest`, `flow`, `landmarks` and `remesh`.
 //!
 //! Progress and errors go to standard error; the exit code is 0 only for a converged, certified result.
 #![allow(clippy::print_stderr, reason = "a command line prints")]
@@ -20,8 +19,12 @@ mod interrupt;
 mod landmarks;
 #[path = "conemap/map.rs"]
 mod map;
+#[path = "conemap/query.rs"]
+mod query;
 #[path = "conemap/remesh.rs"]
 mod remesh;
+#[path = "conemap/saved.rs"]
+mod saved;
 #[path = "conemap/suggest.rs"]
 mod suggest;
 
@@ -33,6 +36,9 @@ fn main() -> ExitCode {
     let outcome = match &arguments.command {
         arguments::Command::Check(options) => check::run(options),
         arguments::Command::Map(options) => map::run(options),
+        arguments::Command::Query(options) => query::run(options),
+        arguments::Command::Report(options) => saved::report(options),
+        arguments::Command::Export(options) => saved::export(options),
         arguments::Command::Suggest(options) => suggest::run(options),
         arguments::Command::Flow(options) => flow::run(options),
         arguments::Command::Landmarks(options) => landmarks::run(options),

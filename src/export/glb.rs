@@ -15,7 +15,8 @@ pub enum GlbError {
     Texture(#[from] png::EncodingError),
 }
 
-/// The source's surface with the target's texture, and a value by vertex as the attribute `_DISTORTION` where there are any.
+/// The source's surface with the target's texture, a morph target that turns it into the target's shape (positions and normals),
+/// and a value by vertex as the attribute `_DISTORTION` where there are any.
 ///
 /// # Errors
 /// [`GlbError`].
@@ -25,7 +26,6 @@ pub fn textured_source(common: &CommonMesh, distortion: &[f64]) -> Result<Vec<u8
     let uvs: Vec<f32> = common.uvs.iter().flat_map(|uv| square_uvs(*uv)).collect();
     let indices: Vec<u8> = common.triangles.iter().flatten().flat_map(|i| i.to_le_bytes()).collect();
     let image = checkerboard()?;
-    let [low, high] = bounds(&positions);
     let vertices = common.source_positions.len();
     let mut body = Body::default();
     // glTF 2.0 numbers things as OpenGL: 34962 ARRAY_BUFFER, 34963 ELEMENT_ARRAY_BUFFER, 5126 FLOAT, 5125 UNSIGNED_INT,
@@ -38,9 +38,14 @@ pub fn textured_source(common: &CommonMesh, distortion: &[f64]) -> Result<Vec<u8
         body.push(&image, None),
     ];
     let accessor = |view: usize, kind: &str| json!({ "bufferView": view, "componentType": 5126, "count": vertices, "type": kind });
-    let mut first = accessor(0, "VEC3");
-    first["min"] = json!(low);
-    first["max"] = json!(high);
+    let bounded = |view: usize, values: &[f32]| {
+        let [low, high] = bounds(values);
+        let mut accessor = accessor(view, "VEC3");
+        accessor["min"] = json!(low);
+        accessor["max"] = json!(high);
+        accessor
+    };
+    let first = bounded(0, &positions);
     let indices = json!({ "bufferView": 3, "componentType": 5125, "count": common.triangles.len() * 3, "type": "SCALAR" });
     let mut attributes = json!({ "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 });
     let mut accessors = vec![first, accessor(1, "VEC3"), accessor(2, "VEC2"), indices];
@@ -50,14 +55,28 @@ pub fn textured_source(common: &CommonMesh, distortion: &[f64]) -> Result<Vec<u8
         attributes["_DISTORTION"] = json!(accessors.len());
         accessors.push(accessor(views.len() - 1, "SCALAR"));
     }
+    // A morph target holds differences: with the weight 1 the sum is the target's.
+    let morph =
+        [difference(&common.target_positions, &positions), difference(&common.target_normals, &normals)];
+    let targets = accessors.len();
+    for (k, values) in morph.iter().enumerate() {
+        let view = views.len();
+        views.push(body.push(&floats(values), Some(34962)));
+        accessors.push(if k == 0 { bounded(view, values) } else { accessor(view, "VEC3") });
+    }
     let document = json!({
         "asset": { "version": "2.0", "generator": "Conemap" },
         "scene": 0,
         "scenes": [{ "nodes": [0] }],
         "nodes": [{ "mesh": 0, "name": "source" }],
-        "meshes": [{ "primitives": [{
-            "attributes": attributes, "indices": 3, "material": 0
-        }] }],
+        "meshes": [{
+            "primitives": [{
+                "attributes": attributes, "indices": 3, "material": 0,
+                "targets": [{ "POSITION": targets, "NORMAL": targets + 1 }]
+            }],
+            "weights": [0.0],
+            "extras": { "targetNames": ["target"] }
+        }],
         "materials": [{ "pbrMetallicRoughness": {
             "baseColorTexture": { "index": 0 }, "metallicFactor": 0.0, "roughnessFactor": 0.8
         } }],
@@ -78,6 +97,12 @@ fn square_uvs(uv: DVec2) -> [f32; 2] {
 
 fn flat(points: &[DVec3]) -> Vec<f32> {
     points.iter().flat_map(|p| p.to_array().map(|x| x as f32)).collect()
+}
+
+/// What is added to numbers in f32 to give points.
+fn difference(points: &[DVec3], from: &[f32]) -> Vec<f32> {
+    let there = points.iter().flat_map(|p| p.to_array());
+    there.zip(from).map(|(there, &here)| (there - f64::from(here)) as f32).collect()
 }
 
 fn floats(values: &[f32]) -> Vec<u8> {
@@ -150,14 +175,46 @@ mod tests {
     use crate::io::read_mesh;
     use crate::mesh::generators::octahedron;
 
+    /// The JSON of a GLB, and where its binary chunk begins.
+    fn document(bytes: &[u8]) -> (serde_json::Value, usize) {
+        let length = u32::from_le_bytes([bytes[12], bytes[13], bytes[14], bytes[15]]) as usize;
+        (serde_json::from_slice(&bytes[20..20 + length]).unwrap(), 28 + length)
+    }
+
+    /// Triples of an accessor of a GLB.
+    fn triples(bytes: &[u8], accessor: &serde_json::Value) -> Vec<[f32; 3]> {
+        let (document, binary) = document(bytes);
+        let accessor = &document["accessors"][accessor.as_u64().unwrap() as usize];
+        assert_eq!((&accessor["type"], &accessor["componentType"]), (&json!("VEC3"), &json!(5126)));
+        let view = &document["bufferViews"][accessor["bufferView"].as_u64().unwrap() as usize];
+        let begin = binary + view["byteOffset"].as_u64().unwrap() as usize;
+        let values = bytes[begin..begin + view["byteLength"].as_u64().unwrap() as usize].chunks_exact(4);
+        let values: Vec<f32> = values.map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
+        assert_eq!(values.len() as u64, 3 * accessor["count"].as_u64().unwrap());
+        values.as_chunks::<3>().0.to_vec()
+    }
+
+    /// Positions and normals with the morph target's whole weight.
+    fn morphed(bytes: &[u8]) -> [Vec<[f32; 3]>; 2] {
+        let mesh = &document(bytes).0["meshes"][0];
+        assert_eq!((&mesh["weights"], &mesh["extras"]["targetNames"]), (&json!([0.0]), &json!(["target"])));
+        let primitive = &mesh["primitives"][0];
+        ["POSITION", "NORMAL"].map(|name| {
+            let base = triples(bytes, &primitive["attributes"][name]);
+            let added = triples(bytes, &primitive["targets"][0][name]);
+            base.iter().zip(added).map(|(p, d)| [0, 1, 2].map(|k| p[k] + d[k])).collect()
+        })
+    }
+
     #[test]
     fn the_reader_reads_it_back() {
         let mesh = octahedron();
         let positions: Vec<_> = mesh.positions().iter().copied().collect();
+        let target: Vec<DVec3> = positions.iter().map(|p: &DVec3| *p * 1.5 + DVec3::X).collect();
         let common = CommonMesh {
             source_normals: positions.clone(),
-            target_positions: positions.clone(),
-            target_normals: positions.clone(),
+            target_positions: target,
+            target_normals: positions.iter().map(|p| -*p).collect(),
             uvs: vec![DVec2::ZERO; 6],
             triangles: mesh.triangles().iter().map(|t| t.map(|v| v.0)).collect(),
             pieces: (0..8).collect(),
@@ -170,7 +227,12 @@ mod tests {
             let named = bytes.windows(11).any(|word| word == b"_DISTORTION");
             assert_eq!(named, !distortion.is_empty());
             let values: Vec<u8> = distortion.iter().flat_map(|&d| (d as f32).to_le_bytes()).collect();
-            assert!(bytes.ends_with(&values));
+            assert!(bytes.windows(values.len().max(1)).any(|part| part == values) || values.is_empty());
+            let singles = |points: &[DVec3]| -> Vec<[f32; 3]> {
+                points.iter().map(|p| p.to_array().map(|x| x as f32)).collect()
+            };
+            let expected = [singles(&common.target_positions), singles(&common.target_normals)];
+            assert_eq!(morphed(&bytes), expected);
         }
     }
 }

@@ -1,10 +1,14 @@
 //! Results to bytes.
 
 pub mod csv;
+pub mod flat_sheet;
 pub mod glb;
+pub mod layout;
 mod mesh_format;
 pub mod obj;
 pub mod off;
 pub mod ply;
+pub mod polygons;
+pub mod vertex_image;
 
 pub use mesh_format::MeshFormat;

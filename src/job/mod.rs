@@ -2,22 +2,28 @@
 //!
 //! The pipeline knows checked meshes and landmarks that are vertices. A user has files: with vertices that no face uses, faces
 //! that were turned, landmarks inside faces. A job goes from the ones to the others and back; the command line, the page and
-//! other bindings go through it.
+//! other bindings go through it. What is taken away is made of a map file's content, whether it was just computed or read
+//! ([`TakenMap`]).
 
 mod error;
 mod outputs;
+mod saved;
+mod taken;
 
+pub use crate::mesh::mirror::TargetImage;
 pub use error::{JobError, JobFile};
 pub use outputs::OutputFile;
+pub use saved::{MapFiles, OpenMap, OpenMapError};
+pub use taken::{OutputKind, TakenMap};
 
-use crate::io;
+use crate::io::landmark_file::LandmarkFile;
 use crate::io::landmark_formats::Space;
 use crate::landmark_exchange::{GivenFile, PairLandmarks, Remark, Surface, read_pairs};
 use crate::landmarks::{MeshSide, PlacedLandmarks, place};
+use crate::map_file::{FileMesh, FileMeshError};
 use crate::mesh::SurfacePoint;
-use crate::mesh::check::{CheckedMesh, closed_genus_zero};
-use crate::mesh::mirror::{mirrored, mirrored_point};
-use crate::mesh::repair::{RepairOptions, RepairReport, RepairedMesh, repaired};
+use crate::mesh::check::closed_genus_zero;
+use crate::mesh::repair::{RepairOptions, RepairReport, repaired};
 use crate::monitor::{Cancelled, Monitor, Stage};
 use crate::pipeline::{
     self, FindingReport, GroundTruth, MapInput, MapResult, PipelineError, PipelineOptions, Warning, findings,
@@ -32,16 +38,6 @@ pub struct JobFiles<'a> {
     pub target: &'a [u8],
     /// A landmark file of any known format that holds the landmarks of both meshes, or the source's and the target's.
     pub landmarks: &'a [GivenFile<'a>],
-}
-
-/// Which target is mapped onto.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum TargetImage {
-    /// The target as it is in its file.
-    #[default]
-    AsGiven,
-    /// Its mirror image, for landmarks whose left and right are exchanged; results are told of the target as given.
-    Mirrored,
 }
 
 /// What becomes of a mesh that is not one closed surface of genus 0.
@@ -78,13 +74,13 @@ impl From<TargetImage> for ReadOptions {
 /// Checked meshes with their landmarks, ready for the pipeline.
 #[derive(Clone, Debug)]
 pub struct Job {
-    meshes: [CheckedMesh; 2],
+    meshes: [FileMesh; 2],
     repairs: [RepairReport; 2],
     placed: PlacedLandmarks,
-    labels: Vec<String>,
+    /// As given, on the files' meshes.
+    landmarks: LandmarkFile,
     remarks: Vec<Remark>,
     ground_truth: GroundTruth,
-    target_image: TargetImage,
 }
 
 impl Job {
@@ -99,25 +95,25 @@ impl Job {
     ) -> Result<Self, JobError> {
         monitor.enter(Stage::Landmarks);
         let ReadOptions { target_image, mesh_faults } = options.into();
-        let source = read_mesh(MeshSide::Source, files.source, mesh_faults)?;
-        let target = read_mesh(MeshSide::Target, files.target, mesh_faults)?;
+        let source = file_mesh(MeshSide::Source, files.source, mesh_faults)?;
+        let target = file_mesh(MeshSide::Target, files.target, mesh_faults)?;
         let repairs = [source.report, target.report];
-        let (source, mut target) = (source.checked, target.checked);
+        let (source, mut target) = (source.mesh, target.mesh);
         let surfaces = [(&source, files.source), (&target, files.target)]
-            .map(|(mesh, bytes)| Surface { mesh, space: Space::of_mesh(bytes) });
-        let PairLandmarks { mut file, remarks, .. } = read_pairs(files.landmarks, surfaces)?;
+            .map(|(mesh, bytes)| Surface { mesh: mesh.checked(), space: Space::of_mesh(bytes) });
+        let PairLandmarks { file: landmarks, remarks, .. } = read_pairs(files.landmarks, surfaces)?;
+        let mut pairs = landmarks.pairs.clone();
         if target_image == TargetImage::Mirrored {
-            target.mesh = mirrored(&target.mesh)?;
-            file.pairs.iter_mut().for_each(|[_, point]| *point = point.mirrored());
+            target = target.into_mirrored()?;
+            pairs.iter_mut().for_each(|[_, point]| *point = point.mirrored());
         }
-        let placed = place([&source, &target], &file.pairs)?;
-        let is_same = source.mesh.triangles() == target.mesh.triangles();
-        let ground_truth = match file.ground_truth {
+        let placed = place([source.checked(), target.checked()], &pairs)?;
+        let is_same = source.mesh().triangles() == target.mesh().triangles();
+        let ground_truth = match landmarks.ground_truth {
             Some(_) if is_same => GroundTruth::SameConnectivity,
             _ => GroundTruth::Unknown,
         };
-        let labels = file.labels.unwrap_or_default();
-        Ok(Self { meshes: [source, target], repairs, placed, labels, remarks, ground_truth, target_image })
+        Ok(Self { meshes: [source, target], repairs, placed, landmarks, remarks, ground_truth })
     }
 
     /// What was repaired of the source and of the target.
@@ -140,9 +136,10 @@ impl Job {
     /// # Errors
     /// [`Cancelled`].
     pub fn findings(&self, monitor: &mut dyn Monitor) -> Result<Vec<FindingReport>, Cancelled> {
-        let numbers = self.meshes.each_ref().map(CheckedMesh::file_from_vertex);
+        let numbers = self.meshes.each_ref().map(|mesh| mesh.checked().file_from_vertex());
         let number = |side: usize, v: usize| numbers[side].get(v).copied().unwrap_or(v);
-        let found = findings(self.input(), &self.labels, monitor)?;
+        let labels = self.landmarks.labels.as_deref().unwrap_or_default();
+        let found = findings(self.input(), labels, monitor)?;
         Ok(found.into_iter().map(|finding| finding.renumbered(number)).collect())
     }
 
@@ -192,24 +189,27 @@ impl Job {
 
     /// A point of the mapped target as one of the target's file, also where it was mirrored.
     fn on_target_file(&self, point: SurfacePoint) -> SurfacePoint {
-        let point = self.placed.target.on_original(point);
-        let as_given = match self.target_image {
-            TargetImage::AsGiven => point,
-            TargetImage::Mirrored => mirrored_point(point),
-        };
-        self.meshes[1].on_file(as_given)
+        self.meshes[1].on_file(self.placed.target.on_original(point))
     }
 }
 
-fn read_mesh(side: MeshSide, bytes: &[u8], faults: MeshFaults) -> Result<RepairedMesh, JobError> {
+/// A mesh as it is used, and what was repaired of it.
+struct ReadMesh {
+    mesh: FileMesh,
+    report: RepairReport,
+}
+
+fn file_mesh(side: MeshSide, bytes: &[u8], faults: MeshFaults) -> Result<ReadMesh, JobError> {
     let soup = io::read_mesh(bytes).map_err(|error| JobError::Read { side, error })?;
-    match faults {
+    let (checked, report) = match faults {
         MeshFaults::Repaired(options) => {
-            repaired(&soup, &options).map_err(|refusal| JobError::Repair { side, refusal })
+            let repaired = repaired(&soup, &options).map_err(|refusal| JobError::Repair { side, refusal })?;
+            (repaired.checked, repaired.report)
         }
         MeshFaults::Refused => {
             let checked = closed_genus_zero(&soup).map_err(|fault| JobError::Mesh { side, fault })?;
-            Ok(RepairedMesh { checked, report: RepairReport::default() })
+            (checked, RepairReport::default())
         }
-    }
+    };
+    Ok(ReadMesh { mesh: FileMesh::new(bytes, soup.polygons, checked), report })
 }

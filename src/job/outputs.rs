@@ -1,11 +1,16 @@
 //! The files that a job gives.
 
-use super::{Job, TargetImage};
+use super::Job;
+use super::taken::{OutputKind, TakenMap};
+use crate::base_domain::BaseDomain;
 use crate::export;
 use crate::export::glb::GlbError;
-use crate::mesh::FaceId;
+use crate::export::vertex_image::{self, Direction, PointImage};
+use crate::map_file::MapFile;
 use crate::mesh::mirror::mirrored;
-use crate::pipeline::MapResult;
+use crate::mesh::{Carrier, FaceFrame, FaceId};
+use crate::pipeline::{Choices, MapResult};
+use crate::surface_map::correspondence::TextureDrawing;
 
 /// A file that a job gives.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,23 +22,48 @@ pub struct OutputFile {
 }
 
 impl Job {
+    /// The content of the map file of a result of this job; `None` where the map has no pieces: for the thesis' method, and where
+    /// there is no overlay.
+    pub fn map_file(&self, result: &MapResult, choices: &Choices) -> Option<MapFile> {
+        let on_file = result.correspondence.as_ref()?;
+        let placed = [&self.placed.source, &self.placed.target];
+        let frames: [&dyn Fn(FaceId) -> FaceFrame; 2] = [&|f| placed[0].frame(f), &|f| placed[1].frame(f)];
+        let carriers =
+            [0, 1].map(|k| Carrier { from: &placed[k].mesh, onto: self.meshes[k].mesh(), frame: frames[k] });
+        Some(MapFile {
+            correspondence: on_file.carried(carriers),
+            texture: result.texture.as_ref().map(|uvs| TextureDrawing::of_corners(carriers[1], uvs)),
+            layout: result.flat_layout.as_ref().map(|layout| layout.carried(carriers)),
+            base: self.base_as_given(result),
+            cones: result.cone_curvatures.clone(),
+            landmarks: self.landmarks.clone(),
+            // Choices and reports always have JSON.
+            options: serde_json::to_value(choices).unwrap_or_default(),
+            summary: (&result.report.distortion).into(),
+            report: serde_json::to_value(&result.report).unwrap_or_default(),
+        })
+    }
+
+    /// A map file of this job with its meshes: the files and answers that it gives.
+    pub fn taken<'a>(&'a self, map: &'a MapFile) -> TakenMap<'a> {
+        TakenMap::new(self.meshes.each_ref(), map)
+    }
+
     /// All files of a result of this job, the places in them those of the job's files.
     ///
     /// # Errors
     /// [`GlbError`].
-    pub fn outputs(&self, result: &MapResult) -> Result<Vec<OutputFile>, GlbError> {
-        let mut files = vec![
-            OutputFile { name: "source-with-target-texture.glb", bytes: self.textured_source(result)? },
-            OutputFile { name: "vertex-images.csv", bytes: self.vertex_images(result) },
-            OutputFile { name: "base-domain.obj", bytes: self.base_domain(result) },
-        ];
-        if !result.triangle_distortion.is_empty() {
-            let bytes = self.triangle_distortion(result);
-            files.push(OutputFile { name: "distortion.csv", bytes });
-            let bytes = self.vertex_distortion(result);
-            files.push(OutputFile { name: "vertex-distortion.csv", bytes });
+    pub fn outputs(&self, result: &MapResult, choices: &Choices) -> Result<Vec<OutputFile>, GlbError> {
+        let file = |kind: OutputKind, bytes| OutputFile { name: kind.file_name(), bytes };
+        if let Some(map) = self.map_file(result, choices) {
+            let taken = self.taken(&map);
+            return taken.kinds().into_iter().map(|kind| Ok(file(kind, taken.output(kind)?))).collect();
         }
-        Ok(files)
+        Ok(vec![
+            file(OutputKind::Glb, self.textured_source(result)?),
+            file(OutputKind::SourceImagesCsv, self.vertex_images(result)),
+            file(OutputKind::BaseDomain, self.base_domain(result)),
+        ])
     }
 
     /// The source with the target's texture, as GLB.
@@ -41,48 +71,42 @@ impl Job {
     /// # Errors
     /// [`GlbError`].
     pub fn textured_source(&self, result: &MapResult) -> Result<Vec<u8>, GlbError> {
-        export::glb::textured_source(&result.common, &result.common_vertex_distortion())
+        let mut common = result.common.clone();
+        for vectors in [&mut common.target_positions, &mut common.target_normals] {
+            vectors.iter_mut().for_each(|p| *p = self.meshes[1].in_file(*p));
+        }
+        export::glb::textured_source(&common, &result.common_vertex_distortion())
     }
 
     /// The image of each vertex of the source's file, as CSV; where the target has caps, with a column that tells whether the image
     /// lies in one.
     pub fn vertex_images(&self, result: &MapResult) -> Vec<u8> {
-        let images = self.meshes[0].by_file_vertex(&result.target_from_source.raw);
-        let on_target = |point| self.placed.target.on_original(point).face;
-        let in_cap: Vec<bool> = images
-            .iter()
-            .map(|image| image.flatten().is_some_and(|point| self.meshes[1].is_cap(on_target(point))))
-            .collect();
-        let on_file = |point| self.on_target_file(point);
-        let images: Vec<_> = images.into_iter().map(|image| image.flatten().map(on_file)).collect();
-        if self.meshes[1].has_caps() {
-            export::csv::vertex_images_with_caps(&images, &in_cap)
-        } else {
-            export::csv::vertex_images(&images)
-        }
+        let target = &self.placed.target.mesh;
+        let images = self.meshes[0].checked().by_file_vertex(&result.target_from_source.raw);
+        let image = |point| PointImage {
+            point: self.on_target_file(point),
+            position: self.meshes[1].in_file(point.position(target)),
+            in_cap: self.in_cap_of_target(self.placed.target.on_original(point).face),
+        };
+        let images: Vec<_> = images.into_iter().map(|point| point.flatten().map(image)).collect();
+        vertex_image::csv(Direction::SourceToTarget, &images)
+    }
+
+    /// Whether a face of the target is part of a cap; `None` where the target has none.
+    fn in_cap_of_target(&self, face: FaceId) -> Option<bool> {
+        let target = self.meshes[1].checked();
+        target.has_caps().then(|| target.is_cap(face))
     }
 
     /// The base domain at the target as given, as OBJ.
     pub fn base_domain(&self, result: &MapResult) -> Vec<u8> {
+        export::obj::mesh(&self.base_as_given(result).mesh)
+    }
+
+    fn base_as_given(&self, result: &MapResult) -> BaseDomain {
         let base = &result.base.mesh;
-        match self.target_image {
-            TargetImage::AsGiven => export::obj::mesh(base),
-            // A mirror image has the connectivity of its mesh, so it never fails.
-            TargetImage::Mirrored => export::obj::mesh(mirrored(base).as_ref().unwrap_or(base)),
-        }
-    }
-
-    /// Distortion of each triangle of the textured GLB, as CSV.
-    pub fn triangle_distortion(&self, result: &MapResult) -> Vec<u8> {
-        let numbers: [&dyn Fn(FaceId) -> FaceId; 2] =
-            [&|f| self.meshes[0].file_from_face(self.placed.source.face_origin[f]), &|f| {
-                self.meshes[1].file_from_face(self.placed.target.face_origin[f])
-            }];
-        export::csv::distortion(&result.triangle_distortion, numbers)
-    }
-
-    /// Distortion around each vertex of the source's file, as CSV.
-    pub fn vertex_distortion(&self, result: &MapResult) -> Vec<u8> {
-        export::csv::vertex_distortion(&self.meshes[0].by_file_vertex(&result.vertex_distortion.raw))
+        // A mirror image has the connectivity of its mesh, so it never fails.
+        let image = if self.meshes[1].is_mirrored() { mirrored(base).ok() } else { None };
+        BaseDomain { mesh: image.unwrap_or_else(|| base.clone()) }
     }
 }

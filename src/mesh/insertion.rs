@@ -1,6 +1,6 @@
 //! Points of a surface inserted as vertices.
 
-use super::{FaceId, MeshError, SurfaceMesh, SurfacePoint, VertexId};
+use super::{FaceFrame, FaceId, MeshError, SurfaceMesh, SurfacePoint, VertexId};
 use glam::{DMat3, DVec3};
 use typed_index_collections::TiVec;
 
@@ -22,6 +22,11 @@ pub struct Insertion {
 }
 
 impl Insertion {
+    /// Where a face lies on the original mesh.
+    pub fn frame(&self, face: FaceId) -> FaceFrame {
+        FaceFrame { face: self.face_origin[face], corners: self.corner_origins[face].map(|w| w.to_array()) }
+    }
+
     /// A point of the mesh as a point of the original mesh.
     pub fn on_original(&self, point: SurfacePoint) -> SurfacePoint {
         let [p, q, r] = self.corner_origins[point.face];

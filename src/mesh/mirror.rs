@@ -2,6 +2,18 @@
 
 use super::{MeshError, SurfaceMesh, SurfacePoint};
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// Which target is mapped onto.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum TargetImage {
+    /// The target as it is in its file.
+    #[default]
+    AsGiven,
+    /// Its mirror image, for landmarks whose left and right are exchanged; results are told of the target as given.
+    Mirrored,
+}
 
 /// The mirror image. Vertices and faces keep their numbers; the last two corners of each face are exchanged.
 ///

@@ -1,7 +1,7 @@
 //! A mesh that refines an input mesh, and points carried between the two.
 
 use super::insertion::insert;
-use super::{FaceId, HalfedgeId, MeshError, SurfaceMesh, SurfacePoint, VertexId};
+use super::{FaceFrame, FaceId, HalfedgeId, MeshError, SurfaceMesh, SurfacePoint, VertexId};
 use crate::math::triangle::angle_at;
 use typed_index_collections::TiVec;
 
@@ -101,6 +101,11 @@ impl RefinedMesh {
             let named = input.triangles()[origin.face];
             corners.map(|c| (0..3).filter(|&k| named[k] == c).map(|k| origin.barycentric[k]).sum())
         })
+    }
+
+    /// Where a refined face lies on the input mesh.
+    pub fn frame(&self, input: &SurfaceMesh, face: FaceId) -> FaceFrame {
+        FaceFrame { face: self.face_origin[face], corners: self.origins_in_face(input, face) }
     }
 
     /// A point of a refined face as a point of its input face.

@@ -7,7 +7,9 @@ use super::parametrise::Parametrisation;
 use super::report::{CertificateReport, DistortionReport, GroundTruthReport, LayoutSearchReport};
 use super::{GroundTruth, MapInput, MapResult, Report, TriangleDistortion, Warning};
 use crate::base_domain::BaseDomain;
-use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use crate::mesh::{FaceFrame, FaceId, SurfaceMesh, SurfacePoint, VertexId};
+use crate::surface_map::correspondence::Correspondence;
+use crate::surface_map::flat_layout::FlatLayout;
 use crate::surface_map::measures::distortion::{Distortion, distortion, image_distortion};
 use crate::surface_map::measures::ground_truth::same_connectivity_error;
 use crate::surface_map::measures::transfer::{CommonMesh, Surface, common_mesh, mapped_mesh, vertex_images};
@@ -32,6 +34,8 @@ struct Shown {
     common: CommonMesh,
     measured: Distortion,
     triangle_distortion: Vec<TriangleDistortion>,
+    correspondence: Option<Correspondence>,
+    flat_layout: Option<FlatLayout>,
 }
 
 impl Outcome<'_> {
@@ -67,6 +71,9 @@ impl Outcome<'_> {
             base: self.base.clone(),
             cone_curvatures: self.flows.cones.clone(),
             triangle_distortion: shown.triangle_distortion,
+            correspondence: shown.correspondence,
+            flat_layout: shown.flat_layout,
+            texture: self.flows.l2_stretch().map(|_| self.flows.texture()),
             common: shown.common,
             patch_lines: [patch_lines(map, 0, input.source), patch_lines(map, 1, input.target)],
             target_from_source: images,
@@ -85,9 +92,14 @@ impl Outcome<'_> {
 
     /// The map on the pieces of its overlay, where it is affine: exact.
     fn shown_on(&self, overlay: &Overlay) -> Shown {
-        let [source, target] = self.map.sides();
-        let measured = distortion(source, target, overlay);
+        let sides = self.map.sides();
+        let measured = distortion(sides[0], sides[1], overlay);
         let [source, target] = self.surfaces();
+        let frames: [&dyn Fn(FaceId) -> FaceFrame; 2] =
+            [&|f| source.refined.frame(source.input, f), &|f| target.refined.frame(target.input, f)];
+        let carriers = [source.carrier(frames[0]), target.carrier(frames[1])];
+        let correspondence = Correspondence::of_overlay(sides, overlay).carried(carriers);
+        let flat_layout = FlatLayout::new(sides, &self.map.surface).map(|layout| layout.carried(carriers));
         let common = common_mesh(source, target, overlay, &self.flows.texture());
         let local = |&piece: &u32| {
             let (number, piece) = (piece as usize, &overlay.pieces[piece as usize]);
@@ -97,7 +109,13 @@ impl Outcome<'_> {
                 local: measured.by_piece[number],
             }
         };
-        Shown { triangle_distortion: common.pieces.iter().map(local).collect(), common, measured }
+        Shown {
+            triangle_distortion: common.pieces.iter().map(local).collect(),
+            common,
+            measured,
+            correspondence: Some(correspondence),
+            flat_layout,
+        }
     }
 
     /// The map on the source's triangles, as if it were affine there: where there is no overlay.
@@ -107,6 +125,8 @@ impl Outcome<'_> {
             common: mapped_mesh(source, target, images, &self.flows.texture()),
             measured: image_distortion(source, target, images),
             triangle_distortion: Vec::new(),
+            correspondence: None,
+            flat_layout: None,
         }
     }
 

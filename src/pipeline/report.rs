@@ -197,7 +197,8 @@ impl DistortionReport {
         }
     }
 
-    pub(super) fn new(measured: &Distortion, l2_stretch: Option<f64>) -> Self {
+    /// The numbers of a measured map.
+    pub fn new(measured: &Distortion, l2_stretch: Option<f64>) -> Self {
         Self {
             energy: measured.energy,
             mean: measured.mean,

@@ -2,10 +2,12 @@
 
 use super::Report;
 use crate::base_domain::BaseDomain;
-use crate::mesh::{FaceId, SurfacePoint, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, SurfacePoint, VertexId};
+use crate::surface_map::correspondence::Correspondence;
+use crate::surface_map::flat_layout::FlatLayout;
 use crate::surface_map::measures::distortion::LocalDistortion;
 use crate::surface_map::measures::transfer::CommonMesh;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use typed_index_collections::TiVec;
 
 /// What a run gives.
@@ -26,6 +28,13 @@ pub struct MapResult {
     pub vertex_distortion: TiVec<VertexId, f64>,
     /// Distortion of each triangle of `common`; empty for the thesis' method.
     pub triangle_distortion: Vec<TriangleDistortion>,
+    /// The map's pieces on both input meshes; `None` for the thesis' method, and where there is no overlay.
+    pub correspondence: Option<Correspondence>,
+    /// Both input meshes on the base domain's flat triangles; `None` where there are no pieces, and where rounding at coincident
+    /// points leaves a side lost.
+    pub flat_layout: Option<FlatLayout>,
+    /// Texture coordinates by corner of the target's input mesh; `None` where its flow failed.
+    pub texture: Option<TiVec<HalfedgeId, DVec2>>,
     /// The numbers.
     pub report: Report,
 }

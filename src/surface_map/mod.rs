@@ -4,8 +4,10 @@
 //! inverse of the other.
 
 mod certify;
+pub mod correspondence;
 pub mod energy;
 mod error;
+pub mod flat_layout;
 pub mod measures;
 pub mod overlay;
 pub mod parametrisation;

@@ -1,10 +1,11 @@
 //! The pipeline in the worker.
 
-use super::failure;
-use crate::job::{Job, JobError, JobFiles, TargetImage};
+use super::{failure, saved};
+use crate::job::{Job, JobError, JobFiles, OutputKind, TargetImage};
 use crate::landmark_exchange::GivenFile;
 use crate::monitor::{Cancelled, Monitor, PlannedStage, Progress, Stage, Step};
 use crate::pipeline::{Choices, MapResult, PipelineOptions};
+use crate::surface_map::measures::transfer::CommonMesh;
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 use wasm_bindgen::prelude::*;
@@ -141,11 +142,53 @@ impl Monitor for Messenger<'_> {
     }
 }
 
+/// What the views show of a map.
+pub(super) struct Shown {
+    pub common: CommonMesh,
+    /// By point of `common`; empty for the thesis' method.
+    pub distortion: Vec<f64>,
+    /// On the source and on the target.
+    pub patch_lines: [Vec<Vec<DVec3>>; 2],
+    /// Curvature of each landmark's cone, in radians.
+    pub cones: Vec<f64>,
+    /// JSON.
+    pub report: String,
+}
+
 /// A finished map.
 #[wasm_bindgen]
 pub struct MapOutput {
+    shown: Shown,
+    /// What files are made of; `None` for maps that were saved, whose files the saved map gives.
+    run: Option<FinishedRun>,
+}
+
+struct FinishedRun {
     job: Job,
     result: MapResult,
+    choices: Choices,
+}
+
+impl MapOutput {
+    /// A map that was saved, for the views.
+    pub(super) fn of_saved(shown: Shown) -> Self {
+        Self { shown, run: None }
+    }
+
+    fn of_run(job: Job, mut result: MapResult, choices: Choices) -> Self {
+        let shown = Shown {
+            distortion: result.common_vertex_distortion(),
+            common: result.common.clone(),
+            patch_lines: std::mem::take(&mut result.patch_lines),
+            cones: result.cone_curvatures.clone(),
+            report: serde_json::to_string_pretty(&result.report).unwrap_or_default(),
+        };
+        Self { shown, run: Some(FinishedRun { job, result, choices }) }
+    }
+
+    fn run(&self) -> Result<&FinishedRun, JsValue> {
+        self.run.as_ref().ok_or_else(|| failure("export", "the files of a saved map are asked of it"))
+    }
 }
 
 /// Runs the pipeline; the listener receives progress and may ask for the result.
@@ -179,7 +222,7 @@ pub fn run_map(
     seconds.insert("total".into(), (js_sys::Date::now() - begun) / 1000.0);
     result.report.set_seconds(seconds);
     result.report.findings = findings;
-    Ok(MapOutput { job, result })
+    Ok(MapOutput::of_run(job, result, choices))
 }
 
 fn flat3(points: &[DVec3]) -> Vec<f32> {
@@ -190,35 +233,35 @@ fn flat3(points: &[DVec3]) -> Vec<f32> {
 impl MapOutput {
     /// Positions of the common subdivision on the source (0) or the target (1), three numbers a point.
     pub fn positions(&self, side: usize) -> Vec<f32> {
-        let common = &self.result.common;
+        let common = &self.shown.common;
         flat3(if side == 0 { &common.source_positions } else { &common.target_positions })
     }
 
     /// Unit normals on the source (0) or the target (1).
     pub fn normals(&self, side: usize) -> Vec<f32> {
-        let common = &self.result.common;
+        let common = &self.shown.common;
         flat3(if side == 0 { &common.source_normals } else { &common.target_normals })
     }
 
     /// Texture coordinates, two numbers a point.
     pub fn uvs(&self) -> Vec<f32> {
-        self.result.common.uvs.iter().flat_map(|uv: &DVec2| [uv.x as f32, uv.y as f32]).collect()
+        self.shown.common.uvs.iter().flat_map(|uv: &DVec2| [uv.x as f32, uv.y as f32]).collect()
     }
 
     /// Distortion around each point, 1 for none; empty for the thesis' method.
     pub fn distortion(&self) -> Vec<f32> {
-        self.result.common_vertex_distortion().iter().map(|&d| d as f32).collect()
+        self.shown.distortion.iter().map(|&d| d as f32).collect()
     }
 
     /// Triangles of the common subdivision.
     pub fn triangles(&self) -> Vec<u32> {
-        self.result.common.triangles.iter().flatten().copied().collect()
+        self.shown.common.triangles.iter().flatten().copied().collect()
     }
 
     /// Points of all patch lines on one side.
     #[wasm_bindgen(js_name = linePoints)]
     pub fn line_points(&self, side: usize) -> Vec<f32> {
-        self.result.patch_lines[side.min(1)].iter().flat_map(|line| flat3(line)).collect()
+        self.shown.patch_lines[side.min(1)].iter().flat_map(|line| flat3(line)).collect()
     }
 
     /// Where each patch line starts among the points, and one past the end.
@@ -226,7 +269,7 @@ impl MapOutput {
     pub fn line_starts(&self, side: usize) -> Vec<u32> {
         let mut starts = vec![0];
         let mut end = 0;
-        for line in &self.result.patch_lines[side.min(1)] {
+        for line in &self.shown.patch_lines[side.min(1)] {
             end += line.len() as u32;
             starts.push(end);
         }
@@ -235,12 +278,25 @@ impl MapOutput {
 
     /// Curvature of each landmark's cone, in radians.
     pub fn cones(&self) -> Vec<f64> {
-        self.result.cone_curvatures.clone()
+        self.shown.cones.clone()
     }
 
     /// The report as JSON.
     pub fn report(&self) -> String {
-        serde_json::to_string_pretty(&self.result.report).unwrap_or_default()
+        self.shown.report.clone()
+    }
+
+    /// The map file, from which a later worker makes every other file; `undefined` where the map has no pieces (the thesis' method,
+    /// and a map without an overlay), and where a mesh was repaired.
+    ///
+    /// # Errors
+    /// `{"code": "export", "message"}`.
+    #[wasm_bindgen(js_name = mapFile)]
+    pub fn map_file(&self) -> Result<Option<Vec<u8>>, JsValue> {
+        let FinishedRun { job, result, choices } = self.run()?;
+        let map = job.map_file(result, choices);
+        let map = map.filter(|map| job.taken(map).has_map_file());
+        map.map(|map| saved::file(job.taken(&map), OutputKind::Map.file_name())).transpose()
     }
 
     /// The source with the target's texture.
@@ -248,17 +304,42 @@ impl MapOutput {
     /// # Errors
     /// `{"code": "export", "message"}`.
     pub fn glb(&self) -> Result<Vec<u8>, JsValue> {
-        self.job.textured_source(&self.result).map_err(|e| failure("export", e))
+        let FinishedRun { job, result, .. } = self.run()?;
+        job.textured_source(result).map_err(|e| failure("export", e))
     }
 
     /// The vertex images.
-    pub fn csv(&self) -> Vec<u8> {
-        self.job.vertex_images(&self.result)
+    ///
+    /// # Errors
+    /// `{"code": "export", "message"}`.
+    pub fn csv(&self) -> Result<Vec<u8>, JsValue> {
+        let FinishedRun { job, result, .. } = self.run()?;
+        Ok(job.vertex_images(result))
     }
 
     /// The base domain.
+    ///
+    /// # Errors
+    /// `{"code": "export", "message"}`.
     #[wasm_bindgen(js_name = baseObj)]
-    pub fn base_obj(&self) -> Vec<u8> {
-        self.job.base_domain(&self.result)
+    pub fn base_obj(&self) -> Result<Vec<u8>, JsValue> {
+        let FinishedRun { job, result, .. } = self.run()?;
+        Ok(job.base_domain(result))
+    }
+
+    /// One file by its name, made when it is asked for.
+    ///
+    /// # Errors
+    /// `{"code": "export", "message"}`.
+    pub fn file(&self, name: &str) -> Result<Vec<u8>, JsValue> {
+        let FinishedRun { job, result, choices } = self.run()?;
+        let kind = OutputKind::of(name);
+        match (job.map_file(result, choices), kind) {
+            (Some(map), _) => saved::file(job.taken(&map), name),
+            (None, Some(OutputKind::Glb)) => self.glb(),
+            (None, Some(OutputKind::SourceImagesCsv)) => self.csv(),
+            (None, Some(OutputKind::BaseDomain)) => self.base_obj(),
+            _ => Err(failure("export", format!("this map gives no file \"{name}\""))),
+        }
     }
 }

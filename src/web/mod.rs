@@ -4,6 +4,7 @@ mod compute;
 mod files;
 mod landmark_files;
 mod repair;
+mod saved;
 mod view_side;
 mod viewer;
 

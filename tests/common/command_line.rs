@@ -81,7 +81,7 @@ pub fn map_and_check([source, target, pairs]: [&Path; 3], folder: &Path) {
     assert_eq!(base.vertex_count(), landmarks);
     let csv = std::fs::read_to_string(out.join("vertex-images.csv")).unwrap();
     assert_eq!(csv.lines().count(), 1 + source_mesh.vertex_count());
-    assert!(csv.lines().all(|line| line.split(',').count() == 5 && !line.ends_with(',')));
+    assert!(csv.lines().all(|line| line.split(',').count() == 8 && !line.ends_with(',')));
     check_distortion(&out, [source_mesh.vertex_count(), glb.polygons.len()]);
     // The landmarks of real pairs fit, but may leave a limb out.
     let findings = report["findings"].as_array().unwrap();

@@ -35,6 +35,7 @@ mod job;
 mod landmark_fit;
 mod layout;
 mod map;
+mod map_file;
 mod pipeline;
 mod remesh;
 mod repair;

@@ -41,6 +41,8 @@ export interface RunOutput {
   readonly glb: Uint8Array<ArrayBuffer>;
   readonly csv: Uint8Array<ArrayBuffer>;
   readonly baseObj: Uint8Array<ArrayBuffer>;
+  /** The map file, from which every other file can be made; `null` where the map has no pieces. */
+  readonly map: Uint8Array<ArrayBuffer> | null;
 }
 
 /** Where a run is; numbers that a step does not have are `null`. */

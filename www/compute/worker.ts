@@ -3,7 +3,8 @@ import init, { runMap } from '../wasm/conemap.js';
 import type { MapOutput } from '../wasm/conemap.js';
 import type { Finding } from '../report.ts';
 import { failureOf } from './messages.ts';
-import type { RunOutput, RunRequest, SideOutput, WorkerMessage } from './messages.ts';
+import type { RunOutput, RunRequest, WorkerMessage } from './messages.ts';
+import { transferable, viewBuffers } from './view-buffers.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
 
@@ -11,41 +12,19 @@ function post(message: WorkerMessage, transfer: Transferable[] = []): void {
   self.postMessage(message, transfer);
 }
 
-function sideOf(output: MapOutput, side: number): SideOutput {
-  return {
-    positions: output.positions(side),
-    normals: output.normals(side),
-    linePoints: output.linePoints(side),
-    lineStarts: output.lineStarts(side),
-  };
-}
-
 function read(output: MapOutput): RunOutput {
   return {
-    sides: [sideOf(output, 0), sideOf(output, 1)],
-    uvs: output.uvs(),
-    distortion: output.distortion(),
-    triangles: output.triangles(),
-    cones: output.cones(),
-    report: output.report(),
+    ...viewBuffers(output),
     glb: output.glb().slice(),
     csv: output.csv().slice(),
     baseObj: output.baseObj().slice(),
+    map: output.mapFile()?.slice() ?? null,
   };
 }
 
 function buffersOf(output: RunOutput): Transferable[] {
-  const arrays = [
-    ...output.sides.flatMap((side) => [side.positions, side.normals, side.linePoints, side.lineStarts]),
-    output.uvs,
-    output.distortion,
-    output.triangles,
-    output.cones,
-    output.glb,
-    output.csv,
-    output.baseObj,
-  ];
-  return [...new Set(arrays.map((array) => array.buffer))].filter((buffer) => buffer instanceof ArrayBuffer);
+  const files = [output.glb, output.csv, output.baseObj];
+  return transferable(output, output.map === null ? files : [...files, output.map]);
 }
 
 function finite(value: number): number | null {

@@ -25,6 +25,12 @@ pub enum Command {
     Check(CheckArguments),
     /// Map a source mesh onto a target mesh from corresponding landmarks.
     Map(MapArguments),
+    /// Answer images of points from a map file, without computing.
+    Query(QueryArguments),
+    /// Measure the map of a map file anew, from its pieces alone.
+    Report(ReportArguments),
+    /// Write all files of the map of a map file, without computing.
+    Export(ExportArguments),
     /// Print vertices of a mesh that are worth a landmark: ends of limbs, then points far from all others.
     Suggest(SuggestArguments),
     /// Deform one mesh conformally to a flat metric with prescribed cones.
@@ -112,12 +118,69 @@ pub struct MapArguments {
     /// What the repair of the meshes may do.
     #[command(flatten)]
     pub repairs: RepairArguments,
-    /// Folder for the textured source (GLB), the vertex images and distortions (CSV) and the base domain (OBJ).
+    /// File for the map itself, from which `query`, `report` and `export` work without computing.
+    #[arg(long, value_name = "FILE")]
+    pub map: Option<PathBuf>,
+    /// Folder for all files of the map: textured source, images of vertices, shapes, flat layout, distortions, base domain.
     #[arg(long)]
     pub out: Option<PathBuf>,
     /// File for the report (JSON).
     #[arg(long)]
     pub report: Option<PathBuf>,
+}
+
+/// A map file with the meshes that it was made with.
+#[derive(Debug, Args)]
+pub struct SavedMapArguments {
+    /// Map file, as `conemap map --map` writes it.
+    pub map: PathBuf,
+    /// The source that it was made with.
+    pub source: PathBuf,
+    /// The target that it was made with.
+    pub target: PathBuf,
+}
+
+/// `conemap query`.
+#[derive(Debug, Args)]
+#[command(group = clap::ArgGroup::new("asked").required(true))]
+pub struct QueryArguments {
+    /// The map.
+    #[command(flatten)]
+    pub saved: SavedMapArguments,
+    /// Text file of points, one a line: `face,b0,b1,b2` or `vertex` (0-based, as the mesh's file numbers them).
+    #[arg(long, value_name = "FILE", group = "asked")]
+    pub points: Option<PathBuf>,
+    /// All vertices of the mesh.
+    #[arg(long, group = "asked")]
+    pub vertices: bool,
+    /// From the target to the source.
+    #[arg(long)]
+    pub inverse: bool,
+    /// File for the images (CSV); standard output where there is none.
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+}
+
+/// `conemap report`.
+#[derive(Debug, Args)]
+pub struct ReportArguments {
+    /// The map.
+    #[command(flatten)]
+    pub saved: SavedMapArguments,
+    /// File for the measures (JSON); standard output where there is none.
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+}
+
+/// `conemap export`.
+#[derive(Debug, Args)]
+pub struct ExportArguments {
+    /// The map.
+    #[command(flatten)]
+    pub saved: SavedMapArguments,
+    /// Folder for the files.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
 }
 
 /// `conemap suggest`.

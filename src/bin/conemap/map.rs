@@ -4,7 +4,7 @@ use crate::arguments::MapArguments;
 use crate::clock::Clock;
 use crate::input::{self, Failure};
 use crate::interrupt;
-use conemap::job::{Job, JobError, JobFile, JobFiles, MeshFaults, ReadOptions, TargetImage};
+use conemap::job::{Job, JobError, JobFile, JobFiles, MeshFaults, OutputKind, ReadOptions, TargetImage};
 use conemap::pipeline::{FindingReport, MapResult, Method, PipelineOptions, RepairKind};
 use std::path::PathBuf;
 
@@ -25,8 +25,22 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
     result.report.set_seconds(clock.stop());
     result.report.findings = findings;
     tell(&result);
+    if let Some(path) = &arguments.map {
+        let map = job.map_file(&result, &arguments.choices);
+        let map =
+            map.ok_or("--map: this map has no pieces (the method `thesis`, or a map without an overlay)")?;
+        let taken = job.taken(&map);
+        if !taken.has_map_file() {
+            return Err(
+                "--map: a mesh was repaired, and a map file tells of meshes as their files have them: save the repaired mesh by \
+                 `conemap check MESH --repair --out FILE`, and map that one"
+                    .into(),
+            );
+        }
+        input::write(path, &taken.output(OutputKind::Map)?)?;
+    }
     if let Some(folder) = &arguments.out {
-        for file in job.outputs(&result)? {
+        for file in job.outputs(&result, &arguments.choices)? {
             input::write(&folder.join(file.name), &file.bytes)?;
         }
     }

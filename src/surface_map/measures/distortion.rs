@@ -217,15 +217,15 @@ pub fn image_distortion(
     result
 }
 
-/// The edge vectors from corner 0 of a triangle in its own plane.
-fn in_plane([p, q, r]: [DVec3; 3], scale: f64) -> DMat2 {
+/// The edge vectors from corner 0 of a triangle in its own plane, scaled.
+pub(in crate::surface_map) fn in_plane([p, q, r]: [DVec3; 3], scale: f64) -> DMat2 {
     let [_, q, r] = lay_out([p.distance(q), q.distance(r), r.distance(p)].map(|length| length * scale));
     DMat2::from_cols(q, r)
 }
 
 impl Distortion {
     /// Mean, quantiles and maximum of densities, their weights the source areas.
-    fn summarise(&mut self, mut densities: Vec<Weighted>) {
+    pub(in crate::surface_map) fn summarise(&mut self, mut densities: Vec<Weighted>) {
         self.mean = densities.iter().map(|d| d.value * d.weight).sum::<f64>() / self.source_area;
         sort_by_value(&mut densities);
         self.median = quantile(&densities, 0.5);

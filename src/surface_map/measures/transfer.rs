@@ -1,7 +1,7 @@
 //! What the map carries over: the common subdivision as one mesh with positions on both surfaces, and images of vertices.
 
 use crate::mesh::normals::vertex_normals;
-use crate::mesh::{FaceId, HalfedgeId, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
+use crate::mesh::{Carrier, FaceFrame, FaceId, HalfedgeId, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
 use crate::surface_map::overlay::Overlay;
 use crate::surface_map::overlay::location::{Locations, barycentric};
 use crate::surface_map::parametrisation::embedding::Parametrised;
@@ -52,6 +52,13 @@ pub struct Surface<'a> {
     pub input: &'a SurfaceMesh,
     /// Its refinement.
     pub refined: &'a RefinedMesh,
+}
+
+impl<'a> Surface<'a> {
+    /// From places of the refinement to places of the mesh that the user gave; `frame` is [`RefinedMesh::frame`].
+    pub fn carrier(&self, frame: &'a dyn Fn(FaceId) -> FaceFrame) -> Carrier<'a> {
+        Carrier { from: &self.refined.mesh, onto: self.input, frame }
+    }
 }
 
 fn blend3<T: Copy + std::ops::Mul<f64, Output = T> + std::ops::Add<Output = T>>(

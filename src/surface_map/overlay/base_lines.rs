@@ -9,7 +9,7 @@ use crate::certificate::Start;
 use crate::landmarks::LandmarkId;
 use crate::math::rigid2::{Rigid2, complex_mul};
 use crate::math::scalar::{cos, sin};
-use crate::mesh::{HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
 use crate::surface_map::parametrisation::embedding::{Anchor, Embedding, Parametrised};
 use crate::surface_map::parametrisation::fan::{Fan, Wedge};
@@ -26,6 +26,19 @@ pub struct BaseLine {
     pub end_error: f64,
     /// The landmark at the end as the line finds it; `None` where the line misses it.
     pub arrival: Option<Anchor>,
+    /// The line in each face that it passes, from the first to the last.
+    pub sections: Vec<LineSection>,
+}
+
+/// A base line in one of the faces that it passes.
+#[derive(Clone, Copy, Debug)]
+pub struct LineSection {
+    /// The face.
+    pub face: FaceId,
+    /// Both ends of the whole line in the plane of the face.
+    pub ends: [DVec2; 2],
+    /// The halfedge of the face that the line leaves through; `None` in the last face, where it ends at a corner.
+    pub exit: Option<HalfedgeId>,
 }
 
 /// The same embedding with its anchors made to agree.
@@ -78,6 +91,7 @@ pub fn base_line(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -
         points: vec![SurfacePoint::at_vertex(side.mesh, side.landmark_vertices[base.tail(h)])],
         end_error: f64::INFINITY,
         arrival: None,
+        sections: Vec::new(),
     };
     let (mut face, mut motion) = (start.corner.face(), Rigid2::IDENTITY);
     let ends = [corners[start.corner], corners[start.corner] + start.direction * length];
@@ -99,6 +113,7 @@ pub fn base_line(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -
                     Some(arrived(surface, h, corner, [corners[corner], corners[corner] + (p - q)]));
             }
             line.points.push(SurfacePoint::at_vertex(side.mesh, goal));
+            line.sections.push(LineSection { face, ends: [p, q], exit: None });
             break;
         }
         let exit = if step == 0 {
@@ -107,6 +122,7 @@ pub fn base_line(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -
             exit_edge(side.embedding, face, [p, q], entered)
         };
         let Some(exit) = exit else { break };
+        line.sections.push(LineSection { face, ends: [p, q], exit: Some(exit) });
         line.points.push(crossing(exit, [corners[exit], corners[exit.next()]], [p, q]));
         motion = side.embedding.transitions[exit].after(&motion);
         let twin = side.mesh.twin(exit);

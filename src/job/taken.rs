@@ -1,0 +1,292 @@
+//! What is taken away of a map with pieces: every file of it, and answers about points.
+
+use crate::export;
+use crate::export::glb::GlbError;
+use crate::export::vertex_image::{self, Direction, PointImage};
+use crate::map_file::{self, FileMesh, MapFile};
+use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint};
+use crate::pipeline::{DistortionReport, TriangleDistortion};
+use crate::surface_map::correspondence::{self, PointLocator};
+use crate::surface_map::measures::distortion::Distortion;
+use crate::surface_map::measures::transfer::CommonMesh;
+use glam::DVec3;
+
+/// A file that a map gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OutputKind {
+    /// The map itself, from which all others can be made.
+    Map,
+    /// The source with the target's texture and the target's shape as morph target.
+    Glb,
+    /// The image of each source vertex.
+    SourceImagesCsv,
+    /// The same as JSON.
+    SourceImagesJson,
+    /// The point of the source that each target vertex comes from.
+    TargetImagesCsv,
+    /// The same as JSON.
+    TargetImagesJson,
+    /// The source's vertices and polygons in the target's shape.
+    SourceShapeObj,
+    /// The same as PLY.
+    SourceShapePly,
+    /// The target's vertices and polygons in the source's shape.
+    TargetShapeObj,
+    /// The same as PLY.
+    TargetShapePly,
+    /// Distortion of each triangle of the GLB.
+    Distortion,
+    /// Distortion around each source vertex.
+    VertexDistortion,
+    /// The base domain at the target.
+    BaseDomain,
+    /// Both meshes on the flat base domain, as a drawing.
+    LayoutSvg,
+    /// The source cut along the flat layout, with its texture coordinates.
+    LayoutSourceObj,
+    /// The target likewise.
+    LayoutTargetObj,
+}
+
+impl OutputKind {
+    /// All of them.
+    pub const ALL: [Self; 16] = [
+        Self::Map,
+        Self::Glb,
+        Self::SourceImagesCsv,
+        Self::SourceImagesJson,
+        Self::TargetImagesCsv,
+        Self::TargetImagesJson,
+        Self::SourceShapeObj,
+        Self::SourceShapePly,
+        Self::TargetShapeObj,
+        Self::TargetShapePly,
+        Self::Distortion,
+        Self::VertexDistortion,
+        Self::BaseDomain,
+        Self::LayoutSvg,
+        Self::LayoutSourceObj,
+        Self::LayoutTargetObj,
+    ];
+
+    /// The usual name of its file.
+    pub fn file_name(self) -> &'static str {
+        match self {
+            Self::Map => "map.conemap",
+            Self::Glb => "source-with-target-texture.glb",
+            Self::SourceImagesCsv => "vertex-images.csv",
+            Self::SourceImagesJson => "vertex-images.json",
+            Self::TargetImagesCsv => "target-vertex-images.csv",
+            Self::TargetImagesJson => "target-vertex-images.json",
+            Self::SourceShapeObj => "source-in-target-shape.obj",
+            Self::SourceShapePly => "source-in-target-shape.ply",
+            Self::TargetShapeObj => "target-in-source-shape.obj",
+            Self::TargetShapePly => "target-in-source-shape.ply",
+            Self::Distortion => "distortion.csv",
+            Self::VertexDistortion => "vertex-distortion.csv",
+            Self::BaseDomain => "base-domain.obj",
+            Self::LayoutSvg => "layout.svg",
+            Self::LayoutSourceObj => "layout-source.obj",
+            Self::LayoutTargetObj => "layout-target.obj",
+        }
+    }
+
+    /// The output with this file name.
+    pub fn of(file_name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.file_name() == file_name)
+    }
+}
+
+/// A map with both meshes.
+#[derive(Clone, Copy, Debug)]
+pub struct TakenMap<'a> {
+    meshes: [&'a FileMesh; 2],
+    map: &'a MapFile,
+}
+
+impl<'a> TakenMap<'a> {
+    /// A map between these meshes, for which it was made or read.
+    pub fn new(meshes: [&'a FileMesh; 2], map: &'a MapFile) -> Self {
+        Self { meshes, map }
+    }
+
+    /// The files that there are: those of the flat layout are missing where there is none, and the map file where a mesh was
+    /// repaired, so that it is not that of its file.
+    pub fn kinds(&self) -> Vec<OutputKind> {
+        let needs_layout = |kind: &OutputKind| {
+            matches!(kind, OutputKind::LayoutSvg | OutputKind::LayoutSourceObj | OutputKind::LayoutTargetObj)
+        };
+        let is_there = |kind: &OutputKind| match kind {
+            OutputKind::Map => self.has_map_file(),
+            _ => self.map.layout.is_some() || !needs_layout(kind),
+        };
+        OutputKind::ALL.into_iter().filter(is_there).collect()
+    }
+
+    /// Whether there is a map file: not of repaired meshes, whose numbers are not those of their files.
+    pub fn has_map_file(&self) -> bool {
+        !self.meshes.iter().any(|mesh| mesh.is_repaired())
+    }
+
+    /// A file; empty where [`Self::kinds`] does not have it.
+    ///
+    /// # Errors
+    /// [`GlbError`].
+    pub fn output(&self, kind: OutputKind) -> Result<Vec<u8>, GlbError> {
+        use Direction::{SourceToTarget, TargetToSource};
+        Ok(match kind {
+            OutputKind::Map => map_file::write(self.map, self.meshes),
+            OutputKind::Glb => self.textured_source()?,
+            OutputKind::SourceImagesCsv => {
+                vertex_image::csv(SourceToTarget, &self.vertex_images(SourceToTarget))
+            }
+            OutputKind::SourceImagesJson => {
+                vertex_image::json(SourceToTarget, &self.vertex_images(SourceToTarget))
+            }
+            OutputKind::TargetImagesCsv => {
+                vertex_image::csv(TargetToSource, &self.vertex_images(TargetToSource))
+            }
+            OutputKind::TargetImagesJson => {
+                vertex_image::json(TargetToSource, &self.vertex_images(TargetToSource))
+            }
+            OutputKind::SourceShapeObj => self.shape(SourceToTarget, export::polygons::obj),
+            OutputKind::SourceShapePly => self.shape(SourceToTarget, export::polygons::ply),
+            OutputKind::TargetShapeObj => self.shape(TargetToSource, export::polygons::obj),
+            OutputKind::TargetShapePly => self.shape(TargetToSource, export::polygons::ply),
+            OutputKind::Distortion => {
+                let [source, target] = self.meshes.map(FileMesh::checked);
+                let numbers: [&dyn Fn(FaceId) -> FaceId; 2] =
+                    [&|f| source.file_from_face(f), &|f| target.file_from_face(f)];
+                export::csv::distortion(&self.triangle_distortion(), numbers)
+            }
+            OutputKind::VertexDistortion => {
+                let by_vertex = self.measured().by_vertex;
+                export::csv::vertex_distortion(&self.meshes[0].checked().by_file_vertex(&by_vertex.raw))
+            }
+            OutputKind::BaseDomain => export::obj::mesh(&self.map.base.mesh),
+            OutputKind::LayoutSvg => self.map.layout.as_ref().map(export::layout::svg).unwrap_or_default(),
+            OutputKind::LayoutSourceObj => self.layout_obj(0),
+            OutputKind::LayoutTargetObj => self.layout_obj(1),
+        })
+    }
+
+    /// The content of its map file.
+    pub fn map(&self) -> &'a MapFile {
+        self.map
+    }
+
+    /// The meshes that are mapped.
+    pub fn surfaces(&self) -> [&'a SurfaceMesh; 2] {
+        self.meshes.map(FileMesh::mesh)
+    }
+
+    /// The image of each vertex of the source's file, or the point of the source that each vertex of the target's file comes from.
+    pub fn vertex_images(&self, direction: Direction) -> Vec<Option<PointImage>> {
+        let from = direction.side();
+        let images = self.map.correspondence.vertex_images(self.surfaces(), from);
+        let images = self.meshes[from].checked().by_file_vertex(&images.raw);
+        images.into_iter().map(|image| image.flatten().map(|point| self.told(1 - from, point))).collect()
+    }
+
+    /// The images of points, given and told in the files' numbers. The faces must exist.
+    pub fn images(&self, direction: Direction, points: &[SurfacePoint]) -> Vec<PointImage> {
+        let from = direction.side();
+        let locator = PointLocator::new(self.surfaces(), &self.map.correspondence);
+        let image = |point: &SurfacePoint| {
+            let point = self.meshes[from].on_mesh(*point);
+            let image = if from == 0 { locator.image(point) } else { locator.preimage(point) };
+            self.told(1 - from, image)
+        };
+        points.iter().map(image).collect()
+    }
+
+    /// A point of one of the mapped meshes as its file tells it.
+    fn told(&self, side: usize, point: SurfacePoint) -> PointImage {
+        let mesh = self.meshes[side];
+        PointImage {
+            point: mesh.on_file(point),
+            position: mesh.in_file(point.position(mesh.mesh())),
+            in_cap: mesh.checked().has_caps().then(|| mesh.checked().is_cap(point.face)),
+        }
+    }
+
+    /// The measures of the map, from its pieces alone; places are those of the files.
+    pub fn distortion(&self) -> DistortionReport {
+        let mut report = DistortionReport::new(&self.measured(), self.map.summary.l2_stretch);
+        report.replace_worst([&|p| self.meshes[0].on_file(p), &|p| self.meshes[1].on_file(p)]);
+        report
+    }
+
+    fn measured(&self) -> Distortion {
+        correspondence::distortion(self.surfaces(), &self.map.correspondence)
+    }
+
+    /// The pieces as one mesh, in the files' coordinates.
+    pub fn common(&self) -> CommonMesh {
+        let mut common =
+            correspondence::common_mesh(self.surfaces(), &self.map.correspondence, self.map.texture.as_ref());
+        for vectors in [&mut common.target_positions, &mut common.target_normals] {
+            vectors.iter_mut().for_each(|p| *p = self.meshes[1].in_file(*p));
+        }
+        common
+    }
+
+    /// Distortion of each triangle of [`Self::common`].
+    fn triangle_distortion(&self) -> Vec<TriangleDistortion> {
+        let measured = self.measured();
+        let local = |&piece: &u32| {
+            let [source_face, target_face] = self.map.correspondence.pieces[piece as usize].faces;
+            TriangleDistortion { source_face, target_face, local: measured.by_piece[piece as usize] }
+        };
+        self.common().pieces.iter().map(local).collect()
+    }
+
+    /// Distortion around each vertex of a common mesh of this map.
+    pub fn common_distortion(&self, common: &CommonMesh) -> Vec<f64> {
+        let measured = self.measured();
+        let densities: Vec<f64> =
+            common.pieces.iter().map(|&piece| measured.by_piece[piece as usize].density).collect();
+        common.vertex_averages(&densities)
+    }
+
+    fn textured_source(&self) -> Result<Vec<u8>, GlbError> {
+        let common = self.common();
+        export::glb::textured_source(&common, &self.common_distortion(&common))
+    }
+
+    /// The polygons of one file with its vertices at their images on the other mesh. A vertex that no face uses is put where the
+    /// first image is.
+    fn shape(&self, direction: Direction, write: fn(&[DVec3], &[Vec<u32>]) -> Vec<u8>) -> Vec<u8> {
+        let images = self.vertex_images(direction);
+        let first = images.iter().flatten().next().map_or(DVec3::ZERO, |image| image.position);
+        let positions: Vec<DVec3> = images.iter().map(|image| image.map_or(first, |i| i.position)).collect();
+        let polygons = self.meshes[direction.side()].polygons();
+        // The outside stays outside where the map goes to a mirror image.
+        if self.meshes[1].is_mirrored() {
+            let turned: Vec<Vec<u32>> = polygons.iter().map(|p| p.iter().rev().copied().collect()).collect();
+            return write(&positions, &turned);
+        }
+        write(&positions, polygons)
+    }
+
+    fn layout_obj(&self, side: usize) -> Vec<u8> {
+        let Some(layout) = &self.map.layout else { return Vec::new() };
+        let (mesh, drawing) = (self.meshes[side], &layout.drawings[side]);
+        export::layout::obj(layout, drawing, |v| {
+            mesh.in_file(drawing.vertices[v].place.position(mesh.mesh()))
+        })
+    }
+
+    /// The sides of the flat base domain on the source and on the target, as line strips in the files' coordinates.
+    pub fn patch_lines(&self) -> [Vec<Vec<DVec3>>; 2] {
+        let Some(layout) = &self.map.layout else { return [Vec::new(), Vec::new()] };
+        [0, 1].map(|side| {
+            let mesh = self.meshes[side];
+            let lines = layout.drawings[side].side_lines(&layout.base.mesh);
+            let place = |v: &u32| {
+                mesh.in_file(layout.drawings[side].vertices[*v as usize].place.position(mesh.mesh()))
+            };
+            lines.iter().map(|line| line.iter().map(place).collect()).collect()
+        })
+    }
+}

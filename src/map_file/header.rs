@@ -1,0 +1,135 @@
+//! The header of a map file, as JSON.
+
+use crate::mesh::mirror::TargetImage;
+use crate::pipeline::DistortionReport;
+use serde::{Deserialize, Serialize};
+
+/// The header. Fields that are not known are left out of account.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Header {
+    /// What wrote the file.
+    pub generator: String,
+    /// What a reader must know beyond this version; it refuses what it does not.
+    #[serde(default)]
+    pub requires: Vec<String>,
+    /// The source.
+    pub source: MeshEntry,
+    /// The target.
+    pub target: MeshEntry,
+    /// Which target is mapped onto.
+    #[serde(default)]
+    pub target_image: TargetImage,
+    /// The landmark file.
+    pub landmarks: serde_json::Value,
+    /// What was chosen of the run.
+    #[serde(default)]
+    pub options: serde_json::Value,
+    /// The map's numbers.
+    pub summary: Summary,
+    /// Where the arrays lie.
+    pub sections: Vec<SectionEntry>,
+}
+
+/// A mesh that the map was made with.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct MeshEntry {
+    /// Length of its file.
+    pub bytes: u64,
+    /// SHA-256 of its file.
+    pub sha256: String,
+    /// SHA-256 of the checked mesh.
+    pub checked_sha256: String,
+    /// Vertices of the file.
+    pub vertices: u64,
+    /// Triangles.
+    pub faces: u64,
+}
+
+/// The map's numbers, as in the report's `distortion`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Integral of |J|^2 over the source plus |J^-1|^2 over the target; 4 for an isometry.
+    pub energy: f64,
+    /// Mean density over the source; 1 for an isometry.
+    pub mean: f64,
+    /// Half the sum of the means of its logarithm over source and target.
+    pub mean_log: f64,
+    /// Its median.
+    pub median: f64,
+    /// Its 95 % quantile.
+    pub p95: f64,
+    /// Its maximum.
+    pub max: f64,
+    /// Share of the area with a density above 20.
+    pub dented: f64,
+    /// L2 stretch of the texture coordinates; `null` where there are none.
+    pub l2_stretch: Option<f64>,
+}
+
+impl From<&DistortionReport> for Summary {
+    fn from(report: &DistortionReport) -> Self {
+        let DistortionReport { energy, mean, mean_log, median, p95, max, dented, l2_stretch, .. } = *report;
+        Self { energy, mean, mean_log, median, p95, max, dented, l2_stretch }
+    }
+}
+
+/// Where an array lies.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct SectionEntry {
+    /// Its name.
+    pub name: String,
+    /// The type of its elements.
+    #[serde(rename = "type")]
+    pub kind: SectionType,
+    /// How many.
+    pub count: u64,
+    /// How it is stored.
+    #[serde(default)]
+    pub packing: Packing,
+    /// Where it begins, counted from the end of the header.
+    pub offset: u64,
+    /// Its length as stored.
+    pub bytes: u64,
+}
+
+impl SectionEntry {
+    /// Its length once unpacked; `None` for elements of a type that this version does not know.
+    pub fn unpacked_size(&self) -> Option<u64> {
+        let width = match self.kind {
+            SectionType::U8 => 1,
+            SectionType::U32 => 4,
+            SectionType::F64 => 8,
+            SectionType::Other => return None,
+        };
+        Some(self.count.saturating_mul(width))
+    }
+}
+
+/// Type of the elements, little-endian.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum SectionType {
+    /// One byte.
+    U8,
+    /// Four bytes.
+    U32,
+    /// Eight bytes.
+    F64,
+    /// One that this version does not know.
+    #[serde(other)]
+    Other,
+}
+
+/// How a section is stored.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Packing {
+    /// As it is.
+    #[default]
+    None,
+    /// Deflate with a zlib header and checksum (RFC 1950).
+    Deflate,
+    /// One that this version does not know.
+    #[serde(other)]
+    Other,
+}

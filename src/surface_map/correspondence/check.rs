@@ -1,0 +1,169 @@
+//! Whether pieces are a map: what is read from a file is not trusted.
+//!
+//! The pieces must be a sphere (every side of a piece has a partner that runs the other way, and V - E + F = 2), lie in their
+//! faces, be turned the right way, cover every face of both meshes once, and have matrices that carry their corners. Then every
+//! point of either mesh has an image.
+
+use super::pieces::{Correspondence, share};
+use crate::landmarks::MeshSide;
+use crate::mesh::{FaceId, SurfaceMesh};
+use glam::{DMat2, DVec2};
+use rustc_hash::FxHashMap;
+use typed_index_collections::{TiVec, ti_vec};
+
+/// What of a face the pieces in it may miss or cover twice. Pieces share their corners, so that only the sum rounds.
+const COVERAGE: f64 = 1e-9;
+/// The share of a face by which a piece may be turned over, and the error of a matrix in units of its size: rounding of corners in
+/// faces that are tiny on the cone surface.
+const ROUNDING: f64 = 1e-6;
+
+/// Why pieces are no map between two meshes.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CorrespondenceFault {
+    /// A corner lies elsewhere.
+    #[error("corner {vertex} of piece {piece} does not lie in the piece's {side} face")]
+    Elsewhere {
+        /// The piece.
+        piece: usize,
+        /// The corner, a number of an overlay vertex.
+        vertex: u32,
+        /// The mesh.
+        side: MeshSide,
+    },
+    /// Fewer than two corners.
+    #[error("piece {piece} has {corners} corners; it needs at least 2")]
+    Corners {
+        /// The piece.
+        piece: usize,
+        /// How many.
+        corners: usize,
+    },
+    /// A vertex that no piece has.
+    #[error("overlay vertex {vertex} is a corner of no piece")]
+    Unused {
+        /// The vertex.
+        vertex: usize,
+    },
+    /// A side that only one piece has.
+    #[error("the pieces do not fit together at the side between overlay vertices {} and {}", side[0], side[1])]
+    Side {
+        /// Its ends.
+        side: [u32; 2],
+    },
+    /// Not a sphere.
+    #[error("the pieces have Euler characteristic {euler} instead of 2")]
+    NotASphere {
+        /// V - E + F.
+        euler: i64,
+    },
+    /// A piece that is turned over.
+    #[error("piece {piece} is turned over on the {side}: its share of its face is {share:.1e}")]
+    Turned {
+        /// The piece.
+        piece: usize,
+        /// The mesh.
+        side: MeshSide,
+        /// Its signed share.
+        share: f64,
+    },
+    /// A face that is not covered once.
+    #[error("the pieces cover {share} of face {face} of the {side} instead of 1")]
+    Coverage {
+        /// The face, of the checked mesh.
+        face: usize,
+        /// The mesh.
+        side: MeshSide,
+        /// The part that is covered.
+        share: f64,
+    },
+    /// A matrix that is not the map's.
+    #[error("the matrix of piece {piece} does not carry its corners from the source to the target")]
+    Matrix {
+        /// The piece.
+        piece: usize,
+    },
+}
+
+const SIDES: [MeshSide; 2] = [MeshSide::Source, MeshSide::Target];
+
+/// Whether the pieces are a map between the meshes. Numbers of places, faces and corners must exist.
+///
+/// # Errors
+/// The first [`CorrespondenceFault`].
+pub fn check(meshes: [&SurfaceMesh; 2], map: &Correspondence) -> Result<(), CorrespondenceFault> {
+    check_sphere(map)?;
+    let mut rings = [Vec::new(), Vec::new()];
+    let mut covered: [TiVec<FaceId, f64>; 2] = meshes.map(|mesh| ti_vec![0.0; mesh.face_count()]);
+    for (number, piece) in map.pieces.iter().enumerate() {
+        for (k, side) in SIDES.into_iter().enumerate() {
+            map.ring(meshes[k], k, piece, &mut rings[k]);
+            if rings[k].len() != piece.corners.len() {
+                let holds =
+                    |v: &&u32| map.vertices[**v as usize][k].weights_in(meshes[k], piece.faces[k]).is_some();
+                let vertex =
+                    map.corners[piece.corners.clone()].iter().find(|v| !holds(v)).copied().unwrap_or(0);
+                return Err(CorrespondenceFault::Elsewhere { piece: number, vertex, side });
+            }
+            let share = share(&rings[k]);
+            if share < -ROUNDING {
+                return Err(CorrespondenceFault::Turned { piece: number, side, share });
+            }
+            covered[k][piece.faces[k]] += share;
+        }
+        if !carries(&piece.map, &rings) {
+            return Err(CorrespondenceFault::Matrix { piece: number });
+        }
+    }
+    for (k, side) in SIDES.into_iter().enumerate() {
+        let gap = covered[k].iter_enumerated().find(|(_, share)| (**share - 1.0).abs() > COVERAGE);
+        if let Some((face, &share)) = gap {
+            return Err(CorrespondenceFault::Coverage { face: face.index(), side, share });
+        }
+    }
+    Ok(())
+}
+
+/// Whether the pieces are a closed surface of genus 0.
+fn check_sphere(map: &Correspondence) -> Result<(), CorrespondenceFault> {
+    // By side of a piece, its smaller end first, how often it is run forwards more than backwards.
+    let mut balance: FxHashMap<[u32; 2], i32> = FxHashMap::default();
+    balance.reserve(map.corners.len() / 2);
+    let mut is_used = vec![false; map.vertices.len()];
+    for (number, piece) in map.pieces.iter().enumerate() {
+        let ring = &map.corners[piece.corners.clone()];
+        if ring.len() < 2 {
+            return Err(CorrespondenceFault::Corners { piece: number, corners: ring.len() });
+        }
+        for (k, &a) in ring.iter().enumerate() {
+            let b = ring[(k + 1) % ring.len()];
+            is_used[a as usize] = true;
+            *balance.entry([a.min(b), a.max(b)]).or_default() += if a < b { 1 } else { -1 };
+        }
+    }
+    if let Some(vertex) = is_used.iter().position(|used| !used) {
+        return Err(CorrespondenceFault::Unused { vertex });
+    }
+    // The least of the sides at fault: no result depends on the order of a hash map.
+    let lone = balance.into_iter().filter(|(_, sum)| *sum != 0).map(|(side, _)| side).min();
+    if let Some(side) = lone {
+        return Err(CorrespondenceFault::Side { side });
+    }
+    let edges = map.corners.len() as i64 / 2;
+    let euler = map.vertices.len() as i64 - edges + map.pieces.len() as i64;
+    if euler == 2 { Ok(()) } else { Err(CorrespondenceFault::NotASphere { euler }) }
+}
+
+/// Whether a matrix is invertible, keeps the orientation, and carries the corners of a piece from one face to the other.
+fn carries(matrix: &DMat2, [here, there]: &[Vec<DVec2>; 2]) -> bool {
+    let determinant = matrix.determinant();
+    if !(matrix.is_finite() && determinant > 0.0 && determinant.is_finite()) {
+        return false;
+    }
+    let size = 1.0 + matrix.x_axis.length() + matrix.y_axis.length();
+    let is_near = |k: usize| {
+        let error = there[k] - there[0] - *matrix * (here[k] - here[0]);
+        error.length() <= ROUNDING * size
+    };
+    (1..here.len()).all(is_near)
+}

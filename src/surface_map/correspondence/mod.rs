@@ -1,0 +1,17 @@
+//! The map told of meshes alone: its pieces, with the place of every corner on the source and on the target.
+//!
+//! An overlay lives on refined meshes and a cone surface. A correspondence needs neither: on each piece the map is affine between
+//! one face of the source and one of the target. It is what a map file holds, and what every result that is taken away is made of.
+
+mod by_face;
+mod check;
+mod locator;
+mod measure;
+mod pieces;
+mod texture;
+
+pub use check::{CorrespondenceFault, check};
+pub use locator::PointLocator;
+pub use measure::distortion;
+pub use pieces::{Correspondence, MappedPiece, matrix_of_corners};
+pub use texture::{TextureDrawing, TextureVertex, common_mesh};

@@ -1,0 +1,256 @@
+//! The parts of one mesh's faces, each in its chart.
+
+use super::cutting::{Crossing, Cuts, Neighbours, Node, Part, PartOfEdge, SideKind};
+use crate::math::barycentric;
+use crate::math::rigid2::Rigid2;
+use crate::mesh::{Carrier, FaceId, HalfedgeId, Place, SurfaceMesh, SurfacePoint, VertexId};
+use crate::surface_map::parametrisation::cone_surface::ConeSurface;
+use crate::surface_map::parametrisation::embedding::Parametrised;
+use glam::DVec2;
+use rustc_hash::FxHashMap;
+use std::ops::Range;
+
+/// One mesh on the flat triangles of its base domain.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FlatDrawing {
+    /// Corners of the polygons; a place on a side of the base domain occurs once per chart.
+    pub vertices: Vec<FlatVertex>,
+    /// Parts of faces, each in one chart. Together they are all faces and all charts.
+    pub polygons: Vec<FlatPolygon>,
+    /// Corners of all polygons: numbers in `vertices`.
+    pub corners: Vec<u32>,
+}
+
+/// A corner of a polygon.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlatVertex {
+    /// Where it lies on the mesh.
+    pub place: Place,
+    /// Its weights in its chart, the base face of its polygons; exactly 0 for the corner opposite a side that it lies on.
+    pub weights: [f64; 3],
+}
+
+/// A part of a face in a chart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlatPolygon {
+    /// The face of the mesh.
+    pub face: FaceId,
+    /// The base face.
+    pub chart: FaceId,
+    /// Its corners in [`FlatDrawing::corners`], counter-clockwise.
+    pub corners: Range<usize>,
+}
+
+impl FlatDrawing {
+    /// The sides of the base domain as they run over the mesh, once each: numbers of vertices in order.
+    pub fn side_lines(&self, base: &SurfaceMesh) -> Vec<Vec<u32>> {
+        let mut by_side: Vec<Vec<u32>> = vec![Vec::new(); 3 * base.face_count()];
+        let mut charts = vec![None; self.vertices.len()];
+        for polygon in &self.polygons {
+            self.corners[polygon.corners.clone()]
+                .iter()
+                .for_each(|&v| charts[v as usize] = Some(polygon.chart));
+        }
+        for (v, vertex) in self.vertices.iter().enumerate() {
+            let Some(chart) = charts[v] else { continue };
+            for h in chart.halfedges().into_iter().filter(|h| vertex.weights[h.prev().corner()] == 0.0) {
+                by_side[h.index()].push(v as u32);
+            }
+        }
+        let line = |h: HalfedgeId| {
+            let mut line = by_side[h.index()].clone();
+            let along = |v: u32| self.vertices[v as usize].weights[h.next().corner()];
+            line.sort_by(|&a, &b| along(a).total_cmp(&along(b)).then(a.cmp(&b)));
+            line
+        };
+        base.edges().map(line).collect()
+    }
+
+    /// The same drawing told of the mesh that its mesh refines.
+    #[must_use]
+    pub fn carried(&self, carrier: Carrier<'_>) -> Self {
+        let vertex = |v: &FlatVertex| FlatVertex { place: carrier.place(v.place), ..*v };
+        let polygon = |p: &FlatPolygon| FlatPolygon { face: (carrier.frame)(p.face).face, ..p.clone() };
+        Self {
+            vertices: self.vertices.iter().map(vertex).collect(),
+            polygons: self.polygons.iter().map(polygon).collect(),
+            corners: self.corners.clone(),
+        }
+    }
+}
+
+/// A chart as seen from the plane of a face.
+#[derive(Clone, Copy)]
+struct Seen {
+    chart: FaceId,
+    /// From the plane of the face to the chart.
+    motion: Rigid2,
+}
+
+/// Draws a mesh; `None` where a base side is lost or crossed.
+pub(super) fn draw(side: Parametrised<'_>, surface: &ConeSurface) -> Option<FlatDrawing> {
+    let mesh = side.mesh;
+    let cuts = Cuts::new(side, surface)?;
+    let mut parts = Vec::new();
+    for f in mesh.faces() {
+        parts.extend(cuts.parts(mesh, &surface.base.mesh, f)?);
+    }
+    let charts = charts_of(&parts, side, surface, &cuts)?;
+    let mut pen =
+        Pen { side, surface, cuts: &cuts, numbers: FxHashMap::default(), drawing: FlatDrawing::default() };
+    for (part, seen) in parts.iter().zip(charts) {
+        pen.draw(part, seen);
+    }
+    Some(pen.drawing)
+}
+
+/// The chart of each part: known at base sides, handed on across the mesh's edges.
+fn charts_of(
+    parts: &[Part],
+    side: Parametrised<'_>,
+    surface: &ConeSurface,
+    cuts: &Cuts,
+) -> Option<Vec<Seen>> {
+    let mesh = side.mesh;
+    let mut neighbours = Neighbours::default();
+    for (k, part) in parts.iter().enumerate() {
+        for corner in &part.corners {
+            if let Some(key) = part_of_edge(mesh, corner.side) {
+                neighbours.entry(key).or_default().push(k as u32);
+            }
+        }
+    }
+    let mut seen: Vec<Option<Seen>> = parts.iter().map(|part| beside_line(part, surface, cuts)).collect();
+    let mut stack: Vec<u32> = (0..parts.len() as u32).filter(|&k| seen[k as usize].is_some()).collect();
+    while let Some(k) = stack.pop() {
+        let Some(here) = seen[k as usize] else { continue };
+        for corner in &parts[k as usize].corners {
+            let (Some(key), SideKind::Edge { halfedge, .. }) = (part_of_edge(mesh, corner.side), corner.side)
+            else {
+                continue;
+            };
+            for &other in neighbours.get(&key).into_iter().flatten() {
+                if seen[other as usize].is_none() {
+                    let back = &side.embedding.transitions[mesh.twin(halfedge)];
+                    seen[other as usize] = Some(Seen { chart: here.chart, motion: here.motion.after(back) });
+                    stack.push(other);
+                }
+            }
+        }
+    }
+    seen.into_iter().collect()
+}
+
+fn part_of_edge(mesh: &SurfaceMesh, side: SideKind) -> Option<PartOfEdge> {
+    match side {
+        SideKind::Edge { halfedge, part } => {
+            Some(PartOfEdge { edge: halfedge.min(mesh.twin(halfedge)), part })
+        }
+        SideKind::Line(_) => None,
+    }
+}
+
+/// The chart of a part that has a base side on its border.
+fn beside_line(part: &Part, surface: &ConeSurface, cuts: &Cuts) -> Option<Seen> {
+    let line = part.corners.iter().find_map(|corner| match corner.side {
+        SideKind::Line(h) => Some(h),
+        SideKind::Edge { .. } => None,
+    })?;
+    let twin = surface.base.mesh.twin(line);
+    let chord = cuts.chords[part.face].iter().find(|chord| chord.line == line || chord.line == twin)?;
+    let [p, q] = chord.ends;
+    let ends = if chord.line == line { [p, q] } else { [q, p] };
+    let chart = surface.charts[line.face()];
+    let onto = [chart[line.corner()], chart[line.next().corner()]];
+    Some(Seen { chart: line.face(), motion: Rigid2::between_segments(ends, onto) })
+}
+
+/// What tells the vertices of a drawing apart.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+struct VertexKey {
+    chart: FaceId,
+    node: Node,
+}
+
+struct Pen<'a> {
+    side: Parametrised<'a>,
+    surface: &'a ConeSurface,
+    cuts: &'a Cuts,
+    numbers: FxHashMap<VertexKey, u32>,
+    drawing: FlatDrawing,
+}
+
+impl Pen<'_> {
+    fn draw(&mut self, part: &Part, seen: Seen) {
+        // Between a base side and an edge that it runs along there is nothing.
+        if part.corners.len() < 3 {
+            return;
+        }
+        let begin = self.drawing.corners.len();
+        for corner in &part.corners {
+            let key = VertexKey { chart: seen.chart, node: corner.node };
+            let number = match self.numbers.get(&key) {
+                Some(&number) => number,
+                None => {
+                    let number = self.drawing.vertices.len() as u32;
+                    let vertex = self.vertex(part.face, corner.node, seen);
+                    self.drawing.vertices.push(vertex);
+                    self.numbers.insert(key, number);
+                    number
+                }
+            };
+            self.drawing.corners.push(number);
+        }
+        let corners = begin..self.drawing.corners.len();
+        self.drawing.polygons.push(FlatPolygon { face: part.face, chart: seen.chart, corners });
+    }
+
+    fn vertex(&self, face: FaceId, node: Node, seen: Seen) -> FlatVertex {
+        match node {
+            Node::Crossing(number) => {
+                let crossing = &self.cuts.crossings[number as usize];
+                FlatVertex { place: self.crossed_at(crossing), weights: self.on_side(crossing, seen.chart) }
+            }
+            Node::Vertex(v) => {
+                let weights = self.at_cone(v, seen.chart).unwrap_or_else(|| self.inside(face, v, seen));
+                FlatVertex { place: Place::Vertex(v), weights }
+            }
+        }
+    }
+
+    fn crossed_at(&self, crossing: &Crossing) -> Place {
+        let Crossing { edge, along_edge, .. } = *crossing;
+        let mut barycentric = [0.0; 3];
+        barycentric[edge.corner()] = 1.0 - along_edge;
+        barycentric[edge.next().corner()] = along_edge;
+        Place::of(self.side.mesh, SurfacePoint { face: edge.face(), barycentric })
+    }
+
+    /// Weights, in one of the two charts at a base side, of a point of the side.
+    fn on_side(&self, crossing: &Crossing, chart: FaceId) -> [f64; 3] {
+        let Crossing { line, along_line, .. } = *crossing;
+        let (h, along) = if line.face() == chart {
+            (line, along_line)
+        } else {
+            (self.surface.base.mesh.twin(line), 1.0 - along_line)
+        };
+        let mut weights = [0.0; 3];
+        weights[h.corner()] = 1.0 - along;
+        weights[h.next().corner()] = along;
+        weights
+    }
+
+    /// Weights of a landmark in a chart that has it as a corner.
+    fn at_cone(&self, v: VertexId, chart: FaceId) -> Option<[f64; 3]> {
+        let base = &self.surface.base;
+        let is_it = |h: &HalfedgeId| self.side.landmark_vertices[base.tail(*h)] == v;
+        let corner = chart.halfedges().into_iter().find(is_it)?.corner();
+        Some([0, 1, 2].map(|k| if k == corner { 1.0 } else { 0.0 }))
+    }
+
+    fn inside(&self, face: FaceId, v: VertexId, seen: Seen) -> [f64; 3] {
+        let corner = face.halfedges().into_iter().find(|&h| self.side.mesh.tail(h) == v);
+        let at: DVec2 = corner.map_or(DVec2::ZERO, |h| self.side.embedding.corners[h]);
+        barycentric::clamped_in(self.surface.charts[seen.chart], seen.motion.apply(at))
+    }
+}

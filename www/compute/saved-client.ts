@@ -1,0 +1,99 @@
+/** A saved map in a worker of its own: opened with its meshes, shown, exported and asked, without computing. */
+import { failureOf } from './messages.ts';
+import type { FilePoint, ImagePoint, OpenedMap, SavedAnswer, SavedFailure, SavedFiles, SavedRequest } from './saved-messages.ts';
+
+/** What a saved map's promises fail with. */
+export class SavedMapError extends Error {
+  readonly failure: SavedFailure;
+
+  constructor(failure: SavedFailure) {
+    super(failure.message);
+    this.name = 'SavedMapError';
+    this.failure = failure;
+  }
+}
+
+/** A saved map. Its promises fail with a {@link SavedMapError}. */
+export interface SavedMapHandle {
+  /** The map for the views; `null` where only files were asked for. */
+  readonly opened: Promise<OpenedMap | null>;
+  /** One file of the map by name: `map.conemap`, `source-with-target-texture.glb`, and what else `outputNames` of the core tells. */
+  file(name: string): Promise<Uint8Array<ArrayBuffer>>;
+  /** The image of a point of the source (0), or the source point of one of the target (1); `null` where there is no such point. */
+  image(side: 0 | 1, point: FilePoint): Promise<ImagePoint | null>;
+  /** Ends the worker; what was asked and not answered fails with the code `closed`. */
+  close(): void;
+}
+
+type Body = SavedRequest extends infer R ? (R extends SavedRequest ? Omit<R, 'id'> : never) : never;
+
+interface Waiting {
+  readonly resolve: (answer: SavedAnswer) => void;
+  readonly reject: (error: SavedMapError) => void;
+}
+
+/** Opens a map file with its meshes: for the views and files, or for files alone, which is faster. */
+export function openSavedMap(module: WebAssembly.Module, files: SavedFiles, show: 'views' | 'files'): SavedMapHandle {
+  const worker = new Worker(new URL('./saved-worker.ts', import.meta.url), { type: 'module' });
+  const waiting = new Map<number, Waiting>();
+  let next = 0;
+  let ended: SavedFailure | null = null;
+  const end = (failure: SavedFailure): void => {
+    ended ??= failure;
+    worker.terminate();
+    const error = new SavedMapError(ended);
+    waiting.forEach(({ reject }) => {
+      reject(error);
+    });
+    waiting.clear();
+  };
+  worker.addEventListener('message', (event: MessageEvent<SavedAnswer>) => {
+    const answer = event.data;
+    const asked = waiting.get(answer.id);
+    waiting.delete(answer.id);
+    if (answer.kind === 'failed') {
+      asked?.reject(new SavedMapError(answer.failure));
+    } else {
+      asked?.resolve(answer);
+    }
+  });
+  worker.addEventListener('error', (event) => {
+    event.preventDefault();
+    end({ code: 'worker', message: event.message, side: null });
+  });
+  worker.addEventListener('messageerror', () => {
+    end({ code: 'worker', message: 'an unreadable message', side: null });
+  });
+  const ask = (body: Body): Promise<SavedAnswer> =>
+    new Promise((resolve, reject) => {
+      if (ended !== null) {
+        reject(new SavedMapError(ended));
+        return;
+      }
+      const id = next++;
+      waiting.set(id, { resolve, reject });
+      try {
+        worker.postMessage({ ...body, id });
+      } catch (thrown) {
+        waiting.delete(id);
+        reject(new SavedMapError({ ...failureOf(thrown), side: null }));
+      }
+    });
+  const wrong = (): never => {
+    throw new SavedMapError({ code: 'worker', message: 'an answer to another question', side: null });
+  };
+  return {
+    opened: ask({ kind: 'open', module, show, ...files }).then((answer) => (answer.kind === 'opened' ? answer.opened : wrong())),
+    file: async (name) => {
+      const answer = await ask({ kind: 'file', name });
+      return answer.kind === 'file' ? answer.bytes : wrong();
+    },
+    image: async (side, point) => {
+      const answer = await ask({ kind: 'image', side, point });
+      return answer.kind === 'image' ? answer.image : wrong();
+    },
+    close: () => {
+      end({ code: 'closed', message: 'the map was closed', side: null });
+    },
+  };
+}
