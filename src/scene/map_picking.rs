@@ -32,7 +32,7 @@ impl MapPicker {
         let fits = positions[1].len() == count
             && (distortion.is_empty() || distortion.len() == count)
             && triangles.iter().flatten().all(|&v| (v as usize) < count);
-        fits.then(|| Self { positions, triangles, distortion, shapes: [None, None] })
+        fits.then_some(Self { positions, triangles, distortion, shapes: [None, None] })
     }
 
     /// The place where a ray first meets one side, 0 the source and 1 the target.

@@ -198,7 +198,7 @@ test('the views come back after a lost graphics context', async ({ page }) => {
 
 test('each demo opens by its link and maps', async ({ page }) => {
   test.setTimeout(900_000);
-  await open(page);
+  await openDemo(page, '');
   await openStep(page, 'meshes');
   const ids = await page
     .locator('[data-demo-id]')

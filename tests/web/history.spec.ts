@@ -196,6 +196,7 @@ test('two tabs do not disturb each other', async ({ page, context }) => {
   await kept(page, pairs);
   const other = await context.newPage();
   await open(other, '#demo=horse-cat');
+  await shows(other, 'horse-cat-source.obj', 'horse-cat-target.obj', pairs);
   await expect(other.getByRole('button', { name: 'Start anew' })).toBeHidden();
   await other.locator('#landmark-file').setInputFiles(upload('four.json', '{"pairs": [[1, 2], [30, 40], [500, 600], [700, 800]]}'));
   await shows(other, 'horse-cat-source.obj', 'horse-cat-target.obj', 4);
