@@ -97,6 +97,31 @@ pub enum LandmarkError {
         /// Number of faces of the mesh.
         faces: usize,
     },
+    /// A face that the repair of its mesh dropped.
+    #[error(
+        "landmark pair {} (the first is 1) is on face {face} of the {side}, which the repair of the mesh dropped",
+        pair + 1
+    )]
+    DroppedFace {
+        /// The mesh.
+        side: MeshSide,
+        /// The pair, 0-based.
+        pair: usize,
+        /// The face number.
+        face: usize,
+    },
+    /// A face of a cap.
+    #[error(
+        "landmark pair {} (the first is 1) lies in a cap of the {side}, which was made up to close a hole: move it onto the \
+         skin around",
+        pair + 1
+    )]
+    InCap {
+        /// The mesh.
+        side: MeshSide,
+        /// The pair, 0-based.
+        pair: usize,
+    },
     /// Weights that are no barycentric coordinates.
     #[error(
         "landmark pair {} (the first is 1) has the barycentric coordinates {weights:?} on the {side}: they must not be \
@@ -188,15 +213,26 @@ fn point(
             Ok(SurfacePoint::at_vertex(mesh, known.ok_or(unused)?))
         }
         on_face @ LandmarkPoint::OnFace { face, barycentric } => {
-            let faces = mesh.face_count();
-            if face as usize >= faces {
-                return Err(LandmarkError::MissingFace { side, pair, face: face as usize, faces });
+            let known = checked.face_from_file(FaceId(face));
+            let face = known.ok_or_else(|| missing_face(checked, side, pair, face))?;
+            if checked.is_cap(face) {
+                return Err(LandmarkError::InCap { side, pair });
             }
             if !on_face.is_sound() {
                 return Err(LandmarkError::Barycentric { side, pair, weights: barycentric });
             }
-            Ok(checked.with_file_corners(SurfacePoint::clamped(FaceId(face), barycentric)))
+            Ok(checked.with_file_corners(SurfacePoint::clamped(face, barycentric)))
         }
+    }
+}
+
+/// A face that the file does not have, or that its repair dropped.
+fn missing_face(checked: &CheckedMesh, side: MeshSide, pair: usize, face: u32) -> LandmarkError {
+    let (face, faces) = (face as usize, checked.file_faces());
+    if face < faces {
+        LandmarkError::DroppedFace { side, pair, face }
+    } else {
+        LandmarkError::MissingFace { side, pair, face, faces }
     }
 }
 

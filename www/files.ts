@@ -14,16 +14,19 @@ import { baseName, landmarkFileOf } from './store/landmark-file.ts';
 import { wholePairs } from './store/order.ts';
 import { update } from './store/reducer.ts';
 import type { MeshFile, State } from './store/state.ts';
-import { checkLandmarks, mirrorTarget, readMesh } from './wasm/conemap.js';
+import { checkLandmarks, mirrorTarget, repairMesh } from './wasm/conemap.js';
 
 export type { NamedBytes } from './named-file.ts';
 export { FileRefused } from './named-file.ts';
 export { landmarkFile } from './landmark-files.ts';
 
-/** Reads and checks a mesh. */
+/** Reads a mesh and repairs what does not change its shape. */
 export function meshFile(file: NamedBytes): MeshFile {
   try {
-    const mesh = readMesh(file.bytes);
+    const report = repairMesh(file.bytes);
+    const mesh = report.mesh();
+    const repairs = report.sentence();
+    report.free();
     return {
       name: file.name,
       bytes: file.bytes,
@@ -32,6 +35,7 @@ export function meshFile(file: NamedBytes): MeshFile {
       vertexCount: mesh.vertexCount,
       faceCount: mesh.faceCount,
       turnedFaces: mesh.turnedFaces,
+      repairs,
     };
   } catch (thrown) {
     throw new FileRefused(fileSentence(file.name, failureOf(thrown)));

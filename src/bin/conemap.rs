@@ -1,10 +1,13 @@
-//! The command line: `conemap map`, `conemap suggest`, `conemap flow`, `conemap landmarks` and `conemap remesh`.
+//! The command line: `conemap check`, `conemap map`, `conemap suggest`, `conemap flow`, `conemap landmarks` and
+//! `conemap remesh`.
 //!
 //! Progress and errors go to standard error; the exit code is 0 only for a converged, certified result.
 #![allow(clippy::print_stderr, reason = "a command line prints")]
 
 #[path = "conemap/arguments.rs"]
 mod arguments;
+#[path = "conemap/check.rs"]
+mod check;
 #[path = "conemap/clock.rs"]
 mod clock;
 #[path = "conemap/flow.rs"]
@@ -28,6 +31,7 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let arguments = arguments::Arguments::parse();
     let outcome = match &arguments.command {
+        arguments::Command::Check(options) => check::run(options),
         arguments::Command::Map(options) => map::run(options),
         arguments::Command::Suggest(options) => suggest::run(options),
         arguments::Command::Flow(options) => flow::run(options),

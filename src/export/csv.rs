@@ -10,14 +10,29 @@ pub fn vertex_images(images: &[Option<SurfacePoint>]) -> Vec<u8> {
     let mut text = String::from("source_vertex,target_face,b0,b1,b2\n");
     for (v, image) in images.iter().enumerate() {
         // Writing to a string does not fail.
-        let _ = match image {
-            Some(SurfacePoint { face, barycentric: [a, b, c] }) => {
-                writeln!(text, "{v},{},{a},{b},{c}", face.0)
-            }
-            None => writeln!(text, "{v},,,,"),
-        };
+        let _ = writeln!(text, "{v},{}", fields(image.as_ref()));
     }
     text.into_bytes()
+}
+
+/// The same with a last field `in_cap`: 1 where the image lies in a cap of the target, which was made up to close a hole, 0 where
+/// it lies on its skin; empty where there is no image.
+pub fn vertex_images_with_caps(images: &[Option<SurfacePoint>], in_cap: &[bool]) -> Vec<u8> {
+    let mut text = String::from("source_vertex,target_face,b0,b1,b2,in_cap\n");
+    for (v, (image, &in_cap)) in images.iter().zip(in_cap).enumerate() {
+        let mark = image.map_or("", |_| if in_cap { "1" } else { "0" });
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "{v},{},{mark}", fields(image.as_ref()));
+    }
+    text.into_bytes()
+}
+
+/// `target_face,b0,b1,b2`.
+fn fields(image: Option<&SurfacePoint>) -> String {
+    match image {
+        Some(SurfacePoint { face, barycentric: [a, b, c] }) => format!("{},{a},{b},{c}", face.0),
+        None => ",,,".to_owned(),
+    }
 }
 
 /// One line per triangle of the overlay, numbered as in the textured GLB: `triangle,source_face,target_face,density,angle,
@@ -54,6 +69,10 @@ mod tests {
         let point = SurfacePoint { face: FaceId(17), barycentric: [0.1, 0.2, 0.7] };
         let text = String::from_utf8(vertex_images(&[Some(point), None])).unwrap();
         assert_eq!(text, "source_vertex,target_face,b0,b1,b2\n0,17,0.1,0.2,0.7\n1,,,,\n");
+        let capped = vertex_images_with_caps(&[Some(point), Some(point), None], &[true, false, false]);
+        let lines = "0,17,0.1,0.2,0.7,1\n1,17,0.1,0.2,0.7,0\n2,,,,,\n";
+        let text = String::from_utf8(capped).unwrap();
+        assert_eq!(text, format!("source_vertex,target_face,b0,b1,b2,in_cap\n{lines}"));
     }
     #[test]
     fn distortions_name_the_files_faces() {

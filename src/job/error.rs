@@ -5,6 +5,7 @@ use crate::landmark_exchange::ExchangeError;
 use crate::landmarks::{LandmarkError, MeshSide};
 use crate::mesh::MeshError;
 use crate::mesh::check::MeshFault;
+use crate::mesh::repair::RepairRefusal;
 use crate::monitor::Cancelled;
 use crate::pipeline::PipelineError;
 
@@ -27,6 +28,14 @@ pub enum JobError {
         side: MeshSide,
         /// What is wrong with it.
         fault: MeshFault,
+    },
+    /// A mesh is not one closed surface of genus 0, and cannot be repaired to one.
+    #[error("{refusal}")]
+    Repair {
+        /// The mesh.
+        side: MeshSide,
+        /// Why.
+        refusal: RepairRefusal,
     },
     /// The landmark files cannot be read or brought onto the meshes.
     #[error(transparent)]
@@ -63,10 +72,12 @@ impl JobError {
     /// The file at fault; `None` where it is no file's fault.
     pub fn file(&self) -> Option<JobFile> {
         match self {
-            Self::Read { side, .. } | Self::Mesh { side, .. } => Some(match side {
-                MeshSide::Source => JobFile::Source,
-                MeshSide::Target => JobFile::Target,
-            }),
+            Self::Read { side, .. } | Self::Mesh { side, .. } | Self::Repair { side, .. } => {
+                Some(match side {
+                    MeshSide::Source => JobFile::Source,
+                    MeshSide::Target => JobFile::Target,
+                })
+            }
             Self::LandmarkFiles(error) => error.file().map(JobFile::Landmarks),
             Self::Landmarks(_) => Some(JobFile::Landmarks(0)),
             Self::Mirror(_) | Self::Pipeline(_) => None,
@@ -77,7 +88,7 @@ impl JobError {
     pub fn code(&self) -> &'static str {
         match self {
             Self::Read { .. } => "file",
-            Self::Mesh { .. } | Self::Mirror(_) => "mesh",
+            Self::Mesh { .. } | Self::Repair { .. } | Self::Mirror(_) => "mesh",
             Self::LandmarkFiles(_) | Self::Landmarks(_) => "landmarks",
             Self::Pipeline(error) => error.code(),
         }

@@ -17,9 +17,10 @@ use crate::landmarks::{MeshSide, PlacedLandmarks, place};
 use crate::mesh::SurfacePoint;
 use crate::mesh::check::{CheckedMesh, closed_genus_zero};
 use crate::mesh::mirror::{mirrored, mirrored_point};
+use crate::mesh::repair::{RepairOptions, RepairReport, RepairedMesh, repaired};
 use crate::monitor::{Cancelled, Monitor, Stage};
 use crate::pipeline::{
-    self, FindingReport, GroundTruth, MapInput, MapResult, PipelineError, PipelineOptions, findings,
+    self, FindingReport, GroundTruth, MapInput, MapResult, PipelineError, PipelineOptions, Warning, findings,
 };
 
 /// The contents of the files of a job.
@@ -43,10 +44,42 @@ pub enum TargetImage {
     Mirrored,
 }
 
+/// What becomes of a mesh that is not one closed surface of genus 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MeshFaults {
+    /// It is repaired, as far as the options let it, and the result's report says so.
+    Repaired(RepairOptions),
+    /// It is refused.
+    Refused,
+}
+
+impl Default for MeshFaults {
+    /// What does not change the shape is repaired, and holes are capped.
+    fn default() -> Self {
+        Self::Repaired(RepairOptions::default())
+    }
+}
+
+/// How the files of a job are read.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ReadOptions {
+    /// Which target is mapped onto.
+    pub target_image: TargetImage,
+    /// What becomes of meshes with faults.
+    pub mesh_faults: MeshFaults,
+}
+
+impl From<TargetImage> for ReadOptions {
+    fn from(target_image: TargetImage) -> Self {
+        Self { target_image, ..Self::default() }
+    }
+}
+
 /// Checked meshes with their landmarks, ready for the pipeline.
 #[derive(Clone, Debug)]
 pub struct Job {
     meshes: [CheckedMesh; 2],
+    repairs: [RepairReport; 2],
     placed: PlacedLandmarks,
     labels: Vec<String>,
     remarks: Vec<Remark>,
@@ -61,12 +94,15 @@ impl Job {
     /// [`JobError`] with the file at fault.
     pub fn read(
         files: JobFiles<'_>,
-        target_image: TargetImage,
+        options: impl Into<ReadOptions>,
         monitor: &mut dyn Monitor,
     ) -> Result<Self, JobError> {
         monitor.enter(Stage::Landmarks);
-        let source = checked_mesh(MeshSide::Source, files.source)?;
-        let mut target = checked_mesh(MeshSide::Target, files.target)?;
+        let ReadOptions { target_image, mesh_faults } = options.into();
+        let source = read_mesh(MeshSide::Source, files.source, mesh_faults)?;
+        let target = read_mesh(MeshSide::Target, files.target, mesh_faults)?;
+        let repairs = [source.report, target.report];
+        let (source, mut target) = (source.checked, target.checked);
         let surfaces = [(&source, files.source), (&target, files.target)]
             .map(|(mesh, bytes)| Surface { mesh, space: Space::of_mesh(bytes) });
         let PairLandmarks { mut file, remarks, .. } = read_pairs(files.landmarks, surfaces)?;
@@ -81,7 +117,12 @@ impl Job {
             _ => GroundTruth::Unknown,
         };
         let labels = file.labels.unwrap_or_default();
-        Ok(Self { meshes: [source, target], placed, labels, remarks, ground_truth, target_image })
+        Ok(Self { meshes: [source, target], repairs, placed, labels, remarks, ground_truth, target_image })
+    }
+
+    /// What was repaired of the source and of the target.
+    pub fn repairs(&self) -> &[RepairReport; 2] {
+        &self.repairs
     }
 
     /// Number of landmark pairs.
@@ -119,7 +160,23 @@ impl Job {
         let on_files: [&dyn Fn(SurfacePoint) -> SurfacePoint; 2] =
             [&|p| self.on_source_file(p), &|p| self.on_target_file(p)];
         result.report.distortion.replace_worst(on_files);
+        let warnings = std::mem::take(&mut result.report.warnings);
+        result.report.warnings = self.repair_warnings().into_iter().chain(warnings).collect();
         Ok(result)
+    }
+
+    /// What the user should know of the repairs; nothing of a mesh that was good as given.
+    fn repair_warnings(&self) -> Vec<Warning> {
+        let mut warnings = Vec::new();
+        for (side, repair) in [MeshSide::Source, MeshSide::Target].into_iter().zip(&self.repairs) {
+            if repair.fault.is_some() {
+                warnings.push(Warning::Repaired { side, changes: repair.sentence() });
+            }
+            if repair.cap_share > 0.0 {
+                warnings.push(Warning::Capped { side, share: repair.cap_share });
+            }
+        }
+        warnings
     }
 
     fn input(&self) -> MapInput<'_> {
@@ -130,7 +187,7 @@ impl Job {
 
     /// A point of the mapped source as one of the source's file.
     fn on_source_file(&self, point: SurfacePoint) -> SurfacePoint {
-        self.meshes[0].with_file_corners(self.placed.source.on_original(point))
+        self.meshes[0].on_file(self.placed.source.on_original(point))
     }
 
     /// A point of the mapped target as one of the target's file, also where it was mirrored.
@@ -140,11 +197,19 @@ impl Job {
             TargetImage::AsGiven => point,
             TargetImage::Mirrored => mirrored_point(point),
         };
-        self.meshes[1].with_file_corners(as_given)
+        self.meshes[1].on_file(as_given)
     }
 }
 
-fn checked_mesh(side: MeshSide, bytes: &[u8]) -> Result<CheckedMesh, JobError> {
+fn read_mesh(side: MeshSide, bytes: &[u8], faults: MeshFaults) -> Result<RepairedMesh, JobError> {
     let soup = io::read_mesh(bytes).map_err(|error| JobError::Read { side, error })?;
-    closed_genus_zero(&soup).map_err(|fault| JobError::Mesh { side, fault })
+    match faults {
+        MeshFaults::Repaired(options) => {
+            repaired(&soup, &options).map_err(|refusal| JobError::Repair { side, refusal })
+        }
+        MeshFaults::Refused => {
+            let checked = closed_genus_zero(&soup).map_err(|fault| JobError::Mesh { side, fault })?;
+            Ok(RepairedMesh { checked, report: RepairReport::default() })
+        }
+    }
 }

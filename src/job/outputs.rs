@@ -44,12 +44,22 @@ impl Job {
         export::glb::textured_source(&result.common, &result.common_vertex_distortion())
     }
 
-    /// The image of each vertex of the source's file, as CSV.
+    /// The image of each vertex of the source's file, as CSV; where the target has caps, with a column that tells whether the image
+    /// lies in one.
     pub fn vertex_images(&self, result: &MapResult) -> Vec<u8> {
         let images = self.meshes[0].by_file_vertex(&result.target_from_source.raw);
+        let on_target = |point| self.placed.target.on_original(point).face;
+        let in_cap: Vec<bool> = images
+            .iter()
+            .map(|image| image.flatten().is_some_and(|point| self.meshes[1].is_cap(on_target(point))))
+            .collect();
         let on_file = |point| self.on_target_file(point);
         let images: Vec<_> = images.into_iter().map(|image| image.flatten().map(on_file)).collect();
-        export::csv::vertex_images(&images)
+        if self.meshes[1].has_caps() {
+            export::csv::vertex_images_with_caps(&images, &in_cap)
+        } else {
+            export::csv::vertex_images(&images)
+        }
     }
 
     /// The base domain at the target as given, as OBJ.
@@ -65,7 +75,9 @@ impl Job {
     /// Distortion of each triangle of the textured GLB, as CSV.
     pub fn triangle_distortion(&self, result: &MapResult) -> Vec<u8> {
         let numbers: [&dyn Fn(FaceId) -> FaceId; 2] =
-            [&|f| self.placed.source.face_origin[f], &|f| self.placed.target.face_origin[f]];
+            [&|f| self.meshes[0].file_from_face(self.placed.source.face_origin[f]), &|f| {
+                self.meshes[1].file_from_face(self.placed.target.face_origin[f])
+            }];
         export::csv::distortion(&result.triangle_distortion, numbers)
     }
 

@@ -7,7 +7,7 @@ use crate::io::landmark_file::LandmarkPoint;
 use crate::io::landmark_formats::{MarkList, Spot};
 use crate::landmarks::MeshSide;
 use crate::mesh::surface_index::SurfaceIndex;
-use crate::mesh::{FaceId, SurfacePoint};
+use crate::mesh::{FaceId, SurfacePoint, VertexId};
 use glam::DVec3;
 
 /// From this distance on, in units of the square root of the area, a landmark off the surface is told.
@@ -79,7 +79,7 @@ pub(super) fn place(
             None => PlacedMark { label, point: None, distance: 0.0 },
             Some(Spot::OnMesh(point)) => {
                 let point = placement.on_mesh(point).map_err(|face| {
-                    let faces = surface.mesh.mesh.face_count();
+                    let faces = surface.mesh.file_faces();
                     ExchangeError::MissingFace { file, side, index, label: label.clone(), face, faces }
                 })?;
                 PlacedMark { label, point: Some(point), distance: 0.0 }
@@ -98,11 +98,21 @@ impl Placement<'_> {
         let LandmarkPoint::OnFace { face, barycentric } = point else {
             return Ok(point);
         };
-        let mesh = &self.surface.mesh.mesh;
-        let corners = mesh.triangles().get(FaceId(face)).ok_or(face)?;
-        let on_mesh = self.surface.mesh.with_file_corners(SurfacePoint { face: FaceId(face), barycentric });
+        let checked = self.surface.mesh;
+        let Some(known) = checked.face_from_file(FaceId(face)) else {
+            // A face that a repair dropped is told as such when landmarks are placed.
+            return if (face as usize) < checked.file_faces() { Ok(point) } else { Err(face) };
+        };
+        let corners = checked.mesh.triangles()[known];
+        let on_mesh = checked.with_file_corners(SurfacePoint { face: known, barycentric });
         let corner = on_mesh.barycentric.iter().position(|w| *w == 1.0);
-        Ok(corner.map_or(point, |k| LandmarkPoint::Vertex(self.numbers[corners[k].index()] as u32)))
+        Ok(corner.and_then(|k| self.vertex(corners[k])).unwrap_or(point))
+    }
+
+    /// A vertex as landmark files write it; `None` of one that a repair made.
+    fn vertex(&self, v: VertexId) -> Option<LandmarkPoint> {
+        let number = self.numbers[v.index()];
+        (number < self.surface.mesh.vertex_from_file.len()).then_some(LandmarkPoint::Vertex(number as u32))
     }
 
     fn in_mesh_space(&self, list: &MarkList, p: DVec3) -> DVec3 {
@@ -119,13 +129,11 @@ impl Placement<'_> {
         let at = found.point.position(mesh);
         let corners = mesh.triangles()[found.point.face];
         let vertex = corners.iter().find(|v| mesh.positions()[**v].distance(at) <= AT_VERTEX * self.size);
-        let point = match vertex {
-            Some(v) => LandmarkPoint::Vertex(self.numbers[v.index()] as u32),
-            None => {
-                let SurfacePoint { face, barycentric } = self.surface.mesh.with_file_corners(found.point);
-                LandmarkPoint::OnFace { face: face.0, barycentric }
-            }
+        let on_face = || {
+            let SurfacePoint { face, barycentric } = self.surface.mesh.on_file(found.point);
+            LandmarkPoint::OnFace { face: face.0, barycentric }
         };
+        let point = vertex.and_then(|v| self.vertex(*v)).unwrap_or_else(on_face);
         PlacedMark { label, point: Some(point), distance: found.distance }
     }
 

@@ -1,24 +1,42 @@
 use super::*;
 use crate::io::landmark_file::{LandmarkFile, LandmarkPoint};
 use crate::io::landmark_formats::{Holds, LandmarkFormat, Space};
-use crate::landmarks::{MeshSide, points};
+use crate::landmarks::{LandmarkError, MeshSide, place, points};
 use crate::math::random::SplitMix;
 use crate::mesh::check::{CheckedMesh, closed_genus_zero};
 use crate::mesh::generators::icosphere;
+use crate::mesh::repair::{RepairOptions, repaired};
 use crate::mesh::soup::PolygonSoup;
 use glam::DVec3;
 
 /// A stretched ball whose file has a vertex that no face uses in front, and its faces inside out.
-fn body(stretch: DVec3) -> CheckedMesh {
+fn file(stretch: DVec3) -> PolygonSoup {
     let ball = icosphere(2);
     let places = ball.positions().iter().map(|p| *p * stretch);
     let positions = std::iter::once(DVec3::splat(9.0)).chain(places).collect();
     let polygons = ball.triangles().iter().map(|t| [t[0], t[2], t[1]].map(|v| v.0 + 1).to_vec()).collect();
-    closed_genus_zero(&PolygonSoup { positions, polygons, ..PolygonSoup::default() }).unwrap()
+    PolygonSoup { positions, polygons, ..PolygonSoup::default() }
 }
 
+fn body(stretch: DVec3) -> CheckedMesh {
+    closed_genus_zero(&file(stretch)).unwrap()
+}
+
+/// Likewise with a face without area in front of the others, and a hole beside a vertex that is a landmark; repaired.
+fn repaired_body(stretch: DVec3) -> CheckedMesh {
+    let mut soup = file(stretch);
+    soup.polygons.insert(0, vec![1, 1, 2]);
+    let at_landmark = soup.polygons.iter().position(|face| face.contains(&43)).unwrap();
+    soup.polygons.remove(at_landmark);
+    let repaired = repaired(&soup, &RepairOptions::default()).unwrap();
+    assert!(repaired.checked.has_caps());
+    repaired.checked
+}
+
+const STRETCHES: [DVec3; 2] = [DVec3::new(3.0, 2.0, 1.0), DVec3::new(1e-3, 2e-3, 1.5e-3)];
+
 fn bodies() -> [CheckedMesh; 2] {
-    [body(DVec3::new(3.0, 2.0, 1.0)), body(DVec3::new(1e-3, 2e-3, 1.5e-3))]
+    STRETCHES.map(body)
 }
 
 fn surface(mesh: &CheckedMesh) -> Surface<'_> {
@@ -88,8 +106,12 @@ fn assert_same(
 
 #[test]
 fn what_is_written_reads_back_to_the_same_points_in_every_format() {
-    let [a, b] = bodies();
-    let meshes = [&a, &b];
+    assert_reads_back(&bodies());
+    assert_reads_back(&STRETCHES.map(repaired_body));
+}
+
+fn assert_reads_back(bodies: &[CheckedMesh; 2]) {
+    let meshes = bodies.each_ref();
     for seed in 0..20 {
         let file = landmarks(meshes, seed);
         for (format, space) in
@@ -320,4 +342,17 @@ fn many_remarks_name_the_farthest_points() {
     };
     assert_eq!(side.remarks.iter().filter_map(farthest).collect::<Vec<_>>(), [11, 10, 9, 8, 7]);
     assert_eq!(side.remarks[5].to_string(), "7 more landmarks of the source lie so far off the surface");
+}
+
+#[test]
+fn a_point_nearest_to_a_cap_is_refused_as_one_in_a_cap() {
+    let [a, b] = STRETCHES.map(repaired_body);
+    let cap = a.mesh.faces().find(|f| a.is_cap(*f)).unwrap();
+    let [p, q, r] = a.mesh.corners(cap);
+    let rows = [("cap", (p + q + r) / 3.0)];
+    let side =
+        read_side(GivenFile { name: "a.csv", bytes: table(&rows).as_bytes() }, surface(&a), MeshSide::Source);
+    let point = side.unwrap().marks[0].point.unwrap();
+    let refused = place([&a, &b], &[[point, LandmarkPoint::Vertex(1)]]).unwrap_err();
+    assert_eq!(refused, LandmarkError::InCap { side: MeshSide::Source, pair: 0 });
 }

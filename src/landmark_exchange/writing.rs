@@ -4,6 +4,8 @@ use super::surface::Surface;
 use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 use crate::io::landmark_formats::{self, LandmarkFormat, LandmarkWriteError, SurfaceMark, SurfaceMarks};
 use crate::landmarks::{LandmarkError, MeshSide, points};
+use crate::mesh::check::CheckedMesh;
+use crate::mesh::{FaceId, SurfacePoint};
 
 /// Why landmarks cannot be written.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -47,20 +49,36 @@ pub fn write_side(
     Ok(landmark_formats::write(format, &[marks(file, surface, side)?])?)
 }
 
+/// The same point of a face that the file has, where it is a vertex of a face that a repair made: other programs know the file.
+fn in_file(checked: &CheckedMesh, point: SurfacePoint) -> SurfacePoint {
+    let is_made = |face: FaceId| checked.file_from_face(face).index() >= checked.file_faces();
+    let Some(corner) = point.barycentric.iter().position(|w| *w == 1.0).filter(|_| is_made(point.face))
+    else {
+        return point;
+    };
+    let v = checked.mesh.triangles()[point.face][corner];
+    let of_file = checked.mesh.star(v).find(|h| !is_made(h.face()));
+    of_file.map_or(point, |h| {
+        let mut barycentric = [0.0; 3];
+        barycentric[h.corner()] = 1.0;
+        SurfacePoint { face: h.face(), barycentric }
+    })
+}
+
 /// The landmarks of one side with their places in space and on faces.
 fn marks(file: &LandmarkFile, surface: Surface<'_>, side: MeshSide) -> Result<SurfaceMarks, LandmarkError> {
     let on_mesh = points(surface.mesh, side, &file.pairs)?;
     let label =
         |pair: usize| file.labels.as_ref().and_then(|labels| labels.get(pair)).cloned().unwrap_or_default();
-    let mark = |(pair, point): (usize, crate::mesh::SurfacePoint)| {
-        let on_file = surface.mesh.with_file_corners(point);
+    let mark = |(pair, point): (usize, SurfacePoint)| {
+        let on_file = surface.mesh.on_file(in_file(surface.mesh, point));
         // Weights as they were given, without what rounding makes of them.
         let weights = match file.pairs[pair][side as usize] {
             LandmarkPoint::OnFace { barycentric, .. } => barycentric,
             LandmarkPoint::Vertex(_) => on_file.barycentric,
         };
         let position = point.position(&surface.mesh.mesh);
-        SurfaceMark { label: label(pair), position, face: point.face.0, weights }
+        SurfaceMark { label: label(pair), position, face: on_file.face.0, weights }
     };
     let name = match side {
         MeshSide::Source => &file.source,

@@ -60,6 +60,21 @@ pub fn suggest(
     Ok(found.into_iter().map(|s| Suggestion { vertex: level.vertices[s.vertex], ..s }).collect())
 }
 
+/// The suggestions whose vertices may take a landmark, with their partners among them.
+pub fn kept(suggestions: &[Suggestion], may: impl Fn(VertexId) -> bool) -> Vec<Suggestion> {
+    let mut next = 0;
+    let numbers: Vec<Option<usize>> = suggestions
+        .iter()
+        .map(|s| {
+            let number = may(s.vertex).then_some(next);
+            next += usize::from(number.is_some());
+            number
+        })
+        .collect();
+    let left = suggestions.iter().zip(&numbers).filter(|(_, number)| number.is_some());
+    left.map(|(s, _)| Suggestion { partner: s.partner.and_then(|k| numbers[k]), ..*s }).collect()
+}
+
 fn suggest_here(
     mesh: &SurfaceMesh,
     landmarks: &[VertexId],
@@ -157,6 +172,15 @@ mod tests {
             }
         }
         assert!(suggest(&ball, &[], 0, &mut Silent).unwrap().is_empty());
+    }
+
+    #[test]
+    fn partners_are_numbered_among_the_suggestions_that_are_left() {
+        let tip = |v: u32, partner| Suggestion { vertex: VertexId(v), reason: Reason::Tip, partner };
+        let all = [tip(7, Some(3)), tip(8, Some(2)), tip(9, Some(1)), tip(10, Some(0)), far(VertexId(11))];
+        assert_eq!(kept(&all, |_| true), all);
+        let left = kept(&all, |v| v != VertexId(8));
+        assert_eq!(left, [tip(7, Some(2)), tip(9, None), tip(10, Some(0)), far(VertexId(11))]);
     }
 
     #[test]

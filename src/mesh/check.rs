@@ -6,10 +6,14 @@ use crate::math::disjoint_sets::DisjointSets;
 use crate::math::triangle;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
+use serde::Serialize;
 use std::fmt;
 use typed_index_collections::TiVec;
 
 /// A mesh that the pipeline takes.
+///
+/// Its elements have numbers in the user's file. Vertices and faces that a repair ([`crate::mesh::repair`]) added have none
+/// there: they count on from the last number of the file, vertices and faces apart, in the order of the mesh.
 #[derive(Clone, Debug)]
 pub struct CheckedMesh {
     /// One closed component of genus 0, oriented outwards.
@@ -18,18 +22,69 @@ pub struct CheckedMesh {
     pub vertex_from_file: Vec<Option<VertexId>>,
     /// Whether each face was turned, its last two corners exchanged, to agree with its neighbours or to face outwards.
     pub turned: TiVec<FaceId, bool>,
+    /// The faces' numbers in the file and their marks, where a repair made or dropped some; `None` where face i of the mesh is
+    /// face i of the triangulated file.
+    pub repaired_faces: Option<RepairedFaces>,
+}
+
+/// Faces of a repaired mesh, beside those of the file.
+#[derive(Clone, Debug)]
+pub struct RepairedFaces {
+    /// Number of faces of the triangulated file.
+    pub in_file: usize,
+    /// The number of each face of the mesh in the triangulated file, rising; `in_file` or more for faces that the repair made.
+    pub number: TiVec<FaceId, u32>,
+    /// Whether each face is part of a cap: a surface made up to close a hole.
+    pub is_cap: TiVec<FaceId, bool>,
 }
 
 impl CheckedMesh {
-    /// The number in the file of each of the mesh's vertices, the first one where several became one.
+    /// The number in the file of each of the mesh's vertices, the first one where several became one. Copies of a vertex that
+    /// a repair split, and vertices that it added, have numbers from the file's number of vertices on.
     pub fn file_from_vertex(&self) -> Vec<usize> {
-        let mut numbers = vec![0; self.mesh.vertex_count()];
+        let mut numbers = vec![usize::MAX; self.mesh.vertex_count()];
         for (number, vertex) in self.vertex_from_file.iter().enumerate().rev() {
             if let Some(v) = vertex {
                 numbers[v.index()] = number;
             }
         }
+        let added = numbers.iter_mut().filter(|number| **number == usize::MAX);
+        added.zip(self.vertex_from_file.len()..).for_each(|(number, next)| *number = next);
         numbers
+    }
+
+    /// Whether a face is part of a cap.
+    pub fn is_cap(&self, face: FaceId) -> bool {
+        self.repaired_faces.as_ref().is_some_and(|faces| faces.is_cap.get(face) == Some(&true))
+    }
+
+    /// Whether any face is part of a cap.
+    pub fn has_caps(&self) -> bool {
+        self.repaired_faces.as_ref().is_some_and(|faces| faces.is_cap.raw.contains(&true))
+    }
+
+    /// Number of faces of the triangulated file.
+    pub fn file_faces(&self) -> usize {
+        self.repaired_faces.as_ref().map_or(self.mesh.face_count(), |faces| faces.in_file)
+    }
+
+    /// The number of a face of the mesh in the triangulated file, or after its last one where the repair made the face.
+    pub fn file_from_face(&self, face: FaceId) -> FaceId {
+        let number = self.repaired_faces.as_ref().and_then(|faces| faces.number.get(face));
+        number.map_or(face, |number| FaceId(*number))
+    }
+
+    /// The face of the mesh that has a number, as [`Self::file_from_face`] gives it; `None` where none has.
+    pub fn face_from_file(&self, number: FaceId) -> Option<FaceId> {
+        match &self.repaired_faces {
+            None => (number.index() < self.mesh.face_count()).then_some(number),
+            Some(faces) => faces.number.raw.binary_search(&number.0).ok().map(FaceId::from),
+        }
+    }
+
+    /// A point of the mesh as one of the file: its face's number there, and the corners in the file's order.
+    pub fn on_file(&self, point: SurfacePoint) -> SurfacePoint {
+        SurfacePoint { face: self.file_from_face(point.face), ..self.with_file_corners(point) }
     }
 
     /// Values by vertex of the mesh as values by vertex of the file; `None` for vertices that no face uses.
@@ -37,7 +92,8 @@ impl CheckedMesh {
         self.vertex_from_file.iter().map(|v| v.and_then(|v| values.get(v.index()).copied())).collect()
     }
 
-    /// A point of the mesh with its face's corners in the file's order, or the other way round: its own inverse.
+    /// A point of the mesh with its face's corners in the file's order, or the other way round: its own inverse. The face keeps
+    /// the mesh's number, see [`Self::on_file`].
     pub fn with_file_corners(&self, point: SurfacePoint) -> SurfacePoint {
         let [a, b, c] = point.barycentric;
         match self.turned.get(point.face) {
@@ -53,7 +109,7 @@ impl CheckedMesh {
 }
 
 /// Elements at fault: how many, and the first few by number.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Elements<T> {
     /// How many.
     pub count: usize,
@@ -61,9 +117,24 @@ pub struct Elements<T> {
     pub first: Vec<T>,
 }
 
+impl<T> Elements<T> {
+    /// None at all.
+    pub(super) fn none() -> Self {
+        Self { count: 0, first: Vec::new() }
+    }
+
+    /// These and others.
+    pub(super) fn and(mut self, other: Self) -> Self {
+        self.count += other.count;
+        self.first.extend(other.first);
+        self.first.truncate(10);
+        self
+    }
+}
+
 impl<T> FromIterator<T> for Elements<T> {
     fn from_iter<I: IntoIterator<Item = T>>(all: I) -> Self {
-        let mut elements = Self { count: 0, first: Vec::new() };
+        let mut elements = Self::none();
         for element in all {
             elements.count += 1;
             if elements.first.len() < 10 {
@@ -129,13 +200,30 @@ pub enum MeshFault {
     },
 }
 
+impl MeshFault {
+    /// A stable name for programs.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Empty => "empty",
+            Self::DegenerateFaces(_) => "degenerate_faces",
+            Self::NonManifoldEdges { .. } => "non_manifold_edges",
+            Self::OpenEdges(_) => "open_edges",
+            Self::NotOrientable { .. } => "not_orientable",
+            Self::PinchedVertices(_) => "pinched_vertices",
+            Self::Components { .. } => "components",
+            Self::Genus { .. } => "genus",
+            Self::TooManyFaces { .. } => "too_many_faces",
+        }
+    }
+}
+
 /// More faces than this are refused.
 pub const MAX_FACES: usize = 20_000_000;
 
-struct Count(usize, &'static str, &'static str);
+pub(super) struct Count(usize, &'static str, &'static str);
 
 impl Count {
-    fn new(count: &usize, one: &'static str, many: &'static str) -> Self {
+    pub(super) fn new(count: &usize, one: &'static str, many: &'static str) -> Self {
         Self(*count, one, many)
     }
 }
@@ -181,7 +269,7 @@ impl fmt::Display for Sizes<'_> {
     }
 }
 
-type Triangle = [u32; 3];
+pub(super) type Triangle = [u32; 3];
 
 /// Judges a soup: polygons are triangulated, orientations made to agree and to face outwards, unused vertices left out.
 ///
@@ -209,11 +297,11 @@ pub fn closed_genus_zero(soup: &PolygonSoup) -> Result<CheckedMesh, MeshFault> {
     let mesh = SurfaceMesh::from_triangles(positions, faces);
     // Everything that could be refused was refused above with better words.
     let mesh = mesh.map_err(|_| MeshFault::PinchedVertices(Elements { count: 1, first: Vec::new() }))?;
-    Ok(CheckedMesh { mesh, vertex_from_file, turned })
+    Ok(CheckedMesh { mesh, vertex_from_file, turned, repaired_faces: None })
 }
 
 /// Triangles, and the polygon that each comes from.
-fn triangulated(soup: &PolygonSoup) -> Result<(Vec<Triangle>, Vec<usize>), MeshFault> {
+pub(super) fn triangulated(soup: &PolygonSoup) -> Result<(Vec<Triangle>, Vec<usize>), MeshFault> {
     let faces: usize = soup.polygons.iter().map(|p| p.len().saturating_sub(2)).sum();
     if faces == 0 {
         return Err(MeshFault::Empty);
@@ -269,15 +357,18 @@ fn check_degenerate(
     triangles: &[Triangle],
     polygon_of: &[usize],
 ) -> Result<(), MeshFault> {
-    let degenerate = |t: &Triangle| {
-        let [p, q, r] = t.map(|v| soup.positions[v as usize]);
-        let longest = p.distance_squared(q).max(q.distance_squared(r)).max(r.distance_squared(p));
-        // Height below 2e-14 of the longest edge: rounding of the coordinates.
-        t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || triangle::area(p, q, r) <= 1e-14 * longest
-    };
+    let degenerate = |t: &Triangle| is_degenerate(&soup.positions, t);
     let found = triangles.iter().enumerate().filter(|(_, t)| degenerate(t)).map(|(k, _)| polygon_of[k]);
     let faults: Elements<usize> = found.collect();
     if faults.count > 0 { Err(MeshFault::DegenerateFaces(faults)) } else { Ok(()) }
+}
+
+/// Whether a triangle has a vertex twice or no area.
+pub(super) fn is_degenerate(positions: &[DVec3], t: &Triangle) -> bool {
+    let [p, q, r] = t.map(|v| positions[v as usize]);
+    let longest = p.distance_squared(q).max(q.distance_squared(r)).max(r.distance_squared(p));
+    // Height below 2e-14 of the longest edge: rounding of the coordinates.
+    t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || triangle::area(p, q, r) <= 1e-14 * longest
 }
 
 /// Each undirected edge with its one or two triangle sides, in order of first appearance.

@@ -10,6 +10,7 @@ pub mod insertion;
 pub mod mirror;
 pub mod normals;
 mod refined;
+pub mod repair;
 pub mod soup;
 pub mod surface_index;
 mod surface_mesh;

@@ -9,6 +9,20 @@ use std::fmt;
 #[serde(into = "WarningReport")]
 #[non_exhaustive]
 pub enum Warning {
+    /// A mesh was repaired before it was mapped.
+    Repaired {
+        /// The mesh.
+        side: MeshSide,
+        /// What was changed.
+        changes: String,
+    },
+    /// Holes of a mesh were closed, and their caps mapped like the rest of the surface.
+    Capped {
+        /// The mesh.
+        side: MeshSide,
+        /// Share of the mapped surface's area that is caps.
+        share: f64,
+    },
     /// The result was asked for before the map was relaxed as far as usual.
     FinishedEarly {
         /// Its energy; 4 for an isometry.
@@ -61,6 +75,8 @@ impl Warning {
     /// A stable name for programs.
     pub fn kind(&self) -> &'static str {
         match self {
+            Self::Repaired { .. } => "repaired",
+            Self::Capped { .. } => "capped",
             Self::FinishedEarly { .. } => "finished_early",
             Self::RivalClass { .. } => "rival_class",
             Self::LongPath { .. } => "long_path",
@@ -78,6 +94,17 @@ impl fmt::Display for Warning {
     /// A sentence for the user, with what to do.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Repaired { side, changes } => write!(
+                f,
+                "The {side} could not be mapped as it is and was repaired: {changes}. `conemap check` tells more and writes the \
+                 repaired mesh."
+            ),
+            Self::Capped { side, share } => write!(
+                f,
+                "{:.2} % of the {side} are caps over its holes: made-up surface, which takes part in the map, the certificate and \
+                 the measures like the rest.",
+                100.0 * share
+            ),
             Self::FinishedEarly { energy } => write!(
                 f,
                 "Finished early on request, at energy {energy:.3} (4 is an isometry): the map is whole and certified, but a \
@@ -155,7 +182,8 @@ impl From<Warning> for WarningReport {
             | Warning::LongPath { stretch: x }
             | Warning::Distorted { p95: x }
             | Warning::Unmapped { share: x } => value = Some(x),
-            Warning::NoConeMetric { side: of, .. } => side = Some(of),
+            Warning::NoConeMetric { side: of, .. } | Warning::Repaired { side: of, .. } => side = Some(of),
+            Warning::Capped { side: of, share } => (value, side) = (Some(share), Some(of)),
             Warning::NoOverlay { .. } | Warning::NoBijection | Warning::InvertedPatches { .. } => {}
         }
         Self { kind, sentence, value, side }

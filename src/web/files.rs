@@ -5,9 +5,9 @@ use crate::io::gltf_parts::{self, GltfParts};
 use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 use crate::io::landmark_formats::Space;
 use crate::landmark_exchange::Surface;
-use crate::landmark_suggestion::{Suggestion, suggest};
+use crate::landmark_suggestion::{Suggestion, kept, suggest};
 use crate::landmarks::{self, MeshSide};
-use crate::mesh::check::{CheckedMesh, closed_genus_zero};
+use crate::mesh::check::CheckedMesh;
 use crate::mesh::mirror::mirrored;
 use crate::mesh::{FaceId, SurfacePoint, VertexId};
 use crate::monitor::Silent;
@@ -20,7 +20,7 @@ use wasm_bindgen::prelude::*;
 pub struct LoadedMesh {
     pub(super) checked: CheckedMesh,
     /// The coordinate system that its file names.
-    space: Space,
+    pub(super) space: Space,
 }
 
 impl LoadedMesh {
@@ -49,20 +49,6 @@ impl LoadedMesh {
     pub fn turned_faces(&self) -> usize {
         self.checked.turned_faces()
     }
-}
-
-pub(super) fn checked(bytes: &[u8]) -> Result<CheckedMesh, JsValue> {
-    let soup = io::read_mesh(bytes).map_err(|e| failure("file", e))?;
-    closed_genus_zero(&soup).map_err(|e| failure("mesh", e))
-}
-
-/// Reads and checks a mesh file of any known format.
-///
-/// # Errors
-/// `{"code": "file" | "mesh", "message"}`.
-#[wasm_bindgen(js_name = readMesh)]
-pub fn read_mesh(bytes: &[u8]) -> Result<LoadedMesh, JsValue> {
-    Ok(LoadedMesh { checked: checked(bytes)?, space: Space::of_mesh(bytes) })
 }
 
 /// The files that a mesh file names and needs beside it: buffers, and pictures of textures.
@@ -159,10 +145,9 @@ pub fn suggest_landmarks(loaded: &LoadedMesh, landmarks: &str, count: usize) -> 
     let nearest = |point: LandmarkPoint| match point {
         LandmarkPoint::Vertex(v) => vertex_from_file.get(v as usize).copied().flatten(),
         LandmarkPoint::OnFace { face, barycentric } => {
-            let point = SurfacePoint { face: FaceId(face), barycentric };
-            let corners = mesh.triangles().get(point.face)?;
-            let w = checked.with_file_corners(point).barycentric;
-            (0..3).max_by(|&a: &usize, &b| w[a].total_cmp(&w[b])).map(|k| corners[k])
+            let face = checked.face_from_file(FaceId(face))?;
+            let w = checked.with_file_corners(SurfacePoint { face, barycentric }).barycentric;
+            (0..3).max_by(|&a: &usize, &b| w[a].total_cmp(&w[b])).map(|k| mesh.triangles()[face][k])
         }
     };
     let mut marked: Vec<VertexId> = points.into_iter().filter_map(nearest).collect();
@@ -172,6 +157,8 @@ pub fn suggest_landmarks(loaded: &LoadedMesh, landmarks: &str, count: usize) -> 
     let entry = |s: &Suggestion| json!({ "point": numbers[s.vertex.index()], "reason": s.reason, "partner": s.partner });
     // The page asks outside of a worker, where nobody could ask to stop.
     let suggestions = suggest(mesh, &marked, count, &mut Silent).map_err(|e| failure("cancelled", e))?;
+    // What a repair made up has no number in the file, and takes no landmark.
+    let suggestions = kept(&suggestions, |v| numbers[v.index()] < vertex_from_file.len());
     let found: Vec<_> = suggestions.iter().map(entry).collect();
     Ok(serde_json::Value::from(found).to_string())
 }
@@ -212,9 +199,11 @@ pub fn mirror_target(target: &LoadedMesh, landmarks: &[u8]) -> Result<MirroredTa
                 LandmarkPoint::Vertex(known.map_or(v, |v| v.0))
             }
             LandmarkPoint::OnFace { face, barycentric } => {
-                let point = SurfacePoint { face: FaceId(face), barycentric };
-                let barycentric = target.checked.with_file_corners(point).barycentric;
-                LandmarkPoint::OnFace { face, barycentric }
+                let known = target.checked.face_from_file(FaceId(face));
+                known.map_or(*point, |face| {
+                    let on_mesh = target.checked.with_file_corners(SurfacePoint { face, barycentric });
+                    LandmarkPoint::OnFace { face: face.0, barycentric: on_mesh.barycentric }
+                })
             }
         };
         *point = on_mesh.mirrored();

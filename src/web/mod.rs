@@ -3,6 +3,7 @@
 mod compute;
 mod files;
 mod landmark_files;
+mod repair;
 mod view_side;
 mod viewer;
 

@@ -307,15 +307,20 @@ impl SideMesh {
                 known.map(|v| SurfacePoint::at_vertex(mesh, v))
             }
             LandmarkPoint::OnFace { face, barycentric } => {
-                let point = SurfacePoint { face: FaceId(face), barycentric };
-                ((face as usize) < mesh.face_count()).then(|| self.checked.with_file_corners(point))
+                let face = self.checked.face_from_file(FaceId(face))?;
+                Some(self.checked.with_file_corners(SurfacePoint { face, barycentric }))
             }
         }
     }
 
+    /// A point of the mesh as landmark files write it, as JSON; `None` in a cap, where no landmark can be.
+    pub fn on_skin(&self, point: SurfacePoint) -> Option<String> {
+        (!self.checked.is_cap(point.face)).then(|| self.in_file(point).to_string())
+    }
+
     /// A point of the mesh as landmark files write it.
     pub fn in_file(&self, point: SurfacePoint) -> serde_json::Value {
-        let point = self.checked.with_file_corners(point);
+        let point = self.checked.on_file(point);
         json!({ "face": point.face.0, "barycentric": point.barycentric })
     }
 }

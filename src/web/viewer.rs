@@ -421,11 +421,12 @@ impl Viewer {
         side.probe = side.pick_place(Vec2::new(x, y), now);
     }
 
-    /// The surface point at a place of a view, x and y from -1 to 1, y up: JSON `{"face", "barycentric"}`.
+    /// The surface point at a place of a view, x and y from -1 to 1, y up: JSON `{"face", "barycentric"}`. `undefined` where there
+    /// is none, or a cap, which takes no landmark.
     pub fn pick(&self, side: usize, x: f32, y: f32) -> Option<String> {
         let side = self.side(side);
         let point = side.pick(Vec2::new(x, y), self.now)?;
-        Some(side.mesh.as_ref()?.in_file(point).to_string())
+        side.mesh.as_ref()?.on_skin(point)
     }
 
     /// The number of the pin at a place of a view, among those that the body does not hide; `slack` in pixels of the page.
@@ -442,11 +443,12 @@ impl Viewer {
         Some(vec![seen.x, seen.y])
     }
 
-    /// The surface point some pixels of the page beside a pin, y up: JSON `{"face", "barycentric"}`.
+    /// The surface point some pixels of the page beside a pin, y up: JSON `{"face", "barycentric"}`. `undefined` where there is
+    /// none, or a cap.
     pub fn beside(&self, side: usize, pin: usize, dx: f32, dy: f32) -> Option<String> {
         let side = self.side(side);
         let point = side.beside(pin, Vec2::new(dx, dy), self.now, self.pixel_ratio)?;
-        Some(side.mesh.as_ref()?.in_file(point).to_string())
+        side.mesh.as_ref()?.on_skin(point)
     }
 
     /// Asks the map at a place of a view, and marks the place and its partner with rings: JSON `{"points", "positions",

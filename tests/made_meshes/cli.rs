@@ -364,9 +364,8 @@ fn assert_refused(arguments: &[&OsStr], words: &[&str]) {
 fn bad_meshes_and_landmarks_are_refused_by_name() {
     let folder = folder("bad_meshes_and_landmarks_are_refused_by_name");
     let [source, target, pairs] = write_bodies(&folder);
-    let text = std::fs::read_to_string(&source).unwrap();
-    let open = folder.join("open.obj");
-    std::fs::write(&open, text.rsplit_once("f ").unwrap().0).unwrap();
+    let sheet = folder.join("sheet.obj");
+    std::fs::write(&sheet, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     let [noise, few, far, broken, shared, corner] =
         ["noise.obj", "few.json", "far.json", "broken.json", "shared.json", "corner.json"]
             .map(|name| folder.join(name));
@@ -383,7 +382,7 @@ fn bad_meshes_and_landmarks_are_refused_by_name() {
     let cases: [([&Path; 3], &[&str]); 9] = [
         ([&missing, &target, &pairs], &["missing.obj"]),
         ([&source, &noise, &pairs], &["noise.obj", "not a mesh file"]),
-        ([&open, &target, &pairs], &["open.obj", "open"]),
+        ([&sheet, &target, &pairs], &["sheet.obj", "open sheet"]),
         ([&source, &target, &missing], &["missing.obj"]),
         ([&source, &target, &broken], &["broken.json", "line 2"]),
         ([&source, &target, &few], &["few.json", "at least 4"]),
@@ -395,6 +394,102 @@ fn bad_meshes_and_landmarks_are_refused_by_name() {
         let flags = ["map", "--landmarks"].map(OsStr::new);
         assert_refused(&[flags[0], a.as_os_str(), b.as_os_str(), flags[1], landmarks.as_os_str()], words);
     }
+}
+
+/// Writes two round bodies with landmarks, one face missing from the source and those around a vertex from the target.
+fn write_open_bodies(folder: &Path) -> [PathBuf; 3] {
+    let [source, target, pairs] = write_bodies(folder);
+    let text = std::fs::read_to_string(&source).unwrap();
+    std::fs::write(&source, text.rsplit_once("f ").unwrap().0).unwrap();
+    let text = std::fs::read_to_string(&target).unwrap();
+    let hole: Vec<usize> = egg().star(VertexId(100)).map(|h| h.face().index()).collect();
+    let mut face = 0;
+    let stays = |line: &&str| {
+        face += usize::from(line.starts_with("f "));
+        !line.starts_with("f ") || !hole.contains(&(face - 1))
+    };
+    let lines: Vec<&str> = text.lines().filter(stays).collect();
+    std::fs::write(&target, lines.join("\n")).unwrap();
+    [source, target, pairs]
+}
+
+#[test]
+fn open_meshes_are_capped_and_the_map_says_so() {
+    let folder = folder("open_meshes_are_capped_and_the_map_says_so");
+    let [source, target, pairs] = write_open_bodies(&folder);
+    let (out, report) = (folder.join("out"), folder.join("report.json"));
+    let map = |flags: &[&OsStr]| {
+        let files = [OsStr::new("map"), source.as_os_str(), target.as_os_str(), OsStr::new("--landmarks")];
+        conemap([&files[..], &[pairs.as_os_str()], flags].concat())
+    };
+    let strict = map(&[OsStr::new("--strict")]);
+    assert_eq!(strict.status.code(), Some(1));
+    assert!(errors(&strict).contains("source.obj: the surface is open: 3 edges"), "{}", errors(&strict));
+
+    let output = map(&[OsStr::new("--out"), out.as_os_str(), OsStr::new("--report"), report.as_os_str()]);
+    let said = errors(&output);
+    assert!(output.status.success() && said.contains("certified bijective"), "{said}");
+    assert!(
+        said.contains("The target could not be mapped as it is and was repaired: 1 hole was capped ("),
+        "{said}"
+    );
+    let report = json(&report);
+    let of = |kind: &str, side: &str| {
+        let all = report["warnings"].as_array().unwrap();
+        all.iter()
+            .find(|w| w["kind"] == kind && w["side"] == side)
+            .unwrap_or_else(|| panic!("{all:?}"))
+            .clone()
+    };
+    assert!(of("repaired", "source")["sentence"].as_str().unwrap().contains("1 hole was capped"));
+    let share = of("capped", "target")["value"].as_f64().unwrap();
+    assert!((0.01..0.05).contains(&share), "{share}");
+
+    // Where the images lie, in the numbers of the target's file: its faces, then those of the cap.
+    let soup = io::read_mesh(&std::fs::read(&target).unwrap()).unwrap();
+    let rows = rows(&out.join("vertex-images.csv"));
+    let [mut in_cap, mut on_skin] = [0, 0];
+    for row in &rows {
+        let [_, face, _, _, _, mark] = &row[..] else { panic!("{row:?}") };
+        let is_cap = face.parse::<usize>().unwrap() >= soup.polygons.len();
+        assert_eq!(mark == "1", is_cap, "{row:?}");
+        *(if is_cap { &mut in_cap } else { &mut on_skin }) += 1;
+    }
+    assert!(in_cap > 0 && on_skin > 10 * in_cap, "{in_cap} {on_skin}");
+}
+
+#[test]
+fn a_check_says_what_is_wrong_and_writes_the_repaired_mesh() {
+    let folder = folder("a_check_says_what_is_wrong_and_writes_the_repaired_mesh");
+    let [source, target, _] = write_open_bodies(&folder);
+    let check = |flags: &[&str]| {
+        let output = conemap([&["check", target.to_str().unwrap()][..], flags].concat());
+        (output.status.code(), String::from_utf8_lossy(&output.stdout).into_owned(), errors(&output))
+    };
+    let (code, told, error) = check(&[]);
+    assert_eq!(code, Some(1));
+    assert!(error.contains("target.obj: the surface is open"), "{error}");
+    assert!(told.contains("1 hole was capped (") && told.contains("edges from vertex "), "{told}");
+
+    let fixed = folder.join("fixed.off");
+    let (code, told, _) = check(&["--repair", "--out", fixed.to_str().unwrap(), "--report", "-"]);
+    assert_eq!(code, Some(0));
+    let report: Value = serde_json::from_str(&told).unwrap();
+    assert_eq!((&report["can_be_mapped"], &report["repaired"]), (&true.into(), &true.into()));
+    assert_eq!(report["fault"]["kind"], "open_edges");
+    let kinds: Vec<_> = report["changes"].as_array().unwrap().iter().map(|c| c["kind"].clone()).collect();
+    assert_eq!(kinds, ["capped_holes", "unused_vertices"]);
+    assert_eq!(report["changes"][1]["vertices"], serde_json::json!([100]));
+    // Vertex 100 is gone, and the next ones have moved up.
+    assert_eq!(report["numbers"]["vertices"][100], 101);
+    let closed = closed_genus_zero(&io::read_mesh(&std::fs::read(&fixed).unwrap()).unwrap()).unwrap();
+    assert_eq!(report["faces"], closed.mesh.face_count());
+
+    let again = conemap([OsStr::new("check"), fixed.as_os_str()]);
+    assert!(again.status.success());
+    assert_eq!(String::from_utf8_lossy(&again.stdout), "can be mapped as it is\n");
+    let [command, repair, out, stl] = ["check", "--repair", "--out", "fixed.stl"].map(OsStr::new);
+    assert_refused(&[command, repair, source.as_os_str(), out, stl], &["fixed.stl", ".obj"]);
 }
 
 #[test]

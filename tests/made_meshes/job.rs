@@ -161,6 +161,7 @@ fn faults_name_their_file() {
         target: target.to_vec(),
         landmarks: landmarks.to_vec(),
     };
+    // An open sheet.
     let open = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     for (files, file, code) in [
         (of(b"nothing", &good.target, &good.landmarks), JobFile::Source, "file"),

@@ -37,5 +37,6 @@ mod layout;
 mod map;
 mod pipeline;
 mod remesh;
+mod repair;
 mod search;
 mod thesis;

@@ -43,6 +43,17 @@ pub const BAD: [&str; 6] = [
     "bad/suzanne-parts.off",
 ];
 
+/// As they come: with holes, loose parts, handles.
+pub const OPEN: [&str; 7] = [
+    "open/alligator-open.off",
+    "open/bunny-open.off",
+    "open/demosthenes-open.off",
+    "open/dog0-open.off",
+    "open/falcon-open.off",
+    "open/human-parts.off",
+    "open/skull-genus2.off",
+];
+
 /// Six pairs of animals and poses, and all of SHREC07.
 pub fn pair_names() -> Vec<String> {
     let named = ["cat-cat1", "cat-dog", "cat-lion", "horse-camel", "horse-horse01", "horse-horse05"];
@@ -53,7 +64,7 @@ pub fn pair_names() -> Vec<String> {
 }
 
 fn every_file_is_there(data: &Path) {
-    let meshes = [&SINGLE[..], &SUMNER, &TOSCA, &SHREC07, &HANG, &BAD].concat();
+    let meshes = [&SINGLE[..], &SUMNER, &TOSCA, &SHREC07, &HANG, &BAD, &OPEN].concat();
     let pairs = pair_names().into_iter().map(|name| format!("pairs/{name}.json"));
     let files = meshes.into_iter().map(str::to_owned).chain(pairs);
     let missing: Vec<String> = files.filter(|file| !data.join(file).is_file()).collect();

@@ -50,6 +50,7 @@ mod map;
 mod pipeline;
 mod poses;
 mod remesh;
+mod repair;
 mod search;
 mod thesis;
 
@@ -74,6 +75,7 @@ fn modules() -> Vec<(&'static str, Vec<(&'static str, Test)>)> {
         ("remesh", remesh::tests()),
         #[cfg(feature = "cli")]
         ("cli", cli::tests()),
+        ("repair", repair::tests()),
         ("geodesic", geodesic::tests()),
         ("bad_input", bad_input::tests()),
         ("data", data::tests()),

@@ -68,3 +68,17 @@ test.each([
   expect(areMarksGood({ meshes: [file, file], pairs })).toBe(isGood);
   expect(areMarksGood({ meshes: [null, null], pairs })).toBe(true);
 });
+
+test('a mesh with faults is repaired, and one that cannot be is refused in the core’s words', () => {
+  const bytes = (text: string): Uint8Array => new TextEncoder().encode(text);
+  expect(file.repairs).toBe('');
+  const open = meshFile({ name: 'open.obj', bytes: bytes(OBJ.replace('f 4 2 5\n', 'f 2 4 3\n')) });
+  expect(open.repairs).toMatch(/double face.*dropped.*1 hole was capped/);
+  expect(open.faceCount).toBe(4);
+  // The caps have no number in the file; the faces that are left keep theirs.
+  const at = (face: number): boolean =>
+    areMarksGood({ meshes: [open, null], pairs: [pair(1, { face, barycentric: [0.2, 0.3, 0.5] }, null)] });
+  expect([at(0), at(1), at(2), at(3), at(4)]).toEqual([true, true, true, false, false]);
+  const twin = 'v 10 0 0\nv 12 0 0\nv 10 3 0\nv 10 0 4\nf 6 8 7\nf 6 7 9\nf 7 8 9\nf 8 6 9\n';
+  expect(() => meshFile({ name: 'twins.obj', bytes: bytes(OBJ + twin) })).toThrow(/^twins\.obj: .*2 separate parts/);
+});

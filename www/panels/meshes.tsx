@@ -39,8 +39,9 @@ function MeshBlock({ state, side }: { readonly side: Side } & Pick<PartProps, 's
           <p class="mesh-name">{file.name}</p>
           <p class="quiet">
             {integer(file.vertexCount)} vertices, {integer(file.faceCount)} triangles
-            {file.turnedFaces > 0 && `, ${integer(file.turnedFaces)} of them turned to look outwards`}
+            {file.repairs === '' && file.turnedFaces > 0 && `, ${integer(file.turnedFaces)} of them turned to look outwards`}
           </p>
+          {file.repairs !== '' && <p class="quiet repairs">Repaired: {file.repairs}.</p>}
         </>
       )}
     </section>

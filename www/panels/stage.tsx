@@ -15,7 +15,11 @@ import { Legend, PictureBar } from './picture-bar.tsx';
 import { Toasts } from './toasts.tsx';
 import { ViewBar } from './view-bar.tsx';
 
-function turned(file: MeshFile): string {
+/** What was changed of a mesh; the panel tells more of a repair. */
+function changed(file: MeshFile): string {
+  if (file.repairs !== '') {
+    return ', repaired';
+  }
   return file.turnedFaces === 0 ? '' : `, ${integer(file.turnedFaces)} turned to look outwards`;
 }
 
@@ -27,7 +31,7 @@ function Caption({ state, side }: { readonly state: State; readonly side: Side }
         <>
           {side === 0 ? 'Source' : 'Target'} <strong>{file.name}</strong>{' '}
           <span class="facts">
-            {integer(file.faceCount)} triangles{turned(file)}
+            {integer(file.faceCount)} triangles{changed(file)}
           </span>
         </>
       )}

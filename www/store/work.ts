@@ -17,6 +17,8 @@ export interface MeshFile {
   readonly vertexCount: number;
   readonly faceCount: number;
   readonly turnedFaces: number;
+  /** What was repaired, in a sentence without a full stop; empty where the mesh was good as given. */
+  readonly repairs: string;
 }
 
 export interface Demo {

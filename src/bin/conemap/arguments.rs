@@ -4,6 +4,7 @@ use clap::{Args, Parser, Subcommand};
 use conemap::cone_metric::Scheme;
 use conemap::io::Format;
 use conemap::io::landmark_formats::LandmarkFormat;
+use conemap::mesh::repair::{Parts, RepairOptions};
 use conemap::pipeline::Choices;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -20,6 +21,8 @@ pub struct Arguments {
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Say whether a mesh can be mapped, what is wrong with it, and what a repair does about it.
+    Check(CheckArguments),
     /// Map a source mesh onto a target mesh from corresponding landmarks.
     Map(MapArguments),
     /// Print vertices of a mesh that are worth a landmark: ends of limbs, then points far from all others.
@@ -32,11 +35,59 @@ pub enum Command {
     Remesh(RemeshArguments),
 }
 
+/// `conemap check`.
+#[derive(Debug, Args)]
+pub struct CheckArguments {
+    /// Mesh.
+    #[arg(help = format!("Mesh: {}", Format::NAMES))]
+    pub mesh: PathBuf,
+    /// Repair the mesh; without this it is only told what a repair would do.
+    #[arg(long)]
+    pub repair: bool,
+    /// File for the repaired mesh: its ending, obj, off or ply, says the format.
+    #[arg(long, requires = "repair")]
+    pub out: Option<PathBuf>,
+    /// File for the report (JSON); - for standard output, in place of the sentences.
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
+    /// What a repair may do.
+    #[command(flatten)]
+    pub repairs: RepairArguments,
+}
+
+/// What a repair may do beyond what does not change the shape.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct RepairArguments {
+    /// Keep the largest part of a mesh alone, also where the others have 1 % of the area or more.
+    #[arg(long)]
+    pub largest_component: bool,
+    /// Join vertices on open edges that are within this distance, in the file's units; otherwise only those at the same place.
+    #[arg(long, value_name = "DISTANCE", default_value_t = 0.0, value_parser = distance)]
+    pub join_within: f64,
+}
+
+impl From<RepairArguments> for RepairOptions {
+    fn from(arguments: RepairArguments) -> Self {
+        let parts = if arguments.largest_component { Parts::LargestAlone } else { Parts::LargestAndSpecks };
+        Self { join_within: arguments.join_within, parts }
+    }
+}
+
+/// A distance of zero or more.
+fn distance(text: &str) -> Result<f64, String> {
+    let distance: f64 = text.parse().map_err(|_| format!("`{text}` is no distance"))?;
+    if distance.is_finite() && distance >= 0.0 {
+        Ok(distance)
+    } else {
+        Err("it must be 0 or more".to_owned())
+    }
+}
+
 /// `conemap map`.
 #[derive(Debug, Args)]
 pub struct MapArguments {
     /// Source mesh.
-    #[arg(help = mesh_help("Source mesh"))]
+    #[arg(help = format!("Source mesh: {}; genus 0, repaired where it is not closed", Format::NAMES))]
     pub source: PathBuf,
     /// Target mesh, likewise.
     pub target: PathBuf,
@@ -55,6 +106,12 @@ pub struct MapArguments {
     /// Use the mirror image of the target: for landmarks whose left and right are exchanged.
     #[arg(long)]
     pub mirror_target: bool,
+    /// Refuse meshes that would have to be repaired.
+    #[arg(long, conflicts_with_all = ["largest_component", "join_within"])]
+    pub strict: bool,
+    /// What the repair of the meshes may do.
+    #[command(flatten)]
+    pub repairs: RepairArguments,
     /// Folder for the textured source (GLB), the vertex images and distortions (CSV) and the base domain (OBJ).
     #[arg(long)]
     pub out: Option<PathBuf>,

@@ -1,8 +1,10 @@
 //! Meshes and landmarks from files, with errors that name the file.
 
+use conemap::export::MeshFormat;
 use conemap::io::{self, gltf_parts};
 use conemap::landmark_exchange::GivenFile;
 use conemap::mesh::check::{CheckedMesh, closed_genus_zero};
+use conemap::mesh::soup::PolygonSoup;
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::{Component, Path};
@@ -13,6 +15,19 @@ pub type Failure = Box<dyn Error>;
 /// Reads a file.
 pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     std::fs::read(path).map_err(|e| format!("{}: {e}", path.display()).into())
+}
+
+/// Reads a mesh, with what it keeps in files beside it, unchecked.
+pub fn soup(path: &Path) -> Result<PolygonSoup, Failure> {
+    io::read_mesh(&mesh_bytes(path)?).map_err(|e| format!("{}: {e}", path.display()).into())
+}
+
+/// The format of a mesh to be written, by its name.
+pub fn format(out: &Path) -> Result<MeshFormat, Failure> {
+    MeshFormat::of(out).ok_or_else(|| {
+        let known = MeshFormat::ALL.map(|format| format!(".{}", format.ending())).join(", ");
+        format!("{}: the name must end in one of {known}", out.display()).into()
+    })
 }
 
 /// Reads the file of a mesh, with what it keeps in files beside it.

@@ -3,7 +3,6 @@
 use crate::arguments::RemeshArguments;
 use crate::clock::Clock;
 use crate::input::{self, Failure};
-use conemap::export::MeshFormat;
 use conemap::monitor::Stage;
 use conemap::remesh::{Options, remesh};
 use serde_json::json;
@@ -12,10 +11,7 @@ use serde_json::json;
 pub fn run(arguments: &RemeshArguments) -> Result<(), Failure> {
     let out = &arguments.out;
     // Asked before the work is done.
-    let format = MeshFormat::of(out).ok_or_else(|| {
-        let known = MeshFormat::ALL.map(|format| format!(".{}", format.ending())).join(", ");
-        format!("{}: the name must end in one of {known}", out.display())
-    })?;
+    let format = input::format(out)?;
     let checked = input::mesh(&arguments.mesh)?;
     let crease_angle = arguments.crease_angle.to_radians();
     let options = Options { crease_angle, ..Options::to_faces(arguments.faces) };

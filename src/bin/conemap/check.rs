@@ -1,0 +1,149 @@
+//! `conemap check`.
+#![allow(clippy::print_stdout, reason = "the result goes to standard output")]
+
+use crate::arguments::CheckArguments;
+use crate::input::{self, Failure};
+use conemap::mesh::check::{CheckedMesh, MeshFault, closed_genus_zero};
+use conemap::mesh::repair::{ChangeReport, RepairOptions, RepairRefusal, RepairedMesh, repaired};
+use serde::Serialize;
+use std::path::Path;
+
+/// Tells whether a mesh can be mapped, as it is or repaired; an error where it cannot.
+pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
+    // Asked before the work is done.
+    let out = arguments.out.as_deref().map(|out| Ok::<_, Failure>((out, input::format(out)?))).transpose()?;
+    let soup = input::soup(&arguments.mesh)?;
+    let fault = closed_genus_zero(&soup).err();
+    let outcome = repaired(&soup, &RepairOptions::from(arguments.repairs));
+    if let (Some((out, format)), Ok(mesh)) = (out, &outcome) {
+        input::write(out, &format.write(&mesh.checked.mesh))?;
+    }
+    let report = CheckReport::new(arguments.repair, fault.as_ref(), &outcome);
+    match arguments.report.as_deref() {
+        Some(path) if path == Path::new("-") => println!("{}", serde_json::to_string_pretty(&report)?),
+        Some(path) => {
+            input::write(path, &serde_json::to_vec_pretty(&report)?)?;
+            tell(&report);
+        }
+        None => tell(&report),
+    }
+    let path = arguments.mesh.display();
+    match (&report.refusal, &report.fault) {
+        _ if report.can_be_mapped => Ok(()),
+        (Some(refusal), _) if arguments.repair => Err(format!("{path}: {}", refusal.sentence).into()),
+        (_, Some(fault)) => Err(format!("{path}: {}", fault.sentence).into()),
+        _ => Err(format!("{path}: it cannot be mapped").into()),
+    }
+}
+
+/// What is known of a mesh, stable as JSON.
+#[derive(Serialize)]
+struct CheckReport {
+    /// Whether the mesh can be mapped: as it is, or repaired where that was asked for.
+    can_be_mapped: bool,
+    /// Whether the repair was asked for; if not, `changes` tells what it would do.
+    repaired: bool,
+    /// The first fault of the mesh as it is.
+    fault: Option<Fault>,
+    /// Why it cannot be repaired.
+    refusal: Option<Fault>,
+    /// What the repair changes; empty where there is none.
+    changes: Vec<ChangeReport>,
+    /// Share of the repaired surface's area that is caps; `null` where the mesh cannot be repaired.
+    cap_share: Option<f64>,
+    /// Vertices of the repaired mesh.
+    vertices: Option<usize>,
+    /// Its faces.
+    faces: Option<usize>,
+    /// The numbers in the file of its elements; `null` where they stay those of the file.
+    numbers: Option<Numbers>,
+}
+
+/// Something wrong.
+#[derive(Serialize)]
+struct Fault {
+    /// Its stable name.
+    kind: &'static str,
+    /// What it is, where, and what to do.
+    sentence: String,
+}
+
+/// The numbers that elements of a repaired mesh have in outputs and reports: those of the file, from its number of vertices or
+/// faces on for elements that the repair made.
+#[derive(Serialize)]
+struct Numbers {
+    /// By vertex of the repaired mesh.
+    vertices: Vec<usize>,
+    /// By face of the repaired mesh.
+    faces: Vec<usize>,
+}
+
+impl Numbers {
+    /// `None` where all are the mesh's own, but for those that the repair made.
+    fn of(checked: &CheckedMesh) -> Option<Self> {
+        let vertices = checked.file_from_vertex();
+        let faces: Vec<usize> = checked.mesh.faces().map(|f| checked.file_from_face(f).index()).collect();
+        let own = |numbers: &[usize]| numbers.iter().enumerate().all(|(k, number)| k == *number);
+        (!own(&vertices) || !own(&faces)).then_some(Self { vertices, faces })
+    }
+}
+
+impl CheckReport {
+    fn new(
+        is_repair: bool,
+        fault: Option<&MeshFault>,
+        outcome: &Result<RepairedMesh, RepairRefusal>,
+    ) -> Self {
+        let mesh = outcome.as_ref().ok();
+        let changes = mesh.map(|mesh| mesh.report.changes.iter().cloned().map(ChangeReport::from).collect());
+        let refusal = outcome.as_ref().err();
+        Self {
+            can_be_mapped: fault.is_none() || is_repair && mesh.is_some(),
+            repaired: is_repair,
+            fault: fault.map(|fault| Fault { kind: fault.kind(), sentence: fault.to_string() }),
+            refusal: refusal.map(|refusal| Fault { kind: refusal.kind(), sentence: refusal.to_string() }),
+            changes: changes.unwrap_or_default(),
+            cap_share: mesh.map(|mesh| mesh.report.cap_share),
+            vertices: mesh.map(|mesh| mesh.checked.mesh.vertex_count()),
+            faces: mesh.map(|mesh| mesh.checked.mesh.face_count()),
+            numbers: mesh.and_then(|mesh| Numbers::of(&mesh.checked)),
+        }
+    }
+}
+
+/// The report in sentences.
+fn tell(report: &CheckReport) {
+    match (&report.fault, &report.refusal) {
+        (None, _) => println!("can be mapped as it is"),
+        (Some(_), None) if report.repaired => println!("can be mapped, repaired:"),
+        (Some(_), None) => {
+            println!("can be mapped when it is repaired (--repair; conemap map does it by itself):")
+        }
+        (Some(_), Some(refusal)) => println!("cannot be mapped, nor repaired: {}", refusal.sentence),
+    }
+    for change in &report.changes {
+        println!("  {}{}", change.sentence, places(change));
+    }
+}
+
+/// The first elements of a change.
+fn places(change: &ChangeReport) -> String {
+    let list = |name: &str, numbers: Vec<String>| {
+        let more = if change.count > numbers.len() { ", ..." } else { "" };
+        if numbers.is_empty() { String::new() } else { format!(": {name} {}{more}", numbers.join(", ")) }
+    };
+    let numbers = |elements: &[usize]| elements.iter().map(usize::to_string).collect::<Vec<_>>();
+    let edges = change.edges.iter().map(|[a, b]| format!("{a}-{b}")).collect();
+    let holes = change.holes.iter().map(|hole| {
+        let first = hole.vertices.first().copied().unwrap_or_default();
+        format!("{} edges from vertex {first}", hole.edges)
+    });
+    [
+        list("vertices", numbers(&change.vertices)),
+        list("edges", edges),
+        // Of dropped parts the faces are more than the parts.
+        list(if change.kind == "dropped_parts" { "faces from" } else { "faces" }, numbers(&change.faces)),
+        list("with", holes.collect()),
+    ]
+    .concat()
+}

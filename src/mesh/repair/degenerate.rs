@@ -1,0 +1,200 @@
+//! Faces without area go, and the surface around them closes.
+
+use super::draft::{Draft, DraftFace, Edge, FaceOrigin, edges};
+use crate::math::disjoint_sets::DisjointSets;
+use crate::mesh::check::{Elements, Triangle, is_degenerate};
+use glam::DVec3;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// Numbers of faces of the file that this step changed.
+#[derive(Clone, Debug)]
+pub(super) struct Degenerate {
+    /// Those that went.
+    pub dropped: Elements<usize>,
+    /// Those that were cut in two, where the corner of a face without area lay on their edge.
+    pub recut: Elements<usize>,
+}
+
+impl Degenerate {
+    /// Of two steps.
+    pub fn and(self, other: Self) -> Self {
+        Self { dropped: self.dropped.and(other.dropped), recut: self.recut.and(other.recut) }
+    }
+}
+
+/// Rounds at most: each one is for faces that lie beside one changed before.
+const ROUNDS: usize = 20;
+
+/// An edge this much shorter than the longest of its face has both ends at one place but for rounding.
+const SAME_PLACE: f64 = 1e-12;
+
+/// The draft without faces that name a vertex twice or have no area.
+///
+/// Of a needle the ends of the short edge become one vertex. A face with a corner on its longest edge goes with that edge: the
+/// neighbour there is cut in two at the corner, so that nothing opens. Where that cannot be the face is dropped.
+pub(super) fn without_degenerate(mut draft: Draft) -> (Draft, Degenerate) {
+    let (mut dropped, mut recut) = (Vec::new(), Vec::new());
+    for _ in 0..ROUNDS {
+        if !draft.faces.iter().any(|face| is_degenerate(&draft.positions, &face.corners)) {
+            break;
+        }
+        draft = needles_joined(draft);
+        let has_three = |face: &DraftFace| {
+            let [a, b, c] = face.corners;
+            a != b && b != c && c != a
+        };
+        draft = without(draft, has_three, &mut dropped);
+        let cuts = Cuts::find(&draft);
+        if cuts.is_empty() {
+            break;
+        }
+        draft = cuts.made(draft, &mut dropped, &mut recut);
+    }
+    let positions = draft.positions.clone();
+    draft = without(draft, |face| !is_degenerate(&positions, &face.corners), &mut dropped);
+    dropped.sort_unstable();
+    recut.sort_unstable();
+    let report = Degenerate { dropped: dropped.into_iter().collect(), recut: recut.into_iter().collect() };
+    (draft, report)
+}
+
+fn without(draft: Draft, stays: impl Fn(&DraftFace) -> bool, dropped: &mut Vec<usize>) -> Draft {
+    let (kept, gone): (Vec<DraftFace>, Vec<DraftFace>) =
+        draft.faces.iter().copied().partition(|face| stays(face));
+    dropped.extend(gone.iter().filter_map(DraftFace::number));
+    draft.with_faces(kept)
+}
+
+/// The lengths squared of a triangle's sides, side k from corner k on.
+fn squares(positions: &[DVec3], corners: &Triangle) -> [f64; 3] {
+    let [p, q, r] = corners.map(|v| positions[v as usize]);
+    [p.distance_squared(q), q.distance_squared(r), r.distance_squared(p)]
+}
+
+fn needles_joined(mut draft: Draft) -> Draft {
+    let mut sets = DisjointSets::new(draft.positions.len());
+    let mut any = false;
+    for face in draft.faces.iter().filter(|face| is_degenerate(&draft.positions, &face.corners)) {
+        let squares = squares(&draft.positions, &face.corners);
+        let longest = squares.into_iter().fold(0.0, f64::max);
+        for k in (0..3).filter(|&k| squares[k] <= SAME_PLACE * SAME_PLACE * longest) {
+            let [a, b] = face.side(k);
+            any |= sets.join(a as usize, b as usize);
+        }
+    }
+    if !any {
+        return draft;
+    }
+    let mut least: FxHashMap<usize, u32> = FxHashMap::default();
+    let stands: Vec<u32> =
+        (0..draft.positions.len()).map(|v| *least.entry(sets.root(v)).or_insert(v as u32)).collect();
+    for v in draft.faces.iter_mut().flat_map(|face| &mut face.corners) {
+        *v = stands[*v as usize];
+    }
+    draft
+}
+
+/// What is done about faces without area in one round.
+struct Cuts {
+    /// Those that go.
+    gone: Vec<usize>,
+    /// Their neighbours at the longest edges, and what comes in the place of each.
+    cut: FxHashMap<usize, [DraftFace; 2]>,
+}
+
+impl Cuts {
+    fn find(draft: &Draft) -> Self {
+        let mut found = Self { gone: Vec::new(), cut: FxHashMap::default() };
+        let edges = edges(&draft.faces);
+        let mut known: FxHashSet<[u32; 2]> = edges.iter().map(|edge| edge.ends).collect();
+        let mut touched = FxHashSet::default();
+        for (f, face) in draft.faces.iter().enumerate() {
+            if !is_degenerate(&draft.positions, &face.corners) || touched.contains(&f) {
+                continue;
+            }
+            let squares = squares(&draft.positions, &face.corners);
+            let longest = (0..3).max_by(|&i, &j| squares[i].total_cmp(&squares[j])).unwrap_or(0);
+            let Some(beside) = neighbour(draft, &edges, f, longest) else {
+                found.gone.push(f);
+                touched.insert(f);
+                continue;
+            };
+            if touched.contains(&beside) {
+                continue;
+            }
+            let corner = (longest + 2) % 3;
+            let [c, across] = [face.corners[corner], opposite(&draft.faces[beside], face.side(longest))];
+            let ends = [c.min(across), c.max(across)];
+            let halves = halves(
+                &draft.faces[beside],
+                face.side(longest),
+                Corner { vertex: c, in_file: face.file_corners[corner] },
+            );
+            let sound = halves.iter().all(|half| !is_degenerate(&draft.positions, &half.corners));
+            if c != across && sound && known.insert(ends) {
+                touched.extend([f, beside]);
+                found.gone.push(f);
+                found.cut.insert(beside, halves);
+            }
+        }
+        found
+    }
+
+    fn is_empty(&self) -> bool {
+        self.gone.is_empty()
+    }
+
+    fn made(self, draft: Draft, dropped: &mut Vec<usize>, recut: &mut Vec<usize>) -> Draft {
+        let mut faces = Vec::with_capacity(draft.faces.len() + self.cut.len());
+        let gone: FxHashSet<usize> = self.gone.into_iter().collect();
+        for (f, face) in draft.faces.iter().enumerate() {
+            if gone.contains(&f) {
+                dropped.extend(face.number());
+            } else if let Some(halves) = self.cut.get(&f) {
+                recut.extend(face.number());
+                faces.extend(halves);
+            } else {
+                faces.push(*face);
+            }
+        }
+        draft.with_faces(faces)
+    }
+}
+
+/// The one other face at a side of a face; `None` where there is none or more than one.
+fn neighbour(draft: &Draft, edges: &[Edge], f: usize, k: usize) -> Option<usize> {
+    let [a, b] = draft.faces[f].side(k);
+    let ends = [a.min(b), a.max(b)];
+    let edge = &edges[edges.binary_search_by_key(&ends, |edge| edge.ends).ok()?];
+    match edge.sides[..] {
+        [s, t] => {
+            let other = if s as usize / 3 == f { t } else { s };
+            Some(other as usize / 3)
+        }
+        _ => None,
+    }
+}
+
+fn opposite(face: &DraftFace, [a, b]: [u32; 2]) -> u32 {
+    face.corners.into_iter().find(|v| *v != a && *v != b).unwrap_or(a)
+}
+
+/// A corner that a face gets.
+struct Corner {
+    vertex: u32,
+    /// The vertex of the file there.
+    in_file: u32,
+}
+
+/// A face cut in two from the middle of an edge to the opposite corner.
+fn halves(face: &DraftFace, [a, b]: [u32; 2], middle: Corner) -> [DraftFace; 2] {
+    let half = |replaced: u32| {
+        let origin = if face.origin == FaceOrigin::Cap { FaceOrigin::Cap } else { FaceOrigin::Recut };
+        let mut half = DraftFace { origin, ..*face };
+        for k in (0..3).filter(|&k| face.corners[k] == replaced) {
+            (half.corners[k], half.file_corners[k]) = (middle.vertex, middle.in_file);
+        }
+        half
+    };
+    [half(a), half(b)]
+}

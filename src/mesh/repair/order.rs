@@ -1,0 +1,189 @@
+//! The order of the steps, and the way back to the numbers of the file.
+
+use super::caps::{Capped, capped};
+use super::degenerate::without_degenerate;
+use super::draft::{Draft, DraftFace, FaceOrigin};
+use super::duplicates::without_duplicates;
+use super::joining::joined;
+use super::options::RepairOptions;
+use super::orientation::oriented;
+use super::parts::{DroppedParts, largest};
+use super::refusal::RepairRefusal;
+use super::report::{Change, RepairReport};
+use super::sheets::{Sheets, apart};
+use crate::mesh::check::{CheckedMesh, Elements, MeshFault, RepairedFaces, closed_genus_zero, triangulated};
+use crate::mesh::soup::PolygonSoup;
+use crate::mesh::{FaceId, VertexId};
+use typed_index_collections::TiVec;
+
+/// A mesh that can be mapped, and how it came to be.
+#[derive(Clone, Debug)]
+pub struct RepairedMesh {
+    /// The mesh.
+    pub checked: CheckedMesh,
+    /// What was changed.
+    pub report: RepairReport,
+}
+
+/// More of the surface than this must not be caps: it would be an open sheet whose other side is made up.
+const MOST_CAP: f64 = 0.45;
+
+/// Repairs a soup as far as it is not a closed surface of genus 0 already.
+///
+/// # Errors
+/// [`RepairRefusal`].
+pub fn repaired(soup: &PolygonSoup, options: &RepairOptions) -> Result<RepairedMesh, RepairRefusal> {
+    match closed_genus_zero(soup) {
+        Ok(checked) => {
+            let report = RepairReport { changes: told_of_all(soup, &checked), ..RepairReport::default() };
+            Ok(RepairedMesh { checked, report })
+        }
+        Err(fault @ (MeshFault::Empty | MeshFault::TooManyFaces { .. })) => Err(fault.into()),
+        Err(fault) => steps(soup, options, fault),
+    }
+}
+
+fn steps(
+    soup: &PolygonSoup,
+    options: &RepairOptions,
+    fault: MeshFault,
+) -> Result<RepairedMesh, RepairRefusal> {
+    let draft = drafted(soup)?;
+    let in_file = draft.faces.len();
+    let (draft, degenerate) = without_degenerate(joined(draft, options.join_within));
+    let (draft, doubled) = without_duplicates(draft);
+    if draft.faces.is_empty() {
+        return Err(RepairRefusal::NothingLeft);
+    }
+    let (draft, sheets) = apart(oriented(draft)?);
+    let (draft, dropped) = largest(oriented(draft)?, options.parts)?;
+    let (draft, caps) = capped(draft)?;
+    // A corner on an edge without a face between leaves a hole without area, whose cap goes as such faces do.
+    let (draft, closed) = without_degenerate(draft);
+    let degenerate = degenerate.and(closed);
+    let cap_share = caps.as_ref().map_or(0.0, |caps| caps.area_share);
+    if cap_share > MOST_CAP {
+        return Err(RepairRefusal::OpenSheet { cap_share });
+    }
+    let checked = checked(soup, &draft, in_file)?;
+    let Sheets { edges, split, joined } = sheets;
+    let mut changes = vec![
+        Change::JoinedVertices(joined),
+        Change::DegenerateFaces { dropped: degenerate.dropped, recut: degenerate.recut },
+        Change::DuplicateFaces(doubled),
+        Change::SplitEdges(edges),
+        Change::SplitVertices(split),
+    ];
+    changes.extend(dropped.map(|DroppedParts { parts, faces, area_share }| Change::DroppedParts {
+        parts,
+        faces,
+        area_share,
+    }));
+    changes.extend(caps.map(|Capped { holes, faces, area_share }| Change::CappedHoles {
+        holes: holes.into_iter().collect(),
+        faces,
+        area_share,
+    }));
+    changes.extend(told_of_all(soup, &checked));
+    changes.retain(|change| change.count() > 0);
+    Ok(RepairedMesh { checked, report: RepairReport { fault: Some(fault), changes, cap_share } })
+}
+
+/// What the check itself changes of every mesh.
+fn told_of_all(soup: &PolygonSoup, checked: &CheckedMesh) -> Vec<Change> {
+    let mut is_used = vec![false; soup.positions.len()];
+    soup.polygons.iter().flatten().for_each(|v| is_used[*v as usize] = true);
+    let stands_for = |v: usize| soup.joined_with.get(v).map_or(v, |first| *first as usize);
+    let unused = (0..is_used.len()).filter(|&v| !is_used[stands_for(v)]).collect();
+    let turned = checked.turned.iter_enumerated().filter(|(_, turned)| **turned);
+    let turned = turned.map(|(f, _)| checked.file_from_face(f).index()).collect();
+    let mut changes = vec![Change::TurnedFaces(turned), Change::UnusedVertices(unused)];
+    changes.retain(|change| change.count() > 0);
+    changes
+}
+
+fn drafted(soup: &PolygonSoup) -> Result<Draft, MeshFault> {
+    let (triangles, _) = triangulated(soup)?;
+    let face = |(&corners, number): (&[u32; 3], u32)| DraftFace {
+        corners,
+        file_corners: corners,
+        origin: FaceOrigin::File { number, turned: false },
+    };
+    Ok(Draft {
+        positions: soup.positions.clone(),
+        numbers: (0..soup.positions.len() as u32).map(Some).collect(),
+        faces: triangles.iter().zip(0..).map(face).collect(),
+    })
+}
+
+/// The draft judged as every mesh, with the numbers of the file.
+fn checked(soup: &PolygonSoup, draft: &Draft, in_file: usize) -> Result<CheckedMesh, MeshFault> {
+    let whole = PolygonSoup {
+        positions: draft.positions.clone(),
+        polygons: draft.faces.iter().map(|face| face.corners.to_vec()).collect(),
+        joined_with: Vec::new(),
+    };
+    let judged = closed_genus_zero(&whole).map_err(|fault| in_file_numbers(fault, draft))?;
+    let faces = || draft.faces.iter().zip(judged.turned.iter());
+    let turned = faces().map(|(face, &again)| match face.origin {
+        FaceOrigin::File { turned, .. } => turned != again,
+        FaceOrigin::Recut | FaceOrigin::Cap => false,
+    });
+    let mut next = in_file as u32;
+    let number = |face: &DraftFace| {
+        let made = next;
+        next += u32::from(face.number().is_none());
+        face.number().map_or(made, |number| number as u32)
+    };
+    let number: TiVec<FaceId, u32> = draft.faces.iter().map(number).collect();
+    let is_cap = draft.faces.iter().map(|face| face.origin == FaceOrigin::Cap).collect();
+    let is_the_files = number.len() == in_file && next as usize == in_file;
+    Ok(CheckedMesh {
+        vertex_from_file: vertex_from_file(soup, draft, &judged),
+        turned: turned.collect(),
+        repaired_faces: (!is_the_files).then_some(RepairedFaces { in_file, number, is_cap }),
+        mesh: judged.mesh,
+    })
+}
+
+fn vertex_from_file(soup: &PolygonSoup, draft: &Draft, judged: &CheckedMesh) -> Vec<Option<VertexId>> {
+    let mut vertices = vec![None; soup.positions.len()];
+    for face in draft.faces.iter().filter(|face| face.origin != FaceOrigin::Cap) {
+        for (&v, &from) in face.corners.iter().zip(&face.file_corners) {
+            // Of the copies of a vertex, that which kept its number.
+            if let Some(known) = vertices.get_mut(from as usize)
+                && (known.is_none() || v == from)
+            {
+                *known = judged.vertex_from_file[v as usize];
+            }
+        }
+    }
+    for (v, first) in soup.joined_with.iter().enumerate().take(vertices.len()) {
+        vertices[v] = vertices.get(*first as usize).copied().flatten();
+    }
+    vertices
+}
+
+/// A fault of the repaired surface with the numbers of the file where there are any.
+fn in_file_numbers(fault: MeshFault, draft: &Draft) -> MeshFault {
+    let vertex = |v: &usize| draft.number(*v as u32);
+    let edges = |e: Elements<[usize; 2]>| Elements {
+        first: e.first.iter().map(|edge| edge.each_ref().map(vertex)).collect(),
+        ..e
+    };
+    match fault {
+        MeshFault::NonManifoldEdges { edges: e, parts } => {
+            MeshFault::NonManifoldEdges { edges: edges(e), parts }
+        }
+        MeshFault::OpenEdges(e) => MeshFault::OpenEdges(edges(e)),
+        MeshFault::PinchedVertices(e) => {
+            MeshFault::PinchedVertices(Elements { first: e.first.iter().map(vertex).collect(), ..e })
+        }
+        MeshFault::DegenerateFaces(e) => {
+            let face = |f: &usize| draft.faces[*f].number().unwrap_or(*f);
+            MeshFault::DegenerateFaces(Elements { first: e.first.iter().map(face).collect(), ..e })
+        }
+        MeshFault::NotOrientable { edge } => MeshFault::NotOrientable { edge: edge.each_ref().map(vertex) },
+        other => other,
+    }
+}

@@ -1,0 +1,58 @@
+//! Faces are turned until neighbours agree.
+
+use super::draft::{Draft, DraftFace, NONE, across, edges};
+use super::refusal::RepairRefusal;
+use crate::mesh::check::MeshFault;
+
+/// The draft with faces turned so that neighbours across edges with two faces agree, in each part as most of its faces lie.
+///
+/// # Errors
+/// [`MeshFault::NotOrientable`] where a part is one-sided.
+pub(super) fn oriented(draft: Draft) -> Result<Draft, RepairRefusal> {
+    let across = across(&draft.faces, &edges(&draft.faces));
+    let mut turned: Vec<Option<bool>> = vec![None; draft.faces.len()];
+    for root in 0..draft.faces.len() {
+        if turned[root].is_some() {
+            continue;
+        }
+        turned[root] = Some(false);
+        let mut part = vec![root];
+        let mut next = 0;
+        while let Some(&f) = part.get(next) {
+            next += 1;
+            for side in 3 * f..3 * f + 3 {
+                let other = across[side];
+                if other == NONE {
+                    continue;
+                }
+                let other = other as usize;
+                let wanted = turned[f].map(|x| x != runs_alike(&draft.faces, side, other));
+                match turned[other / 3] {
+                    None => {
+                        turned[other / 3] = wanted;
+                        part.push(other / 3);
+                    }
+                    found if found != wanted => {
+                        let edge = draft.faces[f].side(side % 3).map(|v| draft.number(v));
+                        return Err(MeshFault::NotOrientable { edge }.into());
+                    }
+                    _ => {}
+                }
+            }
+        }
+        let count = part.iter().filter(|&&f| turned[f] == Some(true)).count();
+        if 2 * count > part.len() {
+            part.iter().for_each(|&f| turned[f] = turned[f].map(|x| !x));
+        }
+    }
+    let mut draft = draft;
+    for (face, _) in draft.faces.iter_mut().zip(turned).filter(|(_, turned)| *turned == Some(true)) {
+        *face = face.turned();
+    }
+    Ok(draft)
+}
+
+/// Whether two sides of one edge run along it in the same direction.
+fn runs_alike(faces: &[DraftFace], a: usize, b: usize) -> bool {
+    faces[a / 3].corners[a % 3] == faces[b / 3].corners[b % 3]
+}

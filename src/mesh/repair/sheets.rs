@@ -1,0 +1,176 @@
+//! Edges with more than two faces and vertices with more than one fan come apart (cutting and stitching, Gueziec, Taubin, Lazarus &
+//! Horn 2001, "Cutting and stitching: converting sets of polygons to manifold surfaces").
+//!
+//! Faces are paired at every edge. The corners that hang together across paired sides are one vertex, the others copies of it.
+
+use super::draft::{Draft, Edge, NONE, across, edges};
+use crate::math::disjoint_sets::DisjointSets;
+use crate::math::scalar::atan2;
+use crate::mesh::check::Elements;
+use std::f64::consts::PI;
+
+/// What came apart, and what stayed one, in the numbers of the file.
+pub(super) struct Sheets {
+    /// Edges that had more than two faces.
+    pub edges: Elements<[usize; 2]>,
+    /// Vertices of the file that are several now.
+    pub split: Elements<usize>,
+    /// Vertices of the file that are one with another one.
+    pub joined: Elements<usize>,
+}
+
+/// The draft with at most two faces at each edge and one fan at each vertex, as far as vertices can be copied for it. Neighbours
+/// across edges with two faces must agree.
+pub(super) fn apart(mut draft: Draft) -> (Draft, Sheets) {
+    let edges = edges(&draft.faces);
+    let mut across = across(&draft.faces, &edges);
+    let crowded: Vec<&Edge> = edges.iter().filter(|edge| edge.sides.len() > 2).collect();
+    for edge in &crowded {
+        for [a, b] in stitches(&draft, edge) {
+            across[a as usize] = b;
+            across[b as usize] = a;
+        }
+    }
+    let crowded = crowded.iter().map(|edge| edge.ends.map(|v| draft.number(v))).collect();
+    let split = copy_vertices(&mut draft, fans(&across));
+    let mut joined: Vec<usize> = Vec::new();
+    for face in &draft.faces {
+        let others = (0..3).filter(|&k| draft.number(face.corners[k]) != face.file_corners[k] as usize);
+        joined.extend(others.map(|k| face.file_corners[k] as usize));
+    }
+    joined.sort_unstable();
+    joined.dedup();
+    (draft, Sheets { edges: crowded, split, joined: joined.into_iter().collect() })
+}
+
+/// A side at an edge, seen along the edge.
+struct Blade {
+    side: u32,
+    /// Direction in which its face leaves the edge, in radians around it.
+    angle: f64,
+    /// Whether it runs from the edge's first end to the second: its inner side is towards lesser angles then.
+    is_forward: bool,
+}
+
+/// The pairs of sides of one crowded edge that are stitched: those with the body's inside between them, where as many run one
+/// way as the other; else those that go on flattest.
+fn stitches(draft: &Draft, edge: &Edge) -> Vec<[u32; 2]> {
+    let blades = blades(draft, edge);
+    let forward = blades.iter().filter(|blade| blade.is_forward).count();
+    if 2 * forward == blades.len() { wedges(&blades) } else { flattest(&blades) }
+}
+
+/// The sides by angle.
+fn blades(draft: &Draft, edge: &Edge) -> Vec<Blade> {
+    let [p, q] = edge.ends.map(|v| draft.positions[v as usize]);
+    let axis = (q - p).normalize_or_zero();
+    let leaves = |side: u32| {
+        let face = &draft.faces[side as usize / 3];
+        let away = draft.positions[face.corners[(side as usize + 2) % 3] as usize] - p;
+        away - axis * axis.dot(away)
+    };
+    // A crowded edge has sides.
+    let x = leaves(edge.sides[0]).normalize_or_zero();
+    let y = axis.cross(x);
+    let blade = |&side: &u32| {
+        let away = leaves(side);
+        let is_forward = draft.faces[side as usize / 3].side(side as usize % 3)[0] == edge.ends[0];
+        Blade { side, angle: atan2(away.dot(y), away.dot(x)), is_forward }
+    };
+    let mut blades: Vec<Blade> = edge.sides.iter().map(blade).collect();
+    blades.sort_by(|a, b| a.angle.total_cmp(&b.angle).then(a.side.cmp(&b.side)));
+    blades
+}
+
+/// Each backward side with the forward side that closes its wedge, like brackets on a circle.
+fn wedges(blades: &[Blade]) -> Vec<[u32; 2]> {
+    let (mut open, mut pairs) = (Vec::new(), Vec::new());
+    let mut closed = vec![false; blades.len()];
+    // The second round closes what the first has left open.
+    for (k, blade) in blades.iter().enumerate().chain(blades.iter().enumerate()) {
+        if closed[k] {
+            continue;
+        }
+        if !blade.is_forward && !open.contains(&k) {
+            open.push(k);
+        } else if blade.is_forward
+            && let Some(partner) = open.pop()
+        {
+            closed[k] = true;
+            closed[partner] = true;
+            pairs.push([blades[partner].side, blade.side]);
+        }
+    }
+    pairs
+}
+
+/// Pairs of sides that run in opposite directions, the flattest first.
+fn flattest(blades: &[Blade]) -> Vec<[u32; 2]> {
+    let mut all = Vec::new();
+    for (i, a) in blades.iter().enumerate() {
+        for b in blades[i + 1..].iter().filter(|b| b.is_forward != a.is_forward) {
+            all.push((((b.angle - a.angle) - PI).abs(), [a.side, b.side]));
+        }
+    }
+    all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let mut taken: Vec<u32> = Vec::new();
+    let mut pairs = Vec::new();
+    for (_, pair) in all {
+        if pair.iter().all(|side| !taken.contains(side)) {
+            taken.extend(pair);
+            pairs.push(pair);
+        }
+    }
+    pairs
+}
+
+/// Corners 3 f + k that hang together around their vertices.
+fn fans(across: &[u32]) -> DisjointSets {
+    let mut fans = DisjointSets::new(across.len());
+    let end = |side: usize| if side % 3 == 2 { side - 2 } else { side + 1 };
+    for (side, &other) in across.iter().enumerate() {
+        if other != NONE {
+            fans.join(side, end(other as usize));
+            fans.join(end(side), other as usize);
+        }
+    }
+    fans
+}
+
+/// Gives each fan a vertex of its own, and tells the vertices of the file that are several now.
+fn copy_vertices(draft: &mut Draft, mut fans: DisjointSets) -> Elements<usize> {
+    let corners = draft.faces.len() * 3;
+    let roots: Vec<usize> = (0..corners).map(|c| fans.root(c)).collect();
+    let mut least = vec![NONE; corners];
+    for (c, &root) in roots.iter().enumerate() {
+        least[root] = least[root].min(draft.faces[c / 3].file_corners[c % 3]);
+    }
+    // A vertex stays with the first fan that has it from the file, else with the first one.
+    let mut keeper = vec![usize::MAX; draft.positions.len()];
+    for own in [true, false] {
+        for (c, &root) in roots.iter().enumerate() {
+            let v = draft.faces[c / 3].corners[c % 3];
+            if keeper[v as usize] == usize::MAX && (!own || least[root] == v) {
+                keeper[v as usize] = root;
+            }
+        }
+    }
+    let mut copy = vec![NONE; corners];
+    let mut split = Vec::new();
+    for (c, &root) in roots.iter().enumerate() {
+        let v = draft.faces[c / 3].corners[c % 3];
+        if keeper[v as usize] == root {
+            continue;
+        }
+        if copy[root] == NONE {
+            copy[root] = draft.positions.len() as u32;
+            draft.positions.push(draft.positions[v as usize]);
+            draft.numbers.push(Some(least[root]));
+            split.extend((least[root] == v).then_some(v as usize));
+        }
+        draft.faces[c / 3].corners[c % 3] = copy[root];
+    }
+    split.sort_unstable();
+    split.dedup();
+    split.into_iter().collect()
+}
