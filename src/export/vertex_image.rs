@@ -30,19 +30,6 @@ impl Direction {
             Self::TargetToSource => 1,
         }
     }
-
-    #[test]
-    fn images_in_caps_are_marked() {
-        let point = SurfacePoint { face: FaceId(17), barycentric: [0.1, 0.2, 0.7] };
-        let images =
-            [Some(true), Some(false)].map(|in_cap| Some(PointImage { point, position: DVec3::X, in_cap }));
-        let text = String::from_utf8(csv(Direction::SourceToTarget, &[images[0], images[1], None])).unwrap();
-        let head = "source_vertex,target_face,b0,b1,b2,x,y,z,in_cap\n";
-        assert_eq!(text, format!("{head}0,17,0.1,0.2,0.7,1,0,0,1\n1,17,0.1,0.2,0.7,1,0,0,0\n2,,,,,,,,\n"));
-        let value: serde_json::Value =
-            serde_json::from_slice(&json(Direction::SourceToTarget, &images)).unwrap();
-        assert_eq!(value["images"][0]["in_cap"], json!(true));
-    }
 }
 
 /// The image of a point, in the numbers of the file that holds it.

@@ -16,11 +16,12 @@ pub use outputs::OutputFile;
 pub use saved::{MapFiles, OpenMap, OpenMapError};
 pub use taken::{OutputKind, TakenMap};
 
+use crate::io;
 use crate::io::landmark_file::LandmarkFile;
 use crate::io::landmark_formats::Space;
 use crate::landmark_exchange::{GivenFile, PairLandmarks, Remark, Surface, read_pairs};
 use crate::landmarks::{MeshSide, PlacedLandmarks, place};
-use crate::map_file::{FileMesh, FileMeshError};
+use crate::map_file::FileMesh;
 use crate::mesh::SurfacePoint;
 use crate::mesh::check::closed_genus_zero;
 use crate::mesh::repair::{RepairOptions, RepairReport, repaired};

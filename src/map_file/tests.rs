@@ -241,7 +241,7 @@ fn faults_name_section_and_element() {
     assert!(turned.contains("do not fit together at the side") || turned.contains("turned over"), "{turned}");
     let face = with("pieces.target_faces", |faces| faces[2] = 80);
     assert_eq!(face, "the map file, section \"pieces.target_faces\", element 2: 80 is not below 80");
-    let elsewhere = changed(|m| m.correspondence.pieces[2].faces[1] = FaceId(70));
+    let elsewhere = with("pieces.target_faces", |faces| faces[2] = 70);
     assert!(elsewhere.contains("of piece 2 does not lie in the piece's target face"), "{elsewhere}");
     let weights = changed(|m| {
         m.correspondence.vertices[42][0] =

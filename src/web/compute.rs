@@ -1,6 +1,6 @@
 //! The pipeline in the worker.
 
-use super::{failure, saved};
+use super::{failure, output_file};
 use crate::job::{Job, JobError, JobFiles, OutputKind, TargetImage};
 use crate::landmark_exchange::GivenFile;
 use crate::monitor::{Cancelled, Monitor, PlannedStage, Progress, Stage, Step};
@@ -296,7 +296,7 @@ impl MapOutput {
         let FinishedRun { job, result, choices } = self.run()?;
         let map = job.map_file(result, choices);
         let map = map.filter(|map| job.taken(map).has_map_file());
-        map.map(|map| saved::file(job.taken(&map), OutputKind::Map.file_name())).transpose()
+        map.map(|map| output_file::file(job.taken(&map), OutputKind::Map.file_name())).transpose()
     }
 
     /// The source with the target's texture.
@@ -335,7 +335,7 @@ impl MapOutput {
         let FinishedRun { job, result, choices } = self.run()?;
         let kind = OutputKind::of(name);
         match (job.map_file(result, choices), kind) {
-            (Some(map), _) => saved::file(job.taken(&map), name),
+            (Some(map), _) => output_file::file(job.taken(&map), name),
             (None, Some(OutputKind::Glb)) => self.glb(),
             (None, Some(OutputKind::SourceImagesCsv)) => self.csv(),
             (None, Some(OutputKind::BaseDomain)) => self.base_obj(),

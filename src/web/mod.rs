@@ -3,6 +3,7 @@
 mod compute;
 mod files;
 mod landmark_files;
+mod output_file;
 mod repair;
 mod saved;
 mod view_side;

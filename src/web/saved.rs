@@ -1,9 +1,9 @@
 //! Maps that were saved: opened with their meshes, shown, asked and exported, without computing.
 
 use super::compute::{MapOutput, Shown};
-use super::failure;
+use super::output_file::file;
 use crate::export::vertex_image::Direction;
-use crate::job::{MapFiles, OpenMap, OpenMapError, OutputKind, TakenMap};
+use crate::job::{MapFiles, OpenMap, OpenMapError, OutputKind};
 use crate::landmarks::MeshSide;
 use crate::mesh::{FaceId, SurfacePoint};
 use serde_json::json;
@@ -45,13 +45,6 @@ pub fn export_from_map(map: &[u8], source: &[u8], target: &[u8], name: &str) -> 
 #[wasm_bindgen(js_name = outputNames)]
 pub fn output_names() -> String {
     json!(OutputKind::ALL.map(OutputKind::file_name)).to_string()
-}
-
-/// One file of a map by its name.
-pub(super) fn file(map: TakenMap<'_>, name: &str) -> Result<Vec<u8>, JsValue> {
-    let kind = OutputKind::of(name).filter(|kind| map.kinds().contains(kind));
-    let kind = kind.ok_or_else(|| failure("export", format!("this map gives no file \"{name}\"")))?;
-    map.output(kind).map_err(|e| failure("export", e))
 }
 
 #[wasm_bindgen]
