@@ -1,4 +1,4 @@
-/** The page's files import each other in one direction, and its parts as ARCHITECTURE.md says. */
+/** The page's files import each other in one direction, and its parts as docs/page.md says. */
 import { readdirSync, readFileSync } from 'node:fs';
 import { dirname, join, relative, sep } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -23,9 +23,9 @@ function imports(): Graph {
   );
 }
 
-/** The page's parts from the list in ARCHITECTURE.md, each with its line: folders, and files beside them. */
+/** The page's parts from the list in docs/page.md, each with its line: folders, and files beside them. */
 function parts(): ReadonlyMap<string, number> {
-  const text = readFileSync(join(WWW, '../ARCHITECTURE.md'), 'utf8');
+  const text = readFileSync(join(WWW, '../docs/page.md'), 'utf8');
   const list = /(?<=each only with what stands above it:\n\n)(?:- .*\n)+/.exec(text)?.[0] ?? '';
   const names = (line: string): string[] => [...(line.split(': ')[0] ?? '').matchAll(/`([\w-]+)/g)].map(([, name]) => name ?? '');
   return new Map(list.split('\n').flatMap((line, rank) => names(line).map((name) => [name, rank] as const)));
@@ -78,7 +78,7 @@ test('files import each other in one direction', () => {
   expect(circle(graph)).toBeNull();
 });
 
-test('each part imports only what stands above it in ARCHITECTURE.md', () => {
+test('each part imports only what stands above it in docs/page.md', () => {
   const ranks = parts();
   const partOf = (file: string): string => (file.split(sep)[0] ?? '').replace(/\.ts$/, '');
   const wrong: string[] = [];
