@@ -5,6 +5,7 @@ import { listenForUndo } from './app/keys.ts';
 import { mark } from './app/mark.ts';
 import { Links } from './app/links.ts';
 import { followDemo, freeForgotten, openDemo } from './app/open.ts';
+import { saveMadeFile } from './app/made-files.ts';
 import { saveProject } from './app/projects.ts';
 import { repair } from './app/repair.ts';
 import { Runner } from './app/run.ts';
@@ -48,6 +49,11 @@ const actions: Actions = {
   sharedLink: () => sharedLink(store.state, new URL(document.baseURI)),
   saveProject: () => {
     void saveProject(store);
+  },
+  saveMadeFile: (name, type) => {
+    if (runner.core !== null) {
+      void saveMadeFile(store, runner.core, name, type);
+    }
   },
   savePicture: () => {
     void views.picture(PICTURE_SCALE).then((picture) => {

@@ -92,6 +92,17 @@ test('landmarks and exports can be read again', async ({ page }) => {
   expect(base.filter((line) => line.startsWith('f '))).toHaveLength(2 * count - 4);
   const report = JSON.parse((await downloaded(page, 'Report')).toString()) as { certificate: { bijective: boolean }; stopped_early: boolean };
   expect([report.certificate.bijective, report.stopped_early]).toEqual([true, false]);
+  // These are made of the map file when they are asked for.
+  const targetFaces = Number(/([\d,]+) triangles/.exec(await page.locator('#view-target').innerText())?.[1]?.replace(',', ''));
+  const map = await downloaded(page, 'Map file');
+  expect(map.subarray(0, 7).toString()).toBe('CONEMAP');
+  const [inverse, ...images] = (await downloaded(page, 'Inverse table')).toString().trim().split('\n');
+  expect(inverse).toBe('target_vertex,source_face,b0,b1,b2,x,y,z');
+  expect(images).toHaveLength(targetFaces / 2 + 2);
+  const shape = (await downloaded(page, 'Source shape')).toString().split('\n');
+  expect(shape.filter((line) => line.startsWith('v '))).toHaveLength(vertices);
+  expect(shape.filter((line) => line.startsWith('f '))).toHaveLength(faces);
+  expect((await downloaded(page, 'Layout')).toString()).toContain('<svg');
 });
 
 test('a mirrored set is repaired by a click', async ({ page }) => {

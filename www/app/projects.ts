@@ -24,7 +24,7 @@ function projectOf(state: State): Project {
   return {
     meshes: [projectMesh(state.meshes[0]), projectMesh(state.meshes[1])],
     work: sentWorkOf(state),
-    result: result && { map: null, report: result.output.report },
+    result: result && { map: result.output.map, report: result.output.report },
   };
 }
 

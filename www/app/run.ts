@@ -18,6 +18,11 @@ export class Runner {
     this.#store = store;
   }
 
+  /** The compiled core; `null` until it is there. */
+  get core(): WebAssembly.Module | null {
+    return this.#core;
+  }
+
   /** Takes the compiled core, without which no run starts. */
   use(core: WebAssembly.Module): void {
     this.#core = core;

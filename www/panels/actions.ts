@@ -30,6 +30,8 @@ export interface Actions {
   /** The link to what is on the page; `null` where there can be none. */
   readonly sharedLink: () => Promise<{ readonly url: string; readonly prospect: Parameters<typeof prospectSentence>[0] } | null>;
   readonly saveProject: () => void;
+  /** Makes a file of the map by its name, and saves it. */
+  readonly saveMadeFile: (name: string, type: string) => void;
   /** Saves what the views show as a picture of twice the screen's size. */
   readonly savePicture: () => void;
   /** Begins anew with the newer build of the page. */

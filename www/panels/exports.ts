@@ -3,6 +3,7 @@ import { download } from '../dom.ts';
 import { landmarkFileOf } from '../store/landmark-file.ts';
 import { wholePairs } from '../store/order.ts';
 import type { State } from '../store/state.ts';
+import type { Actions } from './actions.ts';
 
 export interface Export {
   /** The format, on the button. */
@@ -17,8 +18,41 @@ export function saveLandmarks(state: State): void {
   download('landmarks.json', 'application/json', JSON.stringify(landmarkFileOf(state), null, 1));
 }
 
+/** Files that the core makes of a map file when they are asked for: format, title, what it is, name and type. */
+const MADE = [
+  ['Inverse table', 'Images of the target’s vertices', 'Where on the source every vertex of the target comes from', 'target-vertex-images.csv', 'text/csv'],
+  ['Source shape', 'Source in the target’s shape', 'The source’s polygons, with its vertices at their images', 'source-in-target-shape.obj', 'model/obj'],
+  ['Target shape', 'Target in the source’s shape', 'The target’s polygons, the other way round', 'target-in-source-shape.obj', 'model/obj'],
+  ['Layout', 'Flat layout', 'Both meshes cut open on the flat base domain, as a drawing', 'layout.svg', 'image/svg+xml'],
+] as const;
+
+/** The map file and what is made of it; none where the map has no such file. */
+function ofMapFile({ result }: State, saveMadeFile: Actions['saveMadeFile']): readonly Export[] {
+  const map = result?.output.map ?? null;
+  if (map === null) {
+    return [];
+  }
+  const made = MADE.map(([format, title, about, name, type]) => ({
+    format,
+    title,
+    about,
+    save: () => {
+      saveMadeFile(name, type);
+    },
+  }));
+  const itself = {
+    format: 'Map file',
+    title: 'The map itself',
+    about: 'Every piece in full; conemap query, report and export read it',
+    save: () => {
+      download('map.conemap', 'application/octet-stream', map);
+    },
+  };
+  return [...made, itself];
+}
+
 /** The files that there are now, the most wanted first. */
-export function exportsOf(state: State): readonly Export[] {
+export function exportsOf(state: State, { saveMadeFile }: Pick<Actions, 'saveMadeFile'>): readonly Export[] {
   const { result } = state;
   const ofResult =
     result === null
@@ -45,5 +79,6 @@ export function exportsOf(state: State): readonly Export[] {
       saveLandmarks(state);
     },
   };
-  return wholePairs(state).length === 0 ? files : [...files, landmarks];
+  const all = [...files, ...ofMapFile(state, saveMadeFile)];
+  return wholePairs(state).length === 0 ? all : [...all, landmarks];
 }

@@ -23,13 +23,13 @@ function ExportMenu({ state, actions }: Pick<PartProps, 'state' | 'actions'>): V
     about: 'What both views show, twice as large as on the screen',
     save: actions.savePicture,
   };
-  const files = state.meshes.every((file) => file === null) ? exportsOf(state) : [...exportsOf(state), picture];
+  const files = state.meshes.every((file) => file === null) ? exportsOf(state, actions) : [...exportsOf(state, actions), picture];
   return (
     <Popover icon="use" label="Export" text="Export" place="down end" disabled={files.length === 0}>
       {(close) =>
         files.map((file) => (
           <button
-            key={file.format}
+            key={file.title}
             type="button"
             title={file.about}
             onClick={() => {

@@ -7,7 +7,7 @@ import { SurfaceChoice } from './picture-bar.tsx';
 
 /** The panel's content. */
 export function UsePanel({ state, actions }: PartProps): VNode {
-  const files = exportsOf(state);
+  const files = exportsOf(state, actions);
   return (
     <div class="content">
       {shownResult(state) !== null && (
@@ -23,7 +23,7 @@ export function UsePanel({ state, actions }: PartProps): VNode {
         )}
         <ul class="export-list" aria-label="Downloads">
           {files.map((file) => (
-            <li key={file.format}>
+            <li key={file.title}>
               <div>
                 <p>{file.title}</p>
                 <p class="quiet small">{file.about}</p>

@@ -1,0 +1,44 @@
+/** Files of the map that are made when somebody asks for them: from its map file, in a worker of their own. */
+import type { SavedMapHandle } from '../compute/saved-client.ts';
+import { openSavedMap, SavedMapError } from '../compute/saved-client.ts';
+import { download } from '../dom.ts';
+import { FileRefused } from '../files.ts';
+import { failureSentence } from '../messages.ts';
+import type { Result } from '../store/state.ts';
+import type { Store } from '../store/store.ts';
+import { perform } from './task.ts';
+
+/** The file of a map by its name, as the core lists them. Throws `FileRefused`. */
+async function made(core: WebAssembly.Module, { output, inputs }: Result, name: string): Promise<Uint8Array<ArrayBuffer>> {
+  const [source, target] = inputs.meshes;
+  if (output.map === null || source === null || target === null) {
+    throw new FileRefused(`This map gives no file ${name}.`);
+  }
+  let saved: SavedMapHandle | null = null;
+  try {
+    saved = openSavedMap(core, { map: output.map, source: source.bytes, target: target.bytes }, 'files');
+    await saved.opened;
+    return await saved.file(name);
+  } catch (thrown) {
+    throw thrown instanceof SavedMapError ? new FileRefused(failureSentence(thrown.failure)) : thrown;
+  } finally {
+    saved?.close();
+  }
+}
+
+/** Saves a file of the map on the page. */
+export async function saveMadeFile(store: Store, core: WebAssembly.Module, name: string, type: string): Promise<void> {
+  const { job, result } = store.state;
+  // Neither a run nor other work is given up for a file.
+  if (result === null || job.kind === 'running' || job.kind === 'busy') {
+    return;
+  }
+  await perform(
+    store,
+    `Making ${name}…`,
+    () => made(core, result, name),
+    (bytes) => {
+      download(name, type, bytes);
+    },
+  );
+}
