@@ -98,7 +98,7 @@ describe('landmark files', () => {
     expect(refusal([text('a.csv', 'name,x,y,z\nnose,one,0,0\n')], 0, open)).toBe(
       'a.csv: CSV file, line 2: "one" should be a coordinate.',
     );
-    expect(refusal([text('a.json', '{"x": 1}')], null, open)).toMatch(/^a\.json: This is no landmark file that can be read: use Conemap JSON, /);
+    expect(refusal([text('a.json', '{"x": 1}')], null, open)).toMatch(/^a\.json: The landmark file, line 1: missing field `pairs`/);
     const nearby = text('near.csv', 'name,x,y,z\nnose,1e6,0,0\n');
     const [horse] = filesOf(format('csv'), landmarks, source.mesh, target.mesh);
     expect(horse === undefined ? '' : refusal([horse, nearby], null, open)).toMatch(/one for each mesh/);
