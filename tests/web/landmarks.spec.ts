@@ -73,7 +73,7 @@ test('landmarks speak of the vertices of the file', async ({ page }) => {
   }
   const lines = csv.trim().split('\n');
   expect(lines).toHaveLength(12);
-  expect(lines[1]).toBe('0,,,,');
+  expect(lines[1]).toBe('0,,,,,,,');
   expect(lines.slice(2).every((line) => !line.includes(',,'))).toBe(true);
 });
 
