@@ -27,7 +27,8 @@ const INSTEAD: Readonly<Record<string, string>> = {
 };
 
 function asSentence(text: string): string {
-  const trimmed = text.trim();
+  // An option of the command line is no help here.
+  const trimmed = text.trim().replace(/ \(--[a-z-]+\)/g, '');
   // glTF is a name and stays.
   const start = trimmed.startsWith('glTF') ? trimmed : trimmed.charAt(0).toUpperCase() + trimmed.slice(1);
   return /[.!?]$/.test(start) ? start : `${start}.`;
