@@ -226,14 +226,12 @@ test('a pin that was clicked obeys the keys', async ({ page }) => {
   await expect(page.locator('#view-target .labels .raised')).toHaveCount(1);
   await page.mouse.move(5, 5);
   await page.keyboard.press(left ? 'Shift+ArrowLeft' : 'Shift+ArrowRight');
-  await page.waitForTimeout(300);
+  await expect.poll(async () => Math.abs((await headOf(page, '#view-source', number)).x - start.x)).toBeGreaterThan(3);
   const coarse = await headOf(page, '#view-source', number);
-  expect(Math.abs(coarse.x - start.x)).toBeGreaterThan(3);
   await page.keyboard.press(left ? 'ArrowRight' : 'ArrowLeft');
-  await page.waitForTimeout(300);
-  const fine = await headOf(page, '#view-source', number);
-  expect(distance(fine, coarse)).toBeLessThan(2);
-  expect(distance(fine, coarse)).toBeGreaterThan(0.2);
+  const step = async (): Promise<number> => distance(await headOf(page, '#view-source', number), coarse);
+  await expect.poll(step).toBeGreaterThan(0.2);
+  expect(await step()).toBeLessThan(2);
   await page.keyboard.press('Delete');
   await expect(page.locator('#landmark-list [data-pair]')).toHaveCount(pairs - 1);
   // The next one is selected; let go, the arrow keys turn again.
