@@ -6,7 +6,7 @@ use crate::io::landmark_file::LandmarkFile;
 use crate::surface_map::correspondence::{Correspondence, TextureDrawing};
 use crate::surface_map::flat_layout::FlatLayout;
 
-/// What a map file holds, told of the meshes that are mapped ([`FileMesh::mesh`]).
+/// What a map file holds, told of the meshes that are mapped ([`super::FileMesh::mesh`]).
 #[derive(Clone, Debug)]
 pub struct MapFile {
     /// The map.
