@@ -7,7 +7,7 @@ use crate::math::quantile::{Weighted, quantile, sort_by_value};
 use crate::math::scalar::{ln, max, min};
 use crate::math::triangle::lay_out;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
-use crate::surface_map::overlay::{Overlay, OverlayPoint, Piece};
+use crate::surface_map::overlay::{Overlay, OverlayPoint};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use crate::surface_map::parametrisation::rest_triangle::rest_jacobian;
 use glam::{DMat2, DVec2, DVec3};
@@ -103,73 +103,112 @@ pub fn distortion(source: Parametrised<'_>, target: Parametrised<'_>, overlay: &
     let to_target = |f: FaceId| rest_jacobian(target, f);
     let source_maps: TiVec<FaceId, DMat2> = source.mesh.faces().map(to_source).collect();
     let target_inverses: TiVec<FaceId, DMat2> = target.mesh.faces().map(|f| to_target(f).inverse()).collect();
-    let mut result = Distortion::default();
-    let mut densities = Vec::with_capacity(overlay.pieces.len());
-    let mut dented = [0.0; 2];
-    let mut face_sums: TiVec<FaceId, [f64; 2]> = ti_vec![[0.0; 2]; source.mesh.face_count()];
+    let mut tally = Tally::new(source.mesh, overlay.pieces.len());
     for piece in &overlay.pieces {
         let (a, b) = (&source_maps[piece.source_face], &target_inverses[piece.target_face]);
         let rotation = piece.motion.turn();
         let j = *b * rotation * *a;
-        let det = j.determinant();
-        let squares = squares(&j);
-        let source_area = piece.area / a.determinant();
-        let target_area = piece.area * b.determinant();
+        tally.add(piece.source_face, &j, [piece.area / a.determinant(), piece.area * b.determinant()]);
+    }
+    let worst = worst_pieces([source, target], overlay, &tally);
+    tally.finish(source.mesh, worst)
+}
+
+fn worst_pieces(
+    [source, target]: [Parametrised<'_>; 2],
+    overlay: &Overlay,
+    tally: &Tally,
+) -> Vec<WorstPiece> {
+    let is_certain = |k: usize| {
+        let piece = &overlay.pieces[k];
+        let triangles =
+            [source.embedding.triangle(piece.source_face), target.embedding.triangle(piece.target_face)];
+        is_certain(piece.area, [&triangles[0], &triangles[1]])
+    };
+    tally.worst(is_certain, |k| {
+        let piece = &overlay.pieces[k];
+        let corners = &overlay.points[piece.points.clone()];
+        let middle = |of: fn(&OverlayPoint) -> [f64; 3]| {
+            let sum = corners.iter().map(|corner| DVec3::from(of(corner))).sum::<DVec3>();
+            (sum / corners.len() as f64).to_array()
+        };
+        [
+            SurfacePoint { face: piece.source_face, barycentric: middle(|corner| corner.source) },
+            SurfacePoint { face: piece.target_face, barycentric: middle(|corner| corner.target) },
+        ]
+    })
+}
+
+/// The measures of a map, summed up piece by piece.
+pub(in crate::surface_map) struct Tally {
+    result: Distortion,
+    /// The density of each piece, its weight the area on the source.
+    densities: Vec<Weighted>,
+    /// Area of dented pieces on the source and on the target.
+    dented: [f64; 2],
+    /// On each face of the source: the integral of the density, and the area.
+    faces: TiVec<FaceId, [f64; 2]>,
+}
+
+impl Tally {
+    /// Of a map from this mesh in so many pieces.
+    pub(in crate::surface_map) fn new(source: &SurfaceMesh, pieces: usize) -> Self {
+        Self {
+            result: Distortion::default(),
+            densities: Vec::with_capacity(pieces),
+            dented: [0.0; 2],
+            faces: ti_vec![[0.0; 2]; source.face_count()],
+        }
+    }
+
+    /// The next piece, on this face of the source, with its Jacobian and its areas on the source and on the target.
+    pub(in crate::surface_map) fn add(&mut self, face: FaceId, j: &DMat2, areas: [f64; 2]) {
+        let (squares, det) = (squares(j), j.determinant());
+        let [source_area, target_area] = areas;
         let inverse_squares = squares / (det * det);
         let density = 0.25 * (squares + inverse_squares);
+        let result = &mut self.result;
         result.by_piece.push(LocalDistortion::new(squares, det));
         result.energy += squares * source_area + inverse_squares * target_area;
         result.source_area += source_area;
         result.target_area += target_area;
         result.mean_log += 0.5 * ln(density) * (source_area + target_area);
         if density > DENTED {
-            dented[0] += source_area;
-            dented[1] += target_area;
+            (0..2).for_each(|k| self.dented[k] += areas[k]);
         }
-        densities.push(Weighted { value: density, weight: source_area });
-        face_sums[piece.source_face][0] += density * source_area;
-        face_sums[piece.source_face][1] += source_area;
+        self.densities.push(Weighted { value: density, weight: source_area });
+        self.faces[face][0] += density * source_area;
+        self.faces[face][1] += source_area;
     }
-    let worst = worst_pieces([source, target], overlay, &densities);
-    result.summarise(densities);
-    result.max = worst.first().map_or(1.0, |piece| piece.density);
-    result.dented = max(dented[0] / result.source_area, dented[1] / result.target_area);
-    result.worst = worst;
-    result.by_vertex = vertex_averages(source, &face_sums);
-    result
-}
 
-/// The [`WORST`] pieces of largest density, given that of each piece with its source area as its weight.
-fn worst_pieces(
-    [source, target]: [Parametrised<'_>; 2],
-    overlay: &Overlay,
-    densities: &[Weighted],
-) -> Vec<WorstPiece> {
-    let is_certain = |piece: &Piece| {
-        let triangles =
-            [source.embedding.triangle(piece.source_face), target.embedding.triangle(piece.target_face)];
-        is_certain(piece.area, [&triangles[0], &triangles[1]])
-    };
-    let mut order: Vec<usize> = (0..densities.len()).collect();
-    order.sort_by(|&a, &b| densities[b].value.total_cmp(&densities[a].value));
-    let worst = order.into_iter().filter(|&k| is_certain(&overlay.pieces[k])).take(WORST);
-    worst
-        .map(|k| {
-            let piece = &overlay.pieces[k];
-            let corners = &overlay.points[piece.points.clone()];
-            let middle = |of: fn(&OverlayPoint) -> [f64; 3]| {
-                let sum = corners.iter().map(|corner| DVec3::from(of(corner))).sum::<DVec3>();
-                (sum / corners.len() as f64).to_array()
-            };
-            let Weighted { value: density, weight: area } = densities[k];
-            WorstPiece {
-                density,
-                area,
-                source: SurfacePoint { face: piece.source_face, barycentric: middle(|corner| corner.source) },
-                target: SurfacePoint { face: piece.target_face, barycentric: middle(|corner| corner.target) },
-            }
-        })
-        .collect()
+    /// The [`WORST`] pieces of largest density among those that are there for certain, with their middles on both meshes.
+    pub(in crate::surface_map) fn worst(
+        &self,
+        is_certain: impl Fn(usize) -> bool,
+        middles: impl Fn(usize) -> [SurfacePoint; 2],
+    ) -> Vec<WorstPiece> {
+        let mut order: Vec<usize> = (0..self.densities.len()).collect();
+        order.sort_by(|&a, &b| self.densities[b].value.total_cmp(&self.densities[a].value));
+        let worst = order.into_iter().filter(|&k| is_certain(k)).take(WORST);
+        worst
+            .map(|k| {
+                let Weighted { value: density, weight: area } = self.densities[k];
+                let [source, target] = middles(k);
+                WorstPiece { density, area, source, target }
+            })
+            .collect()
+    }
+
+    /// All measures, after the last piece.
+    pub(in crate::surface_map) fn finish(self, source: &SurfaceMesh, worst: Vec<WorstPiece>) -> Distortion {
+        let Self { mut result, densities, dented, faces } = self;
+        result.summarise(densities);
+        result.max = worst.first().map_or(1.0, |piece| piece.density);
+        result.dented = max(dented[0] / result.source_area, dented[1] / result.target_area);
+        result.worst = worst;
+        result.by_vertex = vertex_averages(source, &faces);
+        result
+    }
 }
 
 /// Measures a map given by the images of vertices on the source's faces with three images, each mapped affinely onto the
@@ -225,7 +264,7 @@ pub(in crate::surface_map) fn in_plane([p, q, r]: [DVec3; 3], scale: f64) -> DMa
 
 impl Distortion {
     /// Mean, quantiles and maximum of densities, their weights the source areas.
-    pub(in crate::surface_map) fn summarise(&mut self, mut densities: Vec<Weighted>) {
+    fn summarise(&mut self, mut densities: Vec<Weighted>) {
         self.mean = densities.iter().map(|d| d.value * d.weight).sum::<f64>() / self.source_area;
         sort_by_value(&mut densities);
         self.median = quantile(&densities, 0.5);
@@ -234,8 +273,7 @@ impl Distortion {
     }
 }
 
-fn vertex_averages(source: Parametrised<'_>, faces: &TiVec<FaceId, [f64; 2]>) -> TiVec<VertexId, f64> {
-    let mesh = source.mesh;
+fn vertex_averages(mesh: &SurfaceMesh, faces: &TiVec<FaceId, [f64; 2]>) -> TiVec<VertexId, f64> {
     let mut sums = ti_vec![[0.0_f64; 2]; mesh.vertex_count()];
     for (f, corners) in mesh.triangles().iter_enumerated() {
         for &v in corners {
