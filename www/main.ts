@@ -18,7 +18,7 @@ import { keepOffline } from './offline/register.ts';
 import type { Side } from './landmarks.ts';
 import type { Actions, CameraCommand } from './panels/actions.ts';
 import { mountPage } from './panels/page.tsx';
-import type { Demo } from './store/state.ts';
+import type { Demo, State } from './store/state.ts';
 import { Store } from './store/store.ts';
 import { Views } from './viewer/viewer.ts';
 import init, { demoList } from './wasm/conemap.js';
@@ -42,7 +42,7 @@ const actions: Actions = {
   cancelLink: () => {
     links.cancel();
     // Whoever leaves a link before anything else was there sees what a stranger sees.
-    if (store.state.meshes.every((file) => file === null)) {
+    if (isEmpty(store.state)) {
       void openFirst(store.state.demos);
     }
   },
@@ -163,9 +163,19 @@ async function showFirst(demos: readonly Demo[]): Promise<void> {
     return;
   }
   const followed = await links.follow();
-  if (followed === 'none' ? await openFirst(demos) : followed === 'opened') {
+  const { error } = store.state;
+  // Who comes by a link that brings nothing sees what a stranger sees, and why.
+  if (isEmpty(store.state) ? await openFirst(demos) : followed === 'opened') {
     store.dispatch({ kind: 'history-begun' });
   }
+  if (error !== null) {
+    fail(error);
+  }
+}
+
+/** Whether nothing is on the page, nor on its way. */
+function isEmpty({ meshes, receiving, job }: State): boolean {
+  return meshes.every((file) => file === null) && receiving.kind === 'nothing' && job.kind === 'idle';
 }
 
 /** Opens the demo that a stranger sees first; whether it has come. */

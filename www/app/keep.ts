@@ -189,14 +189,16 @@ export class Keeper {
     }
   }
 
-  /** Neither the offered work nor what is older is asked about again. */
+  /** Neither the offered work nor what is older is asked about again; the offer stays until that is written. */
   async decline(): Promise<void> {
     const { offer } = this.#store.state;
-    this.#store.dispatch({ kind: 'offer-closed' });
     if (offer !== null) {
       const open = (await this.#tabs?.open()) ?? new Set<string>();
       const closed = this.#offerable.filter((id) => !open.has(id));
       await this.#quietly((database) => database.decline(closed));
+    }
+    if (this.#store.state.offer === offer) {
+      this.#store.dispatch({ kind: 'offer-closed' });
     }
   }
 
