@@ -8,7 +8,6 @@ mod mesh_format;
 pub mod obj;
 pub mod off;
 pub mod ply;
-pub mod polygons;
 pub mod vertex_image;
 
 pub use mesh_format::MeshFormat;

@@ -1,17 +1,28 @@
 //! Meshes as Wavefront OBJ.
 
 use crate::mesh::SurfaceMesh;
+use glam::DVec3;
 use std::fmt::Write;
 
 /// Vertices and triangles, in order.
 pub fn mesh(mesh: &SurfaceMesh) -> Vec<u8> {
+    let faces = mesh.triangles().iter().map(|t| t.map(|v| v.0));
+    polygons(mesh.positions().as_ref(), faces)
+}
+
+/// Vertices and polygons, in order.
+pub fn polygons(positions: &[DVec3], faces: impl IntoIterator<Item = impl AsRef<[u32]>>) -> Vec<u8> {
     let mut text = String::new();
     // Writing to a string does not fail.
-    for p in mesh.positions() {
+    for p in positions {
         let _ = writeln!(text, "v {} {} {}", p.x, p.y, p.z);
     }
-    for t in mesh.triangles() {
-        let _ = writeln!(text, "f {} {} {}", t[0].0 + 1, t[1].0 + 1, t[2].0 + 1);
+    for face in faces {
+        text.push('f');
+        for v in face.as_ref() {
+            let _ = write!(text, " {}", v + 1);
+        }
+        text.push('\n');
     }
     text.into_bytes()
 }

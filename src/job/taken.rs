@@ -149,10 +149,14 @@ impl<'a> TakenMap<'a> {
             OutputKind::TargetImagesJson => {
                 vertex_image::json(TargetToSource, &self.vertex_images(TargetToSource))
             }
-            OutputKind::SourceShapeObj => self.shape(SourceToTarget, export::polygons::obj),
-            OutputKind::SourceShapePly => self.shape(SourceToTarget, export::polygons::ply),
-            OutputKind::TargetShapeObj => self.shape(TargetToSource, export::polygons::obj),
-            OutputKind::TargetShapePly => self.shape(TargetToSource, export::polygons::ply),
+            OutputKind::SourceShapeObj => {
+                self.shape(SourceToTarget, |p, faces| export::obj::polygons(p, faces))
+            }
+            OutputKind::SourceShapePly => self.shape(SourceToTarget, export::ply::polygons),
+            OutputKind::TargetShapeObj => {
+                self.shape(TargetToSource, |p, faces| export::obj::polygons(p, faces))
+            }
+            OutputKind::TargetShapePly => self.shape(TargetToSource, export::ply::polygons),
             OutputKind::Distortion => {
                 let [source, target] = self.meshes.map(FileMesh::checked);
                 let numbers: [&dyn Fn(FaceId) -> FaceId; 2] =

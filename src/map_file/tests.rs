@@ -19,7 +19,7 @@ use glam::{DMat2, DVec2};
 fn file(mesh: &SurfaceMesh, corners: [usize; 3]) -> FileMesh {
     let turned = mesh.triangles().iter().map(|t| corners.map(|k| t[k].0).to_vec()).collect::<Vec<_>>();
     let positions: Vec<_> = mesh.positions().iter().copied().collect();
-    FileMesh::read(&crate::export::polygons::obj(&positions, &turned)).unwrap()
+    FileMesh::read(&crate::export::obj::polygons(&positions, &turned)).unwrap()
 }
 
 const AS_IT_IS: [usize; 3] = [0, 1, 2];
