@@ -13,15 +13,15 @@ use conemap::monitor::{Cancelled, Monitor, Progress, Silent, Stage, Step};
 use conemap::pipeline::{Base, Choices, MapResult, Method, PipelineOptions, Warning};
 
 /// Files of a job.
-struct Files {
-    source: Vec<u8>,
-    target: Vec<u8>,
-    landmarks: Vec<u8>,
+pub struct Files {
+    pub source: Vec<u8>,
+    pub target: Vec<u8>,
+    pub landmarks: Vec<u8>,
 }
 
 impl Files {
     /// Those of a demo, with its first landmarks.
-    fn of_demo(id: &str, landmarks: usize) -> Self {
+    pub fn of_demo(id: &str, landmarks: usize) -> Self {
         let demo = demo::build(id).unwrap();
         let pairs = demo.landmarks.iter().take(landmarks);
         let file = LandmarkFile {
@@ -61,7 +61,7 @@ impl Monitor for Recorder {
 }
 
 /// Runs a job as the command line and the page do.
-fn run(files: &Files, options: &PipelineOptions, monitor: &mut dyn Monitor) -> (Job, MapResult) {
+pub fn run(files: &Files, options: &PipelineOptions, monitor: &mut dyn Monitor) -> (Job, MapResult) {
     let job = files.read(monitor).unwrap();
     job.findings(monitor).unwrap();
     let result = job.run(options, monitor).unwrap();

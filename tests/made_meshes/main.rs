@@ -23,6 +23,7 @@ mod exact_geodesics;
 mod fixtures;
 mod rough_meshes;
 
+mod agreement;
 mod base;
 #[cfg(feature = "cli")]
 mod cli;

@@ -13,7 +13,7 @@ use std::process::ExitCode;
 const USAGE: &str = "cargo xtask COMMAND
   serve   build the app, serve it and print its address
   build   build the app into dist/, to be put on any static web server
-  test    run every test: formatting, lints, documentation, core, wasm in Node, page, browser
+  test    run every test: formatting, lints, documentation, core, page, browser
   compare time whole maps, wasm in a browser against native: [--runs N] [PAIR.json ...], the demos without files
   survey  tables of many maps on the meshes of ../shared/data: TABLE [--pairs NAME,NAME] [--seeds N]; lists them without a name
   wasm    build only the wasm module, into www/wasm/; with --names it keeps the functions' names for profilers";
@@ -28,9 +28,8 @@ fn main() -> ExitCode {
         "test" => suite::test(),
         "compare" => compare::compare(&rest),
         "survey" => survey::survey(&rest),
-        "wasm" if rest == ["--names"] => wasm::build_named(),
-        "wasm" => wasm::build(),
-        "wasm-test-runner" => return wasm::test_runner(rest),
+        "wasm" if rest == ["--names"] => wasm::build(wasm::Names::Kept),
+        "wasm" => wasm::build(wasm::Names::Removed),
         _ => Err(USAGE.to_owned()),
     };
     match outcome {

@@ -14,7 +14,7 @@ pub fn serve(rest: &[String]) -> Result<(), String> {
 /// Builds the app into `dist/`.
 pub fn build() -> Result<(), String> {
     ensure_packages()?;
-    wasm::build()?;
+    wasm::build(wasm::Names::Removed)?;
     run("npx", &["vite", "build"])
 }
 

@@ -7,13 +7,12 @@ use std::time::Instant;
 type Task = fn() -> Result<(), String>;
 
 /// In this order, the quick ones first; all are run, and the failed ones are named at the end.
-const TASKS: [(&str, Task); 8] = [
+const TASKS: [(&str, Task); 7] = [
     ("formatting", formatting),
     ("build helper", helper),
     ("lints", lints),
     ("documentation", documentation),
     ("core", core),
-    ("wasm in Node", node),
     ("page", checks),
     ("browser", browser_tests),
 ];
@@ -71,13 +70,6 @@ fn core() -> Result<(), String> {
     // The library alone builds without the command line; the tests then run with it.
     run(&cargo(), &["check", "--lib", "--no-default-features"])?;
     run(&cargo(), &["test"])
-}
-
-fn node() -> Result<(), String> {
-    // Compares with the results that the native run of the same test has left.
-    run(&cargo(), &["test", "--test", "node"])?;
-    let target = ["--target", "wasm32-unknown-unknown"];
-    run(&cargo(), &[&["test", "--no-default-features", "--test", "node"], &target[..]].concat())
 }
 
 fn checks() -> Result<(), String> {
