@@ -2,6 +2,7 @@
 import { openDropped } from './app/dropped.ts';
 import { BROWSER, Keeper } from './app/keep.ts';
 import { listenForUndo } from './app/keys.ts';
+import { saveLandmarks } from './app/landmarks.ts';
 import { mark } from './app/mark.ts';
 import { Links } from './app/links.ts';
 import { followDemo, freeForgotten, openDemo } from './app/open.ts';
@@ -49,6 +50,9 @@ const actions: Actions = {
   sharedLink: () => sharedLink(store.state, new URL(document.baseURI)),
   saveProject: () => {
     void saveProject(store);
+  },
+  saveLandmarks: (format) => {
+    saveLandmarks(store, format);
   },
   saveMadeFile: (name, type) => {
     if (runner.core !== null) {

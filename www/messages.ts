@@ -118,7 +118,8 @@ export const SENTENCES = {
   tooManyMeshes: 'Drop at most two meshes at once: a source and a target.',
   twoLandmarkFiles: 'Drop one landmark file at a time, or one for each mesh.',
   meshesFirst: 'these landmarks are points in space: load their mesh first, or together with them.',
-  whichMesh: 'these landmarks are for one mesh: drop the file on the view of that mesh.',
+  whichMesh:
+    'these landmarks are for one mesh: drop the file on the view of that mesh, or open it by the menu above the list of landmarks.',
   partsAlone: 'this is a part of a mesh: drop it together with the OBJ or glTF that names it.',
   brokenZip: 'this zip cannot be unpacked: it may be damaged or cut off.',
   largeZip: 'this zip unpacks to more than the page can take.',

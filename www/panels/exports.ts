@@ -1,6 +1,5 @@
 /** What can be taken away: the files of the result, and the landmarks. */
 import { download } from '../dom.ts';
-import { landmarkFileOf } from '../store/landmark-file.ts';
 import { wholePairs } from '../store/order.ts';
 import type { State } from '../store/state.ts';
 import type { Actions } from './actions.ts';
@@ -11,11 +10,6 @@ export interface Export {
   readonly title: string;
   readonly about: string;
   readonly save: () => void;
-}
-
-/** Saves the landmarks as a file. */
-export function saveLandmarks(state: State): void {
-  download('landmarks.json', 'application/json', JSON.stringify(landmarkFileOf(state), null, 1));
 }
 
 /** Files that the core makes of a map file when they are asked for: format, title, what it is, name and type. */
@@ -52,7 +46,7 @@ function ofMapFile({ result }: State, saveMadeFile: Actions['saveMadeFile']): re
 }
 
 /** The files that there are now, the most wanted first. */
-export function exportsOf(state: State, { saveMadeFile }: Pick<Actions, 'saveMadeFile'>): readonly Export[] {
+export function exportsOf(state: State, { saveMadeFile, saveLandmarks }: Pick<Actions, 'saveMadeFile' | 'saveLandmarks'>): readonly Export[] {
   const { result } = state;
   const ofResult =
     result === null
@@ -74,9 +68,9 @@ export function exportsOf(state: State, { saveMadeFile }: Pick<Actions, 'saveMad
   const landmarks = {
     format: 'JSON',
     title: 'Landmarks',
-    about: 'All pairs with their names, to be opened again',
+    about: 'All pairs with their names, to be opened again; other formats are in the step Landmarks',
     save: () => {
-      saveLandmarks(state);
+      saveLandmarks();
     },
   };
   const all = [...files, ...ofMapFile(state, saveMadeFile)];
