@@ -1,6 +1,6 @@
 /** Landmark files of other programs and meshes in several files, by the choosers and menus alone. */
 import { readFileSync } from 'node:fs';
-import type { Download, Page } from '@playwright/test';
+import type { Download, FileChooser, Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
 import { zipSync } from 'fflate';
 import { openDemo, openStep, pairs } from './page.ts';
@@ -103,6 +103,10 @@ test('landmarks are saved in every format, and read back to the same points', as
   }
 
   // Of one mesh alone, under a name that says nothing: by keys, and through the chooser that they open.
+  const choosers: FileChooser[] = [];
+  page.on('filechooser', (chooser) => {
+    choosers.push(chooser);
+  });
   await chooseByKeys(page, /^MeshLab/);
   const [source, target] = await downloads(page, 2, () => page.keyboard.press('Enter'));
   await page.getByRole('button', { name: 'Clear all' }).click();
@@ -115,10 +119,11 @@ test('landmarks are saved in every format, and read back to the same points', as
     ['target', target],
     ['source', source],
   ] as const) {
+    const before = choosers.length;
     await chooseByKeys(page, new RegExp(`^For the ${name} alone`));
-    const chooser = page.waitForEvent('filechooser');
     await page.keyboard.press('Enter');
-    await (await chooser).setFiles({ ...file, name: 'points.pp' });
+    await expect.poll(() => choosers.length).toBe(before + 1);
+    await choosers.at(-1)?.setFiles({ ...file, name: 'points.pp' });
     await expect(page.locator('#landmark-list tr[data-id]')).toHaveCount(given.pairs.length);
   }
   await expect(pairs(page)).toHaveCount(given.pairs.length);

@@ -2,6 +2,7 @@
 import type { VNode } from 'preact';
 import { byId } from '../dom.ts';
 import type { Side } from '../landmarks.ts';
+import { MAP_ENDING } from '../map-files.ts';
 import { PART_ENDINGS } from '../mesh-sets.ts';
 import type { State } from '../store/state.ts';
 import { landmarkEndings, meshEndings } from '../wasm/conemap.js';
@@ -45,7 +46,7 @@ function FileInput({ id, accept, onFiles }: ChooserProps): VNode {
 function accepted(): { readonly meshes: string; readonly landmarks: string; readonly all: string } {
   const landmarks = landmarkEndings();
   const meshes = [meshEndings(), PART_ENDINGS].join(',');
-  return { meshes, landmarks, all: [meshes, landmarks].join(',') };
+  return { meshes, landmarks, all: [meshes, landmarks, MAP_ENDING].join(',') };
 }
 
 const NOTHING_YET: ReturnType<typeof accepted> = { meshes: '', landmarks: '', all: '' };
