@@ -6,7 +6,7 @@ import { FileRefused } from '../files.ts';
 import { failureSentence } from '../messages.ts';
 import type { Result } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
-import { perform } from './task.ts';
+import { perform, sentenceOf } from './task.ts';
 
 /** The file of a map by its name, as the core lists them. Throws `FileRefused`. */
 async function fileOf(core: WebAssembly.Module, { output, inputs }: Result, name: string): Promise<Uint8Array<ArrayBuffer>> {
@@ -36,16 +36,18 @@ interface MadeFile {
 /** Saves a file of the map on the page. */
 export async function saveMadeFile(store: Store, core: WebAssembly.Module, { made, name, type }: MadeFile): Promise<void> {
   const { job, result } = store.state;
-  // Neither a run nor other work is given up for a file.
-  if (result === null || job.kind === 'running' || job.kind === 'busy') {
+  if (result === null) {
     return;
   }
-  await perform(
-    store,
-    `Making ${name}…`,
-    () => fileOf(core, result, made),
-    (bytes) => {
-      download(name, type, bytes);
-    },
-  );
+  const save = (bytes: Uint8Array<ArrayBuffer>): void => {
+    download(name, type, bytes);
+  };
+  if (job.kind === 'running' || job.kind === 'busy') {
+    // Neither a run nor other work is given up for a file, which is made beside it.
+    await fileOf(core, result, made).then(save, (thrown: unknown) => {
+      store.dispatch({ kind: 'error', sentence: sentenceOf(thrown) });
+    });
+    return;
+  }
+  await perform(store, `Making ${name}…`, () => fileOf(core, result, made), save);
 }

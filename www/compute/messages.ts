@@ -40,7 +40,7 @@ export interface RunOutput {
   readonly report: string;
   /** The map file, from which every other file can be made; `null` where the map has no pieces, or a mesh was repaired. */
   readonly map: Uint8Array<ArrayBuffer> | null;
-  /** Files that were made with the map; `null` for a map that was opened from its file. */
+  /** Files that were made with the map, where it has no map file to make them of later; else `null`. */
   readonly made: MadeFiles | null;
 }
 

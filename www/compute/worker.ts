@@ -13,11 +13,10 @@ function post(message: WorkerMessage, transfer: Transferable[] = []): void {
 }
 
 function read(output: MapOutput): RunOutput {
-  return {
-    ...viewBuffers(output),
-    map: output.mapFile()?.slice() ?? null,
-    made: { glb: output.glb().slice(), csv: output.csv().slice(), baseObj: output.baseObj().slice() },
-  };
+  const map = output.mapFile()?.slice() ?? null;
+  // What can be made of the map file later is not made now.
+  const made = map === null ? { glb: output.glb().slice(), csv: output.csv().slice(), baseObj: output.baseObj().slice() } : null;
+  return { ...viewBuffers(output), map, made };
 }
 
 function buffersOf(output: RunOutput): Transferable[] {
