@@ -2,13 +2,15 @@
 import { failureOf } from './compute/messages.ts';
 import type { Failure } from './compute/messages.ts';
 import type { LandmarkFile, Pair, Side } from './landmarks.ts';
-import { SIDES } from './landmarks.ts';
+import { otherSide, SIDES } from './landmarks.ts';
 import { contentOf, landmarkFile, pairsRead, sideCalledLike, sideRead } from './landmark-files.ts';
 import type { LandmarkContent } from './landmark-files.ts';
+import { checkMeshes, headOf, mapsAmong, sideIn } from './map-files.ts';
 import { gathered } from './mesh-sets.ts';
 import { failureSentence, fileSentence, remarksSentence, SENTENCES } from './messages.ts';
 import type { NamedBytes } from './named-file.ts';
 import { FileRefused } from './named-file.ts';
+import type { AwaitedMap } from './store/awaited.ts';
 import type { Event } from './store/events.ts';
 import { baseName, landmarkFileOf } from './store/landmark-file.ts';
 import { wholePairs } from './store/order.ts';
@@ -203,22 +205,62 @@ function landmarksOf(files: readonly NamedBytes[], contents: readonly LandmarkCo
   return { events, file: first, pairs: null };
 }
 
-/** The events that these files mean; all or none. Throws {@link FileRefused}. */
-export function eventsOf(given: readonly NamedBytes[], over: Side | null, state: State): Event[] {
-  const files = gathered(given).map((file) => ({ file, content: contentOf(file) }));
+/** The sides of one or two meshes that a map wants; `sides` where it does not tell. */
+function sidesWanted(meshes: readonly MeshFile[], sides: readonly Side[], map: AwaitedMap | null): readonly Side[] {
+  const [first, second] = meshes;
+  if (map === null || first === undefined) {
+    return sides;
+  }
+  const [one, other] = [sideIn(map, first), second === undefined ? null : sideIn(map, second)];
+  const side = one ?? (other === null ? null : otherSide(other));
+  return side === null ? sides : [side, otherSide(side)];
+}
+
+/** What files mean. */
+export interface Opening {
+  /** All or none. */
+  readonly events: readonly Event[];
+  /** To be opened after them, now or when its meshes have come. */
+  readonly map: AwaitedMap | null;
+}
+
+/** What these files mean. Throws {@link FileRefused}. */
+export function openingOf(given: readonly NamedBytes[], over: Side | null, state: State): Opening {
+  const { maps, others } = mapsAmong(gathered(given));
+  const [first] = maps;
+  if (maps.length > 1) {
+    throw new FileRefused(SENTENCES.oneMap);
+  }
+  const map = first === undefined ? null : headOf(first);
+  // A mesh that was put on a view goes there, whatever waits for it.
+  const wanting = map ?? (over === null ? state.awaited : null);
+  return { events: eventsOf(others, over, state, { map, wanting }), map };
+}
+
+/** The events of meshes and landmark files. `map` comes with them, and `wanting` tells the sides of its meshes. */
+function eventsOf(
+  given: readonly NamedBytes[],
+  over: Side | null,
+  state: State,
+  { map, wanting }: { readonly map: AwaitedMap | null; readonly wanting: AwaitedMap | null },
+): Event[] {
+  const files = given.map((file) => ({ file, content: contentOf(file) }));
   const meshFiles = files.flatMap(({ file, content }) => (content === null ? [file] : []));
   const marked = files.flatMap(({ file, content }) => (content === null ? [] : [{ file, content }]));
   if (meshFiles.length > 2) {
     throw new FileRefused(SENTENCES.tooManyMeshes);
   }
   const landmarks = landmarksOf(marked.map(({ file }) => file), marked.map(({ content }) => content), over);
-  const sides = sidesOf(meshFiles, landmarks?.pairs ?? null, over, state);
   const loaded: MeshFile[] = [];
   try {
     for (const file of meshFiles) {
       loaded.push(meshFile(file));
     }
+    const sides = sidesWanted(loaded, sidesOf(meshFiles, landmarks?.pairs ?? null, over, state), wanting);
     const events: Event[] = loaded.map((file, index) => ({ kind: 'mesh', side: sides[index] ?? 0, file }));
+    if (map !== null) {
+      checkMeshes(map, events.reduce(update, state).meshes, state);
+    }
     if (landmarks === null) {
       return [...events, ...keptMisfit(events, state)];
     }

@@ -2,8 +2,10 @@
 import { openDropped } from './app/dropped.ts';
 import { BROWSER, Keeper } from './app/keep.ts';
 import { listenForUndo } from './app/keys.ts';
+import { saveLandmarks } from './app/landmarks.ts';
 import { mark } from './app/mark.ts';
 import { Links } from './app/links.ts';
+import { Maps } from './app/maps.ts';
 import { followDemo, freeForgotten, openDemo } from './app/open.ts';
 import { saveMadeFile } from './app/made-files.ts';
 import { saveProject } from './app/projects.ts';
@@ -29,6 +31,7 @@ const PICTURE_SCALE = 2;
 const store = new Store();
 const runner = new Runner(store);
 const links = new Links(store);
+const maps = new Maps(store, () => runner.core);
 /** Reloads the page into its newer build, when there is one. */
 let reload = (): void => undefined;
 const keeper = new Keeper(store, BROWSER);
@@ -36,7 +39,7 @@ const keeper = new Keeper(store, BROWSER);
 const actions: Actions = {
   dispatch: store.dispatch,
   openFiles: (files, side) => {
-    void openDropped(store, links, files, side);
+    void openDropped(store, { links, maps }, files, side);
   },
   acceptLink: links.accept,
   cancelLink: () => {
@@ -50,9 +53,12 @@ const actions: Actions = {
   saveProject: () => {
     void saveProject(store);
   },
-  saveMadeFile: (name, type) => {
+  saveLandmarks: (format) => {
+    saveLandmarks(store, format);
+  },
+  saveMadeFile: (file) => {
     if (runner.core !== null) {
-      void saveMadeFile(store, runner.core, name, type);
+      void saveMadeFile(store, runner.core, file);
     }
   },
   savePicture: () => {

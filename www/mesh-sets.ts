@@ -10,6 +10,9 @@ import { meshParts, packMesh } from './wasm/conemap.js';
 /** Files that belong to a mesh and are none themselves. */
 const COMPANIONS = new Set(['mtl', 'png', 'jpg', 'jpeg', 'webp', 'bmp', 'tga', 'tif', 'tiff', 'bin', 'ktx2']);
 
+/** What a file chooser takes beside meshes, as it is told: their parts, and zips of all of it. */
+export const PART_ENDINGS = [...COMPANIONS, 'zip'].map((ending) => `.${ending}`).join(',');
+
 /** What a zip may hold, unpacked, in bytes; and how often its own size that may be. */
 const LARGEST_CONTENT = 2 ** 30;
 const LARGEST_RATIO = 200;

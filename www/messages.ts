@@ -118,7 +118,8 @@ export const SENTENCES = {
   tooManyMeshes: 'Drop at most two meshes at once: a source and a target.',
   twoLandmarkFiles: 'Drop one landmark file at a time, or one for each mesh.',
   meshesFirst: 'these landmarks are points in space: load their mesh first, or together with them.',
-  whichMesh: 'these landmarks are for one mesh: drop the file on the view of that mesh.',
+  whichMesh:
+    'these landmarks are for one mesh: drop the file on the view of that mesh, or open it by the menu above the list of landmarks.',
   partsAlone: 'this is a part of a mesh: drop it together with the OBJ or glTF that names it.',
   brokenZip: 'this zip cannot be unpacked: it may be damaged or cut off.',
   largeZip: 'this zip unpacks to more than the page can take.',
@@ -143,8 +144,13 @@ export const SENTENCES = {
   upToDate: 'This map is of these meshes, landmarks and options already.',
   nothingToShare: 'There is nothing to share yet: open a mesh or a demo first.',
   noLink: 'There is no link to this: it would be too long, or the page was not opened by https, which links to your own files need. Save the project file instead: it holds everything.',
-  aboutProject: 'One file with both meshes, the landmarks, the options and the views; drop it on the page to go on',
+  aboutProject: 'One file with both meshes, the landmarks, the options, the views and the map; drop it on the page to go on',
   newVersion: 'A new version of this page is ready.',
+  exchangedMeshes: 'its source is the target on the page and the other way round: swap source and target first.',
+  oneMap: 'Drop one map at a time.',
+  mapGone: 'The meshes of this map have gone from the page, so it was not opened.',
+  noReport: 'the map file, section "report": it is not the report of a run.',
+  mirroredMap: 'This map goes to the mirror image of the target; a map made here goes to the target as it is.',
   badPoint: 'Some landmarks do not belong to these meshes. Load the meshes that the landmark file was made for.',
 } as const;
 
@@ -229,6 +235,23 @@ export const LINK_REFUSED = {
   'has-password': 'This link names a file whose address holds a user name or a password, so nothing is loaded.',
 } as const;
 export type LinkFault = keyof typeof LINK_REFUSED;
+
+/** A mesh that is not the one of a map. `wanted` is what the map calls the right one. */
+export function otherMesh(side: 0 | 1, found: string, wanted: string | null): string {
+  const right = wanted === null || wanted === found ? '' : ` (${wanted})`;
+  return `the ${side === 0 ? 'source' : 'target'}, ${found}, is not the mesh that this map was made with${right}. Drop the map together with the right one.`;
+}
+
+/** Meshes that a map waits for. */
+export function mapWaits(name: string, missing: readonly { readonly side: 0 | 1; readonly name: string | null }[]): string {
+  const meshes = missing.map(({ side, name: mesh }) => `its ${side === 0 ? 'source' : 'target'}${mesh === null ? '' : ` (${mesh})`}`);
+  return `${name} waits for ${listed(meshes)}: drop ${missing.length === 1 ? 'it' : 'them'} here.`;
+}
+
+/** A map that was not computed on the page. */
+export function reopenedSentence(name: string): string {
+  return `Opened from ${name}: nothing was computed. Its pieces were checked as a map of these meshes, and measured anew.`;
+}
 
 /** Several names in a sentence. */
 export function listed(names: readonly string[]): string {

@@ -2,7 +2,7 @@
 
 use super::error::{MapFileError, SectionProblem};
 use super::header::{Header, Packing, SectionEntry, SectionType};
-use super::version::{MAGIC, MAJOR, MINOR};
+use super::version::{MAGIC, MAJOR, MINOR, is_one};
 use crate::io::MAX_BYTES;
 use std::collections::BTreeMap;
 
@@ -89,7 +89,7 @@ impl<'a> Container<'a> {
         if bytes.len() > MAX_BYTES {
             return Err(MapFileError::TooLarge { bytes: bytes.len() as u64 });
         }
-        if !bytes.starts_with(MAGIC) {
+        if !is_one(bytes) {
             return Err(MapFileError::NotAMapFile);
         }
         let cut_off = |needed: u64| MapFileError::CutOff { bytes: bytes.len(), needed };

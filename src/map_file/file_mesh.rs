@@ -15,6 +15,30 @@ impl Hash {
     fn of(bytes: &[u8]) -> Self {
         Self(Sha256::digest(bytes).into())
     }
+
+    /// Of a checked mesh: numbers of vertices and faces of the mesh and of vertices of the file (u64), coordinates (f64), faces
+    /// (u32), the vertex of each of the file's vertices (u32, 2^32 - 1 for none) and which faces were turned (u8); all
+    /// little-endian.
+    pub fn of_checked(checked: &CheckedMesh) -> Self {
+        let mesh = &checked.mesh;
+        let mut hash = Sha256::new();
+        for count in [mesh.vertex_count(), mesh.face_count(), checked.vertex_from_file.len()] {
+            hash.update((count as u64).to_le_bytes());
+        }
+        for p in mesh.positions() {
+            p.to_array().iter().for_each(|x| hash.update(x.to_le_bytes()));
+        }
+        for v in mesh.triangles().iter().flatten() {
+            hash.update(v.0.to_le_bytes());
+        }
+        for v in &checked.vertex_from_file {
+            hash.update(v.map_or(u32::MAX, |v| v.0).to_le_bytes());
+        }
+        for &turned in &checked.turned {
+            hash.update([u8::from(turned)]);
+        }
+        Self(hash.finalize().into())
+    }
 }
 
 impl std::fmt::Display for Hash {
@@ -66,7 +90,7 @@ impl FileMesh {
             numbers: checked.file_from_vertex(),
             bytes: bytes.len(),
             hash: Hash::of(bytes),
-            checked_hash: hash_of_checked(&checked),
+            checked_hash: Hash::of_checked(&checked),
             checked,
         }
     }
@@ -167,28 +191,4 @@ impl FileMesh {
         let turned = self.checked.turned.get(face).copied().unwrap_or(false);
         turned != self.is_mirrored()
     }
-}
-
-/// The hash of a checked mesh: numbers of vertices and faces of the mesh and of vertices of the file (u64), coordinates (f64),
-/// faces (u32), the vertex of each of the file's vertices (u32, 2^32 - 1 for none) and which faces were turned (u8); all
-/// little-endian.
-fn hash_of_checked(checked: &CheckedMesh) -> Hash {
-    let mesh = &checked.mesh;
-    let mut hash = Sha256::new();
-    for count in [mesh.vertex_count(), mesh.face_count(), checked.vertex_from_file.len()] {
-        hash.update((count as u64).to_le_bytes());
-    }
-    for p in mesh.positions() {
-        p.to_array().iter().for_each(|x| hash.update(x.to_le_bytes()));
-    }
-    for v in mesh.triangles().iter().flatten() {
-        hash.update(v.0.to_le_bytes());
-    }
-    for v in &checked.vertex_from_file {
-        hash.update(v.map_or(u32::MAX, |v| v.0).to_le_bytes());
-    }
-    for &turned in &checked.turned {
-        hash.update([u8::from(turned)]);
-    }
-    Hash(hash.finalize().into())
 }

@@ -21,6 +21,6 @@ pub use content::MapFile;
 pub use error::{MapFileError, SectionProblem};
 pub use file_mesh::{FileMesh, FileMeshError, Hash};
 pub use header::Summary;
-pub use read::{read, target_image};
-pub use version::ENDING;
+pub use read::{WantedMesh, read, target_image, wanted_meshes};
+pub use version::{ENDING, is_one};
 pub use write::write;

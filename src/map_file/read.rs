@@ -4,7 +4,7 @@ use super::container::{Container, fault};
 use super::content::MapFile;
 use super::error::{MapFileError, SectionProblem};
 use super::file_mesh::FileMesh;
-use super::header::MeshEntry;
+use super::header::{Header, MeshEntry};
 use super::numbering::{exchanged_matrix, expect_below, expect_count, read_places};
 use crate::base_domain::BaseDomain;
 use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
@@ -35,6 +35,26 @@ const LARGEST_UV: f64 = 1e6;
 /// [`MapFileError`] of the header.
 pub fn target_image(bytes: &[u8]) -> Result<TargetImage, MapFileError> {
     Ok(Container::open(bytes)?.header.target_image)
+}
+
+/// A mesh that a map file was made with.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WantedMesh {
+    /// The name of its file, where the landmarks tell it; it is only text.
+    pub name: Option<String>,
+    /// [`super::Hash::of_checked`] of the mesh, in hexadecimal digits, if the file is sound.
+    pub checked_hash: String,
+}
+
+/// The source and the target that a map file was made with, by its header alone.
+///
+/// # Errors
+/// [`MapFileError`] of the header.
+pub fn wanted_meshes(bytes: &[u8]) -> Result<[WantedMesh; 2], MapFileError> {
+    let Header { source, target, landmarks, .. } = Container::open(bytes)?.header;
+    let named = |key: &str| landmarks.get(key).and_then(|name| name.as_str()).map(str::to_owned);
+    let wanted = |key, entry: MeshEntry| WantedMesh { name: named(key), checked_hash: entry.checked_sha256 };
+    Ok([wanted("source", source), wanted("target", target)])
 }
 
 /// Reads a map between two meshes, the target mirrored where [`target_image`] says so.

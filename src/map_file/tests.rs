@@ -148,6 +148,21 @@ fn points_of_the_identity_stay() {
 }
 
 #[test]
+fn the_meshes_that_a_file_wants_are_told_by_its_header() {
+    let (mut map, meshes) = small();
+    map.landmarks.source = Some("animals/cat.off".to_owned());
+    let bytes = write(&map, meshes.each_ref());
+    assert!(is_one(&bytes) && is_one(&bytes[..8]) && !is_one(&bytes[..7]) && !is_one(b"OFF"));
+    let [source, target] = wanted_meshes(&bytes).unwrap();
+    assert_eq!((source.name.as_deref(), target.name), (Some("animals/cat.off"), None));
+    // The inside-out file is another mesh than the one that needed no turn.
+    let hashes = meshes.each_ref().map(|mesh| Hash::of_checked(mesh.checked()).to_string());
+    assert_eq!([source.checked_hash, target.checked_hash], hashes);
+    assert_ne!(hashes[0], hashes[1]);
+    assert!(matches!(wanted_meshes(&bytes[..100]), Err(MapFileError::CutOff { .. })));
+}
+
+#[test]
 fn another_mesh_is_named() {
     let (map, meshes) = small();
     let bytes = write(&map, meshes.each_ref());

@@ -5,6 +5,11 @@ pub const ENDING: &str = "conemap";
 
 /// How a map file begins.
 pub(super) const MAGIC: &[u8; 8] = b"CONEMAP\0";
+/// Whether bytes begin as a map file does, whole or not.
+pub fn is_one(bytes: &[u8]) -> bool {
+    bytes.starts_with(MAGIC)
+}
+
 /// Files with another major version are refused.
 pub(super) const MAJOR: u16 = 1;
 /// Grows with what old readers may leave out.

@@ -326,20 +326,4 @@ impl MapOutput {
         let FinishedRun { job, result, .. } = self.run()?;
         Ok(job.base_domain(result))
     }
-
-    /// One file by its name, made when it is asked for.
-    ///
-    /// # Errors
-    /// `{"code": "export", "message"}`.
-    pub fn file(&self, name: &str) -> Result<Vec<u8>, JsValue> {
-        let FinishedRun { job, result, choices } = self.run()?;
-        let kind = OutputKind::of(name);
-        match (job.map_file(result, choices), kind) {
-            (Some(map), _) => output_file::file(job.taken(&map), name),
-            (None, Some(OutputKind::Glb)) => self.glb(),
-            (None, Some(OutputKind::SourceImagesCsv)) => self.csv(),
-            (None, Some(OutputKind::BaseDomain)) => self.base_obj(),
-            _ => Err(failure("export", format!("this map gives no file \"{name}\""))),
-        }
-    }
 }

@@ -7,6 +7,7 @@ use crate::io::landmark_formats::Space;
 use crate::landmark_exchange::Surface;
 use crate::landmark_suggestion::{Suggestion, kept, suggest};
 use crate::landmarks::{self, MeshSide};
+use crate::map_file::Hash;
 use crate::mesh::check::CheckedMesh;
 use crate::mesh::mirror::mirrored;
 use crate::mesh::{FaceId, SurfacePoint, VertexId};
@@ -42,6 +43,12 @@ impl LoadedMesh {
     #[wasm_bindgen(getter, js_name = faceCount)]
     pub fn face_count(&self) -> usize {
         self.checked.mesh.face_count()
+    }
+
+    /// What tells the mesh from others, as a map file has it, in hexadecimal digits.
+    #[wasm_bindgen(js_name = checkedHash)]
+    pub fn checked_hash(&self) -> String {
+        Hash::of_checked(&self.checked).to_string()
     }
 
     /// Faces whose orientation was turned.

@@ -1,11 +1,12 @@
 //! Maps that were saved: opened with their meshes, shown, asked and exported, without computing.
 
 use super::compute::{MapOutput, Shown};
+use super::failure;
 use super::output_file::file;
-use crate::export::vertex_image::Direction;
-use crate::job::{MapFiles, OpenMap, OpenMapError, OutputKind};
+use crate::job::{MapFiles, OpenMap, OpenMapError, TargetImage};
 use crate::landmarks::MeshSide;
-use crate::mesh::{FaceId, SurfacePoint};
+use crate::map_file;
+use crate::pipeline::Choices;
 use serde_json::json;
 use wasm_bindgen::prelude::*;
 
@@ -32,34 +33,46 @@ pub fn open_map(map: &[u8], source: &[u8], target: &[u8]) -> Result<SavedMap, Js
     Ok(SavedMap { open })
 }
 
-/// One file of a saved map, by its name in [`output_names`].
-///
-/// # Errors
-/// As [`open_map`], and `{"code": "export", "message"}`.
-#[wasm_bindgen(js_name = exportFromMap)]
-pub fn export_from_map(map: &[u8], source: &[u8], target: &[u8], name: &str) -> Result<Vec<u8>, JsValue> {
-    open_map(map, source, target)?.file(name)
+/// Whether a file says of itself that it is a map file, whole or not.
+#[wasm_bindgen(js_name = isMapFile)]
+pub fn is_map_file(bytes: &[u8]) -> bool {
+    map_file::is_one(bytes)
 }
 
-/// The names of all files that a map gives, as JSON.
-#[wasm_bindgen(js_name = outputNames)]
-pub fn output_names() -> String {
-    json!(OutputKind::ALL.map(OutputKind::file_name)).to_string()
+/// The source and the target that a map file was made with, by its header alone: JSON, two of `{"name", "checked"}`. `name` is what
+/// the landmarks call the mesh, or `null`; `checked` is the [`LoadedMesh::checked_hash`](super::files::LoadedMesh::checked_hash) of the right one.
+///
+/// # Errors
+/// `{"code": "map-file" | "map-version", "message"}`.
+#[wasm_bindgen(js_name = wantedMeshes)]
+pub fn wanted_meshes(map: &[u8]) -> Result<String, JsValue> {
+    let wanted = map_file::wanted_meshes(map).map_err(|e| failure(e.code(), &e))?;
+    let told = wanted.map(|mesh| json!({ "name": mesh.name, "checked": mesh.checked_hash }));
+    Ok(json!(told).to_string())
 }
 
 #[wasm_bindgen]
 impl SavedMap {
-    /// The map as a run gives it, for the views; its report is that of the run.
-    pub fn output(&self) -> MapOutput {
+    /// The map as a run gives it, for the views. Its report is that of the run, as the file tells it, with the distortion measured
+    /// anew from the pieces.
+    ///
+    /// # Errors
+    /// `{"code": "map-file", "message"}` where the report is none.
+    pub fn output(&self) -> Result<MapOutput, JsValue> {
         let map = self.open.taken();
         let common = map.common();
-        MapOutput::of_saved(Shown {
+        let mut report = map.map().report.clone();
+        let fields = report
+            .as_object_mut()
+            .ok_or_else(|| failure("map-file", "the map file, section \"report\": it is no report"))?;
+        fields.insert("distortion".to_owned(), json!(map.distortion()));
+        Ok(MapOutput::of_saved(Shown {
             distortion: map.common_distortion(&common),
             common,
             patch_lines: map.patch_lines(),
             cones: map.map().cones.clone(),
-            report: serde_json::to_string_pretty(&map.map().report).unwrap_or_default(),
-        })
+            report: serde_json::to_string_pretty(&report).unwrap_or_default(),
+        }))
     }
 
     /// The landmark file of the run.
@@ -67,14 +80,16 @@ impl SavedMap {
         crate::io::landmark_file::write(&self.open.taken().map().landmarks)
     }
 
-    /// What was chosen of the run, as JSON.
-    pub fn options(&self) -> String {
-        self.open.taken().map().options.to_string()
+    /// What was chosen of the run, nothing left out, as JSON; `undefined` where this version does not know it.
+    pub fn options(&self) -> Option<String> {
+        let choices: Choices = serde_json::from_value(self.open.taken().map().options.clone()).ok()?;
+        serde_json::to_string(&choices).ok()
     }
 
-    /// The measures of the map, made anew from its pieces, as JSON like the report's `distortion`.
-    pub fn distortion(&self) -> String {
-        serde_json::to_string(&self.open.taken().distortion()).unwrap_or_default()
+    /// Whether the map goes to the mirror image of the target.
+    #[wasm_bindgen(js_name = isMirrored)]
+    pub fn is_mirrored(&self) -> bool {
+        self.open.meshes()[1].image() == TargetImage::Mirrored
     }
 
     /// One of its files by name.
@@ -83,24 +98,5 @@ impl SavedMap {
     /// `{"code": "export", "message"}`.
     pub fn file(&self, name: &str) -> Result<Vec<u8>, JsValue> {
         file(self.open.taken(), name)
-    }
-
-    /// The image of a point of the source (side 0), or the source point of one of the target (side 1), in the files' numbers:
-    /// face, three weights, three coordinates. `undefined` where the face does not exist or the weights are no weights.
-    pub fn image(&self, side: usize, face: u32, weights: &[f64]) -> Option<Vec<f64>> {
-        let direction = if side == 0 { Direction::SourceToTarget } else { Direction::TargetToSource };
-        let barycentric: [f64; 3] = weights.try_into().ok()?;
-        let sum: f64 = barycentric.iter().sum();
-        let is_sound = barycentric.iter().all(|w| *w >= -1e-6) && (sum - 1.0).abs() < 1e-4;
-        let exists = (face as usize) < self.open.taken().surfaces()[direction.side()].face_count();
-        if !is_sound || !exists {
-            return None;
-        }
-        let point = SurfacePoint::clamped(FaceId(face), barycentric);
-        let image = self.open.taken().images(direction, &[point]).pop()?;
-        let mut numbers = vec![f64::from(image.point.face.0)];
-        numbers.extend(image.point.barycentric);
-        numbers.extend(image.position.to_array());
-        Some(numbers)
     }
 }

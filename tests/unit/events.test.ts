@@ -6,7 +6,7 @@ import type { Event } from '../../www/store/events.ts';
 import type { Offer, State, Style, Ui } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
 import { workOf } from '../../www/store/work.ts';
-import { DEMO, DONE, DOUBT, FOUR, mesh, OUTPUT, pair, READY, REPORT, RUNNING, suggestion, SWAPPED } from './fixtures.ts';
+import { AWAITED, DEMO, DONE, DOUBT, FOUR, mesh, OPENED, OUTPUT, pair, READY, REPORT, RUNNING, suggestion, SWAPPED } from './fixtures.ts';
 
 interface Case<K extends Event['kind']> {
   readonly before: State;
@@ -367,9 +367,34 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     step: null,
     changes: {
       job: { kind: 'done' },
-      result: { output: OUTPUT, report: REPORT, inputs: RUNNING.inputs },
+      result: { output: OUTPUT, report: REPORT, inputs: RUNNING.inputs, opened: null },
       ui: ui(READY, { style: { ...READY.ui.style, surface: 'pattern' } }),
     },
+  },
+  'map-opened': {
+    before: { ...READY, awaited: AWAITED, error: 'Something failed.' },
+    event: { map: { ...OPENED, report: { ...REPORT, findings: [SWAPPED] } } },
+    step: null,
+    changes: {
+      job: { kind: 'done' },
+      result: {
+        output: OUTPUT,
+        report: { ...REPORT, findings: [SWAPPED] },
+        inputs: workOf(READY),
+        opened: { name: 'map.conemap', isMirrored: false },
+      },
+      found: { doubts: [DOUBT], inputs: workOf(READY) },
+      findings: [DOUBT],
+      ui: ui(READY, { style: { ...READY.ui.style, surface: 'pattern' } }),
+      awaited: null,
+      error: null,
+    },
+  },
+  'map-awaited': {
+    before: READY,
+    event: { map: AWAITED },
+    step: null,
+    changes: { awaited: AWAITED },
   },
   'run-failed': {
     before: during({}),

@@ -4,7 +4,9 @@ import type { Pair, Suggestion, SurfacePoint } from '../../www/landmarks.ts';
 import type { Finding, Report } from '../../www/report.ts';
 import { change } from '../../www/store/change.ts';
 import type { Event } from '../../www/store/events.ts';
+import type { AwaitedMap } from '../../www/store/awaited.ts';
 import type { Running } from '../../www/store/job.ts';
+import type { OpenedMap } from '../../www/store/opened.ts';
 import type { Demo, Doubt, MeshFile, State } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
 import { workOf } from '../../www/store/work.ts';
@@ -69,7 +71,33 @@ export const RUNNING: Running = { kind: 'running', inputs: workOf(READY), progre
 export const DONE: State = {
   ...READY,
   job: { kind: 'done' },
-  result: { output: OUTPUT, report: REPORT, inputs: workOf(READY) },
+  result: { output: OUTPUT, report: REPORT, inputs: workOf(READY), opened: null },
+};
+
+/** A map file for meshes that are nowhere. */
+export const AWAITED: AwaitedMap = {
+  name: 'map.conemap',
+  bytes: new Uint8Array([1]),
+  meshes: [
+    { name: 'cow.off', checked: 'c0' },
+    { name: null, checked: 'd0' },
+  ],
+};
+/** A map of READY that was opened. */
+export const OPENED: OpenedMap = {
+  name: 'map.conemap',
+  isMirrored: false,
+  output: OUTPUT,
+  report: { ...REPORT, findings: [] },
+  landmarks: {
+    pairs: [
+      [0, 10],
+      [1, 11],
+      [2, 12],
+      [3, 13],
+    ],
+  },
+  options: READY.options,
 };
 
 /** The state after these events, each a step of its own. */

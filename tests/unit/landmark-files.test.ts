@@ -3,7 +3,7 @@ import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { zipSync } from 'fflate';
 import { beforeAll, describe, expect, test } from 'vitest';
-import { eventsOf, FileRefused, meshFile } from '../../www/files.ts';
+import { FileRefused, meshFile, openingOf } from '../../www/files.ts';
 import type { NamedBytes } from '../../www/files.ts';
 import { contentOf, filesOf, formatList, landmarkFile, pairsRead, sideCalledLike, sideRead } from '../../www/landmark-files.ts';
 import type { LandmarkFile, Side } from '../../www/landmarks.ts';
@@ -45,7 +45,7 @@ function format(id: string): ReturnType<typeof formatList>[number] {
 
 function refusal(files: readonly NamedBytes[], over: Side | null, state: State): string {
   try {
-    eventsOf(files, over, state);
+    openingOf(files, over, state);
   } catch (thrown) {
     if (thrown instanceof FileRefused) {
       return thrown.message;
@@ -78,14 +78,14 @@ describe('landmark files', () => {
     const points = landmarks.pairs.map(([, point]) => point);
     expect(sideRead(cat, target.mesh, 1).marks.map(({ point }) => point)).toEqual(points);
     for (const [file, over] of [[cat, null], [{ ...cat, name: 'points.fcsv' }, 1]] as const) {
-      const state = after(open, ...eventsOf([file], over, open));
+      const state = after(open, ...openingOf([file], over, open).events);
       expect(state.pairs.map((pair) => pair.points)).toEqual(points.map((point) => [null, point]));
     }
     // The second completes the first, and both together are one step, in whatever order they come.
-    const both = after(open, ...eventsOf([cat, horse], null, open));
+    const both = after(open, ...openingOf([cat, horse], null, open).events);
     expect(both.pairs.map((pair) => pair.points)).toEqual(landmarks.pairs);
-    const one = after(open, ...eventsOf([cat], null, open));
-    const then = after(one, ...eventsOf([horse], null, one));
+    const one = after(open, ...openingOf([cat], null, open).events);
+    const then = after(one, ...openingOf([horse], null, one).events);
     expect(then.pairs.map((pair) => pair.points)).toEqual(landmarks.pairs);
   });
 
@@ -132,7 +132,7 @@ function tetrahedron(): [NamedBytes, NamedBytes] {
 describe('meshes in several files', () => {
   test('are one file when all are there, and the missing ones are named', () => {
     const [gltf, buffer] = tetrahedron();
-    const state = after(INITIAL, ...eventsOf([buffer, gltf], 0, INITIAL));
+    const state = after(INITIAL, ...openingOf([buffer, gltf], 0, INITIAL).events);
     expect([state.meshes[0]?.name, state.meshes[0]?.faceCount]).toEqual(['tetra.glb', 4]);
     expect(refusal([gltf], 0, INITIAL)).toBe('tetra.gltf: Drop it together with tetra hedron.bin: its data is there.');
     expect(refusal([buffer], 0, INITIAL)).toMatch(/^tetra hedron\.bin: this is a part of a mesh/);
@@ -146,7 +146,7 @@ describe('meshes in several files', () => {
       'model/skin.mtl': new Uint8Array(5),
       '__MACOSX/model/._tetra.gltf': new Uint8Array(5),
     });
-    const state = after(INITIAL, ...eventsOf([{ name: 'all.zip', bytes }], null, INITIAL));
+    const state = after(INITIAL, ...openingOf([{ name: 'all.zip', bytes }], null, INITIAL).events);
     expect([state.meshes[0]?.name, state.meshes[0]?.faceCount]).toEqual(['tetra.glb', 4]);
     const cut = bytes.slice(0, bytes.length / 2);
     expect(refusal([{ name: 'all.zip', bytes: cut }], null, INITIAL)).toMatch(/^all\.zip: this zip cannot be unpacked/);

@@ -5,7 +5,7 @@ import { documentName, meshName } from '../../www/panels/names.ts';
 import { remembered } from '../../www/panels/shell.ts';
 import { markOf, stepAfter, STEPS } from '../../www/panels/steps.ts';
 import { INITIAL } from '../../www/store/state.ts';
-import { after, DEMO, DONE, mesh, pair, READY, RUNNING, SWAPPED } from './fixtures.ts';
+import { after, DEMO, DONE, mesh, OPENED, pair, READY, RUNNING, SWAPPED } from './fixtures.ts';
 
 describe('a step', () => {
   const marks = (state: typeof READY): string[] => STEPS.map((step) => markOf(state, step));
@@ -47,6 +47,12 @@ describe('a step opens by itself', () => {
     expect(stepAfter(marked, meshes)).toBe('map');
     const inList = after(meshes, { kind: 'ui', ui: { step: 'landmarks' } });
     expect(stepAfter(after(inList, { kind: 'landmarks', file }), inList)).toBeNull();
+  });
+
+  test('when a map comes from a file, but not when it is there already', () => {
+    const opened = after(READY, { kind: 'map-opened', map: OPENED });
+    expect(stepAfter(opened, READY)).toBe('map');
+    expect(stepAfter(after(opened, { kind: 'pair-deleted', id: 4 }), opened)).toBeNull();
   });
 
   test('when a run starts, but not when meshes change their places', () => {

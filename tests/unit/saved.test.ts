@@ -57,18 +57,15 @@ afterEach(() => {
 test('answers reach the question that they belong to, in any order', async () => {
   const map = openSavedMap(MODULE, FILES, 'files');
   const [first, second] = [map.file('layout.svg'), map.file('map.conemap')];
-  const image = map.image(1, { face: 4, weights: [0.2, 0.3, 0.5] });
   expect(worker().asked.map(({ kind, id }) => [kind, id])).toEqual([
     ['open', 0],
     ['file', 1],
     ['file', 2],
-    ['image', 3],
   ]);
   worker().answer({ kind: 'file', id: 2, bytes: new Uint8Array([22]) });
-  worker().answer({ kind: 'image', id: 3, image: null });
   worker().answer({ kind: 'file', id: 1, bytes: new Uint8Array([11]) });
   worker().answer({ kind: 'opened', id: 0, opened: null });
-  expect(await Promise.all([first, second, image, map.opened])).toEqual([new Uint8Array([11]), new Uint8Array([22]), null, null]);
+  expect(await Promise.all([first, second, map.opened])).toEqual([new Uint8Array([11]), new Uint8Array([22]), null]);
 });
 
 test('a failure names its code and the mesh at fault', async () => {

@@ -113,7 +113,7 @@ test('a map that is current is not made again, one that was finished early is', 
   expect(needsRun(DONE)).toBe(false);
   expect(needsRun(READY)).toBe(true);
   expect(needsRun(after(DONE, { kind: 'pair-deleted', id: 1 }))).toBe(true);
-  const early: State = { ...READY, result: { output: OUTPUT, report: { ...REPORT, stopped_early: true }, inputs: READY } };
+  const early: State = { ...READY, result: { output: OUTPUT, report: { ...REPORT, stopped_early: true }, inputs: READY, opened: null } };
   expect(needsRun(early)).toBe(true);
 });
 

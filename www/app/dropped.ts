@@ -1,8 +1,9 @@
-/** Files that are dropped, chosen or pasted: for a link that waits for them, a project, or meshes and landmarks. */
+/** Files that are dropped, chosen or pasted: for a link that waits for them, a project, or meshes, landmarks and maps. */
 import type { Side } from '../landmarks.ts';
 import { isProject } from '../send/project.ts';
 import type { Store } from '../store/store.ts';
 import type { Links } from './links.ts';
+import type { Maps } from './maps.ts';
 import { bytesOf, openFiles } from './open.ts';
 import { openProject } from './projects.ts';
 import { sentenceOf } from './task.ts';
@@ -10,7 +11,12 @@ import { sentenceOf } from './task.ts';
 const PROJECT = /\.zip$/i;
 
 /** Brings files where they belong; `side` is the view they were dropped on or chosen for. */
-export async function openDropped(store: Store, links: Links, files: readonly File[], side: Side | null): Promise<void> {
+export async function openDropped(
+  store: Store,
+  { links, maps }: { readonly links: Links; readonly maps: Maps },
+  files: readonly File[],
+  side: Side | null,
+): Promise<void> {
   const { ready, job } = store.state;
   const [first] = files;
   const isForLink = links.waits;
@@ -18,7 +24,7 @@ export async function openDropped(store: Store, links: Links, files: readonly Fi
     return;
   }
   if (job.kind === 'running' || (!isForLink && !(files.length === 1 && PROJECT.test(first.name)))) {
-    await openFiles(store, files, side);
+    await openFiles(store, maps, files, side);
     return;
   }
   try {
@@ -26,11 +32,11 @@ export async function openDropped(store: Store, links: Links, files: readonly Fi
     const [only] = named;
     if (only !== undefined && named.length === 1 && isProject(only.bytes)) {
       links.cancel();
-      await openProject(store, only);
+      await openProject(store, maps, only);
     } else if (isForLink) {
       await links.take(named);
     } else {
-      await openFiles(store, files, side);
+      await openFiles(store, maps, files, side);
     }
   } catch (thrown) {
     store.dispatch({ kind: 'error', sentence: sentenceOf(thrown) });

@@ -1,6 +1,6 @@
 /** Brings meshes and landmarks onto the page: files that were chosen or dropped, demos, links to demos. */
-import type { NamedBytes } from '../files.ts';
-import { eventsOf, FileRefused, landmarkFile, meshFile } from '../files.ts';
+import type { NamedBytes, Opening } from '../files.ts';
+import { FileRefused, landmarkFile, meshFile, openingOf } from '../files.ts';
 import type { Side } from '../landmarks.ts';
 import { SENTENCES } from '../messages.ts';
 import type { Event } from '../store/events.ts';
@@ -8,6 +8,7 @@ import { heldMeshes } from '../store/history.ts';
 import type { Demo, State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { buildDemo } from '../wasm/conemap.js';
+import type { Maps } from './maps.ts';
 import { perform } from './task.ts';
 
 /** In bytes. The core's memory ends at 4 GiB, and holds a file beside the mesh that is made of it. */
@@ -29,7 +30,7 @@ export async function bytesOf(file: File): Promise<NamedBytes> {
 }
 
 /** Opens files; `side` is the view they were dropped on or chosen for. */
-export async function openFiles(store: Store, files: readonly File[], side: Side | null): Promise<void> {
+export async function openFiles(store: Store, maps: Maps, files: readonly File[], side: Side | null): Promise<void> {
   const { ready, job } = store.state;
   if (!ready) {
     return;
@@ -39,14 +40,20 @@ export async function openFiles(store: Store, files: readonly File[], side: Side
     return;
   }
   store.dispatch({ kind: 'error-closed' });
+  const later: { map: Opening['map'] } = { map: null };
   await perform(
     store,
     'Reading the files…',
     () => Promise.all(files.map(bytesOf)),
     (named) => {
-      store.dispatch(...eventsOf(named, side, store.state));
+      const opening = openingOf(named, side, store.state);
+      store.dispatch(...opening.events);
+      later.map = opening.map;
     },
   );
+  if (later.map !== null) {
+    await maps.open(later.map, 'brought');
+  }
 }
 
 /** The events that bring a demo onto the page. */

@@ -11,6 +11,7 @@ import { shownResult } from '../store/staleness.ts';
 import type { MeshFile, State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { workName } from '../store/work.ts';
+import type { Maps } from './maps.ts';
 import { place, sentWorkOf, withMeshes } from './sent-work.ts';
 import { perform } from './task.ts';
 
@@ -49,16 +50,21 @@ async function projectIn({ name, bytes }: NamedBytes): Promise<Project> {
   }
 }
 
-/** Brings a project onto the page, as one step. */
-export async function openProject(store: Store, file: NamedBytes): Promise<void> {
-  await perform(
+/** Brings a project onto the page, as one step, and then its map. */
+export async function openProject(store: Store, maps: Maps, file: NamedBytes): Promise<void> {
+  const later: { map: Uint8Array | null } = { map: null };
+  const outcome = await perform(
     store,
     'Unpacking the project…',
     () => projectIn(file),
-    ({ meshes, work }) => {
+    ({ meshes, work, result }) => {
       withMeshes(meshes, (loaded) => {
         place(store, file.name, work, loaded, null);
       });
+      later.map = result?.map ?? null;
     },
   );
+  if (outcome === 'done' && later.map !== null) {
+    await maps.openOfProject({ name: file.name, bytes: later.map });
+  }
 }

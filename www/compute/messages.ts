@@ -38,11 +38,17 @@ export interface RunOutput {
   readonly cones: Float64Array;
   /** JSON. */
   readonly report: string;
+  /** The map file, from which every other file can be made; `null` where the map has no pieces, or a mesh was repaired. */
+  readonly map: Uint8Array<ArrayBuffer> | null;
+  /** Files that were made with the map, where it has no map file to make them of later; else `null`. */
+  readonly made: MadeFiles | null;
+}
+
+/** Files of a map. */
+export interface MadeFiles {
   readonly glb: Uint8Array<ArrayBuffer>;
   readonly csv: Uint8Array<ArrayBuffer>;
   readonly baseObj: Uint8Array<ArrayBuffer>;
-  /** The map file, from which every other file can be made; `null` where the map has no pieces. */
-  readonly map: Uint8Array<ArrayBuffer> | null;
 }
 
 /** Where a run is; numbers that a step does not have are `null`. */

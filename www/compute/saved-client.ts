@@ -1,6 +1,6 @@
-/** A saved map in a worker of its own: opened with its meshes, shown, exported and asked, without computing. */
+/** A saved map in a worker of its own: opened with its meshes, shown and exported, without computing. */
 import { failureOf } from './messages.ts';
-import type { FilePoint, ImagePoint, OpenedMap, SavedAnswer, SavedFailure, SavedFiles, SavedRequest } from './saved-messages.ts';
+import type { OpenedMap, SavedAnswer, SavedFailure, SavedFiles, SavedRequest } from './saved-messages.ts';
 
 /** What a saved map's promises fail with. */
 export class SavedMapError extends Error {
@@ -17,10 +17,8 @@ export class SavedMapError extends Error {
 export interface SavedMapHandle {
   /** The map for the views; `null` where only files were asked for. */
   readonly opened: Promise<OpenedMap | null>;
-  /** One file of the map by name: `map.conemap`, `source-with-target-texture.glb`, and what else `outputNames` of the core tells. */
+  /** One file of the map by name: `map.conemap`, `source-with-target-texture.glb`, and the others that the command line writes. */
   file(name: string): Promise<Uint8Array<ArrayBuffer>>;
-  /** The image of a point of the source (0), or the source point of one of the target (1); `null` where there is no such point. */
-  image(side: 0 | 1, point: FilePoint): Promise<ImagePoint | null>;
   /** Ends the worker; what was asked and not answered fails with the code `closed`. */
   close(): void;
 }
@@ -87,10 +85,6 @@ export function openSavedMap(module: WebAssembly.Module, files: SavedFiles, show
     file: async (name) => {
       const answer = await ask({ kind: 'file', name });
       return answer.kind === 'file' ? answer.bytes : wrong();
-    },
-    image: async (side, point) => {
-      const answer = await ask({ kind: 'image', side, point });
-      return answer.kind === 'image' ? answer.image : wrong();
     },
     close: () => {
       end({ code: 'closed', message: 'the map was closed', side: null });

@@ -17,28 +17,16 @@ export interface OpenedMap {
   readonly buffers: MapBuffers;
   /** The landmark file of the run. */
   readonly landmarks: Uint8Array<ArrayBuffer>;
-  /** What was chosen of the run: JSON. */
-  readonly options: string;
-  /** The measures, made anew from the pieces: JSON. */
-  readonly distortion: string;
-}
-
-/** A point of a mesh's file. */
-export interface FilePoint {
-  readonly face: number;
-  readonly weights: readonly [number, number, number];
-}
-
-/** The image of a point. */
-export interface ImagePoint extends FilePoint {
-  readonly position: readonly [number, number, number];
+  /** What was chosen of the run: JSON; `null` where this version does not know it. */
+  readonly options: string | null;
+  /** Whether it goes to the mirror image of the target. */
+  readonly isMirrored: boolean;
 }
 
 /** To the worker. It opens one map, then answers. */
 export type SavedRequest =
   | ({ readonly kind: 'open'; readonly id: number; readonly module: WebAssembly.Module; readonly show: 'views' | 'files' } & SavedFiles)
-  | { readonly kind: 'file'; readonly id: number; readonly name: string }
-  | { readonly kind: 'image'; readonly id: number; readonly side: 0 | 1; readonly point: FilePoint };
+  | { readonly kind: 'file'; readonly id: number; readonly name: string };
 
 /** A failure, with the mesh that is not the map's where it is one. */
 export interface SavedFailure extends Failure {
@@ -49,5 +37,4 @@ export interface SavedFailure extends Failure {
 export type SavedAnswer =
   | { readonly kind: 'opened'; readonly id: number; readonly opened: OpenedMap | null }
   | { readonly kind: 'file'; readonly id: number; readonly bytes: Uint8Array<ArrayBuffer> }
-  | { readonly kind: 'image'; readonly id: number; readonly image: ImagePoint | null }
   | { readonly kind: 'failed'; readonly id: number; readonly failure: SavedFailure };

@@ -1,9 +1,9 @@
-/** A saved map: opens it once, then gives its files and answers about points. Nothing is computed. */
+/** A saved map: opens it once, then gives what the views show and its files. Nothing is computed. */
 import init, { openMap } from '../wasm/conemap.js';
 import type { SavedMap } from '../wasm/conemap.js';
 import { failureOf } from './messages.ts';
-import type { ImagePoint, OpenedMap, SavedAnswer, SavedFailure, SavedRequest } from './saved-messages.ts';
-import { transferable, viewBuffers } from './view-buffers.ts';
+import type { SavedAnswer, SavedFailure, SavedRequest } from './saved-messages.ts';
+import { openedOf, transferable } from './view-buffers.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
 
@@ -29,22 +29,6 @@ async function start(request: Extract<SavedRequest, { kind: 'open' }>): Promise<
   return openMap(request.map, request.source, request.target);
 }
 
-function shown(map: SavedMap): OpenedMap {
-  const output = map.output();
-  const buffers = viewBuffers(output);
-  output.free();
-  return { buffers, landmarks: map.landmarks().slice(), options: map.options(), distortion: map.distortion() };
-}
-
-/** Face, weights and position, as the core gives them. */
-function imageOf(numbers: Float64Array | undefined): ImagePoint | null {
-  const [face, u, v, w, x, y, z] = numbers ?? [];
-  if (face === undefined || u === undefined || v === undefined || w === undefined) {
-    return null;
-  }
-  return x === undefined || y === undefined || z === undefined ? null : { face, weights: [u, v, w], position: [x, y, z] };
-}
-
 async function answer(request: SavedRequest): Promise<void> {
   const { id } = request;
   try {
@@ -57,18 +41,13 @@ async function answer(request: SavedRequest): Promise<void> {
     const map = await open;
     switch (request.kind) {
       case 'open': {
-        const opened = request.show === 'views' ? shown(map) : null;
+        const opened = request.show === 'views' ? openedOf(map) : null;
         post({ kind: 'opened', id, opened }, opened === null ? [] : transferable(opened.buffers, [opened.landmarks]));
         break;
       }
       case 'file': {
         const bytes = map.file(request.name).slice();
         post({ kind: 'file', id, bytes }, [bytes.buffer]);
-        break;
-      }
-      case 'image': {
-        const { face, weights } = request.point;
-        post({ kind: 'image', id, image: imageOf(map.image(request.side, face, new Float64Array(weights))) });
         break;
       }
     }

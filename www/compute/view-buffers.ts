@@ -1,7 +1,7 @@
 /** A map of the core as arrays that can be sent. */
-import type { MapOutput } from '../wasm/conemap.js';
+import type { MapOutput, SavedMap } from '../wasm/conemap.js';
 import type { SideOutput } from './messages.ts';
-import type { MapBuffers } from './saved-messages.ts';
+import type { MapBuffers, OpenedMap } from './saved-messages.ts';
 
 function sideOf(output: MapOutput, side: number): SideOutput {
   return {
@@ -22,6 +22,14 @@ export function viewBuffers(output: MapOutput): MapBuffers {
     cones: output.cones(),
     report: output.report(),
   };
+}
+
+/** What the page takes of a saved map; the core's own copy of it is free again. */
+export function openedOf(map: SavedMap): OpenedMap {
+  const output = map.output();
+  const buffers = viewBuffers(output);
+  output.free();
+  return { buffers, landmarks: map.landmarks().slice(), options: map.options() ?? null, isMirrored: map.isMirrored() };
 }
 
 /** The buffers of them, to be handed over. */

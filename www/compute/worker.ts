@@ -13,18 +13,16 @@ function post(message: WorkerMessage, transfer: Transferable[] = []): void {
 }
 
 function read(output: MapOutput): RunOutput {
-  return {
-    ...viewBuffers(output),
-    glb: output.glb().slice(),
-    csv: output.csv().slice(),
-    baseObj: output.baseObj().slice(),
-    map: output.mapFile()?.slice() ?? null,
-  };
+  const map = output.mapFile()?.slice() ?? null;
+  // What can be made of the map file later is not made now.
+  const made = map === null ? { glb: output.glb().slice(), csv: output.csv().slice(), baseObj: output.baseObj().slice() } : null;
+  return { ...viewBuffers(output), map, made };
 }
 
 function buffersOf(output: RunOutput): Transferable[] {
-  const files = [output.glb, output.csv, output.baseObj];
-  return transferable(output, output.map === null ? files : [...files, output.map]);
+  const { map, made } = output;
+  const files = made === null ? [] : [made.glb, made.csv, made.baseObj];
+  return transferable(output, map === null ? files : [...files, map]);
 }
 
 function finite(value: number): number | null {

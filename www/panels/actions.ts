@@ -30,8 +30,10 @@ export interface Actions {
   /** The link to what is on the page; `null` where there can be none. */
   readonly sharedLink: () => Promise<{ readonly url: string; readonly prospect: Parameters<typeof prospectSentence>[0] } | null>;
   readonly saveProject: () => void;
-  /** Makes a file of the map by its name, and saves it. */
-  readonly saveMadeFile: (name: string, type: string) => void;
+  /** Saves the whole pairs: as the program's own file, or in another format that the core knows by this word. */
+  readonly saveLandmarks: (format?: string) => void;
+  /** Makes a file of the map, by the name `made` that the core has for it, and saves it under another. */
+  readonly saveMadeFile: (file: { readonly made: string; readonly name: string; readonly type: string }) => void;
   /** Saves what the views show as a picture of twice the screen's size. */
   readonly savePicture: () => void;
   /** Begins anew with the newer build of the page. */

@@ -1,8 +1,8 @@
 /** What can be taken away: the files of the result, and the landmarks. */
+import type { MadeFiles } from '../compute/messages.ts';
 import { download } from '../dom.ts';
-import { landmarkFileOf } from '../store/landmark-file.ts';
 import { wholePairs } from '../store/order.ts';
-import type { State } from '../store/state.ts';
+import type { Result, State } from '../store/state.ts';
 import type { Actions } from './actions.ts';
 
 export interface Export {
@@ -13,72 +13,86 @@ export interface Export {
   readonly save: () => void;
 }
 
-/** Saves the landmarks as a file. */
-export function saveLandmarks(state: State): void {
-  download('landmarks.json', 'application/json', JSON.stringify(landmarkFileOf(state), null, 1));
+type Saving = Pick<Actions, 'saveMadeFile' | 'saveLandmarks'>;
+
+/** A file of a map. */
+interface MapExport extends Omit<Export, 'save'> {
+  /** Under which it is saved. */
+  readonly name: string;
+  readonly type: string;
+  /** What the core calls it, which makes it of a map file. */
+  readonly made: string;
+  /** Which file it is of a map that has no map file; `null` where there is none then. */
+  readonly key: keyof MadeFiles | null;
 }
 
-/** Files that the core makes of a map file when they are asked for: format, title, what it is, name and type. */
-const MADE = [
-  ['Inverse table', 'Images of the target’s vertices', 'Where on the source every vertex of the target comes from', 'target-vertex-images.csv', 'text/csv'],
-  ['Source shape', 'Source in the target’s shape', 'The source’s polygons, with its vertices at their images', 'source-in-target-shape.obj', 'model/obj'],
-  ['Target shape', 'Target in the source’s shape', 'The target’s polygons, the other way round', 'target-in-source-shape.obj', 'model/obj'],
-  ['Layout', 'Flat layout', 'Both meshes cut open on the flat base domain, as a drawing', 'layout.svg', 'image/svg+xml'],
-] as const;
+const GLB = 'model/gltf-binary';
+const OBJ = 'model/obj';
 
-/** The map file and what is made of it; none where the map has no such file. */
-function ofMapFile({ result }: State, saveMadeFile: Actions['saveMadeFile']): readonly Export[] {
-  const map = result?.output.map ?? null;
-  if (map === null) {
-    return [];
+/** The files of a map, the most wanted first. */
+const MAP_EXPORTS: readonly MapExport[] = [
+  { format: 'GLB', title: 'Textured mesh', about: 'The source with the texture of the target', name: 'conemap.glb', type: GLB, made: 'source-with-target-texture.glb', key: 'glb' },
+  { format: 'CSV', title: 'Images of the vertices', about: 'Where every vertex of the source lies on the target', name: 'conemap.csv', type: 'text/csv', made: 'vertex-images.csv', key: 'csv' },
+  { format: 'Base OBJ', title: 'Base domain', about: 'The coarse mesh between the landmarks', name: 'base-domain.obj', type: OBJ, made: 'base-domain.obj', key: 'baseObj' },
+  { format: 'Inverse table', title: 'Images of the target’s vertices', about: 'Where on the source every vertex of the target comes from', name: 'target-vertex-images.csv', type: 'text/csv', made: 'target-vertex-images.csv', key: null },
+  { format: 'Source shape', title: 'Source in the target’s shape', about: 'The source’s polygons, with its vertices at their images', name: 'source-in-target-shape.obj', type: OBJ, made: 'source-in-target-shape.obj', key: null },
+  { format: 'Target shape', title: 'Target in the source’s shape', about: 'The target’s polygons, the other way round', name: 'target-in-source-shape.obj', type: OBJ, made: 'target-in-source-shape.obj', key: null },
+  { format: 'Layout', title: 'Flat layout', about: 'Both meshes cut open on the flat base domain, as a drawing', name: 'layout.svg', type: 'image/svg+xml', made: 'layout.svg', key: null },
+];
+
+/** A file of a map, made when it is asked for, or there already; `null` where the map gives no such file. */
+function exportOf({ output }: Result, { key, made, name, type, ...shown }: MapExport, { saveMadeFile }: Saving): Export | null {
+  const data = key === null ? null : (output.made?.[key] ?? null);
+  if (data !== null) {
+    return {
+      ...shown,
+      save: () => {
+        download(name, type, data);
+      },
+    };
   }
-  const made = MADE.map(([format, title, about, name, type]) => ({
-    format,
-    title,
-    about,
+  return output.map === null
+    ? null
+    : {
+        ...shown,
+        save: () => {
+          saveMadeFile({ made, name, type });
+        },
+      };
+}
+
+function reportAndMap({ output }: Result): readonly Export[] {
+  const { map, report } = output;
+  const numbers = {
+    format: 'Report',
+    title: 'All numbers',
+    about: 'Quality, certificate and times as JSON',
     save: () => {
-      saveMadeFile(name, type);
+      download('report.json', 'application/json', report);
     },
-  }));
+  };
   const itself = {
     format: 'Map file',
     title: 'The map itself',
-    about: 'Every piece in full; conemap query, report and export read it',
+    about: 'Every piece in full; drop it on the page with its meshes to have the map again',
     save: () => {
-      download('map.conemap', 'application/octet-stream', map);
+      download('map.conemap', 'application/octet-stream', map ?? '');
     },
   };
-  return [...made, itself];
+  return map === null ? [numbers] : [numbers, itself];
 }
 
 /** The files that there are now, the most wanted first. */
-export function exportsOf(state: State, { saveMadeFile }: Pick<Actions, 'saveMadeFile'>): readonly Export[] {
+export function exportsOf(state: State, saving: Saving): readonly Export[] {
   const { result } = state;
-  const ofResult =
-    result === null
-      ? []
-      : ([
-          ['GLB', 'Textured mesh', 'The source with the texture of the target', 'conemap.glb', 'model/gltf-binary', result.output.glb],
-          ['CSV', 'Images of the vertices', 'Where every vertex of the source lies on the target', 'conemap.csv', 'text/csv', result.output.csv],
-          ['Report', 'All numbers', 'Quality, certificate and times as JSON', 'report.json', 'application/json', result.output.report],
-          ['Base OBJ', 'Base domain', 'The coarse mesh between the landmarks', 'base-domain.obj', 'model/obj', result.output.baseObj],
-        ] as const);
-  const files = ofResult.map(([format, title, about, name, type, data]) => ({
-    format,
-    title,
-    about,
-    save: () => {
-      download(name, type, data);
-    },
-  }));
+  const files = result === null ? [] : [...MAP_EXPORTS.flatMap((file) => exportOf(result, file, saving) ?? []), ...reportAndMap(result)];
   const landmarks = {
     format: 'JSON',
     title: 'Landmarks',
-    about: 'All pairs with their names, to be opened again',
+    about: 'All pairs with their names, to be opened again; other formats are in the step Landmarks',
     save: () => {
-      saveLandmarks(state);
+      saving.saveLandmarks();
     },
   };
-  const all = [...files, ...ofMapFile(state, saveMadeFile)];
-  return wholePairs(state).length === 0 ? all : [...all, landmarks];
+  return wholePairs(state).length === 0 ? files : [...files, landmarks];
 }

@@ -2,11 +2,13 @@
 import type { VNode } from 'preact';
 import { byId } from '../dom.ts';
 import type { Side } from '../landmarks.ts';
+import { MAP_ENDING } from '../map-files.ts';
+import { PART_ENDINGS } from '../mesh-sets.ts';
 import type { State } from '../store/state.ts';
-import { meshEndings } from '../wasm/conemap.js';
+import { landmarkEndings, meshEndings } from '../wasm/conemap.js';
 import type { Actions } from './actions.ts';
 
-export type Chooser = 'mesh-files' | 'source-file' | 'target-file' | 'landmark-file';
+export type Chooser = 'mesh-files' | 'source-file' | 'target-file' | 'landmark-file' | 'landmarks-of-source' | 'landmarks-of-target';
 
 /** Opens a chooser. */
 export function choose(chooser: Chooser): void {
@@ -16,17 +18,16 @@ export function choose(chooser: Chooser): void {
 interface ChooserProps {
   readonly id: Chooser;
   readonly accept: string;
-  readonly multiple?: boolean;
   readonly onFiles: (files: File[]) => void;
 }
 
-function FileInput({ id, accept, multiple, onFiles }: ChooserProps): VNode {
+function FileInput({ id, accept, onFiles }: ChooserProps): VNode {
   return (
     <input
       type="file"
       id={id}
       accept={accept}
-      multiple={multiple}
+      multiple
       hidden
       tabIndex={-1}
       aria-hidden="true"
@@ -41,18 +42,29 @@ function FileInput({ id, accept, multiple, onFiles }: ChooserProps): VNode {
   );
 }
 
+/** What each kind of chooser offers, as the core and the page read it: files dropped on the page are told by content alone. */
+function accepted(): { readonly meshes: string; readonly landmarks: string; readonly all: string } {
+  const landmarks = landmarkEndings();
+  const meshes = [meshEndings(), PART_ENDINGS].join(',');
+  return { meshes, landmarks, all: [meshes, landmarks, MAP_ENDING].join(',') };
+}
+
+const NOTHING_YET: ReturnType<typeof accepted> = { meshes: '', landmarks: '', all: '' };
+
 /** All of them. What is accepted is known when the core is there. */
 export function FileInputs({ state, actions }: { readonly state: State; readonly actions: Actions }): VNode {
-  const meshes = state.ready ? meshEndings() : '';
+  const { meshes, landmarks, all } = state.ready ? accepted() : NOTHING_YET;
   const open = (side: Side | null) => (files: File[]): void => {
     actions.openFiles(files, side);
   };
   return (
     <>
-      <FileInput id="mesh-files" accept={meshes === '' ? '' : `${meshes},.json,.zip`} multiple onFiles={open(null)} />
+      <FileInput id="mesh-files" accept={all} onFiles={open(null)} />
       <FileInput id="source-file" accept={meshes} onFiles={open(0)} />
       <FileInput id="target-file" accept={meshes} onFiles={open(1)} />
-      <FileInput id="landmark-file" accept=".json" onFiles={open(null)} />
+      <FileInput id="landmark-file" accept={landmarks} onFiles={open(null)} />
+      <FileInput id="landmarks-of-source" accept={landmarks} onFiles={open(0)} />
+      <FileInput id="landmarks-of-target" accept={landmarks} onFiles={open(1)} />
     </>
   );
 }

@@ -1,19 +1,20 @@
 /** The second step: pairs of places that correspond. */
 import type { VNode } from 'preact';
+import { wholePairs } from '../store/order.ts';
 import type { PartProps } from './actions.ts';
-import { saveLandmarks } from './exports.ts';
 import { choose } from './inputs.tsx';
+import { LandmarkFormats } from './landmark-formats.tsx';
 import { LandmarkTable } from './landmark-table.tsx';
 import { Suggestions } from './suggestions.tsx';
-import { wholePairs } from '../store/order.ts';
 
 function FileButtons({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
   return (
-    <div class="row">
+    <div class="file-buttons">
       <button
         type="button"
         disabled={!state.ready || state.job.kind === 'running'}
-        aria-label="Open a landmark file…"
+        aria-label="Open landmark files…"
+        title="One file, or one for each mesh"
         onClick={() => {
           choose('landmark-file');
         }}
@@ -26,7 +27,7 @@ function FileButtons({ state, actions }: Pick<PartProps, 'state' | 'actions'>): 
         aria-label="Save file"
         disabled={wholePairs(state).length === 0}
         onClick={() => {
-          saveLandmarks(state);
+          actions.saveLandmarks();
         }}
       >
         Save file
@@ -40,6 +41,7 @@ function FileButtons({ state, actions }: Pick<PartProps, 'state' | 'actions'>): 
       >
         Clear all
       </button>
+      <LandmarkFormats state={state} actions={actions} />
     </div>
   );
 }

@@ -1,6 +1,6 @@
 /** The third step: the map, how good it is, and what may be wrong. */
 import type { VNode } from 'preact';
-import { staleSentence } from '../messages.ts';
+import { reopenedSentence, SENTENCES, staleSentence } from '../messages.ts';
 import { shownResult, staleness } from '../store/staleness.ts';
 import type { Demo, Result } from '../store/state.ts';
 import type { Actions, PartProps } from './actions.ts';
@@ -43,6 +43,8 @@ function ResultSection({ result, stale, shown, actions }: ResultProps): VNode {
         <p class="sentence">{sentence}</p>
         <p class="quiet">{more}</p>
         <Certificate report={report} />
+        {result.opened !== null && <p class="quiet" id="reopened">{reopenedSentence(result.opened.name)}</p>}
+        {result.opened?.isMirrored === true && <Note sentence={SENTENCES.mirroredMap} />}
         {report.warnings.map((warning) => (
           <Note key={warning.kind} sentence={warning.sentence} />
         ))}

@@ -59,13 +59,26 @@ export function MeshesPanel({ state, actions }: PartProps): VNode {
       <div class="row">
         <button
           type="button"
+          title="Meshes, landmarks, a map or a project"
+          disabled={!state.ready || running}
+          onClick={() => {
+            choose('mesh-files');
+          }}
+        >
+          <Icon name="open" />
+          Open files…
+        </button>
+        <button
+          type="button"
           disabled={running || state.meshes.every((file) => file === null)}
+          aria-label="Swap source and target"
+          title="The source becomes the target, and the other way round"
           onClick={() => {
             actions.dispatch({ kind: 'swap-meshes' });
           }}
         >
           <Icon name="swap" />
-          Swap source and target
+          Swap
         </button>
       </div>
       <section>

@@ -1,7 +1,10 @@
 /** What waits for the user's word: a link that was opened, and a newer build of the page. */
 import type { VNode } from 'preact';
-import { filesNeeded, loadQuestion, loadingSentence, SENTENCES } from '../messages.ts';
+import { missingOf } from '../map-files.ts';
+import { filesNeeded, loadQuestion, loadingSentence, mapWaits, SENTENCES } from '../messages.ts';
+import type { AwaitedMap } from '../store/awaited.ts';
 import type { Receiving } from '../store/receiving.ts';
+import type { State } from '../store/state.ts';
 import type { Actions, PartProps } from './actions.ts';
 
 interface ReceivingProps {
@@ -52,11 +55,30 @@ function LinkNotice({ receiving, actions }: ReceivingProps): VNode | null {
   }
 }
 
+/** What a map file waits for. */
+function MapNotice({ state, map, actions }: { readonly state: State; readonly map: AwaitedMap; readonly actions: Actions }): VNode {
+  const missing = missingOf(map, state.meshes).map((side) => ({ side, name: map.meshes[side].name }));
+  return (
+    <div class="notice" id="map-notice">
+      <p>{mapWaits(map.name, missing)}</p>
+      <button
+        type="button"
+        onClick={() => {
+          actions.dispatch({ kind: 'map-awaited', map: null });
+        }}
+      >
+        Leave the map
+      </button>
+    </div>
+  );
+}
+
 /** The notices over the views; their box stays, so that what comes into it is read out. */
 export function Notices({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
   return (
     <div class="notices" role="status">
       <LinkNotice receiving={state.receiving} actions={actions} />
+      {state.awaited !== null && <MapNotice state={state} map={state.awaited} actions={actions} />}
       {state.isOutdated && (
         <div class="notice" id="new-version">
           <p>{SENTENCES.newVersion}</p>

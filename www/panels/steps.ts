@@ -41,6 +41,9 @@ export function stepAfter(state: State, previous: State): Step | null {
   if (state.job.kind === 'running' && previous.job.kind !== 'running') {
     return 'map';
   }
+  if (state.result !== previous.result && state.result !== null && state.result.opened !== null) {
+    return 'map';
+  }
   if (state.history.past.length <= previous.history.past.length) {
     // Nothing new: a step was taken back.
     return null;

@@ -26,6 +26,15 @@ export const Options = v.object({
   class: v.picklist(['best', 'runner-up']),
   ownCones: v.nullable(v.pipe(Index, v.maxValue(MOST_OWN_CONES))),
 }) satisfies v.GenericSchema<RunOptions>;
+/** The options in a text; `null` where there are none. */
+export function optionsIn(text: string): RunOptions | null {
+  try {
+    const parsed = v.safeParse(Options, JSON.parse(text));
+    return parsed.success ? parsed.output : null;
+  } catch {
+    return null;
+  }
+}
 export const Cameras = v.strictTuple([
   v.nullable(v.pipe(v.array(v.pipe(v.number(), v.finite())), v.maxLength(LONGEST_CAMERA))),
   v.nullable(v.pipe(v.array(v.pipe(v.number(), v.finite())), v.maxLength(LONGEST_CAMERA))),

@@ -3,8 +3,10 @@ import type { Progress, RunOutput } from '../compute/messages.ts';
 import type { RunOptions } from '../report.ts';
 import type { LandmarkFile, Side, Suggestion, SurfacePoint } from '../landmarks.ts';
 import type { Finding, Report } from '../report.ts';
+import type { AwaitedMap } from './awaited.ts';
 import type { History } from './history.ts';
 import type { Task } from './job.ts';
+import type { OpenedMap } from './opened.ts';
 import type { Receiving } from './receiving.ts';
 import type { SidePoint } from './side-marks.ts';
 import type { Axis, Camera, Demo, MeshFile, Offer, Style, Ui, Work } from './state.ts';
@@ -87,6 +89,10 @@ export type Event =
   /** Doubts about the landmarks of the run. */
   | { readonly kind: 'run-found'; readonly findings: readonly Finding[] }
   | { readonly kind: 'run-done'; readonly output: RunOutput; readonly report: Report }
+  /** A map file was opened for the meshes on the page, as if a run had made it just now of its own landmarks and options. */
+  | { readonly kind: 'map-opened'; readonly map: OpenedMap }
+  /** A map file waits for its meshes, or none does any more. */
+  | { readonly kind: 'map-awaited'; readonly map: AwaitedMap | null }
   | { readonly kind: 'run-failed'; readonly sentence: string }
   | { readonly kind: 'run-cancelled' }
 

@@ -5,6 +5,7 @@ import { NO_HISTORY, redone, undone } from './history.ts';
 import { advanced, begun, ended, started } from './job.ts';
 import type { Running } from './job.ts';
 import { withLandmarks, withMesh, withMirrored, withSwap } from './loads.ts';
+import { withOpened } from './opened.ts';
 import { doubtsOf } from './order.ts';
 import {
   withAllTaken,
@@ -64,7 +65,7 @@ function withStep(state: State, step: ReturnType<typeof undone>): State {
 
 /** A map came; what a plain surface cannot show is shown. */
 function withResult(state: State, result: Result): State {
-  const done = { ...state, job: { kind: 'done' } as const, result };
+  const done = { ...state, result };
   const { surface } = state.ui.style;
   const isShown = surface !== 'shaded' && (surface !== 'distortion' || result.output.distortion.length > 0);
   return isShown ? done : withStyle(done, { surface: 'pattern' });
@@ -153,8 +154,14 @@ export function update(state: State, event: Event): State {
         : state;
     case 'run-done':
       return state.job.kind === 'running'
-        ? withResult(state, { output: event.output, report: event.report, inputs: state.job.inputs })
+        ? withResult({ ...state, job: { kind: 'done' } }, { output: event.output, report: event.report, inputs: state.job.inputs, opened: null })
         : state;
+    case 'map-opened': {
+      const { state: settled, result } = withOpened(state, event.map);
+      return withFindings(withResult(settled, result));
+    }
+    case 'map-awaited':
+      return patched(state, { awaited: event.map });
     case 'run-failed':
       return { ...state, job: { kind: 'error' }, error: event.sentence };
     case 'run-cancelled':

@@ -2,6 +2,7 @@
 import type { RunOutput } from '../compute/messages.ts';
 import type { Suggestion } from '../landmarks.ts';
 import type { Finding, Report } from '../report.ts';
+import type { AwaitedMap } from './awaited.ts';
 import type { History } from './history.ts';
 import { NO_HISTORY } from './history.ts';
 import type { Job } from './job.ts';
@@ -48,6 +49,8 @@ export interface Result {
   readonly report: Report;
   /** What it was made from. */
   readonly inputs: Work;
+  /** The map file that it was opened from; `null` where it was made here. */
+  readonly opened: { readonly name: string; readonly isMirrored: boolean } | null;
 }
 
 /** A sentence that goes by itself. */
@@ -86,6 +89,8 @@ export interface State extends Work {
   readonly toast: Toast | null;
   /** What the link that was opened waits for. */
   readonly receiving: Receiving;
+  /** A map file that waits for its meshes. */
+  readonly awaited: AwaitedMap | null;
   /** Whether a newer build of the page waits for a reload. */
   readonly isOutdated: boolean;
   readonly offer: Offer | null;
@@ -115,6 +120,7 @@ export const INITIAL: State = {
   findings: [],
   toast: null,
   receiving: { kind: 'nothing' },
+  awaited: null,
   isOutdated: false,
   offer: null,
   error: null,

@@ -35,6 +35,7 @@ const NAMES: Names = {
   'swap-meshes': () => 'Exchange the meshes',
   landmarks: ({ file }) => `Load ${count(file.pairs.length, 'pair')}`,
   'side-marks': ({ name }) => `Load ${name}`,
+  'map-opened': ({ map }) => `Open ${map.name}`,
   demo: ({ demo }) => `Open the demo “${demo.title}”`,
   'point-picked': (_, before, after) => pickName(before, after),
   'point-moved': ({ id }, before) => `Move ${called(before, id)}`,

@@ -1,0 +1,90 @@
+/** The shape of a run's report as a map file holds it: the file may come from anywhere. */
+import * as v from 'valibot';
+import type { Report } from '../report.ts';
+import { Index, Text, Weight } from './schema.ts';
+
+/** In characters: some hundred kB with ten thousand landmarks in doubt. */
+const LONGEST = 10_000_000;
+
+const Figure = v.pipe(v.number(), v.finite());
+const MaybeFigure = v.nullable(Figure);
+const Place = v.object({ face: Index, barycentric: v.strictTuple([Weight, Weight, Weight]) });
+const ConeMetric = v.object({
+  newton_steps: Index,
+  cg_iterations: Index,
+  edge_flips: Index,
+  max_curvature_error: Figure,
+  residuals: v.array(Figure),
+  seconds: Figure,
+});
+const Finding = v.object({
+  kind: v.picklist(['mirrored', 'swapped', 'misplaced', 'unmarked_limbs']),
+  pairs: v.array(Index),
+  repair: v.picklist(['mirror_target', 'swap', 'check', 'mark']),
+  sentence: Text,
+  agreement: MaybeFigure,
+  misfit: v.nullable(v.strictTuple([Figure, Figure])),
+  distance: MaybeFigure,
+  near: v.nullable(Index),
+  side: v.nullable(v.picklist([0, 1])),
+  vertices: v.array(Index),
+});
+
+/** Fields that it does not know go. */
+export const ReportSchema = v.object({
+  base_domain: v.object({ vertices: Index, faces: Index }),
+  layout: v.nullable(
+    v.object({
+      judged: Index,
+      rival: MaybeFigure,
+      twists: Index,
+      mean_log: MaybeFigure,
+      runner_up: MaybeFigure,
+      path_stretch: Figure,
+    }),
+  ),
+  own_landmarks: Index,
+  cone_metric: v.object({ source: v.nullable(ConeMetric), target: v.nullable(ConeMetric) }),
+  certificate: v.nullable(
+    v.object({
+      bijective: v.boolean(),
+      triangles: Index,
+      flipped_triangles: Index,
+      max_angle_sum_error: Figure,
+      max_landmark_error: Figure,
+    }),
+  ),
+  distortion: v.object({
+    energy: Figure,
+    mean: Figure,
+    mean_log: Figure,
+    median: Figure,
+    p95: Figure,
+    max: Figure,
+    dented: Figure,
+    worst: v.array(v.object({ density: Figure, area: Figure, source: Place, target: Place })),
+    l2_stretch: MaybeFigure,
+  }),
+  unmapped_share: Figure,
+  ground_truth: v.nullable(v.object({ mean: Figure, p95: Figure, max: Figure })),
+  stopped_early: v.boolean(),
+  faces: v.object({ source: Index, target: Index }),
+  findings: v.array(Finding),
+  warnings: v.array(
+    v.object({ kind: Text, sentence: Text, value: MaybeFigure, side: v.nullable(v.picklist(['source', 'target'])) }),
+  ),
+  seconds: v.record(Text, Figure),
+}) satisfies v.GenericSchema<Report>;
+
+/** The report in a text; `null` where there is none. */
+export function reportIn(text: string): Report | null {
+  if (text.length > LONGEST) {
+    return null;
+  }
+  try {
+    const parsed = v.safeParse(ReportSchema, JSON.parse(text));
+    return parsed.success ? parsed.output : null;
+  } catch {
+    return null;
+  }
+}
