@@ -86,11 +86,16 @@ const actions: Actions = {
   camera: (side, command) => {
     turn(side, command);
   },
+  morph: (share) => {
+    views.morph(share);
+  },
   proposedUp: (side) => views.proposedUp(side),
   lookAtPair: (id) => {
+    showOwnShape();
     views.lookAtPair(id);
   },
   lookAtPlaces: ([source, target]) => {
+    showOwnShape();
     views.lookAt(0, source);
     views.lookAt(1, target);
     views.ask(0, source);
@@ -103,9 +108,14 @@ const actions: Actions = {
   },
 };
 
+/** Places of the source are where its own shape has them. */
+function showOwnShape(): void {
+  store.dispatch({ kind: 'style', style: { morph: 0 } });
+}
+
 /** Opens the list, where the selected pair is, and turns both views to it. */
 function showPair(id: number): void {
-  store.dispatch({ kind: 'ui', ui: { step: 'landmarks', panel: 'open' } });
+  store.dispatch({ kind: 'ui', ui: { step: 'landmarks', panel: 'open' } }, { kind: 'style', style: { morph: 0 } });
   views.lookAtPair(id);
 }
 

@@ -139,6 +139,7 @@ export const SENTENCES = {
   keptUnreadable: 'Work of an earlier visit could not be read and was left out.',
   keptByOther: 'Work that another version of this page kept was left as it is.',
   mirrored: 'The target is its mirror image now, with the landmarks on it.',
+  notItsShape: 'The source shows another shape than its own. Move the slider under it back to the left to place landmarks on it.',
   allLocked: 'All landmark pairs are locked. Unlock those that may go.',
   upToDate: 'This map is of these meshes, landmarks and options already.',
   nothingToShare: 'There is nothing to share yet: open a mesh or a demo first.',

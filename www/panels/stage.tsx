@@ -9,6 +9,7 @@ import { Divider } from './divider.tsx';
 import { DropVeil } from './drop.tsx';
 import { ErrorBanner } from './error.tsx';
 import { DemoLine, Invitation } from './invitation.tsx';
+import { MapBar } from './map-bar.tsx';
 import { VIEW_IDS } from './names.ts';
 import { Notices } from './notices.tsx';
 import { Legend, PictureBar } from './picture-bar.tsx';
@@ -49,6 +50,7 @@ function Pane({ side, ...props }: { readonly side: Side } & PartProps): VNode {
       </div>
       <Invitation state={props.state} side={side} />
       <ViewBar {...props} side={side} />
+      {side === 0 && <MapBar {...props} />}
     </div>
   );
 }

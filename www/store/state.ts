@@ -17,6 +17,8 @@ export interface Style {
   readonly patchLines: boolean;
   readonly cones: boolean;
   readonly markers: boolean;
+  /** Share of the way that the source's shape has gone to the target's, 0 to 1; it takes a map to be seen. */
+  readonly morph: number;
 }
 
 /** A camera as the views give it and take it back. */
@@ -105,7 +107,7 @@ export const INITIAL: State = {
     panel: 'open',
     link: 'linked',
     cameras: [null, null],
-    style: { surface: 'shaded', patchLines: false, cones: false, markers: true },
+    style: { surface: 'shaded', patchLines: false, cones: false, markers: true, morph: 0 },
     selected: null,
     hovered: null,
   },

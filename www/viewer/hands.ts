@@ -1,6 +1,7 @@
 /** What the user's hands do to the views: mouse, fingers and keys to cameras, pins, picks and questions to the map. */
 import type { Side, SurfacePoint } from '../landmarks.ts';
 import { otherSide, SIDES } from '../landmarks.ts';
+import { SENTENCES } from '../messages.ts';
 import type { Event } from '../store/events.ts';
 import type { State } from '../store/state.ts';
 import type { Viewer } from '../wasm/conemap.js';
@@ -191,6 +192,10 @@ export class Hands {
   }
 
   #pick(side: Side, at: Place): void {
+    if (side === 0 && this.#bench.picture.isMorphed) {
+      this.#bench.dispatch({ kind: 'toast', sentence: SENTENCES.notItsShape, undo: false });
+      return;
+    }
     let hit: string | undefined;
     this.#bench.act((viewer) => {
       viewer.clearProbe();

@@ -30,8 +30,8 @@ export function marksOf(state: State, side: Side): string {
   const cones = conesOf(state);
   const marks = pairs.map(({ id, number, points }) => {
     const point = points[side];
-    const raised = id === ui.selected || id === ui.hovered;
-    return point === null ? null : { point, colour: number - 1, raised, cone: cones.get(id) ?? null };
+    const stand = id === ui.selected || id === ui.hovered ? 'raised' : 'plain';
+    return point === null ? null : { point, colour: number - 1, stand, cone: cones.get(id) ?? null };
   });
   return JSON.stringify(marks);
 }

@@ -107,12 +107,10 @@ export class Views {
     }
   }
 
-  /** Shows the source's shape on its way to the target's, where there is a map: 0 the source's, 1 the target's. */
+  /** Shows the source on its way to the target's shape until the style changes: 0 is the source's shape, 1 the target's. */
   morph(share: number): void {
     this.#with((viewer) => {
-      if (this.#picture.bringOverlay(viewer, 0)) {
-        viewer.setMorph(share);
-      }
+      this.#picture.morph(viewer, share);
     });
   }
 
@@ -291,6 +289,7 @@ export class Views {
     const result = shownResult(this.#state);
     if (result !== null) {
       this.#picture.bring(viewer, style);
+      this.#picture.morph(viewer, style.morph);
     }
     viewer.setStyle(
       JSON.stringify({
