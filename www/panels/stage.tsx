@@ -15,6 +15,7 @@ import { Notices } from './notices.tsx';
 import { Legend, PictureBar } from './picture-bar.tsx';
 import { Toasts } from './toasts.tsx';
 import { ViewBar } from './view-bar.tsx';
+import { WipeLine } from './wipe.tsx';
 
 /** What was changed of a mesh; the panel tells more of a repair. */
 function changed(file: MeshFile): string {
@@ -49,6 +50,7 @@ function Pane({ side, ...props }: { readonly side: Side } & PartProps): VNode {
         <Caption state={props.state} side={side} />
       </div>
       <Invitation state={props.state} side={side} />
+      {side === 0 && <WipeLine {...props} />}
       <ViewBar {...props} side={side} />
       {side === 0 && <MapBar {...props} />}
     </div>

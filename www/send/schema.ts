@@ -37,8 +37,9 @@ export const StyleSchema = v.object({
   patchLines: v.boolean(),
   cones: v.boolean(),
   markers: v.boolean(),
-  // Links, projects and sessions of earlier pages have none.
+  // Links, projects and sessions of earlier pages do not have these.
   morph: v.optional(Share, 0),
+  wipe: v.optional(v.nullable(Share), null),
 }) satisfies v.GenericSchema<unknown, Style>;
 
 const Point = v.nullable(

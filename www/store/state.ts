@@ -19,6 +19,8 @@ export interface Style {
   readonly markers: boolean;
   /** Share of the way that the source's shape has gone to the target's, 0 to 1; it takes a map to be seen. */
   readonly morph: number;
+  /** Share of the source's view, from the left, in which the source is seen as it is by itself; `null` for none of it. */
+  readonly wipe: number | null;
 }
 
 /** A camera as the views give it and take it back. */
@@ -107,7 +109,7 @@ export const INITIAL: State = {
     panel: 'open',
     link: 'linked',
     cameras: [null, null],
-    style: { surface: 'shaded', patchLines: false, cones: false, markers: true, morph: 0 },
+    style: { surface: 'shaded', patchLines: false, cones: false, markers: true, morph: 0, wipe: null },
     selected: null,
     hovered: null,
   },
