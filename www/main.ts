@@ -1,12 +1,13 @@
 /** Wires the store, the views, the panels and the worker together. */
 import { openDropped } from './app/dropped.ts';
 import { BROWSER, Keeper } from './app/keep.ts';
-import { listenForUndo } from './app/keys.ts';
+import { listenForProposal, listenForUndo } from './app/keys.ts';
 import { mark } from './app/mark.ts';
 import { Links } from './app/links.ts';
 import { followDemo, freeForgotten, openDemo } from './app/open.ts';
 import { saveMadeFile } from './app/made-files.ts';
 import { saveProject } from './app/projects.ts';
+import { listenForHalves } from './app/propose.ts';
 import { repair } from './app/repair.ts';
 import { Runner } from './app/run.ts';
 import { sharedLink } from './app/sharing.ts';
@@ -159,6 +160,7 @@ store.subscribe((state, previous) => {
   page.sync(state, previous);
   views.sync(state, previous);
 });
+listenForHalves(store, views);
 store.subscribe(freeForgotten);
 store.subscribe(mark);
 store.subscribe(followDemo);
@@ -228,6 +230,7 @@ window.addEventListener('hashchange', () => {
   }
 });
 listenForUndo(store);
+listenForProposal(store);
 // The last sign of life that a browser promises.
 document.addEventListener('visibilitychange', () => {
   if (document.visibilityState === 'hidden') {

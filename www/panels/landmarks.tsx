@@ -4,6 +4,7 @@ import type { PartProps } from './actions.ts';
 import { saveLandmarks } from './exports.ts';
 import { choose } from './inputs.tsx';
 import { LandmarkTable } from './landmark-table.tsx';
+import { ProposalNote } from './proposal.tsx';
 import { Suggestions } from './suggestions.tsx';
 import { wholePairs } from '../store/order.ts';
 
@@ -49,6 +50,7 @@ export function LandmarksPanel({ state, actions }: PartProps): VNode {
   return (
     <div class="content of-landmarks" id="landmarks">
       <FileButtons state={state} actions={actions} />
+      <ProposalNote state={state} actions={actions} />
       <Suggestions state={state} actions={actions} />
       <div class="table">
         {state.pairs.length === 0 ? (

@@ -1,6 +1,6 @@
 /** The state of the page: everything that it shows follows from it. */
 import type { RunOutput } from '../compute/messages.ts';
-import type { Suggestion } from '../landmarks.ts';
+import type { Side, Suggestion, SurfacePoint } from '../landmarks.ts';
 import type { Finding, Report } from '../report.ts';
 import type { History } from './history.ts';
 import { NO_HISTORY } from './history.ts';
@@ -54,6 +54,16 @@ export interface Result {
   readonly inputs: Work;
 }
 
+/** A place that the map proposes for the point that a half pair lacks. */
+export interface Proposal {
+  /** The pair's id, and the point that it has. */
+  readonly id: number;
+  readonly of: SurfacePoint;
+  /** The image of that point, on this side. */
+  readonly side: Side;
+  readonly point: SurfacePoint;
+}
+
 /** A sentence that goes by itself. */
 export interface Toast {
   readonly sentence: string;
@@ -79,6 +89,8 @@ export interface State extends Work {
   readonly nextId: number;
   /** Suggested landmarks by side. */
   readonly suggestions: readonly [readonly Suggestion[], readonly Suggestion[]];
+  /** The last place that the map proposed; `proposed` tells whether it still is about what is on the page. */
+  readonly proposal: Proposal | null;
   readonly ui: Ui;
   readonly job: Job;
   /** The last map. It stays when its inputs change, and is current again when they come back. */
@@ -103,6 +115,7 @@ export const INITIAL: State = {
   history: NO_HISTORY,
   nextId: 1,
   suggestions: [[], []],
+  proposal: null,
   ui: {
     step: 'meshes',
     theme: 'system',

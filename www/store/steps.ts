@@ -37,7 +37,11 @@ const NAMES: Names = {
   'side-marks': ({ name }) => `Load ${name}`,
   demo: ({ demo }) => `Open the demo “${demo.title}”`,
   'point-picked': (_, before, after) => pickName(before, after),
-  'point-moved': ({ id }, before) => `Move ${called(before, id)}`,
+  'point-moved': ({ id, side }, before) => {
+    const isThere = before.pairs.some((pair) => pair.id === id && pair.points[side] !== null);
+    return `${isThere ? 'Move' : 'Place'} ${called(before, id)}`;
+  },
+  'proposal-accepted': (_, before) => `Take the map’s place for ${called(before, before.proposal?.id ?? 0)}`,
   'pick-dropped': (_, before, after) => {
     const pair = before.pairs.find((candidate) => !after.pairs.includes(candidate));
     return `Give up pair ${pair?.number ?? ''}`.trim();
