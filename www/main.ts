@@ -1,7 +1,7 @@
 /** Wires the store, the views, the panels and the worker together. */
 import { openDropped } from './app/dropped.ts';
 import { BROWSER, Keeper } from './app/keep.ts';
-import { listenForUndo } from './app/keys.ts';
+import { listenForProposal, listenForUndo } from './app/keys.ts';
 import { saveLandmarks } from './app/landmarks.ts';
 import { mark } from './app/mark.ts';
 import { Links } from './app/links.ts';
@@ -9,6 +9,7 @@ import { Maps } from './app/maps.ts';
 import { followDemo, freeForgotten, openDemo } from './app/open.ts';
 import { saveMadeFile } from './app/made-files.ts';
 import { saveProject } from './app/projects.ts';
+import { listenForHalves } from './app/propose.ts';
 import { repair } from './app/repair.ts';
 import { Runner } from './app/run.ts';
 import { sharedLink } from './app/sharing.ts';
@@ -92,11 +93,16 @@ const actions: Actions = {
   camera: (side, command) => {
     turn(side, command);
   },
+  morph: (share) => {
+    views.morph(share);
+  },
   proposedUp: (side) => views.proposedUp(side),
   lookAtPair: (id) => {
+    showOwnShape();
     views.lookAtPair(id);
   },
   lookAtPlaces: ([source, target]) => {
+    showOwnShape();
     views.lookAt(0, source);
     views.lookAt(1, target);
     views.ask(0, source);
@@ -109,9 +115,14 @@ const actions: Actions = {
   },
 };
 
+/** Places of the source are where its own shape has them. */
+function showOwnShape(): void {
+  store.dispatch({ kind: 'style', style: { morph: 0 } });
+}
+
 /** Opens the list, where the selected pair is, and turns both views to it. */
 function showPair(id: number): void {
-  store.dispatch({ kind: 'ui', ui: { step: 'landmarks', panel: 'open' } });
+  store.dispatch({ kind: 'ui', ui: { step: 'landmarks', panel: 'open' } }, { kind: 'style', style: { morph: 0 } });
   views.lookAtPair(id);
 }
 
@@ -155,6 +166,7 @@ store.subscribe((state, previous) => {
   page.sync(state, previous);
   views.sync(state, previous);
 });
+listenForHalves(store, views);
 store.subscribe(freeForgotten);
 store.subscribe(mark);
 store.subscribe(followDemo);
@@ -224,6 +236,7 @@ window.addEventListener('hashchange', () => {
   }
 });
 listenForUndo(store);
+listenForProposal(store);
 // The last sign of life that a browser promises.
 document.addEventListener('visibilitychange', () => {
   if (document.visibilityState === 'hidden') {

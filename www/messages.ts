@@ -140,6 +140,7 @@ export const SENTENCES = {
   keptUnreadable: 'Work of an earlier visit could not be read and was left out.',
   keptByOther: 'Work that another version of this page kept was left as it is.',
   mirrored: 'The target is its mirror image now, with the landmarks on it.',
+  notItsShape: 'The source shows another shape than its own. Move the slider under it back to the left to place landmarks on it.',
   allLocked: 'All landmark pairs are locked. Unlock those that may go.',
   upToDate: 'This map is of these meshes, landmarks and options already.',
   nothingToShare: 'There is nothing to share yet: open a mesh or a demo first.',
@@ -202,8 +203,8 @@ export function suggestionName({ letter, reason, partner }: Suggestion, all: rea
 export function hint(options: {
   /** How many meshes there are, of two. */
   readonly meshes: number;
-  /** The pair that waits for its other point, and what the mesh is called on which it is asked for. */
-  readonly asked: { readonly pair: number; readonly mesh: string } | null;
+  /** The pair that waits for its other point, what the mesh is called on which it is asked for, and whether the map proposes one. */
+  readonly asked: { readonly pair: number; readonly mesh: string; readonly isProposed: boolean } | null;
   /** Pairs with both points. */
   readonly pairs: number;
   /** Half pairs that wait behind the one whose turn it is. */
@@ -214,7 +215,10 @@ export function hint(options: {
   }
   if (options.asked !== null) {
     const waiting = options.waiting > 0 ? ` ${options.waiting} more wait; Escape skips this one.` : '';
-    return `Pair ${options.asked.pair}: now click the same place on the ${options.asked.mesh}.${waiting}`;
+    const { pair, mesh, isProposed } = options.asked;
+    return isProposed
+      ? `Pair ${pair}: the map proposes the see-through pin on the ${mesh}. Click it or press Enter to take it, or click another place.`
+      : `Pair ${pair}: now click the same place on the ${mesh}.${waiting}`;
   }
   if (options.pairs < 4) {
     const missing = 4 - options.pairs;

@@ -75,6 +75,8 @@ pub struct ViewDraw<'a> {
     pub morph: f32,
     /// From the images' coordinates to the view's.
     pub world_from_image: Mat4,
+    /// Share of the view's width, from the left, in which the surface is plain and has no lines.
+    pub wipe: f32,
     /// The surface.
     pub surface: Option<&'a Mesh>,
     /// A plain surface a little behind it, seen where the surface has holes.
@@ -259,7 +261,7 @@ impl Renderer {
     }
 
     fn uniform(&self, view: &ViewDraw<'_>) -> ViewUniform {
-        let [_, _, width, height] = view.rectangle;
+        let [left, _, width, height] = view.rectangle;
         let ViewDraw { pose, palette, .. } = view;
         let style = match view.paint {
             Paint::Plain => 0.0,
@@ -281,6 +283,7 @@ impl Renderer {
             pattern_light: with_alpha(palette.pattern[0]),
             pattern_dark: with_alpha(palette.pattern[1]),
             rim: with_alpha(palette.rim),
+            wipe: [left + view.wipe * width, 0.0, 0.0, 0.0],
             scale: distortion_scale().map(with_alpha),
         }
     }

@@ -26,6 +26,8 @@ struct View {
     pattern_dark: vec4<f32>,
     // rgb: the border of pins.
     rim: vec4<f32>,
+    // x: from the left of the canvas to where the map's colours and lines begin, in pixels; before it the surface is plain.
+    wipe: vec4<f32>,
     // rgb: the colours of the distortion.
     scale: array<vec4<f32>, 10>,
 };
@@ -134,7 +136,9 @@ fn surface_fragment(in: SurfaceOut) -> @location(0) vec4<f32> {
     let light = view.pattern_light.rgb;
     let dark = view.pattern_dark.rgb;
     var colour = view.surface.rgb;
-    if style > 3.5 {
+    if in.clip.x < view.wipe.x {
+        // The mesh as it is by itself.
+    } else if style > 3.5 {
         // A breath of the place's own colour tells far parts of the pattern apart.
         colour = mix(dark, light, solid) * mix(vec3<f32>(1.0), 0.45 + 1.1 * place_colour(in.image), 0.5);
     } else if style > 2.5 {
@@ -183,14 +187,19 @@ fn cover(distance: f32) -> f32 {
     return clamp(0.5 - distance, 0.0, 1.0);
 }
 
+// How much of a pixel a line covers, beyond the wipe.
+fn line_cover(in: LineOut) -> f32 {
+    return select(cover(abs(in.across) - view.size_and_style.w), 0.0, in.clip.x < view.wipe.x);
+}
+
 @fragment
 fn line_fragment(in: LineOut) -> @location(0) vec4<f32> {
-    return vec4<f32>(view.line.rgb, cover(abs(in.across) - view.size_and_style.w));
+    return vec4<f32>(view.line.rgb, line_cover(in));
 }
 
 @fragment
 fn hidden_line_fragment(in: LineOut) -> @location(0) vec4<f32> {
-    return vec4<f32>(view.line.rgb, view.ways.z * cover(abs(in.across) - view.size_and_style.w));
+    return vec4<f32>(view.line.rgb, view.ways.z * line_cover(in));
 }
 
 struct BallOut {
@@ -272,6 +281,12 @@ fn pin_fragment(in: PinOut) -> @location(0) vec4<f32> {
     let head = length(in.at - vec2<f32>(0.0, stem)) - radius;
     let needle = length(in.at - vec2<f32>(0.0, clamp(in.at.y, 0.0, max(stem - radius, 0.0))));
     let rim = view.rim.rgb;
+    if in.shape.z > 2.5 {
+        // Proposed: the place shows through the head.
+        let hoop = max(cover(abs(head + 1.0) - 1.0), cover(needle - 0.7) * cover(-head));
+        let body = over(vec4<f32>(in.colour, hoop), vec4<f32>(in.colour, 0.3 * cover(head)));
+        return over(body, vec4<f32>(rim, 0.8 * max(cover(abs(head) - 1.0), cover(needle - 1.7) * cover(-head))));
+    }
     if in.shape.z > 1.5 {
         // A ring with a dot in its middle.
         let ring = abs(head) - 1.25;

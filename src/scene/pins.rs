@@ -2,6 +2,7 @@
 
 use super::buffers::PinInstance;
 use glam::{Vec2, Vec3};
+use serde::Deserialize;
 
 /// Radius of a head in pixels of the page.
 pub const HEAD: f32 = 5.0;
@@ -16,13 +17,16 @@ pub const STEM: f32 = 17.0;
 const BESIDE_STEM: f32 = 4.0;
 
 /// How a pin stands out.
-#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq)]
+#[serde(rename_all = "lowercase")]
 pub enum Stand {
     /// As all.
     #[default]
     Plain,
     /// Selected, or under the pointer here or in a list.
     Raised,
+    /// Proposed, and no landmark yet.
+    Ghost,
 }
 
 /// A landmark of one side.
@@ -32,7 +36,7 @@ pub struct Pin {
     pub base: Vec3,
     /// Linear red, green, blue.
     pub colour: [f32; 3],
-    /// Larger or not.
+    /// Larger, or see-through, or as all.
     pub stand: Stand,
 }
 
@@ -41,14 +45,19 @@ impl Pin {
     pub fn instance(&self, is_hidden: bool, pixel_ratio: f32) -> PinInstance {
         let radius = match self.stand {
             Stand::Plain => HEAD,
-            Stand::Raised => RAISED_HEAD,
+            Stand::Raised | Stand::Ghost => RAISED_HEAD,
+        };
+        let kind = match self.stand {
+            _ if is_hidden => 1.0,
+            Stand::Ghost => 3.0,
+            Stand::Plain | Stand::Raised => 0.0,
         };
         PinInstance {
             base: self.base.to_array(),
             colour: self.colour,
             radius: radius * pixel_ratio,
             stem: STEM * pixel_ratio,
-            kind: if is_hidden { 1.0 } else { 0.0 },
+            kind,
         }
     }
 }
@@ -83,5 +92,13 @@ mod tests {
         let raised = Pin { stand: Stand::Raised, ..pin }.instance(true, 2.0);
         assert!(raised.radius > plain.radius && raised.base == plain.base && raised.stem == plain.stem);
         assert_eq!((plain.kind, raised.kind, plain.stem), (0.0, 1.0, 2.0 * STEM));
+    }
+
+    #[test]
+    fn a_ghost_is_told_from_a_pin_until_the_body_hides_it() {
+        let ghost = Pin { base: Vec3::Y, colour: [0.3, 0.2, 0.1], stand: Stand::Ghost };
+        let pin = Pin { stand: Stand::Raised, ..ghost };
+        assert_ne!(ghost.instance(false, 1.0).kind, pin.instance(false, 1.0).kind);
+        assert_eq!(ghost.instance(true, 1.0), pin.instance(true, 1.0));
     }
 }

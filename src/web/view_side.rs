@@ -35,7 +35,7 @@ pub(super) enum Look {
 struct Mark {
     point: LandmarkPoint,
     colour: usize,
-    raised: bool,
+    stand: Stand,
     /// Curvature of its cone, in radians.
     cone: Option<f64>,
 }
@@ -144,8 +144,7 @@ impl Side {
     pub fn set_landmarks(&mut self, marks: &str) -> Result<(), JsValue> {
         let marks: Vec<Option<Mark>> = serde_json::from_str(marks).map_err(|e| failure("landmarks", e))?;
         let landmark = |mark: Option<Mark>| {
-            let Mark { point, colour, raised, cone } = mark?;
-            let stand = if raised { Stand::Raised } else { Stand::Plain };
+            let Mark { point, colour, stand, cone } = mark?;
             let pin = Pin { base: self.place_of(point)?, colour: landmark_colour(colour), stand };
             Some(Landmark { pin, cone })
         };

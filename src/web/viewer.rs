@@ -9,6 +9,7 @@ use crate::scene::buffers::ribbons;
 use crate::scene::camera::From as LookFrom;
 use crate::scene::colours::{distortion_scale, landmark_colour};
 use crate::scene::morph::laid_on;
+use crate::scene::pins::Stand;
 use crate::scene::upright::proposed_up;
 use crate::scene::{Camera, Glide, MapPicker, MapPlace, MarkerInstance, PinInstance, SurfaceVertex, UpAxis};
 use glam::{DVec3, Mat4, Vec2, Vec3};
@@ -39,6 +40,9 @@ struct Style {
     markers: bool,
     #[serde(default)]
     dark: bool,
+    /// Share of the source's view, from the left, in which the source is plain.
+    #[serde(default)]
+    wipe: Option<f32>,
     /// Whether parts of the surfaces may be unmapped: the plain meshes are drawn behind.
     #[serde(default)]
     holes: bool,
@@ -150,8 +154,9 @@ impl Viewer {
         side.clear_marks();
     }
 
-    /// Shows landmarks: a JSON array, in pair order, of `{"point", "colour", "raised", "cone"}` or null: `colour` is the number
-    /// that [`colour_of_landmark`] takes, `cone` the curvature of the landmark's cone in radians or null.
+    /// Shows landmarks: a JSON array, in pair order, of `{"point", "colour", "stand", "cone"}` or null: `colour` is the number
+    /// that [`colour_of_landmark`] takes, `stand` is `plain`, `raised` or `ghost`, and `cone` the curvature of the landmark's cone
+    /// in radians or null.
     ///
     /// # Errors
     /// `{"code": "landmarks", "message"}`.
@@ -239,6 +244,7 @@ impl Viewer {
     }
 
     /// Shows the source's shape on its way to the target's: 0 the source's, 1 the target's, laid on it. Needs the source's overlay.
+    /// Beyond 0 nothing is where the source's mesh has it, and the source's view shows no marks and picks nothing.
     #[wasm_bindgen(js_name = setMorph)]
     pub fn set_morph(&mut self, share: f32) {
         self.morph = share.clamp(0.0, 1.0);
@@ -252,7 +258,8 @@ impl Viewer {
         self.morph = 0.0;
     }
 
-    /// What to show: JSON `{"surface", "patchLines", "cones", "markers", "dark"?, "holes"?}`.
+    /// What to show: JSON `{"surface", "patchLines", "cones", "markers", "dark"?, "holes"?, "wipe"?}`; with `wipe`, a share of the
+    /// source's view, the source is plain from the left to there.
     ///
     /// # Errors
     /// `{"code": "style", "message"}`.
@@ -347,6 +354,9 @@ impl Viewer {
     /// Brings what is seen at a place of a view to its middle, and turns about it from now on; whether there is anything.
     #[wasm_bindgen(js_name = centreAt)]
     pub fn centre_at(&mut self, side: usize, x: f32, y: f32) -> bool {
+        if self.is_morphed(side) {
+            return false;
+        }
         let now = self.now;
         let side = self.side_mut(side);
         let Some(place) = side.pick_place(Vec2::new(x, y), now) else { return false };
@@ -399,6 +409,9 @@ impl Viewer {
     /// Brings the image of what is in the middle of a view to the middle of the other one; whether there is a map and a place.
     pub fn follow(&mut self, leader: usize) -> bool {
         let leader = leader.min(1);
+        if self.is_morphed(leader) {
+            return false;
+        }
         let view = &self.sides[leader];
         let Some(mesh) = &view.mesh else { return false };
         let (from, along) = mesh.ray(view.camera.pose().ray(Vec2::ZERO, view.aspect()));
@@ -416,6 +429,9 @@ impl Viewer {
     /// Marks what is seen at a place of a view with a ring.
     pub fn mark(&mut self, side: usize, x: f32, y: f32) {
         self.clear_probe();
+        if self.is_morphed(side) {
+            return;
+        }
         let now = self.now;
         let side = self.side_mut(side);
         side.probe = side.pick_place(Vec2::new(x, y), now);
@@ -424,6 +440,9 @@ impl Viewer {
     /// The surface point at a place of a view, x and y from -1 to 1, y up: JSON `{"face", "barycentric"}`. `undefined` where there
     /// is none, or a cap, which takes no landmark.
     pub fn pick(&self, side: usize, x: f32, y: f32) -> Option<String> {
+        if self.is_morphed(side) {
+            return None;
+        }
         let side = self.side(side);
         let point = side.pick(Vec2::new(x, y), self.now)?;
         side.mesh.as_ref()?.on_skin(point)
@@ -432,6 +451,9 @@ impl Viewer {
     /// The number of the pin at a place of a view, among those that the body does not hide; `slack` in pixels of the page.
     #[wasm_bindgen(js_name = pinAt)]
     pub fn pin_at(&self, side: usize, x: f32, y: f32, slack: f32) -> Option<usize> {
+        if self.is_morphed(side) {
+            return None;
+        }
         self.side(side).pin_at(Vec2::new(x, y), slack, self.now, self.pixel_ratio)
     }
 
@@ -456,6 +478,9 @@ impl Viewer {
     pub fn probe(&mut self, side: usize, x: f32, y: f32) -> Option<String> {
         self.clear_probe();
         let side = side.min(1);
+        if self.is_morphed(side) {
+            return None;
+        }
         let view = &self.sides[side];
         let ray = view.pose(self.now).ray(Vec2::new(x, y), view.aspect());
         let (from, along) = view.mesh.as_ref()?.ray(ray);
@@ -474,6 +499,18 @@ impl Viewer {
         self.show_probe(place)
     }
 
+    /// The image of a landmark point of one side on the other one, both as JSON. `undefined` where there is no map, or the image
+    /// lies in a cap, which takes no landmark.
+    #[wasm_bindgen(js_name = imageOf)]
+    pub fn image_of(&mut self, side: usize, point: &str) -> Option<String> {
+        let side = side.min(1);
+        let [mesh, other] = [side, 1 - side].map(|k| self.sides[k].mesh.as_ref());
+        let (mesh, other) = (mesh?, other?);
+        let point = mesh.surface_point(serde_json::from_str(point).ok()?)?;
+        let place = self.map.as_mut()?.nearest(side, point.position(&mesh.checked.mesh))?;
+        other.on_skin(other.picker.as_ref()?.nearest(&other.checked.mesh, place.positions[1 - side]))
+    }
+
     /// Takes the rings away; whether there were any.
     #[wasm_bindgen(js_name = clearProbe)]
     pub fn clear_probe(&mut self) -> bool {
@@ -485,12 +522,12 @@ impl Viewer {
     /// For each landmark x and y of its head from -1 to 1, y up, and whether the number should be shown (1) or hides behind the
     /// surface (0).
     pub fn labels(&self, side: usize) -> Vec<f32> {
-        self.side(side).heads(self.now, self.pixel_ratio)
+        self.shown(side, self.side(side).heads(self.now, self.pixel_ratio))
     }
 
     /// Where the suggested points are, as [`Viewer::labels`].
     pub fn suggestions(&self, side: usize) -> Vec<f32> {
-        self.side(side).suggested(self.now)
+        self.shown(side, self.side(side).suggested(self.now))
     }
 
     /// Draws a frame at a time; whether another one is to follow, as a camera is on its way.
@@ -500,8 +537,8 @@ impl Viewer {
             side.glide = side.glide.filter(|glide| !glide.is_over(now));
         }
         let palette = self.palette();
-        let balls = [0, 1].map(|k: usize| self.balls(&self.sides[k]));
-        let pins = [0, 1].map(|k: usize| self.pins(&self.sides[k]));
+        let balls = [0, 1].map(|k: usize| self.balls(k));
+        let pins = [0, 1].map(|k: usize| self.pins(k));
         let style = &self.style;
         let view = |k: usize| {
             let side: &Side = &self.sides[k];
@@ -519,6 +556,7 @@ impl Viewer {
                 line_half_width: 0.9 * self.pixel_ratio,
                 morph,
                 world_from_image: self.source_from_target,
+                wipe: style.wipe.filter(|_| k == 0).unwrap_or(0.0),
                 surface: overlay.or(own),
                 under: own.filter(|_| style.holes && overlay.is_some() && morph == 0.0),
                 lines: side.lines.as_ref().filter(|_| style.patch_lines && morph == 0.0),
@@ -541,6 +579,29 @@ impl Viewer {
 
     fn side_mut(&mut self, side: usize) -> &mut Side {
         &mut self.sides[side.min(1)]
+    }
+
+    /// Whether a view shows another shape than its mesh has.
+    fn is_morphed(&self, side: usize) -> bool {
+        side == 0 && self.morph > 0.0
+    }
+
+    /// Places of marks, x, y and visible for each, of which none is seen while the shape is another one.
+    fn shown(&self, side: usize, mut places: Vec<f32>) -> Vec<f32> {
+        if self.is_morphed(side) {
+            places.chunks_exact_mut(3).for_each(|place| place[2] = 0.0);
+        }
+        places
+    }
+
+    /// Where the ring of a view is: on the surface as it is shown.
+    fn ring(&self, side: usize) -> Option<Vec3> {
+        let place = self.side(side).probe?;
+        if !self.is_morphed(side) {
+            return Some(place);
+        }
+        let image = self.source_from_target.transform_point3(self.sides[1].probe?);
+        Some(place.lerp(image, self.morph))
     }
 
     fn show_probe(&mut self, place: MapPlace) -> Option<String> {
@@ -574,11 +635,13 @@ impl Viewer {
     }
 
     /// Pins, hidden ones below and raised ones on top, then the rings of a place that is asked for.
-    fn pins(&self, side: &Side) -> Vec<PinInstance> {
+    fn pins(&self, k: usize) -> Vec<PinInstance> {
+        let side = self.side(k);
         let pose = side.pose(self.now);
-        // While the source changes its shape nothing is where it was.
-        let still = self.morph == 0.0 || !std::ptr::eq(side, &self.sides[0]);
-        let shown = side.landmarks.iter().flatten().filter(|_| self.style.markers && still);
+        // In another shape nothing is where it was.
+        let still = !self.is_morphed(k);
+        let is_shown = |mark: &&Landmark| still && (self.style.markers || mark.pin.stand == Stand::Ghost);
+        let shown = side.landmarks.iter().flatten().filter(is_shown);
         let mut pins: Vec<(bool, f32, PinInstance)> = shown
             .map(|Landmark { pin, .. }| {
                 let hidden = side.is_hidden(pin.base, pose);
@@ -590,7 +653,7 @@ impl Viewer {
             let rank = |p: &(bool, f32, PinInstance)| (!p.0, p.2.radius.to_bits());
             rank(a).cmp(&rank(b)).then(a.1.total_cmp(&b.1))
         });
-        let ring = side.probe.map(|place| PinInstance {
+        let ring = self.ring(k).map(|place| PinInstance {
             base: place.to_array(),
             colour: [0.02, 0.02, 0.02],
             radius: 8.0 * self.pixel_ratio,
@@ -601,7 +664,7 @@ impl Viewer {
     }
 
     /// Cones in red (positive) and blue (negative curvature).
-    fn balls(&self, side: &Side) -> Vec<MarkerInstance> {
+    fn balls(&self, k: usize) -> Vec<MarkerInstance> {
         let ball = |Landmark { pin, cone }: &Landmark| {
             let curvature = *cone.as_ref()?;
             // A ball's radius is 0.012 to 0.03 of the surface's and grows with the root of the curvature.
@@ -609,7 +672,8 @@ impl Viewer {
             let colour = if curvature >= 0.0 { [0.78, 0.04, 0.03] } else { [0.03, 0.16, 0.80] };
             Some(MarkerInstance { centre: pin.base.to_array(), radius: 0.012 + 0.018 * size, colour })
         };
-        side.landmarks.iter().flatten().filter(|_| self.style.cones).filter_map(ball).collect()
+        let is_shown = self.style.cones && !self.is_morphed(k);
+        self.side(k).landmarks.iter().flatten().filter(|_| is_shown).filter_map(ball).collect()
     }
 }
 

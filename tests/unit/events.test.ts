@@ -3,7 +3,7 @@ import { expect, test } from 'vitest';
 import type { RunOptions } from '../../www/report.ts';
 import { change } from '../../www/store/change.ts';
 import type { Event } from '../../www/store/events.ts';
-import type { Offer, State, Style, Ui } from '../../www/store/state.ts';
+import type { Offer, Proposal, State, Style, Ui } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
 import { workOf } from '../../www/store/work.ts';
 import { AWAITED, DEMO, DONE, DOUBT, FOUR, mesh, OPENED, OUTPUT, pair, READY, REPORT, RUNNING, suggestion, SWAPPED } from './fixtures.ts';
@@ -21,10 +21,13 @@ const TASK = { sentence: 'Reading the files…' };
 const PROGRESS = { stage: 'relaxation', sentence: 'Relaxing the map', share: 0.5, residual: null, energy: 5 };
 const [HORSE, A, B] = [mesh('horse.stl'), suggestion(5, 'A'), suggestion(6, 'B')];
 const OPTIONS: RunOptions = { method: 'thesis', base: 'qem', cones: 'uniform', class: 'runner-up', ownCones: 10 };
-const STYLE: Style = { surface: 'colours', patchLines: false, cones: false, markers: false };
+const STYLE: Style = { surface: 'colours', patchLines: false, cones: false, markers: false, morph: 0.25, wipe: 0.75 };
 const OFFER: Offer = { session: 'a', names: ['cat.off', 'lion.off'], pairs: 12, saved: 1 };
 const [CAT, LION] = READY.meshes;
 const HALF: State = { ...READY, pairs: [...FOUR, pair(5, 7, null)], nextId: 6 };
+/** A map is there, and has proposed a place for the half pair. */
+const PROPOSAL: Proposal = { id: 5, of: 7, side: 1, point: 17 };
+const PROPOSED: State = { ...HALF, result: DONE.result, job: { kind: 'done' }, proposal: PROPOSAL };
 const DOUBTS = [DOUBT];
 const DOUBTED: State = { ...READY, found: { doubts: DOUBTS, inputs: workOf(READY) }, findings: DOUBTS };
 const during = (job: Partial<typeof RUNNING>): State => ({ ...READY, job: { ...RUNNING, ...job } });
@@ -324,6 +327,24 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     event: { side: 1, suggestions: [A, B] },
     step: null,
     changes: { suggestions: [[A], [A, B]] },
+  },
+  'proposal-accepted': {
+    before: PROPOSED,
+    event: {},
+    step: 'Take the map’s place for pair 5',
+    changes: { pairs: [...FOUR, pair(5, 7, 17)], proposal: null, ui: ui(READY, { selected: 5 }) },
+  },
+  proposed: {
+    before: { ...PROPOSED, proposal: null },
+    event: { proposal: PROPOSAL },
+    step: null,
+    changes: { proposal: PROPOSAL },
+  },
+  'proposal-dropped': {
+    before: PROPOSED,
+    event: {},
+    step: null,
+    changes: { proposal: null },
   },
   'run-started': {
     before: { ...DOUBTED, error: 'Something failed.' },

@@ -95,6 +95,7 @@ test('what is known of a mesh goes with it: suggestions, camera, which way is up
     { kind: 'suggested', side: 0, suggestions: [suggestion(1, 'A')] },
     { kind: 'camera-moved', side: 0, camera: [1, 2, 3] },
     { kind: 'up', side: 0, axis: '-x' },
+    { kind: 'style', style: { morph: 0.5, cones: true } },
   );
   const swapped = after(before, { kind: 'swap-meshes' });
   expect(swapped.suggestions).toEqual([[], [suggestion(1, 'A')]]);
@@ -102,7 +103,11 @@ test('what is known of a mesh goes with it: suggestions, camera, which way is up
     [null, [1, 2, 3]],
     ['y', '-x'],
   ]);
-  expect(after(swapped, { kind: 'undo' })).toMatchObject({ suggestions: before.suggestions, ui: before.ui, up: before.up });
+  // Other shapes: the source begins as it is.
+  const style = { ...before.ui.style, morph: 0 };
+  expect(swapped.ui.style).toEqual(style);
+  const undone = after(swapped, { kind: 'undo' });
+  expect(undone).toMatchObject({ suggestions: before.suggestions, ui: { ...before.ui, style }, up: before.up });
 });
 
 test('a mesh that comes back stands as it stood last', () => {

@@ -1,72 +1,16 @@
 /** Cameras and pins under the hand: turned, zoomed, dragged and nudged as a user does, read off where the pins' numbers are. */
 import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
+import type { Spot } from './canvas.ts';
+import { countDraws, distance, drawn, heads, moves, SETTLED, STEM } from './canvas.ts';
 import { fail, openStep, showSurface } from './page.ts';
 
-interface Spot {
-  readonly x: number;
-  readonly y: number;
-}
-
-/** What was drawn since it was last asked. */
-interface Drawn {
-  readonly calls: number;
-  /** Triangles of the largest call. */
-  readonly triangles: number;
-}
-
-/** From the middle of a pin's head to its number, also of a raised one, and down to its place, in CSS pixels. */
-const NUMBER_BESIDE = 8;
-const RAISED_BESIDE = 10;
-const STEM = 17;
-
-/** Longer than a glide and a rest. */
-const SETTLED = 900;
-
 async function open(page: Page): Promise<void> {
-  await page.addInitScript(() => {
-    const drawn = { calls: 0, triangles: 0 };
-    Reflect.set(window, 'drawn', drawn);
-    const { prototype } = WebGL2RenderingContext;
-    for (const name of ['drawElements', 'drawElementsInstanced', 'drawArrays', 'drawArraysInstanced'] as const) {
-      const draw: (...rest: number[]) => void = Reflect.get(prototype, name);
-      Reflect.set(prototype, name, function (this: WebGL2RenderingContext, ...rest: number[]) {
-        drawn.calls += 1;
-        if (name.startsWith('drawElements')) {
-          drawn.triangles = Math.max(drawn.triangles, (rest[1] ?? 0) / 3);
-        }
-        draw.apply(this, rest);
-      });
-    }
-  });
+  await countDraws(page);
   await page.goto('/#demo=horse-cat');
   await expect(page.locator('body')).toHaveAttribute('data-ready', 'true', { timeout: 120_000 });
   await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
   await page.waitForTimeout(SETTLED);
-}
-
-async function drawn(page: Page): Promise<Drawn> {
-  return page.evaluate(() => {
-    const counts = Reflect.get(window, 'drawn') as { calls: number; triangles: number };
-    const copy = { ...counts };
-    counts.calls = 0;
-    counts.triangles = 0;
-    return copy;
-  });
-}
-
-/** The middles of the pins' heads in the window by their numbers, of those that the body does not hide. */
-async function heads(page: Page, view: string): Promise<Map<string, Spot>> {
-  const list = await page.locator(`${view} .labels span`).evaluateAll((spans) =>
-    spans
-      .filter((span) => !(span as HTMLElement).hidden)
-      .map((span) => {
-        const box = span.getBoundingClientRect();
-        const spot = { x: box.left, y: box.top + box.height / 2 };
-        return { number: span.textContent, spot, raised: span.classList.contains('raised') };
-      }),
-  );
-  return new Map(list.map(({ number, spot, raised }) => [number, { x: spot.x - (raised ? RAISED_BESIDE : NUMBER_BESIDE), y: spot.y }]));
 }
 
 /** A pin that is seen, away from all others. */
@@ -80,18 +24,6 @@ async function lonelyPin(page: Page, view: string): Promise<string> {
 
 async function headOf(page: Page, view: string, number: string): Promise<Spot> {
   return (await heads(page, view)).get(number) ?? fail(`pin ${number} of ${view} is not seen`);
-}
-
-function distance(a: Spot, b: Spot): number {
-  return Math.hypot(a.x - b.x, a.y - b.y);
-}
-
-/** How far the pins that are seen before and after have moved. */
-function moves(before: ReadonlyMap<string, Spot>, after: ReadonlyMap<string, Spot>): number[] {
-  return [...before].flatMap(([number, spot]) => {
-    const now = after.get(number);
-    return now === undefined ? [] : [distance(spot, now)];
-  });
 }
 
 test('frames are drawn only when something is seen to change', async ({ page }) => {

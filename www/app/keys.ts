@@ -1,4 +1,5 @@
 /** Keys of the whole page; those of a view are the viewer's. */
+import { proposed } from '../store/proposal.ts';
 import type { Store } from '../store/store.ts';
 
 /** Whether keys are typed into this element. */
@@ -23,6 +24,19 @@ export function moveOf(event: Pick<KeyboardEvent, 'key' | 'ctrlKey' | 'metaKey' 
     default:
       return null;
   }
+}
+
+/** Where no part of the page has the keys, Enter takes the place that the map proposes, and Escape drops it. */
+export function listenForProposal(store: Store): void {
+  window.addEventListener('keydown', (event) => {
+    if (event.target !== document.body || event.ctrlKey || event.metaKey || event.altKey || proposed(store.state) === null) {
+      return;
+    }
+    if (event.key === 'Enter' || event.key === 'Escape') {
+      event.preventDefault();
+      store.dispatch({ kind: event.key === 'Enter' ? 'proposal-accepted' : 'proposal-dropped' });
+    }
+  });
 }
 
 /** The keys of the history go through the steps of the work, but in a text field through what was typed there. */

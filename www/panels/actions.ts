@@ -48,6 +48,8 @@ export interface Actions {
   readonly repair: (finding: Doubt) => void;
   /** Moves the camera of a view. */
   readonly camera: (side: Side, command: CameraCommand) => void;
+  /** Shows the source on its way to the target's shape until the style changes: 0 is the source's shape, 1 the target's. */
+  readonly morph: (share: number) => void;
   /** The axis of a mesh that seems to point up by its shape; `null` where the shape does not tell. */
   readonly proposedUp: (side: Side) => Axis | null;
   /** Turns both views to a pair's points. */

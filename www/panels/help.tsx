@@ -38,9 +38,10 @@ const KEYS: readonly Keys[] = [
       [['Q', 'E'], 'turn the picture'],
       [['F'], 'the whole mesh; 0 the first look'],
       [['Shift', 'F B L R T U'], 'from the front, back, left, right, top, under'],
-      [['Enter'], 'place a landmark in the middle'],
+      [['Space'], 'place a landmark in the middle, also Enter'],
+      [['Enter'], 'with a map: take the place that it proposes'],
       [['Del'], 'delete the selected pair'],
-      [['Esc'], 'give up a half pair, or the selection'],
+      [['Esc'], 'drop a proposal, give up a half pair, or the selection'],
     ],
   },
   {

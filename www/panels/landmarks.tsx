@@ -5,6 +5,7 @@ import type { PartProps } from './actions.ts';
 import { choose } from './inputs.tsx';
 import { LandmarkFormats } from './landmark-formats.tsx';
 import { LandmarkTable } from './landmark-table.tsx';
+import { ProposalNote } from './proposal.tsx';
 import { Suggestions } from './suggestions.tsx';
 
 function FileButtons({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
@@ -51,6 +52,7 @@ export function LandmarksPanel({ state, actions }: PartProps): VNode {
   return (
     <div class="content of-landmarks" id="landmarks">
       <FileButtons state={state} actions={actions} />
+      <ProposalNote state={state} actions={actions} />
       <Suggestions state={state} actions={actions} />
       <div class="table">
         {state.pairs.length === 0 ? (

@@ -9,11 +9,13 @@ import { Divider } from './divider.tsx';
 import { DropVeil } from './drop.tsx';
 import { ErrorBanner } from './error.tsx';
 import { DemoLine, Invitation } from './invitation.tsx';
+import { MapBar } from './map-bar.tsx';
 import { VIEW_IDS } from './names.ts';
 import { Notices } from './notices.tsx';
 import { Legend, PictureBar } from './picture-bar.tsx';
 import { Toasts } from './toasts.tsx';
 import { ViewBar } from './view-bar.tsx';
+import { WipeLine } from './wipe.tsx';
 
 /** What was changed of a mesh; the panel tells more of a repair. */
 function changed(file: MeshFile): string {
@@ -48,7 +50,9 @@ function Pane({ side, ...props }: { readonly side: Side } & PartProps): VNode {
         <Caption state={props.state} side={side} />
       </div>
       <Invitation state={props.state} side={side} />
+      {side === 0 && <WipeLine {...props} />}
       <ViewBar {...props} side={side} />
+      {side === 0 && <MapBar {...props} />}
     </div>
   );
 }

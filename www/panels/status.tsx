@@ -5,6 +5,7 @@ import { byId } from '../dom.ts';
 import { hint } from '../messages.ts';
 import type { Running } from '../store/job.ts';
 import { wholePairs } from '../store/order.ts';
+import { proposed } from '../store/proposal.ts';
 import { isCurrent } from '../store/staleness.ts';
 import type { State } from '../store/state.ts';
 import { asked, waitingCount } from '../store/waiting.ts';
@@ -18,7 +19,10 @@ function nextClick(state: State): string {
   const next = asked(state);
   return hint({
     meshes: state.meshes.filter((file) => file !== null).length,
-    asked: next === null ? null : { pair: next.pair.number, mesh: meshName(state, next.side) },
+    asked:
+      next === null
+        ? null
+        : { pair: next.pair.number, mesh: meshName(state, next.side), isProposed: proposed(state) !== null },
     pairs: wholePairs(state).length,
     waiting: next === null ? 0 : waitingCount(state, next.side) - 1,
   });

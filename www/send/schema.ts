@@ -13,6 +13,8 @@ const LONGEST_TEXT = 10_000;
 const LONGEST_CAMERA = 32;
 const MOST_OWN_CONES = 1000;
 
+const Share = v.pipe(v.number(), v.minValue(0), v.maxValue(1));
+
 /** A number of a vertex, face or place in a list. */
 export const Index = v.pipe(v.number(), v.integer(), v.minValue(0), v.maxValue(2 ** 32 - 1));
 /** Whether three weights belong together is the core's to judge, as in a landmark file. */
@@ -44,7 +46,10 @@ export const StyleSchema = v.object({
   patchLines: v.boolean(),
   cones: v.boolean(),
   markers: v.boolean(),
-}) satisfies v.GenericSchema<Style>;
+  // Links, projects and sessions of earlier pages do not have these.
+  morph: v.optional(Share, 0),
+  wipe: v.optional(v.nullable(Share), null),
+}) satisfies v.GenericSchema<unknown, Style>;
 
 const Point = v.nullable(
   v.union([Index, v.object({ face: Index, barycentric: v.strictTuple([Weight, Weight, Weight]) })]),
@@ -85,4 +90,4 @@ export const SentWorkSchema = v.object({
   options: Options,
   cameras: v.fallback(Cameras, [null, null]),
   style: v.fallback(StyleSchema, INITIAL.ui.style),
-}) satisfies v.GenericSchema<SentWork>;
+}) satisfies v.GenericSchema<unknown, SentWork>;

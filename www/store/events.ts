@@ -9,7 +9,7 @@ import type { Task } from './job.ts';
 import type { OpenedMap } from './opened.ts';
 import type { Receiving } from './receiving.ts';
 import type { SidePoint } from './side-marks.ts';
-import type { Axis, Camera, Demo, MeshFile, Offer, Style, Ui, Work } from './state.ts';
+import type { Axis, Camera, Demo, MeshFile, Offer, Proposal, Style, Ui, Work } from './state.ts';
 
 export type Event =
   /** The core is there. */
@@ -39,6 +39,8 @@ export type Event =
   | { readonly kind: 'point-moved'; readonly id: number; readonly side: Side; readonly point: SurfacePoint; readonly gesture: number }
   /** The half pair whose turn it is goes; without one, nothing is selected any more. */
   | { readonly kind: 'pick-dropped' }
+  /** The place that the map proposes becomes the partner of the half pair whose turn it is. */
+  | { readonly kind: 'proposal-accepted' }
   /** All suggestions of a side become half pairs. */
   | { readonly kind: 'suggestions-taken'; readonly side: Side }
   | { readonly kind: 'pair-deleted'; readonly id: number }
@@ -75,6 +77,11 @@ export type Event =
   | { readonly kind: 'camera-moved'; readonly side: Side; readonly camera: Camera | null }
   /** Places of one mesh that are worth a landmark, in the place of the earlier ones. */
   | { readonly kind: 'suggested'; readonly side: Side; readonly suggestions: readonly Suggestion[] }
+
+  /** The map was asked for the partner of a half pair, and proposes a place. */
+  | { readonly kind: 'proposed'; readonly proposal: Proposal }
+  /** The place is not the partner; the half pair waits for a click. */
+  | { readonly kind: 'proposal-dropped' }
 
   // The run.
 

@@ -2,6 +2,7 @@
 import type { Pair, Side, Suggestion, SurfacePoint } from '../landmarks.ts';
 import { isSamePoint, otherSide, rounded } from '../landmarks.ts';
 import { pairLocked, pointTaken, SENTENCES } from '../messages.ts';
+import { proposed } from './proposal.ts';
 import type { State } from './state.ts';
 import { asked, waitingFor } from './waiting.ts';
 
@@ -64,9 +65,29 @@ export function withPick(state: State, side: Side, picked: SurfacePoint): State 
     const begun = withNewPairs(present, [{ points: withPoint([null, null], side, point), label: '' }]);
     return selecting(begun, turn?.side === otherSide(side) ? turn.pair.id : state.nextId);
   }
+  return withCompleted(present, half, side, point);
+}
+
+/** A half pair made whole; the next one that lacks a point of this side has its turn. */
+function withCompleted(state: State, half: Pair, side: Side, point: SurfacePoint): State {
   const pairs = replaced(state.pairs, { ...half, points: withPoint(half.points, side, point) });
   const next = pairs.find(({ points }) => points[side] === null);
-  return selecting({ ...present, pairs }, next?.id ?? half.id);
+  return selecting({ ...state, pairs }, next?.id ?? half.id);
+}
+
+/** The half pair whose turn it is gets the place that the map proposes. */
+export function withProposalAccepted(state: State): State {
+  const proposal = proposed(state);
+  const half = proposal === null ? null : pairOf(state, proposal.id);
+  if (proposal === null || half === null) {
+    return state;
+  }
+  const { side } = proposal;
+  const point = rounded(proposal.point);
+  const other = holder(state, side, point, null);
+  return other === null
+    ? withCompleted({ ...state, proposal: null, error: null }, half, side, point)
+    : { ...state, error: pointTaken(side, other.number) };
 }
 
 /** A point of a pair is elsewhere on its surface. */

@@ -17,6 +17,7 @@ import {
   withPick,
   withPickDropped,
   withPointMoved,
+  withProposalAccepted,
   withSuggestions,
   withTargetsExchanged,
 } from './pairs.ts';
@@ -98,6 +99,8 @@ export function update(state: State, event: Event): State {
       return withPointMoved(state, event.id, event.side, event.point);
     case 'pick-dropped':
       return withPickDropped(state);
+    case 'proposal-accepted':
+      return withProposalAccepted(state);
     case 'suggestions-taken':
       return withAllTaken(state, event.side);
     case 'pair-deleted':
@@ -138,6 +141,10 @@ export function update(state: State, event: Event): State {
     }
     case 'suggested':
       return { ...state, suggestions: withSuggestions(state, event.side, event.suggestions) };
+    case 'proposed':
+      return { ...state, proposal: event.proposal };
+    case 'proposal-dropped':
+      return patched(state, { proposal: null });
     case 'run-started':
       return { ...state, job: started(workOf(state)), found: null, findings: [], error: null };
     case 'run-progress':

@@ -52,11 +52,17 @@ export function inLine(state: State, before: State): State {
     };
     return [of(next.meshes[0]), of(next.meshes[1])];
   };
+  // A session that comes back brings its cameras and its style along.
+  const { cameras, style } = next.ui;
   return {
     ...next,
     suggestions: follow(before.suggestions, []),
-    // A session that comes back brings its cameras along.
-    ui: next.ui.cameras === before.ui.cameras ? { ...next.ui, cameras: follow(before.ui.cameras, null) } : next.ui,
+    ui: {
+      ...next.ui,
+      cameras: cameras === before.ui.cameras ? follow(cameras, null) : cameras,
+      // Another map is seen in the shapes of its own meshes first.
+      style: style === before.ui.style && style.morph > 0 ? { ...style, morph: 0 } : style,
+    },
     job: settled(next.job, shownResult(next) !== null),
   };
 }

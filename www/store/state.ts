@@ -1,6 +1,6 @@
 /** The state of the page: everything that it shows follows from it. */
 import type { RunOutput } from '../compute/messages.ts';
-import type { Suggestion } from '../landmarks.ts';
+import type { Side, Suggestion, SurfacePoint } from '../landmarks.ts';
 import type { Finding, Report } from '../report.ts';
 import type { AwaitedMap } from './awaited.ts';
 import type { History } from './history.ts';
@@ -18,6 +18,10 @@ export interface Style {
   readonly patchLines: boolean;
   readonly cones: boolean;
   readonly markers: boolean;
+  /** Share of the way that the source's shape has gone to the target's, 0 to 1; it takes a map to be seen. */
+  readonly morph: number;
+  /** Share of the source's view, from the left, in which the source is seen as it is by itself; `null` for none of it. */
+  readonly wipe: number | null;
 }
 
 /** A camera as the views give it and take it back. */
@@ -53,6 +57,16 @@ export interface Result {
   readonly opened: { readonly name: string; readonly isMirrored: boolean } | null;
 }
 
+/** A place that the map proposes for the point that a half pair lacks. */
+export interface Proposal {
+  /** The pair's id, and the point that it has. */
+  readonly id: number;
+  readonly of: SurfacePoint;
+  /** The image of that point, on this side. */
+  readonly side: Side;
+  readonly point: SurfacePoint;
+}
+
 /** A sentence that goes by itself. */
 export interface Toast {
   readonly sentence: string;
@@ -78,6 +92,8 @@ export interface State extends Work {
   readonly nextId: number;
   /** Suggested landmarks by side. */
   readonly suggestions: readonly [readonly Suggestion[], readonly Suggestion[]];
+  /** The last place that the map proposed; `proposed` tells whether it still is about what is on the page. */
+  readonly proposal: Proposal | null;
   readonly ui: Ui;
   readonly job: Job;
   /** The last map. It stays when its inputs change, and is current again when they come back. */
@@ -104,13 +120,14 @@ export const INITIAL: State = {
   history: NO_HISTORY,
   nextId: 1,
   suggestions: [[], []],
+  proposal: null,
   ui: {
     step: 'meshes',
     theme: 'system',
     panel: 'open',
     link: 'linked',
     cameras: [null, null],
-    style: { surface: 'shaded', patchLines: false, cones: false, markers: true },
+    style: { surface: 'shaded', patchLines: false, cones: false, markers: true, morph: 0, wipe: null },
     selected: null,
     hovered: null,
   },

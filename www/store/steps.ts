@@ -38,7 +38,11 @@ const NAMES: Names = {
   'map-opened': ({ map }) => `Open ${map.name}`,
   demo: ({ demo }) => `Open the demo “${demo.title}”`,
   'point-picked': (_, before, after) => pickName(before, after),
-  'point-moved': ({ id }, before) => `Move ${called(before, id)}`,
+  'point-moved': ({ id, side }, before) => {
+    const isThere = before.pairs.some((pair) => pair.id === id && pair.points[side] !== null);
+    return `${isThere ? 'Move' : 'Place'} ${called(before, id)}`;
+  },
+  'proposal-accepted': (_, before) => `Take the map’s place for ${called(before, before.proposal?.id ?? 0)}`,
   'pick-dropped': (_, before, after) => {
     const pair = before.pairs.find((candidate) => !after.pairs.includes(candidate));
     return `Give up pair ${pair?.number ?? ''}`.trim();

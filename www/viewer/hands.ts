@@ -1,7 +1,9 @@
 /** What the user's hands do to the views: mouse, fingers and keys to cameras, pins, picks and questions to the map. */
 import type { Side, SurfacePoint } from '../landmarks.ts';
 import { otherSide, SIDES } from '../landmarks.ts';
+import { SENTENCES } from '../messages.ts';
 import type { Event } from '../store/events.ts';
+import { proposed } from '../store/proposal.ts';
 import type { State } from '../store/state.ts';
 import type { Viewer } from '../wasm/conemap.js';
 import type { Cameras } from './cameras.ts';
@@ -180,17 +182,29 @@ export class Hands {
       pick: (side, at) => {
         this.#pick(side, at);
       },
+      accept: () => {
+        const isThere = proposed(this.#bench.state()) !== null;
+        if (isThere) {
+          this.#bench.dispatch({ kind: 'proposal-accepted' });
+        }
+        return isThere;
+      },
       escape: () => {
         if (this.#pins.isDragging) {
           this.#pins.drop('given up');
         } else {
-          this.#bench.dispatch({ kind: 'pick-dropped' });
+          const isThere = proposed(this.#bench.state()) !== null;
+          this.#bench.dispatch({ kind: isThere ? 'proposal-dropped' : 'pick-dropped' });
         }
       },
     };
   }
 
   #pick(side: Side, at: Place): void {
+    if (side === 0 && this.#bench.picture.isMorphed) {
+      this.#bench.dispatch({ kind: 'toast', sentence: SENTENCES.notItsShape, undo: false });
+      return;
+    }
     let hit: string | undefined;
     this.#bench.act((viewer) => {
       viewer.clearProbe();
@@ -233,8 +247,10 @@ export class Hands {
       this.#endProbe();
       return;
     }
+    // Rings that somebody else asked for go, too.
+    const shown = viewer.clearProbe();
     const probe = probeOf(side, viewer.probe(side, at.x, at.y));
-    if (probe !== null || this.#probed) {
+    if (probe !== null || shown || this.#probed) {
       this.#probed = probe !== null;
       this.#bench.act(() => undefined);
       this.#bench.probed(probe);

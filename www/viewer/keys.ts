@@ -18,6 +18,8 @@ export interface KeyTarget {
   /** Deletes the selected pair; whether there is one. */
   deleteSelected(): boolean;
   pick(side: Side, at: Place): void;
+  /** Takes the place that the map proposes; whether there is one. */
+  accept(): boolean;
   escape(): void;
 }
 
@@ -25,7 +27,7 @@ export interface KeyTarget {
 export const HELP =
   'Arrow keys turn, with Shift they move; Q and E roll; plus, minus, Page Up and Page Down zoom; F fits the mesh into the view; 0 resets; ' +
   'Shift with F, B, L, R, T or U looks from the front, the back, the left, the right, the top or from under; ' +
-  'Enter picks the point in the middle. With a landmark selected arrow keys move it, Delete deletes it, Escape lets it go.';
+  'Enter or Space picks the point in the middle; where the map proposes a place, Enter takes it and Escape drops it. With a landmark selected arrow keys move it, Delete deletes it, Escape lets it go.';
 
 /** An arrow key's step in heights of the view. A height turns by 4 rad, so that this is 14°: 26 presses go round. */
 const STEP = 0.06;
@@ -92,6 +94,10 @@ export function pressKey(target: KeyTarget, side: Side, event: KeyboardEvent): b
       target.reset(side);
       return true;
     case 'Enter':
+      if (!target.accept()) {
+        target.pick(side, MIDDLE);
+      }
+      return true;
     case ' ':
       target.pick(side, MIDDLE);
       return true;

@@ -20,6 +20,12 @@ export class Picture {
   #overlays = new Set<Side>();
   #lines = false;
   #map = false;
+  #isMorphed = false;
+
+  /** Whether the source is shown in another shape than its own: nothing on it is where its mesh has it. */
+  get isMorphed(): boolean {
+    return this.#isMorphed;
+  }
 
   /** Another map, or none; what was of the last one goes. */
   take(viewer: Viewer, result: Result | null): void {
@@ -28,6 +34,7 @@ export class Picture {
     this.#overlays = new Set();
     this.#lines = false;
     this.#map = false;
+    this.#isMorphed = false;
   }
 
   /** Brings the map's triangles on one side; whether there is a map. */
@@ -58,6 +65,13 @@ export class Picture {
       }
       this.#lines = true;
     }
+  }
+
+  /** Shows the source's shape on its way to the target's, where there is a map: 0 the source's, 1 the target's. */
+  morph(viewer: Viewer, share: number): void {
+    const isThere = share > 0 && this.bringOverlay(viewer, 0);
+    viewer.setMorph(isThere ? share : 0);
+    this.#isMorphed = isThere;
   }
 
   /** Brings the map to be asked at single places; whether there is one. */

@@ -2,8 +2,9 @@
 import type { Pair, Side, SurfacePoint } from '../landmarks.ts';
 import type { Event } from '../store/events.ts';
 import { wholePairs } from '../store/order.ts';
+import { proposed } from '../store/proposal.ts';
 import { hasItsCones, shownResult } from '../store/staleness.ts';
-import type { State } from '../store/state.ts';
+import type { Proposal, State } from '../store/state.ts';
 import type { Viewer } from '../wasm/conemap.js';
 import type { Place } from './gestures.ts';
 import type { Label } from './labels.ts';
@@ -22,18 +23,30 @@ interface Drag {
   readonly offset: Place;
   /** Where the pointer has gone since the last frame. */
   at: Place | null;
+  /** Whether its point has been told to be elsewhere. */
+  placed: boolean;
 }
 
-/** The pairs' colours and cones in the renderer's words: a JSON array in pair order. */
+/** The pairs' colours and cones, and the place that is proposed, in the renderer's words: a JSON array in pair order. */
 export function marksOf(state: State, side: Side): string {
   const { ui, pairs } = state;
   const cones = conesOf(state);
+  const ghost = ghostOn(state, side);
   const marks = pairs.map(({ id, number, points }) => {
+    if (id === ghost?.id) {
+      return { point: ghost.point, colour: number - 1, stand: 'ghost', cone: null };
+    }
     const point = points[side];
-    const raised = id === ui.selected || id === ui.hovered;
-    return point === null ? null : { point, colour: number - 1, raised, cone: cones.get(id) ?? null };
+    const stand = id === ui.selected || id === ui.hovered ? 'raised' : 'plain';
+    return point === null ? null : { point, colour: number - 1, stand, cone: cones.get(id) ?? null };
   });
   return JSON.stringify(marks);
+}
+
+/** The place that is proposed on a side; `null` for none. */
+function ghostOn(state: State, side: Side): Proposal | null {
+  const proposal = proposed(state);
+  return proposal?.side === side ? proposal : null;
 }
 
 /** Curvatures of the last map's cones by pair id, while they are where the pairs are. */
@@ -45,9 +58,14 @@ function conesOf(state: State): ReadonlyMap<number, number> {
   return new Map(wholePairs(result.inputs).map(({ id }, order) => [id, result.output.cones[order] ?? 0]));
 }
 
-/** The pairs' numbers, in pair order. */
-export function labelsOf({ pairs, ui }: State): readonly Label[] {
-  return pairs.map(({ id, number }) => ({ text: String(number), raised: id === ui.selected || id === ui.hovered }));
+/** The pairs' numbers on a side, in pair order; a place that is proposed has a question mark. */
+export function labelsOf(state: State, side: Side): readonly Label[] {
+  const { pairs, ui } = state;
+  const ghost = ghostOn(state, side);
+  return pairs.map(({ id, number }) => ({
+    text: id === ghost?.id ? `${number}?` : String(number),
+    raised: id === ui.selected || id === ui.hovered,
+  }));
 }
 
 /** Moves pins; what they do goes to the store. */
@@ -82,7 +100,7 @@ export class Pins {
     }
     this.#gesture += 1;
     const offset = { x: (place[0] ?? 0) - at.x, y: (place[1] ?? 0) - at.y };
-    this.#drag = { side, pair, gesture: this.#gesture, offset, at: null };
+    this.#drag = { side, pair, gesture: this.#gesture, offset, at: null, placed: false };
     return true;
   }
 
@@ -104,6 +122,7 @@ export class Pins {
     drag.at = null;
     const hit = viewer.pick(side, at.x + offset.x, at.y + offset.y);
     if (hit !== undefined) {
+      drag.placed = true;
       this.#dispatch({ kind: 'point-moved', id: pair.id, side, point: JSON.parse(hit) as SurfacePoint, gesture });
     }
   }
@@ -115,12 +134,14 @@ export class Pins {
     if (drag === null) {
       return;
     }
-    const { side, pair, gesture } = drag;
+    const { side, pair, gesture, placed } = drag;
     const point = pair.points[side];
     if (outcome === 'clicked') {
-      this.#dispatch({ kind: 'pair-selected', id: pair.id });
+      this.#dispatch(point === null ? { kind: 'proposal-accepted' } : { kind: 'pair-selected', id: pair.id });
     } else if (outcome === 'given up' && point !== null) {
       this.#dispatch({ kind: 'point-moved', id: pair.id, side, point, gesture });
+    } else if (outcome === 'given up' && placed) {
+      this.#dispatch({ kind: 'undo' });
     }
   }
 

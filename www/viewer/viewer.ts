@@ -6,7 +6,7 @@ import { SIDES } from '../landmarks.ts';
 import { failureSentence, SENTENCES } from '../messages.ts';
 import type { Event } from '../store/events.ts';
 import { hasItsCones, shownResult } from '../store/staleness.ts';
-import type { Axis, Camera, State } from '../store/state.ts';
+import type { Axis, Camera, Proposal, State } from '../store/state.ts';
 import { Viewer } from '../wasm/conemap.js';
 import type { Direction } from './cameras.ts';
 import { cameraOf, Cameras } from './cameras.ts';
@@ -30,6 +30,9 @@ export interface ViewListener {
   /** What the map says of the place under the mouse; `null` when the mouse has left. */
   probed(probe: Probe | null): void;
 }
+
+/** How far from the middle a pin is still in sight, as a share of the way to the edge. */
+const IN_SIGHT = 0.95;
 
 /** A camera has come to rest when it has not moved for this time, in ms. */
 const REST = 400;
@@ -107,12 +110,10 @@ export class Views {
     }
   }
 
-  /** Shows the source's shape on its way to the target's, where there is a map: 0 the source's, 1 the target's. */
+  /** Shows the source on its way to the target's shape until the style changes: 0 is the source's shape, 1 the target's. */
   morph(share: number): void {
     this.#with((viewer) => {
-      if (this.#picture.bringOverlay(viewer, 0)) {
-        viewer.setMorph(share);
-      }
+      this.#picture.morph(viewer, share);
     });
   }
 
@@ -190,6 +191,24 @@ export class Views {
     return probe;
   }
 
+  /** Where the map takes a point of a side on the other one; `null` without a map, and where no landmark can be. */
+  imageOf(side: Side, point: SurfacePoint): SurfacePoint | null {
+    let image: string | undefined;
+    this.#with((viewer) => {
+      image = this.#picture.bringMap(viewer) ? viewer.imageOf(side, JSON.stringify(point)) : undefined;
+    });
+    return image === undefined ? null : (JSON.parse(image) as SurfacePoint);
+  }
+
+  /** Turns a view to a proposed place that is not seen: behind the body, or beyond the view. */
+  bringIntoSight({ id, side, point }: Proposal): void {
+    const index = this.#state.pairs.findIndex((pair) => pair.id === id);
+    const [x = 0, y = 0, visible = 0] = this.#viewer?.labels(side).subarray(3 * index) ?? [];
+    if (visible < 0.5 || Math.max(Math.abs(x), Math.abs(y)) > IN_SIGHT) {
+      this.lookAt(side, point);
+    }
+  }
+
   #command(side: Side | 'both', action: (side: Side) => void): void {
     if (side !== 'both') {
       action(side);
@@ -213,6 +232,7 @@ export class Views {
         isOther ||
         isOtherMesh ||
         previous.pairs !== state.pairs ||
+        previous.proposal !== state.proposal ||
         previous.ui.selected !== state.ui.selected ||
         previous.ui.hovered !== state.ui.hovered,
       suggestions: isOtherMesh || previous.suggestions !== state.suggestions,
@@ -291,6 +311,7 @@ export class Views {
     const result = shownResult(this.#state);
     if (result !== null) {
       this.#picture.bring(viewer, style);
+      this.#picture.morph(viewer, style.morph);
     }
     viewer.setStyle(
       JSON.stringify({
@@ -373,8 +394,8 @@ export class Views {
   }
 
   #placeMarks(viewer: Viewer): void {
-    const labels = this.#state.ui.style.markers ? labelsOf(this.#state) : [];
     for (const side of SIDES) {
+      const labels = this.#state.ui.style.markers ? labelsOf(this.#state, side) : [];
       const { width, height } = this.box(side);
       this.#labels[side].place(labels, viewer.labels(side), width, height);
       this.#rings[side].place(viewer.suggestions(side), width, height);

@@ -111,7 +111,7 @@ describe('a link of version 1 from another day', () => {
         groundTruth: 'same',
         options: { method: 'relaxed', base: 'joint', cones: 'base-domain', class: 'best', ownCones: null },
         cameras: [[1, 2], null],
-        style: { surface: 'shaded', patchLines: true, cones: true, markers: true },
+        style: { surface: 'shaded', patchLines: true, cones: true, markers: true, morph: 0, wipe: null },
       },
     });
   });
@@ -230,7 +230,7 @@ describe('a hostile link', () => {
     for (const c of [[null], [camera, null], [['1'], null], 'x']) {
       expect(readJson({ ...json, c })).toMatchObject({ link: { work: { ...work, cameras: start.cameras } } });
     }
-    for (const s of [{}, { ...(json['s'] as object), surface: 'url(x)' }, 1]) {
+    for (const s of [{}, { ...(json['s'] as object), surface: 'url(x)' }, { ...(json['s'] as object), morph: 1.1 }, 1]) {
       expect(readJson({ ...json, s })).toMatchObject({ link: { work: { ...work, style: start.style } } });
     }
   });

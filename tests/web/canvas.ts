@@ -1,0 +1,78 @@
+/** What the views show, read off as a user's eyes would: pins by their numbers, pixels, and how often something is drawn. */
+import type { Page } from '@playwright/test';
+
+export interface Spot {
+  readonly x: number;
+  readonly y: number;
+}
+
+/** What was drawn since it was last asked. */
+export interface Drawn {
+  readonly calls: number;
+  /** Triangles of the largest call. */
+  readonly triangles: number;
+}
+
+/** From the middle of a pin's head to its number, also of a raised one, and down to its place, in CSS pixels. */
+const NUMBER_BESIDE = 8;
+const RAISED_BESIDE = 10;
+export const STEM = 17;
+
+/** Longer than a glide and a rest, in ms. */
+export const SETTLED = 900;
+
+/** Counts what a page draws from its first frame on; to be called before it is opened. */
+export async function countDraws(page: Page): Promise<void> {
+  await page.addInitScript(() => {
+    const drawn = { calls: 0, triangles: 0 };
+    Reflect.set(window, 'drawn', drawn);
+    const { prototype } = WebGL2RenderingContext;
+    for (const name of ['drawElements', 'drawElementsInstanced', 'drawArrays', 'drawArraysInstanced'] as const) {
+      const draw: (...rest: number[]) => void = Reflect.get(prototype, name);
+      Reflect.set(prototype, name, function (this: WebGL2RenderingContext, ...rest: number[]) {
+        drawn.calls += 1;
+        if (name.startsWith('drawElements')) {
+          drawn.triangles = Math.max(drawn.triangles, (rest[1] ?? 0) / 3);
+        }
+        draw.apply(this, rest);
+      });
+    }
+  });
+}
+
+/** What was drawn since it was last asked. */
+export async function drawn(page: Page): Promise<Drawn> {
+  return page.evaluate(() => {
+    const counts = Reflect.get(window, 'drawn') as { calls: number; triangles: number };
+    const copy = { ...counts };
+    counts.calls = 0;
+    counts.triangles = 0;
+    return copy;
+  });
+}
+
+/** The middles of the pins' heads in the window by their numbers, of those that the body does not hide. */
+export async function heads(page: Page, view: string): Promise<Map<string, Spot>> {
+  const list = await page.locator(`${view} .labels span`).evaluateAll((spans) =>
+    spans
+      .filter((span) => !(span as HTMLElement).hidden)
+      .map((span) => {
+        const box = span.getBoundingClientRect();
+        const spot = { x: box.left, y: box.top + box.height / 2 };
+        return { number: span.textContent, spot, raised: span.classList.contains('raised') };
+      }),
+  );
+  return new Map(list.map(({ number, spot, raised }) => [number, { x: spot.x - (raised ? RAISED_BESIDE : NUMBER_BESIDE), y: spot.y }]));
+}
+
+export function distance(a: Spot, b: Spot): number {
+  return Math.hypot(a.x - b.x, a.y - b.y);
+}
+
+/** How far the pins that are seen before and after have moved. */
+export function moves(before: ReadonlyMap<string, Spot>, after: ReadonlyMap<string, Spot>): number[] {
+  return [...before].flatMap(([number, spot]) => {
+    const now = after.get(number);
+    return now === undefined ? [] : [distance(spot, now)];
+  });
+}

@@ -1,0 +1,113 @@
+/** The line that is dragged across the source: before it the mesh as it is by itself, behind it what the map carries there. */
+import type { VNode } from 'preact';
+import { useRef, useState } from 'preact/hooks';
+import { shownResult } from '../store/staleness.ts';
+import type { State } from '../store/state.ts';
+import type { PartProps } from './actions.ts';
+import { IconButton } from './controls.tsx';
+import { Icon } from './icons.tsx';
+
+type Props = Pick<PartProps, 'state' | 'actions'>;
+
+/** One arrow key's step, as a share of the view. */
+const KEY_STEP = 0.02;
+/** Steps over the whole view that a place is told in: finer than a pixel. */
+const STEPS = 10_000;
+/** Where the line is when it comes. */
+const MIDDLE = 0.5;
+
+/** Whether the surfaces show anything that a map carries. */
+export function canWipe(state: State): boolean {
+  return shownResult(state) !== null && state.ui.style.surface !== 'shaded';
+}
+
+/** Where a key moves the line; `null` for other keys. */
+export function afterKey(key: string, wipe: number): number | null {
+  switch (key) {
+    case 'ArrowLeft':
+    case 'ArrowDown':
+      return Math.max(0, wipe - KEY_STEP);
+    case 'ArrowRight':
+    case 'ArrowUp':
+      return Math.min(1, wipe + KEY_STEP);
+    case 'Home':
+      return 0;
+    case 'End':
+      return 1;
+    default:
+      return null;
+  }
+}
+
+/** Brings the line and takes it away. */
+export function WipeButton({ state, actions }: Props): VNode {
+  const isOn = state.ui.style.wipe !== null;
+  return (
+    <IconButton
+      icon="wipe"
+      id="wipe"
+      label="Wipe what the map carries across the source"
+      pressed={isOn}
+      disabled={!canWipe(state)}
+      onClick={() => {
+        actions.dispatch({ kind: 'style', style: { wipe: isOn ? null : MIDDLE } });
+      }}
+    />
+  );
+}
+
+/** The line on the source's view. */
+export function WipeLine({ state, actions }: Props): VNode | null {
+  const { wipe } = state.ui.style;
+  const [held, setHeld] = useState(false);
+  const element = useRef<HTMLDivElement>(null);
+  if (wipe === null || !canWipe(state)) {
+    return null;
+  }
+  const put = (share: number): void => {
+    const bounded = Math.min(1, Math.max(0, share));
+    actions.dispatch({ kind: 'style', style: { wipe: Math.round(STEPS * bounded) / STEPS } });
+  };
+  const release = (): void => {
+    setHeld(false);
+  };
+  return (
+    <div
+      ref={element}
+      class={held ? 'wipe-line held' : 'wipe-line'}
+      style={{ '--wipe': String(wipe) }}
+      role="slider"
+      tabIndex={0}
+      aria-label="Where what the map carries begins on the source"
+      aria-orientation="horizontal"
+      aria-valuenow={Math.round(100 * wipe)}
+      aria-valuemin={0}
+      aria-valuemax={100}
+      aria-valuetext={`${Math.round(100 * wipe)} % of the view shows the source by itself`}
+      title="Drag: to the left the source by itself, to the right what the map carries there"
+      onPointerDown={(event) => {
+        event.currentTarget.setPointerCapture(event.pointerId);
+        setHeld(true);
+      }}
+      onPointerMove={(event) => {
+        const view = element.current?.parentElement?.getBoundingClientRect();
+        if (held && view !== undefined) {
+          put((event.clientX - view.left) / view.width);
+        }
+      }}
+      onPointerUp={release}
+      onPointerCancel={release}
+      onKeyDown={(event) => {
+        const next = afterKey(event.key, wipe);
+        if (next !== null) {
+          event.preventDefault();
+          put(next);
+        }
+      }}
+    >
+      <span class="grip">
+        <Icon name="wipe" />
+      </span>
+    </div>
+  );
+}
