@@ -140,7 +140,7 @@ export const SENTENCES = {
   keptUnreadable: 'Work of an earlier visit could not be read and was left out.',
   keptByOther: 'Work that another version of this page kept was left as it is.',
   mirrored: 'The target is its mirror image now, with the landmarks on it.',
-  notItsShape: 'The source shows another shape than its own. Move the slider under it back to the left to place landmarks on it.',
+  notItsShape: 'The source shows another shape than its own. Move its slider back to the left to place landmarks on it.',
   allLocked: 'All landmark pairs are locked. Unlock those that may go.',
   upToDate: 'This map is of these meshes, landmarks and options already.',
   nothingToShare: 'There is nothing to share yet: open a mesh or a demo first.',
@@ -217,7 +217,7 @@ export function hint(options: {
     const waiting = options.waiting > 0 ? ` ${options.waiting} more wait; Escape skips this one.` : '';
     const { pair, mesh, isProposed } = options.asked;
     return isProposed
-      ? `Pair ${pair}: the map proposes the see-through pin on the ${mesh}. Click it or press Enter to take it, or click another place.`
+      ? `Pair ${pair}: click the see-through pin that the map proposes on the ${mesh} to take it (Enter), or click another place.`
       : `Pair ${pair}: now click the same place on the ${mesh}.${waiting}`;
   }
   if (options.pairs < 4) {

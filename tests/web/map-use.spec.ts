@@ -243,7 +243,7 @@ test('a click on one side proposes its image on the other, which Enter makes a p
   const pin = await pinOfBoth();
   await page.mouse.click(pin.source.x, pin.source.y);
   await expect(ghost).toHaveCount(1);
-  await expect(page.locator('#hint')).toContainText(`Pair ${number}: the map proposes the see-through pin`);
+  await expect(page.locator('#hint')).toContainText(`Pair ${number}: click the see-through pin that the map proposes`);
   await expect(page.locator('#proposal')).toContainText(`Pair ${number}`);
   await page.waitForTimeout(SETTLED);
   const at = (await heads(page, '#view-target')).get(`${number}?`) ?? fail('no ghost');
