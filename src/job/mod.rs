@@ -24,8 +24,8 @@ use crate::landmarks::{MeshSide, PlacedLandmarks, place};
 use crate::map_file::FileMesh;
 use crate::mesh::SurfacePoint;
 use crate::mesh::check::closed_genus_zero;
-use crate::mesh::repair::{RepairOptions, RepairReport, repaired};
-use crate::monitor::{Cancelled, Monitor, Stage};
+use crate::mesh::repair::{RepairOptions, RepairRefusal, RepairReport, repaired};
+use crate::monitor::{Cancelled, Monitor, Portion, Stage};
 use crate::pipeline::{
     self, FindingReport, GroundTruth, MapInput, MapResult, PipelineError, PipelineOptions, Warning, findings,
 };
@@ -96,8 +96,9 @@ impl Job {
     ) -> Result<Self, JobError> {
         monitor.enter(Stage::Landmarks);
         let ReadOptions { target_image, mesh_faults } = options.into();
-        let source = file_mesh(MeshSide::Source, files.source, mesh_faults)?;
-        let target = file_mesh(MeshSide::Target, files.target, mesh_faults)?;
+        let (source, target) = (files.source, files.target);
+        let source = file_mesh(MeshSide::Source, source, mesh_faults, &mut Portion::new(monitor, 0.0, 0.5))?;
+        let target = file_mesh(MeshSide::Target, target, mesh_faults, &mut Portion::new(monitor, 0.5, 1.0))?;
         let repairs = [source.report, target.report];
         let (source, mut target) = (source.mesh, target.mesh);
         let surfaces = [(&source, files.source), (&target, files.target)]
@@ -200,11 +201,19 @@ struct ReadMesh {
     report: RepairReport,
 }
 
-fn file_mesh(side: MeshSide, bytes: &[u8], faults: MeshFaults) -> Result<ReadMesh, JobError> {
+fn file_mesh(
+    side: MeshSide,
+    bytes: &[u8],
+    faults: MeshFaults,
+    monitor: &mut dyn Monitor,
+) -> Result<ReadMesh, JobError> {
     let soup = io::read_mesh(bytes).map_err(|error| JobError::Read { side, error })?;
     let (checked, report) = match faults {
         MeshFaults::Repaired(options) => {
-            let repaired = repaired(&soup, &options).map_err(|refusal| JobError::Repair { side, refusal })?;
+            let repaired = repaired(&soup, &options, monitor).map_err(|refusal| match refusal {
+                RepairRefusal::Stopped(stop) => JobError::from(stop),
+                refusal => JobError::Repair { side, refusal },
+            })?;
             (repaired.checked, repaired.report)
         }
         MeshFaults::Refused => {

@@ -5,6 +5,7 @@ use super::files::LoadedMesh;
 use crate::io;
 use crate::io::landmark_formats::Space;
 use crate::mesh::repair::{ChangeReport, RepairOptions, RepairedMesh, repaired};
+use crate::monitor::Silent;
 use serde_json::json;
 use wasm_bindgen::prelude::*;
 
@@ -48,6 +49,6 @@ impl MeshReport {
 #[wasm_bindgen(js_name = repairMesh)]
 pub fn repair_mesh(bytes: &[u8]) -> Result<MeshReport, JsValue> {
     let soup = io::read_mesh(bytes).map_err(|e| failure("file", e))?;
-    let mesh = repaired(&soup, &RepairOptions::default()).map_err(|e| failure("mesh", e))?;
+    let mesh = repaired(&soup, &RepairOptions::default(), &mut Silent).map_err(|e| failure("mesh", e))?;
     Ok(MeshReport { mesh, space: Space::of_mesh(bytes) })
 }

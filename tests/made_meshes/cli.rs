@@ -6,7 +6,7 @@ use crate::fixtures;
 use conemap::export;
 use conemap::io::{self, landmark_file};
 use conemap::mesh::check::closed_genus_zero;
-use conemap::mesh::generators::{icosphere, midpoint_subdivision, octahedron};
+use conemap::mesh::generators::{icosphere, midpoint_subdivision, octahedron, torus};
 use conemap::mesh::mirror::mirrored;
 use conemap::mesh::{FaceId, SurfaceMesh, VertexId};
 use glam::DVec3;
@@ -506,6 +506,28 @@ fn a_check_says_what_is_wrong_and_writes_the_repaired_mesh() {
     assert_eq!(String::from_utf8_lossy(&again.stdout), "can be mapped as it is\n");
     let [command, repair, out, stl] = ["check", "--repair", "--out", "fixed.stl"].map(OsStr::new);
     assert_refused(&[command, repair, source.as_os_str(), out, stl], &["fixed.stl", ".obj"]);
+}
+
+#[test]
+fn handles_are_told_and_cut_when_that_is_asked_for() {
+    let folder = folder("handles_are_told_and_cut_when_that_is_asked_for");
+    let [ring, fixed] = ["ring.obj", "fixed.obj"].map(|name| folder.join(name));
+    std::fs::write(&ring, export::obj::mesh(&torus(12, 8))).unwrap();
+    let [check, repair, cut, out, report, dash] =
+        ["check", "--repair", "--cut-handles", "--out", "--report", "-"].map(OsStr::new);
+    assert_refused(
+        &[check, ring.as_os_str(), repair],
+        &["ring.obj: the surface has 1 handle (at vertex ", " a loop of 8 edges, ", "--cut-handles"],
+    );
+    let output = conemap([check, ring.as_os_str(), repair, cut, out, fixed.as_os_str(), report, dash]);
+    assert!(output.status.success(), "{}", errors(&output));
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let change = &report["changes"][0];
+    assert_eq!((&change["kind"], &change["count"]), (&"cut_handles".into(), &1.into()));
+    assert_eq!(change["handles"][0]["vertices"].as_array().map(Vec::len), Some(8));
+    assert_eq!(report["cap_share"], change["area_share"]);
+    let again = conemap([check, fixed.as_os_str()]);
+    assert_eq!(String::from_utf8_lossy(&again.stdout), "can be mapped as it is\n");
 }
 
 #[test]

@@ -23,7 +23,7 @@ fn read(path: &Path) -> Vec<u8> {
 fn outcome(data: &Path, name: &str, parts: Parts) -> (String, f64) {
     let soup = io::read_mesh(&read(&data.join(name))).unwrap();
     let options = RepairOptions { parts, ..RepairOptions::default() };
-    match repaired(&soup, &options) {
+    match repaired(&soup, &options, &mut Silent) {
         Ok(mesh) => {
             assert_eq!(mesh.checked.mesh.euler_characteristic(), 2, "{name}");
             let told = |change: &Change| format!("{} {}", change.kind(), change.count());

@@ -4,7 +4,7 @@ use clap::{Args, Parser, Subcommand};
 use conemap::cone_metric::Scheme;
 use conemap::io::Format;
 use conemap::io::landmark_formats::LandmarkFormat;
-use conemap::mesh::repair::{Parts, RepairOptions};
+use conemap::mesh::repair::{Handles, Parts, RepairOptions};
 use conemap::pipeline::Choices;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -67,6 +67,9 @@ pub struct RepairArguments {
     /// Keep the largest part of a mesh alone, also where the others have 1 % of the area or more.
     #[arg(long)]
     pub largest_component: bool,
+    /// Cut handles along their shortest loops, and close them.
+    #[arg(long)]
+    pub cut_handles: bool,
     /// Join vertices on open edges that are within this distance, in the file's units; otherwise only those at the same place.
     #[arg(long, value_name = "DISTANCE", default_value_t = 0.0, value_parser = distance)]
     pub join_within: f64,
@@ -75,7 +78,8 @@ pub struct RepairArguments {
 impl From<RepairArguments> for RepairOptions {
     fn from(arguments: RepairArguments) -> Self {
         let parts = if arguments.largest_component { Parts::LargestAlone } else { Parts::LargestAndSpecks };
-        Self { join_within: arguments.join_within, parts }
+        let handles = if arguments.cut_handles { Handles::Cut } else { Handles::Refused };
+        Self { join_within: arguments.join_within, parts, handles }
     }
 }
 
@@ -113,7 +117,7 @@ pub struct MapArguments {
     #[arg(long)]
     pub mirror_target: bool,
     /// Refuse meshes that would have to be repaired.
-    #[arg(long, conflicts_with_all = ["largest_component", "join_within"])]
+    #[arg(long, conflicts_with_all = ["largest_component", "cut_handles", "join_within"])]
     pub strict: bool,
     /// What the repair of the meshes may do.
     #[command(flatten)]

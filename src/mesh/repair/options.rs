@@ -7,6 +7,18 @@ pub struct RepairOptions {
     pub join_within: f64,
     /// Which parts may stay and go.
     pub parts: Parts,
+    /// What becomes of handles.
+    pub handles: Handles,
+}
+
+/// What becomes of handles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Handles {
+    /// A surface that has some is refused: to cut them changes its shape.
+    #[default]
+    Refused,
+    /// They are cut along their shortest loops, and closed.
+    Cut,
 }
 
 /// Which parts may stay and go.
