@@ -7,6 +7,7 @@ import { readLink } from '../send/link.ts';
 import type { Delivery } from '../send/receiver.ts';
 import { Receiver } from '../send/receiver.ts';
 import type { Event } from '../store/events.ts';
+import { ALL_ALLOWED } from '../store/refused.ts';
 import type { MeshFile, Work } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { demoEvents, openDemo } from './open.ts';
@@ -145,7 +146,7 @@ export class Links {
       'Opening the link…',
       () => link,
       () => {
-        withMeshes(arriving, (loaded) => {
+        withMeshes(arriving, link.work === null ? {} : ALL_ALLOWED, (loaded) => {
           if (link.work !== null) {
             place(this.#store, ORIGIN, link.work, loaded, null);
           } else {

@@ -4,6 +4,7 @@ import { SENTENCES } from '../messages.ts';
 import type { SentWork } from '../send/schema.ts';
 import type { Event } from '../store/events.ts';
 import { NO_HISTORY } from '../store/history.ts';
+import type { Allowed } from '../store/refused.ts';
 import type { Demo, MeshFile, State, Work } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 
@@ -27,16 +28,23 @@ export function sentWorkOf({ pairs, up, groundTruth, options, ui }: State): Sent
   };
 }
 
-function arrived({ name, bytes, address }: ArrivingMesh): MeshFile {
-  return meshFile({ name, bytes, ...(address === null ? {} : { address }) });
+function arrived({ name, bytes, address }: ArrivingMesh, allowed: Allowed): MeshFile {
+  return meshFile({ name, bytes, ...(address === null ? {} : { address }) }, allowed);
 }
 
-/** Does something with meshes that arrive, read and checked; where it fails, the core's memory of them is given back. */
-export function withMeshes<T>(arriving: readonly (ArrivingMesh | null)[], work: (meshes: Work['meshes']) => T): T {
+/**
+ * Does something with meshes that arrive, read, checked and repaired as far as is allowed; where it fails, the core's memory of
+ * them is given back. Meshes of work that was on a page are allowed all: see {@link ALL_ALLOWED}.
+ */
+export function withMeshes<T>(
+  arriving: readonly (ArrivingMesh | null)[],
+  allowed: Allowed,
+  work: (meshes: Work['meshes']) => T,
+): T {
   const loaded: (MeshFile | null)[] = [];
   try {
     for (const mesh of arriving) {
-      loaded.push(mesh === null ? null : arrived(mesh));
+      loaded.push(mesh === null ? null : arrived(mesh, allowed));
     }
     return work([loaded[0] ?? null, loaded[1] ?? null]);
   } catch (thrown) {

@@ -2,6 +2,7 @@
 import type { Side, SurfacePoint } from '../landmarks.ts';
 import type { prospectSentence } from '../messages.ts';
 import type { Event } from '../store/events.ts';
+import type { RefusedMesh } from '../store/refused.ts';
 import type { Axis, Doubt, State } from '../store/state.ts';
 import type { Shell } from './shell.ts';
 
@@ -44,6 +45,8 @@ export interface Actions {
   readonly finish: () => void;
   readonly cancel: () => void;
   readonly repair: (finding: Doubt) => void;
+  /** Repairs a mesh that was refused. */
+  readonly repairMesh: (mesh: RefusedMesh) => void;
   /** Moves the camera of a view. */
   readonly camera: (side: Side, command: CameraCommand) => void;
   /** The axis of a mesh that seems to point up by its shape; `null` where the shape does not tell. */

@@ -6,6 +6,7 @@ import type { History } from './history.ts';
 import { NO_HISTORY } from './history.ts';
 import type { Job } from './job.ts';
 import type { Receiving } from './receiving.ts';
+import type { Refused } from './refused.ts';
 import type { Demo, Work } from './work.ts';
 import { NO_WORK } from './work.ts';
 
@@ -86,6 +87,8 @@ export interface State extends Work {
   readonly toast: Toast | null;
   /** What the link that was opened waits for. */
   readonly receiving: Receiving;
+  /** Meshes that were refused, while a repair is offered. */
+  readonly refused: Refused | null;
   /** Whether a newer build of the page waits for a reload. */
   readonly isOutdated: boolean;
   readonly offer: Offer | null;
@@ -115,6 +118,7 @@ export const INITIAL: State = {
   findings: [],
   toast: null,
   receiving: { kind: 'nothing' },
+  refused: null,
   isOutdated: false,
   offer: null,
   error: null,
