@@ -273,6 +273,19 @@ export function eventsOf(given: readonly NamedBytes[], over: Side | null, state:
   const landmarkFiles = marked.map(({ file }) => file);
   const landmarks = landmarksOf(landmarkFiles, marked.map(({ content }) => content), over);
   const read = readMeshes(meshFiles, sidesOf(meshFiles, landmarks?.pairs ?? null, over, state));
+  return eventsOfRead(read, landmarkFiles, landmarks, state);
+}
+
+/** The events of meshes whose sides are known, and of a file of pairs for them. As {@link eventsOf}. */
+export function eventsOfSides(meshes: readonly [NamedBytes | null, NamedBytes | null], pairs: NamedBytes | null, state: State): Event[] {
+  const sides = SIDES.filter((side) => meshes[side] !== null);
+  const landmarkFiles = pairs === null ? [] : [pairs];
+  const landmarks = landmarksOf(landmarkFiles, ['pairs'], null);
+  return eventsOfRead(readMeshes(meshes.filter((mesh) => mesh !== null), sides), landmarkFiles, landmarks, state);
+}
+
+/** The events of meshes that were read, and of landmark files that came with them. Throws {@link FileRefused}. */
+function eventsOfRead(read: ReadMeshes, landmarkFiles: readonly NamedBytes[], landmarks: Landmarks | null, state: State): Event[] {
   const [fault] = read.faults;
   if (fault !== undefined && read.loaded.length + read.refused.length === 0) {
     throw fault;

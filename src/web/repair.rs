@@ -32,7 +32,7 @@ impl MeshReport {
     }
 
     /// The report as JSON `{"fault": {"kind", "sentence"} | null, "changes": [...], "capShare"}`; a change has `kind`, `sentence`,
-    /// `count`, the first `vertices`, `edges`, `faces` or `holes` by their numbers in the file, and `area_share`.
+    /// `count`, the first `vertices`, `edges`, `faces`, `holes` or `handles` by their numbers in the file, and `area_share`.
     pub fn report(&self) -> String {
         let report = &self.mesh.report;
         let fault =

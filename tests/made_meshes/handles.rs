@@ -1,6 +1,9 @@
 //! Handles: sums of tori in random triangulations, by seed, and a ball with a small one.
 
 use crate::repair::{is_sound, numbers_are_the_files, soup};
+use conemap::job::{Job, JobError, JobFiles, MeshFaults, ReadOptions};
+use conemap::landmark_exchange::GivenFile;
+use conemap::landmarks::MeshSide;
 use conemap::math::random::SplitMix;
 use conemap::math::scalar::sin;
 use conemap::mesh::generators::{icosphere, torus};
@@ -8,6 +11,7 @@ use conemap::mesh::repair::{Change, Handle, Handles, RepairOptions, RepairRefusa
 use conemap::mesh::soup::PolygonSoup;
 use conemap::mesh::{FaceId, SurfaceMesh};
 use conemap::monitor::{Cancelled, Monitor, Silent, Step};
+use conemap::pipeline::{PipelineOptions, Warning};
 use glam::DVec3;
 use rustc_hash::FxHashSet;
 use std::f64::consts::PI;
@@ -226,6 +230,35 @@ fn a_small_handle_is_told_with_its_place_and_cut_there() {
     let mesh = cut(&given).unwrap();
     is_sound(&mesh);
     assert_eq!(handles(&mesh)[0].vertices, told.vertices);
+}
+
+#[test]
+fn a_ball_without_its_handle_is_mapped_and_the_report_says_so() {
+    let (given, corners) = ball_with_a_speck_of_a_handle();
+    let point = |p: &DVec3| format!("v {} {} {}\n", p.x, p.y, p.z);
+    let face = |f: &Vec<u32>| format!("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1);
+    let obj: String = given.positions.iter().map(point).chain(given.polygons.iter().map(face)).collect();
+    let bent = |p: &DVec3| *p * DVec3::new(1.0, 1.2, 0.9);
+    let ball = icosphere(4);
+    let target =
+        conemap::export::obj::mesh(&ball.with_positions(ball.positions().iter().map(bent).collect()));
+    let vertices = (0..12).filter(|v| !corners.contains(v)).map(|v| format!("[{v}, {v}]"));
+    let pairs = format!("{{\"pairs\": [{}]}}", vertices.collect::<Vec<_>>().join(", "));
+    let landmarks = [GivenFile { name: "pairs.json", bytes: pairs.as_bytes() }];
+    let files = JobFiles { source: obj.as_bytes(), target: &target, landmarks: &landmarks };
+    let refused = Job::read(files, ReadOptions::default(), &mut Silent).unwrap_err();
+    assert!(matches!(refused, JobError::Repair { side: MeshSide::Source, .. }), "{refused}");
+    let stopped = Job::read(files, ReadOptions::default(), &mut Impatient).unwrap_err();
+    assert_eq!(stopped.code(), "cancelled");
+    let cut = RepairOptions { handles: Handles::Cut, ..RepairOptions::default() };
+    let options = ReadOptions { mesh_faults: MeshFaults::Repaired(cut), ..ReadOptions::default() };
+    let job = Job::read(files, options, &mut Silent).unwrap();
+    let result = job.run(&PipelineOptions::default(), &mut Silent).unwrap();
+    let certificate = result.report.certificate.as_ref().unwrap();
+    assert!(certificate.bijective && certificate.flipped_triangles == 0);
+    let repaired = |w: &Warning| matches!(w, Warning::Repaired { changes, .. } if changes.starts_with("1 handle was cut"));
+    assert!(result.report.warnings.iter().any(repaired), "{:?}", result.report.warnings);
+    assert!(result.report.distortion.mean < 1.2, "{:?}", result.report.distortion);
 }
 
 #[test]

@@ -2,14 +2,15 @@
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { beforeAll, expect, test } from 'vitest';
-import { eventsOf, meshFile, repairedEvents } from '../../www/files.ts';
+import { eventsOf, eventsOfSides, meshFile, repairedEvents } from '../../www/files.ts';
 import type { NamedBytes } from '../../www/files.ts';
 import { repairCommand } from '../../www/messages.ts';
+import type { Report } from '../../www/report.ts';
 import { ALL_ALLOWED } from '../../www/store/refused.ts';
 import type { RefusedMesh } from '../../www/store/refused.ts';
 import type { State } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
-import { initSync } from '../../www/wasm/conemap.js';
+import { initSync, runMap } from '../../www/wasm/conemap.js';
 import { after, mesh, READY } from './fixtures.ts';
 
 beforeAll(() => {
@@ -154,3 +155,32 @@ test('a mesh that was refused is left out when something else comes there, or wh
   expect(after(state, { kind: 'refused-closed', side: 0 }).refused).toBe(state.refused);
   expect(after(state, { kind: 'refused-closed', side: 1 }).refused).toBeNull();
 });
+
+test('meshes of a link wait likewise, each for its side, with the pairs for both', () => {
+  const pairs = landmarks([[0, 0], [10, 1], [20, 2], [30, 3]]);
+  const state = after(EMPTY, ...eventsOfSides([RING, GOOD], pairs, EMPTY));
+  expect(state.meshes.map((file) => file?.name ?? null)).toEqual([null, 'corner.obj']);
+  const repaired = after(state, ...repairedEvents(refusedIn(state), state));
+  expect(repaired.meshes.map((file) => file?.name)).toEqual(['ring.obj', 'corner.obj']);
+  expect(repaired.pairs).toHaveLength(4);
+  const alone = after(EMPTY, ...eventsOfSides([null, GOOD], null, EMPTY));
+  expect(alone.meshes.map((file) => file?.name ?? null)).toEqual([null, 'corner.obj']);
+});
+
+test('a run repairs a mesh as it was accepted, whatever that took', () => {
+  const both = obj('both.obj', beside(ring(12, 8), CORNER, 9)).bytes;
+  const pairs = JSON.stringify({ pairs: [8, 20, 44, 62, 85].map((v) => [v, v]) });
+  const output = runMap(both, RING.bytes, pairs, JSON.stringify(INITIAL.options), {
+    progress: () => undefined,
+    relaxes: () => undefined,
+    found: () => undefined,
+    wantsResult: () => false,
+  });
+  const report = JSON.parse(output.report()) as Report;
+  output.free();
+  expect(report.certificate).toMatchObject({ bijective: true, flipped_triangles: 0 });
+  expect(report.warnings.filter(({ kind }) => kind === 'repaired').map(({ sentence }) => sentence)).toEqual([
+    expect.stringMatching(/source .*1 loose part was dropped.*1 handle was cut/),
+    expect.stringMatching(/target .*1 handle was cut/),
+  ]);
+}, 60_000);

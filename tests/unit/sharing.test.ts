@@ -200,7 +200,7 @@ describe('work that was sent', () => {
   function placed(change: Partial<SentWork>): string {
     const store = new Store();
     try {
-      withMeshes(meshes, {}, (loaded) => {
+      withMeshes(meshes, (loaded) => {
         place(store, 'The link', { ...sentWorkOf(page().state), ...change }, loaded, null);
       });
       return `${store.state.pairs.length} pairs`;

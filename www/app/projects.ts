@@ -7,7 +7,6 @@ import { inWorker } from '../send/archiving.ts';
 import type { Project, ProjectMesh } from '../send/project.ts';
 import { PROJECT_ENDING, ProjectRefused, readProject, writeProject } from '../send/project.ts';
 import { landmarkFileOf } from '../store/landmark-file.ts';
-import { ALL_ALLOWED } from '../store/refused.ts';
 import { shownResult } from '../store/staleness.ts';
 import type { MeshFile, State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
@@ -57,7 +56,7 @@ export async function openProject(store: Store, file: NamedBytes): Promise<void>
     'Unpacking the project…',
     () => projectIn(file),
     ({ meshes, work }) => {
-      withMeshes(meshes, ALL_ALLOWED, (loaded) => {
+      withMeshes(meshes, (loaded) => {
         place(store, file.name, work, loaded, null);
       });
     },

@@ -39,7 +39,7 @@ pub enum RepairRefusal {
     ),
     /// So many handles that they are not looked for.
     #[error(
-        "the surface has {genus} handles: more than {most} are not cut; it may be a sponge, or full of noise"
+        "the surface has {genus} handles, and at most {most} are cut: close its small tunnels and bridges in another program first"
     )]
     TooManyHandles {
         /// How many.
