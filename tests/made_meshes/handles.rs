@@ -258,7 +258,7 @@ fn a_ball_without_its_handle_is_mapped_and_the_report_says_so() {
     assert!(certificate.bijective && certificate.flipped_triangles == 0);
     let repaired = |w: &Warning| matches!(w, Warning::Repaired { changes, .. } if changes.starts_with("1 handle was cut"));
     assert!(result.report.warnings.iter().any(repaired), "{:?}", result.report.warnings);
-    assert!(result.report.distortion.mean < 1.2, "{:?}", result.report.distortion);
+    assert!(result.report.distortion.mean < 1.5, "{:?}", result.report.distortion);
 }
 
 #[test]

@@ -6,10 +6,12 @@ import { eventsOf, eventsOfSides, meshFile, repairedEvents } from '../../www/fil
 import type { NamedBytes } from '../../www/files.ts';
 import { repairCommand } from '../../www/messages.ts';
 import type { Report } from '../../www/report.ts';
+import { NO_HISTORY } from '../../www/store/history.ts';
 import { ALL_ALLOWED } from '../../www/store/refused.ts';
 import type { RefusedMesh } from '../../www/store/refused.ts';
 import type { State } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
+import { workOf } from '../../www/store/work.ts';
 import { initSync, runMap } from '../../www/wasm/conemap.js';
 import { after, mesh, READY } from './fixtures.ts';
 
@@ -154,6 +156,8 @@ test('a mesh that was refused is left out when something else comes there, or wh
   expect(after(state, { kind: 'mesh', side: 1, file: mesh('cat.off') }).refused).toBeNull();
   expect(after(state, { kind: 'refused-closed', side: 0 }).refused).toBe(state.refused);
   expect(after(state, { kind: 'refused-closed', side: 1 }).refused).toBeNull();
+  const restored = after(state, { kind: 'restored', work: workOf(READY), history: NO_HISTORY, ui: {} });
+  expect([restored.meshes, restored.refused]).toEqual([READY.meshes, null]);
 });
 
 test('meshes of a link wait likewise, each for its side, with the pairs for both', () => {

@@ -120,7 +120,7 @@ export function update(state: State, event: Event): State {
     case 'options':
       return patched(state, { options: patched(state.options, event.options) });
     case 'restored':
-      return withRestored(state, event, event.ui);
+      return patched(withRestored(state, event, event.ui), { refused: null });
     case 'undo':
       return withStep(state, undone(state.history, workOf(state)));
     case 'redo':
