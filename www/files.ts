@@ -7,13 +7,15 @@ import { contentOf, landmarkFile, pairsRead, sideCalledLike, sideRead } from './
 import type { LandmarkContent } from './landmark-files.ts';
 import { checkMeshes, headOf, mapsAmong, sideIn } from './map-files.ts';
 import { gathered } from './mesh-sets.ts';
-import { failureSentence, fileSentence, remarksSentence, SENTENCES } from './messages.ts';
+import { failureSentence, fileSentence, remarksSentence, repairedSentence, SENTENCES } from './messages.ts';
 import type { NamedBytes } from './named-file.ts';
 import { FileRefused } from './named-file.ts';
 import type { AwaitedMap } from './store/awaited.ts';
 import type { Event } from './store/events.ts';
 import { baseName, landmarkFileOf } from './store/landmark-file.ts';
 import { wholePairs } from './store/order.ts';
+import type { Allowed, RefusedMesh } from './store/refused.ts';
+import { allowedBy } from './store/refused.ts';
 import { update } from './store/reducer.ts';
 import type { MeshFile, State } from './store/state.ts';
 import { checkLandmarks, mirrorTarget, repairMesh } from './wasm/conemap.js';
@@ -22,10 +24,10 @@ export type { NamedBytes } from './named-file.ts';
 export { FileRefused } from './named-file.ts';
 export { landmarkFile } from './landmark-files.ts';
 
-/** Reads a mesh and repairs what does not change its shape. */
-export function meshFile(file: NamedBytes): MeshFile {
+/** Reads a mesh, and repairs what does not change its shape and what is allowed beyond. Throws {@link FileRefused}. */
+export function meshFile(file: NamedBytes, allowed: Allowed = {}): MeshFile {
   try {
-    const report = repairMesh(file.bytes);
+    const report = repairMesh(file.bytes, JSON.stringify(allowed));
     const mesh = report.mesh();
     const repairs = report.sentence();
     report.free();
@@ -40,7 +42,8 @@ export function meshFile(file: NamedBytes): MeshFile {
       repairs,
     };
   } catch (thrown) {
-    throw new FileRefused(fileSentence(file.name, failureOf(thrown)));
+    const failure = failureOf(thrown);
+    throw new FileRefused(fileSentence(file.name, failure), failure.offer ?? null);
   }
 }
 
@@ -237,7 +240,84 @@ export function openingOf(given: readonly NamedBytes[], over: Side | null, state
   return { events: eventsOf(others, over, state, { map, wanting }), map };
 }
 
-/** The events of meshes and landmark files. `map` comes with them, and `wanting` tells the sides of its meshes. */
+/** The meshes among some files that were read, and what became of the others. */
+interface ReadMeshes {
+  readonly loaded: readonly { readonly side: Side; readonly file: MeshFile }[];
+  /** Those that a repair would help. */
+  readonly refused: readonly RefusedMesh[];
+  /** Why the others were refused. */
+  readonly faults: readonly FileRefused[];
+}
+
+function free({ loaded }: ReadMeshes): void {
+  loaded.forEach(({ file }) => {
+    file.mesh.free();
+  });
+}
+
+/** Reads meshes, each by itself: a good one is not given up for a bad one. */
+function readMeshes(files: readonly NamedBytes[], sides: readonly Side[]): ReadMeshes {
+  const [loaded, refused, faults]: [{ side: Side; file: MeshFile }[], RefusedMesh[], FileRefused[]] = [[], [], []];
+  for (const [index, file] of files.entries()) {
+    const side = sides[index] ?? 0;
+    try {
+      loaded.push({ side, file: meshFile(file) });
+    } catch (thrown) {
+      if (!(thrown instanceof FileRefused)) {
+        free({ loaded, refused, faults });
+        throw thrown;
+      }
+      if (thrown.offer === null) {
+        faults.push(thrown);
+      } else {
+        refused.push({ side, file, allowed: {}, offer: thrown.offer, sentence: thrown.message });
+      }
+    }
+  }
+  return { loaded, refused, faults };
+}
+
+/** Read meshes on the sides that a map wants, where all were good. */
+function seated(read: ReadMeshes, wanting: AwaitedMap | null): ReadMeshes {
+  const { loaded, refused, faults } = read;
+  if (refused.length + faults.length > 0) {
+    return read;
+  }
+  const given = loaded.map(({ side }) => side);
+  const sides = sidesWanted(loaded.map(({ file }) => file), given, wanting);
+  return { ...read, loaded: loaded.map(({ file }, index) => ({ side: sides[index] ?? 0, file })) };
+}
+
+/** What came with meshes. */
+interface Companions {
+  readonly landmarkFiles: readonly NamedBytes[];
+  readonly landmarks: Landmarks | null;
+  readonly map: AwaitedMap | null;
+}
+
+/** The events of good meshes that came with bad ones; `landmarks` came with them, too, and wait for these. */
+function eventsBesideBad(read: ReadMeshes, landmarks: readonly NamedBytes[], state: State): Event[] {
+  const meshes = read.loaded.map((mesh): Event => ({ kind: 'mesh', ...mesh }));
+  const refused: Event[] = read.refused.length === 0 ? [] : [{ kind: 'refused', refused: { meshes: read.refused, landmarks } }];
+  const leftOut = landmarks.length > 0 && read.refused.length === 0 ? ` ${SENTENCES.landmarksLeftOut}` : '';
+  const errors = read.faults.map(({ message }): Event => ({ kind: 'error', sentence: `${message}${leftOut}` }));
+  return [...meshes, ...(meshes.length === 0 ? [] : keptMisfit(meshes, state)), ...refused, ...errors];
+}
+
+/** The events that landmark files mean beside those of meshes; all or none. Throws {@link FileRefused}. */
+function withLandmarkFiles(events: readonly Event[], landmarks: Landmarks | null, state: State): Event[] {
+  if (landmarks === null) {
+    return [...events, ...keptMisfit(events, state)];
+  }
+  const all = [...events, ...landmarks.events(events.reduce(update, state).meshes)];
+  checkFit(landmarks.file, all, state);
+  return all;
+}
+
+/**
+ * The events of meshes and landmark files: a bad mesh leaves the good ones; of all else all or none. `map` comes with them, and
+ * `wanting` tells the sides of its meshes. Throws {@link FileRefused}.
+ */
 function eventsOf(
   given: readonly NamedBytes[],
   over: Side | null,
@@ -250,27 +330,73 @@ function eventsOf(
   if (meshFiles.length > 2) {
     throw new FileRefused(SENTENCES.tooManyMeshes);
   }
-  const landmarks = landmarksOf(marked.map(({ file }) => file), marked.map(({ content }) => content), over);
-  const loaded: MeshFile[] = [];
+  const landmarkFiles = marked.map(({ file }) => file);
+  const landmarks = landmarksOf(landmarkFiles, marked.map(({ content }) => content), over);
+  const read = readMeshes(meshFiles, sidesOf(meshFiles, landmarks?.pairs ?? null, over, state));
+  return eventsOfRead(seated(read, wanting), { landmarkFiles, landmarks, map }, state);
+}
+
+/** The events of meshes whose sides are known, and of a file of pairs for them. As {@link eventsOf}. */
+export function eventsOfSides(meshes: readonly [NamedBytes | null, NamedBytes | null], pairs: NamedBytes | null, state: State): Event[] {
+  const sides = SIDES.filter((side) => meshes[side] !== null);
+  const landmarkFiles = pairs === null ? [] : [pairs];
+  const landmarks = landmarksOf(landmarkFiles, ['pairs'], null);
+  const read = readMeshes(meshes.filter((mesh) => mesh !== null), sides);
+  return eventsOfRead(read, { landmarkFiles, landmarks, map: null }, state);
+}
+
+/** The events of meshes that were read, and of what came with them. Throws {@link FileRefused}. */
+function eventsOfRead(read: ReadMeshes, { landmarkFiles, landmarks, map }: Companions, state: State): Event[] {
+  const [fault] = read.faults;
+  if (fault !== undefined && read.loaded.length + read.refused.length === 0) {
+    throw fault;
+  }
+  if (read.faults.length + read.refused.length > 0) {
+    return eventsBesideBad(read, landmarkFiles, state);
+  }
   try {
-    for (const file of meshFiles) {
-      loaded.push(meshFile(file));
-    }
-    const sides = sidesWanted(loaded, sidesOf(meshFiles, landmarks?.pairs ?? null, over, state), wanting);
-    const events: Event[] = loaded.map((file, index) => ({ kind: 'mesh', side: sides[index] ?? 0, file }));
+    const events = read.loaded.map((mesh): Event => ({ kind: 'mesh', ...mesh }));
     if (map !== null) {
       checkMeshes(map, events.reduce(update, state).meshes, state);
     }
-    if (landmarks === null) {
-      return [...events, ...keptMisfit(events, state)];
-    }
-    events.push(...landmarks.events(events.reduce(update, state).meshes));
-    checkFit(landmarks.file, events, state);
-    return events;
+    return withLandmarkFiles(events, landmarks, state);
   } catch (thrown) {
-    loaded.forEach((file) => {
-      file.mesh.free();
-    });
+    free(read);
     throw thrown;
+  }
+}
+
+/** The landmark files that waited for a mesh which is there now, beside its event. */
+function withWaiting(mesh: Event, side: Side, waiting: readonly NamedBytes[], state: State): Event[] {
+  try {
+    return withLandmarkFiles([mesh], landmarksOf(waiting, waiting.map((file) => contentOf(file) ?? 'one'), side), state);
+  } catch (thrown) {
+    if (!(thrown instanceof FileRefused)) {
+      throw thrown;
+    }
+    return [mesh, { kind: 'error', sentence: thrown.message }];
+  }
+}
+
+/** The events of a refused mesh that is repaired as it was offered; with the last one come the landmarks that waited. */
+export function repairedEvents(mesh: RefusedMesh, state: State): Event[] {
+  const { side, file } = mesh;
+  const allowed = allowedBy(mesh);
+  const others = state.refused?.meshes.filter((other) => other !== mesh) ?? [];
+  const waiting = state.refused?.landmarks ?? [];
+  try {
+    const repaired = meshFile(file, allowed);
+    const event: Event = { kind: 'mesh', side, file: repaired };
+    const sentence = repairedSentence(file.name, repaired.repairs);
+    return [...withWaiting(event, side, others.length === 0 ? waiting : [], state), { kind: 'toast', sentence, undo: true }];
+  } catch (thrown) {
+    if (!(thrown instanceof FileRefused)) {
+      throw thrown;
+    }
+    if (thrown.offer === null) {
+      return [{ kind: 'refused-closed', side }, { kind: 'error', sentence: thrown.message }];
+    }
+    const next: RefusedMesh = { side, file, allowed, offer: thrown.offer, sentence: thrown.message };
+    return [{ kind: 'refused', refused: { meshes: [...others, next], landmarks: waiting } }];
   }
 }

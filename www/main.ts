@@ -11,6 +11,7 @@ import { saveMadeFile } from './app/made-files.ts';
 import { saveProject } from './app/projects.ts';
 import { listenForHalves } from './app/propose.ts';
 import { repair } from './app/repair.ts';
+import { repairMesh } from './app/repair-mesh.ts';
 import { Runner } from './app/run.ts';
 import { sharedLink } from './app/sharing.ts';
 import { suggest } from './app/suggest.ts';
@@ -89,6 +90,9 @@ const actions: Actions = {
   },
   repair: (finding) => {
     repair(store, runner, showPair, finding);
+  },
+  repairMesh: (mesh) => {
+    void repairMesh(store, mesh);
   },
   camera: (side, command) => {
     turn(side, command);

@@ -1,7 +1,7 @@
 /** The only place that turns codes into sentences. */
 import type { Failure } from './compute/messages.ts';
 import type { Pair, Suggestion } from './landmarks.ts';
-import type { Finding } from './report.ts';
+import type { Finding, RepairOffer } from './report.ts';
 
 /** A name for each stage of the report's seconds. */
 export function stageName(stage: string): string {
@@ -48,6 +48,19 @@ export function failureSentence(failure: Failure): string {
 /** A failure of one file. */
 export function fileSentence(file: string, failure: Failure): string {
   return `${file}: ${failureSentence(failure)}`;
+}
+
+/** A repair that is offered, as a command. */
+export function repairCommand(offer: RepairOffer): string {
+  if (offer.kind === 'keep-largest') {
+    return `Keep the largest part (${Math.round(100 * offer.share)} % of the area)`;
+  }
+  return `Cut ${count(offer.handles, 'handle')} and cap ${offer.handles === 1 ? 'it' : 'them'}`;
+}
+
+/** What was done to a mesh that had been refused; `repairs` is what the core says. */
+export function repairedSentence(file: string, repairs: string): string {
+  return `${file}: ${asSentence(repairs)}`;
 }
 
 /** A number of things: "1 pair", "12 pairs". */
@@ -117,6 +130,7 @@ export const SENTENCES = {
   contextGone: 'The views could not be rebuilt after the graphics card was lost. Reload the page.',
   tooManyMeshes: 'Drop at most two meshes at once: a source and a target.',
   twoLandmarkFiles: 'Drop one landmark file at a time, or one for each mesh.',
+  landmarksLeftOut: 'The landmarks were left out: drop them again when both meshes are there.',
   meshesFirst: 'these landmarks are points in space: load their mesh first, or together with them.',
   whichMesh:
     'these landmarks are for one mesh: drop the file on the view of that mesh, or open it by the menu above the list of landmarks.',

@@ -1,4 +1,5 @@
 /** Files by their names, and the reasons to refuse them. */
+import type { RepairOffer } from './report.ts';
 
 /** Some named bytes. */
 export interface NamedBytes {
@@ -9,7 +10,15 @@ export interface NamedBytes {
 }
 
 /** A reason to refuse files, as a sentence. */
-export class FileRefused extends Error {}
+export class FileRefused extends Error {
+  /** The repair of a mesh that would help; `null` where there is none. */
+  readonly offer: RepairOffer | null;
+
+  constructor(sentence: string, offer: RepairOffer | null = null) {
+    super(sentence);
+    this.offer = offer;
+  }
+}
 
 /** The ending of a file's name, in lower case and without its dot. */
 export function endingOf(name: string): string {

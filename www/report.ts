@@ -6,5 +6,12 @@ export type { CertificateReport, ConeMetricReport, LayoutSearchReport, Report } 
 /** A doubt about landmark pairs, or limbs of one mesh without a landmark. */
 export type Finding = FindingReport;
 
+/** A repair that changes the shape of a mesh, and would make one that was refused fit for a map. */
+export type RepairOffer =
+  /** To cut handles and close them; `longest` is the longest of their loops in units of the square root of the area. */
+  | { readonly kind: 'cut-handles'; readonly handles: number; readonly longest: number }
+  /** To keep the largest of its parts, which has this share of the area. */
+  | { readonly kind: 'keep-largest'; readonly parts: number; readonly share: number };
+
 /** What is chosen of a run, with nothing left out. */
 export type RunOptions = Readonly<Required<Choices>>;

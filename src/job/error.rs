@@ -1,5 +1,6 @@
 //! Why a job has no result, and which of its files is at fault.
 
+use super::mesh_file::MeshFileError;
 use crate::io::ReadError;
 use crate::landmark_exchange::ExchangeError;
 use crate::landmarks::{LandmarkError, MeshSide};
@@ -69,6 +70,16 @@ pub enum JobFile {
 }
 
 impl JobError {
+    /// What is wrong with one of the meshes.
+    pub(super) fn of_mesh(side: MeshSide, error: MeshFileError) -> Self {
+        match error {
+            MeshFileError::Read(error) => Self::Read { side, error },
+            MeshFileError::Fault(fault) => Self::Mesh { side, fault },
+            MeshFileError::Refusal(refusal) => Self::Repair { side, refusal },
+            MeshFileError::Stopped(stop) => stop.into(),
+        }
+    }
+
     /// The file at fault; `None` where it is no file's fault.
     pub fn file(&self) -> Option<JobFile> {
         match self {

@@ -6,26 +6,26 @@
 //! ([`TakenMap`]).
 
 mod error;
+mod mesh_file;
 mod outputs;
 mod saved;
 mod taken;
 
 pub use crate::mesh::mirror::TargetImage;
 pub use error::{JobError, JobFile};
+pub use mesh_file::{MeshFaults, MeshFileError, ReadMesh, read_mesh};
 pub use outputs::OutputFile;
 pub use saved::{MapFiles, OpenMap, OpenMapError};
 pub use taken::{OutputKind, TakenMap};
 
-use crate::io;
 use crate::io::landmark_file::LandmarkFile;
 use crate::io::landmark_formats::Space;
 use crate::landmark_exchange::{GivenFile, PairLandmarks, Remark, Surface, read_pairs};
 use crate::landmarks::{MeshSide, PlacedLandmarks, place};
 use crate::map_file::FileMesh;
 use crate::mesh::SurfacePoint;
-use crate::mesh::check::closed_genus_zero;
-use crate::mesh::repair::{RepairOptions, RepairReport, repaired};
-use crate::monitor::{Cancelled, Monitor, Stage};
+use crate::mesh::repair::RepairReport;
+use crate::monitor::{Cancelled, Monitor, Portion, Stage};
 use crate::pipeline::{
     self, FindingReport, GroundTruth, MapInput, MapResult, PipelineError, PipelineOptions, Warning, findings,
 };
@@ -39,22 +39,6 @@ pub struct JobFiles<'a> {
     pub target: &'a [u8],
     /// A landmark file of any known format that holds the landmarks of both meshes, or the source's and the target's.
     pub landmarks: &'a [GivenFile<'a>],
-}
-
-/// What becomes of a mesh that is not one closed surface of genus 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum MeshFaults {
-    /// It is repaired, as far as the options let it, and the result's report says so.
-    Repaired(RepairOptions),
-    /// It is refused.
-    Refused,
-}
-
-impl Default for MeshFaults {
-    /// What does not change the shape is repaired, and holes are capped.
-    fn default() -> Self {
-        Self::Repaired(RepairOptions::default())
-    }
 }
 
 /// How the files of a job are read.
@@ -96,8 +80,12 @@ impl Job {
     ) -> Result<Self, JobError> {
         monitor.enter(Stage::Landmarks);
         let ReadOptions { target_image, mesh_faults } = options.into();
-        let source = file_mesh(MeshSide::Source, files.source, mesh_faults)?;
-        let target = file_mesh(MeshSide::Target, files.target, mesh_faults)?;
+        let mut read = |side, bytes, [from, to]: [f64; 2]| {
+            read_mesh(bytes, mesh_faults, &mut Portion::new(monitor, from, to))
+                .map_err(|error| JobError::of_mesh(side, error))
+        };
+        let source = read(MeshSide::Source, files.source, [0.0, 0.5])?;
+        let target = read(MeshSide::Target, files.target, [0.5, 1.0])?;
         let repairs = [source.report, target.report];
         let (source, mut target) = (source.mesh, target.mesh);
         let surfaces = [(&source, files.source), (&target, files.target)]
@@ -192,25 +180,4 @@ impl Job {
     fn on_target_file(&self, point: SurfacePoint) -> SurfacePoint {
         self.meshes[1].on_file(self.placed.target.on_original(point))
     }
-}
-
-/// A mesh as it is used, and what was repaired of it.
-struct ReadMesh {
-    mesh: FileMesh,
-    report: RepairReport,
-}
-
-fn file_mesh(side: MeshSide, bytes: &[u8], faults: MeshFaults) -> Result<ReadMesh, JobError> {
-    let soup = io::read_mesh(bytes).map_err(|error| JobError::Read { side, error })?;
-    let (checked, report) = match faults {
-        MeshFaults::Repaired(options) => {
-            let repaired = repaired(&soup, &options).map_err(|refusal| JobError::Repair { side, refusal })?;
-            (repaired.checked, repaired.report)
-        }
-        MeshFaults::Refused => {
-            let checked = closed_genus_zero(&soup).map_err(|fault| JobError::Mesh { side, fault })?;
-            (checked, RepairReport::default())
-        }
-    };
-    Ok(ReadMesh { mesh: FileMesh::new(bytes, soup.polygons, checked), report })
 }

@@ -28,7 +28,7 @@ fn repaired_body(stretch: DVec3) -> CheckedMesh {
     soup.polygons.insert(0, vec![1, 1, 2]);
     let at_landmark = soup.polygons.iter().position(|face| face.contains(&43)).unwrap();
     soup.polygons.remove(at_landmark);
-    let repaired = repaired(&soup, &RepairOptions::default()).unwrap();
+    let repaired = repaired(&soup, &RepairOptions::default(), &mut crate::monitor::Silent).unwrap();
     assert!(repaired.checked.has_caps());
     repaired.checked
 }

@@ -95,6 +95,11 @@ impl FileMesh {
         }
     }
 
+    /// The mesh alone.
+    pub fn into_checked(self) -> CheckedMesh {
+        self.checked
+    }
+
     /// Whether the mesh is not that of its file any more, but repaired: a map file does not tell of such a mesh.
     pub fn is_repaired(&self) -> bool {
         self.checked.repaired_faces.is_some()

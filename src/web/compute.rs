@@ -1,8 +1,9 @@
 //! The pipeline in the worker.
 
 use super::{failure, output_file};
-use crate::job::{Job, JobError, JobFiles, OutputKind, TargetImage};
+use crate::job::{Job, JobError, JobFiles, MeshFaults, OutputKind, ReadOptions};
 use crate::landmark_exchange::GivenFile;
+use crate::mesh::repair::RepairOptions;
 use crate::monitor::{Cancelled, Monitor, PlannedStage, Progress, Stage, Step};
 use crate::pipeline::{Choices, MapResult, PipelineOptions};
 use crate::surface_map::measures::transfer::CommonMesh;
@@ -210,7 +211,10 @@ pub fn run_map(
     let failed = |error: JobError| failure(error.code(), error);
     let landmarks = [GivenFile { name: "landmarks.json", bytes: landmarks.as_bytes() }];
     let files = JobFiles { source, target, landmarks: &landmarks };
-    let job = Job::read(files, TargetImage::AsGiven, &mut messenger).map_err(failed)?;
+    // Meshes that are on the page were allowed what they needed.
+    let mesh_faults = MeshFaults::Repaired(RepairOptions::everything());
+    let options_of_files = ReadOptions { mesh_faults, ..ReadOptions::default() };
+    let job = Job::read(files, options_of_files, &mut messenger).map_err(failed)?;
     messenger.plan(options.stages(job.landmark_count()));
     let findings = job.findings(&mut messenger).map_err(|stop| failed(stop.into()))?;
     let json = serde_json::to_string(&findings).unwrap_or_default();

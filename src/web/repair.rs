@@ -4,8 +4,9 @@ use super::failure;
 use super::files::LoadedMesh;
 use crate::io;
 use crate::io::landmark_formats::Space;
-use crate::mesh::repair::{ChangeReport, RepairOptions, RepairedMesh, repaired};
-use serde_json::json;
+use crate::mesh::repair::{ChangeReport, RepairOptions, RepairRefusal, RepairedMesh, repaired};
+use crate::monitor::Silent;
+use serde_json::{Value, json};
 use wasm_bindgen::prelude::*;
 
 /// A mesh file that was read and, where it had to be, repaired.
@@ -31,7 +32,7 @@ impl MeshReport {
     }
 
     /// The report as JSON `{"fault": {"kind", "sentence"} | null, "changes": [...], "capShare"}`; a change has `kind`, `sentence`,
-    /// `count`, the first `vertices`, `edges`, `faces` or `holes` by their numbers in the file, and `area_share`.
+    /// `count`, the first `vertices`, `edges`, `faces`, `holes` or `handles` by their numbers in the file, and `area_share`.
     pub fn report(&self) -> String {
         let report = &self.mesh.report;
         let fault =
@@ -41,13 +42,35 @@ impl MeshReport {
     }
 }
 
-/// Reads a mesh file of any known format and repairs what does not change its shape; holes are capped.
+/// Reads a mesh file of any known format and repairs what does not change its shape, holes being capped, and what is allowed.
+///
+/// `allowed` is JSON: `{"parts": "largest-alone", "handles": "cut"}`, each left out where it is not allowed.
 ///
 /// # Errors
-/// `{"code": "file" | "mesh", "message"}`.
+/// `{"code": "file" | "mesh" | "options", "message"}`, and where a repair that was not allowed would help, `"offer"` with it: `{"kind":
+/// "cut-handles", "handles", "longest"}` (the length of the longest loop in units of the square root of the area) or `{"kind":
+/// "keep-largest", "parts", "share"}` (of the largest part in the area).
 #[wasm_bindgen(js_name = repairMesh)]
-pub fn repair_mesh(bytes: &[u8]) -> Result<MeshReport, JsValue> {
+pub fn repair_mesh(bytes: &[u8], allowed: &str) -> Result<MeshReport, JsValue> {
+    let options: RepairOptions = serde_json::from_str(allowed).map_err(|e| failure("options", e))?;
     let soup = io::read_mesh(bytes).map_err(|e| failure("file", e))?;
-    let mesh = repaired(&soup, &RepairOptions::default()).map_err(|e| failure("mesh", e))?;
+    let mesh = repaired(&soup, &options, &mut Silent).map_err(|refusal| {
+        let value = json!({ "code": "mesh", "message": refusal.to_string(), "offer": offer(&refusal) });
+        JsValue::from_str(&value.to_string())
+    })?;
     Ok(MeshReport { mesh, space: Space::of_mesh(bytes) })
+}
+
+/// The repair that would help.
+fn offer(refusal: &RepairRefusal) -> Value {
+    match refusal {
+        RepairRefusal::Handles(handles) => {
+            let longest = handles.iter().map(|handle| handle.loop_length).fold(0.0, f64::max);
+            json!({ "kind": "cut-handles", "handles": handles.len(), "longest": longest })
+        }
+        RepairRefusal::Parts { count, area_share } => {
+            json!({ "kind": "keep-largest", "parts": count, "share": 1.0 - area_share })
+        }
+        _ => Value::Null,
+    }
 }

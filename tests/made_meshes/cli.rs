@@ -6,7 +6,7 @@ use crate::fixtures;
 use conemap::export;
 use conemap::io::{self, landmark_file};
 use conemap::mesh::check::closed_genus_zero;
-use conemap::mesh::generators::{icosphere, midpoint_subdivision, octahedron};
+use conemap::mesh::generators::{icosphere, midpoint_subdivision, octahedron, torus};
 use conemap::mesh::mirror::mirrored;
 use conemap::mesh::{FaceId, SurfaceMesh, VertexId};
 use glam::DVec3;
@@ -506,6 +506,65 @@ fn a_check_says_what_is_wrong_and_writes_the_repaired_mesh() {
     assert_eq!(String::from_utf8_lossy(&again.stdout), "can be mapped as it is\n");
     let [command, repair, out, stl] = ["check", "--repair", "--out", "fixed.stl"].map(OsStr::new);
     assert_refused(&[command, repair, source.as_os_str(), out, stl], &["fixed.stl", ".obj"]);
+}
+
+#[test]
+fn every_command_repairs_its_meshes_and_says_so() {
+    let folder = folder("every_command_repairs_its_meshes_and_says_so");
+    let [source, target, pairs] = write_open_bodies(&folder);
+    let list = folder.join("cones.txt");
+    std::fs::write(&list, cones(&[0, 50, 120, 160].map(VertexId))).unwrap();
+    let remeshed = folder.join("remeshed.off");
+    let [cones, faces, out, input] = ["--cones", "--faces=400", "--out", "--in"].map(OsStr::new);
+    let commands: [Vec<&OsStr>; 4] = [
+        vec![OsStr::new("suggest"), target.as_os_str()],
+        vec![OsStr::new("flow"), target.as_os_str(), cones, list.as_os_str()],
+        vec![OsStr::new("remesh"), target.as_os_str(), faces, out, remeshed.as_os_str()],
+        vec![OsStr::new("landmarks"), source.as_os_str(), target.as_os_str(), input, pairs.as_os_str()],
+    ];
+    for command in &commands {
+        let output = conemap(command);
+        let said = errors(&output);
+        assert!(output.status.success(), "{said}");
+        let told = "target.obj could not be used as it is and was repaired: 1 hole was capped (";
+        assert!(said.contains("warning: ") && said.contains(told), "{said}");
+        assert_eq!(said.contains("source.obj could not be used"), command[0] == "landmarks", "{said}");
+        let strict = [&command[..], &[OsStr::new("--strict")]].concat();
+        assert_refused(&strict, &[".obj: the surface is open"]);
+    }
+    // What is suggested is in the file, and not in its cap.
+    let output = conemap([&commands[0][..], &[OsStr::new("--count=200")]].concat());
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let found = found["suggestions"].as_array().unwrap();
+    let file_vertices = egg().vertex_count() as u64;
+    assert!(!found.is_empty() && found.iter().all(|s| s["vertex"].as_u64().unwrap() < file_vertices));
+    let ring = folder.join("ring.obj");
+    std::fs::write(&ring, export::obj::mesh(&torus(12, 8))).unwrap();
+    let suggest = [OsStr::new("suggest"), ring.as_os_str()];
+    assert_refused(&suggest, &["ring.obj: the surface has 1 handle", "--cut-handles"]);
+    assert!(conemap([&suggest[..], &[OsStr::new("--cut-handles")]].concat()).status.success());
+}
+
+#[test]
+fn handles_are_told_and_cut_when_that_is_asked_for() {
+    let folder = folder("handles_are_told_and_cut_when_that_is_asked_for");
+    let [ring, fixed] = ["ring.obj", "fixed.obj"].map(|name| folder.join(name));
+    std::fs::write(&ring, export::obj::mesh(&torus(12, 8))).unwrap();
+    let [check, repair, cut, out, report, dash] =
+        ["check", "--repair", "--cut-handles", "--out", "--report", "-"].map(OsStr::new);
+    assert_refused(
+        &[check, ring.as_os_str(), repair],
+        &["ring.obj: the surface has 1 handle (at vertex ", " a loop of 8 edges, ", "--cut-handles"],
+    );
+    let output = conemap([check, ring.as_os_str(), repair, cut, out, fixed.as_os_str(), report, dash]);
+    assert!(output.status.success(), "{}", errors(&output));
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let change = &report["changes"][0];
+    assert_eq!((&change["kind"], &change["count"]), (&"cut_handles".into(), &1.into()));
+    assert_eq!(change["handles"][0]["vertices"].as_array().map(Vec::len), Some(8));
+    assert_eq!(report["cap_share"], change["area_share"]);
+    let again = conemap([check, fixed.as_os_str()]);
+    assert_eq!(String::from_utf8_lossy(&again.stdout), "can be mapped as it is\n");
 }
 
 #[test]

@@ -32,6 +32,7 @@ mod few;
 mod finish_now;
 mod flow;
 mod geodesic;
+mod handles;
 mod job;
 mod landmark_fit;
 mod layout;

@@ -1,8 +1,10 @@
 /** Each kind of event: what it changes, and that it changes nothing else. */
 import { expect, test } from 'vitest';
+import type { Side } from '../../www/landmarks.ts';
 import type { RunOptions } from '../../www/report.ts';
 import { change } from '../../www/store/change.ts';
 import type { Event } from '../../www/store/events.ts';
+import type { Refused, RefusedMesh } from '../../www/store/refused.ts';
 import type { Offer, Proposal, State, Style, Ui } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
 import { workOf } from '../../www/store/work.ts';
@@ -24,6 +26,14 @@ const OPTIONS: RunOptions = { method: 'thesis', base: 'qem', cones: 'uniform', c
 const STYLE: Style = { surface: 'colours', patchLines: false, cones: false, markers: false, morph: 0.25, wipe: 0.75 };
 const OFFER: Offer = { session: 'a', names: ['cat.off', 'lion.off'], pairs: 12, saved: 1 };
 const [CAT, LION] = READY.meshes;
+const ringAt = (side: Side): RefusedMesh => ({
+  side,
+  file: { name: 'ring.obj', bytes: new Uint8Array(3) },
+  allowed: {},
+  offer: { kind: 'cut-handles', handles: 1, longest: 0.4 },
+  sentence: 'ring.obj: The surface has 1 handle.',
+});
+const REFUSED: Refused = { meshes: [ringAt(0), ringAt(1)], landmarks: [] };
 const HALF: State = { ...READY, pairs: [...FOUR, pair(5, 7, null)], nextId: 6 };
 /** A map is there, and has proposed a place for the half pair. */
 const PROPOSAL: Proposal = { id: 5, of: 7, side: 1, point: 17 };
@@ -458,6 +468,18 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     event: { receiving: { kind: 'files', missing: [{ side: 0, name: 'cat.off' }] } },
     step: null,
     changes: { receiving: { kind: 'files', missing: [{ side: 0, name: 'cat.off' }] } },
+  },
+  refused: {
+    before: READY,
+    event: { refused: REFUSED },
+    step: null,
+    changes: { refused: REFUSED },
+  },
+  'refused-closed': {
+    before: { ...READY, refused: REFUSED },
+    event: { side: 1 },
+    step: null,
+    changes: { refused: { ...REFUSED, meshes: REFUSED.meshes.slice(0, 1) } },
   },
   outdated: {
     before: READY,

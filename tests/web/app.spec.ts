@@ -114,15 +114,15 @@ test('two real meshes and their landmarks give a certified map', async ({ page }
   await expect(rows).toHaveCount(count);
 
   await drop(page, [`${DATA}/bad/open-teapot.off`]);
-  await expect(page.locator('#error')).toBeVisible();
-  await expect(page.locator('#error')).toContainText('open-teapot.off');
-  await expect(page.locator('#error')).toContainText(/4 separate parts/);
+  const refused = page.locator('.notice.refused');
+  await expect(refused).toContainText(/^open-teapot\.off: .*4 separate parts/);
+  await expect(refused.getByRole('button', { name: 'Keep the largest part (73 % of the area)' })).toBeEnabled();
   await expect(rows).toHaveCount(count);
   await openStep(page, 'map');
   await expect(page.locator('#result')).toContainText('Certified');
   await expect(page.locator('#result')).not.toContainText('was made before');
-  await page.getByRole('button', { name: 'Close the message' }).click();
-  await expect(page.locator('#error')).toBeHidden();
+  await refused.getByRole('button', { name: 'Leave it out' }).click();
+  await expect(refused).toHaveCount(0);
 });
 
 test('pairs that do not fit are named and repaired by a click', async ({ page }) => {

@@ -4,6 +4,7 @@ import { fileURLToPath } from 'node:url';
 import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
 import { buildDemo, initSync } from '../../www/wasm/conemap.js';
+import { dropContents } from './page.ts';
 
 interface Upload {
   readonly name: string;
@@ -109,6 +110,46 @@ test('a target that was mirrored is taken back with all landmarks, and mirrored 
   await shows(page, 'horse-cat-source.obj', 'horse-cat-target.obj', pairs);
   await page.keyboard.press('Control+z');
   await shows(page, 'horse-cat-source.obj', 'horse-cat-target.obj', pairs);
+  await expect(page.locator('#error')).toBeHidden();
+});
+
+/** A ring, which has one handle. */
+function ring(): string {
+  const lines: string[] = [];
+  const [around, tube] = [12, 8];
+  const at = (i: number, j: number): number => (i % around) * tube + (j % tube) + 1;
+  const each = Array.from({ length: around * tube }, (_, k) => [Math.floor(k / tube), k % tube] as const);
+  for (const [i, j] of each) {
+    const [a, b] = [(2 * Math.PI * i) / around, (2 * Math.PI * j) / tube];
+    const out = 2 + Math.cos(b);
+    lines.push(`v ${out * Math.cos(a)} ${out * Math.sin(a)} ${Math.sin(b)}`);
+  }
+  for (const [i, j] of each) {
+    lines.push(`f ${at(i, j)} ${at(i + 1, j)} ${at(i + 1, j + 1)}`, `f ${at(i, j)} ${at(i + 1, j + 1)} ${at(i, j + 1)}`);
+  }
+  return lines.join('\n');
+}
+
+test('a mesh with a handle waits beside the good one, is cut by a click, undone, and there again after a reload', async ({ page }) => {
+  await open(page);
+  const corner = 'v 0 0 0\nv 2 0 0\nv 0 3 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n';
+  await dropContents(page, [{ name: 'corner.obj', content: corner }, { name: 'ring.obj', content: ring() }]);
+  await expect(page.locator('#view-source')).toContainText('corner.obj');
+  await expect(page.locator('#view-target')).not.toContainText('ring.obj');
+  const refused = page.locator('.notice.refused');
+  await expect(refused).toContainText(/^ring\.obj: The surface has 1 handle \(at vertex \d+ a loop of 8 edges, /);
+  await refused.getByRole('button', { name: 'Cut 1 handle and cap it' }).click();
+  await expect(page.locator('#view-target')).toContainText('ring.obj');
+  await expect(refused).toHaveCount(0);
+  const toast = page.locator('#toast');
+  await expect(toast).toContainText(/^ring\.obj: 1 handle was cut and closed \(/);
+  await toast.getByRole('button', { name: 'Undo' }).click();
+  await expect(page.locator('#view-target')).not.toContainText('ring.obj');
+  await page.keyboard.press('Control+Shift+Z');
+  await expect(page.locator('#view-target')).toContainText('ring.obj');
+  await kept(page, 0);
+  await page.reload();
+  await expect(page.locator('#view-target')).toContainText('ring.obj', { timeout: 60_000 });
   await expect(page.locator('#error')).toBeHidden();
 });
 

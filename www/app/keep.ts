@@ -11,6 +11,7 @@ import { browserTabs } from '../keep/tabs.ts';
 import { SENTENCES } from '../messages.ts';
 import { hashOf } from '../send/hash.ts';
 import { heldMeshes, NO_HISTORY } from '../store/history.ts';
+import { ALL_ALLOWED } from '../store/refused.ts';
 import type { MeshFile, Offer, State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { isSameWork } from '../store/work.ts';
@@ -43,7 +44,7 @@ export const BROWSER: Surroundings = {
   newId: () => crypto.randomUUID(),
   now: () => Date.now(),
   hash: hashOf,
-  read: meshFile,
+  read: (file) => meshFile(file, ALL_ALLOWED),
   delay: 400,
 };
 

@@ -1,6 +1,6 @@
 /** Links into the page: follows the one in the address, asks what it must ask, and puts what it brings onto the page. */
 import type { NamedBytes } from '../files.ts';
-import { checkFit, landmarkFile } from '../files.ts';
+import { eventsOfSides } from '../files.ts';
 import { fetchSentence, LINK_REFUSED, otherFiles, SENTENCES } from '../messages.ts';
 import type { Link } from '../send/link.ts';
 import { readLink } from '../send/link.ts';
@@ -10,7 +10,7 @@ import type { Event } from '../store/events.ts';
 import type { MeshFile, Work } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { demoEvents, openDemo } from './open.ts';
-import { place, withMeshes } from './sent-work.ts';
+import { named, place, withMeshes } from './sent-work.ts';
 import { perform } from './task.ts';
 
 const ORIGIN = 'The link';
@@ -139,30 +139,23 @@ export class Links {
 
   async #open({ link, meshes, landmarks }: Delivery): Promise<void> {
     forget();
+    const { work } = link;
     const arriving = meshes.map((mesh) => mesh && { ...mesh, address: mesh.address?.url ?? null });
     await perform(
       this.#store,
       'Opening the link…',
       () => link,
       () => {
+        if (work === null) {
+          const [source = null, target = null] = arriving.map((mesh) => mesh && named(mesh));
+          this.#store.dispatch(...eventsOfSides([source, target], landmarks, this.#store.state));
+          return;
+        }
         withMeshes(arriving, (loaded) => {
-          if (link.work !== null) {
-            place(this.#store, ORIGIN, link.work, loaded, null);
-          } else {
-            this.#placeFiles(loaded, landmarks);
-          }
+          place(this.#store, ORIGIN, work, loaded, null);
         });
       },
     );
-  }
-
-  #placeFiles(meshes: Work['meshes'], landmarks: NamedBytes | null): void {
-    const events = meshes.flatMap((file, side): Event[] => (file === null ? [] : [{ kind: 'mesh', side: side === 0 ? 0 : 1, file }]));
-    if (landmarks !== null) {
-      events.push({ kind: 'landmarks', file: landmarkFile(landmarks) });
-      checkFit(landmarks, events, this.#store.state);
-    }
-    this.#store.dispatch(...events);
   }
 }
 

@@ -1,9 +1,11 @@
 /** Work that comes from elsewhere or goes there: between the page's state and the form that links and projects have. */
+import type { NamedBytes } from '../files.ts';
 import { areMarksGood, checkFit, FileRefused, meshFile } from '../files.ts';
 import { SENTENCES } from '../messages.ts';
 import type { SentWork } from '../send/schema.ts';
 import type { Event } from '../store/events.ts';
 import { NO_HISTORY } from '../store/history.ts';
+import { ALL_ALLOWED } from '../store/refused.ts';
 import type { Demo, MeshFile, State, Work } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 
@@ -27,16 +29,20 @@ export function sentWorkOf({ pairs, up, groundTruth, options, ui }: State): Sent
   };
 }
 
-function arrived({ name, bytes, address }: ArrivingMesh): MeshFile {
-  return meshFile({ name, bytes, ...(address === null ? {} : { address }) });
+/** An arriving mesh as a file. */
+export function named({ name, bytes, address }: ArrivingMesh): NamedBytes {
+  return { name, bytes, ...(address === null ? {} : { address }) };
 }
 
-/** Does something with meshes that arrive, read and checked; where it fails, the core's memory of them is given back. */
+/**
+ * Does something with the meshes of work that was on a page, and so with every repair allowed that they were given there; where
+ * it fails, the core's memory of them is given back.
+ */
 export function withMeshes<T>(arriving: readonly (ArrivingMesh | null)[], work: (meshes: Work['meshes']) => T): T {
   const loaded: (MeshFile | null)[] = [];
   try {
     for (const mesh of arriving) {
-      loaded.push(mesh === null ? null : arrived(mesh));
+      loaded.push(mesh === null ? null : meshFile(named(mesh), ALL_ALLOWED));
     }
     return work([loaded[0] ?? null, loaded[1] ?? null]);
   } catch (thrown) {

@@ -1,6 +1,6 @@
 /** What the page and the worker say to each other. */
 
-import type { Finding, RunOptions } from '../report.ts';
+import type { Finding, RepairOffer, RunOptions } from '../report.ts';
 
 /** Everything one run needs. */
 export interface RunRequest {
@@ -67,6 +67,8 @@ export interface Progress {
 export interface Failure {
   readonly code: string;
   readonly message: string;
+  /** Of a mesh that was refused: the repair that would help, where there is one. */
+  readonly offer?: RepairOffer;
 }
 
 /** From the worker. */
@@ -78,13 +80,18 @@ export type WorkerMessage =
   | { readonly kind: 'done'; readonly output: RunOutput }
   | { readonly kind: 'failed'; readonly failure: Failure };
 
+/** The core's own offer, which is as it declares it. */
+function offerIn(value: object): Pick<Failure, 'offer'> {
+  return 'offer' in value && value.offer !== null ? { offer: value.offer as RepairOffer } : {};
+}
+
 /** Reads what the core throws: a string that holds `{code, message}`, or a trap. */
 export function failureOf(thrown: unknown): Failure {
   if (typeof thrown === 'string') {
     try {
       const value: unknown = JSON.parse(thrown);
       if (typeof value === 'object' && value !== null && 'code' in value && 'message' in value) {
-        return { code: String(value.code), message: String(value.message) };
+        return { code: String(value.code), message: String(value.message), ...offerIn(value) };
       }
     } catch {
       // Not JSON: the string is the message.

@@ -2,6 +2,7 @@
 import type { Side, SurfacePoint } from '../landmarks.ts';
 import type { prospectSentence } from '../messages.ts';
 import type { Event } from '../store/events.ts';
+import type { RefusedMesh } from '../store/refused.ts';
 import type { Axis, Doubt, State } from '../store/state.ts';
 import type { Shell } from './shell.ts';
 
@@ -46,6 +47,8 @@ export interface Actions {
   readonly finish: () => void;
   readonly cancel: () => void;
   readonly repair: (finding: Doubt) => void;
+  /** Repairs a mesh that was refused. */
+  readonly repairMesh: (mesh: RefusedMesh) => void;
   /** Moves the camera of a view. */
   readonly camera: (side: Side, command: CameraCommand) => void;
   /** Shows the source on its way to the target's shape until the style changes: 0 is the source's shape, 1 the target's. */

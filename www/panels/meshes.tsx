@@ -103,8 +103,8 @@ export function MeshesPanel({ state, actions }: PartProps): VNode {
       </section>
       {state.ready && (
         <p class="quiet small">
-          A mesh is a closed surface without holes or handles: {meshFormats()}. Drop files anywhere, two meshes and a landmark
-          file at once.
+          A mesh is a closed surface: {meshFormats()}. Its holes are capped, and handles are cut where you ask for it. Drop files
+          anywhere, two meshes and a landmark file at once.
         </p>
       )}
     </div>

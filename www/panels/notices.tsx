@@ -1,9 +1,10 @@
-/** What waits for the user's word: a link that was opened, and a newer build of the page. */
+/** What waits for the user's word: a link that was opened, meshes that a repair would help, and a newer build of the page. */
 import type { VNode } from 'preact';
 import { missingOf } from '../map-files.ts';
-import { filesNeeded, loadQuestion, loadingSentence, mapWaits, SENTENCES } from '../messages.ts';
+import { filesNeeded, loadQuestion, loadingSentence, mapWaits, repairCommand, SENTENCES } from '../messages.ts';
 import type { AwaitedMap } from '../store/awaited.ts';
 import type { Receiving } from '../store/receiving.ts';
+import type { RefusedMesh } from '../store/refused.ts';
 import type { State } from '../store/state.ts';
 import type { Actions, PartProps } from './actions.ts';
 
@@ -73,12 +74,43 @@ function MapNotice({ state, map, actions }: { readonly state: State; readonly ma
   );
 }
 
+/** A mesh that was refused, and the repair that would help. */
+function RefusedNotice({ mesh, state, actions }: { readonly mesh: RefusedMesh } & Pick<PartProps, 'state' | 'actions'>): VNode {
+  const { kind } = state.job;
+  return (
+    <div class="notice refused" data-side={mesh.side}>
+      <p>{mesh.sentence}</p>
+      <button
+        type="button"
+        class="main"
+        disabled={kind === 'running' || kind === 'busy'}
+        onClick={() => {
+          actions.repairMesh(mesh);
+        }}
+      >
+        {repairCommand(mesh.offer)}
+      </button>
+      <button
+        type="button"
+        onClick={() => {
+          actions.dispatch({ kind: 'refused-closed', side: mesh.side });
+        }}
+      >
+        Leave it out
+      </button>
+    </div>
+  );
+}
+
 /** The notices over the views; their box stays, so that what comes into it is read out. */
 export function Notices({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
   return (
     <div class="notices" role="status">
       <LinkNotice receiving={state.receiving} actions={actions} />
       {state.awaited !== null && <MapNotice state={state} map={state.awaited} actions={actions} />}
+      {state.refused?.meshes.map((mesh) => (
+        <RefusedNotice key={mesh.side} mesh={mesh} state={state} actions={actions} />
+      ))}
       {state.isOutdated && (
         <div class="notice" id="new-version">
           <p>{SENTENCES.newVersion}</p>

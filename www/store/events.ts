@@ -8,6 +8,7 @@ import type { History } from './history.ts';
 import type { Task } from './job.ts';
 import type { OpenedMap } from './opened.ts';
 import type { Receiving } from './receiving.ts';
+import type { Refused } from './refused.ts';
 import type { SidePoint } from './side-marks.ts';
 import type { Axis, Camera, Demo, MeshFile, Offer, Proposal, Style, Ui, Work } from './state.ts';
 
@@ -110,6 +111,10 @@ export type Event =
   | { readonly kind: 'toast-closed' }
   /** The link that was opened waits for something, or for nothing any more. */
   | { readonly kind: 'receiving'; readonly receiving: Receiving }
+  /** Meshes were refused that a repair would help, in the place of earlier ones. */
+  | { readonly kind: 'refused'; readonly refused: Refused | null }
+  /** The refused mesh of a side is left out. */
+  | { readonly kind: 'refused-closed'; readonly side: Side }
   /** There is a newer build of the page. */
   | { readonly kind: 'outdated' }
   /** Work of an earlier visit can be continued. */

@@ -21,6 +21,7 @@ import {
   withSuggestions,
   withTargetsExchanged,
 } from './pairs.ts';
+import { withoutSide } from './refused.ts';
 import { withRestored } from './restore.ts';
 import { withFindings } from './settle.ts';
 import { withSideMarks } from './side-marks.ts';
@@ -46,6 +47,11 @@ function withUi(state: State, patch: Partial<State['ui']>): State {
 
 function withStyle(state: State, patch: Partial<Style>): State {
   return withUi(state, { style: patched(state.ui.style, patch) });
+}
+
+/** Without the refused mesh of a side. */
+function withoutRefused(state: State, side: Side): State {
+  return patched(state, { refused: withoutSide(state.refused, side) });
 }
 
 /** Whether an id is a pair's; `null` is none and always good. */
@@ -82,7 +88,7 @@ export function update(state: State, event: Event): State {
     case 'task-ended':
       return { ...state, job: ended(state.job, event.task) };
     case 'mesh':
-      return withMesh(state, event.side, event.file);
+      return withoutRefused(withMesh(state, event.side, event.file), event.side);
     case 'mirrored':
       return withMirrored(state, event.file, event.points);
     case 'swap-meshes':
@@ -118,7 +124,7 @@ export function update(state: State, event: Event): State {
     case 'options':
       return patched(state, { options: patched(state.options, event.options) });
     case 'restored':
-      return withRestored(state, event, event.ui);
+      return patched(withRestored(state, event, event.ui), { refused: null });
     case 'undo':
       return withStep(state, undone(state.history, workOf(state)));
     case 'redo':
@@ -179,6 +185,10 @@ export function update(state: State, event: Event): State {
       return patched(state, { toast: null });
     case 'receiving':
       return { ...state, receiving: event.receiving };
+    case 'refused':
+      return patched(state, { refused: event.refused });
+    case 'refused-closed':
+      return withoutRefused(state, event.side);
     case 'outdated':
       return { ...state, isOutdated: true };
     case 'offered':

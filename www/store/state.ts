@@ -7,6 +7,7 @@ import type { History } from './history.ts';
 import { NO_HISTORY } from './history.ts';
 import type { Job } from './job.ts';
 import type { Receiving } from './receiving.ts';
+import type { Refused } from './refused.ts';
 import type { Demo, Work } from './work.ts';
 import { NO_WORK } from './work.ts';
 
@@ -107,6 +108,8 @@ export interface State extends Work {
   readonly receiving: Receiving;
   /** A map file that waits for its meshes. */
   readonly awaited: AwaitedMap | null;
+  /** Meshes that were refused, while a repair is offered. */
+  readonly refused: Refused | null;
   /** Whether a newer build of the page waits for a reload. */
   readonly isOutdated: boolean;
   readonly offer: Offer | null;
@@ -138,6 +141,7 @@ export const INITIAL: State = {
   toast: null,
   receiving: { kind: 'nothing' },
   awaited: null,
+  refused: null,
   isOutdated: false,
   offer: null,
   error: null,

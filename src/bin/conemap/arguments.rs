@@ -4,7 +4,8 @@ use clap::{Args, Parser, Subcommand};
 use conemap::cone_metric::Scheme;
 use conemap::io::Format;
 use conemap::io::landmark_formats::LandmarkFormat;
-use conemap::mesh::repair::{Parts, RepairOptions};
+use conemap::job::MeshFaults;
+use conemap::mesh::repair::{Handles, Parts, RepairOptions};
 use conemap::pipeline::Choices;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -67,6 +68,9 @@ pub struct RepairArguments {
     /// Keep the largest part of a mesh alone, also where the others have 1 % of the area or more.
     #[arg(long)]
     pub largest_component: bool,
+    /// Cut handles along their shortest loops, and close them.
+    #[arg(long)]
+    pub cut_handles: bool,
     /// Join vertices on open edges that are within this distance, in the file's units; otherwise only those at the same place.
     #[arg(long, value_name = "DISTANCE", default_value_t = 0.0, value_parser = distance)]
     pub join_within: f64,
@@ -75,7 +79,25 @@ pub struct RepairArguments {
 impl From<RepairArguments> for RepairOptions {
     fn from(arguments: RepairArguments) -> Self {
         let parts = if arguments.largest_component { Parts::LargestAlone } else { Parts::LargestAndSpecks };
-        Self { join_within: arguments.join_within, parts }
+        let handles = if arguments.cut_handles { Handles::Cut } else { Handles::Refused };
+        Self { join_within: arguments.join_within, parts, handles }
+    }
+}
+
+/// What becomes of a mesh that is not one closed surface of genus 0.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct FaultArguments {
+    /// Refuse meshes that would have to be repaired.
+    #[arg(long, conflicts_with_all = ["largest_component", "cut_handles", "join_within"])]
+    pub strict: bool,
+    /// What the repair of the meshes may do.
+    #[command(flatten)]
+    pub repairs: RepairArguments,
+}
+
+impl From<FaultArguments> for MeshFaults {
+    fn from(arguments: FaultArguments) -> Self {
+        if arguments.strict { Self::Refused } else { Self::Repaired(arguments.repairs.into()) }
     }
 }
 
@@ -93,7 +115,7 @@ fn distance(text: &str) -> Result<f64, String> {
 #[derive(Debug, Args)]
 pub struct MapArguments {
     /// Source mesh.
-    #[arg(help = format!("Source mesh: {}; genus 0, repaired where it is not closed", Format::NAMES))]
+    #[arg(help = mesh_help("Source mesh"))]
     pub source: PathBuf,
     /// Target mesh, likewise.
     pub target: PathBuf,
@@ -112,12 +134,9 @@ pub struct MapArguments {
     /// Use the mirror image of the target: for landmarks whose left and right are exchanged.
     #[arg(long)]
     pub mirror_target: bool,
-    /// Refuse meshes that would have to be repaired.
-    #[arg(long, conflicts_with_all = ["largest_component", "join_within"])]
-    pub strict: bool,
-    /// What the repair of the meshes may do.
+    /// What becomes of meshes with faults.
     #[command(flatten)]
-    pub repairs: RepairArguments,
+    pub faults: FaultArguments,
     /// File for the map itself, from which `query`, `report` and `export` work without computing.
     #[arg(long, value_name = "FILE")]
     pub map: Option<PathBuf>,
@@ -195,6 +214,9 @@ pub struct SuggestArguments {
     /// Vertices (0-based) that are landmarks already: the suggestions keep away from them.
     #[arg(long, value_name = "VERTEX", value_delimiter = ',')]
     pub beside: Vec<usize>,
+    /// What becomes of a mesh with faults.
+    #[command(flatten)]
+    pub faults: FaultArguments,
 }
 
 /// `conemap landmarks`.
@@ -217,6 +239,9 @@ pub struct LandmarksArguments {
     /// Print the points' distances and what there is to know about them as JSON instead of text.
     #[arg(long)]
     pub json: bool,
+    /// What becomes of meshes with faults.
+    #[command(flatten)]
+    pub faults: FaultArguments,
 }
 
 /// The formats of landmark files.
@@ -239,7 +264,7 @@ fn landmark_format(text: &str) -> Result<LandmarkFormat, String> {
 
 /// What a mesh must be.
 fn mesh_help(name: &str) -> String {
-    format!("{name}: {}; closed, genus 0", Format::NAMES)
+    format!("{name}: {}; of genus 0, repaired where it is not closed", Format::NAMES)
 }
 
 /// A time of zero or more seconds.
@@ -263,6 +288,9 @@ pub struct FlowArguments {
     /// File for the report (JSON).
     #[arg(long)]
     pub report: Option<PathBuf>,
+    /// What becomes of a mesh with faults.
+    #[command(flatten)]
+    pub faults: FaultArguments,
 }
 
 /// `conemap remesh`.
@@ -283,6 +311,9 @@ pub struct RemeshArguments {
     /// File for the report (JSON).
     #[arg(long)]
     pub report: Option<PathBuf>,
+    /// What becomes of a mesh with faults.
+    #[command(flatten)]
+    pub faults: FaultArguments,
 }
 
 /// An angle from 0 to 180 degrees.

@@ -5,6 +5,7 @@ use crate::arguments::CheckArguments;
 use crate::input::{self, Failure};
 use conemap::mesh::check::{CheckedMesh, MeshFault, closed_genus_zero};
 use conemap::mesh::repair::{ChangeReport, RepairOptions, RepairRefusal, RepairedMesh, repaired};
+use conemap::monitor::Silent;
 use serde::Serialize;
 use std::path::Path;
 
@@ -14,7 +15,7 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     let out = arguments.out.as_deref().map(|out| Ok::<_, Failure>((out, input::format(out)?))).transpose()?;
     let soup = input::soup(&arguments.mesh)?;
     let fault = closed_genus_zero(&soup).err();
-    let outcome = repaired(&soup, &RepairOptions::from(arguments.repairs));
+    let outcome = repaired(&soup, &RepairOptions::from(arguments.repairs), &mut Silent);
     if let (Some((out, format)), Ok(mesh)) = (out, &outcome) {
         input::write(out, &format.write(&mesh.checked.mesh))?;
     }
@@ -138,12 +139,18 @@ fn places(change: &ChangeReport) -> String {
         let first = hole.vertices.first().copied().unwrap_or_default();
         format!("{} edges from vertex {first}", hole.edges)
     });
+    let handles = change.handles.iter().map(|handle| {
+        let first = handle.vertices.first().copied().unwrap_or_default();
+        let length = 100.0 * handle.loop_length;
+        format!("{} edges from vertex {first} ({length:.2} % of the square root of the area)", handle.edges)
+    });
     [
         list("vertices", numbers(&change.vertices)),
         list("edges", edges),
         // Of dropped parts the faces are more than the parts.
         list(if change.kind == "dropped_parts" { "faces from" } else { "faces" }, numbers(&change.faces)),
         list("with", holes.collect()),
+        list("with loops of", handles.collect()),
     ]
     .concat()
 }

@@ -10,7 +10,7 @@ use serde_json::json;
 
 /// Runs one flow and writes its report; an error where it did not converge.
 pub fn run(arguments: &FlowArguments) -> Result<(), Failure> {
-    let checked = input::mesh(&arguments.mesh)?;
+    let checked = input::mesh(&arguments.mesh, arguments.faults)?;
     let mesh = &checked.mesh;
     let cones = cones(arguments, &checked.vertex_from_file)?;
     let curvature = listed_curvature(mesh.vertex_count(), &cones)?;

@@ -1,10 +1,13 @@
 //! Meshes and landmarks from files, with errors that name the file.
 
+use crate::arguments::FaultArguments;
 use conemap::export::MeshFormat;
 use conemap::io::{self, gltf_parts};
+use conemap::job::{ReadMesh, read_mesh};
 use conemap::landmark_exchange::GivenFile;
-use conemap::mesh::check::{CheckedMesh, closed_genus_zero};
+use conemap::mesh::check::CheckedMesh;
 use conemap::mesh::soup::PolygonSoup;
+use conemap::monitor::Silent;
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::{Component, Path};
@@ -49,15 +52,24 @@ pub fn mesh_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     Ok(packed.bytes)
 }
 
-/// Reads and checks a mesh.
-pub fn mesh(path: &Path) -> Result<CheckedMesh, Failure> {
-    checked(path, &mesh_bytes(path)?)
+/// Reads a mesh, and checks or repairs it.
+pub fn mesh(path: &Path, faults: FaultArguments) -> Result<CheckedMesh, Failure> {
+    checked(path, &mesh_bytes(path)?, faults)
 }
 
-/// Checks a mesh that was read from a file.
-pub fn checked(path: &Path, bytes: &[u8]) -> Result<CheckedMesh, Failure> {
-    let soup = io::read_mesh(bytes).map_err(|e| format!("{}: {e}", path.display()))?;
-    closed_genus_zero(&soup).map_err(|e| format!("{}: {e}", path.display()).into())
+/// Checks or repairs a mesh that was read from a file; what was repaired is told.
+pub fn checked(path: &Path, bytes: &[u8], faults: FaultArguments) -> Result<CheckedMesh, Failure> {
+    let name = path.display();
+    let ReadMesh { mesh, report } =
+        read_mesh(bytes, faults.into(), &mut Silent).map_err(|e| format!("{name}: {e}"))?;
+    if report.fault.is_some() {
+        eprintln!(
+            "warning: {name} could not be used as it is and was repaired: {}. `conemap check` tells more and writes the repaired \
+             mesh.",
+            report.sentence()
+        );
+    }
+    Ok(mesh.into_checked())
 }
 
 /// Files with their names.

@@ -1,7 +1,7 @@
 //! `conemap landmarks`.
 #![allow(clippy::print_stdout, reason = "the result goes to standard output")]
 
-use crate::arguments::LandmarksArguments;
+use crate::arguments::{FaultArguments, LandmarksArguments};
 use crate::input::{self, Failure, NamedFiles};
 use conemap::io::landmark_formats::{LandmarkFormat, Space};
 use conemap::landmark_exchange::{PairLandmarks, Surface, read_pairs, write_pairs, write_side};
@@ -15,7 +15,7 @@ const SIDES: [MeshSide; 2] = [MeshSide::Source, MeshSide::Target];
 /// Reads landmark files onto their meshes, prints how far their points were off, and writes them in other formats.
 pub fn run(arguments: &LandmarksArguments) -> Result<(), Failure> {
     let paths = [&arguments.source, &arguments.target];
-    let (source, target) = (mesh(paths[0])?, mesh(paths[1])?);
+    let (source, target) = (mesh(paths[0], arguments.faults)?, mesh(paths[1], arguments.faults)?);
     let surfaces = [&source, &target].map(|(mesh, space)| Surface { mesh, space: *space });
     let files = NamedFiles::read(&arguments.inputs)?;
     let mut landmarks = read_pairs(&files.given(), surfaces).map_err(|error| {
@@ -35,9 +35,9 @@ pub fn run(arguments: &LandmarksArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-fn mesh(path: &Path) -> Result<(CheckedMesh, Space), Failure> {
+fn mesh(path: &Path, faults: FaultArguments) -> Result<(CheckedMesh, Space), Failure> {
     let bytes = input::mesh_bytes(path)?;
-    Ok((input::checked(path, &bytes)?, Space::of_mesh(&bytes)))
+    Ok((input::checked(path, &bytes, faults)?, Space::of_mesh(&bytes)))
 }
 
 fn write(

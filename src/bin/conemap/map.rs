@@ -4,7 +4,7 @@ use crate::arguments::MapArguments;
 use crate::clock::Clock;
 use crate::input::{self, Failure};
 use crate::interrupt;
-use conemap::job::{Job, JobError, JobFile, JobFiles, MeshFaults, OutputKind, ReadOptions, TargetImage};
+use conemap::job::{Job, JobError, JobFile, JobFiles, OutputKind, ReadOptions, TargetImage};
 use conemap::pipeline::{FindingReport, MapResult, Method, PipelineOptions, RepairKind};
 use std::path::PathBuf;
 
@@ -59,9 +59,8 @@ fn read(arguments: &MapArguments, clock: &mut Clock) -> Result<Job, Failure> {
     let landmark_files = input::NamedFiles::read(&landmarks)?;
     let files = JobFiles { source: &bytes[0], target: &bytes[1], landmarks: &landmark_files.given() };
     let target_image = if arguments.mirror_target { TargetImage::Mirrored } else { TargetImage::AsGiven };
-    let repairs = MeshFaults::Repaired(arguments.repairs.into());
-    let mesh_faults = if arguments.strict { MeshFaults::Refused } else { repairs };
-    Job::read(files, ReadOptions { target_image, mesh_faults }, clock).map_err(|error: JobError| {
+    let options = ReadOptions { target_image, mesh_faults: arguments.faults.into() };
+    Job::read(files, options, clock).map_err(|error: JobError| {
         let file = match error.file() {
             Some(JobFile::Source) => Some(source),
             Some(JobFile::Target) => Some(target),

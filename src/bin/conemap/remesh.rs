@@ -12,7 +12,7 @@ pub fn run(arguments: &RemeshArguments) -> Result<(), Failure> {
     let out = &arguments.out;
     // Asked before the work is done.
     let format = input::format(out)?;
-    let checked = input::mesh(&arguments.mesh)?;
+    let checked = input::mesh(&arguments.mesh, arguments.faults)?;
     let crease_angle = arguments.crease_angle.to_radians();
     let options = Options { crease_angle, ..Options::to_faces(arguments.faces) };
     let mut clock = Clock::start_only(Stage::Remeshing);

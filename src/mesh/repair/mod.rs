@@ -3,15 +3,16 @@
 //! Steps in a fixed order, each a function from a draft of the surface to the next with a report of what it changed:
 //! vertices at one place are joined along open edges, faces without area and double faces dropped, faces turned until neighbours
 //! agree, the surface cut along edges with more than two faces and stitched again sheet by sheet (Gueziec et al. 2001), loose
-//! specks dropped, holes capped. At the end [`crate::mesh::check::closed_genus_zero`] judges as it judges every mesh. A mesh that
-//! passes from the start is not touched.
+//! specks dropped, holes capped, and, where that is asked for, handles cut. At the end [`crate::mesh::check::closed_genus_zero`]
+//! judges as it judges every mesh. A mesh that passes from the start is not touched.
 //!
-//! Limits: intersections of the surface with itself, there before or made by a cap, are not looked for. Handles are not cut.
+//! Limits: intersections of the surface with itself, there before or made by a cap, are not looked for.
 
 mod caps;
 mod degenerate;
 mod draft;
 mod duplicates;
+mod handles;
 mod joining;
 mod options;
 mod order;
@@ -21,7 +22,7 @@ mod refusal;
 mod report;
 mod sheets;
 
-pub use options::{Parts, RepairOptions};
+pub use options::{Handles, Parts, RepairOptions};
 pub use order::{RepairedMesh, repaired};
 pub use refusal::RepairRefusal;
-pub use report::{Change, ChangeReport, Hole, RepairReport};
+pub use report::{Change, ChangeReport, Handle, Hole, RepairReport};

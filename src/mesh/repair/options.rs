@@ -1,16 +1,41 @@
 //! What a repair may do.
 
+use serde::Deserialize;
+
 /// What a repair may do.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
 pub struct RepairOptions {
     /// Vertices on open edges are joined where they are within this distance, in the file's units; 0 for exactly equal places.
     pub join_within: f64,
     /// Which parts may stay and go.
     pub parts: Parts,
+    /// What becomes of handles.
+    pub handles: Handles,
+}
+
+impl RepairOptions {
+    /// Whatever there is, but that vertices are joined at equal places only. A mesh that is repaired with less is repaired alike
+    /// with these: each option only allows what would be refused without it.
+    pub fn everything() -> Self {
+        Self { join_within: 0.0, parts: Parts::LargestAlone, handles: Handles::Cut }
+    }
+}
+
+/// What becomes of handles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Handles {
+    /// A surface that has some is refused: to cut them changes its shape.
+    #[default]
+    Refused,
+    /// They are cut along their shortest loops, and closed.
+    Cut,
 }
 
 /// Which parts may stay and go.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Parts {
     /// The largest part by area stays; the others go where they have less than 1 % of the area together.
     #[default]

@@ -4,8 +4,9 @@ use super::caps::{Capped, capped};
 use super::degenerate::without_degenerate;
 use super::draft::{Draft, DraftFace, FaceOrigin};
 use super::duplicates::without_duplicates;
+use super::handles::{MOST_HANDLES, WithoutHandles, without_handles};
 use super::joining::joined;
-use super::options::RepairOptions;
+use super::options::{Handles, RepairOptions};
 use super::orientation::oriented;
 use super::parts::{DroppedParts, largest};
 use super::refusal::RepairRefusal;
@@ -14,6 +15,7 @@ use super::sheets::{Sheets, apart};
 use crate::mesh::check::{CheckedMesh, Elements, MeshFault, RepairedFaces, closed_genus_zero, triangulated};
 use crate::mesh::soup::PolygonSoup;
 use crate::mesh::{FaceId, VertexId};
+use crate::monitor::Monitor;
 use typed_index_collections::TiVec;
 
 /// A mesh that can be mapped, and how it came to be.
@@ -32,14 +34,18 @@ const MOST_CAP: f64 = 0.45;
 ///
 /// # Errors
 /// [`RepairRefusal`].
-pub fn repaired(soup: &PolygonSoup, options: &RepairOptions) -> Result<RepairedMesh, RepairRefusal> {
+pub fn repaired(
+    soup: &PolygonSoup,
+    options: &RepairOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<RepairedMesh, RepairRefusal> {
     match closed_genus_zero(soup) {
         Ok(checked) => {
             let report = RepairReport { changes: told_of_all(soup, &checked), ..RepairReport::default() };
             Ok(RepairedMesh { checked, report })
         }
         Err(fault @ (MeshFault::Empty | MeshFault::TooManyFaces { .. })) => Err(fault.into()),
-        Err(fault) => steps(soup, options, fault),
+        Err(fault) => steps(soup, options, fault, monitor),
     }
 }
 
@@ -47,6 +53,7 @@ fn steps(
     soup: &PolygonSoup,
     options: &RepairOptions,
     fault: MeshFault,
+    monitor: &mut dyn Monitor,
 ) -> Result<RepairedMesh, RepairRefusal> {
     let draft = drafted(soup)?;
     let in_file = draft.faces.len();
@@ -60,12 +67,27 @@ fn steps(
     let (draft, caps) = capped(draft)?;
     // A corner on an edge without a face between leaves a hole without area, whose cap goes as such faces do.
     let (draft, closed) = without_degenerate(draft);
-    let degenerate = degenerate.and(closed);
-    let cap_share = caps.as_ref().map_or(0.0, |caps| caps.area_share);
+    let mut degenerate = degenerate.and(closed);
+    let mut cap_share = caps.as_ref().map_or(0.0, |caps| caps.area_share);
     if cap_share > MOST_CAP {
         return Err(RepairRefusal::OpenSheet { cap_share });
     }
-    let checked = checked(soup, &draft, in_file)?;
+    let mut handles = None;
+    let checked = match checked(soup, &draft, in_file) {
+        Err(MeshFault::Genus { genus }) => {
+            let cut = cut_handles(draft, genus, options.handles, monitor)?;
+            let (draft, closed) = without_degenerate(cut.draft);
+            degenerate = degenerate.and(closed);
+            cap_share = cut.cap_share;
+            handles = Some(Change::CutHandles {
+                handles: cut.handles.into_iter().collect(),
+                faces: cut.faces,
+                area_share: cut.area_share,
+            });
+            checked(soup, &draft, in_file)?
+        }
+        other => other?,
+    };
     let Sheets { edges, split, joined } = sheets;
     let mut changes = vec![
         Change::JoinedVertices(joined),
@@ -84,9 +106,28 @@ fn steps(
         faces,
         area_share,
     }));
+    changes.extend(handles);
     changes.extend(told_of_all(soup, &checked));
     changes.retain(|change| change.count() > 0);
     Ok(RepairedMesh { checked, report: RepairReport { fault: Some(fault), changes, cap_share } })
+}
+
+/// The draft without its handles, where they may be cut.
+fn cut_handles(
+    draft: Draft,
+    genus: usize,
+    allowed: Handles,
+    monitor: &mut dyn Monitor,
+) -> Result<WithoutHandles, RepairRefusal> {
+    if genus > MOST_HANDLES {
+        return Err(RepairRefusal::TooManyHandles { genus, most: MOST_HANDLES });
+    }
+    // What is refused is told as it would be cut.
+    let cut = without_handles(draft, genus, monitor)?;
+    match allowed {
+        Handles::Cut => Ok(cut),
+        Handles::Refused => Err(RepairRefusal::Handles(cut.handles)),
+    }
 }
 
 /// What the check itself changes of every mesh.
@@ -102,7 +143,7 @@ fn told_of_all(soup: &PolygonSoup, checked: &CheckedMesh) -> Vec<Change> {
     changes
 }
 
-fn drafted(soup: &PolygonSoup) -> Result<Draft, MeshFault> {
+pub(super) fn drafted(soup: &PolygonSoup) -> Result<Draft, MeshFault> {
     let (triangles, _) = triangulated(soup)?;
     let face = |(&corners, number): (&[u32; 3], u32)| DraftFace {
         corners,

@@ -1,6 +1,9 @@
 //! Why a mesh cannot be repaired.
 
+use super::report::{Handle, percent};
 use crate::mesh::check::MeshFault;
+use crate::monitor::Cancelled;
+use std::fmt;
 
 /// Why a mesh cannot be repaired to a surface that can be mapped, or not without changes that were not asked for.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -22,6 +25,28 @@ pub enum RepairRefusal {
         /// Share of the area of all parts but the largest.
         area_share: f64,
     },
+    /// Handles, which may not be cut.
+    #[error(
+        "the surface has {} ({}): only surfaces without handles, like a sphere, can be mapped; have {} cut there and closed \
+         (--cut-handles)",
+        Counted(.0.len()),
+        Loops(.0),
+        if .0.len() == 1 { "it" } else { "them" }
+    )]
+    Handles(
+        /// The handles, the one with the shortest loop first, and what to cut them would come to.
+        Vec<Handle>,
+    ),
+    /// So many handles that they are not looked for.
+    #[error(
+        "the surface has {genus} handles, and at most {most} are cut: close its small tunnels and bridges in another program first"
+    )]
+    TooManyHandles {
+        /// How many.
+        genus: usize,
+        /// How many would be cut.
+        most: usize,
+    },
     /// The surface is more hole than skin.
     #[error(
         "the surface is an open sheet: caps would be {:.0} % of the area once its holes are closed; only surfaces that nearly \
@@ -35,6 +60,40 @@ pub enum RepairRefusal {
     /// Nothing is left.
     #[error("no face of the mesh has an area")]
     NothingLeft,
+    /// The user asked to stop.
+    #[error(transparent)]
+    Stopped(#[from] Cancelled),
+}
+
+/// A number of handles.
+struct Counted(usize);
+
+impl fmt::Display for Counted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} handle{}", self.0, if self.0 == 1 { "" } else { "s" })
+    }
+}
+
+/// Where handles are and how long their loops are, as far as a sentence goes.
+struct Loops<'a>(&'a [Handle]);
+
+/// So many handles are told one by one.
+const TOLD: usize = 5;
+
+impl fmt::Display for Loops<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (k, handle) in self.0.iter().take(TOLD).enumerate() {
+            let vertex = handle.vertices.first().copied().unwrap_or_default();
+            let [separator, what] = if k == 0 { ["", " of the square root of the area"] } else { ["; ", ""] };
+            let length = percent(handle.loop_length);
+            write!(
+                f,
+                "{separator}at vertex {vertex} a loop of {} edges, {length} %{what} long",
+                handle.edges
+            )?;
+        }
+        f.write_str(if self.0.len() > TOLD { "; ..." } else { "" })
+    }
 }
 
 impl RepairRefusal {
@@ -43,8 +102,11 @@ impl RepairRefusal {
         match self {
             Self::Fault(fault) => fault.kind(),
             Self::Parts { .. } => "parts",
+            Self::Handles(_) => "genus",
+            Self::TooManyHandles { .. } => "too_many_handles",
             Self::OpenSheet { .. } => "open_sheet",
             Self::NothingLeft => "nothing_left",
+            Self::Stopped(_) => "stopped",
         }
     }
 }

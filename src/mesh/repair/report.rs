@@ -54,7 +54,16 @@ pub enum Change {
         holes: Elements<Hole>,
         /// Faces of all caps.
         faces: usize,
-        /// Share of the repaired surface's area that is caps.
+        /// Share of the repaired surface's area that these caps have.
+        area_share: f64,
+    },
+    /// Handles were cut, and closed.
+    CutHandles {
+        /// The handles, as they were cut one after the other: the one with the shortest loop first.
+        handles: Elements<Handle>,
+        /// Faces that closed them.
+        faces: usize,
+        /// Share of the repaired surface's area that these faces have.
         area_share: f64,
     },
 }
@@ -69,6 +78,21 @@ pub struct Hole {
     /// Share of the repaired surface's area that its cap has.
     pub area_share: f64,
     /// At most ten vertices of its rim in a row, by their numbers in the file.
+    pub vertices: Vec<usize>,
+}
+
+/// A handle, and what to cut it along the shortest loop comes to.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Handle {
+    /// Number of the loop's edges.
+    pub edges: usize,
+    /// Length of the loop in units of the square root of the area of the surface that was cut.
+    pub loop_length: f64,
+    /// Faces that close the surface on both sides of the cut.
+    pub faces: usize,
+    /// Their share of the area of the surface that was cut.
+    pub area_share: f64,
+    /// The vertices of the loop, by their numbers in the file; from its number of vertices on where the loop passes over a cap.
     pub vertices: Vec<usize>,
 }
 
@@ -89,6 +113,8 @@ pub struct ChangeReport {
     pub faces: Vec<usize>,
     /// The longest holes.
     pub holes: Vec<Hole>,
+    /// The first handles.
+    pub handles: Vec<Handle>,
     /// Share of the area that went, or that was added; `null` where the area stays.
     pub area_share: Option<f64>,
 }
@@ -106,10 +132,11 @@ impl Change {
             Self::TurnedFaces(_) => "turned_faces",
             Self::DroppedParts { .. } => "dropped_parts",
             Self::CappedHoles { .. } => "capped_holes",
+            Self::CutHandles { .. } => "cut_handles",
         }
     }
 
-    /// How many elements it is about: vertices, faces, edges, parts or holes.
+    /// How many elements it is about: vertices, faces, edges, parts, holes or handles.
     pub fn count(&self) -> usize {
         match self {
             Self::JoinedVertices(e) | Self::UnusedVertices(e) | Self::SplitVertices(e) => e.count,
@@ -118,6 +145,7 @@ impl Change {
             Self::SplitEdges(e) => e.count,
             Self::DroppedParts { parts, .. } => *parts,
             Self::CappedHoles { holes, .. } => holes.count,
+            Self::CutHandles { handles, .. } => handles.count,
         }
     }
 }
@@ -141,10 +169,13 @@ impl fmt::Display for Change {
             Self::TurnedFaces(_) => ("face was turned over", "faces were turned over"),
             Self::DroppedParts { .. } => ("loose part was dropped", "loose parts were dropped"),
             Self::CappedHoles { .. } => ("hole was capped", "holes were capped"),
+            Self::CutHandles { .. } => ("handle was cut and closed", "handles were cut and closed"),
         };
         write!(f, "{}", Count::new(&self.count(), one, many))?;
         match self {
-            Self::DroppedParts { area_share, .. } | Self::CappedHoles { area_share, .. } => {
+            Self::DroppedParts { area_share, .. }
+            | Self::CappedHoles { area_share, .. }
+            | Self::CutHandles { area_share, .. } => {
                 write!(f, " ({} % of the area)", percent(*area_share))
             }
             _ => Ok(()),
@@ -153,7 +184,7 @@ impl fmt::Display for Change {
 }
 
 /// A share in percent, with as many digits as say something.
-fn percent(share: f64) -> String {
+pub(super) fn percent(share: f64) -> String {
     let percent = 100.0 * share;
     if percent >= 9.95 {
         format!("{percent:.0}")
@@ -170,7 +201,7 @@ impl From<Change> for ChangeReport {
     fn from(change: Change) -> Self {
         let (kind, sentence, count) = (change.kind(), change.to_string(), change.count());
         let (mut vertices, mut edges, mut faces) = (Vec::new(), Vec::new(), Vec::new());
-        let (mut holes, mut area_share) = (Vec::new(), None);
+        let (mut holes, mut handles, mut area_share) = (Vec::new(), Vec::new(), None);
         match change {
             Change::JoinedVertices(e) | Change::UnusedVertices(e) | Change::SplitVertices(e) => {
                 vertices = e.first;
@@ -184,8 +215,11 @@ impl From<Change> for ChangeReport {
             Change::CappedHoles { holes: e, area_share: share, .. } => {
                 (holes, area_share) = (e.first, Some(share));
             }
+            Change::CutHandles { handles: e, area_share: share, .. } => {
+                (handles, area_share) = (e.first, Some(share));
+            }
         }
-        Self { kind, sentence, count, vertices, edges, faces, holes, area_share }
+        Self { kind, sentence, count, vertices, edges, faces, holes, handles, area_share }
     }
 }
 

@@ -125,7 +125,7 @@ fn flattest(blades: &[Blade]) -> Vec<[u32; 2]> {
 }
 
 /// Corners 3 f + k that hang together around their vertices.
-fn fans(across: &[u32]) -> DisjointSets {
+pub(super) fn fans(across: &[u32]) -> DisjointSets {
     let mut fans = DisjointSets::new(across.len());
     let end = |side: usize| if side % 3 == 2 { side - 2 } else { side + 1 };
     for (side, &other) in across.iter().enumerate() {
@@ -138,7 +138,7 @@ fn fans(across: &[u32]) -> DisjointSets {
 }
 
 /// Gives each fan a vertex of its own, and tells the vertices of the file that are several now.
-fn copy_vertices(draft: &mut Draft, mut fans: DisjointSets) -> Elements<usize> {
+pub(super) fn copy_vertices(draft: &mut Draft, mut fans: DisjointSets) -> Elements<usize> {
     let corners = draft.faces.len() * 3;
     let roots: Vec<usize> = (0..corners).map(|c| fans.root(c)).collect();
     let mut least = vec![NONE; corners];
@@ -165,7 +165,7 @@ fn copy_vertices(draft: &mut Draft, mut fans: DisjointSets) -> Elements<usize> {
         if copy[root] == NONE {
             copy[root] = draft.positions.len() as u32;
             draft.positions.push(draft.positions[v as usize]);
-            draft.numbers.push(Some(least[root]));
+            draft.numbers.push((least[root] != NONE).then_some(least[root]));
             split.extend((least[root] == v).then_some(v as usize));
         }
         draft.faces[c / 3].corners[c % 3] = copy[root];

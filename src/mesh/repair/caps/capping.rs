@@ -41,7 +41,7 @@ pub(in crate::mesh::repair) fn capped(mut draft: Draft) -> Result<(Draft, Option
         let patch = surroundings.cap(&draft, rim, skin.sqrt());
         let length = perimeter(&draft, rim);
         caps.push(Cap { rim, length, area: patch.area(), faces: patch.triangles.len() });
-        add(&mut draft, rim, &patch);
+        add(&mut draft, rim, &patch.points[patch.rim..], patch.triangles.iter().copied());
     }
     let area = skin + caps.iter().map(|cap| cap.area).sum::<f64>();
     caps.sort_by(|a, b| b.length.total_cmp(&a.length));
@@ -73,18 +73,29 @@ fn perimeter(draft: &Draft, rim: &[u32]) -> f64 {
     (0..rim.len()).map(|k| at(k).distance(at(k + 1))).sum()
 }
 
-/// Takes the vertices and faces of a cap over.
-fn add(draft: &mut Draft, rim: &[u32], patch: &Patch) {
+/// Takes a cap over: its vertices inside the rim, and its triangles, whose vertices are those of the rim and then these.
+pub(super) fn add(
+    draft: &mut Draft,
+    rim: &[u32],
+    inside: &[DVec3],
+    triangles: impl IntoIterator<Item = [u32; 3]>,
+) {
     let first = draft.positions.len();
-    draft.positions.extend(&patch.points[patch.rim..]);
+    draft.positions.extend(inside);
     draft.numbers.resize(draft.positions.len(), None);
     let vertex = |v: u32| rim.get(v as usize).copied().unwrap_or((first + v as usize - rim.len()) as u32);
-    let face = |t: &[u32; 3]| {
-        let corners = t.map(vertex);
+    for triangle in triangles {
+        let corners = triangle.map(vertex);
         let file_corners = corners.map(|v| draft.numbers[v as usize].unwrap_or(NONE));
-        DraftFace { corners, file_corners, origin: FaceOrigin::Cap }
-    };
-    draft.faces.extend(patch.triangles.iter().map(face));
+        draft.faces.push(DraftFace { corners, file_corners, origin: FaceOrigin::Cap });
+    }
+}
+
+/// The mean length of both edges of a rim at each of its vertices.
+pub(super) fn rim_lengths(places: &[DVec3]) -> Vec<f64> {
+    let n = places.len();
+    let length = |k: usize| places[k].distance(places[(k + 1) % n]);
+    (0..n).map(|k| 0.5 * (length((k + n - 1) % n) + length(k))).collect()
 }
 
 /// The surface at the rims.
@@ -139,9 +150,7 @@ impl Surroundings {
         let filling = filled(&Rim { places: &places, beyond: &beyond, taken: &taken });
         let points = places.iter().copied().chain(filling.middle).collect();
         let mut patch = Patch::new(points, n, filling.triangles, taken);
-        let length = |k: usize| places[k].distance(places[(k + 1) % n]);
-        let lengths: Vec<f64> = (0..n).map(|k| 0.5 * (length((k + n - 1) % n) + length(k))).collect();
-        refine(&mut patch, &lengths);
+        refine(&mut patch, &rim_lengths(&places));
         let around = |k: usize| {
             let on_rim = [rim[(k + n - 1) % n], rim[(k + 1) % n]];
             self.beside(rim[k]).iter().filter(|w| !on_rim.contains(w)).map(|&w| at(w)).collect()

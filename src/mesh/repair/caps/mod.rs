@@ -7,5 +7,7 @@ mod filling;
 mod loops;
 mod patch;
 mod refinement;
+mod wall;
 
 pub(super) use capping::{Capped, capped};
+pub(super) use wall::{CutRims, add_wall};

@@ -1,0 +1,134 @@
+//! Handles are cut one after the other, and closed by walls.
+
+use super::super::caps::{CutRims, add_wall};
+use super::super::draft::{Draft, FaceOrigin, NONE};
+use super::super::report::Handle;
+use super::super::sheets::{copy_vertices, fans};
+use super::crossings::{Crossings, Generator};
+use super::graph::Graph;
+use super::shortest::shortest_loop;
+use crate::monitor::{Cancelled, Monitor, Portion};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// A surface whose handles were cut.
+pub(in crate::mesh::repair) struct WithoutHandles {
+    /// The surface.
+    pub draft: Draft,
+    /// The handles in the order in which they were cut; lengths and shares are those of the surface after.
+    pub handles: Vec<Handle>,
+    /// Faces of all walls.
+    pub faces: usize,
+    /// Their share of the area after.
+    pub area_share: f64,
+    /// Share of the area after that is caps, walls among them.
+    pub cap_share: f64,
+}
+
+/// A handle that was cut.
+struct Cut {
+    /// The loop's vertices in the numbers of the file.
+    vertices: Vec<usize>,
+    /// Its length.
+    length: f64,
+    /// Faces of both walls.
+    faces: usize,
+    /// Their area.
+    area: f64,
+}
+
+/// A closed, oriented, connected surface of a genus from 1 to [`super::crossings::MOST_HANDLES`] without its handles.
+///
+/// # Errors
+/// [`Cancelled`].
+pub(in crate::mesh::repair) fn without_handles(
+    mut draft: Draft,
+    genus: usize,
+    monitor: &mut dyn Monitor,
+) -> Result<WithoutHandles, Cancelled> {
+    let mut cuts = Vec::with_capacity(genus);
+    for k in 0..genus {
+        let share = |k: usize| k as f64 / genus as f64;
+        let mut portion = Portion::new(monitor, share(k), share(k + 1));
+        let Some(graph) = Graph::new(&draft) else { break };
+        let Some(shortest) = shortest_loop(&graph, &Crossings::new(&graph), &mut portion)? else { break };
+        let (after, cut) = cut(draft, &graph, &from_least(shortest));
+        draft = after;
+        cuts.push(cut);
+    }
+    let area = draft.area();
+    let handle = |cut: &Cut| Handle {
+        edges: cut.vertices.len(),
+        loop_length: cut.length / area.sqrt(),
+        faces: cut.faces,
+        area_share: cut.area / area,
+        vertices: cut.vertices.clone(),
+    };
+    let caps = draft.faces.iter().filter(|face| face.origin == FaceOrigin::Cap);
+    Ok(WithoutHandles {
+        handles: cuts.iter().map(handle).collect(),
+        faces: cuts.iter().map(|cut| cut.faces).sum(),
+        area_share: cuts.iter().map(|cut| cut.area).sum::<f64>() / area,
+        cap_share: caps.map(|face| draft.face_area(face)).sum::<f64>() / area,
+        draft,
+    })
+}
+
+/// The same loop from its vertex of the least number on, towards the lesser one of its neighbours.
+fn from_least(found: Generator) -> Generator {
+    let Generator { length, mut vertices, mut edges } = found;
+    let n = vertices.len();
+    let least = (0..n).min_by_key(|&i| vertices[i]).unwrap_or(0);
+    vertices.rotate_left(least);
+    edges.rotate_left(least);
+    if n > 2 && vertices[n - 1] < vertices[1] {
+        vertices[1..].reverse();
+        edges.reverse();
+    }
+    Generator { length, edges, vertices }
+}
+
+/// Cuts a surface along a simple loop, and closes both rims.
+fn cut(mut draft: Draft, graph: &Graph, along: &Generator) -> (Draft, Cut) {
+    let sides = sides(&draft, graph, along);
+    let mut across = vec![NONE; 3 * draft.faces.len()];
+    for &[a, b] in &graph.sides {
+        (across[a as usize], across[b as usize]) = (b, a);
+    }
+    sides.iter().flatten().for_each(|&side| across[side] = NONE);
+    let vertices = along.vertices.iter().map(|&v| draft.number(v)).collect();
+    copy_vertices(&mut draft, fans(&across));
+    // Of the sides against the loop the ends, so that both rims follow it.
+    let start = |side: usize| draft.faces[side / 3].corners[side % 3];
+    let end = |side: usize| draft.faces[side / 3].corners[(side + 1) % 3];
+    let rims = CutRims {
+        along: sides.iter().map(|[along, _]| start(*along)).collect(),
+        against: sides.iter().map(|[_, against]| end(*against)).collect(),
+    };
+    let before = draft.faces.len();
+    add_wall(&mut draft, &rims, chords(graph, &along.vertices));
+    let made = &draft.faces[before..];
+    let area = made.iter().map(|face| draft.face_area(face)).sum();
+    let cut = Cut { vertices, length: along.length, faces: made.len(), area };
+    (draft, cut)
+}
+
+/// Of each edge of a loop the side that runs along it, and the side against it.
+fn sides(draft: &Draft, graph: &Graph, along: &Generator) -> Vec<[usize; 2]> {
+    let side = |(&edge, &v): (&u32, &u32)| {
+        let [a, b] = graph.sides[edge as usize].map(|side| side as usize);
+        let runs_along = draft.faces[a / 3].corners[a % 3] == v;
+        if runs_along { [a, b] } else { [b, a] }
+    };
+    along.edges.iter().zip(&along.vertices).map(side).collect()
+}
+
+/// Edges between vertices of a loop, by their places along it, the lesser first.
+fn chords(graph: &Graph, vertices: &[u32]) -> FxHashSet<[u32; 2]> {
+    let place: FxHashMap<u32, u32> = vertices.iter().zip(0..).map(|(&v, k)| (v, k)).collect();
+    let mut found = FxHashSet::default();
+    for (&v, k) in vertices.iter().zip(0_u32..) {
+        let beside = graph.links(v).filter_map(|(w, _, _)| place.get(&w));
+        found.extend(beside.map(|&l| [k.min(l), k.max(l)]));
+    }
+    found
+}

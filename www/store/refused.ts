@@ -1,0 +1,57 @@
+/** Meshes that were refused, while a repair is offered that would help. */
+import type { Side } from '../landmarks.ts';
+import type { RepairOffer } from '../report.ts';
+
+/** What a repair may do beyond what does not change the shape, as the core reads it; what is left out it may not. */
+export interface Allowed {
+  readonly parts?: 'largest-alone';
+  readonly handles?: 'cut';
+}
+
+/**
+ * All of it. A mesh that came onto a page with less comes out alike, so that what was accepted once is read again by this: from
+ * the browser's store, of a project, in the worker.
+ */
+export const ALL_ALLOWED: Allowed = { parts: 'largest-alone', handles: 'cut' };
+
+/** A file as it was given. */
+export interface GivenFile {
+  readonly name: string;
+  readonly bytes: Uint8Array;
+  readonly address?: string;
+}
+
+/** A mesh that was refused. */
+export interface RefusedMesh {
+  /** Where it was to come. */
+  readonly side: Side;
+  readonly file: GivenFile;
+  /** What its repair may do already. */
+  readonly allowed: Allowed;
+  /** What would help beyond. */
+  readonly offer: RepairOffer;
+  /** Why it was refused. */
+  readonly sentence: string;
+}
+
+/** What waits for the user's word. */
+export interface Refused {
+  /** At least one, each for another side. */
+  readonly meshes: readonly RefusedMesh[];
+  /** Landmark files that were given with them. */
+  readonly landmarks: readonly GivenFile[];
+}
+
+/** The options that an offer allows beside those that there are. */
+export function allowedBy({ allowed, offer }: Pick<RefusedMesh, 'allowed' | 'offer'>): Allowed {
+  return offer.kind === 'cut-handles' ? { ...allowed, handles: 'cut' } : { ...allowed, parts: 'largest-alone' };
+}
+
+/** Without the mesh of a side: something else came there, or nothing is to come. */
+export function withoutSide(refused: Refused | null, side: Side): Refused | null {
+  const meshes = refused?.meshes.filter((mesh) => mesh.side !== side) ?? [];
+  if (refused === null || meshes.length === refused.meshes.length) {
+    return refused;
+  }
+  return meshes.length === 0 ? null : { ...refused, meshes };
+}
