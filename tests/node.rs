@@ -11,7 +11,7 @@ use conemap::demo::{self, Demo};
 use conemap::landmarks::Landmarks;
 use conemap::mesh::VertexId;
 use conemap::monitor::Silent;
-use conemap::pipeline::{self, GroundTruth, MapInput, MapResult, PipelineOptions};
+use conemap::pipeline::{self, CapFaces, GroundTruth, MapInput, MapResult, PipelineOptions};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
@@ -94,6 +94,7 @@ fn map_demo(id: &str, most_energy: f64) {
         target: &demo.target,
         landmarks: &landmarks,
         ground_truth: GroundTruth::Unknown,
+        caps: CapFaces::default(),
     };
     let result = pipeline::run(input, &PipelineOptions::default(), &mut Silent).unwrap();
     check(&demo, &landmarks, &result, most_energy);

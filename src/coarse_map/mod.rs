@@ -8,6 +8,7 @@ mod mesh_with_coarse;
 pub mod multilevel;
 mod options;
 pub mod own_cones;
+mod skin;
 
 pub use error::CoarseMapError;
 pub use landmarked_mesh::{LEAST_PER_LANDMARK, LandmarkedMesh};

@@ -16,7 +16,7 @@ mod warning;
 
 pub use error::PipelineError;
 pub use findings::{FindingKind, FindingReport, RepairKind, findings};
-pub use input::{GroundTruth, MapInput};
+pub use input::{CapFaces, GroundTruth, MapInput};
 pub use options::{Base, Choices, ClassChoice, Cones, Method, OwnConeOptions, PipelineOptions};
 pub use report::{
     BaseDomainReport, CertificateReport, ConeMetricReport, ConeMetricsReport, DistortionReport, FacesReport,

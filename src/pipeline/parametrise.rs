@@ -84,7 +84,11 @@ pub(super) fn parametrise(
     monitor: &mut dyn Monitor,
 ) -> Result<Parametrisation, PipelineError> {
     let Landmarks { source, target } = input.landmarks;
-    let full = [LandmarkedMesh::new(input.source, source)?, LandmarkedMesh::new(input.target, target)?];
+    let weight = options.multilevel.cap_weight;
+    let full = [
+        LandmarkedMesh::new(input.source, source)?.with_caps(input.caps.source, weight),
+        LandmarkedMesh::new(input.target, target)?.with_caps(input.caps.target, weight),
+    ];
     let most = full.iter().map(|mesh| mesh.refined.mesh.vertex_count()).max().unwrap_or(0);
     let vertices = first_level(input.landmarks.len(), options);
     let mut attempt = Attempt { vertices, search: options.search };
@@ -131,7 +135,7 @@ fn solve(
     monitor: &mut dyn Monitor,
 ) -> Result<Solved, PipelineError> {
     monitor.enter(Stage::ClassSearch);
-    let sides = [0, 1].map(|k| MeshWithCoarse::new(&full[k].refined.mesh, &full[k].landmarks, vertices));
+    let sides = [0, 1].map(|k| MeshWithCoarse::new(&full[k], vertices));
     let Coarse { layout, search, map } = coarse(input, &sides, options, &search, monitor)?;
     if has_own_cones(input.landmarks.len(), options) {
         monitor.enter(Stage::OwnCones);

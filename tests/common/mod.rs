@@ -9,7 +9,7 @@ use conemap::io;
 use conemap::io::landmark_file::{LandmarkFile, LandmarkPoint};
 use conemap::landmarks::Landmarks;
 use conemap::mesh::{SurfaceMesh, VertexId, check};
-use conemap::pipeline::{GroundTruth, MapInput};
+use conemap::pipeline::{CapFaces, GroundTruth, MapInput};
 use std::path::{Path, PathBuf};
 
 /// Where the real meshes are, or would be.
@@ -49,7 +49,13 @@ pub struct Pair {
 impl Pair {
     /// The pair as the pipeline takes it.
     pub fn input<'a>(&'a self, landmarks: &'a Landmarks, ground_truth: GroundTruth) -> MapInput<'a> {
-        MapInput { source: &self.source, target: &self.target, landmarks, ground_truth }
+        MapInput {
+            source: &self.source,
+            target: &self.target,
+            landmarks,
+            ground_truth,
+            caps: CapFaces::default(),
+        }
     }
 }
 

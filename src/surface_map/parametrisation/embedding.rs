@@ -3,6 +3,7 @@
 use crate::landmarks::LandmarkId;
 use crate::layout::PatchedMesh;
 use crate::math::rigid2::Rigid2;
+use crate::mesh::face_weights::FaceWeights;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec2;
 use std::sync::Arc;
@@ -57,11 +58,18 @@ pub struct Parametrised<'a> {
     pub landmark_vertices: &'a TiSlice<LandmarkId, VertexId>,
     /// Its parametrisation.
     pub embedding: &'a Embedding,
+    /// How much its faces count in an energy of the map.
+    pub weights: FaceWeights<'a>,
 }
 
 impl PatchedMesh {
     /// The patched mesh with a parametrisation.
     pub fn parametrised<'a>(&'a self, embedding: &'a Embedding) -> Parametrised<'a> {
-        Parametrised { mesh: &self.mesh, landmark_vertices: &self.landmark_vertices, embedding }
+        Parametrised {
+            mesh: &self.mesh,
+            landmark_vertices: &self.landmark_vertices,
+            embedding,
+            weights: FaceWeights::EVEN,
+        }
     }
 }

@@ -5,13 +5,14 @@
 //! moving triangle and C that of the target's inverse; when the moving side's edges sweep over the other side, the pieces'
 //! areas change too, which adds the jump of the density over each edge to the gradient (Reynolds' transport theorem).
 
-use super::evaluation::Evaluation;
+use super::evaluation::{CountedEnergy, Evaluation};
 use crate::math::matrix2::cofactor;
 use crate::mesh::{FaceId, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::energy::point_constraint::PointConstraint;
+use crate::surface_map::energy::weighted_energy::WeightedEnergy;
 use crate::surface_map::overlay::SideOf;
 use crate::surface_map::overlay::location::{Locations, Locator};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
@@ -238,11 +239,18 @@ impl<'a> Relaxation<'a> {
         if located.is_err() || self.trial.overlay.fill([from, onto], &self.locations).is_err() {
             return false;
         }
-        self.trial.measure(&self.problems[moving], z, &self.inverses[1 - moving], &self.map_energy);
+        let counted = self.counted();
+        self.trial.measure(&self.problems[moving], z, &self.inverses[1 - moving], counted);
         let (unknowns, constraints) = (&self.unknowns[moving], self.constraints[moving]);
         self.trial.constrain([from, onto], unknowns, constraints, &self.locations);
         self.trial.total = self.trial.energy + self.trial.constrained + self.options.barrier * flat;
         true
+    }
+
+    /// The energy of the map, seen from the moving side.
+    fn counted(&self) -> CountedEnergy<'a> {
+        let weights = [self.moving, 1 - self.moving].map(|k| self.sides[k].weights);
+        CountedEnergy { energy: self.map_energy, weights }
     }
 
     /// One damped Newton step of the moving side; `false` where none lowers the energy.
@@ -296,7 +304,8 @@ impl<'a> Relaxation<'a> {
         self.present.overlay.exchange_roles();
         let problem = &self.problems[self.moving];
         let z = self.unknowns[self.moving].points(&self.embeddings[self.moving]);
-        self.present.measure(problem, &z, &self.inverses[1 - self.moving], &self.map_energy);
+        let counted = self.counted();
+        self.present.measure(problem, &z, &self.inverses[1 - self.moving], counted);
         let flat = problem.energy(&z).unwrap_or(f64::INFINITY);
         self.locate_constrained();
         self.present.total = self.present.energy + self.present.constrained + self.options.barrier * flat;
@@ -338,17 +347,18 @@ impl<'a> Relaxation<'a> {
     }
 
     fn face_derivatives(&self) -> Vec<FaceDerivatives> {
-        let Evaluation { overlay, jacobians, onto_rest, .. } = &self.present;
+        let Evaluation { overlay, jacobians, onto_rest, weights, .. } = &self.present;
         let mut faces = vec![FaceDerivatives::ZERO; jacobians.len()];
         let mut densities = Vec::with_capacity(onto_rest.len());
-        for (piece, c) in overlay.pieces().iter().zip(onto_rest) {
+        for ((piece, c), &weight) in overlay.pieces().iter().zip(onto_rest).zip(weights) {
+            let energy = WeightedEnergy { energy: self.map_energy, weight };
             let t = piece.source_face.index();
             let a = &jacobians[t];
             let (det, j) = (a.determinant(), *c * *a);
-            let density = self.map_energy.density(&j) / det;
+            let density = energy.density(&j) / det;
             densities.push(density);
             // d(h / det A) at fixed area on the cone surface.
-            let own = c.transpose() * self.map_energy.gradient(&j);
+            let own = c.transpose() * energy.gradient(&j);
             faces[t].by_jacobian += (own - cofactor(a) * density) * (piece.area / det);
         }
         self.add_sweeps(&densities, &mut faces);
@@ -372,12 +382,13 @@ impl<'a> Relaxation<'a> {
     }
 
     fn hessians(&self) -> Vec<FaceHessian> {
-        let Evaluation { overlay, jacobians, onto_rest, .. } = &self.present;
+        let Evaluation { overlay, jacobians, onto_rest, weights, .. } = &self.present;
         let mut hessians = vec![FaceHessian::ZERO; jacobians.len()];
-        for (piece, c) in overlay.pieces().iter().zip(onto_rest) {
+        for ((piece, c), &weight) in overlay.pieces().iter().zip(onto_rest).zip(weights) {
+            let energy = WeightedEnergy { energy: self.map_energy, weight };
             let t = piece.source_face.index();
             let area = piece.area / jacobians[t].determinant();
-            for term in self.map_energy.hessian(&(*c * jacobians[t])) {
+            for term in energy.hessian(&(*c * jacobians[t])) {
                 hessians[t].add(area * term.weight, &(c.transpose() * term.matrix()));
             }
         }
