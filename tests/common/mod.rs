@@ -129,7 +129,7 @@ pub fn json_fields(value: &serde_json::Value) -> Vec<String> {
 }
 
 /// The fields of the report of a map, `ground_truth` and `seconds` unopened.
-pub const REPORT_FIELDS: [&str; 42] = [
+pub const REPORT_FIELDS: [&str; 43] = [
     "base_domain.faces",
     "base_domain.vertices",
     "certificate.bijective",
@@ -149,6 +149,7 @@ pub const REPORT_FIELDS: [&str; 42] = [
     "cone_metric.target.newton_steps",
     "cone_metric.target.residuals",
     "cone_metric.target.seconds",
+    "coverage",
     "distortion.dented",
     "distortion.energy",
     "distortion.l2_stretch",

@@ -31,6 +31,7 @@ mod few;
 mod finish_now;
 mod flow;
 mod geodesic;
+mod holes;
 mod job;
 mod landmark_fit;
 mod layout;
