@@ -41,7 +41,7 @@ fn one(arguments: &Arguments, name: &str, vertices: usize) -> String {
         LandmarkedMesh::new(mesh, held).expect("room around landmarks")
     };
     let full = [landmarked(&pair.source, &landmarks.source), landmarked(&pair.target, &landmarks.target)];
-    let sides = [0, 1].map(|k| MeshWithCoarse::new(&full[k], vertices));
+    let sides = [0, 1].map(|k| MeshWithCoarse::new(&full[k], vertices, arguments.options.multilevel.rims));
     let coarse = coarse_landmarks(&sides);
     let options = ClassSearchOptions {
         multilevel: &arguments.options.multilevel,

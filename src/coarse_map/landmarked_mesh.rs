@@ -63,6 +63,12 @@ impl LandmarkedMesh {
         Self { weights: is_cap.map(|is_cap| Weights::new(of_input(is_cap), &self.refined)), ..self }
     }
 
+    /// The same mesh, `factor` times as large.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self { refined: self.refined.scaled(factor), ..self.clone() }
+    }
+
     /// How much the faces of the refined mesh count.
     pub fn weights(&self) -> FaceWeights<'_> {
         FaceWeights::new(self.weights_by_face())

@@ -43,6 +43,8 @@ pub struct CoarseMap<'a> {
     pub mean_log: f64,
     /// Median distortion of both coarse levels by area; 1 for an isometry.
     pub median: f64,
+    /// The areas of what is skin on both coarse levels, on the source and on the target.
+    skin_areas: [f64; 2],
     /// The energy that is lowered on finer levels.
     energy: MapEnergy,
     /// By mesh, source first: the constrained vertices of the full mesh, each with its place on the other mesh.
@@ -52,6 +54,10 @@ pub struct CoarseMap<'a> {
     /// By mesh: the full mesh's vertex of each landmark.
     landmarks: [&'a TiSlice<LandmarkId, VertexId>; 2],
 }
+
+/// Scales of both meshes that differ by less are the same: 1 % moves the rim of a patch that is registered rigidly by less than the
+/// noise that the fit allows for. Chosen by hand.
+const RIGHT_SCALE: f64 = 0.01;
 
 /// A map of two coarse levels, from a layout drawn on them, relaxed as far as a judgement needs.
 ///
@@ -76,6 +82,7 @@ pub fn solve_coarse<'a>(
         levels,
         mean_log: f64::INFINITY,
         median: f64::INFINITY,
+        skin_areas: [1.0; 2],
         energy: options.fine.energy,
         constraints: Default::default(),
         full: [meshes[0].full, meshes[1].full],
@@ -99,6 +106,18 @@ impl CoarseMap<'_> {
             self.relax(&poses, &mut Portion::new(monitor, 0.5, 1.0))?;
         }
         Ok(())
+    }
+
+    /// How much larger the target should be for its skin that has a partner to have the area of its partner; `None` where no mesh
+    /// has caps, or where it is nearly right.
+    ///
+    /// Both meshes are scaled to area 1 with their caps. But what is missing of one and not of the other makes it too large; what
+    /// they share tells the right size, as the energy hardly minds the scale.
+    pub fn better_scale(&self) -> Option<f64> {
+        let [source, target] = self.skin_areas;
+        let factor = (source / target).sqrt();
+        let is_off = factor.is_finite() && (factor - 1.0).abs() > RIGHT_SCALE;
+        (is_off && self.skins.iter().any(Option::is_some)).then_some(factor)
     }
 
     /// The present levels with the images of the source level's vertices; `None` where a vertex is not found on the target.
@@ -132,8 +151,8 @@ impl CoarseMap<'_> {
         options: &MapRelaxationOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<(), MapError> {
-        let measure = |relaxed: &Relaxed<'_>| (relaxed.mean_log(), relaxed.median());
-        (self.mean_log, self.median) = self.lower(options, monitor, measure)?;
+        let measure = |relaxed: &Relaxed<'_>| (relaxed.mean_log(), relaxed.median(), relaxed.skin_areas());
+        (self.mean_log, self.median, self.skin_areas) = self.lower(options, monitor, measure)?;
         Ok(())
     }
 

@@ -162,7 +162,8 @@ pub fn add<'a>(
         without_gain += 1;
         before = pairs.iter().map(|pair| pair.source).collect();
         let with_own = full_cell.get_or_init(|| with_own);
-        let levels = levels_cell.get_or_init(|| [0, 1].map(|k| MeshWithCoarse::new(&with_own[k], vertices)));
+        let levels = levels_cell
+            .get_or_init(|| [0, 1].map(|k| MeshWithCoarse::new(&with_own[k], vertices, multilevel.rims)));
         let options = ClassSearchOptions { multilevel, search: &own.search, choice: ClassChoice::Best };
         let next = match choose_class(levels, options, &mut Portion::new(monitor, share(0.1), share(0.8))) {
             Ok(chosen) => {

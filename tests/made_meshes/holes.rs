@@ -17,6 +17,8 @@ struct Poses {
     bent: SurfaceMesh,
     /// What is taken away: the vertices near the end of a leg.
     is_gone: Vec<bool>,
+    /// The vertices of the rest of the leg.
+    beside: Vec<VertexId>,
     /// Vertices far from each other that stay.
     landmarks: Vec<VertexId>,
 }
@@ -31,10 +33,10 @@ impl Poses {
         let bent = horse.with_positions(horse.positions().iter().map(bend).collect());
         let lowest = horse.positions().iter().copied().reduce(|p, q| if q.y < p.y { q } else { p }).unwrap();
         let is_gone: Vec<bool> = horse.positions().iter().map(|p| p.distance(lowest) < 0.4).collect();
-        let is_left =
-            |v: &VertexId| horse.star(*v).any(|h| !is_gone[horse.head(h).index()]) && !is_gone[v.index()];
-        let landmarks = farthest_points(&horse, 24).into_iter().filter(is_left).collect();
-        Self { horse, bent, is_gone, landmarks }
+        let landmarks = farthest_points(&horse, 24).into_iter().filter(|v| !is_gone[v.index()]).collect();
+        let is_beside = |v: &VertexId| (0.4..0.9).contains(&horse.positions()[*v].distance(lowest));
+        let beside = horse.vertices().filter(is_beside).collect();
+        Self { horse, bent, is_gone, beside, landmarks }
     }
 
     /// Whether a face is taken away: all of its corners are.
@@ -65,15 +67,14 @@ impl Poses {
         run(input, options, &mut Silent).unwrap()
     }
 
-    /// Mean distance of the images of the horse's skin that is left from their true places, in units of the root of the area.
+    /// Mean distance of the images of the rest of the leg from their true places, in units of the root of the area.
     fn error(&self, result: &MapResult, target: &SurfaceMesh) -> f64 {
         let scale = 1.0 / self.bent.area().sqrt();
-        let skin: Vec<VertexId> = self.horse.vertices().filter(|v| !self.is_gone[v.index()]).collect();
         let distance = |v: &VertexId| {
             let image = result.target_from_source[*v].unwrap().position(target);
             image.distance(self.bent.positions()[*v]) * scale
         };
-        skin.iter().map(distance).sum::<f64>() / skin.len() as f64
+        self.beside.iter().map(distance).sum::<f64>() / self.beside.len() as f64
     }
 }
 
@@ -107,7 +108,7 @@ fn a_hole_does_not_pull_the_skin_around_it() {
         poses.error(&closed, &bent.mesh),
         poses.error(&pulled, &open.mesh),
     ];
-    assert!(errors[0] < 1.2 * errors[1] && errors[0] < 0.8 * errors[2], "{errors:?}");
+    assert!(errors[0] < errors[1] + 0.003 && errors[0] < 0.5 * errors[2], "{errors:?}");
 
     // The skin without a partner is what was taken away.
     let removed = poses.horse.faces().filter(|&f| poses.is_removed(&poses.horse.triangles()[f]));
@@ -120,8 +121,9 @@ fn a_hole_does_not_pull_the_skin_around_it() {
     // What is pressed into the cap is not measured.
     let [own, whole] = [&weighted, &closed].map(|result| &result.report.distortion);
     assert!(own.energy >= 4.0 && own.energy < 1.01 * whole.energy, "{own:?}");
-    let densities = weighted.triangle_distortion.iter().map(|t| t.local.density);
-    assert!(densities.fold(0.0, f64::max) > own.max, "{own:?}");
+    let in_cap = weighted.triangle_distortion.iter().filter(|t| open.is_cap(t.target_face));
+    let pressed: Vec<f64> = in_cap.map(|t| t.local.density).collect();
+    assert!(pressed.iter().sum::<f64>() / pressed.len() as f64 > 5.0 * own.mean, "{own:?}");
 
     // Exchanged meshes give the inverse map, and so the same shares.
     let back = poses.map([&open, &horse], &usual).report;

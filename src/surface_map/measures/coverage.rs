@@ -1,6 +1,6 @@
 //! How much of the skin of both meshes has a partner, where holes were closed by caps.
 
-/// Areas of a map between two meshes with caps, summed up piece by piece; the area of each mesh is 1.
+/// Areas of a map between two meshes with caps, summed up piece by piece.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::surface_map) struct SkinAreas {
     /// By mesh: its skin.

@@ -52,7 +52,7 @@ pub struct Anchor {
 /// A mesh with its parametrisation onto the common cone surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Parametrised<'a> {
-    /// The mesh, of area 1.
+    /// The mesh, of area 1; with caps, of such a size that the skin that it shares with the other mesh is as large there.
     pub mesh: &'a SurfaceMesh,
     /// The mesh's vertex of each landmark.
     pub landmark_vertices: &'a TiSlice<LandmarkId, VertexId>,

@@ -128,6 +128,17 @@ impl Evaluation {
         0.5 * (sums[0] / areas[0] + sums[1] / areas[1])
     }
 
+    /// The areas, on the moving and on the fixed mesh, of the pieces that are skin on both.
+    pub fn skin_areas(&self) -> [f64; 2] {
+        let mut areas = [0.0; 2];
+        let pieces = self.overlay.pieces().iter().zip(&self.onto_rest).zip(&self.weights);
+        for ((piece, c), _) in pieces.filter(|(_, weight)| **weight >= 0.5) {
+            areas[0] += piece.area / self.jacobians[piece.source_face.index()].determinant();
+            areas[1] += piece.area * c.determinant();
+        }
+        areas
+    }
+
     /// The median distortion, each piece counted by its weight and its areas on both surfaces.
     pub fn median(&self, map_energy: MapEnergy) -> f64 {
         let pieces = self.overlay.pieces().iter().zip(&self.onto_rest).zip(&self.weights);

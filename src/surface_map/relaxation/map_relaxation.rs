@@ -75,6 +75,13 @@ impl Relaxed<'_> {
         }
     }
 
+    /// The areas, on the source and on the target, of what is skin on both ([`crate::mesh::face_weights`]); 0 without an overlay.
+    pub fn skin_areas(&self) -> [f64; 2] {
+        let mut areas = self.relaxation.present.skin_areas();
+        areas.rotate_left(self.relaxation.moving);
+        areas
+    }
+
     /// Median over both surfaces of the distortion ([`MapEnergy::distortion`] with equal areas), by area; not a number without an
     /// overlay.
     pub fn median(&self) -> f64 {
@@ -403,6 +410,7 @@ pub(super) mod tests {
     use crate::layout::{self, BaseLayout, LayoutOptions};
     use crate::math::scalar::sin;
     use crate::mesh::SurfaceMesh;
+    use crate::mesh::face_weights::FaceWeights;
     use crate::mesh::generators::icosphere;
     use crate::monitor::Silent;
     use crate::surface_map::certify;
@@ -442,9 +450,25 @@ pub(super) mod tests {
             energy: MapEnergy { balance: 0.1, knee: 0.2 },
             ..MapRelaxationOptions::default()
         };
-        let mut relaxation = Relaxation::new(sides(&layout, &embeddings), &surface, [&[], &[]], &options);
+        // All skin; then caps on both, so that weights jump over edges of either mesh.
+        let caps = |mesh: &SurfaceMesh, axis: DVec3| -> TiVec<FaceId, f64> {
+            let is_cap = |f| mesh.corners(f).iter().all(|p| p.dot(axis) > 0.0);
+            mesh.faces().map(|f| if is_cap(f) { 0.01 } else { 1.0 }).collect()
+        };
+        let weights = [caps(&layout.source.mesh, DVec3::X), caps(&layout.target.mesh, DVec3::Y)];
+        let [source, target] = sides(&layout, &embeddings);
+        let capped = [
+            Parametrised { weights: FaceWeights::new(Some(&weights[0])), ..source },
+            Parametrised { weights: FaceWeights::new(Some(&weights[1])), ..target },
+        ];
+        for sides in [[source, target], capped] {
+            gradient_is_quotient(Relaxation::new(sides, &surface, [&[], &[]], &options), &embeddings[0]);
+        }
+    }
+
+    fn gradient_is_quotient(mut relaxation: Relaxation<'_>, moving: &Embedding) {
         assert!(relaxation.begin());
-        let z = relaxation.unknowns[0].points(&embeddings[0]);
+        let z = relaxation.unknowns[0].points(moving);
         let slope = relaxation.gradient(&z);
         for seed in 1..6 {
             let wave = |k: usize, phase: f64| 0.02 * sin(f64::from(seed) * 1.7 * k as f64 + phase);
