@@ -12,7 +12,7 @@ use conemap::math::scalar::ln;
 use conemap::mesh::generators::midpoint_subdivision;
 use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::Silent;
-use conemap::pipeline::{self, GroundTruth, MapInput, PipelineOptions, Report};
+use conemap::pipeline::{self, CapFaces, GroundTruth, MapInput, PipelineOptions, Report};
 use conemap::surface_map::relaxation::map_relaxation::MapRelaxationOptions;
 use std::time::Instant;
 
@@ -35,6 +35,7 @@ fn main() {
             target: &target,
             landmarks: &landmarks,
             ground_truth: GroundTruth::Unknown,
+            caps: CapFaces::default(),
         };
         let (report, seconds) = timed(input, &PipelineOptions::default());
         print!(

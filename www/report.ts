@@ -1,7 +1,7 @@
 /** The report of a run and the choices of one, as the core declares them. */
 import type { Choices, FindingReport } from './wasm/conemap.js';
 
-export type { CertificateReport, ConeMetricReport, LayoutSearchReport, Report } from './wasm/conemap.js';
+export type { CertificateReport, ConeMetricReport, CoverageReport, LayoutSearchReport, Report } from './wasm/conemap.js';
 
 /** A doubt about landmark pairs, or limbs of one mesh without a landmark. */
 export type Finding = FindingReport;

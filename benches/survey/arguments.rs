@@ -86,6 +86,8 @@ impl Arguments {
                 "--relief-knee" => arguments.options.multilevel.rigid_patches.knee = number(),
                 "--relief-strength" => arguments.options.multilevel.rigid_patches.strength = number(),
                 "--relief-radius" => arguments.options.multilevel.rigid_patches.radii[1] = number(),
+                "--cap-weight" => arguments.options.multilevel.cap_weight = number(),
+                "--rim-vertices" => arguments.options.multilevel.rims.each = number() as usize,
                 "--growth" => arguments.options.multilevel.growth = number(),
                 "--own" => arguments.options.own_cones.count = number() as usize,
                 _ => panic!("unknown option {option}"),

@@ -6,7 +6,7 @@ use conemap::landmarks::{Landmarks, PlacedLandmarks};
 use conemap::mesh::insertion::insert;
 use conemap::mesh::{SurfaceMesh, SurfacePoint};
 use conemap::monitor::{Cancelled, Monitor, Stage, Step};
-use conemap::pipeline::{GroundTruth, MapInput, MapResult, PipelineOptions, findings, run};
+use conemap::pipeline::{CapFaces, GroundTruth, MapInput, MapResult, PipelineOptions, findings, run};
 use cpu_time::ThreadTime;
 use glam::DVec3;
 use std::time::Instant;
@@ -51,9 +51,16 @@ pub struct Outcome {
 }
 
 /// Ends a run after a number of processor seconds.
-struct Limit {
+pub struct Limit {
     begun: ThreadTime,
     seconds: f64,
+}
+
+impl Limit {
+    /// From now on.
+    pub fn new(seconds: f64) -> Self {
+        Self { begun: ThreadTime::now(), seconds }
+    }
 }
 
 impl Monitor for Limit {
@@ -115,13 +122,19 @@ impl Case {
     fn input(placed: &PlacedLandmarks) -> MapInput<'_> {
         let PlacedLandmarks { source, target, landmarks } = placed;
         let ground_truth = GroundTruth::Unknown;
-        MapInput { source: &source.mesh, target: &target.mesh, landmarks, ground_truth }
+        MapInput {
+            source: &source.mesh,
+            target: &target.mesh,
+            landmarks,
+            ground_truth,
+            caps: CapFaces::default(),
+        }
     }
 
     fn reached(&self, arguments: &Arguments) -> Result<Reached, String> {
         let placed = self.placed()?;
         let input = Self::input(&placed);
-        let mut limit = Limit { begun: ThreadTime::now(), seconds: arguments.time_limit };
+        let mut limit = Limit::new(arguments.time_limit);
         let result = run(input, &arguments.options, &mut limit).map_err(|e| e.to_string())?;
         Ok(self.measured(&result, &placed))
     }

@@ -4,13 +4,11 @@ use crate::arguments::Arguments;
 use crate::common;
 use conemap::coarse_map::class_search::{ClassChoice, ClassSearchOptions, choose_class};
 use conemap::coarse_map::multilevel::solve_coarse;
-use conemap::coarse_map::{MeshWithCoarse, coarse_landmarks};
-use conemap::landmarks::LandmarkId;
+use conemap::coarse_map::{LandmarkedMesh, MeshWithCoarse, coarse_landmarks};
 use conemap::layout::{Candidate, Candidates};
-use conemap::mesh::{RefinedMesh, SurfaceMesh, VertexId};
+use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::Silent;
 use cpu_time::ThreadTime;
-use typed_index_collections::TiVec;
 
 /// For each pair and number of coarse vertices: the mean log density of the class that the search chose, and the least ones
 /// among its neighbours by one twist and by two.
@@ -39,16 +37,11 @@ pub fn exhaustive(arguments: &Arguments) {
 fn one(arguments: &Arguments, name: &str, vertices: usize) -> String {
     let pair = common::read_pair(&arguments.data, name);
     let landmarks = common::landmarks(&pair);
-    let refined = |mesh: &SurfaceMesh, held: &[VertexId]| {
-        RefinedMesh::unrefined(mesh)
-            .with_degrees(mesh, held.iter().copied(), 6)
-            .expect("room around landmarks")
-            .mesh
+    let landmarked = |mesh: &SurfaceMesh, held: &[VertexId]| {
+        LandmarkedMesh::new(mesh, held).expect("room around landmarks")
     };
-    let full = [refined(&pair.source, &landmarks.source), refined(&pair.target, &landmarks.target)];
-    let held: [TiVec<LandmarkId, VertexId>; 2] =
-        [landmarks.source.iter().copied().collect(), landmarks.target.iter().copied().collect()];
-    let sides = [0, 1].map(|k| MeshWithCoarse::new(&full[k], &held[k], vertices));
+    let full = [landmarked(&pair.source, &landmarks.source), landmarked(&pair.target, &landmarks.target)];
+    let sides = [0, 1].map(|k| MeshWithCoarse::new(&full[k], vertices, arguments.options.multilevel.rims));
     let coarse = coarse_landmarks(&sides);
     let options = ClassSearchOptions {
         multilevel: &arguments.options.multilevel,

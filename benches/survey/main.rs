@@ -15,6 +15,7 @@ mod classes;
 mod clicks;
 mod fit;
 mod fit_faults;
+mod holes;
 mod pairs;
 mod remesh;
 mod remeshed;
@@ -62,6 +63,11 @@ const SURVEYS: &[Survey] = &[
         name: "truth",
         about: "poses with a known truth, the same connectivity or remeshed, 33, 12 and 6 landmarks; --pairs horse-horse,cat-cat",
         run: remeshed::truth,
+    },
+    Survey {
+        name: "holes",
+        about: "poses with holes punched and capped, against the closed pairs; --variants 'foot 0.5','limb 10',... --cap-weight 1 counts caps like skin",
+        run: holes::punched,
     },
     Survey {
         name: "stages",

@@ -1,9 +1,10 @@
 //! A mesh of area 1 with its landmarks and room for a layout around them.
 
 use crate::landmarks::LandmarkId;
-use crate::mesh::{MeshError, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
+use crate::mesh::face_weights::FaceWeights;
+use crate::mesh::{FaceId, MeshError, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
 use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec};
 
 /// A mesh scaled to area 1, refined so that a layout has room around its landmarks.
 #[derive(Clone)]
@@ -12,6 +13,24 @@ pub struct LandmarkedMesh {
     pub refined: RefinedMesh,
     /// Its vertex of each landmark.
     pub landmarks: TiVec<LandmarkId, VertexId>,
+    /// How much the faces count; `None` where all are skin.
+    weights: Option<Weights>,
+}
+
+/// How much faces count in an energy of the map.
+#[derive(Clone)]
+struct Weights {
+    /// By face of the input mesh.
+    of_input: TiVec<FaceId, f64>,
+    /// By face of the refined mesh.
+    of_refined: TiVec<FaceId, f64>,
+}
+
+impl Weights {
+    fn new(of_input: TiVec<FaceId, f64>, refined: &RefinedMesh) -> Self {
+        let of_refined = refined.face_origin.iter().map(|&f| of_input[f]).collect();
+        Self { of_input, of_refined }
+    }
 }
 
 /// Edges at a landmark, at least. Around a landmark of degree 3, such as one inside a face, no layout's points can be taken
@@ -31,7 +50,33 @@ impl LandmarkedMesh {
         let refined =
             RefinedMesh::unrefined(mesh).with_vertices(mesh, LEAST_PER_LANDMARK * landmarks.len())?;
         let refined = refined.with_degrees(mesh, landmarks.iter().copied(), LEAST_DEGREE)?;
-        Ok(Self { refined, landmarks: landmarks.iter().copied().collect() })
+        Ok(Self { refined, landmarks: landmarks.iter().copied().collect(), weights: None })
+    }
+
+    /// The same mesh with caps, by face of the input mesh, that count by a weight from 0 to 1.
+    #[must_use]
+    pub fn with_caps(self, is_cap: Option<&TiSlice<FaceId, bool>>, weight: f64) -> Self {
+        let is_cap = is_cap.filter(|is_cap| weight < 1.0 && is_cap.raw.contains(&true));
+        let of_input = |is_cap: &TiSlice<FaceId, bool>| {
+            is_cap.iter().map(|&is_cap| if is_cap { weight } else { 1.0 }).collect()
+        };
+        Self { weights: is_cap.map(|is_cap| Weights::new(of_input(is_cap), &self.refined)), ..self }
+    }
+
+    /// The same mesh, `factor` times as large.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self { refined: self.refined.scaled(factor), ..self.clone() }
+    }
+
+    /// How much the faces of the refined mesh count.
+    pub fn weights(&self) -> FaceWeights<'_> {
+        FaceWeights::new(self.weights_by_face())
+    }
+
+    /// The weights of the faces of the refined mesh; `None` where all are skin.
+    pub(super) fn weights_by_face(&self) -> Option<&TiSlice<FaceId, f64>> {
+        self.weights.as_ref().map(|weights| weights.of_refined.as_slice())
     }
 
     /// The same mesh with room around further points of the refined mesh, and the vertex of each; `landmarks` stay as they are.
@@ -45,11 +90,13 @@ impl LandmarkedMesh {
     ) -> Result<(Self, Vec<VertexId>), MeshError> {
         let (refined, vertices) = self.refined.with_points(input, points)?;
         let refined = refined.with_degrees(input, vertices.iter().copied(), LEAST_DEGREE)?;
-        Ok((Self { refined, landmarks: self.landmarks.clone() }, vertices))
+        let weights = self.weights.as_ref().map(|known| Weights::new(known.of_input.clone(), &refined));
+        Ok((Self { refined, landmarks: self.landmarks.clone(), weights }, vertices))
     }
 
     /// The mesh with a parametrisation.
     pub fn parametrised<'a>(&'a self, embedding: &'a Embedding) -> Parametrised<'a> {
-        Parametrised { mesh: &self.refined.mesh, landmark_vertices: &self.landmarks, embedding }
+        let (mesh, weights) = (&self.refined.mesh, self.weights());
+        Parametrised { mesh, landmark_vertices: &self.landmarks, embedding, weights }
     }
 }

@@ -8,8 +8,11 @@ mod mesh_with_coarse;
 pub mod multilevel;
 mod options;
 pub mod own_cones;
+mod rims;
+mod skin;
 
 pub use error::CoarseMapError;
 pub use landmarked_mesh::{LEAST_PER_LANDMARK, LandmarkedMesh};
 pub use mesh_with_coarse::{MeshWithCoarse, coarse_landmarks};
 pub use options::MultilevelOptions;
+pub use rims::RimOptions;

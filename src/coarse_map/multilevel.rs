@@ -8,13 +8,15 @@
 use super::layout_points::{PatchedParametrisation, without_layout_points};
 use super::mesh_with_coarse::MeshWithCoarse;
 use super::options::MultilevelOptions;
+use super::skin::Skin;
 use crate::landmarks::LandmarkId;
 use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::coarsening::Level;
-use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use crate::mesh::face_weights::FaceWeights;
+use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Monitor, Portion};
 use crate::registration::patch_fit::OrientedSurface;
-use crate::registration::rigid_patches::{self, MappedLevel, RigidPatchOptions};
+use crate::registration::rigid_patches::{self, MappedLevel, RigidPatchOptions, WeightedLevel};
 use crate::surface_map::MapError;
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::energy::point_constraint::PointConstraint;
@@ -41,14 +43,21 @@ pub struct CoarseMap<'a> {
     pub mean_log: f64,
     /// Median distortion of both coarse levels by area; 1 for an isometry.
     pub median: f64,
+    /// The areas of what is skin on both coarse levels, on the source and on the target.
+    skin_areas: [f64; 2],
     /// The energy that is lowered on finer levels.
     energy: MapEnergy,
     /// By mesh, source first: the constrained vertices of the full mesh, each with its place on the other mesh.
     constraints: [Vec<(VertexId, PointConstraint)>; 2],
     full: [&'a SurfaceMesh; 2],
+    skins: [Option<&'a Skin<'a>>; 2],
     /// By mesh: the full mesh's vertex of each landmark.
     landmarks: [&'a TiSlice<LandmarkId, VertexId>; 2],
 }
+
+/// Scales of both meshes that differ by less are the same: 1 % moves the rim of a patch that is registered rigidly by less than the
+/// noise that the fit allows for. Chosen by hand.
+const RIGHT_SCALE: f64 = 0.01;
 
 /// A map of two coarse levels, from a layout drawn on them, relaxed as far as a judgement needs.
 ///
@@ -73,9 +82,11 @@ pub fn solve_coarse<'a>(
         levels,
         mean_log: f64::INFINITY,
         median: f64::INFINITY,
+        skin_areas: [1.0; 2],
         energy: options.fine.energy,
         constraints: Default::default(),
         full: [meshes[0].full, meshes[1].full],
+        skins: [meshes[0].skin.as_ref(), meshes[1].skin.as_ref()],
         landmarks: [meshes[0].landmarks, meshes[1].landmarks],
     };
     map.relax(&options.judge, monitor)?;
@@ -97,6 +108,18 @@ impl CoarseMap<'_> {
         Ok(())
     }
 
+    /// How much larger the target should be for its skin that has a partner to have the area of its partner; `None` where no mesh
+    /// has caps, or where it is nearly right.
+    ///
+    /// Both meshes are scaled to area 1 with their caps. But what is missing of one and not of the other makes it too large; what
+    /// they share tells the right size, as the energy hardly minds the scale.
+    pub fn better_scale(&self) -> Option<f64> {
+        let [source, target] = self.skin_areas;
+        let factor = (source / target).sqrt();
+        let is_off = factor.is_finite() && (factor - 1.0).abs() > RIGHT_SCALE;
+        (is_off && self.skins.iter().any(Option::is_some)).then_some(factor)
+    }
+
     /// The present levels with the images of the source level's vertices; `None` where a vertex is not found on the target.
     pub fn images(&self) -> Option<LevelImages> {
         let present = self.present();
@@ -104,7 +127,9 @@ impl CoarseMap<'_> {
         let locations = locate(source, target, &self.surface).ok()?;
         let target_from_source =
             locations.by_vertex.iter().map(|at| barycentric(source, target, at)).collect();
-        Some(LevelImages { levels: present.map(|p| p.level), target_from_source })
+        let [source, target] = present;
+        let weights = [source.weights, target.weights];
+        Some(LevelImages { levels: [source.level, target.level], weights, target_from_source })
     }
 
     fn present(&self) -> [PresentLevel; 2] {
@@ -112,7 +137,8 @@ impl CoarseMap<'_> {
             let Snapshot { level, mut embedding } = self.levels[k].snapshot();
             let landmarks: TiVec<LandmarkId, VertexId> = level.numbers(self.landmarks[k]).collect();
             mend_anchors(&mut embedding, &level.mesh, &landmarks, &self.surface);
-            PresentLevel { level, landmarks, embedding }
+            let weights = self.skins[k].map(|skin| skin.on_level(&level));
+            PresentLevel { level, landmarks, embedding, weights }
         })
     }
 
@@ -125,8 +151,8 @@ impl CoarseMap<'_> {
         options: &MapRelaxationOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<(), MapError> {
-        let measure = |relaxed: &Relaxed<'_>| (relaxed.mean_log(), relaxed.median());
-        (self.mean_log, self.median) = self.lower(options, monitor, measure)?;
+        let measure = |relaxed: &Relaxed<'_>| (relaxed.mean_log(), relaxed.median(), relaxed.skin_areas());
+        (self.mean_log, self.median, self.skin_areas) = self.lower(options, monitor, measure)?;
         Ok(())
     }
 
@@ -238,7 +264,7 @@ impl CoarseMap<'_> {
         let present = self.present();
         for k in 0..2 {
             let [from, onto] = [k, 1 - k].map(|k| present[k].parametrised());
-            let [level, other] = [k, 1 - k].map(|k| &present[k].level);
+            let [level, other] = [k, 1 - k].map(|k| present[k].weighted());
             let Ok(locations) = locate(from, onto, &self.surface) else { continue };
             let points = locations.by_vertex.iter().map(|at| barycentric(from, onto, at));
             let seen = MappedLevel::new(level, other, points);
@@ -281,6 +307,8 @@ struct PresentLevel {
     level: Level,
     landmarks: TiVec<LandmarkId, VertexId>,
     embedding: Embedding,
+    /// How much its faces count; `None` where all are skin.
+    weights: Option<TiVec<FaceId, f64>>,
 }
 
 impl PresentLevel {
@@ -289,7 +317,12 @@ impl PresentLevel {
             mesh: &self.level.mesh,
             landmark_vertices: &self.landmarks,
             embedding: &self.embedding,
+            weights: FaceWeights::new(self.weights.as_deref()),
         }
+    }
+
+    fn weighted(&self) -> WeightedLevel<'_> {
+        WeightedLevel { level: &self.level, weights: FaceWeights::new(self.weights.as_deref()) }
     }
 }
 
@@ -297,8 +330,17 @@ impl PresentLevel {
 pub struct LevelImages {
     /// Source and target level.
     pub levels: [Level; 2],
+    /// How much the faces of each count; `None` where all are skin.
+    weights: [Option<TiVec<FaceId, f64>>; 2],
     /// The point of the target level that belongs to each vertex of the source level.
     pub target_from_source: TiVec<VertexId, SurfacePoint>,
+}
+
+impl LevelImages {
+    /// How much the faces of the source and of the target level count.
+    pub fn weights(&self) -> [FaceWeights<'_>; 2] {
+        self.weights.each_ref().map(|weights| FaceWeights::new(weights.as_deref()))
+    }
 }
 
 /// Brings all vertices back, relaxing level by level.

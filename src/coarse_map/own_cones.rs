@@ -162,9 +162,8 @@ pub fn add<'a>(
         without_gain += 1;
         before = pairs.iter().map(|pair| pair.source).collect();
         let with_own = full_cell.get_or_init(|| with_own);
-        let levels = levels_cell.get_or_init(|| {
-            [0, 1].map(|k| MeshWithCoarse::new(&with_own[k].refined.mesh, &with_own[k].landmarks, vertices))
-        });
+        let levels = levels_cell
+            .get_or_init(|| [0, 1].map(|k| MeshWithCoarse::new(&with_own[k], vertices, multilevel.rims)));
         let options = ClassSearchOptions { multilevel, search: &own.search, choice: ClassChoice::Best };
         let next = match choose_class(levels, options, &mut Portion::new(monitor, share(0.1), share(0.8))) {
             Ok(chosen) => {
@@ -223,6 +222,7 @@ fn pairs(
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<OwnPair>, Cancelled> {
     let [source, target] = &images.levels;
+    let weights = images.weights();
     let mesh = &source.mesh;
     let user: Vec<VertexId> = source.numbers(&full[0].landmarks).collect();
     let avoid: Vec<VertexId> = user
@@ -232,6 +232,7 @@ fn pairs(
         .collect();
     let mut free = vec![true; mesh.vertex_count()];
     avoid.iter().for_each(|&v| free[v.index()] = false);
+    mesh.vertices().filter(|&v| !weights[0].is_on_skin(mesh, v)).for_each(|v| free[v.index()] = false);
     let wanted = Spread { count, least_distance: LEAST_DISTANCE };
     let chosen = farthest_points(mesh, distances(mesh, &avoid), wanted, |v| free[v.index()], monitor)?;
     let mut places: Vec<DVec3> =
@@ -240,11 +241,16 @@ fn pairs(
     for v in chosen {
         let image = images.target_from_source[v];
         let place = image.position(&target.mesh);
-        if places.iter().any(|p| p.distance(place) < LEAST_DISTANCE) {
+        let is_taken = places.iter().any(|p| p.distance(place) < LEAST_DISTANCE);
+        if is_taken || !weights[1].is_skin(image.face) {
             continue;
         }
         let [a, b, c] = target.mesh.corners(image.face);
         let point = snapped(closest_point(&full[1].refined.mesh, place, (b - a).cross(c - a)));
+        // A coarse face of skin may have some cap under it.
+        if !full[1].weights().is_skin(point.face) {
+            continue;
+        }
         places.push(place);
         pairs.push(OwnPair { source: source.vertices[v], target: point });
     }

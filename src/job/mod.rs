@@ -23,12 +23,16 @@ use crate::io::landmark_formats::Space;
 use crate::landmark_exchange::{GivenFile, PairLandmarks, Remark, Surface, read_pairs};
 use crate::landmarks::{MeshSide, PlacedLandmarks, place};
 use crate::map_file::FileMesh;
-use crate::mesh::SurfacePoint;
+use crate::mesh::check::CheckedMesh;
+use crate::mesh::insertion::Insertion;
 use crate::mesh::repair::RepairReport;
+use crate::mesh::{FaceId, SurfacePoint};
 use crate::monitor::{Cancelled, Monitor, Portion, Stage};
 use crate::pipeline::{
-    self, FindingReport, GroundTruth, MapInput, MapResult, PipelineError, PipelineOptions, Warning, findings,
+    self, CapFaces, FindingReport, GroundTruth, MapInput, MapResult, PipelineError, PipelineOptions, Warning,
+    findings,
 };
+use typed_index_collections::TiVec;
 
 /// The contents of the files of a job.
 #[derive(Clone, Copy, Debug)]
@@ -62,6 +66,8 @@ pub struct Job {
     meshes: [FileMesh; 2],
     repairs: [RepairReport; 2],
     placed: PlacedLandmarks,
+    /// By mesh, source first: which faces of the mesh with its landmarks are caps; `None` where there are none.
+    caps: [Option<TiVec<FaceId, bool>>; 2],
     /// As given, on the files' meshes.
     landmarks: LandmarkFile,
     remarks: Vec<Remark>,
@@ -102,7 +108,8 @@ impl Job {
             Some(_) if is_same => GroundTruth::SameConnectivity,
             _ => GroundTruth::Unknown,
         };
-        Ok(Self { meshes: [source, target], repairs, placed, landmarks, remarks, ground_truth })
+        let caps = [caps(source.checked(), &placed.source), caps(target.checked(), &placed.target)];
+        Ok(Self { meshes: [source, target], repairs, placed, caps, landmarks, remarks, ground_truth })
     }
 
     /// What was repaired of the source and of the target.
@@ -168,7 +175,9 @@ impl Job {
     fn input(&self) -> MapInput<'_> {
         let PlacedLandmarks { source, target, landmarks } = &self.placed;
         let ground_truth = self.ground_truth;
-        MapInput { source: &source.mesh, target: &target.mesh, landmarks, ground_truth }
+        let [source_caps, target_caps] = &self.caps;
+        let caps = CapFaces { source: source_caps.as_deref(), target: target_caps.as_deref() };
+        MapInput { source: &source.mesh, target: &target.mesh, landmarks, ground_truth, caps }
     }
 
     /// A point of the mapped source as one of the source's file.
@@ -180,4 +189,9 @@ impl Job {
     fn on_target_file(&self, point: SurfacePoint) -> SurfacePoint {
         self.meshes[1].on_file(self.placed.target.on_original(point))
     }
+}
+
+/// Which faces of a mesh with its landmarks are caps; `None` where there are none.
+fn caps(mesh: &CheckedMesh, placed: &Insertion) -> Option<TiVec<FaceId, bool>> {
+    mesh.has_caps().then(|| placed.face_origin.iter().map(|&f| mesh.is_cap(f)).collect())
 }

@@ -4,6 +4,7 @@ use crate::export;
 use crate::export::glb::GlbError;
 use crate::export::vertex_image::{self, Direction, PointImage};
 use crate::map_file::{self, FileMesh, MapFile};
+use crate::mesh::cap_faces::CapFaces;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint};
 use crate::pipeline::{DistortionReport, TriangleDistortion};
 use crate::surface_map::correspondence::{self, PointLocator};
@@ -161,11 +162,14 @@ impl<'a> TakenMap<'a> {
                 let [source, target] = self.meshes.map(FileMesh::checked);
                 let numbers: [&dyn Fn(FaceId) -> FaceId; 2] =
                     [&|f| source.file_from_face(f), &|f| target.file_from_face(f)];
-                export::csv::distortion(&self.triangle_distortion(), numbers)
+                export::csv::distortion(&self.triangle_distortion(), numbers, self.caps())
             }
             OutputKind::VertexDistortion => {
                 let by_vertex = self.measured().by_vertex;
-                export::csv::vertex_distortion(&self.meshes[0].checked().by_file_vertex(&by_vertex.raw))
+                let by_vertex = self.meshes[0].checked().by_file_vertex(&by_vertex.raw);
+                // Around a vertex whose skin all lies in caps there is nothing to measure.
+                let is_measured = |density: &Option<f64>| density.filter(|density| !density.is_nan());
+                export::csv::vertex_distortion(&by_vertex.iter().map(is_measured).collect::<Vec<_>>())
             }
             OutputKind::BaseDomain => export::obj::mesh(&self.map.base.mesh),
             OutputKind::LayoutSvg => self.map.layout.as_ref().map(export::layout::svg).unwrap_or_default(),
@@ -221,8 +225,13 @@ impl<'a> TakenMap<'a> {
         report
     }
 
+    fn caps(&self) -> CapFaces<'a> {
+        let [source, target] = self.meshes.map(|mesh| mesh.checked().caps());
+        CapFaces { source, target }
+    }
+
     fn measured(&self) -> Distortion {
-        correspondence::distortion(self.surfaces(), &self.map.correspondence)
+        correspondence::distortion(self.surfaces(), &self.map.correspondence, self.caps())
     }
 
     /// The pieces as one mesh, in the files' coordinates.

@@ -8,7 +8,7 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use serde::Serialize;
 use std::fmt;
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec};
 
 /// A mesh that the pipeline takes.
 ///
@@ -56,6 +56,11 @@ impl CheckedMesh {
     /// Whether a face is part of a cap.
     pub fn is_cap(&self, face: FaceId) -> bool {
         self.repaired_faces.as_ref().is_some_and(|faces| faces.is_cap.get(face) == Some(&true))
+    }
+
+    /// Which faces are part of a cap; `None` where none is.
+    pub fn caps(&self) -> Option<&TiSlice<FaceId, bool>> {
+        self.repaired_faces.as_ref().filter(|_| self.has_caps()).map(|faces| faces.is_cap.as_slice())
     }
 
     /// Whether any face is part of a cap.

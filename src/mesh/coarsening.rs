@@ -45,21 +45,30 @@ pub fn coarsen(
 /// Neighbours that a held vertex keeps: around a sharp cone the angle must be shared among enough triangles.
 const HELD_DEGREE: usize = 8;
 
-/// Coarsens to about `goal` vertices; the held ones stay and keep their degree, or a degree of 8 where they had more.
+/// Vertices that stay when a mesh is coarsened.
+#[derive(Clone, Copy)]
+pub struct Held<'a> {
+    /// Those that keep their degree as well, or a degree of 8 where they have more.
+    pub cones: &'a TiSlice<VertexId, bool>,
+    /// Those that only stay.
+    pub others: &'a TiSlice<VertexId, bool>,
+}
+
+/// Coarsens to about `goal` vertices; the held ones stay.
 pub fn coarsen_around(
     mesh: &mut CollapsibleMesh,
     positions: &TiSlice<VertexId, DVec3>,
     goal: usize,
-    held: &TiSlice<VertexId, bool>,
+    held: Held<'_>,
 ) {
     let may = |mesh: &CollapsibleMesh, h: HalfedgeId| {
         let (v, into) = (mesh.tail(h), mesh.head(h));
         let robs = |w: VertexId| {
-            held[w]
+            held.cones[w]
                 && (w == into || mesh.star(w).any(|g| mesh.head(g) == into))
                 && mesh.star(w).count() <= HELD_DEGREE
         };
-        !held[v] && !mesh.star(v).any(|g| robs(mesh.head(g)))
+        !held.cones[v] && !held.others[v] && !mesh.star(v).any(|g| robs(mesh.head(g)))
     };
     coarsen(mesh, positions, goal, may);
 }
@@ -167,7 +176,8 @@ impl Level {
         let mut level = CollapsibleMesh::new(mesh);
         let mut is_held = ti_vec![false; mesh.vertex_count()];
         held.iter().for_each(|&v| is_held[v] = true);
-        coarsen_around(&mut level, mesh.positions(), goal, &is_held);
+        let others: TiVec<VertexId, bool> = ti_vec![false; mesh.vertex_count()];
+        coarsen_around(&mut level, mesh.positions(), goal, Held { cones: &is_held, others: &others });
         Self::of(&level, mesh.positions())
     }
 

@@ -1,10 +1,12 @@
 //! Typed elements, halfedge connectivity, polygon soup, checks and points on the surface.
 
+pub mod cap_faces;
 pub mod check;
 pub mod closest_point;
 pub mod coarsening;
 pub mod collapsible;
 mod face_frame;
+pub mod face_weights;
 pub mod generators;
 mod ids;
 pub mod insertion;

@@ -5,7 +5,7 @@ use super::{FaceFrame, FaceId, HalfedgeId, MeshError, SurfaceMesh, SurfacePoint,
 use crate::math::triangle::angle_at;
 use typed_index_collections::TiVec;
 
-/// A mesh that refines an input mesh, of area 1.
+/// A mesh that refines an input mesh, scaled: to area 1, as long as it is not scaled otherwise.
 #[derive(Clone, Debug)]
 pub struct RefinedMesh {
     /// The refined mesh. Its first vertices are the input mesh's vertices in their order.
@@ -25,6 +25,13 @@ impl RefinedMesh {
             vertex_origin: input.vertices().map(|v| SurfacePoint::at_vertex(input, v)).collect(),
             face_origin: input.faces().collect(),
         }
+    }
+
+    /// The same, `factor` times as large.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let positions = self.mesh.positions().iter().map(|&p| p * factor).collect();
+        Self { mesh: self.mesh.with_positions(positions), ..self.clone() }
     }
 
     /// The same with points of the refined mesh inserted as vertices after those that there are, and the vertex of each point.

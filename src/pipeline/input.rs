@@ -2,6 +2,7 @@
 
 use crate::landmarks::Landmarks;
 use crate::mesh::SurfaceMesh;
+pub use crate::mesh::cap_faces::CapFaces;
 
 /// What the pipeline starts from: two checked meshes and landmarks that are vertices of both.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +15,8 @@ pub struct MapInput<'a> {
     pub landmarks: &'a Landmarks,
     /// What is known of the true map.
     pub ground_truth: GroundTruth,
+    /// Which faces of both were made up.
+    pub caps: CapFaces<'a>,
 }
 
 /// What is known of the true map.

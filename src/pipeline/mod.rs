@@ -16,11 +16,12 @@ mod warning;
 
 pub use error::PipelineError;
 pub use findings::{FindingKind, FindingReport, RepairKind, findings};
-pub use input::{GroundTruth, MapInput};
+pub use input::{CapFaces, GroundTruth, MapInput};
 pub use options::{Base, Choices, ClassChoice, Cones, Method, OwnConeOptions, PipelineOptions};
 pub use report::{
-    BaseDomainReport, CertificateReport, ConeMetricReport, ConeMetricsReport, DistortionReport, FacesReport,
-    GroundTruthReport, LayoutSearchReport, PlaceReport, Report, WorstPieceReport,
+    BaseDomainReport, CertificateReport, ConeMetricReport, ConeMetricsReport, CoverageReport,
+    DistortionReport, FacesReport, GroundTruthReport, LayoutSearchReport, PlaceReport, Report,
+    WorstPieceReport,
 };
 pub use result::{MapResult, TriangleDistortion};
 pub use warning::{Warning, WarningReport};

@@ -4,20 +4,23 @@
 
 use super::flows::Flows;
 use super::parametrise::Parametrisation;
-use super::report::{CertificateReport, DistortionReport, GroundTruthReport, LayoutSearchReport};
+use super::report::{
+    CertificateReport, CoverageReport, DistortionReport, GroundTruthReport, LayoutSearchReport,
+};
 use super::{GroundTruth, MapInput, MapResult, Report, TriangleDistortion, Warning};
 use crate::base_domain::BaseDomain;
-use crate::mesh::{FaceFrame, FaceId, SurfaceMesh, SurfacePoint, VertexId};
+use crate::mesh::cap_faces::CapFaces;
+use crate::mesh::{FaceFrame, FaceId, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
 use crate::surface_map::correspondence::Correspondence;
 use crate::surface_map::flat_layout::FlatLayout;
-use crate::surface_map::measures::distortion::{Distortion, distortion, image_distortion};
+use crate::surface_map::measures::distortion::{Distortion, image_distortion, skin_distortion};
 use crate::surface_map::measures::ground_truth::same_connectivity_error;
 use crate::surface_map::measures::transfer::{CommonMesh, Surface, common_mesh, mapped_mesh, vertex_images};
 use crate::surface_map::overlay::base_lines::base_line;
 use crate::surface_map::overlay::location::Locations;
 use crate::surface_map::overlay::{Overlay, OverlayError};
 use glam::DVec3;
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec};
 
 /// A certified map with its texture and locations.
 pub(super) struct Outcome<'a> {
@@ -47,10 +50,16 @@ impl Outcome<'_> {
     ) -> MapResult {
         let Self { input, map, .. } = *self;
         let vertices = input.source.vertex_count();
+        let has_caps = input.caps.any();
         let images = vertex_images(map.sides(), self.surfaces()[1], self.locations, vertices);
         let true_error = (input.ground_truth == GroundTruth::SameConnectivity).then(|| {
-            let error =
-                same_connectivity_error(input.target, images.iter().enumerate().map(|(v, p)| (v.into(), *p)));
+            // Of skin alone, where there are caps.
+            let is_skin = |&(v, p): &(VertexId, SurfacePoint)| {
+                let faces = || input.source.star(v).map(|h| [h.face(), p.face]);
+                !has_caps || faces().any(|faces| input.caps.are_skin(faces) == [true, true])
+            };
+            let mapped = images.iter_enumerated().map(|(v, p)| (v, *p));
+            let error = same_connectivity_error(input.target, mapped.filter(is_skin));
             GroundTruthReport { mean: error.mean, p95: error.p95, max: error.max }
         });
         let images: TiVec<VertexId, Option<SurfacePoint>> = images.into_iter().map(Some).collect();
@@ -93,8 +102,11 @@ impl Outcome<'_> {
     /// The map on the pieces of its overlay, where it is affine: exact.
     fn shown_on(&self, overlay: &Overlay) -> Shown {
         let sides = self.map.sides();
-        let measured = distortion(sides[0], sides[1], overlay);
         let [source, target] = self.surfaces();
+        let caps = [(self.input.caps.source, source), (self.input.caps.target, target)]
+            .map(|(is_cap, side)| is_cap.map(|is_cap| refined_caps(is_cap, side.refined)));
+        let caps = CapFaces { source: caps[0].as_deref(), target: caps[1].as_deref() };
+        let measured = skin_distortion(sides, overlay, caps);
         let frames: [&dyn Fn(FaceId) -> FaceFrame; 2] =
             [&|f| source.refined.frame(source.input, f), &|f| target.refined.frame(target.input, f)];
         let carriers = [source.carrier(frames[0]), target.carrier(frames[1])];
@@ -149,6 +161,7 @@ impl Outcome<'_> {
             own_landmarks: map.sides[0].landmarks.len() - input.landmarks.len(),
             certificate: Some(certificate_report(map)),
             distortion,
+            coverage: measured.coverage.as_ref().map(CoverageReport::from),
             stopped_early: map.stopped_early,
             ..Report::of_inputs(input, &map.layout.base, self.flows)
         }
@@ -181,6 +194,11 @@ fn warnings(map: &Parametrisation, measured: &Distortion) -> Vec<Warning> {
     let long = (stretch > LONG_PATH).then_some(Warning::LongPath { stretch });
     let distorted = (measured.p95 > DISTORTED).then_some(Warning::Distorted { p95: measured.p95 });
     [early, rival, long, distorted].into_iter().flatten().collect()
+}
+
+/// Which faces of a refined mesh are caps.
+fn refined_caps(is_cap: &TiSlice<FaceId, bool>, refined: &RefinedMesh) -> TiVec<FaceId, bool> {
+    refined.face_origin.iter().map(|&f| is_cap[f]).collect()
 }
 
 /// The sides of the base faces on one of both meshes, in its input coordinates.

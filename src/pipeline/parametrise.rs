@@ -61,6 +61,16 @@ struct Attempt {
     /// Vertices of the coarse levels.
     vertices: usize,
     search: SearchOptions,
+    scale: Scale,
+}
+
+/// What is known of the size of meshes with caps.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Scale {
+    /// Both have area 1 with their caps.
+    ByArea,
+    /// What is skin on both has the same area.
+    BySkin,
 }
 
 /// How often coarse levels grow where no layout has a map, by which factor, and how many layouts are tried then: so the user
@@ -73,7 +83,8 @@ impl Attempt {
     fn finer(self) -> Self {
         // Each layout costs as many times more, and where one fails most do.
         let candidates = self.search.candidates.min(FINER_CANDIDATES);
-        Self { vertices: FINER_GROWTH * self.vertices, search: SearchOptions { candidates, ..self.search } }
+        let search = SearchOptions { candidates, ..self.search };
+        Self { vertices: FINER_GROWTH * self.vertices, search, ..self }
     }
 }
 
@@ -84,10 +95,14 @@ pub(super) fn parametrise(
     monitor: &mut dyn Monitor,
 ) -> Result<Parametrisation, PipelineError> {
     let Landmarks { source, target } = input.landmarks;
-    let full = [LandmarkedMesh::new(input.source, source)?, LandmarkedMesh::new(input.target, target)?];
+    let weight = options.multilevel.cap_weight;
+    let full = [
+        LandmarkedMesh::new(input.source, source)?.with_caps(input.caps.source, weight),
+        LandmarkedMesh::new(input.target, target)?.with_caps(input.caps.target, weight),
+    ];
     let most = full.iter().map(|mesh| mesh.refined.mesh.vertex_count()).max().unwrap_or(0);
     let vertices = first_level(input.landmarks.len(), options);
-    let mut attempt = Attempt { vertices, search: options.search };
+    let mut attempt = Attempt { vertices, search: options.search, scale: Scale::ByArea };
     let mut finer_levels = FINER_LEVELS;
     let solved = loop {
         match solve(input, &full, attempt, options, monitor) {
@@ -100,8 +115,8 @@ pub(super) fn parametrise(
             outcome => break outcome?,
         }
     };
-    let Solved { layout, search, surface, embeddings, with_own } = solved;
-    let full = with_own.unwrap_or(full);
+    let Solved { layout, search, surface, embeddings, meshes } = solved;
+    let full = meshes.unwrap_or(full);
     let stopped_early = monitor.wants_result();
     monitor.enter(Stage::Certificate);
     let [source, target] = [0, 1].map(|k| certify(full[k].parametrised(&embeddings[k]), &surface));
@@ -118,21 +133,31 @@ struct Solved {
     search: SearchReport,
     surface: Arc<ConeSurface>,
     embeddings: [Embedding; 2],
-    /// The meshes with own cones, where these are used.
-    with_own: Option<[LandmarkedMesh; 2]>,
+    /// The meshes where they are others: with own cones, or scaled.
+    meshes: Option<[LandmarkedMesh; 2]>,
 }
 
 /// From coarse levels of one size to the full meshes.
 fn solve(
     input: MapInput<'_>,
     full: &[LandmarkedMesh; 2],
-    Attempt { vertices, search }: Attempt,
+    attempt: Attempt,
     options: &PipelineOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Solved, PipelineError> {
     monitor.enter(Stage::ClassSearch);
-    let sides = [0, 1].map(|k| MeshWithCoarse::new(&full[k].refined.mesh, &full[k].landmarks, vertices));
+    let Attempt { vertices, search, scale } = attempt;
+    let sides = [0, 1].map(|k| MeshWithCoarse::new(&full[k], vertices, options.multilevel.rims));
     let Coarse { layout, search, map } = coarse(input, &sides, options, &search, monitor)?;
+    if scale == Scale::ByArea
+        && !monitor.wants_result()
+        && let Some(factor) = map.better_scale()
+    {
+        // From the start: the class was judged, and poses were told from others, at the wrong size.
+        let scaled = [full[0].clone(), full[1].scaled(factor)];
+        let solved = solve(input, &scaled, Attempt { scale: Scale::BySkin, ..attempt }, options, monitor)?;
+        return Ok(Solved { meshes: Some(solved.meshes.unwrap_or(scaled)), ..solved });
+    }
     if has_own_cones(input.landmarks.len(), options) {
         monitor.enter(Stage::OwnCones);
     }
@@ -145,11 +170,11 @@ fn solve(
         && let Some(refined) = own.refined(&options.multilevel, monitor)?
     {
         let Refined { surface, embeddings, full } = refined;
-        return Ok(Solved { layout, search, surface, embeddings, with_own: Some(full) });
+        return Ok(Solved { layout, search, surface, embeddings, meshes: Some(full) });
     }
     let surface = map.surface.clone();
     let embeddings = solve_fine(map, &options.multilevel, monitor)?;
-    Ok(Solved { layout, search, surface, embeddings, with_own: None })
+    Ok(Solved { layout, search, surface, embeddings, meshes: None })
 }
 
 /// A coarse map with its layout.

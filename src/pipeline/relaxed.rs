@@ -24,7 +24,13 @@ pub(super) fn run(
     let map = if exchanged {
         let Landmarks { source, target } = input.landmarks.clone();
         let landmarks = Landmarks { source: target, target: source };
-        let inverse = MapInput { source: input.target, target: input.source, landmarks: &landmarks, ..input };
+        let inverse = MapInput {
+            source: input.target,
+            target: input.source,
+            landmarks: &landmarks,
+            caps: input.caps.exchanged(),
+            ..input
+        };
         parametrise(inverse, options, monitor)?.exchanged()
     } else {
         parametrise(input, options, monitor)?
@@ -79,14 +85,20 @@ mod tests {
     use super::*;
     use crate::demo;
     use crate::monitor::Silent;
-    use crate::pipeline::{GroundTruth, Warning};
+    use crate::pipeline::{CapFaces, GroundTruth, Warning};
 
     #[test]
     fn a_map_stands_where_its_overlay_is_lost() {
         let demo = demo::build("sphere-tetrahedron").unwrap();
         let (source, target) = (&demo.source, &demo.target);
         let landmarks = Landmarks::from_vertices(source, target, &demo.landmarks).unwrap();
-        let input = MapInput { source, target, landmarks: &landmarks, ground_truth: GroundTruth::Unknown };
+        let input = MapInput {
+            source,
+            target,
+            landmarks: &landmarks,
+            ground_truth: GroundTruth::Unknown,
+            caps: CapFaces::default(),
+        };
         let options = PipelineOptions::default();
         let whole = run(input, &options, &mut Silent).unwrap();
 

@@ -6,6 +6,7 @@ use crate::base_domain::BaseDomain;
 use crate::cone_metric::FlowReport;
 use crate::mesh::SurfacePoint;
 use crate::monitor::Stage;
+use crate::surface_map::measures::coverage::Coverage;
 use crate::surface_map::measures::distortion::{Distortion, WorstPiece};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -25,8 +26,11 @@ pub struct Report {
     pub cone_metric: ConeMetricsReport,
     /// The independent check of bijectivity; `null` for the thesis' method, which is not bijective.
     pub certificate: Option<CertificateReport>,
-    /// Distortion of the map.
+    /// Distortion of the map; of skin onto skin where holes were closed by caps.
     pub distortion: DistortionReport,
+    /// How much of the skin has a partner, where holes were closed by caps; `null` where no mesh has caps, and where there is no
+    /// overlay.
+    pub coverage: Option<CoverageReport>,
     /// Share of the source's vertices without an image; 0 for the relaxed map.
     pub unmapped_share: f64,
     /// Distance to the true images in units of sqrt(target area), where the truth is known.
@@ -142,6 +146,36 @@ pub struct DistortionReport {
     pub worst: Vec<WorstPieceReport>,
     /// L2 stretch of the target's texture coordinates (Sander et al. 2001); 1 for an isometry, `null` where there is no texture.
     pub l2_stretch: Option<f64>,
+}
+
+/// How much of the skin, that is of the surface without the caps over holes, has skin as partner; by area.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
+pub struct CoverageReport {
+    /// Share of the source's skin whose image is skin.
+    pub source: f64,
+    /// Share of the target's skin that is the image of skin.
+    pub target: f64,
+    /// Share of both meshes' skin, each counted alike, that lies in a cap of the other.
+    pub hidden: f64,
+}
+
+impl From<&Coverage> for CoverageReport {
+    fn from(coverage: &Coverage) -> Self {
+        Self { source: coverage.source, target: coverage.target, hidden: coverage.hidden() }
+    }
+}
+
+impl CoverageReport {
+    /// A sentence for the user.
+    pub fn sentence(&self) -> String {
+        format!(
+            "{:.2} % of the source's skin lies on the target's skin, and {:.2} % of the target's skin has some of the source's; the \
+             rest lies in caps",
+            100.0 * self.source,
+            100.0 * self.target
+        )
+    }
 }
 
 /// A piece of the overlay of large density.

@@ -16,7 +16,7 @@ pub enum Warning {
         /// What was changed.
         changes: String,
     },
-    /// Holes of a mesh were closed, and their caps mapped like the rest of the surface.
+    /// Holes of a mesh were closed by caps, which take part in the map.
     Capped {
         /// The mesh.
         side: MeshSide,
@@ -101,8 +101,8 @@ impl fmt::Display for Warning {
             ),
             Self::Capped { side, share } => write!(
                 f,
-                "{:.2} % of the {side} are caps over its holes: made-up surface, which takes part in the map, the certificate and \
-                 the measures like the rest.",
+                "{:.2} % of the {side} are caps over its holes: made-up surface. The certificate holds for the surface with its \
+                 caps; they count little in the map, and measures are those of skin onto skin.",
                 100.0 * share
             ),
             Self::FinishedEarly { energy } => write!(

@@ -9,6 +9,7 @@
 
 use super::patch_fit::{FitOptions, Fitter, OrientedSurface, PatchFit, PatchPoint};
 use crate::mesh::coarsening::Level;
+use crate::mesh::face_weights::FaceWeights;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use crate::surface_map::energy::point_constraint::PointConstraint;
 use glam::{DMat2, DVec2, DVec3};
@@ -59,6 +60,15 @@ const LEAST_POINTS: usize = 12;
 /// patch. Chosen by hand.
 const FARTHEST: f64 = 0.06;
 
+/// A level with the weights of its faces.
+#[derive(Clone, Copy)]
+pub struct WeightedLevel<'a> {
+    /// The level.
+    pub level: &'a Level,
+    /// How much its faces count.
+    pub weights: FaceWeights<'a>,
+}
+
 /// A level of one mesh with the images of its vertices on the other.
 pub struct MappedLevel<'a> {
     /// The level.
@@ -69,14 +79,22 @@ pub struct MappedLevel<'a> {
     pub images: TiVec<VertexId, DVec3>,
     /// By vertex a vertex of the other full mesh near its image.
     pub near: TiVec<VertexId, VertexId>,
+    /// By vertex whether it and its image are on skin: caps have no relief.
+    pub is_on_skin: TiVec<VertexId, bool>,
 }
 
 impl<'a> MappedLevel<'a> {
     /// A level by the points of the other mesh's level that are its vertices' images.
-    pub fn new(own: &'a Level, other: &Level, points: impl Iterator<Item = SurfacePoint>) -> Self {
-        let mut level =
-            Self { mesh: &own.mesh, vertices: &own.vertices, images: TiVec::new(), near: TiVec::new() };
-        for point in points {
+    pub fn new(
+        own: WeightedLevel<'a>,
+        onto: WeightedLevel<'_>,
+        points: impl Iterator<Item = SurfacePoint>,
+    ) -> Self {
+        let (Level { mesh, vertices, .. }, other) = (own.level, onto.level);
+        let is_on_skin = mesh.vertices().map(|v| own.weights.is_on_skin(mesh, v)).collect();
+        let mut level = Self { mesh, vertices, images: TiVec::new(), near: TiVec::new(), is_on_skin };
+        for (v, point) in mesh.vertices().zip(points) {
+            level.is_on_skin[v] &= onto.weights.is_skin(point.face);
             let weight = |k: &usize| point.barycentric[*k];
             let corner = (0..3).max_by(|a, b| weight(a).total_cmp(&weight(b))).unwrap_or(0);
             level.images.push(point.position(&other.mesh));
@@ -115,7 +133,7 @@ pub fn point_constraints(
 }
 
 /// Vertices about `spacing` apart, or as far as the level's are, with the areas that they stand for; the other vertices
-/// have none. One of each cell of a grid and main direction of the normal is taken.
+/// have none, nor have those on caps. One of each cell of a grid and main direction of the normal is taken.
 fn spread(own: &OrientedSurface<'_>, level: &MappedLevel<'_>, spacing: f64) -> TiVec<VertexId, f64> {
     let areas = level.mesh.vertex_areas();
     let cell = |v: VertexId| {
@@ -125,7 +143,8 @@ fn spread(own: &OrientedSurface<'_>, level: &MappedLevel<'_>, spacing: f64) -> T
         let direction = 2 * main + usize::from(normal[main] > 0.0);
         (at.to_array().map(|c| c as i64), direction, v)
     };
-    let mut cells: Vec<_> = level.mesh.vertices().map(cell).collect();
+    let on_skin = level.mesh.vertices().filter(|&v| level.is_on_skin[v]);
+    let mut cells: Vec<_> = on_skin.map(cell).collect();
     cells.sort_unstable();
     let mut weights: TiVec<VertexId, f64> = ti_vec![0.0; areas.len()];
     for group in cells.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
@@ -249,7 +268,8 @@ mod tests {
         let turn = |p: DVec3| DVec3::new(c * p.x - s * p.y, s * p.x + c * p.y, p.z);
         let images: TiVec<VertexId, DVec3> = mesh.positions().iter().map(|p| turn(*p)).collect();
         let near = images.iter_enumerated().map(|(v, p)| surface.nearest(v, *p)).collect();
-        MappedLevel { mesh, vertices: all, images, near }
+        let is_on_skin = ti_vec![true; all.len()];
+        MappedLevel { mesh, vertices: all, images, near, is_on_skin }
     }
 
     #[test]

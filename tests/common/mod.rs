@@ -9,7 +9,7 @@ use conemap::io;
 use conemap::io::landmark_file::{LandmarkFile, LandmarkPoint};
 use conemap::landmarks::Landmarks;
 use conemap::mesh::{SurfaceMesh, VertexId, check};
-use conemap::pipeline::{GroundTruth, MapInput};
+use conemap::pipeline::{CapFaces, GroundTruth, MapInput};
 use std::path::{Path, PathBuf};
 
 /// Where the real meshes are, or would be.
@@ -49,7 +49,13 @@ pub struct Pair {
 impl Pair {
     /// The pair as the pipeline takes it.
     pub fn input<'a>(&'a self, landmarks: &'a Landmarks, ground_truth: GroundTruth) -> MapInput<'a> {
-        MapInput { source: &self.source, target: &self.target, landmarks, ground_truth }
+        MapInput {
+            source: &self.source,
+            target: &self.target,
+            landmarks,
+            ground_truth,
+            caps: CapFaces::default(),
+        }
     }
 }
 
@@ -123,7 +129,7 @@ pub fn json_fields(value: &serde_json::Value) -> Vec<String> {
 }
 
 /// The fields of the report of a map, `ground_truth` and `seconds` unopened.
-pub const REPORT_FIELDS: [&str; 42] = [
+pub const REPORT_FIELDS: [&str; 43] = [
     "base_domain.faces",
     "base_domain.vertices",
     "certificate.bijective",
@@ -143,6 +149,7 @@ pub const REPORT_FIELDS: [&str; 42] = [
     "cone_metric.target.newton_steps",
     "cone_metric.target.residuals",
     "cone_metric.target.seconds",
+    "coverage",
     "distortion.dented",
     "distortion.energy",
     "distortion.l2_stretch",

@@ -5,7 +5,7 @@ use conemap::landmarks::Landmarks;
 use conemap::mesh::insertion::insert;
 use conemap::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use conemap::monitor::Silent;
-use conemap::pipeline::{DistortionReport, GroundTruth, MapInput, PipelineOptions, run};
+use conemap::pipeline::{CapFaces, DistortionReport, GroundTruth, MapInput, PipelineOptions, run};
 
 /// The distortion of the certified map whose landmarks lie at points of the faces beside the given vertices.
 pub fn with_points(
@@ -29,6 +29,7 @@ pub fn with_points(
         target: &inserted[1].mesh,
         landmarks: &landmarks,
         ground_truth: GroundTruth::Unknown,
+        caps: CapFaces::default(),
     };
     let report = run(input, &PipelineOptions::default(), &mut Silent).unwrap().report;
     assert!(report.certificate.unwrap().bijective);

@@ -10,7 +10,8 @@ use conemap::math::triangle::angle_from_lengths;
 use conemap::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use conemap::monitor::{Cancelled, Monitor, Silent, Step};
 use conemap::pipeline::{
-    GroundTruth, MapInput, MapResult, Method, OwnConeOptions, PipelineError, PipelineOptions, Warning, run,
+    CapFaces, GroundTruth, MapInput, MapResult, Method, OwnConeOptions, PipelineError, PipelineOptions,
+    Warning, run,
 };
 use conemap::surface_map::measures::distortion;
 use conemap::surface_map::measures::queries::PointMap;
@@ -51,6 +52,7 @@ impl Case {
             target: &self.target,
             landmarks: &self.landmarks,
             ground_truth: self.ground_truth,
+            caps: CapFaces::default(),
         }
     }
 

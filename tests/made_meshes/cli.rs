@@ -460,6 +460,25 @@ fn open_meshes_are_capped_and_the_map_says_so() {
     assert!(of("repaired", "source")["sentence"].as_str().unwrap().contains("1 hole was capped"));
     let share = of("capped", "target")["value"].as_f64().unwrap();
     assert!((0.01..0.05).contains(&share), "{share}");
+    // Nearly all skin has skin as partner, and the measures are those of skin.
+    let coverage = |side: &str| report["coverage"][side].as_f64().unwrap();
+    for side in ["source", "target"] {
+        assert!((0.9..1.0).contains(&coverage(side)), "{side}: {}", coverage(side));
+    }
+    let hidden = 1.0 - 0.5 * (coverage("source") + coverage("target"));
+    assert!((coverage("hidden") - hidden).abs() < 1e-12);
+    assert!(
+        said.contains(&format!("coverage: {:.2} % of the source's skin", 100.0 * coverage("source"))),
+        "{said}"
+    );
+    let triangles = rows(&out.join("distortion.csv"));
+    let densities = |mark: &str| {
+        let marked = triangles.iter().filter(|row| row[6] == mark);
+        marked.map(|row| row[3].parse::<f64>().unwrap()).fold(0.0, f64::max)
+    };
+    assert!(densities("0") > 0.0);
+    // Pieces so thin that rounding may have made them are not among the worst.
+    assert!(densities("1") >= report["distortion"]["max"].as_f64().unwrap() * (1.0 - 1e-9));
 
     // Where the images lie, in the numbers of the target's file: its faces, then those of the cap.
     let soup = io::read_mesh(&std::fs::read(&target).unwrap()).unwrap();

@@ -5,7 +5,7 @@ use conemap::landmarks::Landmarks;
 use conemap::mesh::generators::icosphere;
 use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::{Cancelled, Monitor, Stage, Step};
-use conemap::pipeline::{GroundTruth, MapInput, MapResult, PipelineOptions, Warning, run};
+use conemap::pipeline::{CapFaces, GroundTruth, MapInput, MapResult, PipelineOptions, Warning, run};
 use glam::DVec3;
 
 /// Wants a result from the n-th step on.
@@ -87,7 +87,7 @@ fn check(input: MapInput<'_>, limits: impl Fn(usize) -> Vec<usize>) -> Vec<f64> 
 }
 
 fn unknown<'a>(source: &'a SurfaceMesh, target: &'a SurfaceMesh, landmarks: &'a Landmarks) -> MapInput<'a> {
-    MapInput { source, target, landmarks, ground_truth: GroundTruth::Unknown }
+    MapInput { source, target, landmarks, ground_truth: GroundTruth::Unknown, caps: CapFaces::default() }
 }
 
 #[test]

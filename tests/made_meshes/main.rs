@@ -33,6 +33,7 @@ mod finish_now;
 mod flow;
 mod geodesic;
 mod handles;
+mod holes;
 mod job;
 mod landmark_fit;
 mod layout;

@@ -12,6 +12,7 @@ function report(p95: number, change: object = {}): Report {
   return {
     certificate: { bijective: true },
     distortion: { p95, median: 1.01 },
+    coverage: null,
     unmapped_share: 0,
     ...change,
   } as unknown as Report;

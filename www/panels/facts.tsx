@@ -3,7 +3,7 @@ import type { VNode } from 'preact';
 import { Fragment } from 'preact';
 import { stageName } from '../messages.ts';
 import { figure, integer } from '../numbers.ts';
-import type { ConeMetricReport, LayoutSearchReport, Report } from '../report.ts';
+import type { ConeMetricReport, CoverageReport, LayoutSearchReport, Report } from '../report.ts';
 
 interface Fact {
   readonly name: string;
@@ -23,6 +23,16 @@ function layoutSentence(layout: LayoutSearchReport): string {
   }
   words.push(`longest path ${layout.path_stretch.toFixed(2)} times its shortest`);
   return words.join('; ');
+}
+
+/** A share in percent, rounded down so that only what is whole is called so. */
+function percent(share: number): string {
+  return `${(Math.floor(share * 10_000) / 100).toFixed(2)} %`;
+}
+
+/** How much of the skin has a partner in words. */
+export function coverageSentence({ source, target }: CoverageReport): string {
+  return `${percent(source)} of the source’s skin lies on skin, ${percent(target)} of the target’s is met by skin`;
 }
 
 /** How far a flow ended from its cone angles. */
@@ -47,9 +57,12 @@ function qualityFacts({ distortion, cone_metric: flows, base_domain: base }: Rep
   ];
 }
 
-function optionalFacts({ own_landmarks: own, layout, certificate, ground_truth: truth }: Report): Fact[] {
+function optionalFacts({ own_landmarks: own, layout, certificate, coverage, ground_truth: truth }: Report): Fact[] {
   const inArea = 'In units of the square root of the area';
   return [
+    ...(coverage === null
+      ? []
+      : [{ name: 'Coverage', value: coverageSentence(coverage), note: 'The rest lies in caps over holes; all other numbers are those of skin on skin' }]),
     ...(own > 0 ? [{ name: 'Own cones', value: `${integer(own)} of the program’s own`, note: 'Points added where the landmarks are few' }] : []),
     ...(layout === null
       ? []

@@ -90,6 +90,9 @@ fn tell(result: &MapResult) {
             100.0 * report.unmapped_share
         ),
     }
+    if let Some(coverage) = &report.coverage {
+        eprintln!("coverage: {}", coverage.sentence());
+    }
     let d = &report.distortion;
     eprintln!("energy {:.3} (4 is an isometry), mean distortion {:.3} (1 is an isometry)", d.energy, d.mean);
     report.warnings.iter().for_each(|w| eprintln!("warning: {w}"));

@@ -2,28 +2,40 @@
 
 use super::pieces::{Correspondence, MappedPiece, share};
 use crate::math::scalar::max;
+use crate::mesh::cap_faces::CapFaces;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint};
+use crate::surface_map::measures::coverage::SkinAreas;
 use crate::surface_map::measures::distortion::{Distortion, Tally, in_plane};
 use glam::{DMat2, DVec3};
 use typed_index_collections::TiVec;
 
-/// Measures a map from its pieces alone, both meshes scaled to area 1. Places and averages are those of the meshes given.
+/// Measures a map from its pieces alone, where both of its sides are skin. Places and averages are those of the meshes given.
 ///
-/// The numbers are those of [`crate::surface_map::measures::distortion::distortion`] for the overlay of the same map, up to
+/// The numbers are those of [`crate::surface_map::measures::distortion::skin_distortion`] for the overlay of the same map, up to
 /// rounding.
-pub fn distortion(meshes: [&SurfaceMesh; 2], map: &Correspondence) -> Distortion {
+pub fn distortion(meshes: [&SurfaceMesh; 2], map: &Correspondence, caps: CapFaces<'_>) -> Distortion {
     let frames = meshes.map(|mesh| {
         let scale = 1.0 / mesh.area().sqrt();
         mesh.faces().map(|f| in_plane(mesh.corners(f), scale)).collect::<TiVec<FaceId, DMat2>>()
     });
-    let mut tally = Tally::new(meshes[0], map.pieces.len());
     let mut ring = Vec::new();
-    for piece in &map.pieces {
+    let mut local = |piece: &MappedPiece| {
         let [from, onto] = [0, 1].map(|side| frames[side][piece.faces[side]]);
         let j = onto * piece.map * from.inverse();
         map.ring(meshes[0], 0, piece, &mut ring);
         let source_area = max(share(&ring), 0.0) * 0.5 * from.determinant();
-        tally.add(piece.faces[0], &j, [source_area, source_area * j.determinant()]);
+        (j, [source_area, source_area * j.determinant()])
+    };
+    let skin = caps
+        .any()
+        .then(|| SkinAreas::of(map.pieces.iter().map(|piece| (caps.are_skin(piece.faces), local(piece).1))));
+    let mut tally = Tally::new(meshes[0], map.pieces.len(), skin);
+    for piece in &map.pieces {
+        let (j, areas) = local(piece);
+        match caps.are_skin(piece.faces) {
+            [true, true] => tally.add(piece.faces[0], &j, areas),
+            _ => tally.leave_out(&j),
+        }
     }
     let middles = |k: usize| [0, 1].map(|side| middle(meshes[side], map, side, &map.pieces[k]));
     let worst = tally.worst(|k| map.pieces[k].is_certain, middles);

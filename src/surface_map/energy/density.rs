@@ -25,6 +25,12 @@ pub struct HessianTerm {
 }
 
 impl HessianTerm {
+    /// The same with another weight: `factor`, not negative, times its own.
+    #[inline]
+    pub(super) fn scaled(self, factor: f64) -> Self {
+        Self { weight: factor * self.weight, ..self }
+    }
+
     /// M g.
     #[inline]
     pub fn apply(&self, g: DVec2) -> DVec2 {

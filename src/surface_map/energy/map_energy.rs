@@ -64,6 +64,12 @@ impl MapEnergy {
         2.0 * self.unit()
     }
 
+    /// The energy of an isometry per unit of both areas.
+    #[inline]
+    pub(super) fn isometry(&self) -> f64 {
+        self.scale()
+    }
+
     /// rho and its derivative.
     #[inline]
     fn counted(&self, x: f64) -> [f64; 2] {

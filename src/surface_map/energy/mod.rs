@@ -5,3 +5,4 @@ pub mod map_energy;
 pub mod point_constraint;
 pub mod symmetric_dirichlet;
 pub mod vertex_energy;
+pub mod weighted_energy;

@@ -2,12 +2,14 @@
 //!
 //! On each piece of the overlay the map is affine with singular values s1, s2 (both surfaces scaled to area 1).
 
+use super::coverage::{Coverage, SkinAreas};
 use crate::math::matrix2::squares;
 use crate::math::quantile::{Weighted, quantile, sort_by_value};
 use crate::math::scalar::{ln, max, min};
 use crate::math::triangle::lay_out;
+use crate::mesh::cap_faces::CapFaces;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
-use crate::surface_map::overlay::{Overlay, OverlayPoint};
+use crate::surface_map::overlay::{Overlay, OverlayPoint, Piece};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use crate::surface_map::parametrisation::rest_triangle::rest_jacobian;
 use glam::{DMat2, DVec2, DVec3};
@@ -36,7 +38,7 @@ impl LocalDistortion {
     }
 }
 
-/// Distortion of the map source -> target, both areas 1.
+/// Distortion of the map source -> target, both areas 1. Where meshes have caps it is that of skin onto skin, both parts of area 1.
 #[derive(Clone, Debug, Default)]
 pub struct Distortion {
     /// Integral of |J|^2 over the source plus |J^-1|^2 over the target; 4 for an isometry.
@@ -61,7 +63,9 @@ pub struct Distortion {
     pub source_area: f64,
     /// Sum of the pieces' areas on the target (1 up to rounding).
     pub target_area: f64,
-    /// The density averaged around each vertex of the refined source.
+    /// How much of the skin has a partner; `None` where no mesh has caps.
+    pub coverage: Option<Coverage>,
+    /// The density averaged around each vertex of the refined source; not a number where no skin there lies over skin.
     pub by_vertex: TiVec<VertexId, f64>,
     /// On each piece of the overlay; empty for maps given by images.
     pub by_piece: Vec<LocalDistortion>,
@@ -99,16 +103,35 @@ pub(in crate::surface_map) fn is_certain(area: f64, triangles: [&[DVec2; 3]; 2])
 
 /// Measures the map on its overlay.
 pub fn distortion(source: Parametrised<'_>, target: Parametrised<'_>, overlay: &Overlay) -> Distortion {
+    skin_distortion([source, target], overlay, CapFaces::default())
+}
+
+/// Measures the map where both of its sides are skin, and how much that is.
+pub fn skin_distortion(
+    [source, target]: [Parametrised<'_>; 2],
+    overlay: &Overlay,
+    caps: CapFaces<'_>,
+) -> Distortion {
     let to_source = |f: FaceId| rest_jacobian(source, f);
     let to_target = |f: FaceId| rest_jacobian(target, f);
     let source_maps: TiVec<FaceId, DMat2> = source.mesh.faces().map(to_source).collect();
     let target_inverses: TiVec<FaceId, DMat2> = target.mesh.faces().map(|f| to_target(f).inverse()).collect();
-    let mut tally = Tally::new(source.mesh, overlay.pieces.len());
+    let areas = |piece: &Piece| {
+        let (a, b) = (&source_maps[piece.source_face], &target_inverses[piece.target_face]);
+        [piece.area / a.determinant(), piece.area * b.determinant()]
+    };
+    let is_skin = |piece: &Piece| caps.are_skin([piece.source_face, piece.target_face]);
+    let skin =
+        caps.any().then(|| SkinAreas::of(overlay.pieces.iter().map(|piece| (is_skin(piece), areas(piece)))));
+    let mut tally = Tally::new(source.mesh, overlay.pieces.len(), skin);
     for piece in &overlay.pieces {
         let (a, b) = (&source_maps[piece.source_face], &target_inverses[piece.target_face]);
         let rotation = piece.motion.turn();
         let j = *b * rotation * *a;
-        tally.add(piece.source_face, &j, [piece.area / a.determinant(), piece.area * b.determinant()]);
+        match is_skin(piece) {
+            [true, true] => tally.add(piece.source_face, &j, areas(piece)),
+            _ => tally.leave_out(&j),
+        }
     }
     let worst = worst_pieces([source, target], overlay, &tally);
     tally.finish(source.mesh, worst)
@@ -139,11 +162,15 @@ fn worst_pieces(
     })
 }
 
-/// The measures of a map, summed up piece by piece.
+/// The measures of a map, summed up piece by piece; of skin onto skin where there are caps.
 pub(in crate::surface_map) struct Tally {
     result: Distortion,
     /// The density of each piece, its weight the area on the source.
     densities: Vec<Weighted>,
+    /// Numbers of pieces that were left out, rising.
+    left_out: Vec<usize>,
+    /// What the areas are divided by, source first: those of the skin that lies over skin.
+    units: [f64; 2],
     /// Area of dented pieces on the source and on the target.
     dented: [f64; 2],
     /// On each face of the source: the integral of the density, and the area.
@@ -151,10 +178,13 @@ pub(in crate::surface_map) struct Tally {
 }
 
 impl Tally {
-    /// Of a map from this mesh in so many pieces.
-    pub(in crate::surface_map) fn new(source: &SurfaceMesh, pieces: usize) -> Self {
+    /// Of a map from this mesh in so many pieces; `skin` are its areas where a mesh has caps.
+    pub(in crate::surface_map) fn new(source: &SurfaceMesh, pieces: usize, skin: Option<SkinAreas>) -> Self {
+        let coverage = skin.map(|skin| skin.coverage());
         Self {
-            result: Distortion::default(),
+            result: Distortion { coverage, ..Distortion::default() },
+            left_out: Vec::new(),
+            units: skin.map_or([1.0; 2], |skin| skin.shared()),
             densities: Vec::with_capacity(pieces),
             dented: [0.0; 2],
             faces: ti_vec![[0.0; 2]; source.face_count()],
@@ -163,7 +193,9 @@ impl Tally {
 
     /// The next piece, on this face of the source, with its Jacobian and its areas on the source and on the target.
     pub(in crate::surface_map) fn add(&mut self, face: FaceId, j: &DMat2, areas: [f64; 2]) {
-        let (squares, det) = (squares(j), j.determinant());
+        let scale = self.scale();
+        let (squares, det) = (squares(j) * scale, j.determinant() * scale);
+        let areas = [0, 1].map(|k| areas[k] / self.units[k]);
         let [source_area, target_area] = areas;
         let inverse_squares = squares / (det * det);
         let density = 0.25 * (squares + inverse_squares);
@@ -181,6 +213,19 @@ impl Tally {
         self.faces[face][1] += source_area;
     }
 
+    /// The next piece, with its Jacobian, which is not skin on both meshes.
+    pub(in crate::surface_map) fn leave_out(&mut self, j: &DMat2) {
+        let scale = self.scale();
+        self.left_out.push(self.densities.len());
+        self.densities.push(Weighted { value: 1.0, weight: 0.0 });
+        self.result.by_piece.push(LocalDistortion::new(squares(j) * scale, j.determinant() * scale));
+    }
+
+    /// What squares of Jacobians grow by when the skin of both meshes has area 1.
+    fn scale(&self) -> f64 {
+        self.units[0] / self.units[1]
+    }
+
     /// The [`WORST`] pieces of largest density among those that are there for certain, with their middles on both meshes.
     pub(in crate::surface_map) fn worst(
         &self,
@@ -189,7 +234,8 @@ impl Tally {
     ) -> Vec<WorstPiece> {
         let mut order: Vec<usize> = (0..self.densities.len()).collect();
         order.sort_by(|&a, &b| self.densities[b].value.total_cmp(&self.densities[a].value));
-        let worst = order.into_iter().filter(|&k| is_certain(k)).take(WORST);
+        let is_skin = |k: &usize| self.left_out.binary_search(k).is_err();
+        let worst = order.into_iter().filter(|&k| is_skin(&k) && is_certain(k)).take(WORST);
         worst
             .map(|k| {
                 let Weighted { value: density, weight: area } = self.densities[k];
@@ -201,7 +247,7 @@ impl Tally {
 
     /// All measures, after the last piece.
     pub(in crate::surface_map) fn finish(self, source: &SurfaceMesh, worst: Vec<WorstPiece>) -> Distortion {
-        let Self { mut result, densities, dented, faces } = self;
+        let Self { mut result, densities, dented, faces, .. } = self;
         result.summarise(densities);
         result.max = worst.first().map_or(1.0, |piece| piece.density);
         result.dented = max(dented[0] / result.source_area, dented[1] / result.target_area);

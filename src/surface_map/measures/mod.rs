@@ -1,5 +1,6 @@
 //! What is read off a finished map: distortion, images of points, the common mesh, distances to a known map.
 
+pub mod coverage;
 pub mod distortion;
 pub mod ground_truth;
 pub mod queries;

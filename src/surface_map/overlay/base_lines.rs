@@ -9,6 +9,7 @@ use crate::certificate::Start;
 use crate::landmarks::LandmarkId;
 use crate::math::rigid2::{Rigid2, complex_mul};
 use crate::math::scalar::{cos, sin};
+use crate::mesh::face_weights::FaceWeights;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
 use crate::surface_map::parametrisation::embedding::{Anchor, Embedding, Parametrised};
@@ -53,7 +54,7 @@ pub fn mend_anchors(
 ) {
     let base = &surface.base;
     let all_arrive = |embedding: &Embedding, l: LandmarkId| {
-        let side = Parametrised { mesh, landmark_vertices: landmarks, embedding };
+        let side = Parametrised { mesh, landmark_vertices: landmarks, embedding, weights: FaceWeights::EVEN };
         base.star(l).all(|h| base_line(side, surface, h).arrival.is_some())
     };
     let mut right: TiVec<LandmarkId, bool> = base.landmarks().map(|l| all_arrive(embedding, l)).collect();
@@ -64,7 +65,8 @@ pub fn mend_anchors(
     while let Some(l) = queue.pop() {
         for h in base.star(l) {
             let head = base.head(h);
-            let side = Parametrised { mesh, landmark_vertices: landmarks, embedding };
+            let side =
+                Parametrised { mesh, landmark_vertices: landmarks, embedding, weights: FaceWeights::EVEN };
             if right[head] {
                 continue;
             }

@@ -3,6 +3,7 @@
 use crate::landmarks::LandmarkId;
 use crate::layout::PatchedMesh;
 use crate::math::rigid2::Rigid2;
+use crate::mesh::face_weights::FaceWeights;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec2;
 use std::sync::Arc;
@@ -51,17 +52,24 @@ pub struct Anchor {
 /// A mesh with its parametrisation onto the common cone surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Parametrised<'a> {
-    /// The mesh, of area 1.
+    /// The mesh, of area 1; with caps, of such a size that the skin that it shares with the other mesh is as large there.
     pub mesh: &'a SurfaceMesh,
     /// The mesh's vertex of each landmark.
     pub landmark_vertices: &'a TiSlice<LandmarkId, VertexId>,
     /// Its parametrisation.
     pub embedding: &'a Embedding,
+    /// How much its faces count in an energy of the map.
+    pub weights: FaceWeights<'a>,
 }
 
 impl PatchedMesh {
     /// The patched mesh with a parametrisation.
     pub fn parametrised<'a>(&'a self, embedding: &'a Embedding) -> Parametrised<'a> {
-        Parametrised { mesh: &self.mesh, landmark_vertices: &self.landmark_vertices, embedding }
+        Parametrised {
+            mesh: &self.mesh,
+            landmark_vertices: &self.landmark_vertices,
+            embedding,
+            weights: FaceWeights::EVEN,
+        }
     }
 }

@@ -40,7 +40,7 @@ pub struct Unknowns<'a> {
 impl<'a> Unknowns<'a> {
     /// All vertices but the landmarks, in order.
     pub fn new(side: Parametrised<'a>) -> Self {
-        let Parametrised { mesh, landmark_vertices, embedding } = side;
+        let Parametrised { mesh, landmark_vertices, embedding, .. } = side;
         let mut is_landmark = ti_vec![false; mesh.vertex_count()];
         landmark_vertices.iter().for_each(|&v| is_landmark[v] = true);
         let free: Vec<VertexId> = mesh.vertices().filter(|&v| !is_landmark[v]).collect();

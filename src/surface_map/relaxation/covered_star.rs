@@ -42,6 +42,8 @@ pub struct Ray {
     pub ring: [DVec2; 2],
     /// Gradients of the hat functions in the rest plane, that of the star's vertex first.
     pub hats: [DVec2; 3],
+    /// How much the face counts.
+    pub weight: f64,
 }
 
 /// A triangle of the other side over a star.
@@ -52,6 +54,8 @@ pub struct Cover {
     pub triangle: BoxedTriangle,
     /// From the star's plane to the rest plane.
     pub onto_rest: DMat2,
+    /// How much the face counts.
+    pub weight: f64,
 }
 
 /// A vertex with the triangles around it and those over them, in a plane whose origin is the vertex.
@@ -119,6 +123,7 @@ impl CoveredStar {
                 motion,
                 ring: [h.next(), h.prev()].map(|h| back.apply(own.corners[h]) - origin),
                 hats: [hats[k], hats[(k + 1) % 3], hats[(k + 2) % 3]],
+                weight: own.side.weights.of(f),
             });
             for partner in &own.partners[f] {
                 star.cover(other, partner.face, partner.motion.after(&motion));
@@ -141,7 +146,8 @@ impl CoveredStar {
         }
         let rest = other.jacobian(face).inverse();
         let onto_rest = rest * motion.turn();
-        self.covers.push(Cover { face, motion, triangle: BoxedTriangle::new(corners), onto_rest });
+        let weight = other.side.weights.of(face);
+        self.covers.push(Cover { face, motion, triangle: BoxedTriangle::new(corners), onto_rest, weight });
     }
 
     /// Whether the covers' shares add up to the star.
@@ -172,7 +178,8 @@ impl CoveredStar {
             for cover in &self.covers {
                 let area = own.overlap(&cover.triangle);
                 if area > 0.0 {
-                    cost += area * scale * energy.density(&(cover.onto_rest * jacobian));
+                    let weight = min(ray.weight, cover.weight);
+                    cost += area * scale * energy.density(&(cover.onto_rest * jacobian), weight);
                 }
             }
         }

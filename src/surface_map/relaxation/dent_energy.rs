@@ -2,6 +2,7 @@
 
 use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
+use crate::surface_map::energy::weighted_energy::WeightedEnergy;
 use crate::surface_map::measures::distortion::LocalDistortion;
 use glam::DMat2;
 
@@ -19,12 +20,13 @@ impl DentEnergy {
     /// sixth power.
     const DEAR: f64 = 2.5;
 
-    /// The energy per unit of source area.
+    /// The energy per unit of source area of a piece that counts by a weight.
     #[inline]
-    pub(super) fn density(&self, j: &DMat2) -> f64 {
+    pub(super) fn density(&self, j: &DMat2, weight: f64) -> f64 {
         let local = LocalDistortion::of(j);
         let excess = local.density / (Self::DEAR * self.brink);
         let cube = excess * excess * excess;
-        self.energy.density(j) + (1.0 + local.area) * cube * cube
+        let map = WeightedEnergy { energy: self.energy, weight };
+        map.density(j) + weight * ((1.0 + local.area) * cube * cube)
     }
 }

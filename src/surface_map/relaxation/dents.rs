@@ -13,6 +13,7 @@ use super::covered_star::{CoveredStar, Partner, Sheet, sheets};
 use super::dent_energy::DentEnergy;
 use crate::math::scalar::{ln, max};
 use crate::math::triangle::signed_double_area;
+use crate::mesh::face_weights::is_skin_on_both;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::surface_map::measures::distortion::{self, LocalDistortion};
 use crate::surface_map::overlay::{Overlay, Piece};
@@ -99,7 +100,7 @@ pub fn heal(
     })
 }
 
-/// The source faces with dents.
+/// The source faces with dents. What lies in a cap is none: skin without a partner is pressed together there.
 fn dented(sides: [Parametrised<'_>; 2], overlay: &Overlay, brink: f64) -> BTreeSet<FaceId> {
     let [a, b] =
         sides.map(|side| side.mesh.faces().map(|f| rest_jacobian(side, f)).collect::<TiVec<FaceId, DMat2>>());
@@ -107,7 +108,9 @@ fn dented(sides: [Parametrised<'_>; 2], overlay: &Overlay, brink: f64) -> BTreeS
         let turn = piece.motion.turn();
         LocalDistortion::of(&(b[piece.target_face].inverse() * turn * a[piece.source_face])).density
     };
-    let pieces = overlay.pieces.iter().filter(|piece| density(piece) > brink);
+    let weights = sides.map(|side| side.weights);
+    let is_skin = |piece: &&Piece| is_skin_on_both(weights, [piece.source_face, piece.target_face]);
+    let pieces = overlay.pieces.iter().filter(is_skin).filter(|piece| density(piece) > brink);
     pieces.map(|piece| piece.source_face).collect()
 }
 
@@ -141,12 +144,14 @@ impl Healer<'_> {
         let target_inverse = |t: FaceId| target.jacobian(t).inverse();
         let mut found: BTreeMap<SheetVertex, f64> = BTreeMap::new();
         let mut dented = BTreeSet::new();
+        let weights = [source.side.weights, target.side.weights];
         for &s in faces {
             let a = source.jacobian(s);
             for partner in &source.partners[s] {
                 let turn = partner.motion.turn();
                 let density = LocalDistortion::of(&(target_inverse(partner.face) * turn * a)).density;
-                if density <= brink || !self.is_certain(s, partner) {
+                let is_skin = is_skin_on_both(weights, [s, partner.face]);
+                if density <= brink || !is_skin || !self.is_certain(s, partner) {
                     continue;
                 }
                 dented.insert(s);

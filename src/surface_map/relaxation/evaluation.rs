@@ -4,10 +4,12 @@ use crate::math::quantile::{Weighted, quantile, sort_by_value};
 use crate::math::rigid2;
 use crate::math::scalar::ln;
 use crate::math::triangle::hat_gradients;
+use crate::mesh::face_weights::{FaceWeights, piece_weight};
 use crate::mesh::{FaceId, VertexId};
 use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::energy::vertex_energy::VertexEnergy;
+use crate::surface_map::energy::weighted_energy::WeightedEnergy;
 use crate::surface_map::overlay::Measure;
 use crate::surface_map::overlay::location::Locations;
 use crate::surface_map::parametrisation::embedding::Parametrised;
@@ -17,6 +19,13 @@ use crate::surface_map::parametrisation::unknowns::Unknowns;
 use glam::{DMat2, DVec2};
 use typed_index_collections::TiVec;
 
+/// The energy of a map, and how much the faces of the moving and of the fixed mesh count in it.
+#[derive(Clone, Copy)]
+pub struct CountedEnergy<'a> {
+    pub energy: MapEnergy,
+    pub weights: [FaceWeights<'a>; 2],
+}
+
 /// The overlay at some state with what derivatives need, seen from the moving side, which is the overlay's source.
 #[derive(Default)]
 pub struct Evaluation {
@@ -25,6 +34,8 @@ pub struct Evaluation {
     pub jacobians: Vec<DMat2>,
     /// Of each piece the Jacobian from the plane of the moving face to the rest plane of the fixed face.
     pub onto_rest: Vec<DMat2>,
+    /// How much each piece counts.
+    pub weights: Vec<f64>,
     /// The energy of the map, without the barrier and the constraints.
     pub energy: f64,
     /// The energy of the constraints.
@@ -44,7 +55,7 @@ impl Evaluation {
         problem: &FlatProblem,
         z: &[DVec2],
         fixed_inverses: &TiVec<FaceId, DMat2>,
-        map_energy: &impl Density,
+        counted: CountedEnergy<'_>,
     ) {
         self.jacobians.clear();
         self.jacobians.extend(problem.jacobians(z));
@@ -55,7 +66,12 @@ impl Evaluation {
                 .iter()
                 .map(|piece| fixed_inverses[piece.target_face] * rigid2::turn(piece.rotation)),
         );
-        self.energy = self.integral(map_energy);
+        let CountedEnergy { energy, weights } = counted;
+        self.weights.clear();
+        let pieces = self.overlay.pieces().iter();
+        self.weights
+            .extend(pieces.map(|piece| piece_weight(weights, [piece.source_face, piece.target_face])));
+        self.energy = self.integral(energy);
     }
 
     /// The energy of the constraints on the moving side, the first one; its vertices have been located.
@@ -85,22 +101,23 @@ impl Evaluation {
         }
     }
 
-    fn integral(&self, map_energy: &impl Density) -> f64 {
-        let pieces = self.overlay.pieces().iter().zip(&self.onto_rest);
-        let part = pieces.map(|(piece, c)| {
+    fn integral(&self, energy: MapEnergy) -> f64 {
+        let pieces = self.overlay.pieces().iter().zip(&self.onto_rest).zip(&self.weights);
+        let part = pieces.map(|((piece, c), &weight)| {
             let a = &self.jacobians[piece.source_face.index()];
-            piece.area / a.determinant() * map_energy.density(&(*c * *a))
+            piece.area / a.determinant() * WeightedEnergy { energy, weight }.density(&(*c * *a))
         });
         part.sum()
     }
 
-    /// Half the sum of the means of the density's logarithm over both surfaces.
+    /// Half the sum of the weighted means of the density's logarithm over both surfaces.
     pub fn mean_log(&self) -> f64 {
         let (mut sums, mut areas) = ([0.0; 2], [0.0; 2]);
-        for (piece, c) in self.overlay.pieces().iter().zip(&self.onto_rest) {
+        let pieces = self.overlay.pieces().iter().zip(&self.onto_rest).zip(&self.weights);
+        for ((piece, c), weight) in pieces {
             let a = &self.jacobians[piece.source_face.index()];
             let j = *c * *a;
-            let area = piece.area / a.determinant();
+            let area = weight * (piece.area / a.determinant());
             // With equal areas the distortion is the density.
             let log = ln(MapEnergy::POSES.distortion(&j));
             for (k, area) in [area, area * j.determinant()].into_iter().enumerate() {
@@ -111,13 +128,24 @@ impl Evaluation {
         0.5 * (sums[0] / areas[0] + sums[1] / areas[1])
     }
 
-    /// The median distortion, each piece counted by its areas on both surfaces.
+    /// The areas, on the moving and on the fixed mesh, of the pieces that are skin on both.
+    pub fn skin_areas(&self) -> [f64; 2] {
+        let mut areas = [0.0; 2];
+        let pieces = self.overlay.pieces().iter().zip(&self.onto_rest).zip(&self.weights);
+        for ((piece, c), _) in pieces.filter(|(_, weight)| **weight >= 0.5) {
+            areas[0] += piece.area / self.jacobians[piece.source_face.index()].determinant();
+            areas[1] += piece.area * c.determinant();
+        }
+        areas
+    }
+
+    /// The median distortion, each piece counted by its weight and its areas on both surfaces.
     pub fn median(&self, map_energy: MapEnergy) -> f64 {
-        let pieces = self.overlay.pieces().iter().zip(&self.onto_rest);
-        let local = pieces.map(|(piece, c)| {
+        let pieces = self.overlay.pieces().iter().zip(&self.onto_rest).zip(&self.weights);
+        let local = pieces.map(|((piece, c), weight)| {
             let a = &self.jacobians[piece.source_face.index()];
             let j = *c * *a;
-            let weight = piece.area / a.determinant() * (1.0 + j.determinant());
+            let weight = weight * (piece.area / a.determinant() * (1.0 + j.determinant()));
             Weighted { value: map_energy.distortion(&j), weight }
         });
         let mut local: Vec<Weighted> = local.collect();

@@ -5,13 +5,14 @@
 //! moving triangle and C that of the target's inverse; when the moving side's edges sweep over the other side, the pieces'
 //! areas change too, which adds the jump of the density over each edge to the gradient (Reynolds' transport theorem).
 
-use super::evaluation::Evaluation;
+use super::evaluation::{CountedEnergy, Evaluation};
 use crate::math::matrix2::cofactor;
 use crate::mesh::{FaceId, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::energy::point_constraint::PointConstraint;
+use crate::surface_map::energy::weighted_energy::WeightedEnergy;
 use crate::surface_map::overlay::SideOf;
 use crate::surface_map::overlay::location::{Locations, Locator};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
@@ -72,6 +73,13 @@ impl Relaxed<'_> {
             true => f64::INFINITY,
             false => self.relaxation.present.mean_log(),
         }
+    }
+
+    /// The areas, on the source and on the target, of what is skin on both ([`crate::mesh::face_weights`]); 0 without an overlay.
+    pub fn skin_areas(&self) -> [f64; 2] {
+        let mut areas = self.relaxation.present.skin_areas();
+        areas.rotate_left(self.relaxation.moving);
+        areas
     }
 
     /// Median over both surfaces of the distortion ([`MapEnergy::distortion`] with equal areas), by area; not a number without an
@@ -238,11 +246,18 @@ impl<'a> Relaxation<'a> {
         if located.is_err() || self.trial.overlay.fill([from, onto], &self.locations).is_err() {
             return false;
         }
-        self.trial.measure(&self.problems[moving], z, &self.inverses[1 - moving], &self.map_energy);
+        let counted = self.counted();
+        self.trial.measure(&self.problems[moving], z, &self.inverses[1 - moving], counted);
         let (unknowns, constraints) = (&self.unknowns[moving], self.constraints[moving]);
         self.trial.constrain([from, onto], unknowns, constraints, &self.locations);
         self.trial.total = self.trial.energy + self.trial.constrained + self.options.barrier * flat;
         true
+    }
+
+    /// The energy of the map, seen from the moving side.
+    fn counted(&self) -> CountedEnergy<'a> {
+        let weights = [self.moving, 1 - self.moving].map(|k| self.sides[k].weights);
+        CountedEnergy { energy: self.map_energy, weights }
     }
 
     /// One damped Newton step of the moving side; `false` where none lowers the energy.
@@ -296,7 +311,8 @@ impl<'a> Relaxation<'a> {
         self.present.overlay.exchange_roles();
         let problem = &self.problems[self.moving];
         let z = self.unknowns[self.moving].points(&self.embeddings[self.moving]);
-        self.present.measure(problem, &z, &self.inverses[1 - self.moving], &self.map_energy);
+        let counted = self.counted();
+        self.present.measure(problem, &z, &self.inverses[1 - self.moving], counted);
         let flat = problem.energy(&z).unwrap_or(f64::INFINITY);
         self.locate_constrained();
         self.present.total = self.present.energy + self.present.constrained + self.options.barrier * flat;
@@ -338,17 +354,18 @@ impl<'a> Relaxation<'a> {
     }
 
     fn face_derivatives(&self) -> Vec<FaceDerivatives> {
-        let Evaluation { overlay, jacobians, onto_rest, .. } = &self.present;
+        let Evaluation { overlay, jacobians, onto_rest, weights, .. } = &self.present;
         let mut faces = vec![FaceDerivatives::ZERO; jacobians.len()];
         let mut densities = Vec::with_capacity(onto_rest.len());
-        for (piece, c) in overlay.pieces().iter().zip(onto_rest) {
+        for ((piece, c), &weight) in overlay.pieces().iter().zip(onto_rest).zip(weights) {
+            let energy = WeightedEnergy { energy: self.map_energy, weight };
             let t = piece.source_face.index();
             let a = &jacobians[t];
             let (det, j) = (a.determinant(), *c * *a);
-            let density = self.map_energy.density(&j) / det;
+            let density = energy.density(&j) / det;
             densities.push(density);
             // d(h / det A) at fixed area on the cone surface.
-            let own = c.transpose() * self.map_energy.gradient(&j);
+            let own = c.transpose() * energy.gradient(&j);
             faces[t].by_jacobian += (own - cofactor(a) * density) * (piece.area / det);
         }
         self.add_sweeps(&densities, &mut faces);
@@ -372,12 +389,13 @@ impl<'a> Relaxation<'a> {
     }
 
     fn hessians(&self) -> Vec<FaceHessian> {
-        let Evaluation { overlay, jacobians, onto_rest, .. } = &self.present;
+        let Evaluation { overlay, jacobians, onto_rest, weights, .. } = &self.present;
         let mut hessians = vec![FaceHessian::ZERO; jacobians.len()];
-        for (piece, c) in overlay.pieces().iter().zip(onto_rest) {
+        for ((piece, c), &weight) in overlay.pieces().iter().zip(onto_rest).zip(weights) {
+            let energy = WeightedEnergy { energy: self.map_energy, weight };
             let t = piece.source_face.index();
             let area = piece.area / jacobians[t].determinant();
-            for term in self.map_energy.hessian(&(*c * jacobians[t])) {
+            for term in energy.hessian(&(*c * jacobians[t])) {
                 hessians[t].add(area * term.weight, &(c.transpose() * term.matrix()));
             }
         }
@@ -392,6 +410,7 @@ pub(super) mod tests {
     use crate::layout::{self, BaseLayout, LayoutOptions};
     use crate::math::scalar::sin;
     use crate::mesh::SurfaceMesh;
+    use crate::mesh::face_weights::FaceWeights;
     use crate::mesh::generators::icosphere;
     use crate::monitor::Silent;
     use crate::surface_map::certify;
@@ -431,9 +450,25 @@ pub(super) mod tests {
             energy: MapEnergy { balance: 0.1, knee: 0.2 },
             ..MapRelaxationOptions::default()
         };
-        let mut relaxation = Relaxation::new(sides(&layout, &embeddings), &surface, [&[], &[]], &options);
+        // All skin; then caps on both, so that weights jump over edges of either mesh.
+        let caps = |mesh: &SurfaceMesh, axis: DVec3| -> TiVec<FaceId, f64> {
+            let is_cap = |f| mesh.corners(f).iter().all(|p| p.dot(axis) > 0.0);
+            mesh.faces().map(|f| if is_cap(f) { 0.01 } else { 1.0 }).collect()
+        };
+        let weights = [caps(&layout.source.mesh, DVec3::X), caps(&layout.target.mesh, DVec3::Y)];
+        let [source, target] = sides(&layout, &embeddings);
+        let capped = [
+            Parametrised { weights: FaceWeights::new(Some(&weights[0])), ..source },
+            Parametrised { weights: FaceWeights::new(Some(&weights[1])), ..target },
+        ];
+        for sides in [[source, target], capped] {
+            gradient_is_quotient(Relaxation::new(sides, &surface, [&[], &[]], &options), &embeddings[0]);
+        }
+    }
+
+    fn gradient_is_quotient(mut relaxation: Relaxation<'_>, moving: &Embedding) {
         assert!(relaxation.begin());
-        let z = relaxation.unknowns[0].points(&embeddings[0]);
+        let z = relaxation.unknowns[0].points(moving);
         let slope = relaxation.gradient(&z);
         for seed in 1..6 {
             let wave = |k: usize, phase: f64| 0.02 * sin(f64::from(seed) * 1.7 * k as f64 + phase);

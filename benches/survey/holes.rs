@@ -1,0 +1,278 @@
+//! Poses with a known truth and holes punched into them, capped again: errors outside the holes, beside those of the closed pairs.
+
+use crate::arguments::Arguments;
+use crate::case::Limit;
+use crate::common::{self, Pair};
+use conemap::geodesic::distances;
+use conemap::landmarks::Landmarks;
+use conemap::mesh::check::CheckedMesh;
+use conemap::mesh::repair::{RepairOptions, repaired};
+use conemap::mesh::soup::PolygonSoup;
+use conemap::mesh::{FaceId, SurfaceMesh, VertexId};
+use conemap::pipeline::{CapFaces, GroundTruth, MapInput, MapResult, run};
+use cpu_time::ThreadTime;
+use typed_index_collections::TiVec;
+
+/// Where a mesh of the data folder has its parts, as vertices.
+struct Places {
+    mesh: &'static str,
+    foot: u32,
+    neck: u32,
+}
+
+const PLACES: [Places; 2] = [
+    Places { mesh: "sumner/horse", foot: 7553, neck: 2890 },
+    Places { mesh: "tosca/cat", foot: 23269, neck: 3423 },
+];
+
+/// Holes of one mesh.
+struct Holes {
+    name: &'static str,
+    /// Share of the area removed around the foot and around the neck.
+    shares: [f64; 2],
+}
+
+const HOLES: [Holes; 5] = [
+    Holes { name: "foot 0.5", shares: [0.005, 0.0] },
+    Holes { name: "limb 2", shares: [0.02, 0.0] },
+    Holes { name: "limb 10", shares: [0.1, 0.0] },
+    Holes { name: "neck 2", shares: [0.0, 0.02] },
+    Holes { name: "limb, neck 2", shares: [0.02, 0.02] },
+];
+
+/// Which meshes of a pair have the holes: source, target.
+const SIDES: [(&str, [bool; 2]); 3] =
+    [("target", [false, true]), ("source", [true, false]), ("both", [true, true])];
+
+/// A mesh as it is mapped, with the marks of its caps and its vertices in the closed mesh's numbers.
+struct Punched {
+    checked: CheckedMesh,
+    is_cap: TiVec<FaceId, bool>,
+}
+
+/// What a map with holes reached, beside the closed pair's map on the same vertices; lengths in units of the root of the target's
+/// area.
+struct Reached {
+    certified: bool,
+    energy: f64,
+    /// Mean error of the source's vertices that are skin on both meshes: with holes, and closed.
+    errors: [f64; 2],
+    /// The same within 0.1 of a rim.
+    near: [f64; 2],
+    /// Share of the source's and of the target's skin that lies in a cap although its partner is there.
+    hidden: [f64; 2],
+}
+
+/// Each pair of poses with each set of holes, in the target, in the source, and in both.
+pub fn punched(arguments: &Arguments) {
+    println!(
+        "{:16} {:13} {:7} {:>8} {:>17} {:>17} {:>17} {:>7}",
+        "pair", "holes", "in", "E", "error % closed %", "at rims   closed", "hidden % of s, t", "cpu s"
+    );
+    let pairs = pairs(arguments);
+    let cases = pairs.iter().flat_map(|pair| HOLES.iter().map(move |holes| (pair, holes)));
+    let wanted =
+        |holes: &Holes| arguments.variants.is_empty() || arguments.variants.iter().any(|v| v == holes.name);
+    let queue = std::sync::Mutex::new(
+        cases.filter(|(_, holes)| wanted(holes)).collect::<std::collections::VecDeque<_>>(),
+    );
+    let reached = std::sync::Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        for _ in 0..arguments.jobs.max(1) {
+            scope.spawn(|| {
+                loop {
+                    let next = queue.lock().expect("a queue").pop_front();
+                    let Some((pair, holes)) = next else { break };
+                    let own = of_holes(arguments, pair, holes);
+                    reached.lock().expect("a list").extend(own);
+                }
+            });
+        }
+    });
+    sum_up(&reached.into_inner().expect("a list"));
+}
+
+/// The pairs of poses with the same connectivity, and one of both poses that are a target.
+fn pairs(arguments: &Arguments) -> Vec<Pair> {
+    let names = ["cat-cat1", "horse-horse01", "horse-horse05"];
+    let mut pairs: Vec<Pair> = names.iter().map(|name| common::read_pair(&arguments.data, name)).collect();
+    let mut poses = common::read_pair(&arguments.data, "horse-horse05");
+    poses.source = common::read_mesh(&arguments.data.join("sumner/horse-pose01.off"));
+    poses.file.source = Some("sumner/horse-pose01.off".into());
+    poses.name = "horse01-horse05".into();
+    pairs.push(poses);
+    pairs.retain(|pair| {
+        arguments.pairs.is_empty() || arguments.pairs.iter().any(|p| pair.name.starts_with(p.as_str()))
+    });
+    pairs
+}
+
+/// The closed pair with the landmarks that are left, then the maps with holes.
+fn of_holes(arguments: &Arguments, pair: &Pair, holes: &Holes) -> Vec<Reached> {
+    let source = pair.file.source.as_deref().unwrap_or_default();
+    let places = PLACES.iter().find(|places| source.starts_with(places.mesh)).expect("places of the mesh");
+    // The same faces of both, chosen on the source.
+    let mut removed: TiVec<FaceId, bool> = pair.source.faces().map(|_| false).collect();
+    for (centre, share) in [places.foot, places.neck].into_iter().zip(holes.shares) {
+        remove_around(&pair.source, VertexId(centre), share, &mut removed);
+    }
+    let left: Vec<[u32; 2]> = common::vertex_pairs(&pair.file)
+        .into_iter()
+        .filter(|[v, _]| pair.source.star(VertexId(*v)).any(|h| !removed[h.face()]))
+        .collect();
+    let meshes = [&pair.source, &pair.target];
+    let nothing: TiVec<FaceId, bool> = removed.iter().map(|_| false).collect();
+    let punched = meshes.map(|mesh| punch(mesh, &removed));
+    let whole = meshes.map(|mesh| punch(mesh, &nothing));
+    let closed = map(arguments, [&whole[0], &whole[1]], &left);
+    let mut reached = Vec::new();
+    for (name, is_punched) in SIDES {
+        let begun = ThreadTime::now();
+        let sides = [0, 1].map(|k| if is_punched[k] { &punched[k] } else { &whole[k] });
+        let outcome = match (&closed, &map(arguments, sides, &left)) {
+            (Ok(closed), Ok(result)) => Ok(measured(meshes, sides, &removed, [result, closed])),
+            (Err(error), _) | (_, Err(error)) => Err(error.clone()),
+        };
+        let seconds = begun.elapsed().as_secs_f64();
+        println!("{:16} {:13} {name:7} {}", pair.name, holes.name, line(&outcome, seconds));
+        reached.extend(outcome);
+    }
+    reached
+}
+
+/// Marks the faces nearest to a vertex until they have a share of the area.
+fn remove_around(mesh: &SurfaceMesh, centre: VertexId, share: f64, removed: &mut TiVec<FaceId, bool>) {
+    let far = distances(mesh, &[centre]);
+    let farthest = |f: FaceId| mesh.triangles()[f].iter().map(|&v| far[v]).fold(0.0, f64::max);
+    let mut order: Vec<FaceId> = mesh.faces().collect();
+    order.sort_by(|&a, &b| farthest(a).total_cmp(&farthest(b)));
+    let mut left = share * mesh.area();
+    for f in order {
+        left -= mesh.face_area(f);
+        if left < 0.0 {
+            break;
+        }
+        removed[f] = true;
+    }
+}
+
+/// A mesh without some faces, as a user's file would be read.
+fn punch(mesh: &SurfaceMesh, removed: &TiVec<FaceId, bool>) -> Punched {
+    let kept = mesh.triangles().iter_enumerated().filter(|(f, _)| !removed[*f]);
+    let soup = PolygonSoup {
+        positions: mesh.positions().iter().copied().collect(),
+        polygons: kept.map(|(_, corners)| corners.map(|v| v.0).to_vec()).collect(),
+        joined_with: Vec::new(),
+    };
+    let checked = repaired(&soup, &RepairOptions::default()).expect("a punched mesh can be capped").checked;
+    let is_cap = checked.mesh.faces().map(|f| checked.is_cap(f)).collect();
+    Punched { checked, is_cap }
+}
+
+fn map(arguments: &Arguments, sides: [&Punched; 2], pairs: &[[u32; 2]]) -> Result<MapResult, String> {
+    let on = |k: usize| -> Vec<VertexId> {
+        let vertex = |pair: &[u32; 2]| sides[k].checked.vertex_from_file[pair[k] as usize];
+        pairs.iter().map(|pair| vertex(pair).expect("landmarks are on skin")).collect()
+    };
+    let landmarks = Landmarks { source: on(0), target: on(1) };
+    let [source, target] = sides.map(|side| &side.checked.mesh);
+    let caps = CapFaces { source: Some(&sides[0].is_cap), target: Some(&sides[1].is_cap) };
+    let input = MapInput { source, target, landmarks: &landmarks, ground_truth: GroundTruth::Unknown, caps };
+    let mut limit = Limit::new(arguments.time_limit);
+    run(input, &arguments.options, &mut limit).map_err(|e| e.to_string())
+}
+
+/// Compares a map with holes and the closed pair's with the truth: vertex i of one closed mesh is vertex i of the other.
+fn measured(
+    closed: [&SurfaceMesh; 2],
+    sides: [&Punched; 2],
+    removed: &TiVec<FaceId, bool>,
+    [result, whole]: [&MapResult; 2],
+) -> Reached {
+    let scale = 1.0 / closed[1].area().sqrt();
+    let is_skin = |v: VertexId| closed[0].star(v).any(|h| !removed[h.face()]);
+    let is_rim = |v: VertexId| is_skin(v) && closed[0].star(v).any(|h| removed[h.face()]);
+    let rims: Vec<VertexId> = closed[0].vertices().filter(|&v| is_rim(v)).collect();
+    let from_rim = distances(closed[0], &rims);
+    let reach = 0.1 * closed[0].area().sqrt();
+    let (mut sums, mut near) = ([0.0; 2], [0.0; 2]);
+    let (mut all, mut close) = (0.0, 0.0);
+    for v in closed[0].vertices().filter(|&v| is_skin(v)) {
+        let truth = closed[1].positions()[v];
+        let own = sides[0].checked.vertex_from_file[v.index()].expect("skin is there");
+        let mapped = [(result, own, &sides[1].checked.mesh), (whole, v, closed[1])];
+        let errors = mapped.map(|(map, v, target)| {
+            let image = map.target_from_source[v].expect("the relaxed map has all images");
+            image.position(target).distance(truth) * scale
+        });
+        all += 1.0;
+        (0..2).for_each(|k| sums[k] += errors[k]);
+        if from_rim[v] < reach {
+            close += 1.0;
+            (0..2).for_each(|k| near[k] += errors[k]);
+        }
+    }
+    Reached {
+        certified: result.report.certificate.as_ref().is_some_and(|c| c.bijective),
+        energy: result.report.distortion.energy,
+        errors: sums.map(|sum| sum / all),
+        near: near.map(|sum| sum / close),
+        hidden: [0, 1].map(|k| hidden(closed[k], sides, removed, (result, k))),
+    }
+}
+
+/// Share of a mesh' skin that lies in a cap of the other although its partner there is skin, by the areas of vertices.
+fn hidden(
+    closed: &SurfaceMesh,
+    sides: [&Punched; 2],
+    removed: &TiVec<FaceId, bool>,
+    (result, side): (&MapResult, usize),
+) -> f64 {
+    let Some(map) = &result.correspondence else { return f64::NAN };
+    let images = map.vertex_images(sides.map(|side| &side.checked.mesh), side);
+    let areas = closed.vertex_areas();
+    let (mut skin, mut inside) = (0.0, 0.0);
+    for v in closed.vertices().filter(|&v| closed.star(v).all(|h| !removed[h.face()])) {
+        let own = sides[side].checked.vertex_from_file[v.index()].expect("skin is there");
+        skin += areas[v];
+        if images[own].is_some_and(|image| sides[1 - side].is_cap[image.face]) {
+            inside += areas[v];
+        }
+    }
+    inside / skin
+}
+
+fn line(outcome: &Result<Reached, String>, seconds: f64) -> String {
+    match outcome {
+        Ok(r) => {
+            let [own, closed] = r.errors.map(|e| 100.0 * e);
+            let [near, near_closed] = r.near.map(|e| 100.0 * e);
+            let [source, target] = r.hidden.map(|e| 100.0 * e);
+            format!(
+                "{:8.4} {own:8.3} {closed:8.3} {near:8.3} {near_closed:8.3} {source:8.3} {target:8.3} {seconds:7.1}{}",
+                r.energy,
+                if r.certified { "" } else { "  NOT CERTIFIED" }
+            )
+        }
+        Err(error) => format!("FAILED: {error}"),
+    }
+}
+
+/// How many maps are certified, and how many reach what is wanted.
+fn sum_up(reached: &[Reached]) {
+    let count = |is: &dyn Fn(&Reached) -> bool| reached.iter().filter(|r| is(r)).count();
+    let mean =
+        |value: &dyn Fn(&Reached) -> f64| reached.iter().map(value).sum::<f64>() / reached.len() as f64;
+    println!(
+        "{} maps: {} certified; mean error at most 1.2 times the closed pair's in {}; near rims at most 0.3 % more in {}; hidden \
+         at most 0.2 % in {}; mean ratio {:.3}, near rims {:.3} % with holes and {:.3} % closed",
+        reached.len(),
+        count(&|r| r.certified),
+        count(&|r| r.errors[0] <= 1.2 * r.errors[1]),
+        count(&|r| r.near[0] <= r.near[1] + 0.003),
+        count(&|r| r.hidden.iter().all(|share| *share <= 0.002)),
+        mean(&|r| r.errors[0] / r.errors[1]),
+        100.0 * mean(&|r| r.near[0]),
+        100.0 * mean(&|r| r.near[1]),
+    );
+}

@@ -1,0 +1,79 @@
+//! How much the faces of a level count, where the full mesh has caps.
+
+use crate::mesh::coarsening::Level;
+use crate::mesh::surface_index::SurfaceIndex;
+use crate::mesh::{FaceId, SurfaceMesh};
+use glam::DVec3;
+use typed_index_collections::{TiSlice, TiVec};
+
+/// A full mesh with caps.
+pub struct Skin<'a> {
+    weights: &'a TiSlice<FaceId, f64>,
+    index: SurfaceIndex<'a>,
+}
+
+/// Places in a coarse face where the full mesh is asked: the middles of its quarters, as barycentric coordinates.
+const SAMPLES: [[f64; 3]; 4] = {
+    const SIXTH: f64 = 1.0 / 6.0;
+    const THIRD: f64 = 1.0 / 3.0;
+    [
+        [THIRD, THIRD, THIRD],
+        [4.0 * SIXTH, SIXTH, SIXTH],
+        [SIXTH, 4.0 * SIXTH, SIXTH],
+        [SIXTH, SIXTH, 4.0 * SIXTH],
+    ]
+};
+
+impl<'a> Skin<'a> {
+    /// A mesh with the weights of its faces.
+    pub fn new(mesh: &'a SurfaceMesh, weights: &'a TiSlice<FaceId, f64>) -> Self {
+        Self { weights, index: SurfaceIndex::new(mesh) }
+    }
+
+    /// The weights of a level's faces: each the mean of the nearest full faces at four places.
+    pub fn on_level(&self, level: &Level) -> TiVec<FaceId, f64> {
+        if level.mesh.face_count() == self.weights.len() {
+            return level.faces.iter().map(|&f| self.weights[f]).collect();
+        }
+        let weight = |f: FaceId| {
+            let [a, b, c] = level.mesh.corners(f);
+            let normal: DVec3 = (b - a).cross(c - a);
+            let at = |[u, v, w]: [f64; 3]| {
+                let place = a * u + b * v + c * w;
+                self.weights[self.index.nearest_facing(place, normal, level.faces[f]).point.face]
+            };
+            0.25 * SAMPLES.map(at).iter().sum::<f64>()
+        };
+        level.mesh.faces().map(weight).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::generators::icosphere;
+
+    #[test]
+    fn coarse_faces_count_by_what_lies_under_them() {
+        let ball = icosphere(4);
+        let is_cap = |f: FaceId| ball.corners(f).iter().all(|p| p.z > 0.7);
+        let weights: TiVec<FaceId, f64> = ball.faces().map(|f| if is_cap(f) { 0.01 } else { 1.0 }).collect();
+        let skin = Skin::new(&ball, &weights);
+        let level = Level::coarse(&ball, &[], 300);
+        let coarse = skin.on_level(&level);
+        let area = |f: FaceId| level.mesh.face_area(f);
+        let share = |mesh: &SurfaceMesh, weights: &TiVec<FaceId, f64>| {
+            mesh.faces().map(|f| (1.0 - weights[f]) * mesh.face_area(f)).sum::<f64>() / mesh.area()
+        };
+        assert!(level.mesh.face_count() < 700);
+        let [whole, seen] = [share(&ball, &weights), share(&level.mesh, &coarse)];
+        assert!((seen / whole - 1.0).abs() < 0.1, "{seen} {whole}");
+        for f in level.mesh.faces().filter(|&f| area(f) > 0.0) {
+            let heights = level.mesh.corners(f).map(|p| p.z);
+            assert!(heights.iter().any(|z| *z > 0.6) || coarse[f] == 1.0);
+            assert!(heights.iter().any(|z| *z < 0.75) || coarse[f] < 0.02);
+        }
+        let full = Level::coarse(&ball, &[], ball.vertex_count());
+        assert_eq!(skin.on_level(&full), weights);
+    }
+}
