@@ -86,7 +86,7 @@ fn capped(mesh: &SurfaceMesh, is_kept: impl Fn(&[VertexId; 3]) -> bool) -> Check
         polygons: kept.map(|corners| corners.map(|v| v.0).to_vec()).collect(),
         joined_with: Vec::new(),
     };
-    repaired(&soup, &RepairOptions::default()).unwrap().checked
+    repaired(&soup, &RepairOptions::default(), &mut Silent).unwrap().checked
 }
 
 #[test]
