@@ -2,6 +2,7 @@
 //! temporary test files; `tests/unit/agreement.test.ts` makes the same maps with the page's own wasm module and compares.
 
 use crate::job::{Files, run};
+use conemap::job::{MapFiles, OpenMap, OutputKind};
 use conemap::monitor::Silent;
 use conemap::pipeline::{Choices, PipelineOptions};
 use std::path::Path;
@@ -20,8 +21,13 @@ fn maps_of_demos_are_left_for_the_page_to_compare() {
         leave("target.obj", &files.target);
         leave("landmarks.json", &files.landmarks);
         leave("report.json", serde_json::to_string_pretty(&result.report).unwrap().as_bytes());
-        for file in job.outputs(&result, &Choices::default()).unwrap() {
-            leave(file.name, &file.bytes);
+        let map = job.map_file(&result, &Choices::default()).unwrap();
+        let map = job.taken(&map).output(OutputKind::Map).unwrap();
+        // The page makes its files of the map file, as it is read again.
+        let open =
+            OpenMap::read(MapFiles { map: &map, source: &files.source, target: &files.target }).unwrap();
+        for kind in open.taken().kinds() {
+            leave(kind.file_name(), &open.taken().output(kind).unwrap());
         }
     }
 }

@@ -6,7 +6,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { beforeAll, describe, expect, test } from 'vitest';
-import { buildDemo, initSync, runMap } from '../../www/wasm/conemap.js';
+import { buildDemo, initSync, openMap, runMap } from '../../www/wasm/conemap.js';
 
 const ROOT = fileURLToPath(new URL('../../', import.meta.url));
 const LEFT = join(process.env['CARGO_TARGET_DIR'] ?? join(ROOT, 'target'), 'tmp/agreement');
@@ -55,16 +55,19 @@ describe.each(['sphere-tetrahedron', 'horse-cat'])('the map of the demo %s', (id
     expect(Buffer.from(demo?.source() ?? [])).toEqual(native(id, 'source.obj'));
     expect(Buffer.from(demo?.target() ?? [])).toEqual(native(id, 'target.obj'));
     const landmarks = native(id, 'landmarks.json').toString();
-    const map = runMap(native(id, 'source.obj'), native(id, 'target.obj'), landmarks, '{}', SILENT);
+    const meshes = [native(id, 'source.obj'), native(id, 'target.obj')] as const;
+    const map = runMap(...meshes, landmarks, '{}', SILENT);
 
     const expected = report(native(id, 'report.json').toString());
     expect(expected).toHaveProperty('distortion.energy');
     expect(report(map.report())).toEqual(expected);
+    const saved = openMap(map.mapFile() ?? new Uint8Array(), ...meshes);
     for (const name of ['vertex-images.json', 'target-vertex-images.json', 'vertex-distortion.csv', 'distortion.csv', 'layout-source.obj']) {
-      const [ours, theirs] = [Buffer.from(map.file(name)).toString(), native(id, name).toString()];
+      const [ours, theirs] = [Buffer.from(saved.file(name)).toString(), native(id, name).toString()];
       expect(numbers(ours).length, name).toBeGreaterThan(1000);
       expect(firstDifference(numbers(ours), numbers(theirs)), name).toBeNull();
     }
+    saved.free();
     map.free();
   });
 });

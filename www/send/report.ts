@@ -45,6 +45,8 @@ export const ReportSchema = v.object({
   ),
   own_landmarks: Index,
   cone_metric: v.object({ source: v.nullable(ConeMetric), target: v.nullable(ConeMetric) }),
+  // Files of before it was measured have none.
+  coverage: v.optional(v.nullable(v.object({ source: Figure, target: Figure, hidden: Figure })), null),
   certificate: v.nullable(
     v.object({
       bijective: v.boolean(),
@@ -74,7 +76,7 @@ export const ReportSchema = v.object({
     v.object({ kind: Text, sentence: Text, value: MaybeFigure, side: v.nullable(v.picklist(['source', 'target'])) }),
   ),
   seconds: v.record(Text, Figure),
-}) satisfies v.GenericSchema<Report>;
+}) satisfies v.GenericSchema<unknown, Report>;
 
 /** The report in a text; `null` where there is none. */
 export function reportIn(text: string): Report | null {
