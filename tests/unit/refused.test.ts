@@ -2,7 +2,8 @@
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { beforeAll, expect, test } from 'vitest';
-import { eventsOfSides, meshFile, openingOf, repairedEvents } from '../../www/files.ts';
+import { meshFile } from '../../www/files.ts';
+import { eventsOfSides, openingOf, repairedEvents } from '../../www/opening.ts';
 import type { NamedBytes } from '../../www/files.ts';
 import { repairCommand } from '../../www/messages.ts';
 import type { Report } from '../../www/report.ts';

@@ -1,6 +1,6 @@
 /** Links into the page: follows the one in the address, asks what it must ask, and puts what it brings onto the page. */
 import type { NamedBytes } from '../files.ts';
-import { eventsOfSides } from '../files.ts';
+import { eventsOfSides } from '../opening.ts';
 import { fetchSentence, LINK_REFUSED, otherFiles, SENTENCES } from '../messages.ts';
 import type { Link } from '../send/link.ts';
 import { readLink } from '../send/link.ts';

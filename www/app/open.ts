@@ -1,6 +1,8 @@
 /** Brings meshes and landmarks onto the page: files that were chosen or dropped, demos, links to demos. */
-import type { NamedBytes, Opening } from '../files.ts';
-import { FileRefused, landmarkFile, meshFile, openingOf } from '../files.ts';
+import type { NamedBytes } from '../files.ts';
+import type { Opening } from '../opening.ts';
+import { FileRefused, landmarkFile, meshFile } from '../files.ts';
+import { openingOf } from '../opening.ts';
 import type { Side } from '../landmarks.ts';
 import { SENTENCES } from '../messages.ts';
 import type { Event } from '../store/events.ts';

@@ -1,5 +1,5 @@
 /** Repairs a mesh that was refused, as it was offered. */
-import { repairedEvents } from '../files.ts';
+import { repairedEvents } from '../opening.ts';
 import type { RefusedMesh } from '../store/refused.ts';
 import type { Store } from '../store/store.ts';
 import { perform } from './task.ts';

@@ -1,0 +1,310 @@
+/** What given files mean: tells meshes, landmark files and maps from each other, and finds each mesh's side. */
+import { checkFit, meshFile, misfit } from './files.ts';
+import type { LandmarkFile, Side } from './landmarks.ts';
+import { otherSide, SIDES } from './landmarks.ts';
+import { contentOf, landmarkFile, pairsRead, sideCalledLike, sideRead } from './landmark-files.ts';
+import type { LandmarkContent } from './landmark-files.ts';
+import { checkMeshes, headOf, mapsAmong, sideIn } from './map-files.ts';
+import { gathered } from './mesh-sets.ts';
+import { failureSentence, remarksSentence, repairedSentence, SENTENCES } from './messages.ts';
+import type { NamedBytes } from './named-file.ts';
+import { FileRefused } from './named-file.ts';
+import type { AwaitedMap } from './store/awaited.ts';
+import type { Event } from './store/events.ts';
+import { baseName } from './store/landmark-file.ts';
+import type { RefusedMesh } from './store/refused.ts';
+import { allowedBy } from './store/refused.ts';
+import { update } from './store/reducer.ts';
+import type { MeshFile, State } from './store/state.ts';
+
+/** What to say where landmarks that stay do not fit the meshes that come. */
+function keptMisfit(events: readonly Event[], state: State): Event[] {
+  const failure = misfit(events.reduce(update, state));
+  return failure === null ? [] : [{ kind: 'error', sentence: `${failureSentence(failure)} ${SENTENCES.keptMisfit}` }];
+}
+
+function sideByName(name: string, file: LandmarkFile | null, state: State): Side | null {
+  const names = file === null ? state.named : [file.source, file.target].map((path) => (path === undefined ? null : baseName(path)));
+  const isSource = names[0] === name;
+  const isTarget = names[1] === name;
+  return isSource === isTarget ? null : isSource ? 0 : 1;
+}
+
+/** Sides of one or two meshes by the names of the landmark file, the place of the drop, and the order given. */
+function sidesOf(meshes: readonly NamedBytes[], landmarks: LandmarkFile | null, over: Side | null, state: State): Side[] {
+  const [first, second] = meshes;
+  if (first === undefined) {
+    return [];
+  }
+  if (second !== undefined) {
+    const swapped =
+      sideByName(first.name, landmarks, state) === 1 || sideByName(second.name, landmarks, state) === 0;
+    return swapped ? [1, 0] : [0, 1];
+  }
+  if (over !== null) {
+    return [over];
+  }
+  const named = sideByName(first.name, landmarks, state);
+  return [named ?? (state.meshes[0] !== null && state.meshes[1] === null ? 1 : 0)];
+}
+
+/** The landmark files among some, and what they mean. */
+interface Landmarks {
+  /** What comes onto the meshes, which are those that it is given. */
+  readonly events: (names: State['meshes']) => Event[];
+  /** The file to name where its landmarks do not fit. */
+  readonly file: NamedBytes;
+  /** The pairs of a file in the meshes' own numbers, which may name the meshes. */
+  readonly pairs: LandmarkFile | null;
+}
+
+/** Sentences about what was read, as an event. */
+function told(remarks: readonly string[]): Event[] {
+  return remarks.length === 0 ? [] : [{ kind: 'error', sentence: remarksSentence(remarks) }];
+}
+
+/** The pairs of files that need both meshes. */
+function pairEvents(files: readonly NamedBytes[], [source, target]: State['meshes']): Event[] {
+  if (source === null || target === null) {
+    throw new FileRefused(`${files[0]?.name ?? ''}: ${SENTENCES.meshesFirst}`);
+  }
+  const { file, remarks } = pairsRead(files, source.mesh, target.mesh);
+  const named = { source: source.name, target: target.name, ...file };
+  return [{ kind: 'landmarks', file: named }, ...told(remarks)];
+}
+
+/** The points of a file for one mesh: the one it was dropped on, that is called like it, or that is alone. */
+function sideEvents(file: NamedBytes, over: Side | null, meshes: State['meshes']): Event[] {
+  const names = meshes.map((mesh) => mesh?.name ?? null);
+  const there = SIDES.filter((side) => meshes[side] !== null);
+  const side = over ?? sideCalledLike(file, names) ?? (there.length === 1 ? there[0] : null) ?? null;
+  if (side === null && there.length > 0) {
+    throw new FileRefused(`${file.name}: ${SENTENCES.whichMesh}`);
+  }
+  const mesh = side === null ? null : meshes[side];
+  if (side === null || mesh === null) {
+    throw new FileRefused(`${file.name}: ${SENTENCES.meshesFirst}`);
+  }
+  const { marks, remarks } = sideRead(file, mesh.mesh, side);
+  const points = marks.flatMap(({ label, point }) => (point === null ? [] : [{ label, point }]));
+  return [{ kind: 'side-marks', side, points, name: file.name }, ...told(remarks)];
+}
+
+/** The landmark files that were given, one or one for each mesh; `null` for none. */
+function landmarksOf(files: readonly NamedBytes[], contents: readonly LandmarkContent[], over: Side | null): Landmarks | null {
+  const [first, second] = files;
+  if (first === undefined) {
+    return null;
+  }
+  if (second !== undefined) {
+    if (files.length > 2 || contents.some((content) => content !== 'one')) {
+      throw new FileRefused(SENTENCES.twoLandmarkFiles);
+    }
+    const ordered = (meshes: State['meshes']): NamedBytes[] => {
+      const names = meshes.map((mesh) => mesh?.name ?? null);
+      const swapped = sideCalledLike(first, names) === 1 || sideCalledLike(second, names) === 0;
+      return swapped ? [second, first] : [first, second];
+    };
+    return { events: (meshes) => pairEvents(ordered(meshes), meshes), file: first, pairs: null };
+  }
+  if (contents[0] === 'pairs') {
+    const pairs = landmarkFile(first);
+    return { events: () => [{ kind: 'landmarks', file: pairs }], file: first, pairs };
+  }
+  const isWhole = contents[0] === 'both';
+  const events = (meshes: State['meshes']): Event[] => (isWhole ? pairEvents([first], meshes) : sideEvents(first, over, meshes));
+  return { events, file: first, pairs: null };
+}
+
+/** The sides of one or two meshes that a map wants; `sides` where it does not tell. */
+function sidesWanted(meshes: readonly MeshFile[], sides: readonly Side[], map: AwaitedMap | null): readonly Side[] {
+  const [first, second] = meshes;
+  if (map === null || first === undefined) {
+    return sides;
+  }
+  const [one, other] = [sideIn(map, first), second === undefined ? null : sideIn(map, second)];
+  const side = one ?? (other === null ? null : otherSide(other));
+  return side === null ? sides : [side, otherSide(side)];
+}
+
+/** What files mean. */
+export interface Opening {
+  /** All or none. */
+  readonly events: readonly Event[];
+  /** To be opened after them, now or when its meshes have come. */
+  readonly map: AwaitedMap | null;
+}
+
+/** What these files mean. Throws {@link FileRefused}. */
+export function openingOf(given: readonly NamedBytes[], over: Side | null, state: State): Opening {
+  const { maps, others } = mapsAmong(gathered(given));
+  const [first] = maps;
+  if (maps.length > 1) {
+    throw new FileRefused(SENTENCES.oneMap);
+  }
+  const map = first === undefined ? null : headOf(first);
+  // A mesh that was put on a view goes there, whatever waits for it.
+  const wanting = map ?? (over === null ? state.awaited : null);
+  return { events: eventsOf(others, over, state, { map, wanting }), map };
+}
+
+/** The meshes among some files that were read, and what became of the others. */
+interface ReadMeshes {
+  readonly loaded: readonly { readonly side: Side; readonly file: MeshFile }[];
+  /** Those that a repair would help. */
+  readonly refused: readonly RefusedMesh[];
+  /** Why the others were refused. */
+  readonly faults: readonly FileRefused[];
+}
+
+function free({ loaded }: ReadMeshes): void {
+  loaded.forEach(({ file }) => {
+    file.mesh.free();
+  });
+}
+
+/** Reads meshes, each by itself: a good one is not given up for a bad one. */
+function readMeshes(files: readonly NamedBytes[], sides: readonly Side[]): ReadMeshes {
+  const [loaded, refused, faults]: [{ side: Side; file: MeshFile }[], RefusedMesh[], FileRefused[]] = [[], [], []];
+  for (const [index, file] of files.entries()) {
+    const side = sides[index] ?? 0;
+    try {
+      loaded.push({ side, file: meshFile(file) });
+    } catch (thrown) {
+      if (!(thrown instanceof FileRefused)) {
+        free({ loaded, refused, faults });
+        throw thrown;
+      }
+      if (thrown.offer === null) {
+        faults.push(thrown);
+      } else {
+        refused.push({ side, file, allowed: {}, offer: thrown.offer, sentence: thrown.message });
+      }
+    }
+  }
+  return { loaded, refused, faults };
+}
+
+/** Read meshes on the sides that a map wants, where all were good. */
+function seated(read: ReadMeshes, wanting: AwaitedMap | null): ReadMeshes {
+  const { loaded, refused, faults } = read;
+  if (refused.length + faults.length > 0) {
+    return read;
+  }
+  const given = loaded.map(({ side }) => side);
+  const sides = sidesWanted(loaded.map(({ file }) => file), given, wanting);
+  return { ...read, loaded: loaded.map(({ file }, index) => ({ side: sides[index] ?? 0, file })) };
+}
+
+/** What came with meshes. */
+interface Companions {
+  readonly landmarkFiles: readonly NamedBytes[];
+  readonly landmarks: Landmarks | null;
+  readonly map: AwaitedMap | null;
+}
+
+/** The events of good meshes that came with bad ones; `landmarks` came with them, too, and wait for these. */
+function eventsBesideBad(read: ReadMeshes, landmarks: readonly NamedBytes[], state: State): Event[] {
+  const meshes = read.loaded.map((mesh): Event => ({ kind: 'mesh', ...mesh }));
+  const refused: Event[] = read.refused.length === 0 ? [] : [{ kind: 'refused', refused: { meshes: read.refused, landmarks } }];
+  const leftOut = landmarks.length > 0 && read.refused.length === 0 ? ` ${SENTENCES.landmarksLeftOut}` : '';
+  const errors = read.faults.map(({ message }): Event => ({ kind: 'error', sentence: `${message}${leftOut}` }));
+  return [...meshes, ...(meshes.length === 0 ? [] : keptMisfit(meshes, state)), ...refused, ...errors];
+}
+
+/** The events that landmark files mean beside those of meshes; all or none. Throws {@link FileRefused}. */
+function withLandmarkFiles(events: readonly Event[], landmarks: Landmarks | null, state: State): Event[] {
+  if (landmarks === null) {
+    return [...events, ...keptMisfit(events, state)];
+  }
+  const all = [...events, ...landmarks.events(events.reduce(update, state).meshes)];
+  checkFit(landmarks.file, all, state);
+  return all;
+}
+
+/**
+ * The events of meshes and landmark files: a bad mesh leaves the good ones; of all else all or none. `map` comes with them, and
+ * `wanting` tells the sides of its meshes. Throws {@link FileRefused}.
+ */
+function eventsOf(
+  given: readonly NamedBytes[],
+  over: Side | null,
+  state: State,
+  { map, wanting }: { readonly map: AwaitedMap | null; readonly wanting: AwaitedMap | null },
+): Event[] {
+  const files = given.map((file) => ({ file, content: contentOf(file) }));
+  const meshFiles = files.flatMap(({ file, content }) => (content === null ? [file] : []));
+  const marked = files.flatMap(({ file, content }) => (content === null ? [] : [{ file, content }]));
+  if (meshFiles.length > 2) {
+    throw new FileRefused(SENTENCES.tooManyMeshes);
+  }
+  const landmarkFiles = marked.map(({ file }) => file);
+  const landmarks = landmarksOf(landmarkFiles, marked.map(({ content }) => content), over);
+  const read = readMeshes(meshFiles, sidesOf(meshFiles, landmarks?.pairs ?? null, over, state));
+  return eventsOfRead(seated(read, wanting), { landmarkFiles, landmarks, map }, state);
+}
+
+/** The events of meshes whose sides are known, and of a file of pairs for them. As {@link eventsOf}. */
+export function eventsOfSides(meshes: readonly [NamedBytes | null, NamedBytes | null], pairs: NamedBytes | null, state: State): Event[] {
+  const sides = SIDES.filter((side) => meshes[side] !== null);
+  const landmarkFiles = pairs === null ? [] : [pairs];
+  const landmarks = landmarksOf(landmarkFiles, ['pairs'], null);
+  const read = readMeshes(meshes.filter((mesh) => mesh !== null), sides);
+  return eventsOfRead(read, { landmarkFiles, landmarks, map: null }, state);
+}
+
+/** The events of meshes that were read, and of what came with them. Throws {@link FileRefused}. */
+function eventsOfRead(read: ReadMeshes, { landmarkFiles, landmarks, map }: Companions, state: State): Event[] {
+  const [fault] = read.faults;
+  if (fault !== undefined && read.loaded.length + read.refused.length === 0) {
+    throw fault;
+  }
+  if (read.faults.length + read.refused.length > 0) {
+    return eventsBesideBad(read, landmarkFiles, state);
+  }
+  try {
+    const events = read.loaded.map((mesh): Event => ({ kind: 'mesh', ...mesh }));
+    if (map !== null) {
+      checkMeshes(map, events.reduce(update, state).meshes, state);
+    }
+    return withLandmarkFiles(events, landmarks, state);
+  } catch (thrown) {
+    free(read);
+    throw thrown;
+  }
+}
+
+/** The landmark files that waited for a mesh which is there now, beside its event. */
+function withWaiting(mesh: Event, side: Side, waiting: readonly NamedBytes[], state: State): Event[] {
+  try {
+    return withLandmarkFiles([mesh], landmarksOf(waiting, waiting.map((file) => contentOf(file) ?? 'one'), side), state);
+  } catch (thrown) {
+    if (!(thrown instanceof FileRefused)) {
+      throw thrown;
+    }
+    return [mesh, { kind: 'error', sentence: thrown.message }];
+  }
+}
+
+/** The events of a refused mesh that is repaired as it was offered; with the last one come the landmarks that waited. */
+export function repairedEvents(mesh: RefusedMesh, state: State): Event[] {
+  const { side, file } = mesh;
+  const allowed = allowedBy(mesh);
+  const others = state.refused?.meshes.filter((other) => other !== mesh) ?? [];
+  const waiting = state.refused?.landmarks ?? [];
+  try {
+    const repaired = meshFile(file, allowed);
+    const event: Event = { kind: 'mesh', side, file: repaired };
+    const sentence = repairedSentence(file.name, repaired.repairs);
+    return [...withWaiting(event, side, others.length === 0 ? waiting : [], state), { kind: 'toast', sentence, undo: true }];
+  } catch (thrown) {
+    if (!(thrown instanceof FileRefused)) {
+      throw thrown;
+    }
+    if (thrown.offer === null) {
+      return [{ kind: 'refused-closed', side }, { kind: 'error', sentence: thrown.message }];
+    }
+    const next: RefusedMesh = { side, file, allowed, offer: thrown.offer, sentence: thrown.message };
+    return [{ kind: 'refused', refused: { meshes: [...others, next], landmarks: waiting } }];
+  }
+}
