@@ -9,6 +9,7 @@ use conemap::mesh::check::CheckedMesh;
 use conemap::mesh::repair::{RepairOptions, repaired};
 use conemap::mesh::soup::PolygonSoup;
 use conemap::mesh::{FaceId, SurfaceMesh, VertexId};
+use conemap::monitor::Silent;
 use conemap::pipeline::{CapFaces, GroundTruth, MapInput, MapResult, run};
 use cpu_time::ThreadTime;
 use typed_index_collections::TiVec;
@@ -164,7 +165,9 @@ fn punch(mesh: &SurfaceMesh, removed: &TiVec<FaceId, bool>) -> Punched {
         polygons: kept.map(|(_, corners)| corners.map(|v| v.0).to_vec()).collect(),
         joined_with: Vec::new(),
     };
-    let checked = repaired(&soup, &RepairOptions::default()).expect("a punched mesh can be capped").checked;
+    let checked = repaired(&soup, &RepairOptions::default(), &mut Silent)
+        .expect("a punched mesh can be capped")
+        .checked;
     let is_cap = checked.mesh.faces().map(|f| checked.is_cap(f)).collect();
     Punched { checked, is_cap }
 }
