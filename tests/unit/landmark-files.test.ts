@@ -3,16 +3,18 @@ import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { zipSync } from 'fflate';
 import { beforeAll, describe, expect, test } from 'vitest';
-import { FileRefused, meshFile } from '../../www/files.ts';
-import { openingOf } from '../../www/opening.ts';
+import { meshFile } from '../../www/files.ts';
 import type { NamedBytes } from '../../www/files.ts';
 import { contentOf, filesOf, formatList, landmarkFile, pairsRead, sideCalledLike, sideRead } from '../../www/landmark-files.ts';
-import type { LandmarkFile, Side } from '../../www/landmarks.ts';
+import type { LandmarkFile } from '../../www/landmarks.ts';
 import { gathered } from '../../www/mesh-sets.ts';
 import type { MeshFile, State } from '../../www/store/state.ts';
+import { openingOf } from '../../www/opening.ts';
 import { INITIAL } from '../../www/store/state.ts';
 import { buildDemo, initSync, landmarkEndings } from '../../www/wasm/conemap.js';
 import { after } from './fixtures.ts';
+import { refusal } from './refusal.ts';
+import { tetrahedron } from './tetrahedron.ts';
 
 let source: MeshFile;
 let target: MeshFile;
@@ -42,18 +44,6 @@ function format(id: string): ReturnType<typeof formatList>[number] {
     throw new Error(`${id} is no format`);
   }
   return found;
-}
-
-function refusal(files: readonly NamedBytes[], over: Side | null, state: State): string {
-  try {
-    openingOf(files, over, state);
-  } catch (thrown) {
-    if (thrown instanceof FileRefused) {
-      return thrown.message;
-    }
-    throw thrown;
-  }
-  throw new Error('nothing was refused');
 }
 
 describe('landmark files', () => {
@@ -106,33 +96,15 @@ describe('landmark files', () => {
   });
 });
 
-/** A tetrahedron as glTF, its buffer in a file of its own. */
-function tetrahedron(): [NamedBytes, NamedBytes] {
-  const corners = [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1];
-  const faces = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];
-  const bytes = new Uint8Array([...new Uint8Array(new Float32Array(corners).buffer), ...faces]);
-  const gltf = {
-    asset: { version: '2.0' },
-    scene: 0,
-    scenes: [{ nodes: [0] }],
-    nodes: [{ mesh: 0 }],
-    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
-    accessors: [
-      { bufferView: 0, componentType: 5126, count: 4, type: 'VEC3', min: [0, 0, 0], max: [1, 1, 1] },
-      { bufferView: 1, componentType: 5121, count: 12, type: 'SCALAR' },
-    ],
-    bufferViews: [
-      { buffer: 0, byteLength: 48 },
-      { buffer: 0, byteOffset: 48, byteLength: 12 },
-    ],
-    buffers: [{ byteLength: 60, uri: 'tetra%20hedron.bin' }],
-  };
-  return [text('tetra.gltf', JSON.stringify(gltf)), { name: 'tetra hedron.bin', bytes }];
+/** A tetrahedron in two files; the name of the second needs an escape. */
+function twoFiles(): [NamedBytes, NamedBytes] {
+  const { gltf, bin } = tetrahedron('tetra%20hedron.bin');
+  return [text('tetra.gltf', gltf), { name: 'tetra hedron.bin', bytes: bin }];
 }
 
 describe('meshes in several files', () => {
   test('are one file when all are there, and the missing ones are named', () => {
-    const [gltf, buffer] = tetrahedron();
+    const [gltf, buffer] = twoFiles();
     const state = after(INITIAL, ...openingOf([buffer, gltf], 0, INITIAL).events);
     expect([state.meshes[0]?.name, state.meshes[0]?.faceCount]).toEqual(['tetra.glb', 4]);
     expect(refusal([gltf], 0, INITIAL)).toBe('tetra.gltf: Drop it together with tetra hedron.bin: its data is there.');
@@ -140,7 +112,7 @@ describe('meshes in several files', () => {
   });
 
   test('come out of a zip with their folders, materials and pictures', () => {
-    const [gltf, buffer] = tetrahedron();
+    const [gltf, buffer] = twoFiles();
     const bytes = zipSync({
       'model/tetra.gltf': gltf.bytes,
       'model/tetra hedron.bin': buffer.bytes,

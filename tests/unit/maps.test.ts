@@ -8,19 +8,19 @@ import { failureOf } from '../../www/compute/messages.ts';
 import type { SavedMapHandle } from '../../www/compute/saved-client.ts';
 import type { SavedFiles } from '../../www/compute/saved-messages.ts';
 import { openedOf, viewBuffers } from '../../www/compute/view-buffers.ts';
-import { FileRefused, landmarkFile, meshFile } from '../../www/files.ts';
-import { openingOf } from '../../www/opening.ts';
+import { landmarkFile, meshFile } from '../../www/files.ts';
 import type { NamedBytes } from '../../www/files.ts';
 import { headOf, isMapFile } from '../../www/map-files.ts';
 import type { Report } from '../../www/report.ts';
 import { reportIn } from '../../www/send/report.ts';
 import type { Event } from '../../www/store/events.ts';
 import { isCurrent, shownResult, staleness } from '../../www/store/staleness.ts';
-import type { Demo, State } from '../../www/store/state.ts';
+import type { Demo } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
 import { Store } from '../../www/store/store.ts';
 import { buildDemo, demoList, initSync, openMap, runMap } from '../../www/wasm/conemap.js';
 import { after } from './fixtures.ts';
+import { refusal } from './refusal.ts';
 
 vi.mock('../../www/compute/saved-client.ts', async (original) => {
   const { SavedMapError } = await original<typeof import('../../www/compute/saved-client.ts')>();
@@ -97,18 +97,6 @@ function areSame(a: Numbers | null | undefined, b: Numbers): boolean {
 }
 
 const steps = (): string[] => store.state.history.past.map(({ name }) => name);
-
-function refusal(files: readonly NamedBytes[], state: State): string {
-  try {
-    openingOf(files, null, state);
-  } catch (thrown) {
-    if (thrown instanceof FileRefused) {
-      return thrown.message;
-    }
-    throw thrown;
-  }
-  throw new Error('nothing was refused');
-}
 
 describe('a map file', () => {
   test('with its meshes, in any order, brings the finished map as a run gives it', async () => {
@@ -202,13 +190,13 @@ describe('a map file', () => {
   test('is refused with the name of the mesh that is another one, and nothing comes', () => {
     const obj = 'v 0 0 0\nv 2 0 0\nv 0 3 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n';
     const other = { name: 'other.obj', bytes: new TextEncoder().encode(obj) };
-    expect(refusal([source, other, map], INITIAL)).toBe(
+    expect(refusal([source, other, map], null, INITIAL)).toBe(
       'ball.conemap: the target, other.obj, is not the mesh that this map was made with (body.obj). Drop the map together with the right one.',
     );
     const file = (given: NamedBytes, side: 0 | 1): Event => ({ kind: 'mesh', side, file: meshFile(given) });
-    expect(refusal([map], after(INITIAL, file(other, 0), file(target, 1)))).toMatch(/the source, other\.obj, is not the mesh/);
-    expect(refusal([map], after(INITIAL, file(target, 0), file(source, 1)))).toMatch(/swap source and target first/);
-    expect(refusal([map, map], INITIAL)).toBe('Drop one map at a time.');
+    expect(refusal([map], null, after(INITIAL, file(other, 0), file(target, 1)))).toMatch(/the source, other\.obj, is not the mesh/);
+    expect(refusal([map], null, after(INITIAL, file(target, 0), file(source, 1)))).toMatch(/swap source and target first/);
+    expect(refusal([map, map], null, INITIAL)).toBe('Drop one map at a time.');
   });
 
   test('that is damaged is refused in a sentence, and the map on the page stays', async () => {

@@ -3,6 +3,7 @@ import { readFileSync } from 'node:fs';
 import type { Download, FileChooser, Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
 import { zipSync } from 'fflate';
+import { tetrahedron } from '../unit/tetrahedron.ts';
 import { openDemo, openStep, pairs } from './page.ts';
 
 type Point = number | { readonly face: number; readonly barycentric: readonly number[] };
@@ -130,32 +131,10 @@ test('landmarks are saved in every format, and read back to the same points', as
   expectSamePoints(await saved(page), given, 'one after the other');
 });
 
-/** A tetrahedron as glTF, its buffer in a file of its own. */
-function tetrahedron(): { gltf: string; bin: Buffer } {
-  const corners = [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1];
-  const bin = Buffer.concat([Buffer.from(new Float32Array(corners).buffer), Buffer.from([0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2])]);
-  const gltf = {
-    asset: { version: '2.0' },
-    scene: 0,
-    scenes: [{ nodes: [0] }],
-    nodes: [{ mesh: 0 }],
-    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
-    accessors: [
-      { bufferView: 0, componentType: 5126, count: 4, type: 'VEC3', min: [0, 0, 0], max: [1, 1, 1] },
-      { bufferView: 1, componentType: 5121, count: 12, type: 'SCALAR' },
-    ],
-    bufferViews: [
-      { buffer: 0, byteLength: 48 },
-      { buffer: 0, byteOffset: 48, byteLength: 12 },
-    ],
-    buffers: [{ byteLength: 60, uri: 'tetra.bin' }],
-  };
-  return { gltf: JSON.stringify(gltf), bin };
-}
-
 test('meshes in several files come by the choosers: a set, a zip, an OBJ with its materials', async ({ page }) => {
   await openDemo(page);
-  const { gltf, bin } = tetrahedron();
+  const mesh = tetrahedron('tetra.bin');
+  const [gltf, bin] = [mesh.gltf, Buffer.from(mesh.bin)];
   const file = (name: string, content: string | Buffer): { name: string; mimeType: string; buffer: Buffer } => ({
     name,
     mimeType: 'application/octet-stream',
