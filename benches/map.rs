@@ -5,7 +5,7 @@ mod common;
 
 use conemap::layout::{self, LayoutOptions};
 use conemap::monitor::Silent;
-use conemap::pipeline::{self, CapFaces, GroundTruth, MapInput, PipelineOptions};
+use conemap::pipeline::{self, MapInput, PipelineOptions};
 use conemap::surface_map::overlay::location::locate;
 use conemap::surface_map::parametrisation::initial::{InitialOptions, embed, relax};
 use conemap::surface_map::parametrisation::problem::FlatRelaxOptions;
@@ -28,13 +28,7 @@ fn cat_to_lion(criterion: &mut Criterion, data: &Path) {
     let meshes = [&pair.source, &pair.target];
     criterion.bench_function("cat-lion/whole", |bencher| {
         let [source, target] = meshes;
-        let input = MapInput {
-            source,
-            target,
-            landmarks: &landmarks,
-            ground_truth: GroundTruth::Unknown,
-            caps: CapFaces::default(),
-        };
+        let input = MapInput::new(source, target, &landmarks);
         let options = PipelineOptions::default();
         bencher.iter(|| pipeline::run(input, &options, &mut Silent).expect("a certified map"));
     });

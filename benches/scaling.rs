@@ -12,7 +12,7 @@ use conemap::math::scalar::ln;
 use conemap::mesh::generators::midpoint_subdivision;
 use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::Silent;
-use conemap::pipeline::{self, CapFaces, GroundTruth, MapInput, PipelineOptions, Report};
+use conemap::pipeline::{self, MapInput, PipelineOptions, Report};
 use conemap::surface_map::relaxation::map_relaxation::MapRelaxationOptions;
 use std::time::Instant;
 
@@ -30,13 +30,7 @@ fn main() {
     println!("faces source  faces target  seconds       E  bijective  E converged  seconds");
     let mut measured: Vec<(f64, f64)> = Vec::new();
     while source.face_count().max(target.face_count()) <= MOST_FACES {
-        let input = MapInput {
-            source: &source,
-            target: &target,
-            landmarks: &landmarks,
-            ground_truth: GroundTruth::Unknown,
-            caps: CapFaces::default(),
-        };
+        let input = MapInput::new(&source, &target, &landmarks);
         let (report, seconds) = timed(input, &PipelineOptions::default());
         print!(
             "{:12}  {:12}  {seconds:7.2}  {:6.4}  {:9}",

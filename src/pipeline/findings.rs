@@ -202,7 +202,6 @@ mod tests {
     use crate::demo;
     use crate::mesh::mirror::mirrored;
     use crate::monitor::Silent;
-    use crate::pipeline::{CapFaces, GroundTruth};
 
     #[test]
     fn limbs_without_a_landmark_are_named_with_the_numbers_of_the_file() {
@@ -212,13 +211,7 @@ mod tests {
         let pairs: Vec<[u32; 2]> = kept.collect();
         let landmarks = Landmarks::from_vertices(&demo.source, &demo.target, &pairs).unwrap();
         let (source, target) = (&demo.source, &demo.target);
-        let input = MapInput {
-            source,
-            target,
-            landmarks: &landmarks,
-            ground_truth: GroundTruth::Unknown,
-            caps: CapFaces::default(),
-        };
+        let input = MapInput::new(source, target, &landmarks);
         let found = findings(input, &[], &mut Silent).unwrap();
         assert_eq!(found.iter().map(|f| f.side).collect::<Vec<_>>(), [Some(0), Some(1)], "{found:?}");
         let tail = (0..demo.labels.len()).find(is_tail).unwrap();
@@ -240,9 +233,7 @@ mod tests {
         let demo = demo::build("horse-cat").unwrap();
         let found = |target: &crate::mesh::SurfaceMesh, pairs: &[[u32; 2]]| {
             let landmarks = Landmarks::from_vertices(&demo.source, target, pairs).unwrap();
-            let (source, ground_truth) = (&demo.source, GroundTruth::Unknown);
-            let input =
-                MapInput { source, target, landmarks: &landmarks, ground_truth, caps: CapFaces::default() };
+            let input = MapInput::new(&demo.source, target, &landmarks);
             findings(input, &demo.labels, &mut Silent).unwrap()
         };
         assert_eq!(found(&demo.target, &demo.landmarks), []);

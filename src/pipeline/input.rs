@@ -19,6 +19,13 @@ pub struct MapInput<'a> {
     pub caps: CapFaces<'a>,
 }
 
+impl<'a> MapInput<'a> {
+    /// Meshes of which no face was made up, and nothing is known of the true map.
+    pub fn new(source: &'a SurfaceMesh, target: &'a SurfaceMesh, landmarks: &'a Landmarks) -> Self {
+        Self { source, target, landmarks, ground_truth: GroundTruth::Unknown, caps: CapFaces::default() }
+    }
+}
+
 /// What is known of the true map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum GroundTruth {

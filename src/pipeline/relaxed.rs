@@ -85,20 +85,14 @@ mod tests {
     use super::*;
     use crate::demo;
     use crate::monitor::Silent;
-    use crate::pipeline::{CapFaces, GroundTruth, Warning};
+    use crate::pipeline::Warning;
 
     #[test]
     fn a_map_stands_where_its_overlay_is_lost() {
         let demo = demo::build("sphere-tetrahedron").unwrap();
         let (source, target) = (&demo.source, &demo.target);
         let landmarks = Landmarks::from_vertices(source, target, &demo.landmarks).unwrap();
-        let input = MapInput {
-            source,
-            target,
-            landmarks: &landmarks,
-            ground_truth: GroundTruth::Unknown,
-            caps: CapFaces::default(),
-        };
+        let input = MapInput::new(source, target, &landmarks);
         let options = PipelineOptions::default();
         let whole = run(input, &options, &mut Silent).unwrap();
 

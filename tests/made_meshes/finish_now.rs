@@ -5,7 +5,7 @@ use conemap::landmarks::Landmarks;
 use conemap::mesh::generators::icosphere;
 use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::{Cancelled, Monitor, Stage, Step};
-use conemap::pipeline::{CapFaces, GroundTruth, MapInput, MapResult, PipelineOptions, Warning, run};
+use conemap::pipeline::{MapInput, MapResult, PipelineOptions, Warning, run};
 use glam::DVec3;
 
 /// Wants a result from the n-th step on.
@@ -86,10 +86,6 @@ fn check(input: MapInput<'_>, limits: impl Fn(usize) -> Vec<usize>) -> Vec<f64> 
     energies
 }
 
-fn unknown<'a>(source: &'a SurfaceMesh, target: &'a SurfaceMesh, landmarks: &'a Landmarks) -> MapInput<'a> {
-    MapInput { source, target, landmarks, ground_truth: GroundTruth::Unknown, caps: CapFaces::default() }
-}
-
 #[test]
 fn two_round_bodies_at_all_times() {
     let (source, ball) = (icosphere(3), icosphere(4));
@@ -103,7 +99,7 @@ fn two_round_bodies_at_all_times() {
     let target = ball.with_positions(ball.positions().iter().map(bend).collect());
     let landmarks = Landmarks::from_vertices(&source, &target, &pairs).unwrap();
     let last = |steps: usize| (steps - 7..=steps).collect::<Vec<_>>();
-    check(unknown(&source, &target, &landmarks), |steps| {
+    check(MapInput::new(&source, &target, &landmarks), |steps| {
         let mut limits: Vec<usize> =
             [0, 1, 2].into_iter().chain((3..steps - 7).step_by(steps / 12)).collect();
         limits.extend(last(steps));
@@ -115,7 +111,7 @@ fn two_round_bodies_at_all_times() {
 fn two_animals_at_a_few_times() {
     let demo = demo::build("horse-cat").unwrap();
     let landmarks = Landmarks::from_vertices(&demo.source, &demo.target, &demo.landmarks).unwrap();
-    let input = unknown(&demo.source, &demo.target, &landmarks);
+    let input = MapInput::new(&demo.source, &demo.target, &landmarks);
     let energies = check(input, |steps| vec![0, steps / 2, steps - 12, steps - 3]);
     assert!(energies[0] > 1.002 * energies[3], "{energies:?}");
 }

@@ -2,7 +2,7 @@
 
 use crate::common;
 use conemap::monitor::Silent;
-use conemap::pipeline::{CapFaces, FindingKind, GroundTruth, MapInput, findings};
+use conemap::pipeline::{FindingKind, MapInput, findings};
 use std::path::Path;
 
 tests![tails_without_a_landmark_are_named_and_nothing_else];
@@ -11,8 +11,7 @@ tests![tails_without_a_landmark_are_named_and_nothing_else];
 fn named(data: &Path, name: &str) -> Vec<(usize, usize)> {
     let pair = common::read_pair(data, name);
     let landmarks = common::landmarks(&pair);
-    let (source, target, ground_truth) = (&pair.source, &pair.target, GroundTruth::Unknown);
-    let input = MapInput { source, target, landmarks: &landmarks, ground_truth, caps: CapFaces::default() };
+    let input = MapInput::new(&pair.source, &pair.target, &landmarks);
     let found = findings(input, &[], &mut Silent).unwrap();
     let limbs = found.iter().filter(|f| f.kind == FindingKind::UnmarkedLimbs);
     limbs.map(|f| (f.side.unwrap(), f.vertices.len())).collect()
