@@ -21,6 +21,7 @@ mod remesh;
 mod remeshed;
 mod stages;
 mod table;
+mod verify;
 
 use arguments::Arguments;
 
@@ -73,6 +74,11 @@ const SURVEYS: &[Survey] = &[
         name: "stages",
         about: "the share of each stage, measured and told; --landmarks 12 for few landmarks",
         run: stages::shares,
+    },
+    Survey {
+        name: "verify",
+        about: "the map files of all pairs, proved anew by conemap-verify",
+        run: verify::both_certificates,
     },
     Survey {
         name: "fit",

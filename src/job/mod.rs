@@ -8,13 +8,16 @@
 mod error;
 mod mesh_file;
 mod outputs;
+mod proof;
 mod saved;
 mod taken;
 
 pub use crate::mesh::mirror::TargetImage;
+pub use conemap_verify::Proof;
 pub use error::{JobError, JobFile};
 pub use mesh_file::{MeshFaults, MeshFileError, ReadMesh, read_mesh};
 pub use outputs::OutputFile;
+pub use proof::{ProofError, prove};
 pub use saved::{MapFiles, OpenMap, OpenMapError};
 pub use taken::{OutputKind, TakenMap};
 

@@ -274,7 +274,7 @@ impl fmt::Display for Sizes<'_> {
     }
 }
 
-pub(super) type Triangle = [u32; 3];
+pub(crate) type Triangle = [u32; 3];
 
 /// Judges a soup: polygons are triangulated, orientations made to agree and to face outwards, unused vertices left out.
 ///
@@ -306,7 +306,10 @@ pub fn closed_genus_zero(soup: &PolygonSoup) -> Result<CheckedMesh, MeshFault> {
 }
 
 /// Triangles, and the polygon that each comes from.
-pub(super) fn triangulated(soup: &PolygonSoup) -> Result<(Vec<Triangle>, Vec<usize>), MeshFault> {
+///
+/// # Errors
+/// [`MeshFault::Empty`] or [`MeshFault::TooManyFaces`].
+pub(crate) fn triangulated(soup: &PolygonSoup) -> Result<(Vec<Triangle>, Vec<usize>), MeshFault> {
     let faces: usize = soup.polygons.iter().map(|p| p.len().saturating_sub(2)).sum();
     if faces == 0 {
         return Err(MeshFault::Empty);

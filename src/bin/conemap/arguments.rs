@@ -30,6 +30,8 @@ pub enum Command {
     Query(QueryArguments),
     /// Measure the map of a map file anew, from its pieces alone.
     Report(ReportArguments),
+    /// Prove anew, in exact arithmetic and by other code, that the map of a map file is one-to-one.
+    Verify(VerifyArguments),
     /// Write all files of the map of a map file, without computing.
     Export(ExportArguments),
     /// Print vertices of a mesh that are worth a landmark: ends of limbs, then points far from all others.
@@ -189,6 +191,17 @@ pub struct ReportArguments {
     /// File for the measures (JSON); standard output where there is none.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+}
+
+/// `conemap verify`.
+#[derive(Debug, Args)]
+pub struct VerifyArguments {
+    /// The map.
+    #[command(flatten)]
+    pub saved: SavedMapArguments,
+    /// File for the report (JSON), written for a refused map as well.
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
 }
 
 /// `conemap export`.

@@ -1,0 +1,95 @@
+//! `conemap verify`.
+#![allow(clippy::print_stdout, reason = "the result goes to standard output")]
+
+use crate::arguments::VerifyArguments;
+use crate::input::{self, Failure};
+use conemap::job::{MapFiles, Proof, ProofError, prove};
+use conemap::landmarks::MeshSide;
+use serde_json::{Value, json};
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+/// Proves a map, and tells what was found; an error where it is not proved.
+pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
+    let begun = Instant::now();
+    let [map, source, target] = [&arguments.saved.map, &arguments.saved.source, &arguments.saved.target];
+    let bytes = [input::bytes(map)?, input::mesh_bytes(source)?, input::mesh_bytes(target)?];
+    let files = MapFiles { map: &bytes[0], source: &bytes[1], target: &bytes[2] };
+    let outcome = prove(files, &mut |_| ControlFlow::Continue(()));
+    if let Some(path) = &arguments.report {
+        let report = report(&outcome, begun.elapsed().as_secs_f64());
+        input::write(path, &serde_json::to_vec_pretty(&report)?)?;
+    }
+    match outcome {
+        Ok(proof) => {
+            tell(&proof);
+            if proof.is_exact() {
+                Ok(())
+            } else {
+                Err(format!("{}: the map is not proved", map.display()).into())
+            }
+        }
+        Err(error) => {
+            let file = match error.side() {
+                Some(MeshSide::Source) => source,
+                Some(MeshSide::Target) => target,
+                None => map,
+            };
+            Err(format!("{}: {error}", file.display()).into())
+        }
+    }
+}
+
+fn tell(proof: &Proof) {
+    let Proof { faces, vertices, pieces, segments, signs, landmarks, matrices, .. } = proof;
+    println!("{}", proof.sentence());
+    println!("faces: {} of the source, {} of the target", faces[0], faces[1]);
+    println!("pieces: {pieces} with {vertices} vertices, {segments} of them without inside");
+    println!("determinants: {} signs, {} of them by integers", signs.signs, signs.by_integers);
+    println!(
+        "landmarks: {} of {} meet exactly, the others within {:.1e} of the size of the mesh",
+        landmarks.exact, landmarks.pairs, landmarks.largest_distance
+    );
+    println!(
+        "matrices: {} given; images by matrices are off by at most {:.1e} of the target's size",
+        matrices.given, matrices.largest_distance
+    );
+}
+
+/// What is known, stable as JSON.
+fn report(outcome: &Result<Proof, ProofError>, seconds: f64) -> Value {
+    let proof = match outcome {
+        Ok(proof) => proof,
+        Err(error) => {
+            return json!({
+                "verdict": "refused", "kind": error.kind(), "sentence": error.to_string(), "seconds": seconds,
+            });
+        }
+    };
+    let (doubtful, landmarks, matrices) = (&proof.doubtful, &proof.landmarks, &proof.matrices);
+    json!({
+        "verdict": if proof.is_exact() { "proved" } else { "within-rounding" },
+        "sentence": proof.sentence(),
+        "faces": { "source": proof.faces[0], "target": proof.faces[1] },
+        "vertices": proof.vertices,
+        "pieces": proof.pieces,
+        "segments": proof.segments,
+        "triangles": proof.triangles,
+        "doubtful": {
+            "triangles": doubtful.triangles,
+            "first_piece": doubtful.first_piece,
+            "source_share": doubtful.source_share,
+            "target_share": doubtful.target_share,
+            "turned_share": doubtful.turned_share,
+        },
+        "signs": { "all": proof.signs.signs, "by_integers": proof.signs.by_integers },
+        "landmarks": {
+            "pairs": landmarks.pairs,
+            "exact": landmarks.exact,
+            "largest_distance": landmarks.largest_distance,
+        },
+        "matrices": { "given": matrices.given, "largest_distance": matrices.largest_distance },
+        "mirrored": proof.is_mirrored,
+        "seconds": seconds,
+    })
+}

@@ -1,0 +1,58 @@
+//! What is read of a map file's header.
+
+use serde::Deserialize;
+
+/// The header, without what the proof does not need.
+#[derive(Debug, Deserialize)]
+pub struct Header {
+    #[serde(default)]
+    pub requires: Vec<String>,
+    pub source: MeshEntry,
+    pub target: MeshEntry,
+    #[serde(default)]
+    pub target_image: TargetImage,
+    pub landmarks: LandmarkList,
+    pub sections: Vec<SectionEntry>,
+}
+
+/// A mesh that the map was made with.
+#[derive(Debug, Deserialize)]
+pub struct MeshEntry {
+    pub checked_sha256: String,
+}
+
+/// Whether the map goes to the target or to its mirror image.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum TargetImage {
+    #[default]
+    AsGiven,
+    Mirrored,
+}
+
+/// Corresponding points, the source's first.
+#[derive(Debug, Deserialize)]
+pub struct LandmarkList {
+    pub pairs: Vec<[LandmarkPoint; 2]>,
+}
+
+/// A vertex, or a point of a face.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub enum LandmarkPoint {
+    Vertex(u32),
+    OnFace { face: u32, barycentric: [f64; 3] },
+}
+
+/// Where an array lies.
+#[derive(Debug, Deserialize)]
+pub struct SectionEntry {
+    pub name: String,
+    #[serde(rename = "type")]
+    pub kind: String,
+    pub count: u64,
+    #[serde(default)]
+    pub packing: Option<String>,
+    pub offset: u64,
+    pub bytes: u64,
+}
