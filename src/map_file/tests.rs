@@ -17,9 +17,13 @@ use glam::{DMat2, DVec2};
 
 /// A file of a mesh, its faces as they are or all turned inside out.
 fn file(mesh: &SurfaceMesh, corners: [usize; 3]) -> FileMesh {
+    FileMesh::read(&file_bytes(mesh, corners)).unwrap()
+}
+
+fn file_bytes(mesh: &SurfaceMesh, corners: [usize; 3]) -> Vec<u8> {
     let turned = mesh.triangles().iter().map(|t| corners.map(|k| t[k].0).to_vec()).collect::<Vec<_>>();
     let positions: Vec<_> = mesh.positions().iter().copied().collect();
-    FileMesh::read(&crate::export::obj::polygons(&positions, &turned)).unwrap()
+    crate::export::obj::polygons(&positions, &turned)
 }
 
 const AS_IT_IS: [usize; 3] = [0, 1, 2];
@@ -271,6 +275,97 @@ fn faults_name_section_and_element() {
     assert!(uv.contains("section \"texture.uvs\", element 4"), "{uv}");
     let empty = read(b"", meshes.each_ref()).unwrap_err();
     assert_eq!(empty, MapFileError::NotAMapFile);
+}
+
+/// A piece of other corners in a face of both meshes, its matrix given.
+fn push_piece(map: &mut MapFile, face: FaceId, ring: &[u32]) {
+    let begin = map.correspondence.corners.len();
+    map.correspondence.corners.extend(ring);
+    let corners = begin..map.correspondence.corners.len();
+    let piece = MappedPiece { faces: [face; 2], corners, map: DMat2::IDENTITY, is_certain: true };
+    map.correspondence.pieces.push(piece);
+}
+
+/// Without the piece's corners there is no piece: those behind it move up.
+fn remove_piece(map: &mut MapFile, number: usize) {
+    let removed = map.correspondence.pieces.remove(number);
+    map.correspondence.corners.drain(removed.corners.clone());
+    for piece in &mut map.correspondence.pieces[number..] {
+        let shorter = |end: usize| end - removed.corners.len();
+        piece.corners = shorter(piece.corners.start)..shorter(piece.corners.end);
+    }
+}
+
+/// Each attack is refused by this reader and by the independent proof; the kinds are those of the proof.
+#[test]
+fn attacked_maps_are_refused_by_both_certificates() {
+    let (map, meshes) = small();
+    let mesh = icosphere(1);
+    let bytes = [file_bytes(&mesh, INSIDE_OUT), file_bytes(&mesh, AS_IT_IS)];
+    let prove = |map: &[u8]| {
+        let files = crate::job::MapFiles { map, source: &bytes[0], target: &bytes[1] };
+        crate::job::prove(files, &mut |_| std::ops::ControlFlow::Continue(()))
+    };
+    let proof = prove(&write(&map, meshes.each_ref())).unwrap();
+    assert!(proof.is_exact() && proof.pieces == 82 && proof.landmarks.exact == 4, "{proof:?}");
+    type Attack = fn(&mut MapFile);
+    let attacks: [(&str, &str, Attack); 9] = [
+        ("a missing cell", "gap", |m| remove_piece(m, 7)),
+        ("a cell that is there twice", "overlap", |m| {
+            let piece = m.correspondence.pieces[7].clone();
+            let ring = m.correspondence.corners[piece.corners].to_vec();
+            push_piece(m, piece.faces[0], &ring);
+        }),
+        ("a flipped cell", "overlap", |m| m.correspondence.corners[..3].reverse()),
+        ("a swapped pair of cells", "elsewhere", |m| {
+            let [a, b] = [9, 60].map(|k| m.correspondence.pieces[k].faces);
+            (m.correspondence.pieces[9].faces, m.correspondence.pieces[60].faces) = (b, a);
+        }),
+        ("two vertices exchanged on the target", "elsewhere", |m| {
+            let [a, b] = [3, 30].map(|v| m.correspondence.vertices[v][1]);
+            (m.correspondence.vertices[3][1], m.correspondence.vertices[30][1]) = (b, a);
+        }),
+        ("the map twice", "parts", |m| {
+            let (vertices, pieces) = (m.correspondence.vertices.clone(), m.correspondence.pieces.clone());
+            let corners = m.correspondence.corners.clone();
+            let second = vertices.len() as u32;
+            m.correspondence.vertices.extend(vertices);
+            for piece in pieces {
+                let ring: Vec<u32> = corners[piece.corners].iter().map(|v| v + second).collect();
+                push_piece(m, piece.faces[0], &ring);
+            }
+        }),
+        ("a place beyond its edge", "beside-edge", |m| {
+            if let Place::Edge { along, .. } = &mut m.correspondence.vertices[42][0] {
+                *along = -0.25;
+            }
+        }),
+        ("a landmark that does not exist", "landmark", |m| {
+            m.landmarks.pairs[2][1] = crate::io::landmark_file::LandmarkPoint::Vertex(42);
+        }),
+        ("a matrix that is none", "matrix", |m| {
+            push_piece(m, FaceId(0), &[0, 0]);
+            let piece = m.correspondence.pieces.len() - 1;
+            let [a, b, _] = [0, 1, 2].map(|k| m.correspondence.corners[k]);
+            let corners = m.correspondence.pieces[piece].corners.clone();
+            m.correspondence.corners[corners].copy_from_slice(&[a, b]);
+            m.correspondence.pieces[piece].faces = m.correspondence.pieces[0].faces;
+            m.correspondence.pieces[piece].map = DMat2::ZERO;
+        }),
+    ];
+    for (name, kind, attack) in attacks {
+        let mut attacked = map.clone();
+        attack(&mut attacked);
+        let bytes = write(&attacked, meshes.each_ref());
+        let found = prove(&bytes).expect_err(name);
+        assert_eq!(found.kind(), kind, "{name}: {found}");
+        assert!(read(&bytes, meshes.each_ref()).is_err(), "{name}");
+    }
+    // A landmark that is elsewhere is no fault of the pieces: the proof alone looks whether they meet.
+    let mut moved = map.clone();
+    moved.landmarks.pairs[2][1] = crate::io::landmark_file::LandmarkPoint::Vertex(20);
+    let bytes = write(&moved, meshes.each_ref());
+    assert_eq!(prove(&bytes).unwrap_err().kind(), "landmark");
 }
 
 #[test]

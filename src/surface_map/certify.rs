@@ -92,6 +92,34 @@ mod tests {
     }
 
     #[test]
+    fn a_vertex_one_ulp_across_an_edge_is_refused() {
+        let (patched, surface, mut embedding) = example();
+        let v = inner_vertex(&patched, &embedding);
+        let h = patched.mesh.outgoing(v);
+        let (begin, [a, b]) =
+            (embedding.corners[h], [embedding.corners[h.next()], embedding.corners[h.prev()]]);
+        let mut certificate_at = |place: glam::DVec2| {
+            patched.mesh.star(v).for_each(|h| embedding.corners[h] = place);
+            certify(patched.parametrised(&embedding), &surface)
+        };
+        // The vertex goes towards the edge across until no number lies between two places.
+        let (mut good, mut bad) = (begin, 0.8 * (a + b) - 0.6 * begin);
+        loop {
+            let middle = 0.5 * (good + bad);
+            if middle == good || middle == bad {
+                break;
+            }
+            if certificate_at(middle).flipped_triangles == 0 { good = middle } else { bad = middle }
+        }
+        assert!(good.distance(bad) < 2.0 * f64::EPSILON);
+        let before = certificate_at(good);
+        assert!(before.bijective, "{before}");
+        let after = certificate_at(bad);
+        assert!(!after.bijective && after.flipped_triangles == 1, "{after}");
+        assert!(after.max_transition_error < 1e-9 && after.max_angle_sum_error < 1e-6, "{after}");
+    }
+
+    #[test]
     fn exchanged_landmarks_are_refused() {
         let (mut patched, surface, embedding) = example();
         patched.landmark_vertices.raw.swap(0, 3);

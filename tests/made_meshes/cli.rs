@@ -604,8 +604,48 @@ fn bad_cones_are_refused_by_line() {
 }
 
 #[test]
+fn a_map_file_is_proved_or_refused() {
+    let folder = folder("a_map_file_is_proved_or_refused");
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("verify/tests/data");
+    let [map, bean, ball] = ["bean-ball.conemap", "bean.off", "ball.off"].map(|name| data.join(name));
+    let report = folder.join("proof.json");
+    let asked = |map: &Path, source: &Path, target: &Path| {
+        let words = [OsStr::new("verify"), map.as_os_str(), source.as_os_str(), target.as_os_str()];
+        conemap(words.into_iter().chain([OsStr::new("--report"), report.as_os_str()]))
+    };
+    let output = asked(&map, &bean, &ball);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(said.starts_with("Proved: the map is one-to-one from the source onto the target."), "{said}");
+    let proved = json(&report);
+    assert_eq!((&proved["verdict"], &proved["doubtful"]["triangles"]), (&"proved".into(), &0.into()));
+    assert_eq!((&proved["faces"]["source"], &proved["landmarks"]["pairs"]), (&320.into(), &7.into()));
+    let output = asked(&map, &ball, &bean);
+    assert_eq!(output.status.code(), Some(1));
+    let sentence = errors(&output);
+    assert!(
+        sentence.contains("ball.off: the source is not the mesh that the map was made with"),
+        "{sentence}"
+    );
+    assert_eq!(
+        (&json(&report)["verdict"], &json(&report)["kind"]),
+        (&"refused".into(), &"other-mesh".into())
+    );
+    let damaged = folder.join("damaged.conemap");
+    let mut bytes = std::fs::read(&map).unwrap();
+    let last = bytes.len() - 2000;
+    bytes[last] ^= 16;
+    std::fs::write(&damaged, &bytes).unwrap();
+    let output = asked(&damaged, &bean, &ball);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(errors(&output).contains("damaged.conemap: section"), "{}", errors(&output));
+    assert_eq!(asked(&folder.join("none.conemap"), &bean, &ball).status.code(), Some(1));
+}
+
+#[test]
 fn wrong_arguments_end_in_the_usage() {
-    let cases: [(&[&str], &str); 5] = [
+    let cases: [(&[&str], &str); 6] = [
+        (&["verify", "map.conemap", "source.off"], "<TARGET>"),
         (&["map", "only-one.obj"], "--landmarks"),
         (&["remesh", "ball.obj", "--faces=100"], "--out"),
         (&["remesh", "ball.obj", "--out=new.obj"], "--faces"),

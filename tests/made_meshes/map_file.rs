@@ -5,8 +5,9 @@ use conemap::export;
 use conemap::export::vertex_image::Direction;
 use conemap::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 use conemap::io::read_mesh;
-use conemap::job::{Job, JobFiles, MapFiles, OpenMap, OutputKind, TakenMap, TargetImage};
+use conemap::job::{Job, JobFiles, MapFiles, OpenMap, OutputKind, TakenMap, TargetImage, prove};
 use conemap::landmark_exchange::GivenFile;
+use conemap::landmarks::MeshSide;
 use conemap::map_file::MapFile;
 use conemap::math::random::SplitMix;
 use conemap::mesh::mirror::mirrored;
@@ -14,6 +15,7 @@ use conemap::mesh::{FaceId, SurfaceMesh, SurfacePoint};
 use conemap::monitor::Silent;
 use conemap::pipeline::{Choices, MapResult, PipelineOptions};
 use conemap::surface_map::flat_layout::FlatLayout;
+use std::ops::ControlFlow;
 use std::sync::OnceLock;
 
 /// A demo that was mapped.
@@ -71,6 +73,25 @@ fn both() -> [&'static Mapped; 2] {
 fn open(mapped: &Mapped) -> OpenMap {
     let [source, target] = &mapped.files;
     OpenMap::read(MapFiles { map: &mapped.bytes, source, target }).unwrap()
+}
+
+/// The independent proof agrees with the certificate: with own cones and landmarks inside faces, and for a mirror image.
+#[test]
+fn the_second_program_proves_the_map() {
+    for (mapped, is_mirrored) in [(horse_cat(), false), (mirrored_demo(), true)] {
+        assert!(mapped.result.report.certificate.is_some_and(|c| c.bijective));
+        let [source, target] = &mapped.files;
+        let files = MapFiles { map: &mapped.bytes, source, target };
+        let proof = prove(files, &mut |_| ControlFlow::Continue(())).unwrap();
+        assert!(proof.is_exact() && proof.is_mirrored == is_mirrored, "{proof:?}");
+        assert_eq!(proof.pieces, mapped.map.correspondence.pieces.len());
+        assert_eq!(proof.landmarks.pairs, mapped.map.landmarks.pairs.len());
+        assert!(proof.landmarks.largest_distance < 1e-12, "{proof:?}");
+        // With the meshes exchanged it is refused, and the mesh is named.
+        let files = MapFiles { map: &mapped.bytes, source: target, target: source };
+        let error = prove(files, &mut |_| ControlFlow::Continue(())).unwrap_err();
+        assert_eq!((error.kind(), error.side()), ("other-mesh", Some(MeshSide::Source)));
+    }
 }
 
 /// Words are the same, and numbers up to rounding.

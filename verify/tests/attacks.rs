@@ -308,7 +308,7 @@ fn meshes_that_are_no_spheres_are_refused() {
         assert!(matches!(refusal, Refusal::Mesh { side: Side::Source, .. }), "{refusal}");
         refusal.to_string()
     };
-    assert!(problem(|t| drop(t.pop())).contains("has not two faces"));
+    assert!(problem(|t| t.truncate(319)).contains("has not two faces"));
     assert!(problem(|t| t.push(t[0])).contains("has not two faces"));
     assert!(problem(|t| t[5][1] = t[5][0]).contains("face 5"));
     assert!(problem(|t| t[5][1] = 100_000).contains("face 5"));

@@ -46,12 +46,16 @@ fn tell(proof: &Proof) {
     println!("faces: {} of the source, {} of the target", faces[0], faces[1]);
     println!("pieces: {pieces} with {vertices} vertices, {segments} of them without inside");
     println!("determinants: {} signs, {} of them by integers", signs.signs, signs.by_integers);
+    let others = match landmarks.pairs - landmarks.exact {
+        0 => String::new(),
+        others => format!(
+            ", {others} inside faces within {:.1e} of the root of the mesh's area",
+            landmarks.largest_distance
+        ),
+    };
+    println!("landmarks: {} of {} pairs meet exactly{others}", landmarks.exact, landmarks.pairs);
     println!(
-        "landmarks: {} of {} meet exactly, the others within {:.1e} of the size of the mesh",
-        landmarks.exact, landmarks.pairs, landmarks.largest_distance
-    );
-    println!(
-        "matrices: {} given; images by matrices are off by at most {:.1e} of the target's size",
+        "matrices: {} given; images by matrices are off by at most {:.1e} of the root of the target's area",
         matrices.given, matrices.largest_distance
     );
 }
