@@ -420,3 +420,21 @@ fn the_core_names_no_browser_gpu_clock_or_thread() {
         }
     }
 }
+
+#[test]
+fn the_second_certificate_shares_no_code() {
+    let folder = root().join("verify");
+    let manifest =
+        std::fs::read_to_string(folder.join("Cargo.toml")).expect("the crate of the second certificate");
+    let dependencies = manifest.split("dependencies]").nth(1).expect("dependencies");
+    assert!(!dependencies.contains("conemap") && !manifest.contains("path ="), "it depends on this project");
+    let mut files = Vec::new();
+    rust_files(&folder.join("src"), &mut files);
+    assert!(files.len() > 8, "its files were not found");
+    for file in files {
+        let text = std::fs::read_to_string(&file).expect("source file");
+        for word in ["#[path", "include!", "conemap::"] {
+            assert!(!text.contains(word), "{} has `{word}`", file.display());
+        }
+    }
+}

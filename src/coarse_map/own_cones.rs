@@ -232,6 +232,9 @@ fn pairs(
         .collect();
     let mut free = vec![true; mesh.vertex_count()];
     avoid.iter().for_each(|&v| free[v.index()] = false);
+    // Levels of small meshes keep what the round before inserted; the next round begins without.
+    let is_known = |v: VertexId| source.vertices[v].index() < full[0].refined.mesh.vertex_count();
+    mesh.vertices().filter(|&v| !is_known(v)).for_each(|v| free[v.index()] = false);
     mesh.vertices().filter(|&v| !weights[0].is_on_skin(mesh, v)).for_each(|v| free[v.index()] = false);
     let wanted = Spread { count, least_distance: LEAST_DISTANCE };
     let chosen = farthest_points(mesh, distances(mesh, &avoid), wanted, |v| free[v.index()], monitor)?;

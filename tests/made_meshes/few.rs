@@ -2,6 +2,10 @@
 
 use crate::fixtures;
 use crate::theorems::{farthest_landmarks, maps_with_and_without_own_cones};
+use conemap::job::{Job, JobFiles, TargetImage};
+use conemap::landmark_exchange::GivenFile;
+use conemap::monitor::Silent;
+use conemap::pipeline::PipelineOptions;
 
 #[test]
 fn own_cones_lower_the_distortion_of_eight_landmarks() {
@@ -10,4 +14,20 @@ fn own_cones_lower_the_distortion_of_eight_landmarks() {
     assert!(own.energy < none.energy - 0.3 && own.mean < none.mean - 0.2, "{own:?} {none:?}");
     let [own, none] = results.each_ref().map(|result| result.report.ground_truth.as_ref().unwrap().mean);
     assert!(own < 0.007 && own < 0.7 * none, "{own} of the root of the area, {none} without");
+}
+
+/// The coarse levels of small meshes are the meshes themselves, with all that a round of own cones inserts.
+#[test]
+fn small_meshes_take_own_cones_in_several_rounds() {
+    let [source, target] = [
+        include_bytes!("../../verify/tests/data/bean.off").as_slice(),
+        include_bytes!("../../verify/tests/data/ball.off").as_slice(),
+    ];
+    let landmarks = br#"{"pairs": [[144, 43], [74, 50], [17, 60], [37, 67], [26, 0], [29, 113],
+        [{"face": 83, "barycentric": [0.3, 0.3, 0.4]}, {"face": 45, "barycentric": [0.25, 0.5, 0.25]}]]}"#;
+    let landmarks = [GivenFile { name: "pairs.json", bytes: landmarks }];
+    let files = JobFiles { source, target, landmarks: &landmarks };
+    let job = Job::read(files, TargetImage::AsGiven, &mut Silent).unwrap();
+    let report = job.run(&PipelineOptions::default(), &mut Silent).unwrap().report;
+    assert!(report.certificate.is_some_and(|c| c.bijective) && report.own_landmarks > 0, "{report:?}");
 }

@@ -56,3 +56,16 @@ pub struct SectionEntry {
     pub offset: u64,
     pub bytes: u64,
 }
+
+impl SectionEntry {
+    /// Its length once unpacked; 0 for elements of a type that is not known.
+    pub fn unpacked_bytes(&self) -> u64 {
+        let width = match self.kind.as_str() {
+            "u8" => 1,
+            "u32" => 4,
+            "f64" => 8,
+            _ => 0,
+        };
+        self.count.saturating_mul(width)
+    }
+}

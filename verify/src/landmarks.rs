@@ -8,6 +8,8 @@ use std::ops::ControlFlow;
 
 /// Landmarks inside faces are met where the map comes as near as this, in units of the root of the mesh's area.
 const NEAR: f64 = 1e-9;
+/// Overlay vertices that are compared with landmarks, at most; a face of a real map has some hundred.
+const MOST_COMPARED: usize = 1 << 26;
 /// Landmark pairs, at most, as in landmark files.
 const MOST_PAIRS: usize = 10_000;
 
@@ -35,6 +37,7 @@ pub fn check(
     }
     let mut found = Landmarks { pairs: pairs.len(), ..Landmarks::default() };
     let index = Index::new(map);
+    let mut compared = 0_usize;
     for (pair, points) in pairs.iter().enumerate() {
         if ask(pair as f64 / pairs.len() as f64).is_break() {
             return Err(Refusal::Stopped);
@@ -46,6 +49,10 @@ pub fn check(
             places[side] = place(map, side, points[side]).ok_or_else(missing)?;
         }
         let candidates = index.around(map, places[0]);
+        compared = compared.saturating_add(candidates.len());
+        if compared > MOST_COMPARED {
+            return Err(wrong("lies among more overlay vertices than can be compared"));
+        }
         let near = candidates.iter().copied().min_by(|&a, &b| {
             let distance = |v: u32| index.distance(map, 0, map.places[0][v as usize], places[0]);
             distance(a).total_cmp(&distance(b))

@@ -1,7 +1,7 @@
 //! A second opinion on finished maps: reads a map file and both meshes, and proves that the map is one-to-one.
 //!
 //! It shares no code with the program that makes maps, and reads nothing of a map file but its header and the sections
-//! `vertices.*` and `pieces.*` ([the format](https://docs.rs/conemap), `docs/map-file.md`). The meshes come as arrays ([`GivenMesh`]):
+//! `vertices.*` and `pieces.*` (`docs/map-file.md` has the format). The meshes come as arrays ([`GivenMesh`]):
 //! what has read and triangulated their files is trusted to have read them right. All else is checked here.
 //!
 //! # What is proved
