@@ -3,7 +3,7 @@ import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { beforeAll, describe, expect, test } from 'vitest';
 import type { Chart } from '../../www/plots/chart.ts';
-import { evenMarks, indexAt, logMarks, reading, shareOf } from '../../www/plots/chart.ts';
+import { evenMarks, indexAt, logMarks, markText, reading, shareOf } from '../../www/plots/chart.ts';
 import { beyond, distortionChart } from '../../www/plots/distortion.ts';
 import { chartCsv, chartSvg } from '../../www/plots/files.ts';
 import { residualChart } from '../../www/plots/residuals.ts';
@@ -26,6 +26,8 @@ describe('marks', () => {
 
   test('of a logarithmic axis lie within it and are never more than asked for', () => {
     expect(logMarks([1, 3], 9)).toEqual([1, 1.2, 1.5, 2, 3]);
+    expect(logMarks([1, 1.4], 9)).toEqual([1, 1.1, 1.2, 1.3, 1.4]);
+    expect([1e-12, 0.01, 1, 200, 1e6].map(markText)).toEqual(['10⁻¹²', '0.01', '1', '200', '10⁶']);
     expect(logMarks([0.5, 2], 9)).toEqual([0.5, 0.7, 1, 1.2, 1.5, 2]);
     for (const range of [[1, 1.5], [1e-9, 1], [1e-14, 1e3], [1, 1e4]] as const) {
       const marks = logMarks(range, 8);

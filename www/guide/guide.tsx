@@ -84,7 +84,7 @@ function Landmarks(): VNode {
       <ul>
         <li>
           <strong>Ends first.</strong> A limb without a landmark may end up anywhere: put one at the tip of each leg, ear, tail and
-          nose. “Suggest” in the step Landmarks looks for such places.
+          nose. “Suggest places” in the step Landmarks finds them.
         </li>
         <li>
           <strong>Three around the end of a limb, not in a line.</strong> One point lets the limb turn about it, and so do three along
@@ -205,8 +205,8 @@ function Limits(): VNode {
     <Section id="limits">
       <p>
         <strong>What is refused.</strong> What is mapped is one closed surface without handles. Holes are capped, faults of the mesh are
-        repaired, and both are told. Handles are cut only where you ask for it; one-sided surfaces, several large parts and open sheets
-        are refused in a sentence. A surface that goes through itself is not noticed. Fewer than four pairs are no start, and two pairs
+        repaired, and both are told. Handles are cut only where you ask for it; one-sided surfaces and open sheets are refused in a
+        sentence, and so are several large parts, of which the page offers to keep the largest. A surface that goes through itself is not noticed. Fewer than four pairs are no start, and two pairs
         cannot share a point.
       </p>
       <p>
@@ -230,8 +230,8 @@ function Citing(): VNode {
   return (
     <Section id="citing">
       <p>
-        Name Conemap with its version or the date, the number of landmarks, and what was chosen under Details; the report has all of it.
-        The method stands on these papers: cite the ones whose part matters to you.
+        Name Conemap with its version or the date, the number of landmarks, and what was chosen under Details; whoever has the map file
+        has all of it. The method stands on these papers: cite the ones whose part matters to you.
       </p>
       <ol class="papers">
         {PAPERS.map(({ authors, year, title, where, use }) => (

@@ -9,7 +9,7 @@ export interface Quantity {
   readonly value: (report: Report) => string | null;
 }
 
-export function percent(share: number): string {
+function percent(share: number): string {
   return `${(100 * share).toFixed(2)} %`;
 }
 
@@ -26,7 +26,7 @@ export const QUANTITIES: readonly Quantity[] = [
   },
   {
     name: 'Energy E',
-    text: 'The symmetric Dirichlet energy of the map: half from the source to the target, half back. Its least value is 4, which isometries have, and conformal maps as well: E judges how angles are kept, D angles and areas. Unlike shapes with good landmarks come to 4.2 to 5; two poses of one body come close to 4.',
+    text: 'The symmetric Dirichlet energy of the map: half from the source to the target, half back. Its least value is 4, which isometries have, and conformal maps as well: E judges how angles are kept, D angles and areas. Unlike shapes with good landmarks come to 4.2 to 5.4; two poses of one body come close to 4.',
     value: ({ distortion }) => figure(distortion.energy),
   },
   {

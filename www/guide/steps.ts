@@ -37,7 +37,7 @@ export const METHOD: readonly MethodStep[] = [
       'Vertices collapse into a neighbour until about 500 are left, the landmarks always among them. Which goes next, and into which neighbour, is told by the quadric error: the sum of the squared distances to the planes of the faces around, each times its area.',
       'On coarse meshes a whole map costs a fraction of a second, so that many can be tried.',
     ],
-    formula: { tex: String.raw`Q(x)=\sum_{f} A_f\,\bigl(n_f\cdot x+d_f\bigr)^2`, plain: 'Q(x) = Σ A (n·x + d)², over faces of area A' },
+    formula: { tex: String.raw`Q(x)=\sum_{f} A_f\,(n_f\cdot x+d_f)^2`, plain: 'Q(x) = Σ A (n·x + d)², over faces of area A' },
     Picture: Collapse,
     fact: ({ faces }) => `The full meshes have ${integer(faces.source)} and ${integer(faces.target)} triangles.`,
     look: null,
@@ -58,7 +58,7 @@ export const METHOD: readonly MethodStep[] = [
       'A path may pass a leg on its left or on its right, or wind around it. No smoothing repairs that later, so the drawings of different isotopy classes, and their Dehn twists, are each made a coarse map. The class of least mean logarithm of the distortion D stays. (The energy E would not tell them apart as well: it is 4 for every conformal map.)',
     ],
     formula: {
-      tex: String.raw`\tfrac12\Bigl(\int_S\log D\,dA_S+\int_T\log D\,dA_T\Bigr)`,
+      tex: String.raw`\frac{1}{2}\int_S\log D\,dA_S+\frac{1}{2}\int_T\log D\,dA_T`,
       plain: '½ (∫ log D dA over the source + ∫ log D dA over the target)',
     },
     Picture: Twist,

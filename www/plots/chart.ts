@@ -60,13 +60,21 @@ function logMarksAt([low, high]: readonly [number, number], steps: readonly numb
     .filter((mark) => mark >= low * (1 - 1e-9) && mark <= high * (1 + 1e-9));
 }
 
+/** A mark as it stands beside its axis: powers of ten as such where they are very small or large. */
+export function markText(mark: number): string {
+  return figure(mark).replace(/^1(?:\.0)?·(?=10)/, '');
+}
+
 /** Marks of a logarithmic axis from and to positive values, at most as many as asked for. */
 export function logMarks(range: readonly [number, number], most: number): readonly number[] {
+  const [low, high] = range;
   const ways = [
+    // A short way of an axis is nearly even.
+    ...(high < 2 * low ? [evenMarks(range, 6)] : []),
     ...LOG_STEPS.map((steps) => logMarksAt(range, steps, 1)),
     ...[2, 3, 5, 10].map((every) => logMarksAt(range, [1], every)),
   ];
-  return ways.find((marks) => marks.length <= most) ?? [range[0]];
+  return ways.find((marks) => marks.length <= most) ?? [low];
 }
 
 /** Where a value lies on an axis, 0 at its beginning and 1 at its end. */

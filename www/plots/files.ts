@@ -1,7 +1,6 @@
 /** A plot as files: SVG and CSV. The SVG stands alone, dark on white, as papers need it. */
-import { figure } from '../numbers.ts';
 import type { Axis, Chart, Curve } from './chart.ts';
-import { shareOf } from './chart.ts';
+import { markText, shareOf } from './chart.ts';
 
 /** In pixels. */
 export const SIZE = { width: 720, height: 440 };
@@ -65,11 +64,11 @@ function text(x: number, y: number, content: string, more = ''): string {
 function axes({ x, y }: Chart): string {
   const upright = x.marks.map((mark) => {
     const place = across(x, mark).toFixed(2);
-    return `<path d="M${place} ${BOX.top}V${BOX.bottom}" stroke="${LINE}"/>${text(Number(place), BOX.bottom + 18, figure(mark), ' text-anchor="middle"')}`;
+    return `<path d="M${place} ${BOX.top}V${BOX.bottom}" stroke="${LINE}"/>${text(Number(place), BOX.bottom + 18, markText(mark), ' text-anchor="middle"')}`;
   });
   const level = y.marks.map((mark) => {
     const place = down(y, mark).toFixed(2);
-    return `<path d="M${BOX.left} ${place}H${BOX.right}" stroke="${LINE}"/>${text(BOX.left - 8, Number(place) + 4, figure(mark), ' text-anchor="end"')}`;
+    return `<path d="M${BOX.left} ${place}H${BOX.right}" stroke="${LINE}"/>${text(BOX.left - 8, Number(place) + 4, markText(mark), ' text-anchor="end"')}`;
   });
   const middle = (BOX.top + BOX.bottom) / 2;
   const titles = [

@@ -3,9 +3,8 @@ import type { VNode } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
-import { figure } from '../numbers.ts';
 import type { Axis, Chart, Curve } from './chart.ts';
-import { indexAt, reading } from './chart.ts';
+import { indexAt, markText, reading } from './chart.ts';
 import { FAINT } from './files.ts';
 
 const HEIGHT = 320;
@@ -48,7 +47,7 @@ function axisOf({ title, marks }: Axis, { ink, line }: Palette, size: number): u
     splits: () => [...marks],
     // All marks are wanted; by itself the library thins those of logarithms out.
     filter: (_, splits) => splits,
-    values: (_, splits) => splits.map(figure),
+    values: (_, splits) => splits.map(markText),
   };
 }
 
