@@ -6,7 +6,7 @@ import { saveLandmarks } from './app/landmarks.ts';
 import { mark } from './app/mark.ts';
 import { Links } from './app/links.ts';
 import { Maps } from './app/maps.ts';
-import { followDemo, freeForgotten, openDemo } from './app/open.ts';
+import { followDemo, freeForgotten, openDemo, showOwnLink } from './app/open.ts';
 import { saveMadeFile } from './app/made-files.ts';
 import { saveProject } from './app/projects.ts';
 import { listenForHalves } from './app/propose.ts';
@@ -22,6 +22,7 @@ import { keepOffline } from './offline/register.ts';
 import type { Side } from './landmarks.ts';
 import type { Actions, CameraCommand } from './panels/actions.ts';
 import { mountPage } from './panels/page.tsx';
+import { guideSection } from './send/guide-link.ts';
 import type { Demo, State } from './store/state.ts';
 import { Store } from './store/store.ts';
 import { Views } from './viewer/viewer.ts';
@@ -206,7 +207,19 @@ async function openFirst(demos: readonly Demo[]): Promise<boolean> {
   return first !== undefined && openDemo(store, first.id);
 }
 
+/** Opens the guide where the address asks for it, and takes the wish out of the address again; whether it did. */
+function followGuide(): boolean {
+  const section = guideSection(location.hash);
+  if (section === null) {
+    return false;
+  }
+  showOwnLink(store.state);
+  page.openGuide(section);
+  return true;
+}
+
 async function start(): Promise<void> {
+  followGuide();
   const finding = keeper.find(links.named);
   try {
     const core = await compileCore();
@@ -235,7 +248,7 @@ async function start(): Promise<void> {
 }
 
 window.addEventListener('hashchange', () => {
-  if (store.state.ready) {
+  if (!followGuide() && store.state.ready) {
     void links.follow();
   }
 });

@@ -1,5 +1,5 @@
 /** States and files to test with. */
-import type { RunOutput } from '../../www/compute/messages.ts';
+import type { RunOutput, SideOutput } from '../../www/compute/messages.ts';
 import type { Pair, Suggestion, SurfacePoint } from '../../www/landmarks.ts';
 import type { Finding, Report } from '../../www/report.ts';
 import { change } from '../../www/store/change.ts';
@@ -53,7 +53,8 @@ export const DOUBT: Doubt = {
   sentence: 'The targets of the pairs 1 and 2 look swapped: exchanged, they lie among the others as on the source. Exchange them.',
   ids: [1, 2],
 };
-export const OUTPUT = { report: '{}', distortion: new Float32Array(3) } as RunOutput;
+const NOWHERE = { positions: new Float32Array(9) } as SideOutput;
+export const OUTPUT = { report: '{}', distortion: new Float32Array(3), sides: [NOWHERE, NOWHERE] as const, triangles: new Uint32Array([0, 1, 2]) } as RunOutput;
 export const REPORT = { warnings: [], stopped_early: false } as unknown as Report;
 
 /** Two meshes, four pairs, nothing under way. */

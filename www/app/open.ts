@@ -101,9 +101,14 @@ export async function openDemo(store: Store, id: string): Promise<boolean> {
 /** Keeps the demo's link in the address while the demo is on the page, and takes it out when other meshes have come. */
 export function followDemo(state: State, previous: State): void {
   if (previous.demo !== state.demo) {
-    const link = state.demo === null ? '' : `#demo=${encodeURIComponent(state.demo.id)}`;
-    history.replaceState(null, '', location.pathname + location.search + link);
+    showOwnLink(state);
   }
+}
+
+/** Puts the link of the demo on the page into the address, or none. */
+export function showOwnLink({ demo }: Pick<State, 'demo'>): void {
+  const link = demo === null ? '' : `#demo=${encodeURIComponent(demo.id)}`;
+  history.replaceState(null, '', location.pathname + location.search + link);
 }
 
 /** Gives back the core's memory of meshes that no step leads back to. */

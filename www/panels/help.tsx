@@ -86,17 +86,19 @@ function KeyList({ title, keys }: Keys): VNode {
 /** The dialog; it covers the page while it is open. */
 export function Help({ shell }: { readonly shell: Shell }): VNode {
   const dialog = useRef<HTMLDialogElement>(null);
-  const { help } = shell.state;
+  const isOpen = shell.state.dialog?.kind === 'help';
   const close = (): void => {
-    shell.set({ help: false });
+    if (shell.state.dialog?.kind === 'help') {
+      shell.set({ dialog: null });
+    }
   };
   useEffect(() => {
-    if (help) {
+    if (isOpen) {
       dialog.current?.showModal();
     } else {
       dialog.current?.close();
     }
-  }, [help]);
+  }, [isOpen]);
   return (
     <dialog
       ref={dialog}
@@ -121,6 +123,14 @@ export function Help({ shell }: { readonly shell: Shell }): VNode {
               <li key={step}>{step}</li>
             ))}
           </ol>
+          <button
+            type="button"
+            onClick={() => {
+              shell.set({ dialog: { kind: 'guide', section: '' } });
+            }}
+          >
+            Read the guide
+          </button>
         </section>
         {KEYS.map((keys) => (
           <KeyList key={keys.title} {...keys} />

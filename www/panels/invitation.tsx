@@ -2,6 +2,7 @@
 import type { VNode } from 'preact';
 import type { Side } from '../landmarks.ts';
 import type { PartProps } from './actions.ts';
+import { Gallery } from './gallery.tsx';
 import { Icon } from './icons.tsx';
 import { choose } from './inputs.tsx';
 
@@ -33,26 +34,15 @@ export function Invitation({ state, side }: { readonly side: Side } & Pick<PartP
   );
 }
 
-/** The demos, one press each. */
+/** The demos, while a view is empty. */
 export function DemoLine({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode | null {
   if (!state.meshes.includes(null) || state.demos.length === 0 || state.job.kind === 'busy') {
     return null;
   }
   return (
-    <div class="demo-line">
+    <div class={state.meshes.every((file) => file === null) ? 'demo-line' : 'demo-line small-cards'}>
       <span>Or look at</span>
-      {state.demos.map((demo) => (
-        <button
-          key={demo.id}
-          type="button"
-          title={demo.sentence}
-          onClick={() => {
-            actions.openDemo(demo.id);
-          }}
-        >
-          {demo.title}
-        </button>
-      ))}
+      <Gallery state={state} actions={actions} />
     </div>
   );
 }

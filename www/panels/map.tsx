@@ -12,6 +12,7 @@ import { ReportFacts, ReportTimes } from './facts.tsx';
 import { Findings } from './findings.tsx';
 import { Icon } from './icons.tsx';
 import { choose } from './inputs.tsx';
+import { PlotsButton } from './plots-dialog.tsx';
 import { verdictOf } from './verdict.ts';
 import { WorstPlaces } from './worst.tsx';
 
@@ -74,7 +75,7 @@ function AboutDemo({ demo }: { readonly demo: Demo }): VNode {
 }
 
 /** The panel's content. */
-export function MapPanel({ state, actions }: PartProps): VNode {
+export function MapPanel({ state, actions, shell }: PartProps): VNode {
   const { result } = state;
   const changes = staleness(state);
   return (
@@ -107,6 +108,7 @@ export function MapPanel({ state, actions }: PartProps): VNode {
               <h3>All numbers</h3>
               <ReportFacts report={result.report} />
               <ReportTimes report={result.report} />
+              <PlotsButton shell={shell} />
             </>
           )}
         </Fold>

@@ -5,6 +5,7 @@ import { SIDES } from '../landmarks.ts';
 import { integer } from '../numbers.ts';
 import { meshFormats } from '../wasm/conemap.js';
 import type { PartProps } from './actions.ts';
+import { Gallery } from './gallery.tsx';
 import { Icon } from './icons.tsx';
 import { choose } from './inputs.tsx';
 
@@ -83,23 +84,7 @@ export function MeshesPanel({ state, actions }: PartProps): VNode {
       </div>
       <section>
         <h3>Demos</h3>
-        <div class="demo-list">
-          {state.demos.map((demo) => (
-            <button
-              key={demo.id}
-              type="button"
-              data-demo-id={demo.id}
-              disabled={running}
-              aria-pressed={state.demo?.id === demo.id}
-              onClick={() => {
-                actions.openDemo(demo.id);
-              }}
-            >
-              <strong>{demo.title}</strong>
-              <span class="quiet small">{demo.sentence}</span>
-            </button>
-          ))}
-        </div>
+        <Gallery state={state} actions={actions} />
       </section>
       {state.ready && (
         <p class="quiet small">

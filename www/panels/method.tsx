@@ -3,7 +3,9 @@ import type { VNode } from 'preact';
 import { integer } from '../numbers.ts';
 import type { Report } from '../report.ts';
 import type { PartProps } from './actions.ts';
+import { Icon } from './icons.tsx';
 import { LineChoice } from './picture-bar.tsx';
+import { PlotsButton } from './plots-dialog.tsx';
 
 interface Stage {
   readonly name: string;
@@ -42,13 +44,30 @@ const STAGES: readonly Stage[] = [
 ];
 
 /** The panel's content. */
-export function MethodPanel({ state, actions }: PartProps): VNode {
+export function MethodPanel({ state, actions, shell }: PartProps): VNode {
   const { result } = state;
   return (
     <div class="content">
       <section>
         <h3>On the meshes</h3>
         <LineChoice state={state} actions={actions} />
+      </section>
+      <section>
+        <h3>More of it</h3>
+        <p class="quiet">The guide explains each stage with its equation, and what the numbers mean.</p>
+        <div class="row">
+          <button
+            type="button"
+            id="read-guide"
+            onClick={() => {
+              shell.set({ dialog: { kind: 'guide', section: 'method' } });
+            }}
+          >
+            <Icon name="guide" />
+            Read the guide
+          </button>
+          {result !== null && <PlotsButton shell={shell} />}
+        </div>
       </section>
       <section>
         <h3>From landmarks to a map</h3>

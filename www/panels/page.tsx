@@ -4,10 +4,12 @@ import { render } from 'preact';
 import { byId } from '../dom.ts';
 import type { State } from '../store/state.ts';
 import type { Actions, PartProps } from './actions.ts';
+import { GuideDialog } from './guide-dialog.tsx';
 import { Help } from './help.tsx';
 import { FileInputs } from './inputs.tsx';
 import { documentName } from './names.ts';
 import { Panel } from './panel.tsx';
+import { PlotsDialog } from './plots-dialog.tsx';
 import { openStep, Rail } from './rail.tsx';
 import type { Probe, Theme } from './shell.ts';
 import { Shell } from './shell.ts';
@@ -26,6 +28,8 @@ function Page(props: PartProps): VNode {
       <Panel {...props} />
       <StatusLine {...props} />
       <Help shell={shell} />
+      <GuideDialog {...props} />
+      <PlotsDialog {...props} />
       <FileInputs state={state} actions={actions} />
     </>
   );
@@ -40,8 +44,8 @@ function listenForKeys(state: () => State, actions: Actions, shell: Shell): void
     }
     const step = STEPS[Number(event.key) - 1];
     if (event.key === '?') {
-      shell.set({ help: !shell.state.help });
-    } else if (step !== undefined && !shell.state.help) {
+      shell.set({ dialog: shell.state.dialog?.kind === 'help' ? null : { kind: 'help' } });
+    } else if (step !== undefined && shell.state.dialog === null) {
       openStep(state(), actions, step);
     }
   });
@@ -61,6 +65,8 @@ export interface Mounted {
   readonly sync: (state: State, previous: State) => void;
   /** What the map says of the place under the mouse. */
   readonly probed: (probe: Probe | null) => void;
+  /** Opens the guide at a section; empty for its beginning. */
+  readonly openGuide: (section: string) => void;
 }
 
 /** Shows the page for the first time; from then on `sync` keeps it in step. */
@@ -90,6 +96,9 @@ export function mountPage(initial: State, actions: Actions): Mounted {
   return {
     probed: (probe) => {
       shell.set({ probe });
+    },
+    openGuide: (section) => {
+      shell.set({ dialog: { kind: 'guide', section } });
     },
     sync: (next, previous) => {
       state = next;

@@ -1,4 +1,4 @@
-/** What this browser remembers of the page beside the state: how the views share the width, light or dark, open help. */
+/** What this browser remembers of the page beside the state: how the views share the width, light or dark, the open dialog. */
 import type { State } from '../store/state.ts';
 
 export type Theme = State['ui']['theme'];
@@ -9,11 +9,14 @@ export interface Probe {
   readonly distortion: number | null;
 }
 
+/** The first steps and keys; the guide, from a section on (empty for its beginning); the plots of the last map. */
+export type Dialog = { readonly kind: 'help' } | { readonly kind: 'guide'; readonly section: string } | { readonly kind: 'plots' };
+
 export interface ShellState {
   /** The source view's share of the stage, 0 to 1. */
   readonly split: number;
-  /** Whether the keys and first steps are shown. */
-  readonly help: boolean;
+  /** What lies over the page; `null` for nothing. */
+  readonly dialog: Dialog | null;
   /** `null` while the mouse is elsewhere, or there is no map to ask. */
   readonly probe: Probe | null;
 }
@@ -62,7 +65,7 @@ function store(change: Remembered): void {
 
 /** Holds it and tells one listener of changes. */
 export class Shell {
-  #state: ShellState = { split: stored().split ?? 0.5, help: false, probe: null };
+  #state: ShellState = { split: stored().split ?? 0.5, dialog: null, probe: null };
   #listener = (): void => undefined;
 
   get state(): ShellState {

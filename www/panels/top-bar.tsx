@@ -112,9 +112,19 @@ export function TopBar({ state, actions, shell }: PartProps): VNode {
         icon="help"
         label="Help: first steps and keys (?)"
         onClick={() => {
-          shell.set({ help: true });
+          shell.set({ dialog: { kind: 'help' } });
         }}
       />
+      <span class="wide-only">
+        <IconButton
+          icon="guide"
+          id="open-guide"
+          label="Guide: landmarks, numbers, the method"
+          onClick={() => {
+            shell.set({ dialog: { kind: 'guide', section: '' } });
+          }}
+        />
+      </span>
       <ThemeMenu state={state} actions={actions} />
     </header>
   );

@@ -1,6 +1,7 @@
 /** What each event makes of the state: `update(state, event)`, without side effects and without a record of the steps. */
 import type { Side } from '../landmarks.ts';
 import type { Event } from './events.ts';
+import { earlierOf } from './comparison.ts';
 import { NO_HISTORY, redone, undone } from './history.ts';
 import { advanced, begun, ended, started } from './job.ts';
 import type { Running } from './job.ts';
@@ -72,7 +73,8 @@ function withStep(state: State, step: ReturnType<typeof undone>): State {
 
 /** A map came; what a plain surface cannot show is shown. */
 function withResult(state: State, result: Result): State {
-  const done = { ...state, result };
+  const earlier = state.result === null ? state.earlier : earlierOf(state.result);
+  const done = { ...state, result, earlier };
   const { surface } = state.ui.style;
   const isShown = surface !== 'shaded' && (surface !== 'distortion' || result.output.distortion.length > 0);
   return isShown ? done : withStyle(done, { surface: 'pattern' });

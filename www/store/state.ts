@@ -58,6 +58,24 @@ export interface Result {
   readonly opened: { readonly name: string; readonly isMirrored: boolean } | null;
 }
 
+/** What is kept of a map that another one has taken the place of, to compare both. */
+export interface EarlierMap {
+  /** What it was made from. */
+  readonly name: string;
+  readonly report: Report;
+  readonly pieces: Pieces;
+}
+
+/** The pieces of a map, triangles that it takes to triangles. */
+export interface Pieces {
+  /** Three corners each. */
+  readonly triangles: Uint32Array;
+  /** The corners' places on the source and on the target, three numbers each. */
+  readonly places: readonly [Float32Array, Float32Array];
+  /** Whether they cover both meshes, so that measures of them are those of the map. */
+  readonly areWhole: boolean;
+}
+
 /** A place that the map proposes for the point that a half pair lacks. */
 export interface Proposal {
   /** The pair's id, and the point that it has. */
@@ -99,6 +117,8 @@ export interface State extends Work {
   readonly job: Job;
   /** The last map. It stays when its inputs change, and is current again when they come back. */
   readonly result: Result | null;
+  /** The map before it, of this visit. */
+  readonly earlier: EarlierMap | null;
   /** The doubts of the last run, and what it was about. */
   readonly found: { readonly doubts: readonly Doubt[]; readonly inputs: Work } | null;
   /** Those doubts while they are about what is on the page; else none. */
@@ -136,6 +156,7 @@ export const INITIAL: State = {
   },
   job: { kind: 'idle' },
   result: null,
+  earlier: null,
   found: null,
   findings: [],
   toast: null,

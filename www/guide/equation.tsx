@@ -1,0 +1,33 @@
+/** An equation of the guide. What sets it comes when the first one is shown; until then, and where it does not come, it is plain text. */
+import type { VNode } from 'preact';
+import { useEffect, useState } from 'preact/hooks';
+
+export interface Formula {
+  readonly tex: string;
+  /** The same as a line of text. */
+  readonly plain: string;
+}
+
+export function Equation({ tex, plain }: Formula): VNode {
+  const [markup, setMarkup] = useState<string | null>(null);
+  useEffect(() => {
+    let isShown = true;
+    import('./typeset.ts').then(
+      ({ typeset }) => {
+        if (isShown) {
+          setMarkup(typeset(tex));
+        }
+      },
+      () => undefined,
+    );
+    return () => {
+      isShown = false;
+    };
+  }, [tex]);
+  return markup === null ? (
+    <p class="equation plain">{plain}</p>
+  ) : (
+    // The markup is made of the guide's own text.
+    <div class="equation" dangerouslySetInnerHTML={{ __html: markup }} />
+  );
+}

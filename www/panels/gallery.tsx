@@ -1,0 +1,92 @@
+/** The demos as pictures, each with what to see in it and its link. */
+import type { VNode } from 'preact';
+import type { Demo } from '../store/state.ts';
+import type { Actions, PartProps } from './actions.ts';
+import { IconButton } from './controls.tsx';
+
+/** What to see in a demo, by its id; `npm run thumbnails` draws a picture of each. */
+const SIGHTS: Readonly<Record<string, string>> = {
+  'horse-cat': 'See how the pattern keeps its squares from the cat’s short legs to the horse’s long ones.',
+  poses: 'See how the skin keeps its size while arms and legs bend: the two meshes share no triangle.',
+  'sphere-tetrahedron': 'See how a ball spreads over corners, and where the stretch gathers.',
+};
+
+/** What to see in a demo. */
+export function sightOf({ id, sentence }: Demo): string {
+  return SIGHTS[id] ?? `${sentence}.`;
+}
+
+/** Where the picture of a demo is; `null` where none is drawn. */
+function pictureOf(id: string): string | null {
+  return id in SIGHTS ? `demos/${id}.webp` : null;
+}
+
+/** The link to a demo. */
+function linkOf(id: string): string {
+  const url = new URL(document.baseURI);
+  url.hash = `demo=${encodeURIComponent(id)}`;
+  return url.href;
+}
+
+async function copy(url: string, { dispatch }: Pick<Actions, 'dispatch'>): Promise<void> {
+  const isCopied = await navigator.clipboard.writeText(url).then(
+    () => true,
+    () => false,
+  );
+  const sentence = isCopied ? 'The link is copied.' : `The browser does not let the page copy. The link is ${url}`;
+  dispatch({ kind: 'toast', sentence, undo: false });
+}
+
+interface CardProps {
+  readonly demo: Demo;
+  /** Whether it is on the page. */
+  readonly isPresent: boolean;
+  readonly disabled: boolean;
+  readonly actions: Actions;
+}
+
+function Card({ demo, isPresent, disabled, actions }: CardProps): VNode {
+  const picture = pictureOf(demo.id);
+  return (
+    <li class="demo-card">
+      <button
+        type="button"
+        class="open-demo"
+        data-demo-id={demo.id}
+        disabled={disabled}
+        aria-pressed={isPresent}
+        onClick={() => {
+          actions.openDemo(demo.id);
+        }}
+      >
+        {picture !== null && <img src={picture} alt="" width={240} height={100} loading="lazy" decoding="async" />}
+        <strong>{demo.title}</strong>
+        <span class="quiet small">{sightOf(demo)}</span>
+      </button>
+      <IconButton
+        icon="copy"
+        label={`Copy the link to the demo “${demo.title}”`}
+        onClick={() => {
+          void copy(linkOf(demo.id), actions);
+        }}
+      />
+    </li>
+  );
+}
+
+/** The demos, one press each. */
+export function Gallery({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
+  return (
+    <ul class="gallery">
+      {state.demos.map((demo) => (
+        <Card
+          key={demo.id}
+          demo={demo}
+          isPresent={state.demo?.id === demo.id}
+          disabled={state.job.kind === 'running'}
+          actions={actions}
+        />
+      ))}
+    </ul>
+  );
+}

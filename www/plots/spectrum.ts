@@ -1,0 +1,134 @@
+/** How much of the source's area is distorted by how much: the pieces of a map, measured and counted by fine classes. */
+import type { Pieces } from '../store/state.ts';
+
+/** What can be measured on a piece, see {@link measure}. */
+export const MEASURES = ['density', 'angle', 'area'] as const;
+export type Measure = (typeof MEASURES)[number];
+
+/** Fine classes to a power of ten. */
+export const CLASSES_PER_DECADE = 1000;
+/** Powers of ten that are told apart from 1 upwards, and downwards where a measure can be below 1. */
+const DECADES = 4;
+
+/** Shares of the area by the logarithm of a measure. */
+export interface Spectrum {
+  /** The logarithm to base 10 of the first class's lower end. */
+  readonly first: number;
+  /** Share of the area in each class; what lies beyond the last is in the last. */
+  readonly shares: Float64Array;
+  readonly mean: number;
+}
+
+export type Spectra = Readonly<Record<Measure, Spectrum>>;
+
+/** The measures of a linear map from one triangle to another. */
+export interface PieceMeasures {
+  /** (s1² + s2² + s1⁻² + s2⁻²) / 4 with its singular values; 1 for an isometry. */
+  readonly density: number;
+  /** (s1/s2 + s2/s1) / 2; 1 where angles stay. */
+  readonly angle: number;
+  /** s1 s2; 1 where the area stays. */
+  readonly area: number;
+}
+
+/** A triangle in its own plane: its corners are (0, 0), (length, 0) and (along, height). */
+interface Flat {
+  readonly length: number;
+  readonly along: number;
+  readonly height: number;
+}
+
+function flat(places: Float32Array, a: number, b: number, c: number): Flat {
+  const p = (corner: number, axis: number): number => places[3 * corner + axis] ?? NaN;
+  const [ux, uy, uz] = [p(b, 0) - p(a, 0), p(b, 1) - p(a, 1), p(b, 2) - p(a, 2)];
+  const [vx, vy, vz] = [p(c, 0) - p(a, 0), p(c, 1) - p(a, 1), p(c, 2) - p(a, 2)];
+  const length = Math.hypot(ux, uy, uz);
+  const doubleArea = Math.hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx);
+  return { length, along: (ux * vx + uy * vy + uz * vz) / length, height: doubleArea / length };
+}
+
+/** The measures of the map from one triangle to another, both in units of their meshes' sizes; both must have an area. */
+export function measure(from: Flat, to: Flat): PieceMeasures {
+  // The matrix takes (length, 0) to (length, 0) and (along, height) to (along, height) of the other: it is upper triangular.
+  const [a, d] = [to.length / from.length, to.height / from.height];
+  const b = (to.along - a * from.along) / from.height;
+  const [squares, area] = [a * a + b * b + d * d, a * d];
+  return { density: (squares + squares / (area * area)) / 4, angle: squares / (2 * area), area };
+}
+
+/** Pieces whose area is below this share of the mesh's are left out: single precision does not tell their shape. */
+const LEAST_SHARE = 1e-10;
+
+/** Sums up what is measured. */
+class Sum {
+  readonly #first: number;
+  readonly #shares: Float64Array;
+  #mean = 0;
+  #weight = 0;
+
+  constructor(first: number) {
+    this.#first = first;
+    this.#shares = new Float64Array((DECADES - first) * CLASSES_PER_DECADE);
+  }
+
+  add(value: number, weight: number): void {
+    const index = Math.floor((Math.log10(value) - this.#first) * CLASSES_PER_DECADE);
+    const kept = Math.min(this.#shares.length - 1, Math.max(0, index));
+    this.#shares[kept] = (this.#shares[kept] ?? 0) + weight;
+    this.#mean += weight * value;
+    this.#weight += weight;
+  }
+
+  get spectrum(): Spectrum {
+    const weight = this.#weight;
+    return { first: this.#first, shares: this.#shares.map((share) => share / weight), mean: this.#mean / weight };
+  }
+}
+
+function totalArea(places: Float32Array, triangles: Uint32Array): number {
+  let sum = 0;
+  for (let k = 0; k < triangles.length; k += 3) {
+    const { length, height } = flat(places, triangles[k] ?? 0, triangles[k + 1] ?? 0, triangles[k + 2] ?? 0);
+    sum += length > 0 ? (length * height) / 2 : 0;
+  }
+  return sum;
+}
+
+function scaled({ length, along, height }: Flat, factor: number): Flat {
+  return { length: length * factor, along: along * factor, height: height * factor };
+}
+
+/** Pieces that are measured before others get their turn: some milliseconds of work. */
+const AT_A_TIME = 30_000;
+
+/** Measures all pieces, both meshes scaled to area 1. It leaves the page room to draw meanwhile: `pause` is awaited again and again. */
+export async function spectraOf({ triangles, places }: Pieces, pause: () => Promise<void>): Promise<Spectra> {
+  const [source, target] = places;
+  const areas = [totalArea(source, triangles), totalArea(target, triangles)] as const;
+  await pause();
+  const factors = areas.map((area) => 1 / Math.sqrt(area));
+  const sums = { density: new Sum(0), angle: new Sum(0), area: new Sum(-DECADES) };
+  for (let k = 0; k < triangles.length; k += 3) {
+    const corners = [triangles[k] ?? 0, triangles[k + 1] ?? 0, triangles[k + 2] ?? 0] as const;
+    const from = scaled(flat(source, ...corners), factors[0] ?? 1);
+    const to = scaled(flat(target, ...corners), factors[1] ?? 1);
+    const share = (from.length * from.height) / 2;
+    if (share > LEAST_SHARE && to.length * to.height > 2 * LEAST_SHARE) {
+      const measures = measure(from, to);
+      for (const name of MEASURES) {
+        sums[name].add(measures[name], share);
+      }
+    }
+    if (k % (3 * AT_A_TIME) === 0) {
+      await pause();
+    }
+  }
+  return { density: sums.density.spectrum, angle: sums.angle.spectrum, area: sums.area.spectrum };
+}
+
+/** The value that this share of the area stays below, to the width of a class. */
+export function quantile({ first, shares }: Spectrum, share: number): number {
+  let sum = 0;
+  const index = shares.findIndex((part) => (sum += part) >= share);
+  return 10 ** (first + ((index < 0 ? shares.length : index) + 0.5) / CLASSES_PER_DECADE);
+}
