@@ -16,6 +16,7 @@ mod clicks;
 mod fit;
 mod fit_faults;
 mod holes;
+mod hostile;
 mod pairs;
 mod remesh;
 mod remeshed;
@@ -79,6 +80,12 @@ const SURVEYS: &[Survey] = &[
         about: "landmarks that do not fit: false alarms on correct pairs, and the share of faults that are named",
         run: fit::table,
     },
+    Survey {
+        name: "hostile",
+        about: "shapes and landmarks made to break it: outcome, seconds, memory, silence; --pairs sphere-perm,cube",
+        run: hostile::table,
+    },
+    Survey { name: "hostile-case", about: "one of them in this process, for the table", run: hostile::case },
 ];
 
 fn main() {

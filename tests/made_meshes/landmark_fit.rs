@@ -26,7 +26,7 @@ fn agreement_changes_sign_in_the_mirror() {
     let landmarks = Landmarks { source: vertices(0), target: vertices(1) };
     let agreement = |target: &SurfaceMesh| {
         let meshes = [&demo.source, target];
-        order_agreement(meshes, &landmarks, &LandmarkDistances::new(meshes, &landmarks))
+        order_agreement(meshes, &landmarks, &LandmarkDistances::new(meshes, &landmarks, &mut Silent).unwrap())
     };
     let (straight, reflected) = (agreement(&demo.target), agreement(&mirrored(&demo.target)));
     assert!(straight > 0.6 && reflected < -0.6, "{straight} {reflected}");
