@@ -3,9 +3,10 @@
 //! Each case runs in a process of its own, whose largest memory is read while it runs (on Linux).
 
 use crate::arguments::Arguments;
+use crate::watch::Watch;
 use conemap::job::{Job, JobFiles, ReadOptions};
 use conemap::landmark_exchange::GivenFile;
-use conemap::monitor::{Cancelled, Monitor, Stage, Step};
+use conemap::monitor::Cancelled;
 use conemap::pipeline::PipelineOptions;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -37,9 +38,8 @@ pub fn case(arguments: &Arguments) {
     for case in cases(arguments).into_iter().filter(|case| name(case) == arguments.pairs[0]) {
         let mut watch = Watch::new();
         let outcome = mapped(&arguments.data, &case, &mut watch);
-        watch.told();
-        let stage = watch.longest_in.map_or("reading", Stage::sentence);
-        println!("{:10.0}  {stage:34} {outcome}", 1000.0 * watch.longest.as_secs_f64());
+        let (stage, longest) = watch.longest();
+        println!("{:10.0}  {stage:34} {outcome}", 1000.0 * longest.as_secs_f64());
     }
 }
 
@@ -109,40 +109,6 @@ fn mapped(data: &Path, case: &Path, monitor: &mut Watch) -> String {
             )
         }
         Err(error) => error.to_string(),
-    }
-}
-
-/// Measures how long nobody asks it.
-struct Watch {
-    stage: Option<Stage>,
-    last: Instant,
-    longest: Duration,
-    longest_in: Option<Stage>,
-}
-
-impl Watch {
-    fn new() -> Self {
-        Self { stage: None, last: Instant::now(), longest: Duration::ZERO, longest_in: None }
-    }
-
-    fn told(&mut self) {
-        let silence = self.last.elapsed();
-        if silence > self.longest {
-            (self.longest, self.longest_in) = (silence, self.stage);
-        }
-        self.last = Instant::now();
-    }
-}
-
-impl Monitor for Watch {
-    fn enter(&mut self, stage: Stage) {
-        self.told();
-        self.stage = Some(stage);
-    }
-
-    fn step(&mut self, _step: Step) -> Result<(), Cancelled> {
-        self.told();
-        Ok(())
     }
 }
 

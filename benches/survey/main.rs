@@ -20,8 +20,10 @@ mod hostile;
 mod pairs;
 mod remesh;
 mod remeshed;
+mod silence;
 mod stages;
 mod table;
+mod watch;
 
 use arguments::Arguments;
 
@@ -84,6 +86,11 @@ const SURVEYS: &[Survey] = &[
         name: "hostile",
         about: "shapes and landmarks made to break it: outcome, seconds, memory, silence; --pairs sphere-perm,cube",
         run: hostile::table,
+    },
+    Survey {
+        name: "silence",
+        about: "how long a run asks its monitor nothing, by stage, on large balls; --pairs for others",
+        run: silence::table,
     },
     Survey { name: "hostile-case", about: "one of them in this process, for the table", run: hostile::case },
 ];

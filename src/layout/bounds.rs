@@ -131,6 +131,11 @@ impl<'m> Allowance<'m> {
         self.steps > 0
     }
 
+    /// Whether to finish with what is there.
+    pub fn wants_result(&self) -> bool {
+        self.monitor.wants_result()
+    }
+
     /// Whether another search may find something.
     pub fn is_left(&self) -> bool {
         self.steps > 0 && self.cancelled.is_none()

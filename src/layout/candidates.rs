@@ -86,7 +86,8 @@ impl<'a> Candidates<'a> {
         })
     }
 
-    /// The next layout of a new class from another order of drawing; `None` when all orders were tried.
+    /// The next layout of a new class from another order of drawing; `None` when all orders were tried. Once a result is wanted, no more
+    /// orders are drawn than one that succeeds.
     ///
     /// # Errors
     /// [`LayoutError::Cancelled`] only: an order that fails is passed over (see [`Self::failure`]).
@@ -103,6 +104,9 @@ impl<'a> Candidates<'a> {
         let end = (self.next_variant + BATCH).min(VARIANTS.len());
         let mut all_tangled = true;
         for variant in &VARIANTS[self.next_variant..end] {
+            if monitor.wants_result() && !self.ready.is_empty() {
+                break;
+            }
             let ground = Ground { empty: &self.empty, distances: &self.distances };
             let drawn = joint::draw(&ground, variant, monitor).and_then(|drawing| self.candidate(drawing));
             all_tangled &= matches!(drawn, Err(LayoutError::Tangled { .. }));
@@ -156,6 +160,9 @@ impl<'a> Candidates<'a> {
         let mut drawings = Vec::new();
         // Twice as many as are wanted: some cannot be drawn, some are of a class that is known.
         for twist in plausible.iter().take(2 * count) {
+            if planner.wants_result() {
+                break;
+            }
             match twists::twisted(&of.drawing, &mut planner, twist) {
                 Ok(drawing) => drawings.extend(drawing),
                 Err(LayoutError::Cancelled(stop)) => return Err(stop.into()),

@@ -100,6 +100,11 @@ impl<'a> Planner<'a> {
         self.bounds.check_detour(drawing, self.distances)
     }
 
+    /// Whether to finish with the drawings that are there.
+    pub fn wants_result(&self) -> bool {
+        self.allowance.wants_result()
+    }
+
     /// Whether another search may find something: not when the allowance is used up.
     pub fn may_search(&self) -> bool {
         self.allowance.is_left()

@@ -52,6 +52,7 @@ pub(super) fn plausible(
             }
         }
     }
+    planner.tell(0.0)?;
     twists.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
     Ok(twists)
 }

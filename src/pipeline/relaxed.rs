@@ -46,8 +46,8 @@ pub(super) fn run(
     let (flows, missing) = Flows::beside_a_map(input, &base, options, monitor)?;
     monitor.enter(Stage::Transfer);
     monitor.step(Step::default())?;
-    Ok(Outcome { input, map: &map, base: &base, flows: &flows, locations: &locations }
-        .result(overlay, missing))
+    let outcome = Outcome { input, map: &map, base: &base, flows: &flows, locations: &locations };
+    Ok(outcome.result(overlay, missing, monitor)?)
 }
 
 /// The overlay. Where a source edge is lost among target triangles that rounding cannot tell apart, the target's edges are
@@ -114,7 +114,7 @@ mod tests {
         let base = in_input_coordinates(&map.layout.base, input);
         let (flows, _) = Flows::beside_a_map(input, &base, &options, &mut Silent).unwrap();
         let outcome = Outcome { input, map: &map, base: &base, flows: &flows, locations: &locations };
-        let bare = outcome.result(Err(OverlayError::Lost { edge: [3, 4] }), Vec::new());
+        let bare = outcome.result(Err(OverlayError::Lost { edge: [3, 4] }), Vec::new(), &mut Silent).unwrap();
 
         let [Warning::NoOverlay { reason }] = &bare.report.warnings[..] else {
             panic!("{:?}", bare.report.warnings)

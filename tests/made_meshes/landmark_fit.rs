@@ -6,6 +6,7 @@ use conemap::landmark_fit::order_agreement;
 use conemap::landmarks::Landmarks;
 use conemap::layout::LandmarkDistances;
 use conemap::mesh::{SurfaceMesh, VertexId};
+use conemap::monitor::Silent;
 
 #[test]
 fn demos_raise_no_alarm_and_their_mirror_images_do() {

@@ -7,6 +7,7 @@ use conemap::landmark_fit::{Finding, Repair};
 use conemap::landmarks::Landmarks;
 use conemap::layout::LandmarkDistances;
 use conemap::mesh::VertexId;
+use conemap::monitor::Silent;
 use std::path::Path;
 
 tests![

@@ -233,6 +233,28 @@ impl<'a> Relaxation<'a> {
                 return Ok(true);
             }
         }
+        self.begin_with_both(monitor)
+    }
+
+    /// Evaluates the start with both sides nudged, by different lengths: edges between landmarks of one side stay where they are, and
+    /// may pass through vertices of the other.
+    fn begin_with_both(&mut self, monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
+        let (moving, other) = (self.moving, 1 - self.moving);
+        let still = self.embeddings[other].clone();
+        for attempt in 1..NUDGES {
+            let z = self.unknowns[other].nudged(&still, attempt + 1);
+            if self.problems[other].energy(&z).is_none() {
+                continue;
+            }
+            self.unknowns[other].place(&z, &mut self.embeddings[other].corners);
+            self.inverses[other] = self.problems[other].jacobians(&z).map(|j| j.inverse()).collect();
+            let z = self.unknowns[moving].nudged(&self.embeddings[moving], attempt);
+            if self.evaluate(&z, monitor)? {
+                self.accept();
+                return Ok(true);
+            }
+        }
+        self.embeddings[other] = still;
         Ok(false)
     }
 
