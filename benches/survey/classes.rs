@@ -41,7 +41,10 @@ fn one(arguments: &Arguments, name: &str, vertices: usize) -> String {
         LandmarkedMesh::new(mesh, held).expect("room around landmarks")
     };
     let full = [landmarked(&pair.source, &landmarks.source), landmarked(&pair.target, &landmarks.target)];
-    let sides = [0, 1].map(|k| MeshWithCoarse::new(&full[k], vertices, arguments.options.multilevel.rims));
+    let sides = [0, 1].map(|k| {
+        MeshWithCoarse::new(&full[k], vertices, arguments.options.multilevel.rims, &mut Silent)
+            .expect("nobody stops")
+    });
     let coarse = coarse_landmarks(&sides);
     let options = ClassSearchOptions {
         multilevel: &arguments.options.multilevel,
@@ -63,7 +66,8 @@ fn one(arguments: &Arguments, name: &str, vertices: usize) -> String {
         })
     };
     let known = judge(&chosen.candidate);
-    let mut fresh = Candidates::new([&sides[0].coarse.mesh, &sides[1].coarse.mesh], &coarse);
+    let mut fresh = Candidates::new([&sides[0].coarse.mesh, &sides[1].coarse.mesh], &coarse, &mut Silent)
+        .expect("few landmarks");
     let mut best = [f64::INFINITY; 2];
     let mut count = [0; 2];
     let mut twists =

@@ -43,7 +43,8 @@ pub struct Fit {
 impl Fit {
     fn coarse(name: &str, meshes: [&SurfaceMesh; 2], landmarks: &Landmarks) -> Self {
         let sides = [&landmarks.source, &landmarks.target];
-        let levels = [0, 1].map(|s| Level::coarse(meshes[s], sides[s], COARSE));
+        let levels =
+            [0, 1].map(|s| Level::coarse(meshes[s], sides[s], COARSE, &mut Silent).expect("nobody stops"));
         let [source, target] = [0, 1].map(|s| levels[s].numbers(sides[s]).collect());
         let meshes = levels.map(|level| level.mesh);
         let numbers = (0..landmarks.len()).collect();
@@ -52,8 +53,8 @@ impl Fit {
 
     pub fn findings(&self) -> Vec<Finding> {
         let meshes = [&self.meshes[0], &self.meshes[1]];
-        landmark_fit(meshes, &self.landmarks, &LandmarkDistances::new(meshes, &self.landmarks), &mut Silent)
-            .expect("nobody stops")
+        let distances = LandmarkDistances::new(meshes, &self.landmarks, &mut Silent).expect("nobody stops");
+        landmark_fit(meshes, &self.landmarks, &distances, &mut Silent).expect("nobody stops")
     }
 
     /// With some of the landmarks, chosen at random and in random order.
@@ -149,7 +150,7 @@ fn processor_time(arguments: &Arguments) {
         seconds[0] += begun.elapsed().as_secs_f64();
         let begun = ThreadTime::now();
         let meshes = [&fit.meshes[0], &fit.meshes[1]];
-        let distances = LandmarkDistances::new(meshes, &fit.landmarks);
+        let distances = LandmarkDistances::new(meshes, &fit.landmarks, &mut Silent).expect("nobody stops");
         seconds[1] += begun.elapsed().as_secs_f64();
         let begun = ThreadTime::now();
         landmark_fit(meshes, &fit.landmarks, &distances, &mut Silent).expect("nobody stops");

@@ -7,6 +7,7 @@ use crate::fit::{COUNTS, Counts, Fit};
 use conemap::landmark_fit::{Finding, Repair};
 use conemap::layout::LandmarkDistances;
 use conemap::mesh::VertexId;
+use conemap::monitor::Silent;
 
 /// Left and right partners among the 21 landmarks of the animals of SHREC07.
 const SHREC07: [[usize; 2]; 8] = [[2, 3], [4, 10], [5, 11], [6, 8], [7, 9], [15, 16], [17, 18], [19, 20]];
@@ -92,7 +93,8 @@ fn exchanged(landmarks: usize, fit: &Fit, random: &mut Random, named: &mut Count
     let n = fit.numbers.len();
     let a = (random.share() * n as f64) as usize;
     let b = (a + 1 + (random.share() * (n - 1) as f64) as usize) % n;
-    let distances = LandmarkDistances::new([&fit.meshes[0], &fit.meshes[1]], &fit.landmarks);
+    let distances = LandmarkDistances::new([&fit.meshes[0], &fit.meshes[1]], &fit.landmarks, &mut Silent)
+        .expect("nobody stops");
     let row = if distances.between([a, b])[0] < NEAR { "any two, near" } else { "any two, far" };
     let mut wrong = fit.clone();
     wrong.landmarks.target.swap(a, b);
@@ -102,7 +104,8 @@ fn exchanged(landmarks: usize, fit: &Fit, random: &mut Random, named: &mut Count
 /// The target of one pair moved to another place at about this distance.
 fn misplaced((landmarks, away): (usize, f64), fit: &Fit, random: &mut Random, named: &mut Counts) {
     let pair = (random.share() * fit.numbers.len() as f64) as usize;
-    let distances = LandmarkDistances::new([&fit.meshes[0], &fit.meshes[1]], &fit.landmarks);
+    let distances = LandmarkDistances::new([&fit.meshes[0], &fit.meshes[1]], &fit.landmarks, &mut Silent)
+        .expect("nobody stops");
     let field = distances.field(1, pair);
     let is = |v: &VertexId| (field[*v] - away).abs() < 0.03 && !fit.landmarks.target.contains(v);
     let places: Vec<VertexId> = fit.meshes[1].vertices().filter(is).collect();

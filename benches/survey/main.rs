@@ -16,12 +16,15 @@ mod clicks;
 mod fit;
 mod fit_faults;
 mod holes;
+mod hostile;
 mod pairs;
 mod remesh;
 mod remeshed;
+mod silence;
 mod stages;
 mod table;
 mod verify;
+mod watch;
 
 use arguments::Arguments;
 
@@ -85,6 +88,17 @@ const SURVEYS: &[Survey] = &[
         about: "landmarks that do not fit: false alarms on correct pairs, and the share of faults that are named",
         run: fit::table,
     },
+    Survey {
+        name: "hostile",
+        about: "shapes and landmarks made to break it: outcome, seconds, memory, silence; --pairs sphere-perm,cube",
+        run: hostile::table,
+    },
+    Survey {
+        name: "silence",
+        about: "how long a run asks its monitor nothing, by stage, on large balls; --pairs for others",
+        run: silence::table,
+    },
+    Survey { name: "hostile-case", about: "one of them in this process, for the table", run: hostile::case },
 ];
 
 fn main() {

@@ -9,6 +9,8 @@ mod arguments;
 mod check;
 #[path = "conemap/clock.rs"]
 mod clock;
+#[path = "conemap/deadline.rs"]
+mod deadline;
 #[path = "conemap/flow.rs"]
 mod flow;
 #[path = "conemap/input.rs"]

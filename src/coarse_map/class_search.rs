@@ -57,19 +57,21 @@ pub fn choose_class<'a>(
 ) -> Result<Chosen<'a>, CoarseMapError> {
     let landmarks = coarse_landmarks(levels);
     let meshes = [&levels[0].coarse.mesh, &levels[1].coarse.mesh];
-    let mut candidates = Candidates::new(meshes, &landmarks);
+    let mut candidates = Candidates::new(meshes, &landmarks, &mut Portion::new(monitor, 0.0, 0.0))?;
     let mut finalists = Finalists {
         levels,
         options: options.multilevel,
         maps: Vec::new(),
         judged: 0,
-        blame: vec![0; landmarks.len()],
+        blame: vec![0.0; landmarks.len()],
     };
     let mut judge = |candidate: &Candidate, monitor: &mut dyn Monitor| finalists.judge(candidate, monitor);
     let looking = &mut Portion::new(monitor, 0.0, SEARCHED);
     let searched = layout::search(&mut candidates, &mut judge, options.search, looking);
     let (_, mut search) = searched.map_err(|error| match error {
-        LayoutError::NoMap { layouts, .. } => LayoutError::NoMap { layouts, near: finalists.blamed() },
+        LayoutError::NoMap { layouts, .. } => {
+            LayoutError::NoMap { layouts, near: layout::worst(&finalists.blame) }
+        }
         other => other,
     })?;
     let mut explored = vec![search.best];
@@ -126,7 +128,7 @@ struct Finalists<'a, 'o> {
     maps: Vec<Finalist<'a>>,
     judged: usize,
     /// By landmark: the number of layouts whose points around it could not be taken out.
-    blame: Vec<usize>,
+    blame: Vec<f64>,
 }
 
 impl Finalists<'_, '_> {
@@ -135,6 +137,8 @@ impl Finalists<'_, '_> {
         let number = self.judged;
         self.judged += 1;
         match solve_coarse(self.levels, &candidate.layout, self.options, monitor) {
+            // Without an overlay nothing can be lowered.
+            Ok(map) if !map.mean_log.is_finite() => Ok(None),
             Ok(map) => {
                 let first_look = map.mean_log;
                 let candidate = candidate.clone();
@@ -145,11 +149,11 @@ impl Finalists<'_, '_> {
             }
             Err(MapError::Cancelled(stop)) => Err(stop),
             Err(MapError::LayoutPoints { near, .. }) => {
-                near.into_iter().for_each(|landmark| self.blame[landmark] += 1);
+                near.into_iter().for_each(|landmark| self.blame[landmark] += 1.0);
                 Ok(None)
             }
             Err(MapError::DegenerateBase { landmarks }) => {
-                landmarks.into_iter().for_each(|landmark| self.blame[landmark] += 1);
+                landmarks.into_iter().for_each(|landmark| self.blame[landmark] += 1.0);
                 Ok(None)
             }
             Err(_) => Ok(None),
@@ -206,15 +210,6 @@ impl Finalists<'_, '_> {
         // Stable: those that were not compared keep their order.
         self.maps.sort_by_key(|finalist| place(finalist).unwrap_or(usize::MAX));
         Ok(ratio)
-    }
-
-    /// Landmarks around which at least half as many layouts failed as around the worst, the worst first; at most four.
-    fn blamed(&self) -> Vec<usize> {
-        let most = self.blame.iter().copied().max().unwrap_or(0);
-        let mut near: Vec<usize> = (0..self.blame.len()).filter(|&k| 2 * self.blame[k] > most).collect();
-        near.sort_by_key(|&k| std::cmp::Reverse(self.blame[k]));
-        near.truncate(4);
-        near
     }
 
     fn sort(&mut self) {

@@ -7,6 +7,7 @@ use crate::landmarks::{LandmarkId, Landmarks};
 use crate::mesh::coarsening::{Held, Level, coarsen_around};
 use crate::mesh::collapsible::CollapsibleMesh;
 use crate::mesh::{SurfaceMesh, VertexId};
+use crate::monitor::{Cancelled, Monitor, Portion};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 /// A mesh with its coarse level.
@@ -23,7 +24,15 @@ pub struct MeshWithCoarse<'a> {
 
 impl<'a> MeshWithCoarse<'a> {
     /// Coarsens a mesh to about `goal` vertices, the landmarks among them, and some vertices of the rims of caps.
-    pub fn new(landmarked: &'a LandmarkedMesh, goal: usize, rims: RimOptions) -> Self {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn new(
+        landmarked: &'a LandmarkedMesh,
+        goal: usize,
+        rims: RimOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self, Cancelled> {
         let (full, landmarks) = (&landmarked.refined.mesh, landmarked.landmarks.as_slice());
         let mut is_landmark = ti_vec![false; full.vertex_count()];
         landmarks.iter().for_each(|&v| is_landmark[v] = true);
@@ -31,16 +40,32 @@ impl<'a> MeshWithCoarse<'a> {
         let on_rims = kept_of_rims(full, landmarked.weights(), rims, goal);
         on_rims.into_iter().for_each(|v| is_kept[v] = true);
         let mut mesh = CollapsibleMesh::new(full);
-        coarsen_around(&mut mesh, full.positions(), goal, Held { cones: &is_landmark, others: &is_kept });
+        let held = Held { cones: &is_landmark, others: &is_kept };
+        coarsen_around(&mut mesh, full.positions(), goal, held, monitor)?;
         let coarse = Level::of(&mesh, full.positions());
         let skin = landmarked.weights_by_face().map(|weights| Skin::new(full, weights));
-        Self { full, landmarks, mesh, skin, coarse }
+        Ok(Self { full, landmarks, mesh, skin, coarse })
     }
 
     /// The coarse level's vertex of each landmark.
     fn coarse_landmarks(&self) -> Vec<VertexId> {
         self.coarse.numbers(self.landmarks).collect()
     }
+}
+
+/// Coarse levels of both meshes.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn both<'a>(
+    landmarked: &'a [LandmarkedMesh; 2],
+    goal: usize,
+    rims: RimOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<[MeshWithCoarse<'a>; 2], Cancelled> {
+    let source = MeshWithCoarse::new(&landmarked[0], goal, rims, &mut Portion::new(monitor, 0.0, 0.5))?;
+    let target = MeshWithCoarse::new(&landmarked[1], goal, rims, &mut Portion::new(monitor, 0.5, 1.0))?;
+    Ok([source, target])
 }
 
 /// The landmarks on both coarse levels.

@@ -13,6 +13,6 @@ mod skin;
 
 pub use error::CoarseMapError;
 pub use landmarked_mesh::{LEAST_PER_LANDMARK, LandmarkedMesh};
-pub use mesh_with_coarse::{MeshWithCoarse, coarse_landmarks};
+pub use mesh_with_coarse::{MeshWithCoarse, both as coarse_levels, coarse_landmarks};
 pub use options::MultilevelOptions;
 pub use rims::RimOptions;

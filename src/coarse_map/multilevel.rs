@@ -14,7 +14,7 @@ use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::coarsening::Level;
 use crate::mesh::face_weights::FaceWeights;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
-use crate::monitor::{Monitor, Portion};
+use crate::monitor::{Cancelled, Monitor, Portion, Step};
 use crate::registration::patch_fit::OrientedSurface;
 use crate::registration::rigid_patches::{self, MappedLevel, RigidPatchOptions, WeightedLevel};
 use crate::surface_map::MapError;
@@ -180,10 +180,13 @@ impl CoarseMap<'_> {
             let share = |round: usize| round as f64 / options.rounds as f64;
             let part = &mut Portion::new(monitor, share(round), share(round + 1));
             self.look(|k, seen, constraints| {
-                let found = rigid_patches::point_constraints([surfaces[k], surfaces[1 - k]], seen, options);
+                let patches = &mut Portion::new(part, 0.0, 0.0);
+                let found =
+                    rigid_patches::point_constraints([surfaces[k], surfaces[1 - k]], seen, options, patches)?;
                 *constraints =
                     found.into_iter().map(|(v, constraint)| (seen.vertices[v], constraint)).collect();
-            });
+                Ok(())
+            })?;
             // A few steps before patches are registered again. Chosen by hand, not measured at half and double.
             self.lower(&MapRelaxationOptions { max_rounds: 4, ..*fine }, part, |_| ())?;
         }
@@ -194,7 +197,8 @@ impl CoarseMap<'_> {
                     constraint.place = seen.images[v];
                 }
             }
-        });
+            Ok(())
+        })?;
         Ok(())
     }
 
@@ -206,6 +210,7 @@ impl CoarseMap<'_> {
             let goal = options.next_level(live, level.full_vertices());
             grown |= goal > live;
             let quiet = InitialOptions { growth: f64::INFINITY, ..options.initial };
+            monitor.step(Step::default())?;
             initial::refine(level, goal, &quiet, monitor)?;
         }
         Ok(grown)
@@ -246,21 +251,37 @@ impl CoarseMap<'_> {
     }
 
     /// Heals the worst places of the present levels.
-    fn heal(&mut self, options: &DentOptions) {
+    ///
+    /// # Errors
+    /// [`MapError::Cancelled`].
+    fn heal(&mut self, options: &DentOptions, monitor: &mut dyn Monitor) -> Result<(), MapError> {
         let present = self.present();
         let [source, target] = [0, 1].map(|k| present[k].parametrised());
-        let Ok(locations) = locate(source, target, &self.surface) else { return };
-        let Ok(overlay) = overlay(source, target, &locations) else { return };
+        monitor.step(Step::default())?;
+        let Ok(locations) = locate(source, target, &self.surface) else { return Ok(()) };
+        monitor.step(Step::default())?;
+        let Ok(overlay) = overlay(source, target, &locations) else { return Ok(()) };
         let brink = if self.energy == MapEnergy::POSES { options.pose_brink } else { options.brink };
         let energy = DentEnergy { energy: self.energy, brink };
-        let healed = dents::heal([source, target], &self.surface, &overlay, options, energy);
+        let healed = dents::heal([source, target], &self.surface, &overlay, options, energy, monitor)?;
         for (k, embedding) in healed.iter().flatten().enumerate() {
             self.levels[k].adopt(&present[k].level, embedding);
         }
+        Ok(())
     }
 
     /// Calls `show` for each mesh, 0 the source: its number, its level with the images of its vertices, and its constraints.
-    fn look(&mut self, mut show: impl FnMut(usize, &MappedLevel<'_>, &mut Vec<(VertexId, PointConstraint)>)) {
+    ///
+    /// # Errors
+    /// Those of `show`.
+    fn look(
+        &mut self,
+        mut show: impl FnMut(
+            usize,
+            &MappedLevel<'_>,
+            &mut Vec<(VertexId, PointConstraint)>,
+        ) -> Result<(), Cancelled>,
+    ) -> Result<(), Cancelled> {
         let present = self.present();
         for k in 0..2 {
             let [from, onto] = [k, 1 - k].map(|k| present[k].parametrised());
@@ -268,8 +289,9 @@ impl CoarseMap<'_> {
             let Ok(locations) = locate(from, onto, &self.surface) else { continue };
             let points = locations.by_vertex.iter().map(|at| barycentric(from, onto, at));
             let seen = MappedLevel::new(level, other, points);
-            show(k, &seen, &mut self.constraints[k]);
+            show(k, &seen, &mut self.constraints[k])?;
         }
+        Ok(())
     }
 
     /// Lowers the energy of the map of the present levels. Returns what `look` reads off the relaxed map.
@@ -374,6 +396,6 @@ pub fn solve_fine(
             map.lower(&fine, &mut Portion::new(level, 0.9, 1.0), |_| ())?;
         }
     }
-    map.heal(&options.dents);
+    map.heal(&options.dents, &mut Portion::new(monitor, 1.0, 1.0))?;
     Ok(map.levels.map(|level| level.snapshot().embedding))
 }

@@ -7,7 +7,7 @@
 use super::class_search::{ClassChoice, ClassSearchOptions, choose_class};
 use super::error::CoarseMapError;
 use super::landmarked_mesh::LandmarkedMesh;
-use super::mesh_with_coarse::MeshWithCoarse;
+use super::mesh_with_coarse::{self, MeshWithCoarse};
 use super::multilevel::{CoarseMap, LevelImages, solve_fine};
 use super::options::MultilevelOptions;
 use crate::geodesic::distances;
@@ -162,8 +162,9 @@ pub fn add<'a>(
         without_gain += 1;
         before = pairs.iter().map(|pair| pair.source).collect();
         let with_own = full_cell.get_or_init(|| with_own);
-        let levels = levels_cell
-            .get_or_init(|| [0, 1].map(|k| MeshWithCoarse::new(&with_own[k], vertices, multilevel.rims)));
+        let coarsening = &mut Portion::new(monitor, share(0.1), share(0.1));
+        let levels = mesh_with_coarse::both(with_own, vertices, multilevel.rims, coarsening)?;
+        let levels = levels_cell.get_or_init(|| levels);
         let options = ClassSearchOptions { multilevel, search: &own.search, choice: ClassChoice::Best };
         let next = match choose_class(levels, options, &mut Portion::new(monitor, share(0.1), share(0.8))) {
             Ok(chosen) => {

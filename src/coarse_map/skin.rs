@@ -52,6 +52,7 @@ impl<'a> Skin<'a> {
 mod tests {
     use super::*;
     use crate::mesh::generators::icosphere;
+    use crate::monitor::Silent;
 
     #[test]
     fn coarse_faces_count_by_what_lies_under_them() {
@@ -59,7 +60,7 @@ mod tests {
         let is_cap = |f: FaceId| ball.corners(f).iter().all(|p| p.z > 0.7);
         let weights: TiVec<FaceId, f64> = ball.faces().map(|f| if is_cap(f) { 0.01 } else { 1.0 }).collect();
         let skin = Skin::new(&ball, &weights);
-        let level = Level::coarse(&ball, &[], 300);
+        let level = Level::coarse(&ball, &[], 300, &mut Silent).unwrap();
         let coarse = skin.on_level(&level);
         let area = |f: FaceId| level.mesh.face_area(f);
         let share = |mesh: &SurfaceMesh, weights: &TiVec<FaceId, f64>| {
@@ -73,7 +74,7 @@ mod tests {
             assert!(heights.iter().any(|z| *z > 0.6) || coarse[f] == 1.0);
             assert!(heights.iter().any(|z| *z < 0.75) || coarse[f] < 0.02);
         }
-        let full = Level::coarse(&ball, &[], ball.vertex_count());
+        let full = Level::coarse(&ball, &[], ball.vertex_count(), &mut Silent).unwrap();
         assert_eq!(skin.on_level(&full), weights);
     }
 }

@@ -4,7 +4,7 @@ use super::metric::{ConeMetric, FlipQueue, FlowState};
 use super::scheme::Scheme;
 use super::target::{self, TargetError};
 use crate::mesh::{SurfaceMesh, VertexId};
-use crate::monitor::{Cancelled, Monitor, Step};
+use crate::monitor::{Cancelled, Monitor, Portion, Step};
 use crate::numerics::approximate_cholesky::ApproximateCholesky;
 use crate::numerics::conjugate_gradients::{CgError, CgOptions, CgWorkspace};
 use crate::numerics::graph::Graph;
@@ -127,7 +127,17 @@ impl<'a> Newton<'a> {
             // iterations bound what a breakdown costs.
             let tolerance = (0.1 * error).clamp(1e-8, 0.1);
             let options = CgOptions { tolerance, max_iterations: LINEAR_ITERATIONS };
-            let solved = match cg.solve(&graph, &preconditioner, &residual, &mut step, &options) {
+            let fraction = self.fraction(error);
+            let within = &mut Portion::new(monitor, fraction, fraction);
+            within.step(Step::default())?;
+            let mut stopped = Ok(());
+            let may_go_on = || {
+                stopped = within.step(Step { fraction, residual: Some(error) });
+                stopped.is_ok()
+            };
+            let solved = cg.solve_while(&graph, &preconditioner, &residual, &mut step, &options, may_go_on);
+            stopped?;
+            let solved = match solved {
                 Ok(solved) => solved,
                 // No step at all: the line search would take it for a step that lowers the energy.
                 Err(CgError::NotDefinite { report, .. }) if report.iterations == 0 => break,

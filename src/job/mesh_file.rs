@@ -4,7 +4,7 @@ use crate::io::{self, ReadError};
 use crate::map_file::FileMesh;
 use crate::mesh::check::{MeshFault, closed_genus_zero};
 use crate::mesh::repair::{RepairOptions, RepairRefusal, RepairReport, repaired};
-use crate::monitor::{Cancelled, Monitor};
+use crate::monitor::{Cancelled, Monitor, Step};
 
 /// What becomes of a mesh that is not one closed surface of genus 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,6 +68,7 @@ pub fn read_mesh(
     monitor: &mut dyn Monitor,
 ) -> Result<ReadMesh, MeshFileError> {
     let soup = io::read_mesh(bytes)?;
+    monitor.step(Step::default())?;
     let (checked, report) = match faults {
         MeshFaults::Repaired(options) => {
             let mesh = repaired(&soup, &options, monitor)?;
@@ -75,5 +76,6 @@ pub fn read_mesh(
         }
         MeshFaults::Refused => (closed_genus_zero(&soup)?, RepairReport::default()),
     };
+    monitor.step(Step { fraction: 1.0, residual: None })?;
     Ok(ReadMesh { mesh: FileMesh::new(bytes, soup.polygons, checked), report })
 }

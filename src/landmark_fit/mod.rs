@@ -85,7 +85,7 @@ pub const MOST_COMPARED: usize = 100;
 /// Exchanges that are told of, at most: a set with more is not a set with faults, but another one.
 const MOST_EXCHANGES: usize = 12;
 
-/// Exchanges targets as long as an exchange is clearly called for.
+/// Exchanges targets as long as an exchange is clearly called for, and no result is wanted.
 fn exchanges(
     fit: &mut Fit<'_>,
     exchange: &Exchange<'_>,
@@ -95,6 +95,9 @@ fn exchanges(
     // More than half as many as pairs make no sense.
     let most = MOST_EXCHANGES.min(fit.target_of.len() / 2);
     for k in 0..most {
+        if monitor.wants_result() {
+            break;
+        }
         let part = &mut Portion::new(monitor, k as f64 / most as f64, (k + 1) as f64 / most as f64);
         let Some(finding) = exchange.best(fit, part)? else { break };
         let Finding::Swapped { pairs: [a, b], .. } = finding else { break };

@@ -54,7 +54,7 @@ pub fn suggest(
     if mesh.vertex_count() <= COARSE_VERTICES {
         return suggest_here(mesh, landmarks, count, monitor);
     }
-    let level = Level::coarse(mesh, landmarks, COARSE_VERTICES);
+    let level = Level::coarse(mesh, landmarks, COARSE_VERTICES, &mut Portion::new(monitor, 0.0, 0.0))?;
     let numbers: Vec<VertexId> = level.numbers(landmarks).collect();
     let found = suggest_here(&level.mesh, &numbers, count, monitor)?;
     Ok(found.into_iter().map(|s| Suggestion { vertex: level.vertices[s.vertex], ..s }).collect())

@@ -1,6 +1,7 @@
 //! Layouts of one pair of meshes, one of each isotopy class, the most promising first.
 
 use super::base_layout::{BaseLayout, LayoutReport};
+use super::bounds::{Bounds, MOST_DISTANCES};
 use super::drawing::{Drawing, Planner};
 use super::error::LayoutError;
 use super::isotopy::Class;
@@ -11,7 +12,7 @@ use super::twists::{self, Twist};
 use super::variants::VARIANTS;
 use crate::landmarks::Landmarks;
 use crate::mesh::SurfaceMesh;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Step};
 
 /// Orders of drawing tried together; the straightest of them comes first.
 /// Chosen by hand; a drawing takes 5 to 10 ms.
@@ -28,6 +29,11 @@ pub struct Candidate {
 }
 
 impl Candidate {
+    /// Vertices of both refined meshes.
+    pub(super) fn size(&self) -> usize {
+        self.layout.source.mesh.vertex_count() + self.layout.target.mesh.vertex_count()
+    }
+
     #[cfg(test)]
     pub(super) fn drawing(&self) -> &Drawing {
         &self.drawing
@@ -53,10 +59,22 @@ pub struct Candidates<'a> {
 
 impl<'a> Candidates<'a> {
     /// Measures the distances between the landmarks. Nothing is drawn yet.
-    pub fn new(meshes: [&'a SurfaceMesh; 2], landmarks: &'a Landmarks) -> Self {
+    ///
+    /// # Errors
+    /// [`LayoutError::Cancelled`]; [`LayoutError::TooMany`] where the distances would take too much memory.
+    pub fn new(
+        meshes: [&'a SurfaceMesh; 2],
+        landmarks: &'a Landmarks,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self, LayoutError> {
+        let vertices = meshes[0].vertex_count().max(meshes[1].vertex_count());
+        let most = MOST_DISTANCES / vertices.max(1);
+        if landmarks.len() > most {
+            return Err(LayoutError::TooMany { landmarks: landmarks.len(), most });
+        }
         let empty = Drawing::new(meshes[0], meshes[1], landmarks);
-        let distances = empty.distances();
-        Self {
+        let distances = empty.distances(monitor)?;
+        Ok(Self {
             meshes,
             landmarks,
             empty,
@@ -65,10 +83,11 @@ impl<'a> Candidates<'a> {
             ready: Vec::new(),
             given: Vec::new(),
             failure: None,
-        }
+        })
     }
 
-    /// The next layout of a new class from another order of drawing; `None` when all orders were tried.
+    /// The next layout of a new class from another order of drawing; `None` when all orders were tried. Once a result is wanted, no more
+    /// orders are drawn than one that succeeds.
     ///
     /// # Errors
     /// [`LayoutError::Cancelled`] only: an order that fails is passed over (see [`Self::failure`]).
@@ -83,9 +102,14 @@ impl<'a> Candidates<'a> {
 
     fn draw_batch(&mut self, monitor: &mut dyn Monitor) -> Result<(), LayoutError> {
         let end = (self.next_variant + BATCH).min(VARIANTS.len());
+        let mut all_tangled = true;
         for variant in &VARIANTS[self.next_variant..end] {
+            if monitor.wants_result() && !self.ready.is_empty() {
+                break;
+            }
             let ground = Ground { empty: &self.empty, distances: &self.distances };
             let drawn = joint::draw(&ground, variant, monitor).and_then(|drawing| self.candidate(drawing));
+            all_tangled &= matches!(drawn, Err(LayoutError::Tangled { .. }));
             match drawn {
                 Ok(candidate) => {
                     let fresh = self.if_new(candidate);
@@ -95,9 +119,15 @@ impl<'a> Candidates<'a> {
                 Err(error) => self.failure = Some(error),
             }
         }
-        self.next_variant = end;
+        // Where no order but winds, others do, too.
+        self.next_variant = if all_tangled { VARIANTS.len() } else { end };
         self.ready.sort_by(|a, b| b.layout.report.detour.total_cmp(&a.layout.report.detour));
         Ok(())
+    }
+
+    /// Vertices of both meshes.
+    pub(super) fn size(&self) -> usize {
+        self.meshes[0].vertex_count() + self.meshes[1].vertex_count()
     }
 
     /// The distances between the landmarks.
@@ -125,18 +155,22 @@ impl<'a> Candidates<'a> {
         monitor: &mut dyn Monitor,
     ) -> Result<Vec<Candidate>, LayoutError> {
         let mut found: Vec<Candidate> = Vec::new();
-        let mut planner = Planner::new(&self.distances, 1.0);
-        let plausible: Vec<Twist> = twists::plausible(&of.drawing, &mut planner, largest_ratio);
+        let mut planner = Planner::new(&self.distances, 1.0, monitor);
+        let plausible: Vec<Twist> = twists::plausible(&of.drawing, &mut planner, largest_ratio)?;
         let mut drawings = Vec::new();
         // Twice as many as are wanted: some cannot be drawn, some are of a class that is known.
         for twist in plausible.iter().take(2 * count) {
-            match twists::twisted(&of.drawing, &mut planner, twist, monitor) {
+            if planner.wants_result() {
+                break;
+            }
+            match twists::twisted(&of.drawing, &mut planner, twist) {
                 Ok(drawing) => drawings.extend(drawing),
                 Err(LayoutError::Cancelled(stop)) => return Err(stop.into()),
                 Err(_) => {}
             }
         }
         for drawing in drawings {
+            monitor.step(Step::default())?;
             // A drawing that does not close is no neighbour.
             if let Ok(candidate) = self.candidate(drawing) {
                 let known = found.iter().any(|other| super::same_class(&other.layout, &candidate.layout));
@@ -153,6 +187,7 @@ impl<'a> Candidates<'a> {
 
     pub(super) fn candidate(&self, drawing: Drawing) -> Result<Candidate, LayoutError> {
         let report = LayoutReport::of(&drawing, &self.distances);
+        Bounds::new(&self.distances).check_detour(&drawing, &self.distances)?;
         let base = patches::base_of(&drawing, self.meshes[1], self.landmarks)?;
         let layout = patches::finish(drawing.clone(), base, self.meshes, report)?;
         Ok(Candidate { layout, drawing })

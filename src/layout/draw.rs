@@ -38,7 +38,7 @@ pub fn joint(
     monitor: &mut dyn Monitor,
 ) -> Result<BaseLayout, LayoutError> {
     let empty = Drawing::new(meshes[0], meshes[1], landmarks);
-    let distances = empty.distances();
+    let distances = empty.distances(monitor)?;
     let ground = Ground { empty: &empty, distances: &distances };
     let mut found: Vec<(Drawing, LayoutReport)> = Vec::new();
     let mut failure = LayoutError::Stuck { paths: 0, wanted: 3 * landmarks.len() - 6 };
@@ -78,7 +78,7 @@ pub fn from_base(
     monitor: &mut dyn Monitor,
 ) -> Result<BaseLayout, LayoutError> {
     let empty = Drawing::new(meshes[0], meshes[1], landmarks);
-    let distances = empty.distances();
+    let distances = empty.distances(monitor)?;
     let drawing = joint::draw_base(&Ground { empty: &empty, distances: &distances }, base, monitor)?;
     let report = LayoutReport::of(&drawing, &distances);
     Ok(patches::finish(drawing, base.clone(), meshes, report)?)

@@ -1,10 +1,13 @@
 //! The growing drawing of one graph on two meshes: the same rotation system at every landmark.
 
+use super::bounds::{Allowance, Bounds};
+use super::error::LayoutError;
 use super::landmark_distances::LandmarkDistances;
 use super::path_search::{Bounded, EndStep, FoundPath, Node, PathSearch, Query, Sector};
 use super::refinable::RefinableMesh;
 use crate::landmarks::Landmarks;
 use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
+use crate::monitor::{Cancelled, Monitor};
 
 /// One of the two meshes with the paths drawn so far.
 #[derive(Clone, Debug)]
@@ -37,16 +40,79 @@ pub(super) struct Drawing {
     pub rotation: Vec<Vec<usize>>,
 }
 
-/// Search memory of both sides, distances, and the cost of midpoints.
+/// Search memory of both sides, distances, the cost of midpoints, and what a drawing may take.
 pub(super) struct Planner<'a> {
     searches: [PathSearch; 2],
     pub distances: &'a LandmarkDistances,
     pub midpoint_penalty: f64,
+    bounds: Bounds,
+    allowance: Allowance<'a>,
 }
 
 impl<'a> Planner<'a> {
-    pub fn new(distances: &'a LandmarkDistances, midpoint_penalty: f64) -> Self {
-        Self { searches: [PathSearch::default(), PathSearch::default()], distances, midpoint_penalty }
+    /// For the searches of one drawing; [`Self::begin`] allows another one.
+    pub fn new(
+        distances: &'a LandmarkDistances,
+        midpoint_penalty: f64,
+        monitor: &'a mut dyn Monitor,
+    ) -> Self {
+        let searches = [PathSearch::default(), PathSearch::default()];
+        let (bounds, allowance) = (Bounds::new(distances), Allowance::new(monitor));
+        let mut planner = Self { searches, distances, midpoint_penalty, bounds, allowance };
+        planner.begin();
+        planner
+    }
+
+    /// A drawing begins, with its own allowance.
+    pub fn begin(&mut self) {
+        self.allowance.renew(&self.bounds);
+    }
+
+    /// Tells the monitor how far the drawing is.
+    ///
+    /// # Errors
+    /// [`LayoutError::Cancelled`].
+    pub fn tell(&mut self, fraction: f64) -> Result<(), LayoutError> {
+        self.allowance.tell(fraction)
+    }
+
+    /// Draws a plan, where there is one, within the bounds.
+    ///
+    /// # Errors
+    /// [`LayoutError::Cancelled`], [`LayoutError::Tangled`], [`LayoutError::NoPath`]; the drawing is unusable then.
+    pub fn draw(
+        &self,
+        drawing: &mut Drawing,
+        ends: [usize; 2],
+        plan: Option<Plan>,
+    ) -> Result<(), LayoutError> {
+        let no_path = LayoutError::NoPath { landmarks: ends };
+        let plan = plan.ok_or_else(|| self.allowance.fault(drawing, self.distances, no_path.clone()))?;
+        drawing.draw(&plan).ok_or(no_path)?;
+        self.bounds.check(drawing, self.distances)
+    }
+
+    /// Whether the paths of a tree are straight enough.
+    ///
+    /// # Errors
+    /// [`LayoutError::Tangled`].
+    pub fn check_tree(&self, drawing: &Drawing) -> Result<(), LayoutError> {
+        self.bounds.check_detour(drawing, self.distances)
+    }
+
+    /// Whether to finish with the drawings that are there.
+    pub fn wants_result(&self) -> bool {
+        self.allowance.wants_result()
+    }
+
+    /// Whether another search may find something: not when the allowance is used up.
+    pub fn may_search(&self) -> bool {
+        self.allowance.is_left()
+    }
+
+    /// Why no further path was found.
+    pub fn fault(&self, drawing: &Drawing, otherwise: LayoutError) -> LayoutError {
+        self.allowance.fault(drawing, self.distances, otherwise)
     }
 }
 
@@ -70,9 +136,13 @@ impl Drawing {
     }
 
     /// Distances on both meshes; nothing is drawn yet.
-    pub fn distances(&self) -> LandmarkDistances {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn distances(&self, monitor: &mut dyn Monitor) -> Result<LandmarkDistances, Cancelled> {
         let [source, target] = &self.sides;
-        LandmarkDistances::without_paths([&source.mesh, &target.mesh], [&source.landmarks, &target.landmarks])
+        let landmarks = [&source.landmarks[..], &target.landmarks];
+        LandmarkDistances::without_paths([&source.mesh, &target.mesh], landmarks, monitor)
     }
 
     /// Plans a path: searched freely on one mesh, its sectors imposed on the other; both ways round, the shorter kept.
@@ -160,7 +230,7 @@ impl Drawing {
             to_end: planner.distances.field(side, ends[1]),
             limit,
         };
-        planner.searches[side].shortest(mesh, &query)
+        planner.searches[side].shortest(mesh, &query, &mut planner.allowance)
     }
 
     /// For every landmark and place of its rotation the face of the drawing that follows counter-clockwise.

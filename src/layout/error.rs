@@ -11,18 +11,44 @@ pub enum LayoutError {
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     /// No path inside the sectors.
-    #[error("no path was found between landmarks {} and {}", landmarks[0], landmarks[1])]
+    #[error(
+        "no map was found: no line can be drawn between the landmarks {} and {} (the first is 1) beside the others; check whether \
+         pairs are exchanged, move one of the two or leave it out",
+        landmarks[0] + 1,
+        landmarks[1] + 1
+    )]
     NoPath {
         /// The landmarks, 0-based.
         landmarks: [usize; 2],
     },
     /// Every pair was tried.
-    #[error("the layout stopped at {paths} of {wanted} paths")]
+    #[error(
+        "no map was found: only {paths} of {wanted} lines can be drawn between the landmarks; check whether pairs are exchanged, \
+         or leave some out"
+    )]
     Stuck {
         /// Paths drawn.
         paths: usize,
         /// Paths of a triangulation.
         wanted: usize,
+    },
+    /// The paths wind around each other: they, or the meshes refined along them, have become too long.
+    #[error(
+        "no map was found: the lines between the landmarks wind around each other{}. Are the landmarks of both meshes in the same \
+         order? Check whether pairs are exchanged",
+        most_around(near)
+    )]
+    Tangled {
+        /// Landmarks whose paths wind most, 0-based, the worst first.
+        near: Vec<usize>,
+    },
+    /// More landmarks than distances can be kept of.
+    #[error("{landmarks} landmarks are too many: on these meshes at most {most} can be used, leave some out")]
+    TooMany {
+        /// Their number.
+        landmarks: usize,
+        /// How many there may be.
+        most: usize,
     },
     /// No layout has a map.
     #[error("no map was found for any of {layouts} layouts{}", around(near))]
@@ -40,17 +66,30 @@ pub enum LayoutError {
 /// Where layouts failed, in words; landmarks are counted from 1.
 fn around(near: &[usize]) -> String {
     match near {
-        [] => String::new(),
+        [] => "; check whether pairs are exchanged, or leave some out".to_owned(),
         [one] => {
             format!("; they fail around landmark {} (the first is 1): move it, or leave it out", one + 1)
         }
         more => {
-            let names: Vec<String> = more.iter().map(|k| (k + 1).to_string()).collect();
             format!(
                 "; they fail around the landmarks {} (the first is 1): check whether these are exchanged, or so near to \
                  each other that no triangles are between them, and move one or leave it out",
-                names.join(", ")
+                names(more)
             )
         }
     }
+}
+
+/// Where paths wind most, in words.
+fn most_around(near: &[usize]) -> String {
+    match near {
+        [] => String::new(),
+        [one] => format!(", most at landmark {} (the first is 1)", one + 1),
+        more => format!(", most at the landmarks {} (the first is 1)", names(more)),
+    }
+}
+
+/// Landmarks counted from 1.
+fn names(landmarks: &[usize]) -> String {
+    landmarks.iter().map(|k| (k + 1).to_string()).collect::<Vec<_>>().join(", ")
 }

@@ -7,7 +7,8 @@ use super::variants::{PLAIN, TreeOrder, Variant};
 use crate::base_domain::BaseDomain;
 use crate::math::disjoint_sets::DisjointSets;
 use crate::math::min_queue::{MinQueue, Queued};
-use crate::monitor::{Monitor, Step};
+use crate::monitor::Monitor;
+use std::collections::BTreeSet;
 
 /// What an attempt needs beside its variant.
 pub(super) struct Ground<'a> {
@@ -21,17 +22,17 @@ pub(super) fn draw(
     variant: &Variant,
     monitor: &mut dyn Monitor,
 ) -> Result<Drawing, LayoutError> {
-    let mut planner = Planner::new(ground.distances, variant.midpoint_penalty);
+    let mut planner = Planner::new(ground.distances, variant.midpoint_penalty, monitor);
     let mut drawing = ground.empty.clone();
     for ends in tree_in_order(ground.distances, variant) {
-        monitor.step(Step::default())?;
+        planner.tell(0.0)?;
         let plan = drawing.plan(&mut planner, ends, [f64::INFINITY; 2]);
-        let plan = plan.ok_or(LayoutError::NoPath { landmarks: ends })?;
-        drawing.draw(&plan).ok_or(LayoutError::NoPath { landmarks: ends })?;
+        planner.draw(&mut drawing, ends, plan)?;
+        planner.check_tree(&drawing)?;
     }
-    complete(&mut drawing, &mut planner, variant, monitor)?;
+    complete(&mut drawing, &mut planner, variant)?;
     planner.midpoint_penalty = 1.0;
-    straighten(&mut drawing, &mut planner, monitor)?;
+    straighten(&mut drawing, &mut planner)?;
     Ok(drawing)
 }
 
@@ -40,16 +41,16 @@ pub(super) fn complete(
     drawing: &mut Drawing,
     planner: &mut Planner<'_>,
     variant: &Variant,
-    monitor: &mut dyn Monitor,
 ) -> Result<(), LayoutError> {
     let wanted = 3 * drawing.rotation.len() - 6;
     let mut queue = PairQueue::new(planner.distances, drawing, variant);
     while drawing.ends.len() < wanted {
-        monitor.step(Step { fraction: drawing.ends.len() as f64 / wanted as f64, residual: None })?;
+        planner.tell(drawing.ends.len() as f64 / wanted as f64)?;
         let Some(plan) = queue.next(drawing, planner) else {
-            return Err(LayoutError::Stuck { paths: drawing.ends.len(), wanted });
+            let stuck = LayoutError::Stuck { paths: drawing.ends.len(), wanted };
+            return Err(planner.fault(drawing, stuck));
         };
-        drawing.draw(&plan).ok_or(LayoutError::NoPath { landmarks: plan.ends })?;
+        planner.draw(drawing, plan.ends, Some(plan))?;
     }
     Ok(())
 }
@@ -61,11 +62,7 @@ const BENT: f64 = 1.2;
 /// Takes bent paths away, the worst first, and puts the better diagonal of the quadrilateral in; the class stays.
 ///
 /// A path drawn early is straight but may block later ones, and a twist may have wound it.
-pub(super) fn straighten(
-    drawing: &mut Drawing,
-    planner: &mut Planner<'_>,
-    monitor: &mut dyn Monitor,
-) -> Result<(), LayoutError> {
+pub(super) fn straighten(drawing: &mut Drawing, planner: &mut Planner<'_>) -> Result<(), LayoutError> {
     // A second pass for what the first one has freed; ten paths in each bound the time. Chosen by hand.
     for _ in 0..2 {
         let stretch = |p: usize| {
@@ -79,7 +76,7 @@ pub(super) fn straighten(
         for (_, ends) in bent.into_iter().take(10) {
             if let Some(path) = drawing.ends.iter().position(|&other| other == ends) {
                 drawing.erase(path);
-                complete(drawing, planner, &PLAIN, monitor)?;
+                complete(drawing, planner, &PLAIN)?;
                 changed += usize::from(drawing.ends.last() != Some(&ends));
             }
         }
@@ -97,7 +94,7 @@ pub(super) fn draw_base(
     monitor: &mut dyn Monitor,
 ) -> Result<Drawing, LayoutError> {
     let mesh = &base.mesh;
-    let mut planner = Planner::new(ground.distances, 1.0);
+    let mut planner = Planner::new(ground.distances, 1.0, monitor);
     let mut drawing = ground.empty.clone();
     let mut edges: Vec<[usize; 2]> =
         mesh.edges().map(|h| sorted([mesh.tail(h).index(), mesh.head(h).index()])).collect();
@@ -106,12 +103,11 @@ pub(super) fn draw_base(
     let (tree, rest): (Vec<_>, Vec<_>) = edges.into_iter().partition(|&[i, j]| sets.join(i, j));
     let count = tree.len() + rest.len();
     for (done, ends) in tree.into_iter().rev().chain(rest).enumerate() {
-        monitor.step(Step { fraction: done as f64 / count as f64, residual: None })?;
+        planner.tell(done as f64 / count as f64)?;
         let slots =
             [prescribed_slot(&drawing, base, ends), prescribed_slot(&drawing, base, [ends[1], ends[0]])];
         let plan = drawing.plan_in_slots(&mut planner, ends, slots);
-        let plan = plan.ok_or(LayoutError::NoPath { landmarks: ends })?;
-        drawing.draw(&plan).ok_or(LayoutError::NoPath { landmarks: ends })?;
+        planner.draw(&mut drawing, ends, plan)?;
     }
     Ok(drawing)
 }
@@ -183,7 +179,8 @@ impl<'a> PairQueue<'a> {
     fn new(distances: &LandmarkDistances, drawing: &Drawing, variant: &'a Variant) -> Self {
         let n = distances.landmark_count();
         let pairs = (0..n).flat_map(|j| (0..j).map(move |i| [i, j]));
-        let fresh = pairs.filter(|ends| !drawing.ends.contains(ends));
+        let drawn: BTreeSet<[usize; 2]> = drawing.ends.iter().copied().collect();
+        let fresh = pairs.filter(|ends| !drawn.contains(ends));
         // No path is shorter than without obstacles.
         let key = |ends| variant.factor(ends) * distances.sum(ends);
         let queue = fresh.map(|ends| Queued { cost: key(ends), key: ends, value: None }).collect();
@@ -209,7 +206,7 @@ impl<'a> PairQueue<'a> {
             let limit = if raised > 0.0 && raised < NO_LIMIT { raised } else { f64::INFINITY };
             let limits = [0, 1].map(|s| length_limit(limit / factor, geodesics, s));
             let Some(plan) = drawing.plan_within(planner, ends, &slots, limits) else {
-                if limit.is_finite() {
+                if limit.is_finite() && planner.may_search() {
                     self.queue.push(limit, ends, None);
                 }
                 continue;

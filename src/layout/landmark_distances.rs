@@ -5,6 +5,7 @@ use super::refinable::RefinableMesh;
 use crate::landmarks::Landmarks;
 use crate::math::min_queue::shortest_paths;
 use crate::mesh::{SurfaceMesh, VertexId};
+use crate::monitor::{Cancelled, Monitor, Step};
 use typed_index_collections::{TiSlice, TiVec};
 
 /// Lengths of shortest paths over vertices and edge midpoints that pass no other landmark, both areas scaled to 1.
@@ -17,19 +18,41 @@ pub struct LandmarkDistances {
 
 impl LandmarkDistances {
     /// Measures both meshes.
-    pub fn new(meshes: [&SurfaceMesh; 2], landmarks: &Landmarks) -> Self {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn new(
+        meshes: [&SurfaceMesh; 2],
+        landmarks: &Landmarks,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self, Cancelled> {
         let vertices = [&landmarks.source[..], &landmarks.target[..]];
         let refinable = [0, 1].map(|s| RefinableMesh::new(meshes[s], vertices[s]));
-        Self::without_paths([&refinable[0], &refinable[1]], vertices)
+        Self::without_paths([&refinable[0], &refinable[1]], vertices, monitor)
     }
 
     /// Measures on meshes without paths.
-    pub(super) fn without_paths(meshes: [&RefinableMesh; 2], landmarks: [&[VertexId]; 2]) -> Self {
-        let fields = [0, 1].map(|s| {
+    pub(super) fn without_paths(
+        meshes: [&RefinableMesh; 2],
+        landmarks: [&[VertexId]; 2],
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        let mut fields: [Vec<_>; 2] = Default::default();
+        let count = (landmarks[0].len() + landmarks[1].len()).max(1) as f64;
+        for s in 0..2 {
             let links = Links::new(meshes[s]);
-            landmarks[s].iter().map(|&v| links.distances_to(meshes[s], v)).collect()
-        });
-        Self { fields, landmarks: landmarks.map(<[VertexId]>::to_vec) }
+            for &v in landmarks[s] {
+                let done = (s * landmarks[0].len() + fields[s].len()) as f64;
+                monitor.step(Step { fraction: done / count, residual: None })?;
+                fields[s].push(links.distances_to(meshes[s], v));
+            }
+        }
+        Ok(Self { fields, landmarks: landmarks.map(<[VertexId]>::to_vec) })
+    }
+
+    /// Numbers of vertices of source and target; 0 without landmarks.
+    pub(super) fn vertex_counts(&self) -> [usize; 2] {
+        self.fields.each_ref().map(|fields| fields.first().map_or(0, |field| field.len()))
     }
 
     /// Number of landmarks.

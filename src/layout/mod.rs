@@ -7,6 +7,7 @@
 //! one with the least detours is kept.
 
 mod base_layout;
+mod bounds;
 mod candidates;
 mod draw;
 mod drawing;
@@ -22,6 +23,7 @@ mod twists;
 mod variants;
 
 pub use base_layout::{BaseLayout, LayoutReport, PatchedMesh};
+pub use bounds::{MOST_DISTANCES, worst};
 pub use candidates::{Candidate, Candidates};
 pub use draw::{LayoutOptions, from_base, joint};
 pub use error::LayoutError;

@@ -4,6 +4,7 @@
 //! all paths; links run inside triangles. Midpoints cannot be blocked: a path exists whenever both ends lie on one face of
 //! the layout.
 
+use super::bounds::Allowance;
 use super::refinable::RefinableMesh;
 use crate::math::min_queue::{MinQueue, Queued};
 use crate::mesh::{HalfedgeId, VertexId};
@@ -89,8 +90,13 @@ pub(super) struct PathSearch {
 
 impl PathSearch {
     /// The shortest path from start to end that leaves and arrives inside the given sectors; `None` where there is none
-    /// within the limit.
-    pub fn shortest(&mut self, mesh: &RefinableMesh, query: &Query<'_>) -> Option<FoundPath> {
+    /// within the limit, or the allowance is used up.
+    pub fn shortest(
+        &mut self,
+        mesh: &RefinableMesh,
+        query: &Query<'_>,
+        allowance: &mut Allowance<'_>,
+    ) -> Option<FoundPath> {
         self.begin(mesh);
         self.mark_goal(mesh, query);
         let mut best = direct(mesh, query).unwrap_or(f64::INFINITY);
@@ -100,6 +106,9 @@ impl PathSearch {
         while let Some(Queued { cost: priority, key: node, value: here }) = self.queue.pop() {
             if priority >= best || priority > query.limit || left == 0 {
                 break;
+            }
+            if !allowance.step() {
+                return None;
             }
             left -= 1;
             if here > self.distance[node as usize] {

@@ -175,6 +175,10 @@ pub type Judge<'a> = dyn FnMut(&Candidate, &mut dyn Monitor) -> Result<Option<f6
 /// Chosen by hand.
 const HOPELESS: f64 = 4.0;
 
+/// Vertices of the refined meshes of layouts that were judged, for each vertex of the meshes, after which a search without any map
+/// ends. Eight usual layouts have 20 to 30; those that wind have more, and take more time each.
+const MOST_UNMAPPED: usize = 40;
+
 const NOTHING: LayoutError = LayoutError::NoMap { layouts: 0, near: Vec::new() };
 
 struct Search<'a, 'j> {
@@ -187,7 +191,7 @@ struct Search<'a, 'j> {
 
 impl Search<'_, '_> {
     fn orders(&mut self, candidates: &mut Candidates<'_>) -> Result<(), LayoutError> {
-        let mut without_gain = 0;
+        let (mut without_gain, mut unmapped) = (0, 0);
         while self.report.judged.len() < self.options.candidates && without_gain < self.options.patience {
             let Some(candidate) = candidates.next(&mut self.between())? else { break };
             let detour = candidate.layout.report.detour;
@@ -195,9 +199,12 @@ impl Search<'_, '_> {
                 break;
             }
             let found_before = self.best.is_some();
+            let size = candidate.size();
             let better = self.judge(candidate, Origin::Order)?;
             without_gain = if better || !found_before { 0 } else { without_gain + 1 };
-            if self.is_clear() || self.must_end() {
+            unmapped += size;
+            let is_hopeless = self.best.is_none() && unmapped > MOST_UNMAPPED * candidates.size();
+            if self.is_clear() || self.must_end() || is_hopeless {
                 break;
             }
         }

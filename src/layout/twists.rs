@@ -11,7 +11,6 @@ use super::joint::{complete, straighten};
 use super::path_search::FoundPath;
 use super::variants::PLAIN;
 use crate::math::disjoint_sets::DisjointSets;
-use crate::monitor::Monitor;
 
 /// A way to turn one group of landmarks against the other.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,9 +31,18 @@ pub(super) enum Turn {
 
 /// All twists about the curves that a layout suggests, the most plausible first: between the two parts of its shortest tree
 /// without an edge, and round two landmarks joined by a path.
-pub(super) fn plausible(drawing: &Drawing, planner: &mut Planner<'_>, largest_ratio: f64) -> Vec<Twist> {
+///
+/// # Errors
+/// [`LayoutError::Cancelled`].
+pub(super) fn plausible(
+    drawing: &Drawing,
+    planner: &mut Planner<'_>,
+    largest_ratio: f64,
+) -> Result<Vec<Twist>, LayoutError> {
     let mut twists = Vec::new();
     for inside in groups(drawing) {
+        planner.begin();
+        planner.tell(0.0)?;
         let Some(tree) = Tree::new(drawing, &inside) else { continue };
         for turn in [Turn::CounterClockwise, Turn::Clockwise] {
             if let Some(TurnedPath { ratio, .. }) = tree.turned_path(planner, turn)
@@ -44,8 +52,9 @@ pub(super) fn plausible(drawing: &Drawing, planner: &mut Planner<'_>, largest_ra
             }
         }
     }
+    planner.tell(0.0)?;
     twists.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
-    twists
+    Ok(twists)
 }
 
 /// The drawing of the neighbouring class: the tree with the turned path, completed anew.
@@ -53,12 +62,13 @@ pub(super) fn twisted(
     drawing: &Drawing,
     planner: &mut Planner<'_>,
     twist: &Twist,
-    monitor: &mut dyn Monitor,
 ) -> Result<Option<Drawing>, LayoutError> {
+    planner.begin();
+    planner.tell(0.0)?;
     let tree = Tree::new(drawing, &twist.inside).and_then(|tree| tree.turned(planner, twist.turn));
     let Some(Tree { mut drawing, .. }) = tree else { return Ok(None) };
-    complete(&mut drawing, planner, &PLAIN, monitor)?;
-    straighten(&mut drawing, planner, monitor)?;
+    complete(&mut drawing, planner, &PLAIN)?;
+    straighten(&mut drawing, planner)?;
     Ok(Some(drawing))
 }
 
@@ -144,7 +154,9 @@ impl Tree {
         let bridge = complete.ends[*across.first()?];
         kept.push(bridge);
         let mut drawing = complete.clone();
-        while let Some(p) = drawing.ends.iter().rposition(|ends| !kept.contains(ends)) {
+        kept.sort_unstable();
+        let is_kept = |ends: &[usize; 2]| kept.binary_search(ends).is_ok();
+        while let Some(p) = drawing.ends.iter().rposition(|ends| !is_kept(ends)) {
             drawing.erase(p);
         }
         let between = drawing.ends.iter().position(|&ends| ends == bridge)?;
@@ -196,7 +208,8 @@ mod tests {
     fn figures() -> ([Level; 2], Landmarks) {
         let demo = crate::demo::build("poses").unwrap();
         let held = [0, 1].map(|s| demo.landmarks.iter().map(|p| VertexId(p[s])).collect::<Vec<_>>());
-        let levels = [Level::coarse(&demo.source, &held[0], 500), Level::coarse(&demo.target, &held[1], 500)];
+        let coarse = |mesh, held| Level::coarse(mesh, held, 500, &mut Silent).unwrap();
+        let levels = [coarse(&demo.source, &held[0]), coarse(&demo.target, &held[1])];
         let [source, target] = [0, 1].map(|s| {
             let number = |v: &VertexId| levels[s].vertices.iter().position(|w| w == v).unwrap().into();
             held[s].iter().map(number).collect()
@@ -207,11 +220,13 @@ mod tests {
     #[test]
     fn a_turn_leaves_the_class_and_the_turn_back_returns_to_it() {
         let (levels, landmarks) = figures();
-        let mut candidates = Candidates::new([&levels[0].mesh, &levels[1].mesh], &landmarks);
+        let mut candidates =
+            Candidates::new([&levels[0].mesh, &levels[1].mesh], &landmarks, &mut Silent).unwrap();
         let first = candidates.next(&mut Silent).unwrap().unwrap();
         let distances = candidates.distances().clone();
-        let mut planner = Planner::new(&distances, 1.0);
-        let twists = plausible(first.drawing(), &mut planner, 3.0);
+        let mut silent = Silent;
+        let mut planner = Planner::new(&distances, 1.0, &mut silent);
+        let twists = plausible(first.drawing(), &mut planner, 3.0).unwrap();
         assert!(twists.len() >= 6, "{}", twists.len());
         for twist in twists.iter().take(6) {
             let back = match twist.turn {
@@ -221,12 +236,12 @@ mod tests {
             let tree = Tree::new(first.drawing(), &twist.inside).unwrap();
             let once = tree.turned(&mut planner, twist.turn).unwrap();
             let mut completed = once.drawing.clone();
-            complete(&mut completed, &mut planner, &PLAIN, &mut Silent).unwrap();
+            complete(&mut completed, &mut planner, &PLAIN).unwrap();
             let turned = candidates.candidate(completed).unwrap();
             assert!(!same_class(&first.layout, &turned.layout));
             assert!(!same_class(&turned.layout, &first.layout));
             let mut returned = once.turned(&mut planner, back).unwrap().drawing;
-            complete(&mut returned, &mut planner, &PLAIN, &mut Silent).unwrap();
+            complete(&mut returned, &mut planner, &PLAIN).unwrap();
             let returned = candidates.candidate(returned).unwrap();
             assert!(same_class(&first.layout, &returned.layout));
             assert!(same_class(&returned.layout, &first.layout));
@@ -237,7 +252,8 @@ mod tests {
     #[test]
     fn candidates_are_of_different_classes() {
         let (levels, landmarks) = figures();
-        let mut candidates = Candidates::new([&levels[0].mesh, &levels[1].mesh], &landmarks);
+        let mut candidates =
+            Candidates::new([&levels[0].mesh, &levels[1].mesh], &landmarks, &mut Silent).unwrap();
         let mut all = Vec::new();
         while let Some(candidate) = candidates.next(&mut Silent).unwrap() {
             assert!(same_class(&candidate.layout, &candidate.layout));
@@ -254,16 +270,18 @@ mod tests {
     #[test]
     fn straightening_keeps_the_class() {
         let (levels, landmarks) = figures();
-        let mut candidates = Candidates::new([&levels[0].mesh, &levels[1].mesh], &landmarks);
+        let mut candidates =
+            Candidates::new([&levels[0].mesh, &levels[1].mesh], &landmarks, &mut Silent).unwrap();
         let first = candidates.next(&mut Silent).unwrap().unwrap();
         let distances = candidates.distances().clone();
-        let mut planner = Planner::new(&distances, 1.0);
-        let twist = plausible(first.drawing(), &mut planner, 3.0).swap_remove(0);
+        let mut silent = Silent;
+        let mut planner = Planner::new(&distances, 1.0, &mut silent);
+        let twist = plausible(first.drawing(), &mut planner, 3.0).unwrap().swap_remove(0);
         let tree = Tree::new(first.drawing(), &twist.inside).unwrap();
         let mut bent = tree.turned(&mut planner, twist.turn).unwrap().drawing;
-        complete(&mut bent, &mut planner, &PLAIN, &mut Silent).unwrap();
+        complete(&mut bent, &mut planner, &PLAIN).unwrap();
         let mut straight = bent.clone();
-        straighten(&mut straight, &mut planner, &mut Silent).unwrap();
+        straighten(&mut straight, &mut planner).unwrap();
         let [bent, straight] = [bent, straight].map(|drawing| candidates.candidate(drawing).unwrap());
         assert!(same_class(&bent.layout, &straight.layout));
         assert!(straight.layout.report.detour <= bent.layout.report.detour);
@@ -272,15 +290,17 @@ mod tests {
     #[test]
     fn erased_paths_leave_a_drawing_that_completes() {
         let (levels, landmarks) = figures();
-        let mut candidates = Candidates::new([&levels[0].mesh, &levels[1].mesh], &landmarks);
+        let mut candidates =
+            Candidates::new([&levels[0].mesh, &levels[1].mesh], &landmarks, &mut Silent).unwrap();
         let first = candidates.next(&mut Silent).unwrap().unwrap();
         let distances = candidates.distances().clone();
-        let mut planner = Planner::new(&distances, 1.0);
+        let mut silent = Silent;
+        let mut planner = Planner::new(&distances, 1.0, &mut silent);
         let inside: Vec<bool> = groups(first.drawing())[0].clone();
         let mut tree = Tree::new(first.drawing(), &inside).unwrap().drawing;
         assert_eq!(tree.ends.len(), landmarks.len() - 1);
         assert_eq!(tree.rotation.iter().map(Vec::len).sum::<usize>(), 2 * tree.ends.len());
-        complete(&mut tree, &mut planner, &PLAIN, &mut Silent).unwrap();
+        complete(&mut tree, &mut planner, &PLAIN).unwrap();
         let again = candidates.candidate(tree).unwrap();
         assert!(same_class(&first.layout, &again.layout));
     }

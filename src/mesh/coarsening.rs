@@ -4,6 +4,7 @@ use super::collapsible::{CollapsibleMesh, ShapeLimits};
 use super::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use crate::math::min_queue::{MinQueue, Queued};
 use crate::math::quadric::Quadric;
+use crate::monitor::{Cancelled, Monitor, Step};
 use glam::DVec3;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
@@ -14,12 +15,18 @@ const SHAPE: ShapeLimits = ShapeLimits { normal_cosine: 0.2, double_area: 0.05 }
 /// go into its end. Returns how many vertices are left.
 ///
 /// Shapes are kept first; where that leaves too many vertices, only the link condition is.
+///
+/// # Errors
+/// [`Cancelled`].
 pub fn coarsen(
     mesh: &mut CollapsibleMesh,
     positions: &TiSlice<VertexId, DVec3>,
     goal: usize,
     may: impl Fn(&CollapsibleMesh, HalfedgeId) -> bool,
-) -> usize {
+    monitor: &mut dyn Monitor,
+) -> Result<usize, Cancelled> {
+    monitor.step(Step::default())?;
+    let first = mesh.live_vertices();
     let quadrics = quadrics(mesh, positions);
     let mut coarsening = Coarsening {
         mesh,
@@ -37,10 +44,13 @@ pub fn coarsen(
             break;
         }
         coarsening.strictness = if round < 3 { Strictness::Shape } else { Strictness::LinkOnly };
-        coarsening.round(goal);
+        coarsening.round(goal, first, monitor)?;
     }
-    mesh.live_vertices()
+    Ok(mesh.live_vertices())
 }
+
+/// Vertices looked at between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 2048;
 
 /// Neighbours that a held vertex keeps: around a sharp cone the angle must be shared among enough triangles.
 const HELD_DEGREE: usize = 8;
@@ -55,12 +65,16 @@ pub struct Held<'a> {
 }
 
 /// Coarsens to about `goal` vertices; the held ones stay.
+///
+/// # Errors
+/// [`Cancelled`].
 pub fn coarsen_around(
     mesh: &mut CollapsibleMesh,
     positions: &TiSlice<VertexId, DVec3>,
     goal: usize,
     held: Held<'_>,
-) {
+    monitor: &mut dyn Monitor,
+) -> Result<(), Cancelled> {
     let may = |mesh: &CollapsibleMesh, h: HalfedgeId| {
         let (v, into) = (mesh.tail(h), mesh.head(h));
         let robs = |w: VertexId| {
@@ -70,7 +84,8 @@ pub fn coarsen_around(
         };
         !held.cones[v] && !held.others[v] && !mesh.star(v).any(|g| robs(mesh.head(g)))
     };
-    coarsen(mesh, positions, goal, may);
+    coarsen(mesh, positions, goal, may, monitor)?;
+    Ok(())
 }
 
 fn quadrics(mesh: &CollapsibleMesh, positions: &TiSlice<VertexId, DVec3>) -> TiVec<VertexId, Quadric> {
@@ -94,14 +109,25 @@ struct Coarsening<'a, M> {
 }
 
 impl<M: Fn(&CollapsibleMesh, HalfedgeId) -> bool> Coarsening<'_, M> {
-    fn round(&mut self, goal: usize) {
+    /// One pass over all collapses, from `first` vertices down to `goal`.
+    fn round(&mut self, goal: usize, first: usize, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
         self.queue.clear();
         let vertices: Vec<_> = self.mesh.vertices().collect();
-        for v in vertices {
+        for (k, v) in vertices.into_iter().enumerate() {
+            if k.is_multiple_of(ASKED_EVERY) {
+                monitor.step(Step::default())?;
+            }
             self.push_best(v);
         }
         let mut touched = Vec::new();
+        let mut looked_at = 0_usize;
         while let Some(Queued { key: (vertex, version), value: halfedge, .. }) = self.queue.pop() {
+            looked_at += 1;
+            if looked_at.is_multiple_of(ASKED_EVERY) {
+                let gone = first - self.mesh.live_vertices();
+                let fraction = gone as f64 / (first.saturating_sub(goal)).max(1) as f64;
+                monitor.step(Step { fraction, residual: None })?;
+            }
             if !self.mesh.is_alive(vertex) || self.version[vertex] != version {
                 continue;
             }
@@ -110,7 +136,7 @@ impl<M: Fn(&CollapsibleMesh, HalfedgeId) -> bool> Coarsening<'_, M> {
             self.quadrics[kept].add(&absorbed);
             self.mesh.collapse(halfedge);
             if self.mesh.live_vertices() <= goal {
-                return;
+                return Ok(());
             }
             touched.clear();
             touched.push(kept);
@@ -120,6 +146,7 @@ impl<M: Fn(&CollapsibleMesh, HalfedgeId) -> bool> Coarsening<'_, M> {
                 self.push_best(v);
             }
         }
+        Ok(())
     }
 
     fn push_best(&mut self, v: VertexId) {
@@ -172,13 +199,22 @@ pub struct Level {
 
 impl Level {
     /// A mesh coarsened to about `goal` vertices, those in `held` among them.
-    pub fn coarse(mesh: &SurfaceMesh, held: &[VertexId], goal: usize) -> Self {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn coarse(
+        mesh: &SurfaceMesh,
+        held: &[VertexId],
+        goal: usize,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self, Cancelled> {
         let mut level = CollapsibleMesh::new(mesh);
         let mut is_held = ti_vec![false; mesh.vertex_count()];
         held.iter().for_each(|&v| is_held[v] = true);
         let others: TiVec<VertexId, bool> = ti_vec![false; mesh.vertex_count()];
-        coarsen_around(&mut level, mesh.positions(), goal, Held { cones: &is_held, others: &others });
-        Self::of(&level, mesh.positions())
+        let held = Held { cones: &is_held, others: &others };
+        coarsen_around(&mut level, mesh.positions(), goal, held, monitor)?;
+        Ok(Self::of(&level, mesh.positions()))
     }
 
     /// The level's numbers of vertices of the full mesh, which must be in the level.
@@ -209,12 +245,13 @@ impl Level {
 mod tests {
     use super::*;
     use crate::mesh::generators::icosphere;
+    use crate::monitor::Silent;
 
     #[test]
     fn a_level_is_a_sphere_that_keeps_the_held_vertices_and_its_numbers() {
         let sphere = icosphere(4);
         let held: Vec<_> = [3, 500, 1000, 2000].map(VertexId).to_vec();
-        let level = Level::coarse(&sphere, &held, 200);
+        let level = Level::coarse(&sphere, &held, 200, &mut Silent).unwrap();
         let rebuilt =
             SurfaceMesh::from_triangles(level.mesh.positions().to_owned(), level.mesh.triangles().to_owned());
         let rebuilt = rebuilt.unwrap();
@@ -233,7 +270,8 @@ mod tests {
         let sphere = icosphere(3);
         let held = [0, 5, 100, 400, 600].map(VertexId);
         let mut mesh = CollapsibleMesh::new(&sphere);
-        let left = coarsen(&mut mesh, sphere.positions(), 5, |mesh, h| !held.contains(&mesh.tail(h)));
+        let may = |mesh: &CollapsibleMesh, h: HalfedgeId| !held.contains(&mesh.tail(h));
+        let left = coarsen(&mut mesh, sphere.positions(), 5, may, &mut Silent).unwrap();
         assert_eq!(left, 5);
     }
 
@@ -241,7 +279,7 @@ mod tests {
     fn held_vertices_keep_their_degree() {
         let sphere = icosphere(4);
         let held: Vec<_> = [3, 500, 1000, 2000].map(VertexId).to_vec();
-        let level = Level::coarse(&sphere, &held, 60);
+        let level = Level::coarse(&sphere, &held, 60, &mut Silent).unwrap();
         for (v, w) in held.iter().zip(level.numbers(&held)) {
             assert!(level.mesh.star(w).count() >= sphere.star(*v).count());
         }

@@ -141,6 +141,22 @@ impl<T: Entry> CgWorkspace<T> {
         x: &mut [T],
         options: &CgOptions,
     ) -> Result<CgReport, CgError> {
+        self.solve_while(operator, preconditioner, b, x, options, || true)
+    }
+
+    /// Like [`Self::solve`], as long as `may_go_on` agrees, which is asked before each iteration.
+    ///
+    /// # Errors
+    /// [`CgError`]; [`CgError::NotConverged`] where it was not to go on.
+    pub fn solve_while(
+        &mut self,
+        operator: &impl LinearOperator<T>,
+        preconditioner: &impl Preconditioner<T>,
+        b: &[T],
+        x: &mut [T],
+        options: &CgOptions,
+        mut may_go_on: impl FnMut() -> bool,
+    ) -> Result<CgReport, CgError> {
         let n = b.len();
         let Self { residual, direction, image, preconditioned } = self;
         for memory in [&mut *residual, &mut *direction, &mut *image, &mut *preconditioned] {
@@ -163,7 +179,12 @@ impl<T: Entry> CgWorkspace<T> {
         operator.leave_kernel(preconditioned);
         direction.copy_from_slice(preconditioned);
         let mut rho = dot(residual, preconditioned);
+        let mut iterations = options.max_iterations;
         for iteration in 0..options.max_iterations {
+            if !may_go_on() {
+                iterations = iteration;
+                break;
+            }
             operator.apply(direction, image);
             let curvature = dot(direction, image);
             if curvature.is_nan() || curvature <= 0.0 {
@@ -191,7 +212,7 @@ impl<T: Entry> CgWorkspace<T> {
             }
         }
         operator.leave_kernel(x);
-        let report = report(options.max_iterations, square);
+        let report = report(iterations, square);
         Err(CgError::NotConverged { tolerance: options.tolerance, report })
     }
 }

@@ -168,19 +168,21 @@ pub fn findings(
     let Landmarks { source, target } = input.landmarks;
     let numbers =
         |level: &Level, ends: Vec<VertexId>| ends.iter().map(|&v| level.vertices[v].index()).collect();
-    let levels = [coarse(input.source, source), coarse(input.target, target)];
+    let coarsening = &mut Portion::new(monitor, 0.0, 0.0);
+    let levels = [coarse(input.source, source, coarsening)?, coarse(input.target, target, coarsening)?];
     let landmarks = Landmarks {
         source: levels[0].numbers(source).collect(),
         target: levels[1].numbers(target).collect(),
     };
     let meshes = [&levels[0].mesh, &levels[1].mesh];
     let mut found = Vec::new();
-    if landmarks.len() <= MOST_COMPARED {
-        let distances = LandmarkDistances::new(meshes, &landmarks);
-        found = landmark_fit(meshes, &landmarks, &distances, &mut Portion::new(monitor, 0.0, 0.5))?;
+    if landmarks.len() <= MOST_COMPARED && !monitor.wants_result() {
+        let distances = LandmarkDistances::new(meshes, &landmarks, &mut Portion::new(monitor, 0.0, 0.1))?;
+        found = landmark_fit(meshes, &landmarks, &distances, &mut Portion::new(monitor, 0.1, 0.5))?;
     }
     let mut reports: Vec<_> = found.iter().map(|finding| FindingReport::new(finding, labels)).collect();
-    for (side, marks) in [&landmarks.source, &landmarks.target].into_iter().enumerate() {
+    let sides = if monitor.wants_result() { 0 } else { 2 };
+    for (side, marks) in [&landmarks.source, &landmarks.target].into_iter().enumerate().take(sides) {
         let level = &levels[side];
         let half = &mut Portion::new(monitor, 0.5 + 0.25 * side as f64, 0.75 + 0.25 * side as f64);
         let ends: Vec<usize> = numbers(level, unmarked_limbs(&level.mesh, marks, half)?);
@@ -192,8 +194,8 @@ pub fn findings(
 }
 
 /// The level of a mesh on which its distances are measured.
-fn coarse(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> Level {
-    Level::coarse(mesh, landmarks, COARSE_VERTICES.max(2 * landmarks.len()))
+fn coarse(mesh: &SurfaceMesh, landmarks: &[VertexId], monitor: &mut dyn Monitor) -> Result<Level, Cancelled> {
+    Level::coarse(mesh, landmarks, COARSE_VERTICES.max(2 * landmarks.len()), monitor)
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ use super::{GroundTruth, MapInput, MapResult, Report, TriangleDistortion, Warnin
 use crate::base_domain::BaseDomain;
 use crate::mesh::cap_faces::CapFaces;
 use crate::mesh::{FaceFrame, FaceId, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
+use crate::monitor::{Cancelled, Monitor, Step};
 use crate::surface_map::correspondence::Correspondence;
 use crate::surface_map::flat_layout::FlatLayout;
 use crate::surface_map::measures::distortion::{Distortion, image_distortion, skin_distortion};
@@ -43,11 +44,15 @@ struct Shown {
 
 impl Outcome<'_> {
     /// The result; `missing` are the warnings of parts that failed before.
+    ///
+    /// # Errors
+    /// [`Cancelled`].
     pub(super) fn result(
         &self,
         overlay: Result<Overlay, OverlayError>,
         mut missing: Vec<Warning>,
-    ) -> MapResult {
+        monitor: &mut dyn Monitor,
+    ) -> Result<MapResult, Cancelled> {
         let Self { input, map, .. } = *self;
         let vertices = input.source.vertex_count();
         let has_caps = input.caps.any();
@@ -64,7 +69,7 @@ impl Outcome<'_> {
         });
         let images: TiVec<VertexId, Option<SurfacePoint>> = images.into_iter().map(Some).collect();
         let shown = match overlay {
-            Ok(overlay) => self.shown_on(&overlay),
+            Ok(overlay) => self.shown_on(&overlay, monitor)?,
             Err(error) => {
                 missing.push(Warning::NoOverlay { reason: error.to_string() });
                 self.shown_at_vertices(&images)
@@ -76,7 +81,7 @@ impl Outcome<'_> {
             warnings: missing.into_iter().chain(warnings).collect(),
             ..self.report(&shown.measured)
         };
-        MapResult {
+        Ok(MapResult {
             base: self.base.clone(),
             cone_curvatures: self.flows.cones.clone(),
             triangle_distortion: shown.triangle_distortion,
@@ -88,7 +93,7 @@ impl Outcome<'_> {
             target_from_source: images,
             vertex_distortion: shown.measured.by_vertex.into_iter().take(vertices).collect(),
             report,
-        }
+        })
     }
 
     fn surfaces(&self) -> [Surface<'_>; 2] {
@@ -100,19 +105,25 @@ impl Outcome<'_> {
     }
 
     /// The map on the pieces of its overlay, where it is affine: exact.
-    fn shown_on(&self, overlay: &Overlay) -> Shown {
+    fn shown_on(&self, overlay: &Overlay, monitor: &mut dyn Monitor) -> Result<Shown, Cancelled> {
+        let mut told = |fraction: f64| monitor.step(Step { fraction, residual: None });
+        told(0.1)?;
         let sides = self.map.sides();
         let [source, target] = self.surfaces();
         let caps = [(self.input.caps.source, source), (self.input.caps.target, target)]
             .map(|(is_cap, side)| is_cap.map(|is_cap| refined_caps(is_cap, side.refined)));
         let caps = CapFaces { source: caps[0].as_deref(), target: caps[1].as_deref() };
         let measured = skin_distortion(sides, overlay, caps);
+        told(0.3)?;
         let frames: [&dyn Fn(FaceId) -> FaceFrame; 2] =
             [&|f| source.refined.frame(source.input, f), &|f| target.refined.frame(target.input, f)];
         let carriers = [source.carrier(frames[0]), target.carrier(frames[1])];
         let correspondence = Correspondence::of_overlay(sides, overlay).carried(carriers);
+        told(0.5)?;
         let flat_layout = FlatLayout::new(sides, &self.map.surface).map(|layout| layout.carried(carriers));
+        told(0.7)?;
         let common = common_mesh(source, target, overlay, &self.flows.texture());
+        told(0.9)?;
         let local = |&piece: &u32| {
             let (number, piece) = (piece as usize, &overlay.pieces[piece as usize]);
             TriangleDistortion {
@@ -121,13 +132,13 @@ impl Outcome<'_> {
                 local: measured.by_piece[number],
             }
         };
-        Shown {
+        Ok(Shown {
             triangle_distortion: common.pieces.iter().map(local).collect(),
             common,
             measured,
             correspondence: Some(correspondence),
             flat_layout,
-        }
+        })
     }
 
     /// The map on the source's triangles, as if it were affine there: where there is no overlay.

@@ -5,10 +5,12 @@ use crate::base_domain;
 use crate::coarse_map::class_search::{Chosen, ClassSearchOptions, choose_class};
 use crate::coarse_map::multilevel::{CoarseMap, solve_coarse, solve_fine};
 use crate::coarse_map::own_cones::{self, Owners, Refined, Rounds, Start};
-use crate::coarse_map::{LEAST_PER_LANDMARK, LandmarkedMesh, MeshWithCoarse, coarse_landmarks};
+use crate::coarse_map::{
+    LEAST_PER_LANDMARK, LandmarkedMesh, MeshWithCoarse, coarse_landmarks, coarse_levels,
+};
 use crate::landmarks::Landmarks;
-use crate::layout::{self, BaseLayout, LayoutError, SearchOptions, SearchReport};
-use crate::monitor::{Monitor, Portion, Stage};
+use crate::layout::{self, BaseLayout, LayoutError, MOST_DISTANCES, SearchOptions, SearchReport};
+use crate::monitor::{Monitor, Portion, Stage, Step};
 use crate::surface_map::{Certificate, ConeSurface, Embedding, MapError, Parametrised, certify};
 use std::sync::Arc;
 
@@ -107,7 +109,9 @@ pub(super) fn parametrise(
     let solved = loop {
         match solve(input, &full, attempt, options, monitor) {
             Err(PipelineError::Layout(LayoutError::NoMap { .. }))
-                if attempt.vertices < most && finer_levels > 0 =>
+                if attempt.vertices < most
+                    && finer_levels > 0
+                    && input.landmarks.len() * attempt.finer().vertices <= MOST_DISTANCES =>
             {
                 finer_levels -= 1;
                 attempt = attempt.finer();
@@ -119,8 +123,12 @@ pub(super) fn parametrise(
     let full = meshes.unwrap_or(full);
     let stopped_early = monitor.wants_result();
     monitor.enter(Stage::Certificate);
-    let [source, target] = [0, 1].map(|k| certify(full[k].parametrised(&embeddings[k]), &surface));
-    let certificate = source.and(&target);
+    let mut proofs = Vec::new();
+    for k in 0..2 {
+        monitor.step(Step { fraction: 0.5 * k as f64, residual: None })?;
+        proofs.push(certify(full[k].parametrised(&embeddings[k]), &surface));
+    }
+    let certificate = proofs[0].and(&proofs[1]);
     if !certificate.bijective {
         return Err(PipelineError::NotCertified(certificate));
     }
@@ -147,7 +155,8 @@ fn solve(
 ) -> Result<Solved, PipelineError> {
     monitor.enter(Stage::ClassSearch);
     let Attempt { vertices, search, scale } = attempt;
-    let sides = [0, 1].map(|k| MeshWithCoarse::new(&full[k], vertices, options.multilevel.rims));
+    let coarsening = &mut Portion::new(monitor, 0.0, 0.0);
+    let sides = coarse_levels(full, vertices, options.multilevel.rims, coarsening)?;
     let Coarse { layout, search, map } = coarse(input, &sides, options, &search, monitor)?;
     if scale == Scale::ByArea
         && !monitor.wants_result()

@@ -7,7 +7,7 @@ use super::{Base, MapInput, MapResult, PipelineError, PipelineOptions};
 use crate::base_domain::BaseDomain;
 use crate::landmarks::Landmarks;
 use crate::mesh::{SurfaceMesh, VertexId};
-use crate::monitor::{Monitor, Stage};
+use crate::monitor::{Monitor, Stage, Step};
 use crate::surface_map::overlay::location::{Locations, locate};
 use crate::surface_map::overlay::{Overlay, OverlayError, overlay};
 use crate::surface_map::{ConeSurface, Parametrised};
@@ -20,7 +20,7 @@ pub(super) fn run(
     monitor: &mut dyn Monitor,
 ) -> Result<MapResult, PipelineError> {
     // The same work whichever mesh is called the source, so that exchanging them gives the inverse map.
-    let exchanged = options.base == Base::Joint && precedes(input.target, input.source);
+    let exchanged = options.base == Base::Joint && order(input).is_gt();
     let map = if exchanged {
         let Landmarks { source, target } = input.landmarks.clone();
         let landmarks = Landmarks { source: target, target: source };
@@ -37,13 +37,17 @@ pub(super) fn run(
     };
     monitor.enter(Stage::Composition);
     let [source, target] = map.sides();
+    monitor.step(Step::default())?;
     let locations = locate(source, target, &map.surface)?;
+    monitor.step(Step { fraction: 0.5, residual: None })?;
     let overlay = overlaid([source, target], &map.surface, &locations);
+    monitor.step(Step { fraction: 1.0, residual: None })?;
     let base = in_input_coordinates(&map.layout.base, input);
     let (flows, missing) = Flows::beside_a_map(input, &base, options, monitor)?;
     monitor.enter(Stage::Transfer);
-    Ok(Outcome { input, map: &map, base: &base, flows: &flows, locations: &locations }
-        .result(overlay, missing))
+    monitor.step(Step::default())?;
+    let outcome = Outcome { input, map: &map, base: &base, flows: &flows, locations: &locations };
+    Ok(outcome.result(overlay, missing, monitor)?)
 }
 
 /// The overlay. Where a source edge is lost among target triangles that rounding cannot tell apart, the target's edges are
@@ -61,8 +65,11 @@ fn overlaid(
     })
 }
 
-/// An order of meshes that does not depend on which is called the source.
-fn precedes(a: &SurfaceMesh, b: &SurfaceMesh) -> bool {
+/// How the source is ordered to the target, by what they are and not by which is called the source: sizes, coordinates, triangles,
+/// landmarks, caps. Where all are the same, so is the exchanged input.
+fn order(input: MapInput<'_>) -> Ordering {
+    let [a, b] = [input.source, input.target];
+    let size = |mesh: &SurfaceMesh| (mesh.vertex_count(), mesh.face_count());
     let coordinates =
         |mesh: &SurfaceMesh| mesh.positions().iter().flat_map(|p| p.to_array()).collect::<Vec<_>>();
     let by_coordinates = || {
@@ -70,8 +77,13 @@ fn precedes(a: &SurfaceMesh, b: &SurfaceMesh) -> bool {
         let differs = a.iter().zip(&b).map(|(x, y)| x.total_cmp(y)).find(|order| order.is_ne());
         differs.unwrap_or(Ordering::Equal)
     };
-    let size = |mesh: &SurfaceMesh| (mesh.vertex_count(), mesh.face_count());
-    size(a).cmp(&size(b)).then_with(by_coordinates).is_lt()
+    let MapInput { landmarks, caps, .. } = input;
+    size(a)
+        .cmp(&size(b))
+        .then_with(by_coordinates)
+        .then_with(|| a.triangles().raw.cmp(&b.triangles().raw))
+        .then_with(|| landmarks.source.cmp(&landmarks.target))
+        .then_with(|| caps.source.map(|caps| &caps.raw).cmp(&caps.target.map(|caps| &caps.raw)))
 }
 
 /// The base domain with its landmarks at the places of the target's input mesh.
@@ -102,7 +114,7 @@ mod tests {
         let base = in_input_coordinates(&map.layout.base, input);
         let (flows, _) = Flows::beside_a_map(input, &base, &options, &mut Silent).unwrap();
         let outcome = Outcome { input, map: &map, base: &base, flows: &flows, locations: &locations };
-        let bare = outcome.result(Err(OverlayError::Lost { edge: [3, 4] }), Vec::new());
+        let bare = outcome.result(Err(OverlayError::Lost { edge: [3, 4] }), Vec::new(), &mut Silent).unwrap();
 
         let [Warning::NoOverlay { reason }] = &bare.report.warnings[..] else {
             panic!("{:?}", bare.report.warnings)

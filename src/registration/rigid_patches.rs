@@ -11,6 +11,7 @@ use super::patch_fit::{FitOptions, Fitter, OrientedSurface, PatchFit, PatchPoint
 use crate::mesh::coarsening::Level;
 use crate::mesh::face_weights::FaceWeights;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use crate::monitor::{Cancelled, Monitor, Step};
 use crate::surface_map::energy::point_constraint::PointConstraint;
 use glam::{DMat2, DVec2, DVec3};
 use nalgebra::Matrix2;
@@ -104,19 +105,30 @@ impl<'a> MappedLevel<'a> {
     }
 }
 
+/// Patches between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 64;
+
 /// Constraints that draw vertices of a level to where the patches around them fit the other surface. Both areas are 1.
+///
+/// # Errors
+/// [`Cancelled`].
 pub fn point_constraints(
     [own, onto]: [&OrientedSurface<'_>; 2],
     level: &MappedLevel<'_>,
     options: &RigidPatchOptions,
-) -> Vec<(VertexId, PointConstraint)> {
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<(VertexId, PointConstraint)>, Cancelled> {
+    monitor.step(Step::default())?;
     let weights = spread(own, level, options.spacing);
     // Every vertex is in many patches, which all start from here.
     let near = level.mesh.vertices().map(|v| onto.nearest(level.near[v], level.images[v])).collect();
     let mut patches = Patches { own, level, weights: &weights, near, reached: ti_vec![None; weights.len()] };
     let (mut fitter, mut patch) = (Fitter::default(), Vec::new());
     let mut constraints = Vec::new();
-    for v in level.mesh.vertices().filter(|&v| weights[v] > 0.0) {
+    for (k, v) in level.mesh.vertices().filter(|&v| weights[v] > 0.0).enumerate() {
+        if k.is_multiple_of(ASKED_EVERY) {
+            monitor.step(Step::default())?;
+        }
         let mut sum = Knowledge::new(onto.normals[patches.near[v]]);
         for radius in options.radii {
             patches.around(v, radius, &mut patch);
@@ -129,7 +141,7 @@ pub fn point_constraints(
         constraints
             .extend(sum.constraint(level.images[v], weights[v], options).map(|constraint| (v, constraint)));
     }
-    constraints
+    Ok(constraints)
 }
 
 /// Vertices about `spacing` apart, or as far as the level's are, with the areas that they stand for; the other vertices
@@ -248,6 +260,7 @@ mod tests {
     use super::*;
     use crate::math::scalar::{cos, sin};
     use crate::mesh::generators::icosphere;
+    use crate::monitor::Silent;
 
     fn hilly() -> SurfaceMesh {
         let ball = icosphere(4);
@@ -289,7 +302,8 @@ mod tests {
         let all: TiVec<VertexId, VertexId> = mesh.vertices().collect();
         let surface = OrientedSurface::new(&mesh);
         let level = slid(&mesh, &all, &surface);
-        let found = point_constraints([&surface, &surface], &level, &RigidPatchOptions::default());
+        let options = RigidPatchOptions::default();
+        let found = point_constraints([&surface, &surface], &level, &options, &mut Silent).unwrap();
         assert!(found.len() > 500, "{}", found.len());
         let mut errors: Vec<[f64; 2]> = found
             .iter()

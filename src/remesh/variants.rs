@@ -4,13 +4,16 @@ use crate::math::random::SplitMix;
 use crate::mesh::coarsening::Level;
 use crate::mesh::surface_index::SurfaceIndex;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use crate::monitor::Silent;
 use glam::DVec3;
 
 /// A mesh coarsened to about `faces` triangles by quadric errors (Garland & Heckbert 1997); its vertices are vertices of the given
 /// one. More are left where the connectivity allows no fewer.
 pub fn decimated(mesh: &SurfaceMesh, faces: usize) -> SurfaceMesh {
     let vertices = (faces / 2) as i64 + mesh.euler_characteristic();
-    Level::coarse(mesh, &[], vertices.max(4) as usize).mesh
+    // Nobody stops it.
+    let level = Level::coarse(mesh, &[], vertices.max(4) as usize, &mut Silent);
+    level.map_or_else(|_| mesh.clone(), |level| level.mesh)
 }
 
 /// Random moves of the vertices; the shares are of the mean length of the edges at the vertex.

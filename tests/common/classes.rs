@@ -46,7 +46,7 @@ pub fn judge(candidate: &Candidate, monitor: &mut dyn Monitor) -> Result<Option<
 
 /// A mesh coarsened with its landmarks, and their numbers there.
 pub fn coarse(mesh: &SurfaceMesh, landmarks: &[VertexId], goal: usize) -> (Level, Vec<VertexId>) {
-    let level = Level::coarse(mesh, landmarks, goal);
+    let level = Level::coarse(mesh, landmarks, goal, &mut Silent).expect("nobody stops");
     let number =
         |v: &VertexId| level.vertices.iter().position(|w| w == v).expect("landmarks are kept").into();
     let numbers = landmarks.iter().map(number).collect();
@@ -72,7 +72,7 @@ fn identity(layout: &BaseLayout) -> BaseLayout {
 /// The search ends in the class of the known map.
 pub fn known_class_is_found(case: &Case) {
     let ([source, target], landmarks) = coarse_with_known_map(case, 400);
-    let mut candidates = Candidates::new([&source, &target], &landmarks);
+    let mut candidates = Candidates::new([&source, &target], &landmarks, &mut Silent).expect("few landmarks");
     let options = SearchOptions::default();
     let (found, report) =
         layout::search(&mut candidates, &mut judge, &options, &mut Silent).expect("a layout");

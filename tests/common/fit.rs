@@ -27,13 +27,13 @@ impl Case {
 
     pub fn findings(&self, landmarks: &Landmarks) -> Vec<Finding> {
         let meshes = [&self.source, &self.target];
-        landmark_fit(meshes, landmarks, &LandmarkDistances::new(meshes, landmarks), &mut Silent)
-            .expect("nobody stops")
+        let distances = LandmarkDistances::new(meshes, landmarks, &mut Silent).expect("nobody stops");
+        landmark_fit(meshes, landmarks, &distances, &mut Silent).expect("nobody stops")
     }
 }
 
 fn coarse(mesh: &SurfaceMesh, held: &[VertexId]) -> (SurfaceMesh, Vec<VertexId>) {
-    let level = Level::coarse(mesh, held, 800);
+    let level = Level::coarse(mesh, held, 800, &mut Silent).expect("nobody stops");
     let number =
         |v: &VertexId| level.vertices.iter().position(|w| w == v).expect("landmarks are kept").into();
     let numbers = held.iter().map(number).collect();
@@ -73,7 +73,8 @@ pub fn only_the_mirror_image_raises_an_alarm(case: Case) {
 /// Of some exchanged targets that lie apart nine in ten are named, and no others.
 pub fn exchanged_targets_are_named(case: &Case) {
     let (name, n) = (&case.name, case.landmarks.len());
-    let distances = LandmarkDistances::new([&case.source, &case.target], &case.landmarks);
+    let distances = LandmarkDistances::new([&case.source, &case.target], &case.landmarks, &mut Silent)
+        .expect("nobody stops");
     let (mut found, mut tried) = (0, 0);
     for (a, b) in (0..n).flat_map(|a| (0..a).map(move |b| (a, b))) {
         if (a * 7 + b * 3) % 11 != 0 || distances.between([a, b])[1] < 0.3 {

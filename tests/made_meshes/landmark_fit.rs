@@ -6,6 +6,7 @@ use conemap::landmark_fit::order_agreement;
 use conemap::landmarks::Landmarks;
 use conemap::layout::LandmarkDistances;
 use conemap::mesh::{SurfaceMesh, VertexId};
+use conemap::monitor::Silent;
 
 #[test]
 fn demos_raise_no_alarm_and_their_mirror_images_do() {
@@ -26,7 +27,7 @@ fn agreement_changes_sign_in_the_mirror() {
     let landmarks = Landmarks { source: vertices(0), target: vertices(1) };
     let agreement = |target: &SurfaceMesh| {
         let meshes = [&demo.source, target];
-        order_agreement(meshes, &landmarks, &LandmarkDistances::new(meshes, &landmarks))
+        order_agreement(meshes, &landmarks, &LandmarkDistances::new(meshes, &landmarks, &mut Silent).unwrap())
     };
     let (straight, reflected) = (agreement(&demo.target), agreement(&mirrored(&demo.target)));
     assert!(straight > 0.6 && reflected < -0.6, "{straight} {reflected}");

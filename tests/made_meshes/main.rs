@@ -25,6 +25,7 @@ mod rough_meshes;
 
 mod agreement;
 mod base;
+mod bounds;
 #[cfg(feature = "cli")]
 mod cli;
 mod clicks;

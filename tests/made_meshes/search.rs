@@ -23,12 +23,12 @@ fn demo_pair(id: &str, goal: usize) -> ([SurfaceMesh; 2], Landmarks) {
 fn limbs_turned_by_a_whole_turn_are_turned_back() {
     let ([source, target], landmarks) = demo_pair("poses", 300);
     let meshes = [&source, &target];
-    let mut candidates = Candidates::new(meshes, &landmarks);
+    let mut candidates = Candidates::new(meshes, &landmarks, &mut Silent).unwrap();
     let straight = candidates.next(&mut Silent).expect("not stopped").expect("a layout");
     let least = mean_log(&straight.layout, &mut Silent).expect("not stopped").expect("a map");
     for twisted in candidates.twists(&straight, 2, 3.0, &mut Silent).expect("not stopped") {
         assert!(!same_class(&straight.layout, &twisted.layout));
-        let mut fresh = Candidates::new(meshes, &landmarks);
+        let mut fresh = Candidates::new(meshes, &landmarks, &mut Silent).unwrap();
         let options = SearchOptions::default();
         let (found, report) =
             layout::untwist(&mut fresh, twisted, &mut judge, &options, &mut Silent).expect("a layout");
@@ -52,7 +52,7 @@ fn the_search_is_deterministic_and_stops_on_request() {
     let ([source, target], landmarks) = demo_pair("horse-cat", 300);
     let options = SearchOptions { candidates: 3, twists: 2, ..SearchOptions::default() };
     let run = |monitor: &mut dyn Monitor| {
-        let mut candidates = Candidates::new([&source, &target], &landmarks);
+        let mut candidates = Candidates::new([&source, &target], &landmarks, &mut Silent).unwrap();
         layout::search(&mut candidates, &mut judge, &options, monitor)
     };
     let (first, second) = (run(&mut Silent).expect("a layout"), run(&mut Silent).expect("a layout"));
@@ -76,7 +76,7 @@ fn the_search_is_deterministic_and_stops_on_request() {
 #[test]
 fn a_judge_without_maps_is_an_error() {
     let ([source, target], landmarks) = demo_pair("horse-cat", 200);
-    let mut candidates = Candidates::new([&source, &target], &landmarks);
+    let mut candidates = Candidates::new([&source, &target], &landmarks, &mut Silent).unwrap();
     let options = SearchOptions { candidates: 2, ..SearchOptions::default() };
     let result = layout::search(&mut candidates, &mut |_, _| Ok(None), &options, &mut Silent);
     assert!(matches!(result, Err(layout::LayoutError::NoMap { layouts: 1..=2, .. })), "{:?}", result.err());

@@ -7,6 +7,7 @@ use conemap::landmark_fit::{Finding, Repair};
 use conemap::landmarks::Landmarks;
 use conemap::layout::LandmarkDistances;
 use conemap::mesh::VertexId;
+use conemap::monitor::Silent;
 use std::path::Path;
 
 tests![
@@ -102,7 +103,8 @@ fn an_exchange_in_a_mirrored_set_is_named_after_the_mirror(data: &Path) {
 fn a_target_on_the_wrong_limb_is_named(data: &Path) {
     for name in ["cat-lion", "horse-horse05", "shrec07-383-397"] {
         let case = read(data, name);
-        let distances = LandmarkDistances::new([&case.source, &case.target], &case.landmarks);
+        let distances = LandmarkDistances::new([&case.source, &case.target], &case.landmarks, &mut Silent)
+            .expect("nobody stops");
         let mut found = 0;
         let n = case.landmarks.len();
         for pair in 0..n {

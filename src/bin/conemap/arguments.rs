@@ -133,6 +133,10 @@ pub struct MapArguments {
     /// twice it ends without a map.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub time_limit: Option<Duration>,
+    /// End within this time, with a map or with a sentence that says how far it came: from half of it on finish as with
+    /// --time-limit.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub deadline: Option<Duration>,
     /// Use the mirror image of the target: for landmarks whose left and right are exchanged.
     #[arg(long)]
     pub mirror_target: bool,

@@ -3,6 +3,7 @@
 //!
 //! On a terminal a bar moves with the usual times of the stages; elsewhere each stage that is over is a line.
 
+use crate::deadline::Deadline;
 use conemap::monitor::{Cancelled, Monitor, PlannedStage, Progress, Stage, Step};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::collections::BTreeMap;
@@ -17,6 +18,10 @@ pub struct Clock {
     time_limit: Option<Duration>,
     /// Whether the user wants the result now.
     interrupt: Option<Arc<AtomicBool>>,
+    /// When the program must have ended.
+    deadline: Option<Deadline>,
+    /// Whether the deadline has stopped the run.
+    is_stopped: bool,
     /// Energy of the map that is being relaxed.
     energy: Option<f64>,
     begun: Instant,
@@ -49,6 +54,8 @@ impl Clock {
         Self {
             time_limit: None,
             interrupt: None,
+            deadline: None,
+            is_stopped: false,
             energy: None,
             begun: Instant::now(),
             stage: None,
@@ -75,9 +82,22 @@ impl Clock {
         (self.time_limit, self.interrupt) = (time_limit, interrupt);
     }
 
+    /// Ends the program `time` after the start: with what is there at half of it, or without a map.
+    pub fn end_within(&mut self, time: Duration) {
+        self.deadline = Some(Deadline::set(self.begun, time));
+    }
+
+    /// Why the run has no map, where the deadline has stopped it.
+    pub fn missed_deadline(&self) -> Option<String> {
+        self.deadline.as_ref().filter(|_| self.is_stopped).map(Deadline::sentence)
+    }
+
     /// Seconds by stage and `total`, up to now; the bar goes.
     pub fn stop(mut self) -> BTreeMap<String, f64> {
         self.leave();
+        if let Some(deadline) = &self.deadline {
+            deadline.tell("Writing the files");
+        }
         self.seconds.insert("total".into(), self.begun.elapsed().as_secs_f64());
         std::mem::take(&mut self.seconds)
     }
@@ -121,6 +141,9 @@ impl Monitor for Clock {
     fn enter(&mut self, stage: Stage) {
         self.leave();
         self.stage = Some((stage, Instant::now()));
+        if let Some(deadline) = &self.deadline {
+            deadline.tell(stage.sentence());
+        }
         self.energy = None;
         self.tell(stage, Step::default());
     }
@@ -132,6 +155,7 @@ impl Monitor for Clock {
     fn wants_result(&self) -> bool {
         self.time_limit.is_some_and(|limit| self.begun.elapsed() >= limit)
             || self.interrupt.as_ref().is_some_and(|asked| asked.load(Ordering::Relaxed))
+            || self.deadline.as_ref().is_some_and(Deadline::wants_result)
     }
 
     fn step(&mut self, step: Step) -> Result<(), Cancelled> {
@@ -140,6 +164,7 @@ impl Monitor for Clock {
         {
             self.tell(stage, step);
         }
-        Ok(())
+        self.is_stopped |= self.deadline.as_ref().is_some_and(Deadline::is_over);
+        if self.is_stopped { Err(Cancelled) } else { Ok(()) }
     }
 }

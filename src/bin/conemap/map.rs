@@ -11,19 +11,17 @@ use std::path::PathBuf;
 /// Maps, writes what was asked for, and tells the certificate; an error where there is no certified map.
 pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
     let mut clock = Clock::start();
-    let job = read(arguments, &mut clock)?;
     let options = PipelineOptions::from(arguments.choices);
-    clock.suspend(|| job.landmark_remarks().iter().for_each(|remark| eprintln!("landmarks: {remark}")));
-    clock.plan(options.stages(job.landmark_count()));
-    let findings = job.findings(&mut clock)?;
-    clock.suspend(|| findings.iter().for_each(tell_finding));
-    // The thesis' method has nothing to shorten.
+    // From the first byte on. The thesis' method has nothing to shorten.
     if options.method == Method::Relaxed {
         clock.ask_for_result(arguments.time_limit, interrupt::listen());
     }
-    let mut result = job.run(&options, &mut clock)?;
+    if let Some(time) = arguments.deadline {
+        clock.end_within(time);
+    }
+    let made = made(arguments, &options, &mut clock);
+    let (job, mut result) = made.map_err(|error| clock.missed_deadline().map_or(error, Failure::from))?;
     result.report.set_seconds(clock.stop());
-    result.report.findings = findings;
     tell(&result);
     if let Some(path) = &arguments.map {
         let map = job.map_file(&result, &arguments.choices);
@@ -48,6 +46,22 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
         input::write(path, &serde_json::to_vec_pretty(&result.report)?)?;
     }
     Ok(())
+}
+
+/// Reads the files and makes the map.
+fn made(
+    arguments: &MapArguments,
+    options: &PipelineOptions,
+    clock: &mut Clock,
+) -> Result<(Job, MapResult), Failure> {
+    let job = read(arguments, clock)?;
+    clock.suspend(|| job.landmark_remarks().iter().for_each(|remark| eprintln!("landmarks: {remark}")));
+    clock.plan(options.stages(job.landmark_count()));
+    let findings = job.findings(clock)?;
+    clock.suspend(|| findings.iter().for_each(tell_finding));
+    let mut result = job.run(options, clock)?;
+    result.report.findings = findings;
+    Ok((job, result))
 }
 
 /// Reads the files; a fault is told with the file's name.

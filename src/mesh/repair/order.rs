@@ -15,7 +15,7 @@ use super::sheets::{Sheets, apart};
 use crate::mesh::check::{CheckedMesh, Elements, MeshFault, RepairedFaces, closed_genus_zero, triangulated};
 use crate::mesh::soup::PolygonSoup;
 use crate::mesh::{FaceId, VertexId};
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Step};
 use typed_index_collections::TiVec;
 
 /// A mesh that can be mapped, and how it came to be.
@@ -57,14 +57,20 @@ fn steps(
 ) -> Result<RepairedMesh, RepairRefusal> {
     let draft = drafted(soup)?;
     let in_file = draft.faces.len();
+    monitor.step(Step::default())?;
     let (draft, degenerate) = without_degenerate(joined(draft, options.join_within));
+    monitor.step(Step::default())?;
     let (draft, doubled) = without_duplicates(draft);
     if draft.faces.is_empty() {
         return Err(RepairRefusal::NothingLeft);
     }
+    monitor.step(Step::default())?;
     let (draft, sheets) = apart(oriented(draft)?);
+    monitor.step(Step::default())?;
     let (draft, dropped) = largest(oriented(draft)?, options.parts)?;
+    monitor.step(Step::default())?;
     let (draft, caps) = capped(draft)?;
+    monitor.step(Step::default())?;
     // A corner on an edge without a face between leaves a hole without area, whose cap goes as such faces do.
     let (draft, closed) = without_degenerate(draft);
     let mut degenerate = degenerate.and(closed);

@@ -18,6 +18,10 @@ const SHIFT_GROWTH: f64 = 30.0;
 /// hand.
 const HOPS: usize = 64;
 
+/// Source and target edges from one landmark to another whose ends differ by less than this share of their length are one line:
+/// two straight lines between the same cones go around another cone, or differ by far more; rounding makes 1e-12.
+const COINCIDENT: f64 = 1e-6;
+
 /// A place among the target's faces.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seat {
@@ -62,6 +66,7 @@ impl Seats {
         for location in &locations.at_landmarks {
             self.sit_at_landmark(source, target, location)?;
         }
+        self.part_coincident(source, target);
         for (v, location) in locations.by_vertex.iter_enumerated() {
             if self.wedges[mesh.outgoing(v)].is_none() {
                 self.sit(source, target, location);
@@ -96,6 +101,52 @@ impl Seats {
                 }
             }
         }
+    }
+
+    /// Seats of source edges between two landmarks that coincide with a target edge: on its left, at both ends.
+    ///
+    /// Both edges are the same straight line on the cone surface, and neither end may be moved. Rounding would put the source
+    /// edge on the left at one end and on the right at the other, or send its trace around the landmark. So it is taken to lie on
+    /// the left by less than anything that is measured, as in simulation of simplicity (Edelsbrunner & Muecke 1990).
+    fn part_coincident(&mut self, source: Parametrised<'_>, target: Parametrised<'_>) {
+        for &v in source.landmark_vertices {
+            for h in source.mesh.star(v) {
+                let twin = source.mesh.twin(h);
+                if h < twin
+                    && self.at_landmark(twin)
+                    && let Some(x) = self.coincident(target, h)
+                    && self.coincident(target, twin) == Some(target.mesh.twin(x))
+                {
+                    self.seat_beside(target, h, x, x);
+                    self.seat_beside(target, twin, target.mesh.twin(x), x.next());
+                }
+            }
+        }
+    }
+
+    /// The target halfedge on which a source halfedge from landmark to landmark lies: a side of the wedge that it points into.
+    fn coincident(&self, target: Parametrised<'_>, h: HalfedgeId) -> Option<HalfedgeId> {
+        let wedge = self.wedges[h]?;
+        let seat = &self.seats[h];
+        let [from, to] = [h, h.next()].map(|k| seat.motion.apply(self.corners[k]));
+        let near = COINCIDENT * to.distance(from);
+        let is_head = |x: HalfedgeId| target.embedding.corners[x].distance(to) < near;
+        if is_head(wedge.next()) {
+            Some(wedge)
+        } else {
+            is_head(wedge.prev()).then(|| target.mesh.twin(wedge.prev()))
+        }
+    }
+
+    /// Seats a source halfedge, which coincides with the target halfedge `x`, in the wedge on the left or on the right of it.
+    fn seat_beside(&mut self, target: Parametrised<'_>, h: HalfedgeId, x: HalfedgeId, wedge: HalfedgeId) {
+        let Some(present) = self.wedges[h].filter(|present| *present != wedge) else { return };
+        // From the left of x to its right, or back.
+        let across = if present == x { x } else { target.mesh.twin(x) };
+        let seat = &mut self.seats[h];
+        seat.motion = target.embedding.transitions[across].after(&seat.motion);
+        seat.face = wedge.face();
+        self.wedges[h] = Some(wedge);
     }
 
     /// Seats of all corners of an ordinary vertex.

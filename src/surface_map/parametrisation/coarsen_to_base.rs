@@ -8,6 +8,8 @@ use crate::layout::PatchedMesh;
 use crate::mesh::coarsening::coarsen;
 use crate::mesh::collapsible::CollapsibleMesh;
 use crate::mesh::{HalfedgeId, VertexId};
+use crate::monitor::Monitor;
+use crate::surface_map::error::MapError;
 use typed_index_collections::{TiVec, ti_vec};
 
 /// Where a vertex lies, which says where it may be collapsed to.
@@ -30,8 +32,12 @@ fn holds(patched: &PatchedMesh, base: &BaseDomain) -> TiVec<VertexId, Hold> {
 /// Coarsens until only the landmarks are left: one live face per base face.
 ///
 /// # Errors
-/// The number of other vertices that could not be removed.
-pub fn coarsen_to_base(patched: &PatchedMesh, base: &BaseDomain) -> Result<CollapsibleMesh, usize> {
+/// [`MapError::NotCoarsened`], [`MapError::Cancelled`].
+pub fn coarsen_to_base(
+    patched: &PatchedMesh,
+    base: &BaseDomain,
+    monitor: &mut dyn Monitor,
+) -> Result<CollapsibleMesh, MapError> {
     let holds = holds(patched, base);
     let patch = |h: HalfedgeId| patched.face_patch[h.face()];
     let may = |mesh: &CollapsibleMesh, h: HalfedgeId| match holds[mesh.tail(h)] {
@@ -41,8 +47,8 @@ pub fn coarsen_to_base(patched: &PatchedMesh, base: &BaseDomain) -> Result<Colla
     };
     let goal = patched.landmark_vertices.len();
     let mut mesh = CollapsibleMesh::new(&patched.mesh);
-    match coarsen(&mut mesh, patched.mesh.positions(), goal, may) - goal {
+    match coarsen(&mut mesh, patched.mesh.positions(), goal, may, monitor)? - goal {
         0 => Ok(mesh),
-        left => Err(left),
+        left => Err(MapError::NotCoarsened { left }),
     }
 }

@@ -58,7 +58,7 @@ pub fn embed(
     options: &InitialOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<(Embedding, InitialReport), MapError> {
-    let mesh = coarsen_to_base(patched, &surface.base).map_err(|left| MapError::NotCoarsened { left })?;
+    let mesh = coarsen_to_base(patched, &surface.base, monitor)?;
     let mut level = on_charts(mesh, patched, surface);
     let report = refine(&mut level, patched.mesh.vertex_count(), options, monitor)?;
     Ok((level.snapshot().embedding, report))

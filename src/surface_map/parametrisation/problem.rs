@@ -7,7 +7,7 @@
 use super::rest_triangle::{Corner, FlatTriangle};
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::min;
-use crate::monitor::{Cancelled, Monitor, Step};
+use crate::monitor::{Cancelled, Monitor, Portion, Step};
 use crate::numerics::block_csr::BlockCsr;
 use crate::numerics::conjugate_gradients::{CgOptions, CgWorkspace};
 use crate::surface_map::energy::density::Density;
@@ -113,10 +113,31 @@ impl NewtonSolver {
     ///
     /// A system that is not solved to the tolerance is counted, and its last iterate is the step: that goes downhill, as every
     /// iterate from 0 does, and every caller goes along it only as far as its energy falls.
-    fn step(&mut self, matrix: &BlockCsr, downhill: &[DVec2], step: &mut [DVec2], tolerance: f64) {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    fn step(
+        &mut self,
+        matrix: &BlockCsr,
+        downhill: &[DVec2],
+        step: &mut [DVec2],
+        tolerance: f64,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(), Cancelled> {
         let options = CgOptions { tolerance, max_iterations: LINEAR_ITERATIONS };
         let sweeps = matrix.gauss_seidel(&mut self.inverse_diagonal);
-        let report = match self.workspace.solve(matrix, &sweeps, downhill, step, &options) {
+        let (mut stopped, mut work) = (Ok(()), 0);
+        let may_go_on = || {
+            work += downhill.len();
+            if work >= ASKED_EVERY {
+                work = 0;
+                stopped = monitor.step(Step::default());
+            }
+            stopped.is_ok()
+        };
+        let solved = self.workspace.solve_while(matrix, &sweeps, downhill, step, &options, may_go_on);
+        stopped?;
+        let report = match solved {
             Ok(report) => report,
             Err(error) => {
                 self.inexact += 1;
@@ -124,8 +145,12 @@ impl NewtonSolver {
             }
         };
         self.iterations += report.iterations;
+        Ok(())
     }
 }
+
+/// Unknowns that a linear solve goes over between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 1 << 16;
 
 impl FlatProblem {
     /// A problem of `free` unknown vertices.
@@ -225,13 +250,16 @@ impl FlatProblem {
 
     /// Newton's direction at z, up to a relative residual of `tolerance`. `damping` is added to the Hessian's diagonal, relative
     /// to it.
+    ///
+    /// # Errors
+    /// [`Cancelled`].
     pub(in crate::surface_map) fn direction(
         &mut self,
         z: &[DVec2],
         derivatives: &Derivatives<'_>,
-        damping: f64,
-        tolerance: f64,
-    ) -> Vec<DVec2> {
+        [damping, tolerance]: [f64; 2],
+        monitor: &mut dyn Monitor,
+    ) -> Result<Vec<DVec2>, Cancelled> {
         self.matrix.clear();
         self.add_hessian(z, derivatives.barrier);
         for (t, hessian) in derivatives.by_triangle.iter().enumerate() {
@@ -243,8 +271,8 @@ impl FlatProblem {
         self.matrix.regularise(damping);
         let downhill: Vec<DVec2> = derivatives.slope.iter().map(|g| -*g).collect();
         let mut step = vec![DVec2::ZERO; z.len()];
-        self.solver.step(&self.matrix, &downhill, &mut step, tolerance);
-        step
+        self.solver.step(&self.matrix, &downhill, &mut step, tolerance, monitor)?;
+        Ok(step)
     }
 
     /// Directions so far whose linear system was not solved to its tolerance.
@@ -284,12 +312,15 @@ impl FlatProblem {
         let begin = (self.solver.iterations, self.solver.inexact);
         for k in 0..options.max_steps {
             // The number of steps is not known before: half of the stage is told after eight.
-            monitor.step(Step { fraction: k as f64 / (k as f64 + 8.0), residual: Some(energy) })?;
+            let fraction = k as f64 / (k as f64 + 8.0);
+            monitor.step(Step { fraction, residual: Some(energy) })?;
+            let within = &mut Portion::new(monitor, fraction, fraction);
             self.gradient(z, &mut slope);
             self.assemble(z);
             slope.iter_mut().for_each(|g| *g = -*g);
-            self.solver.step(&self.matrix, &slope, &mut step, options.linear_tolerance);
+            self.solver.step(&self.matrix, &slope, &mut step, options.linear_tolerance, within)?;
             let descent: f64 = slope.iter().zip(&step).map(|(g, d)| g.dot(*d)).sum();
+            within.step(Step::default())?;
             let Some(next) = self.line_search(z, &step, &mut trial, energy, descent) else { break };
             z.copy_from_slice(&trial);
             let gained = energy - next;

@@ -15,6 +15,7 @@ use crate::math::scalar::{ln, max};
 use crate::math::triangle::signed_double_area;
 use crate::mesh::face_weights::is_skin_on_both;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::monitor::{Cancelled, Monitor, Step};
 use crate::surface_map::measures::distortion::{self, LocalDistortion};
 use crate::surface_map::overlay::{Overlay, Piece};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
@@ -47,6 +48,9 @@ impl Default for DentOptions {
     }
 }
 
+/// Vertices moved between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 32;
+
 /// A vertex that lowers the cost of its star by less than this share rests. Chosen by hand.
 const REST: f64 = 5e-3;
 
@@ -58,14 +62,19 @@ const DEEP: f64 = 10.0;
 
 /// Moves the vertices of the worst pieces; `overlay` is that of both sides. `None` where there is no dent, or nothing helps.
 ///
-/// Positive triangles stay positive, and the energy never grows.
+/// Positive triangles stay positive, and the energy never grows. Once the monitor wants a result, no second sweep begins.
+///
+/// # Errors
+/// [`Cancelled`].
 pub fn heal(
     sides: [Parametrised<'_>; 2],
     surface: &ConeSurface,
     overlay: &Overlay,
     options: &DentOptions,
     energy: DentEnergy,
-) -> Option<[Embedding; 2]> {
+    monitor: &mut dyn Monitor,
+) -> Result<Option<[Embedding; 2]>, Cancelled> {
+    monitor.step(Step::default())?;
     let mut healer = Healer { sheets: sheets(sides, overlay), energy, at_rest: BTreeSet::new() };
     let mut faces = dented(sides, overlay, energy.brink);
     let vertices = sides.iter().map(|side| side.mesh.vertex_count()).sum::<usize>();
@@ -74,10 +83,13 @@ pub fn heal(
     for sweep in 0..options.sweeps + options.deep_sweeps {
         let depth = if sweep < options.sweeps { 1.0 } else { DEEP };
         let Dents { faces: mut dented, vertices } = healer.dents(&faces, depth * energy.brink, most);
-        if vertices.is_empty() {
+        if vertices.is_empty() || (sweep > 0 && monitor.wants_result()) {
             break;
         }
-        for vertex in vertices {
+        for (k, vertex) in vertices.into_iter().enumerate() {
+            if k.is_multiple_of(ASKED_EVERY) {
+                monitor.step(Step::default())?;
+            }
             let Some(star) = healer.settled(vertex) else {
                 healer.at_rest.insert(vertex);
                 continue;
@@ -91,13 +103,13 @@ pub fn heal(
         }
         faces = dented;
     }
-    moved.then(|| {
+    Ok(moved.then(|| {
         healer.sheets.map(|sheet| {
             let mut embedding = Embedding { corners: sheet.corners, ..sheet.side.embedding.clone() };
             embedding.normalise_anchors(surface);
             embedding
         })
-    })
+    }))
 }
 
 /// The source faces with dents. What lies in a cap is none: skin without a partner is pressed together there.
@@ -306,9 +318,16 @@ mod tests {
                 }
                 let (overlay, before) = overlaid(sides(&layout, &dented), &surface);
                 assert!(before.max > 1e3, "{}", before.max);
-                let healed =
-                    heal(sides(&layout, &dented), &surface, &overlay, &DentOptions::default(), ENERGY)
-                        .unwrap();
+                let healed = heal(
+                    sides(&layout, &dented),
+                    &surface,
+                    &overlay,
+                    &DentOptions::default(),
+                    ENERGY,
+                    &mut Silent,
+                )
+                .unwrap()
+                .unwrap();
                 let (_, after) = overlaid(sides(&layout, &healed), &surface);
                 assert!(after.max < 2.0 * smooth.max.max(ENERGY.brink), "{v:?}: {}", after.max);
                 assert!(after.energy < before.energy);
@@ -324,7 +343,9 @@ mod tests {
         let (layout, surface, start) = example();
         let (overlay, measured) = overlaid(sides(&layout, &start), &surface);
         let energy = DentEnergy { brink: 1.01 * measured.max, ..ENERGY };
-        assert!(heal(sides(&layout, &start), &surface, &overlay, &DentOptions::default(), energy).is_none());
+        let healed =
+            heal(sides(&layout, &start), &surface, &overlay, &DentOptions::default(), energy, &mut Silent);
+        assert!(healed.unwrap().is_none());
     }
 
     #[test]

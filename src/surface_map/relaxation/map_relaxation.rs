@@ -8,7 +8,7 @@
 use super::evaluation::{CountedEnergy, Evaluation};
 use crate::math::matrix2::cofactor;
 use crate::mesh::{FaceId, VertexId};
-use crate::monitor::{Cancelled, Monitor, Step};
+use crate::monitor::{Cancelled, Monitor, Portion, Step};
 use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::energy::point_constraint::PointConstraint;
@@ -126,9 +126,10 @@ pub fn relax_constrained<'a>(
     options: &'a MapRelaxationOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Relaxed<'a>, Cancelled> {
+    monitor.step(Step::default())?;
     let mut relaxation = Relaxation::new(sides, surface, constraints, options);
     let mut energies = Vec::new();
-    if !relaxation.begin() {
+    if !relaxation.begin(&mut Portion::new(monitor, 0.0, 0.0))? {
         return Ok(Relaxed { relaxation, energies });
     }
     energies.push(relaxation.energy());
@@ -142,7 +143,7 @@ pub fn relax_constrained<'a>(
             if round > 0 && monitor.wants_result() {
                 break;
             }
-            if relaxation.step() {
+            if relaxation.step(&mut Portion::new(monitor, fraction, fraction))? {
                 energies.push(relaxation.energy());
                 monitor.map_energy(relaxation.energy());
             }
@@ -223,35 +224,60 @@ impl<'a> Relaxation<'a> {
     }
 
     /// Evaluates the start, nudged where source and target coincide; `false` where it has no overlay.
-    fn begin(&mut self) -> bool {
+    fn begin(&mut self, monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
         let moving = self.moving;
         for attempt in 0..NUDGES {
             let z = self.unknowns[moving].nudged(&self.embeddings[moving], attempt);
-            if self.evaluate(&z) {
+            if self.evaluate(&z, monitor)? {
                 self.accept();
-                return true;
+                return Ok(true);
             }
         }
-        false
+        self.begin_with_both(monitor)
+    }
+
+    /// Evaluates the start with both sides nudged, by different lengths: edges between landmarks of one side stay where they are, and
+    /// may pass through vertices of the other.
+    fn begin_with_both(&mut self, monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
+        let (moving, other) = (self.moving, 1 - self.moving);
+        let still = self.embeddings[other].clone();
+        for attempt in 1..NUDGES {
+            let z = self.unknowns[other].nudged(&still, attempt + 1);
+            if self.problems[other].energy(&z).is_none() {
+                continue;
+            }
+            self.unknowns[other].place(&z, &mut self.embeddings[other].corners);
+            self.inverses[other] = self.problems[other].jacobians(&z).map(|j| j.inverse()).collect();
+            let z = self.unknowns[moving].nudged(&self.embeddings[moving], attempt);
+            if self.evaluate(&z, monitor)? {
+                self.accept();
+                return Ok(true);
+            }
+        }
+        self.embeddings[other] = still;
+        Ok(false)
     }
 
     /// Evaluates the moving side at z into `trial`; `false` where a triangle is not positive or there is no overlay.
-    fn evaluate(&mut self, z: &[DVec2]) -> bool {
+    fn evaluate(&mut self, z: &[DVec2], monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
         let moving = self.moving;
-        let Some(flat) = self.problems[moving].energy(z) else { return false };
+        monitor.step(Step::default())?;
+        let Some(flat) = self.problems[moving].energy(z) else { return Ok(false) };
         self.unknowns[moving].place(z, &mut self.trials[moving].corners);
         let from = Parametrised { embedding: &self.trials[moving], ..self.sides[moving] };
         let onto = Parametrised { embedding: &self.embeddings[1 - moving], ..self.sides[1 - moving] };
         let located = self.locator.fill([from, onto], self.surface, &mut self.locations);
+        monitor.step(Step::default())?;
         if located.is_err() || self.trial.overlay.fill([from, onto], &self.locations).is_err() {
-            return false;
+            return Ok(false);
         }
+        monitor.step(Step::default())?;
         let counted = self.counted();
         self.trial.measure(&self.problems[moving], z, &self.inverses[1 - moving], counted);
         let (unknowns, constraints) = (&self.unknowns[moving], self.constraints[moving]);
         self.trial.constrain([from, onto], unknowns, constraints, &self.locations);
         self.trial.total = self.trial.energy + self.trial.constrained + self.options.barrier * flat;
-        true
+        Ok(true)
     }
 
     /// The energy of the map, seen from the moving side.
@@ -261,11 +287,13 @@ impl<'a> Relaxation<'a> {
     }
 
     /// One damped Newton step of the moving side; `false` where none lowers the energy.
-    fn step(&mut self) -> bool {
+    fn step(&mut self, monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
         let moving = self.moving;
         let z = self.unknowns[moving].points(&self.embeddings[moving]);
         let slope = self.gradient(&z);
+        monitor.step(Step::default())?;
         let hessians = self.hessians();
+        monitor.step(Step::default())?;
         let problem = &mut self.problems[moving];
         let derivatives = Derivatives {
             slope: &slope,
@@ -273,10 +301,11 @@ impl<'a> Relaxation<'a> {
             by_triangle: &hessians,
             by_unknown: &self.present.constraint_hessians,
         };
-        let step = problem.direction(&z, &derivatives, self.damping[moving], LINEAR_TOLERANCE);
+        let exactness = [self.damping[moving], LINEAR_TOLERANCE];
+        let step = problem.direction(&z, &derivatives, exactness, monitor)?;
         let descent: f64 = -slope.iter().zip(&step).map(|(g, d)| g.dot(*d)).sum::<f64>();
         if descent.is_nan() || descent <= 0.0 {
-            return false;
+            return Ok(false);
         }
         // At most 0.9 of the way to the first triangle without area, then halvings until the energy falls by 1e-4 of what the
         // slope promises (Armijo); after seven of them the direction is no good. The damping falls to a third after a whole
@@ -285,15 +314,16 @@ impl<'a> Relaxation<'a> {
         let mut t = longest;
         for _ in 0..8 {
             let trial: Vec<DVec2> = z.iter().zip(&step).map(|(p, d)| *p + *d * t).collect();
-            if self.evaluate(&trial) && self.trial.total <= self.present.total - 1e-4 * t * descent {
+            if self.evaluate(&trial, monitor)? && self.trial.total <= self.present.total - 1e-4 * t * descent
+            {
                 let damping = &mut self.damping[moving];
                 *damping = if t == longest { (*damping / 3.0).max(1e-6) } else { *damping * longest / t };
                 self.accept();
-                return true;
+                return Ok(true);
             }
             t *= 0.5;
         }
-        false
+        Ok(false)
     }
 
     fn accept(&mut self) {
@@ -467,7 +497,7 @@ pub(super) mod tests {
     }
 
     fn gradient_is_quotient(mut relaxation: Relaxation<'_>, moving: &Embedding) {
-        assert!(relaxation.begin());
+        assert!(relaxation.begin(&mut Silent).unwrap());
         let z = relaxation.unknowns[0].points(moving);
         let slope = relaxation.gradient(&z);
         for seed in 1..6 {
@@ -475,7 +505,7 @@ pub(super) mod tests {
             let direction: Vec<_> = (0..z.len()).map(|k| DVec2::new(wave(k, 0.0), wave(k, 1.0))).collect();
             let mut at = |h: f64| {
                 let moved: Vec<_> = z.iter().zip(&direction).map(|(p, d)| *p + *d * h).collect();
-                assert!(relaxation.evaluate(&moved));
+                assert!(relaxation.evaluate(&moved, &mut Silent).unwrap());
                 relaxation.trial.total
             };
             let quotient = (at(1e-4) - at(-1e-4)) / 2e-4;

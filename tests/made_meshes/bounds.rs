@@ -1,0 +1,175 @@
+//! Landmarks that make no sense, or lie as near to each other as they can: a certified map or a sentence, after bounded work.
+
+use conemap::demo;
+use conemap::landmarks::Landmarks;
+use conemap::math::random::SplitMix;
+use conemap::mesh::SurfaceMesh;
+use conemap::mesh::VertexId;
+use conemap::mesh::generators::{icosphere, octahedron, tetrahedron};
+use conemap::monitor::{Cancelled, Monitor, Stage, Step};
+use conemap::pipeline::{MapInput, MapResult, PipelineError, PipelineOptions, run};
+use glam::DVec3;
+use typed_index_collections::TiVec;
+
+/// Questions to the monitor after which a run is no longer bounded: a usual one of these meshes asks some thousand times.
+const MOST_QUESTIONS: usize = 400_000;
+
+/// Counts questions; stops a run that asks too many, or at a chosen one.
+struct Counter {
+    asked: usize,
+    most: usize,
+    stage: Option<Stage>,
+}
+
+impl Counter {
+    fn up_to(most: usize) -> Self {
+        Self { asked: 0, most, stage: None }
+    }
+}
+
+impl Monitor for Counter {
+    fn enter(&mut self, stage: Stage) {
+        self.stage = Some(stage);
+    }
+
+    fn step(&mut self, _step: Step) -> Result<(), Cancelled> {
+        self.asked += 1;
+        if self.asked > self.most { Err(Cancelled) } else { Ok(()) }
+    }
+}
+
+/// The outcome of a run, which must not be cut short.
+fn bounded(meshes: [&SurfaceMesh; 2], pairs: &[[u32; 2]]) -> Result<MapResult, String> {
+    let landmarks = Landmarks::from_vertices(meshes[0], meshes[1], pairs).unwrap();
+    let input = MapInput::new(meshes[0], meshes[1], &landmarks);
+    let mut counter = Counter::up_to(MOST_QUESTIONS);
+    let outcome = run(input, &PipelineOptions::default(), &mut counter);
+    match outcome {
+        Ok(result) => {
+            assert!(result.report.certificate.as_ref().unwrap().bijective);
+            Ok(result)
+        }
+        Err(PipelineError::Cancelled(_)) => panic!("{} questions in {:?}", counter.asked, counter.stage),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// The same pairs with the targets in random order.
+fn permuted(pairs: &[[u32; 2]], seed: u64) -> Vec<[u32; 2]> {
+    let mut random = SplitMix::new(seed);
+    let mut targets: Vec<u32> = pairs.iter().map(|pair| pair[1]).collect();
+    for k in (1..targets.len()).rev() {
+        targets.swap(k, (random.unit() * (k + 1) as f64) as usize);
+    }
+    pairs.iter().zip(targets).map(|(pair, target)| [pair[0], target]).collect()
+}
+
+/// Every `step`-th vertex with itself.
+fn every(step: usize, count: u32) -> Vec<[u32; 2]> {
+    (0..count).step_by(step).map(|v| [v, v]).collect()
+}
+
+#[test]
+fn senseless_orders_end_in_a_sentence() {
+    let ball = icosphere(3);
+    for (seed, step) in [(1, 8), (2, 20)] {
+        let pairs = permuted(&every(step, 642), seed);
+        let sentence = bounded([&ball, &ball], &pairs).err().expect("no map in this order");
+        assert!(sentence.contains("no map was found") && sentence.contains("landmarks"), "{sentence}");
+        assert!(sentence.contains("the first is 1") && sentence.contains("exchanged"), "{sentence}");
+    }
+    let demo = demo::build("horse-cat").unwrap();
+    let pairs = permuted(&demo.landmarks, 3);
+    if let Err(sentence) = bounded([&demo.source, &demo.target], &pairs) {
+        assert!(sentence.contains("no map was found"), "{sentence}");
+    }
+}
+
+#[test]
+fn few_landmarks_in_any_order_end() {
+    let ball = icosphere(2);
+    for seed in 0..4 {
+        let pairs = permuted(&[[0, 0], [1, 1], [4, 4], [7, 7], [9, 9], [60, 60]], seed);
+        if let Err(sentence) = bounded([&ball, &ball], &pairs) {
+            assert!(sentence.contains("no map was found"), "{sentence}");
+        }
+    }
+}
+
+fn cube() -> SurfaceMesh {
+    let corner = |k: usize| {
+        let sign = |bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+        DVec3::new(sign(0), sign(1), sign(2))
+    };
+    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let faces: TiVec<_, _> =
+        sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).map(|f| f.map(VertexId)).collect();
+    SurfaceMesh::from_triangles((0..8).map(corner).collect(), faces).unwrap()
+}
+
+#[test]
+fn platonic_solids_map_onto_themselves_by_all_their_vertices() {
+    for solid in [tetrahedron(), octahedron(), cube(), icosphere(0)] {
+        let pairs = every(1, solid.vertex_count() as u32);
+        let result = bounded([&solid, &solid], &pairs).unwrap();
+        assert!(result.report.distortion.energy < 4.0 + 1e-3, "{}", result.report.distortion.energy);
+        assert!(result.correspondence.is_some(), "it has an overlay");
+    }
+}
+
+#[test]
+fn landmarks_on_neighbouring_vertices_have_a_good_map() {
+    let ball = icosphere(3);
+    let bend = |p: &DVec3| DVec3::new(1.1 * p.x, p.y + 0.1 * p.x * p.x, p.z * (1.0 + 0.1 * p.y));
+    let bent = ball.with_positions(ball.positions().iter().map(bend).collect());
+    for face in [7, 300, 901] {
+        // A triangle, its three neighbours' apexes, and four corners of the icosahedron.
+        let [a, b, c] = ball.triangles().raw[face];
+        let sides = [[a, b], [b, c], [c, a]].map(|[v, w]| ball.halfedge_between(v, w).unwrap());
+        let apexes = sides.map(|h| ball.tail(ball.twin(h).prev()));
+        let mut vertices: Vec<u32> = [a, b, c].into_iter().chain(apexes).map(|v| v.0).collect();
+        vertices.extend([0, 3, 5, 9].into_iter().filter(|v| !vertices.contains(v)).collect::<Vec<_>>());
+        let pairs: Vec<[u32; 2]> = vertices.iter().map(|&v| [v, v]).collect();
+        for target in [&ball, &bent] {
+            let result = bounded([&ball, target], &pairs).unwrap();
+            let energy = result.report.distortion.energy;
+            assert!(energy < 4.2, "face {face}: {energy}");
+            assert!(result.correspondence.is_some(), "it has an overlay");
+        }
+    }
+}
+
+#[test]
+fn the_same_mesh_with_other_landmarks_has_the_inverse_map_when_exchanged() {
+    let ball = icosphere(2);
+    // A quarter turn about the x axis, nearly, so that the landmarks differ and fit.
+    let turned = |v: u32| {
+        let p = ball.positions()[VertexId(v)];
+        let goal = DVec3::new(p.x, -p.z, p.y);
+        let distance = |w: &VertexId| ball.positions()[*w].distance(goal);
+        ball.vertices().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap().0
+    };
+    let pairs: Vec<[u32; 2]> = (0..12).map(|v| [v, turned(v)]).collect();
+    let exchanged: Vec<[u32; 2]> = pairs.iter().map(|&[s, t]| [t, s]).collect();
+    let there = bounded([&ball, &ball], &pairs).unwrap().report;
+    let back = bounded([&ball, &ball], &exchanged).unwrap().report;
+    let difference = there.distortion.energy - back.distortion.energy;
+    assert!(difference.abs() < 1e-9, "{difference}");
+    assert_eq!(there.layout.map(|layout| layout.judged), back.layout.map(|layout| layout.judged));
+}
+
+#[test]
+fn a_run_stops_wherever_it_is_asked_to() {
+    let demo = demo::build("sphere-tetrahedron").unwrap();
+    let landmarks = Landmarks::from_vertices(&demo.source, &demo.target, &demo.landmarks).unwrap();
+    let input = MapInput::new(&demo.source, &demo.target, &landmarks);
+    let mut whole = Counter::up_to(usize::MAX);
+    run(input, &PipelineOptions::default(), &mut whole).unwrap();
+    let mut random = SplitMix::new(5);
+    for _ in 0..12 {
+        let mut counter = Counter::up_to((random.unit() * whole.asked as f64) as usize);
+        let stopped = run(input, &PipelineOptions::default(), &mut counter);
+        assert!(matches!(stopped, Err(PipelineError::Cancelled(_))), "after {} questions", counter.asked);
+        assert_eq!(counter.asked, counter.most + 1, "asked again in {:?}", counter.stage);
+    }
+}
