@@ -1,7 +1,6 @@
 //! The command line: `conemap check`, `map`, `query`, `report`, `export`, `suggest`, `flow`, `landmarks` and `remesh`.
 //!
 //! Progress and errors go to standard error; the exit code is 0 only for a converged, certified result.
-#![allow(clippy::print_stderr, reason = "a command line prints")]
 
 #[path = "conemap/arguments.rs"]
 mod arguments;
@@ -19,6 +18,8 @@ mod interrupt;
 mod landmarks;
 #[path = "conemap/map.rs"]
 mod map;
+#[path = "conemap/outputs.rs"]
+mod outputs;
 #[path = "conemap/query.rs"]
 mod query;
 #[path = "conemap/remesh.rs"]
@@ -27,6 +28,8 @@ mod remesh;
 mod saved;
 #[path = "conemap/suggest.rs"]
 mod suggest;
+#[path = "conemap/told.rs"]
+mod told;
 
 use clap::Parser;
 use std::process::ExitCode;
@@ -47,7 +50,7 @@ fn main() -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("conemap: {error}");
+            told::say(format_args!("conemap: {error}"));
             ExitCode::FAILURE
         }
     }
