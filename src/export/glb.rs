@@ -63,8 +63,7 @@ pub fn textured_source(
         accessors.push(accessor(views.len() - 1, "SCALAR"));
     }
     // A morph target holds differences: with the weight 1 the sum is the target's.
-    let morph =
-        [difference(&target_positions, &positions), difference(&common.target_normals, &normals)];
+    let morph = [difference(&target_positions, &positions), difference(&common.target_normals, &normals)];
     let targets = accessors.len();
     for (k, values) in morph.iter().enumerate() {
         let view = views.len();

@@ -9,10 +9,53 @@ const OBJ_LINES: usize = 6;
 
 /// The first words of the lines of an OBJ file, also of those that are passed over.
 const OBJ_WORDS: [&str; 47] = [
-    "v", "vn", "vt", "vp", "f", "fo", "l", "p", "o", "g", "s", "mg", "mtllib", "usemtl", "maplib", "usemap",
-    "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "ctech", "stech", "cstype", "deg", "bmat",
-    "step", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv", "sp", "end", "con", "bsp", "bzp", "cdc", "cdp",
-    "res", "call", "csh", "xyzrgb", "vc",
+    "v",
+    "vn",
+    "vt",
+    "vp",
+    "f",
+    "fo",
+    "l",
+    "p",
+    "o",
+    "g",
+    "s",
+    "mg",
+    "mtllib",
+    "usemtl",
+    "maplib",
+    "usemap",
+    "bevel",
+    "c_interp",
+    "d_interp",
+    "lod",
+    "shadow_obj",
+    "trace_obj",
+    "ctech",
+    "stech",
+    "cstype",
+    "deg",
+    "bmat",
+    "step",
+    "curv",
+    "curv2",
+    "surf",
+    "parm",
+    "trim",
+    "hole",
+    "scrv",
+    "sp",
+    "end",
+    "con",
+    "bsp",
+    "bzp",
+    "cdc",
+    "cdp",
+    "res",
+    "call",
+    "csh",
+    "xyzrgb",
+    "vc",
 ];
 
 /// Tells the format by content.
@@ -21,7 +64,8 @@ pub fn detect(bytes: &[u8]) -> Option<Format> {
     if bytes.starts_with(b"glTF") {
         return Some(Format::Gltf);
     }
-    let is_ply = bytes.strip_prefix(b"ply").is_some_and(|rest| rest.first().is_none_or(u8::is_ascii_whitespace));
+    let is_ply =
+        bytes.strip_prefix(b"ply").is_some_and(|rest| rest.first().is_none_or(u8::is_ascii_whitespace));
     if is_ply {
         return Some(Format::Ply);
     }

@@ -169,7 +169,10 @@ impl Document {
         let mut tree = Vec::new();
         let mut waiting: Vec<(usize, Option<usize>)> = scene.nodes.iter().rev().map(|n| (*n, None)).collect();
         while let Some((number, above)) = waiting.pop() {
-            let node = self.nodes.get(number).ok_or_else(|| format!("it names node {number}, which is not there"))?;
+            let node = self
+                .nodes
+                .get(number)
+                .ok_or_else(|| format!("it names node {number}, which is not there"))?;
             if std::mem::replace(&mut is_met[number], true) {
                 return Err(format!("node {number} is met twice: its nodes must form a tree"));
             }
@@ -212,7 +215,8 @@ impl Document {
             return Err(named(format!("announces {} elements, more than the file can hold", accessor.count)));
         }
         for (part, size) in [(&sparse.indices, index_size), (&sparse.values, size)] {
-            self.check_range(part.buffer_view, [part.byte_offset, sparse.count, size], sizes).map_err(named)?;
+            self.check_range(part.buffer_view, [part.byte_offset, sparse.count, size], sizes)
+                .map_err(named)?;
         }
         Ok(())
     }
@@ -291,8 +295,18 @@ fn packed_by(way: &str) -> String {
 /// Refuses extensions that change the shape, by name; those of materials, pictures, lights and characters do not.
 fn check_extension(name: &str) -> Result<(), String> {
     const WITHOUT_SHAPE: [&str; 12] = [
-        "KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "EXT_lights_", "KHR_mesh_quantization",
-        "KHR_animation_", "KHR_xmp", "KHR_audio", "MSFT_texture_", "VRM", "EXT_structural_metadata",
+        "KHR_materials_",
+        "KHR_texture_",
+        "EXT_texture_",
+        "KHR_lights_",
+        "EXT_lights_",
+        "KHR_mesh_quantization",
+        "KHR_animation_",
+        "KHR_xmp",
+        "KHR_audio",
+        "MSFT_texture_",
+        "VRM",
+        "EXT_structural_metadata",
     ];
     if let Some(way) = packing(name) {
         return Err(format!("{} ({name})", packed_by(way)));

@@ -43,7 +43,8 @@ fn scene(bytes: &[u8]) -> Result<PolygonSoup, String> {
     let mut places = vec![DMat4::IDENTITY; document.nodes.len()];
     for (number, above) in document.tree()? {
         let node = &document.nodes[number];
-        let own = placement(node).ok_or_else(|| format!("node {number} is placed by numbers that cannot be used"))?;
+        let own = placement(node)
+            .ok_or_else(|| format!("node {number} is placed by numbers that cannot be used"))?;
         places[number] = above.map_or(own, |above| places[above] * own);
         if let Some(mesh) = node.mesh {
             reader.add_mesh(mesh, &places[number], &mut scene)?;
@@ -63,7 +64,8 @@ fn placement(node: &Node) -> Option<DMat4> {
             let translation = node.translation.as_deref().map_or(DVec3::ZERO, |&t| DVec3::from(t));
             let scale = node.scale.as_deref().map_or(DVec3::ONE, |&s| DVec3::from(s));
             let rotation = node.rotation.as_deref().map(|&q| DQuat::from_array(q));
-            let rotation = rotation.filter(|q| q.length_squared() > 0.0).map_or(DQuat::IDENTITY, DQuat::normalize);
+            let rotation =
+                rotation.filter(|q| q.length_squared() > 0.0).map_or(DQuat::IDENTITY, DQuat::normalize);
             DMat4::from_scale_rotation_translation(scale, rotation, translation)
         }
     };
@@ -73,7 +75,8 @@ fn placement(node: &Node) -> Option<DMat4> {
 /// The contents of the buffers, cut to the lengths that the file tells; `None` for one without data, as some extensions have it.
 fn buffers<'a>(buffers: &[Buffer], binary: Option<&'a [u8]>) -> Result<Vec<Option<Cow<'a, [u8]>>>, String> {
     let lenient = GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent);
-    let [standard, of_urls] = [&alphabet::STANDARD, &alphabet::URL_SAFE].map(|a| GeneralPurpose::new(a, lenient));
+    let [standard, of_urls] =
+        [&alphabet::STANDARD, &alphabet::URL_SAFE].map(|a| GeneralPurpose::new(a, lenient));
     let load = |(number, buffer): (usize, &Buffer)| {
         let mut content: Cow<'a, [u8]> = match &buffer.uri {
             // Only the first may be the binary part.
@@ -94,7 +97,10 @@ fn buffers<'a>(buffers: &[Buffer], binary: Option<&'a [u8]>) -> Result<Vec<Optio
         let there = content.len();
         let wanted = usize::try_from(buffer.byte_length).ok().filter(|wanted| *wanted <= there);
         let wanted = wanted.ok_or_else(|| {
-            format!("buffer {number} should have {} bytes and has {there}: the file may be cut off", buffer.byte_length)
+            format!(
+                "buffer {number} should have {} bytes and has {there}: the file may be cut off",
+                buffer.byte_length
+            )
         })?;
         match &mut content {
             Cow::Borrowed(content) => *content = &content[..wanted],
@@ -262,7 +268,8 @@ fn triangles(mode: Mode, indices: &[u32]) -> Box<dyn Iterator<Item = [u32; 3]> +
     let is_whole = |t: &[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
     match mode {
         Mode::TriangleStrip => {
-            let turned = |(k, t): (usize, &[u32])| if k % 2 == 0 { [t[0], t[1], t[2]] } else { [t[1], t[0], t[2]] };
+            let turned =
+                |(k, t): (usize, &[u32])| if k % 2 == 0 { [t[0], t[1], t[2]] } else { [t[1], t[0], t[2]] };
             Box::new(indices.windows(3).enumerate().map(turned).filter(is_whole))
         }
         Mode::TriangleFan => {

@@ -127,8 +127,9 @@ fn read_text(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
     }
     // The counts may stand on the first line, after the keyword, and so may all the rest.
     while words.len() < 2 + usize::from(kind.has_dimension) {
-        let (number, content) =
-            lines.next().ok_or((Place::Line(line), "the numbers of vertices and faces are missing".into()))?;
+        let (number, content) = lines
+            .next()
+            .ok_or((Place::Line(line), "the numbers of vertices and faces are missing".into()))?;
         line = number;
         words.extend(content.split_whitespace().map(|word| (line, word)));
     }
@@ -140,7 +141,10 @@ fn read_text(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
     if kind.has_dimension {
         let dimension = next("the number of coordinates")?;
         if dimension != 3 {
-            return Err((Place::Line(line), format!("its vertices have {dimension} coordinates; only 3 can be read")));
+            return Err((
+                Place::Line(line),
+                format!("its vertices have {dimension} coordinates; only 3 can be read"),
+            ));
         }
     }
     let counts = Counts { vertices: next("the number of vertices")?, faces: next("the number of faces")? };
@@ -151,7 +155,9 @@ fn read_text(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
         by_lines(kind, counts, rest.into_iter(), last_line)
     } else {
         // The number of edges is told and not needed.
-        let later = rest.into_iter().flat_map(|(line, content)| content.split_whitespace().map(move |word| (line, word)));
+        let later = rest
+            .into_iter()
+            .flat_map(|(line, content)| content.split_whitespace().map(move |word| (line, word)));
         by_words(kind, counts, words.skip(1).chain(later), last_line)
     }
 }

@@ -103,14 +103,16 @@ impl fmt::Display for OtherFile {
         match self {
             Self::Empty => f.write_str("the file is empty"),
             Self::Packed(name) => write!(f, "it is a packed file ({name}): unpack it first"),
-            Self::WebPage => {
-                f.write_str("it is a web page: the address may lead to a page about the file, not to the file")
-            }
+            Self::WebPage => f.write_str(
+                "it is a web page: the address may lead to a page about the file, not to the file",
+            ),
             Self::LfsPointer => {
                 f.write_str("it is a pointer of Git LFS in place of the file: get the file by `git lfs pull`")
             }
             Self::Document(name) => write!(f, "it is no mesh but a {name}"),
-            Self::OtherShape(name) => write!(f, "files of the format {name} are not read: export it in another"),
+            Self::OtherShape(name) => {
+                write!(f, "files of the format {name} are not read: export it in another")
+            }
             Self::Landmarks => f.write_str("it is a landmark file, not a mesh"),
             Self::Map => f.write_str("it is a map file, not a mesh"),
             Self::Project => f.write_str("it is a project file of the page, not a mesh"),

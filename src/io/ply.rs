@@ -34,7 +34,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
             }
             "face" => {
                 let faces = elements::<Face, _>(&mut reader, element, &header)?;
-                soup.polygons = faces.into_iter().enumerate().map(|(f, face)| face.polygon(f)).collect::<Result<_, _>>()?;
+                soup.polygons = faces
+                    .into_iter()
+                    .enumerate()
+                    .map(|(f, face)| face.polygon(f))
+                    .collect::<Result<_, _>>()?;
             }
             _ => drop(elements::<Passed, _>(&mut reader, element, &header)?),
         }
@@ -71,7 +75,8 @@ struct File<'a> {
 impl<'a> File<'a> {
     fn split(bytes: &'a [u8]) -> Result<Self, Problem> {
         let first_end = bytes.iter().position(|b| matches!(b, b'\n' | b'\r')).unwrap_or(bytes.len());
-        let is_old_macintosh = bytes.get(first_end) == Some(&b'\r') && bytes.get(first_end + 1) != Some(&b'\n');
+        let is_old_macintosh =
+            bytes.get(first_end) == Some(&b'\r') && bytes.get(first_end + 1) != Some(&b'\n');
         let end = if is_old_macintosh { b'\r' } else { b'\n' };
         let (mut header, mut length) = (String::new(), 0);
         for line in bytes.split_inclusive(|b| *b == end) {

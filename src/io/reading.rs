@@ -96,10 +96,11 @@ mod tests {
 
     #[test]
     fn text_is_told_from_other_bytes() {
-        let utf16 = |order: fn(u16) -> [u8; 2]| {
-            "\u{feff}é#".encode_utf16().flat_map(order).collect::<Vec<u8>>()
-        };
-        for bytes in [&b"\xe9#"[..], b"\xef\xbb\xbf\xc3\xa9#", &utf16(u16::to_le_bytes), &utf16(u16::to_be_bytes)] {
+        let utf16 =
+            |order: fn(u16) -> [u8; 2]| "\u{feff}é#".encode_utf16().flat_map(order).collect::<Vec<u8>>();
+        for bytes in
+            [&b"\xe9#"[..], b"\xef\xbb\xbf\xc3\xa9#", &utf16(u16::to_le_bytes), &utf16(u16::to_be_bytes)]
+        {
             assert_eq!(text(bytes).unwrap(), "é#");
         }
         let line = |bytes| text(bytes).unwrap_err().0;
@@ -110,7 +111,10 @@ mod tests {
     #[test]
     fn a_decimal_comma_is_told() {
         let says = |token| number::<f64>(Some(token), 7, "a coordinate").unwrap_err().1;
-        assert_eq!(says("1,5"), "\"1,5\" should be a coordinate: write its decimals after a point, not a comma");
+        assert_eq!(
+            says("1,5"),
+            "\"1,5\" should be a coordinate: write its decimals after a point, not a comma"
+        );
         assert_eq!(says("1,5,2"), "\"1,5,2\" should be a coordinate");
     }
 }

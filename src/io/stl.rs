@@ -53,7 +53,10 @@ fn binary(bytes: &[u8]) -> Result<Vec<DVec3>, Problem> {
     let count = triangle_count(bytes).unwrap_or(0);
     if size(count) > bytes.len() as u64 {
         let there = bytes.len().saturating_sub(HEADER) / TRIANGLE;
-        return Err((Place::Header, format!("it announces {count} triangles and has {there}: the file is cut off")));
+        return Err((
+            Place::Header,
+            format!("it announces {count} triangles and has {there}: the file is cut off"),
+        ));
     }
     let coordinate = |b: &[u8]| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
     let triangles = bytes[HEADER..size(count) as usize].chunks_exact(TRIANGLE);

@@ -165,7 +165,8 @@ impl Job {
             [&|p| self.on_source_file(p), &|p| self.on_target_file(p)];
         result.report.distortion.replace_worst(on_files);
         let warnings = std::mem::take(&mut result.report.warnings);
-        result.report.warnings = self.repair_warnings().into_iter().chain(self.landmark_warnings()).chain(warnings).collect();
+        result.report.warnings =
+            self.repair_warnings().into_iter().chain(self.landmark_warnings()).chain(warnings).collect();
         Ok(result)
     }
 
@@ -186,9 +187,18 @@ impl Job {
     /// What makes it doubtful that the landmark file belongs to the meshes.
     fn landmark_warnings(&self) -> impl Iterator<Item = Warning> {
         let is_doubtful = |remark: &&Remark| {
-            matches!(remark, Remark::LabelCount { .. } | Remark::OtherMesh { .. } | Remark::ExchangedMeshes | Remark::PairedByOrder)
+            matches!(
+                remark,
+                Remark::LabelCount { .. }
+                    | Remark::OtherMesh { .. }
+                    | Remark::ExchangedMeshes
+                    | Remark::PairedByOrder
+            )
         };
-        self.remarks.iter().filter(is_doubtful).map(|remark| Warning::LandmarkFile { remark: remark.to_string() })
+        self.remarks
+            .iter()
+            .filter(is_doubtful)
+            .map(|remark| Warning::LandmarkFile { remark: remark.to_string() })
     }
 
     fn input(&self) -> MapInput<'_> {

@@ -264,7 +264,11 @@ impl<'a> TakenMap<'a> {
 
     fn textured_source(&self) -> Result<Vec<u8>, GlbError> {
         let common = self.common();
-        export::glb::textured_source(&common, &self.common_distortion(&common), self.meshes.map(FileMesh::frame))
+        export::glb::textured_source(
+            &common,
+            &self.common_distortion(&common),
+            self.meshes.map(FileMesh::frame),
+        )
     }
 
     /// The polygons of one file with its vertices at their images on the other mesh. A vertex that no face uses is put where the

@@ -7,7 +7,8 @@ use crate::landmarks::MeshSide;
 /// What there is to know of the meshes that a landmark file names, `given` being the names of the source's and the target's file.
 /// Folders and endings do not count: `shapes/Cat.off` and `cat.ply` are one name.
 pub fn compare_names(file: &LandmarkFile, given: [&str; 2]) -> Vec<Remark> {
-    let named = [&file.source, &file.target].map(|name| name.as_deref().filter(|name| !stem(name).is_empty()));
+    let named =
+        [&file.source, &file.target].map(|name| name.as_deref().filter(|name| !stem(name).is_empty()));
     let is_other = |k: usize, other: usize| named[k].is_some_and(|name| stem(name) != stem(given[other]));
     if [0, 1].iter().all(|&k| named[k].is_some() && is_other(k, k) && !is_other(k, 1 - k)) {
         return vec![Remark::ExchangedMeshes];

@@ -131,7 +131,8 @@ impl Placement<'_> {
         let mesh = &self.surface.mesh.mesh;
         let at = found.point.position(mesh);
         let corners = mesh.triangles()[found.point.face];
-        let vertex = corners.iter().find(|v| mesh.positions()[**v].distance(at) <= AT_VERTEX * self.surface.size());
+        let vertex =
+            corners.iter().find(|v| mesh.positions()[**v].distance(at) <= AT_VERTEX * self.surface.size());
         let on_face = || {
             let SurfacePoint { face, barycentric } = self.surface.mesh.on_file(found.point);
             LandmarkPoint::OnFace { face: face.0, barycentric }

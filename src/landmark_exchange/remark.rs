@@ -120,15 +120,21 @@ impl fmt::Display for Remark {
                 f.write_str("the labels of source and target differ: the landmarks are paired by their order")
             }
             Self::LabelCount { labels, pairs } => {
-                write!(f, "the file has {labels} labels for {pairs} pairs: names may stand at other pairs than theirs")
+                write!(
+                    f,
+                    "the file has {labels} labels for {pairs} pairs: names may stand at other pairs than theirs"
+                )
             }
             Self::OtherMesh { side, named, given } => {
                 let [named, given] = [named, given].map(|name| short(name));
-                write!(f, "the file was made for the {side} \"{named}\", and \"{given}\" is given: its numbers may mean other places")
+                write!(
+                    f,
+                    "the file was made for the {side} \"{named}\", and \"{given}\" is given: its numbers may mean other places"
+                )
             }
-            Self::ExchangedMeshes => {
-                f.write_str("the file was made for these meshes the other way round: exchange source and target")
-            }
+            Self::ExchangedMeshes => f.write_str(
+                "the file was made for these meshes the other way round: exchange source and target",
+            ),
         }
     }
 }

@@ -107,9 +107,13 @@ mod tests {
     #[test]
     fn the_files_coordinates_come_back_bit_for_bit() {
         let near = DVec3::new(1e8, -3e7, 0.2);
-        for (factor, shift) in
-            [(1e-90, DVec3::ZERO), (1e90, DVec3::ZERO), (1.0, near), (1e-60, 1e-50 * near), (1e-310, DVec3::ZERO)]
-        {
+        for (factor, shift) in [
+            (1e-90, DVec3::ZERO),
+            (1e90, DVec3::ZERO),
+            (1.0, near),
+            (1e-60, 1e-50 * near),
+            (1e-310, DVec3::ZERO),
+        ] {
             let soup = soup(factor, shift);
             let frame = FileFrame::of(&soup);
             let moved = frame.soup(&soup);

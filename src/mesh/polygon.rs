@@ -125,7 +125,8 @@ fn delaunay(outline: &Outline) -> Option<Vec<Triangle>> {
     }
     let mut handles = vec![FixedVertexHandle::from_index(0); outline.corners.len()];
     for vertex in plane.vertices() {
-        let corner = outline.corners.binary_search_by_key(&vertex.data().vertex, |corner| corner.vertex).ok()?;
+        let corner =
+            outline.corners.binary_search_by_key(&vertex.data().vertex, |corner| corner.vertex).ok()?;
         handles[corner] = vertex.fix();
     }
     // In a random order, which takes little time on the mean whatever the outline (Shewchuk & Brown 2015).
@@ -253,7 +254,8 @@ mod tests {
         let ring = |radius: f64| star(20).into_iter().map(move |p| p.normalize() * radius);
         let points: Vec<DVec3> = ring(2.0).chain(ring(1.0)).collect();
         // Around, over to the hole, around it the other way, and back.
-        let polygon: Vec<u32> = (0..=20).map(|k| k % 20).chain((20..=40).rev().map(|k| 20 + k % 20)).collect();
+        let polygon: Vec<u32> =
+            (0..=20).map(|k| k % 20).chain((20..=40).rev().map(|k| 20 + k % 20)).collect();
         let triangles = triangles(&points, &polygon);
         assert_eq!(triangles.len(), polygon.len() - 2);
         let (area, border) = area_and_border(&points, &triangles);

@@ -111,7 +111,9 @@ impl fmt::Display for Warning {
                  caps; they count little in the map, and measures are those of skin onto skin.",
                 100.0 * share
             ),
-            Self::LandmarkFile { remark } => write!(f, "The landmark file may not fit these meshes: {remark}."),
+            Self::LandmarkFile { remark } => {
+                write!(f, "The landmark file may not fit these meshes: {remark}.")
+            }
             Self::FinishedEarly { energy } => write!(
                 f,
                 "Finished early on request, at energy {energy:.3} (4 is an isometry): the map is whole and certified, but a \
@@ -193,7 +195,8 @@ impl From<Warning> for WarningReport {
             Warning::Capped { side: of, share } => (value, side) = (Some(share), Some(of)),
             Warning::LandmarkFile { .. }
             | Warning::NoOverlay { .. }
-            | Warning::NoBijection | Warning::InvertedPatches { .. } => {}
+            | Warning::NoBijection
+            | Warning::InvertedPatches { .. } => {}
         }
         Self { kind, sentence, value, side }
     }

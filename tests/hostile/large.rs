@@ -10,7 +10,8 @@ fn repeated(begin: &str, part: &str, end: &str) -> Vec<u8> {
 
 /// A glTF with one list of many small elements.
 fn list(name: &str, element: &str) -> Vec<u8> {
-    let begin = format!("{{\"asset\":{{\"version\":\"2.0\"}},\"scenes\":[{{\"nodes\":[0]}}],\"{name}\":[{element}");
+    let begin =
+        format!("{{\"asset\":{{\"version\":\"2.0\"}},\"scenes\":[{{\"nodes\":[0]}}],\"{name}\":[{element}");
     repeated(&begin, &format!(",{element}"), "]}")
 }
 
@@ -19,7 +20,7 @@ fn polygon(places: impl Iterator<Item = [f64; 2]>) -> Vec<u8> {
     let mut text = String::new();
     let mut count = 0;
     for [x, y] in places {
-        text += &format!("v {x:.6} {y:.6} 0\n");
+        text += &format!("v {x:.3} {y:.3} 0\n");
         count += 1;
     }
     let corners: Vec<String> = (1..=count).map(|k| k.to_string()).collect();
@@ -27,7 +28,7 @@ fn polygon(places: impl Iterator<Item = [f64; 2]>) -> Vec<u8> {
 }
 
 /// Corners of an outline of about the size.
-const CORNERS: usize = 38_000;
+const CORNERS: usize = 30_000;
 
 fn on_circle(k: usize, turns: f64, radius: f64) -> [f64; 2] {
     let angle = std::f64::consts::TAU * turns * k as f64 / CORNERS as f64;
@@ -64,7 +65,8 @@ pub fn files() -> Vec<(&'static str, Vec<u8>)> {
             "A".repeat(320_000)
         )
     };
-    let vertices = "element vertex 1000000\nproperty uchar x\nelement face 1\nproperty list uchar int vertex_indices\n";
+    let vertices =
+        "element vertex 1000000\nproperty uchar x\nelement face 1\nproperty list uchar int vertex_indices\n";
     let points = "element vertex 300000\nproperty uchar x\nproperty uchar y\nproperty uchar z\n\
                   element face 100000\nproperty list uchar uchar vertex_indices\n";
     let others = "element vertex 3\nproperty uchar x\nproperty uchar y\nproperty uchar z\n\
@@ -96,14 +98,17 @@ pub fn files() -> Vec<(&'static str, Vec<u8>)> {
             let ring: String = (0..16).map(|k| format!("v {} {} 0\n", k % 4, k * k % 7)).collect();
             repeated(&ring, "f 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16\n", "")
         }),
-        ("a star", polygon((0..CORNERS).map(|k| on_circle(k, 1.0, radius(k))))),
-        ("a comb", polygon((0..CORNERS).map(|k| [k as f64, radius(k)]).chain([[4e4, 9.0], [-1.0, 9.0]]))),
+        ("a star", polygon((0..CORNERS).map(|k| on_circle(k, 1.0, 1e4 * radius(k))))),
+        ("a comb", polygon((0..CORNERS).map(|k| [k as f64, radius(k)]).chain([[3e4, 9.0], [-1.0, 9.0]]))),
         ("a spiral", {
             let half = CORNERS / 2;
             let there = (0..half).map(|k| on_circle(k, 200.0, 1.0 + k as f64));
             polygon(there.chain((0..half).rev().map(|k| on_circle(k, 200.0, 40.0 + k as f64))))
         }),
-        ("a ball of wool", polygon((0..CORNERS).map(|k| on_circle(k * 7919, 1.0, 1.0 + (k * k % 31) as f64)))),
+        (
+            "a ball of wool",
+            polygon((0..CORNERS).map(|k| on_circle(k * 7919, 1.0, 1e3 + (k * k % 31) as f64))),
+        ),
         ("a continued line", repeated("v 0 0 0\nf", " 1\\\n", "\n")),
         ("comments", repeated("", "#\n", "v 0 0 0\n")),
         ("many small OFF faces", repeated("OFF\n1 130000 0\n0 0 0\n", "3 0 0 0\n", "")),
@@ -113,7 +118,14 @@ pub fn files() -> Vec<(&'static str, Vec<u8>)> {
         ("pairs", repeated("{\"pairs\":[[0,0]", ",[1,1]", "]}")),
         ("labels", repeated("{\"pairs\":[[0,0]],\"labels\":[\"\"", ",\"\"", "]}")),
         ("open lists", repeated("", "[", "")),
-        ("points", repeated("<!DOCTYPE PickedPoints><PickedPoints>", "<point x=\"0\" y=\"0\" z=\"0\"/>", "</PickedPoints>")),
+        (
+            "points",
+            repeated(
+                "<!DOCTYPE PickedPoints><PickedPoints>",
+                "<point x=\"0\" y=\"0\" z=\"0\"/>",
+                "</PickedPoints>",
+            ),
+        ),
         ("open elements", repeated("<!DOCTYPE PickedPoints>", "<PickedPoints>", "")),
     ]
 }

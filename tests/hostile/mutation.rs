@@ -5,14 +5,54 @@ use conemap::math::random::SplitMix;
 
 /// Numbers as text that are seldom expected.
 const NUMBERS: [&str; 20] = [
-    "0", "-1", "1", "2", "3", "255", "65536", "2147483647", "4294967295", "-2147483648", "9223372036854775807",
-    "18446744073709551615", "1e308", "-1e-308", "1e999", "nan", "inf", "0.5", "", "1000000000",
+    "0",
+    "-1",
+    "1",
+    "2",
+    "3",
+    "255",
+    "65536",
+    "2147483647",
+    "4294967295",
+    "-2147483648",
+    "9223372036854775807",
+    "18446744073709551615",
+    "1e308",
+    "-1e-308",
+    "1e999",
+    "nan",
+    "inf",
+    "0.5",
+    "",
+    "1000000000",
 ];
 
 /// Words of the formats.
 const WORDS: [&str; 24] = [
-    "\n", "\r", "\r\n", " ", "\\\n", "#", ",", ";", "\"", "[", "]", "{", "}", "\u{feff}", "v ", "f ", "OFF", "4OFF",
-    "element vertex 9", "property list uchar int ", "end_header\n", "endsolid", "null", "\0",
+    "\n",
+    "\r",
+    "\r\n",
+    " ",
+    "\\\n",
+    "#",
+    ",",
+    ";",
+    "\"",
+    "[",
+    "]",
+    "{",
+    "}",
+    "\u{feff}",
+    "v ",
+    "f ",
+    "OFF",
+    "4OFF",
+    "element vertex 9",
+    "property list uchar int ",
+    "end_header\n",
+    "endsolid",
+    "null",
+    "\0",
 ];
 
 /// Makes changes; the same for the same seed.
@@ -46,7 +86,8 @@ impl Mutator {
 
     fn change(&mut self, bytes: &mut Vec<u8>, files: &[Vec<u8>]) {
         let at = self.below(bytes.len() + 1);
-        let length = self.below(1 + self.below(64)).min(bytes.len() - at);
+        let longest = 1 + self.below(64);
+        let length = self.below(longest).min(bytes.len() - at);
         match self.below(10) {
             0 => self.overwrite(bytes, at, 1),
             1 => self.overwrite(bytes, at, 4),
@@ -74,7 +115,8 @@ impl Mutator {
     /// Puts a whole number that is seldom expected over bytes.
     fn overwrite(&mut self, bytes: &mut [u8], at: usize, size: usize) {
         let any = (self.random.unit() * 1.8e19) as u64;
-        let number = [0, 1, 0x7f, 0x80, 0xff, 0xffff, 0x7fff_ffff, 0xffff_ffff, u64::MAX, any][self.below(10)];
+        let number =
+            [0, 1, 0x7f, 0x80, 0xff, 0xffff, 0x7fff_ffff, 0xffff_ffff, u64::MAX, any][self.below(10)];
         let little = number.to_le_bytes();
         let big = (number << (8 * (8 - size))).to_be_bytes();
         let new = if self.below(4) == 0 { &big[..size] } else { &little[..size] };

@@ -28,6 +28,7 @@ mod base;
 #[cfg(feature = "cli")]
 mod cli;
 mod clicks;
+mod far_numbers;
 mod few;
 mod finish_now;
 mod flow;

@@ -5,7 +5,14 @@ use crate::run::{cargo, run_with};
 /// Runs every reader on many changed files: `--runs` of each, all from one `--seed`.
 pub fn fuzz(rest: &[String]) -> Result<(), String> {
     const TEST: [&str; 8] = [
-        "test", "--release", "--test", "hostile", "--", "--ignored", "--nocapture", "many_changed_files_are_answered",
+        "test",
+        "--release",
+        "--test",
+        "hostile",
+        "--",
+        "--ignored",
+        "--nocapture",
+        "many_changed_files_are_answered",
     ];
     let mut variables = Vec::new();
     for pair in rest.chunks(2) {

@@ -56,7 +56,8 @@ pub fn mesh_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
 /// A file with those beside it in which it keeps its data.
 pub fn files_of(path: &Path) -> Vec<PathBuf> {
     let is_gltf = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("gltf"));
-    let parts = is_gltf.then(|| std::fs::read(path).map(|own| gltf_parts::parts_of(&own)).unwrap_or_default());
+    let parts =
+        is_gltf.then(|| std::fs::read(path).map(|own| gltf_parts::parts_of(&own)).unwrap_or_default());
     let names = parts.into_iter().flat_map(|parts| parts.buffers.into_iter().chain(parts.images));
     let folder = path.parent().unwrap_or(Path::new(""));
     std::iter::once(path.to_owned()).chain(names.map(|name| folder.join(name))).collect()

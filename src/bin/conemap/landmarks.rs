@@ -5,7 +5,9 @@ use crate::input::{self, Failure, NamedFiles};
 use crate::outputs;
 use crate::told::print;
 use conemap::io::landmark_formats::{LandmarkFormat, Space};
-use conemap::landmark_exchange::{PairLandmarks, Surface, compare_names, read_pairs, write_pairs, write_side};
+use conemap::landmark_exchange::{
+    PairLandmarks, Surface, compare_names, read_pairs, write_pairs, write_side,
+};
 use conemap::landmarks::{MeshSide, check_side};
 use conemap::mesh::check::CheckedMesh;
 use serde_json::json;

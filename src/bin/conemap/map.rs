@@ -22,7 +22,9 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
                 .into(),
         );
     }
-    clock.suspend(|| job.landmark_remarks().iter().for_each(|remark| say(format_args!("landmarks: {remark}"))));
+    clock.suspend(|| {
+        job.landmark_remarks().iter().for_each(|remark| say(format_args!("landmarks: {remark}")))
+    });
     clock.plan(options.stages(job.landmark_count()));
     let findings = job.findings(&mut clock)?;
     clock.suspend(|| findings.iter().for_each(tell_finding));
@@ -38,9 +40,10 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
     let written = [
         write_map(arguments, &job, &result),
         write_folder(arguments, &job, &result),
-        arguments.report.as_ref().map_or(Ok(()), |path| {
-            outputs::write(path, &serde_json::to_vec_pretty(&result.report)?)
-        }),
+        arguments
+            .report
+            .as_ref()
+            .map_or(Ok(()), |path| outputs::write(path, &serde_json::to_vec_pretty(&result.report)?)),
     ];
     written.into_iter().collect()
 }

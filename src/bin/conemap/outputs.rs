@@ -39,7 +39,7 @@ pub fn check<'a>(
 
 /// The files of a map in a folder.
 pub fn of_folder(folder: &Path) -> impl Iterator<Item = PathBuf> {
-    OutputKind::ALL.into_iter().map(|kind| folder.join(kind.file_name()))
+    OutputKind::ALL.into_iter().map(move |kind| folder.join(kind.file_name()))
 }
 
 /// Writes files into a folder. All are tried, so that one that fails costs only itself; the first error is given back.
