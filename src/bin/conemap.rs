@@ -1,7 +1,6 @@
 //! The command line: `conemap check`, `map`, `query`, `report`, `verify`, `export`, `suggest`, `flow`, `landmarks` and `remesh`.
 //!
 //! Progress and errors go to standard error; the exit code is 0 only for a converged, certified result.
-#![allow(clippy::print_stderr, reason = "a command line prints")]
 
 #[path = "conemap/arguments.rs"]
 mod arguments;
@@ -21,6 +20,8 @@ mod interrupt;
 mod landmarks;
 #[path = "conemap/map.rs"]
 mod map;
+#[path = "conemap/outputs.rs"]
+mod outputs;
 #[path = "conemap/query.rs"]
 mod query;
 #[path = "conemap/remesh.rs"]
@@ -29,6 +30,8 @@ mod remesh;
 mod saved;
 #[path = "conemap/suggest.rs"]
 mod suggest;
+#[path = "conemap/told.rs"]
+mod told;
 #[path = "conemap/verify.rs"]
 mod verify;
 
@@ -52,7 +55,7 @@ fn main() -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("conemap: {error}");
+            told::say(format_args!("conemap: {error}"));
             ExitCode::FAILURE
         }
     }

@@ -1,5 +1,6 @@
 //! Textured meshes as binary glTF 2.0, with a checkerboard inside.
 
+use crate::mesh::FileFrame;
 use crate::surface_map::measures::transfer::CommonMesh;
 use glam::{DVec2, DVec3};
 use serde_json::json;
@@ -16,12 +17,18 @@ pub enum GlbError {
 }
 
 /// The source's surface with the target's texture, a morph target that turns it into the target's shape (positions and normals),
-/// and a value by vertex as the attribute `_DISTORTION` where there are any.
+/// and a value by vertex as the attribute `_DISTORTION` where there are any. `frames` are those of source and target.
 ///
 /// # Errors
 /// [`GlbError`].
-pub fn textured_source(common: &CommonMesh, distortion: &[f64]) -> Result<Vec<u8>, GlbError> {
-    let positions: Vec<f32> = flat(&common.source_positions);
+pub fn textured_source(
+    common: &CommonMesh,
+    distortion: &[f64],
+    frames: [FileFrame; 2],
+) -> Result<Vec<u8>, GlbError> {
+    let node = NodePlace::of(&common.source_positions, frames[0]);
+    let positions: Vec<f32> = flat(&node.local(&common.source_positions));
+    let target_positions = node.target(&common.target_positions, frames);
     let normals: Vec<f32> = flat(&common.source_normals);
     let uvs: Vec<f32> = common.uvs.iter().flat_map(|uv| square_uvs(*uv)).collect();
     let indices: Vec<u8> = common.triangles.iter().flatten().flat_map(|i| i.to_le_bytes()).collect();
@@ -56,8 +63,7 @@ pub fn textured_source(common: &CommonMesh, distortion: &[f64]) -> Result<Vec<u8
         accessors.push(accessor(views.len() - 1, "SCALAR"));
     }
     // A morph target holds differences: with the weight 1 the sum is the target's.
-    let morph =
-        [difference(&common.target_positions, &positions), difference(&common.target_normals, &normals)];
+    let morph = [difference(&target_positions, &positions), difference(&common.target_normals, &normals)];
     let targets = accessors.len();
     for (k, values) in morph.iter().enumerate() {
         let view = views.len();
@@ -68,7 +74,7 @@ pub fn textured_source(common: &CommonMesh, distortion: &[f64]) -> Result<Vec<u8
         "asset": { "version": "2.0", "generator": "Conemap" },
         "scene": 0,
         "scenes": [{ "nodes": [0] }],
-        "nodes": [{ "mesh": 0, "name": "source" }],
+        "nodes": [node.json()],
         "meshes": [{
             "primitives": [{
                 "attributes": attributes, "indices": 3, "material": 0,
@@ -88,6 +94,66 @@ pub fn textured_source(common: &CommonMesh, distortion: &[f64]) -> Result<Vec<u8
         "buffers": [{ "byteLength": body.bytes.len() }],
     });
     Ok(assemble(document.to_string().into_bytes(), body.bytes))
+}
+
+/// Where the node lies: a surface far from the origin has its own origin in the node, so that its positions keep all 24 bits of f32
+/// for its shape.
+struct NodePlace {
+    /// The node's origin, in the source's coordinates.
+    origin: DVec3,
+    frame: FileFrame,
+}
+
+impl NodePlace {
+    fn of(positions: &[DVec3], frame: FileFrame) -> Self {
+        let [low, high] = box_of(positions);
+        let (middle, size) = (0.5 * (low + high), (high - low).max_element());
+        let is_far = middle.abs().max_element() > size && middle.is_finite();
+        Self { origin: if is_far { middle } else { DVec3::ZERO }, frame }
+    }
+
+    fn local(&self, positions: &[DVec3]) -> Vec<DVec3> {
+        positions.iter().map(|p| *p - self.origin).collect()
+    }
+
+    /// The target's positions: where it lies, or, where that is too far from the source or of a size too different for f32, moved
+    /// to the source in its own units.
+    fn target(&self, positions: &[DVec3], [source, target]: [FileFrame; 2]) -> Vec<DVec3> {
+        const FARTHEST: f64 = 4096.0;
+        const RATIO: f64 = (1 << 12) as f64;
+        if source == target {
+            return self.local(positions);
+        }
+        let [low, high] = box_of(positions);
+        let (size, ratio) = ((high - low).max_element(), target.scale() / source.scale());
+        let in_place = |p: &DVec3| source.on_mesh(target.in_file(*p)) - self.origin;
+        if (1.0 / RATIO..=RATIO).contains(&ratio)
+            && positions.iter().all(|p| in_place(p).abs().max_element() <= FARTHEST * size * ratio)
+        {
+            return positions.iter().map(in_place).collect();
+        }
+        let middle = 0.5 * (low + high);
+        positions.iter().map(|p| *p - middle).collect()
+    }
+
+    fn json(&self) -> serde_json::Value {
+        let mut node = json!({ "mesh": 0, "name": "source" });
+        let translation = self.frame.in_file(self.origin);
+        if translation != DVec3::ZERO {
+            node["translation"] = json!(translation.to_array());
+        }
+        if self.frame.scale() != 1.0 {
+            let scale = self.frame.scale();
+            node["scale"] = json!([scale, scale, scale]);
+        }
+        node
+    }
+}
+
+/// The lowest and the highest coordinates.
+fn box_of(positions: &[DVec3]) -> [DVec3; 2] {
+    let corners = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    positions.iter().fold(corners, |[low, high], p| [low.min(*p), high.max(*p)])
 }
 
 /// Two squares of the board make one period of the texture.
@@ -221,7 +287,7 @@ mod tests {
             source_positions: positions,
         };
         for distortion in [&[][..], &[1.0, 1.5, 2.0, 1.0, 1.25, 3.0]] {
-            let bytes = textured_source(&common, distortion).unwrap();
+            let bytes = textured_source(&common, distortion, [FileFrame::default(); 2]).unwrap();
             let soup = read_mesh(&bytes).unwrap();
             assert_eq!((soup.positions.len(), soup.polygons.len()), (6, 8));
             let named = bytes.windows(11).any(|word| word == b"_DISTORTION");
@@ -233,6 +299,35 @@ mod tests {
             };
             let expected = [singles(&common.target_positions), singles(&common.target_normals)];
             assert_eq!(morphed(&bytes), expected);
+        }
+    }
+
+    #[test]
+    fn a_shape_far_from_the_origin_keeps_the_bits_of_f32() {
+        let mesh = octahedron();
+        let shift = DVec3::new(1e8, -2e8, 3.0);
+        let places = |factor: f64| -> Vec<DVec3> {
+            mesh.positions().iter().map(|p| *p * DVec3::new(0.3, 0.7, 1.1) * factor + shift).collect()
+        };
+        let common = CommonMesh {
+            source_normals: places(1.0),
+            target_positions: places(2.0),
+            target_normals: places(1.0),
+            uvs: vec![DVec2::ZERO; 6],
+            triangles: mesh.triangles().iter().map(|t| t.map(|v| v.0)).collect(),
+            pieces: (0..8).collect(),
+            source_positions: places(1.0),
+        };
+        let bytes = textured_source(&common, &[], [FileFrame::default(); 2]).unwrap();
+        let soup = read_mesh(&bytes).unwrap();
+        // f64 at 2e8 has steps of 3e-8.
+        for (read, given) in soup.positions.iter().zip(&common.source_positions) {
+            assert!((*read - *given).abs().max_element() <= 1e-7, "{read} {given}");
+        }
+        let [places, _] = morphed(&bytes);
+        for (p, given) in places.iter().zip(&common.target_positions) {
+            let there = DVec3::new(f64::from(p[0]), f64::from(p[1]), f64::from(p[2])) + shift;
+            assert!((there - *given).abs().max_element() < 5e-7, "{there} {given}");
         }
     }
 }

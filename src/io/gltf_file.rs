@@ -1,180 +1,307 @@
 //! glTF 2.0: all triangles of the scene in world coordinates, joined at equal coordinates. Vertices are numbered as the
 //! elements of the primitives' positions, one primitive after another as the scene names them.
 //!
-//! Buffers are the binary part of a GLB or data URIs; [`super::gltf_parts`] brings those of other files in. Accessors are read here with their bounds checked in u64.
+//! Buffers are the binary part of a GLB or data URIs; [`super::gltf_parts`] brings those of other files in. Everything is
+//! checked by [`super::gltf_document`] before it is followed. Nodes are placed in f64, so that a shape far from the origin
+//! keeps the digits that its file has.
 
+use super::gltf_container::{self, Container};
+use super::gltf_document::{Buffer, Document, Node, Primitive};
 use super::problem::{Place, Problem};
 use super::reading::weld;
 use crate::mesh::soup::PolygonSoup;
 use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-use glam::{DMat4, DVec3, DVec4};
+use base64::alphabet;
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use glam::{DMat4, DQuat, DVec3};
+use gltf::Accessor;
 use gltf::accessor::{DataType, Dimensions};
 use gltf::mesh::Mode;
-use gltf::{Accessor, Gltf, Node, Primitive, Semantic};
-use serde::Deserialize;
-use serde::de::IgnoredAny;
-use std::collections::BTreeMap;
+use std::borrow::Cow;
 
-/// Nodes deeper than this are refused: the scene is a tree, unless someone wants to hurt us.
-const MAX_DEPTH: usize = 64;
-/// Corners in all, so that a small file with many instances cannot ask for much memory.
+/// Corners in all.
 const MAX_CORNERS: usize = 60_000_000;
+/// Corners that a file may have beyond its number of bytes, so that a small one with many copies cannot ask for much memory.
+const CORNERS_OF_COPIES: usize = 500_000;
 
 pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
-    let header = |problem: String| (Place::Header, problem);
-    check_positions(bytes).map_err(header)?;
-    let gltf = Gltf::from_slice(bytes).map_err(|e| header(format!("it cannot be read: {e}")))?;
-    let buffers = buffers(&gltf).map_err(header)?;
-    let mut reader = Reader { buffers, soup: PolygonSoup::default() };
-    let scene = gltf.default_scene().or_else(|| gltf.scenes().next());
-    let scene = scene.ok_or_else(|| header("it has no scene".into()))?;
-    for node in scene.nodes() {
-        reader.add_node(&node, &DMat4::IDENTITY, 0).map_err(header)?;
-    }
-    let soup = reader.soup;
-    if soup.polygons.is_empty() {
-        return Err(header("its scene has no triangles".into()));
-    }
-    Ok(weld(soup))
+    scene(bytes).map(weld).map_err(|problem| (Place::Header, problem))
 }
 
-/// Refuses positions that name no accessor: the library looks them up before it checks that they are there.
-fn check_positions(bytes: &[u8]) -> Result<(), String> {
-    #[derive(Deserialize)]
-    struct Root {
-        #[serde(default)]
-        accessors: Vec<IgnoredAny>,
-        #[serde(default)]
-        meshes: Vec<Mesh>,
-    }
-    #[derive(Deserialize)]
-    struct Mesh {
-        #[serde(default)]
-        primitives: Vec<Attributes>,
-    }
-    #[derive(Deserialize)]
-    struct Attributes {
-        #[serde(default)]
-        attributes: BTreeMap<String, usize>,
-    }
-    let unreadable = |e: &dyn std::fmt::Display| format!("it cannot be read: {e}");
-    let root: Root = if bytes.starts_with(b"glTF") {
-        let glb = gltf::Glb::from_slice(bytes).map_err(|e| unreadable(&e))?;
-        serde_json::from_slice(&glb.json).map_err(|e| unreadable(&e))?
-    } else {
-        serde_json::from_slice(bytes).map_err(|e| unreadable(&e))?
+fn scene(bytes: &[u8]) -> Result<PolygonSoup, String> {
+    let Container { json, binary } = gltf_container::split(bytes)?;
+    let document = Document::read(json)?;
+    let buffers = buffers(&document.buffers, binary)?;
+    let reader = Reader {
+        sizes: buffers.iter().map(|buffer| buffer.as_ref().map(|content| content.len())).collect(),
+        library: document.to_library()?,
+        most_corners: MAX_CORNERS.min(bytes.len().saturating_add(CORNERS_OF_COPIES)),
+        document: &document,
+        buffers,
     };
-    let mut primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
-    let is_missing = |primitive: &Attributes| {
-        primitive.attributes.get("POSITION").is_some_and(|number| *number >= root.accessors.len())
-    };
-    if primitives.any(is_missing) { Err("a primitive's positions are not there".into()) } else { Ok(()) }
+    let mut scene = Scene::default();
+    let mut places = vec![DMat4::IDENTITY; document.nodes.len()];
+    for (number, above) in document.tree()? {
+        let node = &document.nodes[number];
+        let own = placement(node)
+            .ok_or_else(|| format!("node {number} is placed by numbers that cannot be used"))?;
+        places[number] = above.map_or(own, |above| places[above] * own);
+        if let Some(mesh) = node.mesh {
+            reader.add_mesh(mesh, &places[number], &mut scene)?;
+        }
+    }
+    if scene.soup.polygons.is_empty() {
+        return Err("its scene has no triangles".into());
+    }
+    Ok(scene.soup)
 }
 
-fn buffers(gltf: &Gltf) -> Result<Vec<Vec<u8>>, String> {
-    let load = |buffer: gltf::Buffer<'_>| match buffer.source() {
-        gltf::buffer::Source::Bin => gltf.blob.clone().ok_or_else(|| "its binary part is missing".to_owned()),
-        gltf::buffer::Source::Uri(uri) => {
-            let data = uri.strip_prefix("data:").and_then(|rest| rest.split_once(";base64,"));
-            let (_, code) = data.ok_or_else(|| {
-                let short: String = uri.chars().take(40).collect();
-                format!("its data is in another file ({short}): give that file too, or export it as GLB")
-            })?;
-            STANDARD.decode(code).map_err(|e| format!("its embedded buffer is damaged: {e}"))
+/// From a node's coordinates to those of the node above; `None` where numbers are not finite.
+fn placement(node: &Node) -> Option<DMat4> {
+    let matrix = match &node.matrix {
+        Some(columns) => DMat4::from_cols_array(columns),
+        None => {
+            let translation = node.translation.as_deref().map_or(DVec3::ZERO, |&t| DVec3::from(t));
+            let scale = node.scale.as_deref().map_or(DVec3::ONE, |&s| DVec3::from(s));
+            let rotation = node.rotation.as_deref().map(|&q| DQuat::from_array(q));
+            let rotation =
+                rotation.filter(|q| q.length_squared() > 0.0).map_or(DQuat::IDENTITY, DQuat::normalize);
+            DMat4::from_scale_rotation_translation(scale, rotation, translation)
         }
     };
-    gltf.buffers().map(load).collect()
+    matrix.is_finite().then_some(matrix)
 }
 
-/// The triangles read so far, and the buffers from which they come.
-struct Reader {
-    buffers: Vec<Vec<u8>>,
-    soup: PolygonSoup,
-}
-
-impl Reader {
-    /// Adds a node and all below it; `depth` nodes lie above it.
-    fn add_node(&mut self, node: &Node<'_>, parent: &DMat4, depth: usize) -> Result<(), String> {
-        if depth > MAX_DEPTH {
-            return Err("its nodes are nested too deeply".into());
-        }
-        let columns = node.transform().matrix().map(|c| DVec4::from_array(c.map(f64::from)));
-        let world = *parent * DMat4::from_cols(columns[0], columns[1], columns[2], columns[3]);
-        if let Some(mesh) = node.mesh() {
-            for primitive in mesh.primitives() {
-                self.add_primitive(&primitive, &world)?;
+/// The contents of the buffers, cut to the lengths that the file tells; `None` for one without data, as some extensions have it.
+fn buffers<'a>(buffers: &[Buffer], binary: Option<&'a [u8]>) -> Result<Vec<Option<Cow<'a, [u8]>>>, String> {
+    let lenient = GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent);
+    let [standard, of_urls] =
+        [&alphabet::STANDARD, &alphabet::URL_SAFE].map(|a| GeneralPurpose::new(a, lenient));
+    let load = |(number, buffer): (usize, &Buffer)| {
+        let mut content: Cow<'a, [u8]> = match &buffer.uri {
+            // Only the first may be the binary part.
+            None => match binary.filter(|_| number == 0) {
+                Some(binary) => binary.into(),
+                None => return Ok(None),
+            },
+            Some(uri) => {
+                let code = uri.strip_prefix("data:").and_then(|rest| rest.split_once(";base64,"));
+                let (_, code) = code.ok_or_else(|| {
+                    let short: String = uri.chars().take(40).filter(|c| !c.is_control()).collect();
+                    format!("its data is in another file ({short}): give that file too, or export it as GLB")
+                })?;
+                let decoded = standard.decode(code).or_else(|e| of_urls.decode(code).map_err(|_| e));
+                decoded.map_err(|e| format!("its embedded buffer is damaged: {e}"))?.into()
             }
-        }
-        node.children().try_for_each(|child| self.add_node(&child, &world, depth + 1))
-    }
-
-    fn add_primitive(&mut self, primitive: &Primitive<'_>, world: &DMat4) -> Result<(), String> {
-        if primitive.mode() != Mode::Triangles {
-            return Ok(());
-        }
-        let Self { buffers, soup } = self;
-        let accessor = primitive.get(&Semantic::Positions).ok_or("a primitive has no positions")?;
-        let start = soup.positions.len();
-        soup.positions.extend(positions(&accessor, buffers)?.into_iter().map(|p| world.transform_point3(p)));
-        let indices = match primitive.indices() {
-            Some(accessor) => indices(&accessor, buffers)?,
-            None => (0..(soup.positions.len() - start) as u32).collect(),
         };
-        if soup.positions.len() + indices.len() + 3 * soup.polygons.len() > MAX_CORNERS {
-            return Err(format!("it has more than {MAX_CORNERS} corners"));
+        let there = content.len();
+        let wanted = usize::try_from(buffer.byte_length).ok().filter(|wanted| *wanted <= there);
+        let wanted = wanted.ok_or_else(|| {
+            format!(
+                "buffer {number} should have {} bytes and has {there}: the file may be cut off",
+                buffer.byte_length
+            )
+        })?;
+        match &mut content {
+            Cow::Borrowed(content) => *content = &content[..wanted],
+            Cow::Owned(content) => content.truncate(wanted),
         }
-        let corner = |i: u32| i.saturating_add(start as u32);
-        soup.polygons.extend(indices.chunks_exact(3).map(|t| t.iter().map(|&i| corner(i)).collect()));
+        Ok(Some(content))
+    };
+    buffers.iter().enumerate().map(load).collect()
+}
+
+/// The triangles read so far.
+#[derive(Default)]
+struct Scene {
+    soup: PolygonSoup,
+    /// Positions and indices that were read for them.
+    corners: usize,
+}
+
+/// A document with the contents of its buffers.
+struct Reader<'a> {
+    document: &'a Document,
+    library: gltf::Document,
+    buffers: Vec<Option<Cow<'a, [u8]>>>,
+    sizes: Vec<Option<usize>>,
+    most_corners: usize,
+}
+
+impl Reader<'_> {
+    fn add_mesh(&self, number: usize, world: &DMat4, scene: &mut Scene) -> Result<(), String> {
+        let mesh = self.document.meshes.get(number);
+        let mesh = mesh.ok_or_else(|| format!("it names mesh {number}, which is not there"))?;
+        for (k, primitive) in mesh.primitives.iter().enumerate() {
+            let of_primitive = |problem| format!("primitive {k} of mesh {number}: {problem}");
+            self.add_primitive(primitive, world, scene).map_err(of_primitive)?;
+        }
         Ok(())
     }
-}
 
-fn positions(accessor: &Accessor<'_>, buffers: &[Vec<u8>]) -> Result<Vec<DVec3>, String> {
-    if (accessor.data_type(), accessor.dimensions()) != (DataType::F32, Dimensions::Vec3) {
-        return Err("its positions are not three floats each".into());
-    }
-    let float = |b: &[u8]| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
-    let point = |b: &[u8]| DVec3::new(float(&b[..4]), float(&b[4..8]), float(&b[8..12]));
-    Ok(elements(accessor, buffers, 12)?.map(point).collect())
-}
-
-fn indices(accessor: &Accessor<'_>, buffers: &[Vec<u8>]) -> Result<Vec<u32>, String> {
-    if accessor.dimensions() != Dimensions::Scalar {
-        return Err("its indices are not single numbers".into());
-    }
-    match accessor.data_type() {
-        DataType::U8 => Ok(elements(accessor, buffers, 1)?.map(|b| u32::from(b[0])).collect()),
-        DataType::U16 => {
-            Ok(elements(accessor, buffers, 2)?.map(|b| u32::from(u16::from_le_bytes([b[0], b[1]]))).collect())
+    fn add_primitive(&self, primitive: &Primitive, world: &DMat4, scene: &mut Scene) -> Result<(), String> {
+        let mode = mode(primitive.mode)?;
+        if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
+            // Also what gives no corners counts, as it takes time.
+            return self.count(1, scene);
         }
-        DataType::U32 => Ok(elements(accessor, buffers, 4)?
-            .map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]))
-            .collect()),
-        _ => Err("its indices are not whole numbers".into()),
+        let accessor = self.accessor(primitive.attributes.position.ok_or("it has no positions")?)?;
+        let indices = primitive.indices.map(|number| self.accessor(number)).transpose()?;
+        self.count(1 + accessor.count() + indices.as_ref().map_or(0, Accessor::count), scene)?;
+        let PolygonSoup { positions, polygons, .. } = &mut scene.soup;
+        let start = positions.len() as u32;
+        positions.extend(self.positions(&accessor)?.into_iter().map(|p| world.transform_point3(p)));
+        let indices = match indices {
+            Some(indices) => self.indices(&indices, accessor.count())?,
+            None => (0..accessor.count() as u32).collect(),
+        };
+        let polygon = |t: [u32; 3]| t.map(|i| start + i).to_vec();
+        polygons.extend(triangles(mode, &indices).map(polygon));
+        Ok(())
+    }
+
+    fn count(&self, corners: usize, scene: &mut Scene) -> Result<(), String> {
+        scene.corners = scene.corners.saturating_add(corners);
+        if scene.corners > self.most_corners {
+            let most = self.most_corners;
+            return Err(format!("the scene has more than {most} corners with all copies of its meshes"));
+        }
+        Ok(())
+    }
+
+    /// An accessor, checked.
+    fn accessor(&self, number: usize) -> Result<Accessor<'_>, String> {
+        self.document.check_accessor(number, &self.sizes)?;
+        self.library.accessors().nth(number).ok_or_else(|| format!("accessor {number} is not there"))
+    }
+
+    fn positions(&self, accessor: &Accessor<'_>) -> Result<Vec<DVec3>, String> {
+        if accessor.dimensions() != Dimensions::Vec3 {
+            return Err("its positions are not three numbers each".into());
+        }
+        let kind = accessor.data_type();
+        let divisor = if accessor.normalized() { normal_divisor(kind) } else { 1.0 };
+        let point = |bytes: &[u8]| {
+            let components: Vec<f64> = bytes.chunks_exact(kind.size()).map(|b| component(kind, b)).collect();
+            let p = DVec3::new(components[0], components[1], components[2]) / divisor;
+            // The least number of a signed type is as good as its neighbour.
+            if accessor.normalized() { p.max(DVec3::NEG_ONE) } else { p }
+        };
+        Ok(self.elements(accessor)?.iter().map(|bytes| point(bytes)).collect())
+    }
+
+    /// Indices below `vertices`.
+    fn indices(&self, accessor: &Accessor<'_>, vertices: usize) -> Result<Vec<u32>, String> {
+        let kind = accessor.data_type();
+        if accessor.dimensions() != Dimensions::Scalar
+            || !matches!(kind, DataType::U8 | DataType::U16 | DataType::U32)
+        {
+            return Err("its indices are not whole numbers".into());
+        }
+        let index = |bytes: &&[u8]| {
+            let index = component(kind, bytes) as u32;
+            if (index as usize) < vertices {
+                Ok(index)
+            } else {
+                Err(format!("it names vertex {index}, but has {vertices} vertices"))
+            }
+        };
+        self.elements(accessor)?.iter().map(index).collect()
+    }
+
+    /// The bytes of each element of an accessor that was checked; sparse ones are in place.
+    fn elements(&self, accessor: &Accessor<'_>) -> Result<Vec<&[u8]>, String> {
+        const ZERO: [u8; 12] = [0; 12];
+        let size = accessor.size();
+        let mut elements = match accessor.view() {
+            Some(view) => self.range(&view, accessor.offset(), [accessor.count(), size])?,
+            None => vec![&ZERO[..size]; accessor.count()],
+        };
+        let Some(sparse) = accessor.sparse() else { return Ok(elements) };
+        let (indices, values) = (sparse.indices(), sparse.values());
+        let kind = match indices.index_type() {
+            gltf::accessor::sparse::IndexType::U8 => DataType::U8,
+            gltf::accessor::sparse::IndexType::U16 => DataType::U16,
+            gltf::accessor::sparse::IndexType::U32 => DataType::U32,
+        };
+        let count = sparse.count();
+        let at = self.range(&indices.view(), indices.offset(), [count, kind.size()])?;
+        let values = self.range(&values.view(), values.offset(), [count, size])?;
+        for (index, value) in at.into_iter().zip(values) {
+            let index = component(kind, index) as usize;
+            *elements.get_mut(index).ok_or_else(|| format!("sparse element {index} is not there"))? = value;
+        }
+        Ok(elements)
+    }
+
+    /// Elements of a view that was checked.
+    fn range(
+        &self,
+        view: &gltf::buffer::View<'_>,
+        offset: usize,
+        [count, size]: [usize; 2],
+    ) -> Result<Vec<&[u8]>, String> {
+        let buffer = self.buffers.get(view.buffer().index()).and_then(Option::as_deref);
+        let begin = view.offset() + offset;
+        let stride = view.stride().unwrap_or(size);
+        let element = |k: usize| buffer?.get(begin + k * stride..begin + k * stride + size);
+        (0..count).map(|k| element(k).ok_or_else(|| "an element is not there".to_owned())).collect()
     }
 }
 
-/// The bytes of each element of an accessor.
-fn elements<'a>(
-    accessor: &Accessor<'_>,
-    buffers: &'a [Vec<u8>],
-    size: usize,
-) -> Result<impl Iterator<Item = &'a [u8]>, String> {
-    if accessor.sparse().is_some() {
-        return Err("it has sparse accessors: export it without them".into());
+/// How corners follow one another.
+fn mode(number: u32) -> Result<Mode, String> {
+    Ok(match number {
+        0 => Mode::Points,
+        1 => Mode::Lines,
+        2 => Mode::LineLoop,
+        3 => Mode::LineStrip,
+        4 => Mode::Triangles,
+        5 => Mode::TriangleStrip,
+        6 => Mode::TriangleFan,
+        _ => return Err(format!("its mode {number} is unknown")),
+    })
+}
+
+/// Triangles of a list, a strip or a fan. A strip joins its parts by triangles with a corner twice, which are none.
+fn triangles(mode: Mode, indices: &[u32]) -> Box<dyn Iterator<Item = [u32; 3]> + '_> {
+    let is_whole = |t: &[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+    match mode {
+        Mode::TriangleStrip => {
+            let turned =
+                |(k, t): (usize, &[u32])| if k % 2 == 0 { [t[0], t[1], t[2]] } else { [t[1], t[0], t[2]] };
+            Box::new(indices.windows(3).enumerate().map(turned).filter(is_whole))
+        }
+        Mode::TriangleFan => {
+            let first = indices.first().copied().unwrap_or_default();
+            let rest = indices.get(1..).unwrap_or_default();
+            Box::new(rest.windows(2).map(move |pair| [first, pair[0], pair[1]]).filter(is_whole))
+        }
+        _ => Box::new(indices.as_chunks::<3>().0.iter().copied()),
     }
-    let view = accessor.view().ok_or("an accessor has no data")?;
-    let buffer = buffers.get(view.buffer().index()).ok_or("a buffer is missing")?;
-    let stride = view.stride().unwrap_or(size).max(1);
-    let begin = view.offset() as u64 + accessor.offset() as u64;
-    let count = accessor.count() as u64;
-    let last = count.checked_sub(1).and_then(|n| n.checked_mul(stride as u64)).unwrap_or(0);
-    let end =
-        begin.checked_add(last).and_then(|e| e.checked_add(size as u64)).ok_or("an accessor is too large")?;
-    if count > 0 && end > buffer.len() as u64 {
-        return Err("an accessor reaches past the end of its buffer: the file may be cut off".into());
+}
+
+/// A number of an accessor.
+fn component(kind: DataType, b: &[u8]) -> f64 {
+    match (kind, b) {
+        (DataType::I8, &[a, ..]) => f64::from(i8::from_le_bytes([a])),
+        (DataType::U8, &[a, ..]) => f64::from(a),
+        (DataType::I16, &[a, b, ..]) => f64::from(i16::from_le_bytes([a, b])),
+        (DataType::U16, &[a, b, ..]) => f64::from(u16::from_le_bytes([a, b])),
+        (DataType::U32, &[a, b, c, d, ..]) => f64::from(u32::from_le_bytes([a, b, c, d])),
+        (DataType::F32, &[a, b, c, d, ..]) => f64::from(f32::from_le_bytes([a, b, c, d])),
+        _ => f64::NAN,
     }
-    let begin = begin as usize;
-    Ok((0..accessor.count()).map(move |k| &buffer[begin + k * stride..begin + k * stride + size]))
+}
+
+/// What stands for 1 in whole numbers.
+fn normal_divisor(kind: DataType) -> f64 {
+    match kind {
+        DataType::I8 => f64::from(i8::MAX),
+        DataType::U8 => f64::from(u8::MAX),
+        DataType::I16 => f64::from(i16::MAX),
+        DataType::U16 => f64::from(u16::MAX),
+        DataType::U32 => f64::from(u32::MAX),
+        DataType::F32 => 1.0,
+    }
 }

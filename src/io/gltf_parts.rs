@@ -1,7 +1,10 @@
 //! glTF files whose buffers and textures are files of their own: the names of these files, and all of them packed into one GLB.
 
+use super::reading::unmarked;
 use super::{Format, MAX_BYTES, Place, ReadError, detect};
 use serde_json::{Map, Value, json};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 /// The files that a glTF file names.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -54,11 +57,13 @@ pub fn packed<'a>(bytes: &[u8], find: impl Fn(&str) -> Option<&'a [u8]>) -> Resu
         )));
     }
     let mut starts = Vec::new();
+    // A file that several buffers name is packed once.
+    let mut packed = BTreeMap::new();
     for buffer in entries(&root, "buffers") {
         let name = external_name(buffer);
         let content = match &name {
-            Some(name) => find(name).unwrap_or_default().to_vec(),
-            None => embedded(buffer).map_err(malformed)?,
+            Some(name) => find(name).unwrap_or_default().into(),
+            None => Cow::Owned(embedded(buffer).map_err(malformed)?),
         };
         let announced = buffer.get("byteLength").and_then(Value::as_u64).unwrap_or(0);
         if announced > content.len() as u64 {
@@ -66,7 +71,12 @@ pub fn packed<'a>(bytes: &[u8], find: impl Fn(&str) -> Option<&'a [u8]>) -> Resu
             let problem = format!("{name} has {} bytes of {announced}: it may be cut off", content.len());
             return Err(malformed(problem));
         }
-        starts.push(packer.add(&content)?);
+        let start = match name.as_ref().and_then(|name| packed.get(name)) {
+            Some(start) => *start,
+            None => packer.add(&content)?,
+        };
+        packed.extend(name.map(|name| (name, start)));
+        starts.push(start);
     }
     move_views(&mut root, &starts).map_err(malformed)?;
     let missing_images = pack_images(&mut root, &mut packer, find)?;
@@ -79,8 +89,7 @@ fn text_gltf(bytes: &[u8]) -> Option<Map<String, Value>> {
     if bytes.len() > MAX_BYTES || bytes.starts_with(b"glTF") || detect(bytes) != Some(Format::Gltf) {
         return None;
     }
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    serde_json::from_slice(bytes).ok()
+    serde_json::from_slice(&unmarked(bytes)).ok()
 }
 
 fn entries<'a>(root: &'a Map<String, Value>, list: &str) -> &'a [Value] {
@@ -164,6 +173,7 @@ fn pack_images<'a>(
     find: impl Fn(&str) -> Option<&'a [u8]>,
 ) -> Result<Vec<String>, ReadError> {
     let mut views = entries(root, "bufferViews").to_vec();
+    let mut packed = BTreeMap::new();
     let mut missing = Vec::new();
     let Some(Value::Array(images)) = root.get_mut("images") else {
         return Ok(missing);
@@ -174,7 +184,11 @@ fn pack_images<'a>(
             missing.push(name);
             continue;
         };
-        let start = packer.add(content)?;
+        let start = match packed.get(&name) {
+            Some(start) => *start,
+            None => packer.add(content)?,
+        };
+        packed.insert(name.clone(), start);
         let is_jpeg = content.starts_with(&[0xff, 0xd8]);
         let kind = if is_jpeg { "image/jpeg" } else { "image/png" };
         views.push(json!({ "buffer": 0, "byteOffset": start, "byteLength": content.len() }));

@@ -2,19 +2,25 @@
 //!
 //! Everything is hostile until checked: sizes are compared with the file before anything is allocated.
 
+mod detection;
 mod format;
+mod gltf_container;
+mod gltf_document;
 mod gltf_file;
 pub mod gltf_parts;
 pub mod landmark_file;
 pub mod landmark_formats;
 mod obj;
 mod off;
+mod other_file;
 mod ply;
 mod problem;
 mod reading;
 mod stl;
 
+pub use detection::detect;
 pub use format::Format;
+pub use other_file::OtherFile;
 pub use problem::Place;
 
 use crate::mesh::soup::PolygonSoup;
@@ -30,6 +36,9 @@ pub enum ReadError {
     /// No known format.
     #[error("this is not a mesh file that can be read: use {}", Format::NAMES)]
     UnknownFormat,
+    /// A file of another kind.
+    #[error("{0}")]
+    OtherFile(OtherFile),
     /// Too large.
     #[error("the file has {bytes} bytes; the limit is {MAX_BYTES}")]
     TooLarge {
@@ -56,7 +65,10 @@ pub fn read_mesh(bytes: &[u8]) -> Result<PolygonSoup, ReadError> {
     if bytes.len() > MAX_BYTES {
         return Err(ReadError::TooLarge { bytes: bytes.len() });
     }
-    let format = detect(bytes).ok_or(ReadError::UnknownFormat)?;
+    let Some(format) = detect(bytes) else {
+        return Err(OtherFile::of(bytes).map_or(ReadError::UnknownFormat, ReadError::OtherFile));
+    };
+    let bytes = &*reading::unmarked(bytes);
     let soup = match format {
         Format::Obj => obj::read(bytes),
         Format::Off => off::read(bytes),
@@ -68,41 +80,6 @@ pub fn read_mesh(bytes: &[u8]) -> Result<PolygonSoup, ReadError> {
     let soup = soup.map_err(malformed)?;
     check_numbers(&soup).map_err(malformed)?;
     Ok(soup)
-}
-
-/// Tells the format by content.
-pub fn detect(bytes: &[u8]) -> Option<Format> {
-    if bytes.starts_with(b"glTF") {
-        return Some(Format::Gltf);
-    }
-    if bytes.starts_with(b"ply") {
-        return Some(Format::Ply);
-    }
-    if stl::is_binary(bytes) {
-        return Some(Format::Stl);
-    }
-    // Long enough for a header with comments.
-    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
-    let head = head.trim_start_matches('\u{feff}');
-    let mut lines = head.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with('#'));
-    let first = lines.next()?;
-    if matches!(first.split_whitespace().next(), Some("OFF" | "COFF" | "NOFF" | "CNOFF" | "STOFF")) {
-        return Some(Format::Off);
-    }
-    if first.starts_with("solid") {
-        return Some(Format::Stl);
-    }
-    if first.starts_with('{') && head.contains("\"asset\"")
-        || first.starts_with('{') && bytes.windows(7).any(|w| w == b"\"asset\"")
-    {
-        return Some(Format::Gltf);
-    }
-    let is_obj = |l: &str| {
-        let word = l.split_whitespace().next().unwrap_or_default();
-        matches!(word, "v" | "vn" | "vt" | "f" | "o" | "g" | "s" | "mtllib" | "usemtl")
-    };
-    // OBJ has no magic word: its first six lines must all be of its kinds.
-    (is_obj(first) && lines.take(5).all(is_obj)).then_some(Format::Obj)
 }
 
 /// Every coordinate finite and of sane size, every polygon with at least three existing vertices.

@@ -1,54 +1,294 @@
-//! OFF (also COFF and NOFF: colours and normals are passed over); the vertex order of the file is kept.
+//! OFF with its variants (normals, colours and texture coordinates are passed over), text or binary, also without its
+//! keyword; the vertex order of the file is kept.
 
 use super::problem::{Place, Problem};
-use super::reading::{number, text};
+use super::reading::{content_lines, number, text, unmarked};
 use crate::mesh::soup::PolygonSoup;
 use glam::DVec3;
 
+/// What the keyword says of a vertex's numbers: `[ST][C][N][4][n]OFF`, the letters in any order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Kind {
+    /// A fourth coordinate, by which the others are divided.
+    is_homogeneous: bool,
+    /// The number of coordinates follows the keyword.
+    has_dimension: bool,
+    /// Numbers of a vertex that are passed over.
+    others: usize,
+}
+
+impl Kind {
+    /// Of the first word of a file, with what stands in the word behind the keyword; `None` for other words.
+    fn of(word: &str) -> Option<(Self, &str)> {
+        let end = word.find("OFF").or_else(|| word.find("off"))?;
+        let (mut letters, rest) = (&word[..end], &word[end + 3..]);
+        // Some files lack the space after the keyword.
+        if !rest.bytes().all(|b| b.is_ascii_digit()) {
+            return None;
+        }
+        let mut kind = Self::default();
+        while !letters.is_empty() {
+            let (length, others) = match letters.as_bytes() {
+                [b'S', b'T', ..] => (2, 2),
+                [b'C', ..] => (1, 4),
+                [b'N', ..] => (1, 3),
+                [b'4', ..] if !kind.is_homogeneous => (1, 0),
+                [b'n', ..] if !kind.has_dimension => (1, 0),
+                _ => return None,
+            };
+            kind.is_homogeneous |= letters.starts_with('4');
+            kind.has_dimension |= letters.starts_with('n');
+            kind.others += others;
+            letters = &letters[length..];
+        }
+        Some((kind, rest))
+    }
+
+    fn coordinates(self) -> usize {
+        if self.is_homogeneous { 4 } else { 3 }
+    }
+
+    /// The position that the coordinates give.
+    fn position(self, p: [f64; 4], place: Place) -> Result<DVec3, Problem> {
+        let [x, y, z, w] = p;
+        match self.is_homogeneous {
+            false => Ok(DVec3::new(x, y, z)),
+            true if w != 0.0 => Ok(DVec3::new(x, y, z) / w),
+            true => Err((place, "its fourth coordinate is 0: it lies at infinity".into())),
+        }
+    }
+}
+
+/// Whether a file begins with these two lines: the keyword, or else two or three whole numbers and the coordinates of a vertex.
+pub(super) fn is_header(first: &[u8], second: Option<&[u8]>) -> bool {
+    let words = |line: &[u8]| -> Vec<String> {
+        String::from_utf8_lossy(line).split_whitespace().map(str::to_owned).collect()
+    };
+    let words_of_first = words(&first[..first.len().min(256)]);
+    if words_of_first.first().is_some_and(|word| Kind::of(word).is_some()) {
+        return true;
+    }
+    let is_counts = |words: &[String]| {
+        (2..=3).contains(&words.len()) && words.iter().all(|word| word.parse::<u32>().is_ok())
+    };
+    let is_vertex = |line: &[u8]| {
+        let words = words(&line[..line.len().min(1024)]);
+        words.len() >= 3 && words.iter().take(3).all(|word| word.parse::<f64>().is_ok())
+    };
+    is_counts(&words_of_first) && second.is_some_and(is_vertex)
+}
+
 pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
+    let unmarked = unmarked(bytes);
+    match binary_part(&unmarked) {
+        Some((kind, part)) => binary(kind, part),
+        None => read_text(bytes),
+    }
+}
+
+/// Elements announced.
+#[derive(Clone, Copy)]
+struct Counts {
+    vertices: usize,
+    faces: usize,
+}
+
+impl Counts {
+    /// Refuses more than a file can hold, so that a small one cannot ask for much memory.
+    fn checked(self, bytes: usize, least: [usize; 2], place: Place) -> Result<Self, Problem> {
+        let Self { vertices, faces } = self;
+        if vertices > bytes / least[0] + 1 || faces > bytes / least[1] + 1 {
+            let problem =
+                format!("it announces {vertices} vertices and {faces} faces, more than the file can hold");
+            return Err((place, problem));
+        }
+        Ok(self)
+    }
+
+    fn soup(self) -> PolygonSoup {
+        PolygonSoup {
+            positions: Vec::with_capacity(self.vertices),
+            polygons: Vec::with_capacity(self.faces),
+            ..PolygonSoup::default()
+        }
+    }
+}
+
+fn read_text(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
     let text = text(bytes)?;
-    let lines =
-        text.lines().enumerate().map(|(i, l)| (i + 1, l.split('#').next().unwrap_or_default().trim()));
-    let mut lines = lines.filter(|(_, l)| !l.is_empty());
-    let (mut line, mut header) = lines.next().unwrap_or((1, ""));
-    // The counts may stand on the first line, after the format's name.
-    header = header.split_once(char::is_whitespace).map_or("", |(_, rest)| rest.trim());
-    if header.is_empty() {
-        (line, header) = lines
+    let mut lines = content_lines(&text);
+    let (mut line, first) = lines.next().unwrap_or((1, ""));
+    let mut words: Vec<(usize, &str)> = first.split_whitespace().map(|word| (line, word)).collect();
+    let mut kind = Kind::default();
+    if let Some((of_word, rest)) = words.first().and_then(|(_, word)| Kind::of(word)) {
+        kind = of_word;
+        words[0].1 = rest;
+        words.retain(|(_, word)| !word.is_empty());
+    }
+    // The counts may stand on the first line, after the keyword, and so may all the rest.
+    while words.len() < 2 + usize::from(kind.has_dimension) {
+        let (number, content) = lines
             .next()
             .ok_or((Place::Line(line), "the numbers of vertices and faces are missing".into()))?;
+        line = number;
+        words.extend(content.split_whitespace().map(|word| (line, word)));
     }
-    let mut counts = header.split_whitespace();
-    let vertices: usize = number(counts.next(), line, "the number of vertices")?;
-    let faces: usize = number(counts.next(), line, "the number of faces")?;
-    // A vertex takes at least 6 bytes, a face at least 8.
-    if vertices > bytes.len() / 6 + 1 || faces > bytes.len() / 8 + 1 {
-        let problem =
-            format!("it announces {vertices} vertices and {faces} faces, more than the file can hold");
-        return Err((Place::Line(line), problem));
-    }
-    let mut soup = PolygonSoup {
-        positions: Vec::with_capacity(vertices),
-        polygons: Vec::with_capacity(faces),
-        ..PolygonSoup::default()
+    let mut words = words.into_iter();
+    let mut next = |what| {
+        let (line, word) = words.next().unzip();
+        number::<usize>(word, line.unwrap_or(1), what)
     };
-    let mut next_line = |what: &str| {
-        lines
-            .next()
-            .ok_or_else(|| (Place::Line(text.lines().count()), format!("the file ends before {what}")))
+    if kind.has_dimension {
+        let dimension = next("the number of coordinates")?;
+        if dimension != 3 {
+            return Err((
+                Place::Line(line),
+                format!("its vertices have {dimension} coordinates; only 3 can be read"),
+            ));
+        }
+    }
+    let counts = Counts { vertices: next("the number of vertices")?, faces: next("the number of faces")? };
+    let counts = counts.checked(bytes.len(), [6, 8], Place::Line(line))?;
+    let last_line = text.lines().count().max(1);
+    let rest: Vec<(usize, &str)> = lines.collect();
+    if rest.len() >= counts.vertices + counts.faces || words.len() <= 1 {
+        by_lines(kind, counts, rest.into_iter(), last_line)
+    } else {
+        // The number of edges is told and not needed.
+        let later = rest
+            .into_iter()
+            .flat_map(|(line, content)| content.split_whitespace().map(move |word| (line, word)));
+        by_words(kind, counts, words.skip(1).chain(later), last_line)
+    }
+}
+
+/// One line for each element: what follows its own numbers is passed over.
+fn by_lines<'a>(
+    kind: Kind,
+    counts: Counts,
+    mut lines: impl Iterator<Item = (usize, &'a str)>,
+    last_line: usize,
+) -> Result<PolygonSoup, Problem> {
+    let mut soup = counts.soup();
+    let Counts { vertices, faces } = counts;
+    let mut next_line = |what: &str, number: usize, of: usize| {
+        let problem = || (Place::Line(last_line), format!("the file ends before {what} {number} of {of}"));
+        lines.next().ok_or_else(problem)
     };
     for v in 0..vertices {
-        let (line, content) = next_line(&format!("vertex {v} of {vertices}"))?;
+        let (line, content) = next_line("vertex", v, vertices)?;
         let mut words = content.split_whitespace();
-        let mut next = || number::<f64>(words.next(), line, "a coordinate");
-        soup.positions.push(DVec3::new(next()?, next()?, next()?));
+        let mut p = [0.0; 4];
+        for x in &mut p[..kind.coordinates()] {
+            *x = number(words.next(), line, "a coordinate")?;
+        }
+        soup.positions.push(kind.position(p, Place::Line(line))?);
     }
     for f in 0..faces {
-        let (line, content) = next_line(&format!("face {f} of {faces}"))?;
+        let (line, content) = next_line("face", f, faces)?;
         let mut words = content.split_whitespace();
         let corners: usize = number(words.next(), line, "a number of corners")?;
         let corner = |_| number::<u32>(words.next(), line, "a vertex number");
         soup.polygons.push((0..corners).map(corner).collect::<Result<_, _>>()?);
+    }
+    Ok(soup)
+}
+
+/// Numbers one after another, wherever lines end: then a vertex has all the numbers that the keyword says, and faces no colours.
+fn by_words<'a>(
+    kind: Kind,
+    counts: Counts,
+    mut words: impl Iterator<Item = (usize, &'a str)>,
+    last_line: usize,
+) -> Result<PolygonSoup, Problem> {
+    let mut soup = counts.soup();
+    let mut next = || {
+        let (line, word) = words.next().unzip();
+        (line.unwrap_or(last_line), word)
+    };
+    for _ in 0..counts.vertices {
+        let (mut p, mut at) = ([0.0; 4], last_line);
+        for x in &mut p[..kind.coordinates()] {
+            let (line, word) = next();
+            (*x, at) = (number(word, line, "a coordinate")?, line);
+        }
+        (0..kind.others).for_each(|_| _ = next());
+        soup.positions.push(kind.position(p, Place::Line(at))?);
+    }
+    for _ in 0..counts.faces {
+        let (line, word) = next();
+        let corners: usize = number(word, line, "a number of corners")?;
+        let corner = |_| {
+            let (line, word) = next();
+            number::<u32>(word, line, "a vertex number")
+        };
+        soup.polygons.push((0..corners).map(corner).collect::<Result<_, _>>()?);
+    }
+    Ok(soup)
+}
+
+/// What follows the first line of a binary file; `None` for text.
+fn binary_part(bytes: &[u8]) -> Option<(Kind, &[u8])> {
+    let mut end = 0;
+    for line in bytes.split_inclusive(|b| *b == b'\n') {
+        end += line.len();
+        let content = line.trim_ascii();
+        if content.is_empty() || content.starts_with(b"#") {
+            continue;
+        }
+        let mut words = content.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        let (kind, rest) = Kind::of(std::str::from_utf8(words.next()?).ok()?)?;
+        let is_binary = rest.is_empty() && words.next() == Some(b"BINARY");
+        return is_binary.then_some((kind, &bytes[end..]));
+    }
+    None
+}
+
+/// Whole numbers and floats of 4 bytes each, the high one first.
+struct Words<'a>(std::slice::Iter<'a, [u8; 4]>);
+
+impl Words<'_> {
+    fn next(&mut self, place: Place) -> Result<[u8; 4], Problem> {
+        let word = self.0.next().copied();
+        word.ok_or_else(|| (place, "the file ends here: it is cut off".to_owned()))
+    }
+
+    fn whole(&mut self, place: Place, what: &str) -> Result<u32, Problem> {
+        let number = i32::from_be_bytes(self.next(place)?);
+        u32::try_from(number).map_err(|_| (place, format!("{number} should be {what}")))
+    }
+
+    fn float(&mut self, place: Place) -> Result<f64, Problem> {
+        Ok(f64::from(f32::from_be_bytes(self.next(place)?)))
+    }
+}
+
+fn binary(kind: Kind, part: &[u8]) -> Result<PolygonSoup, Problem> {
+    let mut words = Words(part.as_chunks::<4>().0.iter());
+    if kind.has_dimension && words.whole(Place::Header, "the number of coordinates")? != 3 {
+        return Err((Place::Header, "its vertices do not have 3 coordinates".into()));
+    }
+    let vertices = words.whole(Place::Header, "the number of vertices")? as usize;
+    let faces = words.whole(Place::Header, "the number of faces")? as usize;
+    words.whole(Place::Header, "the number of edges")?;
+    let counts = Counts { vertices, faces }.checked(part.len(), [12, 8], Place::Header)?;
+    let mut soup = counts.soup();
+    for v in 0..vertices {
+        let place = Place::Vertex(v);
+        let mut p = [0.0; 4];
+        for x in &mut p[..kind.coordinates()] {
+            *x = words.float(place)?;
+        }
+        (0..kind.others).try_for_each(|_| words.next(place).map(drop))?;
+        soup.positions.push(kind.position(p, place)?);
+    }
+    for f in 0..faces {
+        let place = Place::Face(f);
+        let corners = words.whole(place, "a number of corners")?;
+        let polygon = (0..corners).map(|_| words.whole(place, "a vertex number"));
+        soup.polygons.push(polygon.collect::<Result<_, _>>()?);
+        let colours = words.whole(place, "a number of colours")?;
+        (0..colours).try_for_each(|_| words.next(place).map(drop))?;
     }
     Ok(soup)
 }

@@ -1,26 +1,148 @@
 //! PLY, text and binary; the vertex order of the file is kept.
+//!
+//! The library reads the elements, into types that hold no more than a mesh needs: an element of one byte must not become
+//! hundreds.
 
 use super::problem::{Place, Problem};
 use crate::mesh::soup::PolygonSoup;
 use glam::DVec3;
+use std::collections::BTreeSet;
+use std::io::{BufRead, Read};
 
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
-use ply_rs_bw::ply::{DefaultElement, ElementDef, Encoding, Header, Property, PropertyType, ScalarType};
+use ply_rs_bw::ply::{
+    ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,
+};
+
+/// The names of the list of a face's vertices.
+const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
-    let broken = |e: ParseError| (Place::Header, format!("it cannot be read: {e}"));
-    let mut reader = Reader::new(bytes);
-    let parser = Parser::<DefaultElement>::new();
-    let header = parser.read_header(&mut reader).map_err(broken)?;
+    let file = File::split(bytes)?;
+    check_names(&file.header)?;
+    let mut reader = Reader::new(file.header.as_bytes().chain(&file.body[..]));
+    let header = Parser::<Passed>::new().read_header(&mut reader);
+    let header = header.map_err(|e| (Place::Header, format!("it cannot be read: {}", short(&e))))?;
+    check_elements(&header)?;
     check_sizes(&header, bytes.len())?;
-    let mut payload = parser.read_payload(&mut reader, &header).map_err(|e| {
-        (Place::Header, format!("its contents do not match its header ({e}): the file may be cut off"))
-    })?;
-    let vertices = payload.swap_remove("vertex").ok_or((Place::Header, "it has no vertices".to_owned()))?;
-    let faces = payload.swap_remove("face").ok_or((Place::Header, "it has no faces".to_owned()))?;
-    let positions = vertices.iter().enumerate().map(|(v, e)| position(v, e)).collect::<Result<_, _>>()?;
-    let polygons = faces.iter().enumerate().map(|(f, e)| polygon(f, e)).collect::<Result<_, _>>()?;
-    Ok(PolygonSoup { positions, polygons, ..PolygonSoup::default() })
+    let mut soup = PolygonSoup::default();
+    for (name, element) in &header.elements {
+        match name.as_str() {
+            "vertex" => {
+                let vertices = elements::<Vertex, _>(&mut reader, element, &header)?;
+                soup.positions = vertices.into_iter().map(|vertex| DVec3::from(vertex.0)).collect();
+            }
+            "face" => {
+                let faces = elements::<Face, _>(&mut reader, element, &header)?;
+                soup.polygons = faces
+                    .into_iter()
+                    .enumerate()
+                    .map(|(f, face)| face.polygon(f))
+                    .collect::<Result<_, _>>()?;
+            }
+            _ => drop(elements::<Passed, _>(&mut reader, element, &header)?),
+        }
+    }
+    Ok(soup)
+}
+
+/// All elements of a kind.
+fn elements<E: PropertyAccess, R: BufRead>(
+    reader: &mut Reader<R>,
+    element: &ElementDef,
+    header: &Header,
+) -> Result<Vec<E>, Problem> {
+    Parser::<E>::new().read_payload_for_element(reader, element, header).map_err(|e| {
+        let problem = short(&e);
+        (Place::Header, format!("its contents do not match its header ({problem}): the file may be cut off"))
+    })
+}
+
+/// The first words of what the library says, which may be whole lines of the file.
+fn short(error: &ParseError) -> String {
+    let words = error.to_string();
+    let first = words.lines().next().unwrap_or_default();
+    first.chars().filter(|c| !c.is_control()).take(160).collect::<String>().trim_end_matches('.').to_owned()
+}
+
+/// A file with its header as the library reads it.
+struct File<'a> {
+    /// Its lines end as on Unix, and its comments, which may be in any encoding, are empty.
+    header: String,
+    body: std::borrow::Cow<'a, [u8]>,
+}
+
+impl<'a> File<'a> {
+    fn split(bytes: &'a [u8]) -> Result<Self, Problem> {
+        let first_end = bytes.iter().position(|b| matches!(b, b'\n' | b'\r')).unwrap_or(bytes.len());
+        let is_old_macintosh =
+            bytes.get(first_end) == Some(&b'\r') && bytes.get(first_end + 1) != Some(&b'\n');
+        let end = if is_old_macintosh { b'\r' } else { b'\n' };
+        let (mut header, mut length) = (String::new(), 0);
+        for line in bytes.split_inclusive(|b| *b == end) {
+            length += line.len();
+            let content = String::from_utf8_lossy(line.trim_ascii());
+            let is_comment = ["comment", "obj_info"].iter().any(|word| content.starts_with(word));
+            header.push_str(if is_comment { "comment" } else { &content });
+            header.push('\n');
+            if content == "end_header" {
+                let body = &bytes[length..];
+                let is_text = header.lines().any(|line| line.starts_with("format ascii"));
+                let body = if is_old_macintosh && is_text {
+                    body.iter().map(|b| if *b == b'\r' { b'\n' } else { *b }).collect()
+                } else {
+                    body.into()
+                };
+                return Ok(Self { header, body });
+            }
+        }
+        Err((Place::Header, "it does not end: the line `end_header` is missing".into()))
+    }
+}
+
+/// Refuses names that are there twice, of which the library would keep one.
+fn check_names(header: &str) -> Result<(), Problem> {
+    let mut elements = BTreeSet::new();
+    let mut properties = BTreeSet::new();
+    for (index, line) in header.lines().enumerate() {
+        let mut words = line.split_whitespace();
+        let is_new = match words.next() {
+            Some("element") => {
+                properties.clear();
+                words.next().is_none_or(|name| elements.insert(name))
+            }
+            Some("property") => words.next_back().is_none_or(|name| properties.insert(name)),
+            _ => true,
+        };
+        if !is_new {
+            return Err((Place::Line(index + 1), "its name is there twice".into()));
+        }
+    }
+    Ok(())
+}
+
+/// Vertices must have coordinates, and faces their vertices.
+fn check_elements(header: &Header) -> Result<(), Problem> {
+    let element = |name: &str, what: &str| {
+        header.elements.get(name).ok_or_else(|| (Place::Header, format!("it has no {what}")))
+    };
+    let (vertex, face) = (element("vertex", "vertices")?, element("face", "faces")?);
+    for name in ["x", "y", "z"] {
+        let property = vertex.properties.get(name).map(|property| &property.data_type);
+        if !matches!(property, Some(PropertyType::Scalar(_))) {
+            return Err((Place::Header, format!("its vertices have no coordinate {name}")));
+        }
+    }
+    let is_list = |name: &str| {
+        let property = face.properties.get(name).map(|property| &property.data_type);
+        let is_whole = |t: &ScalarType| !matches!(t, ScalarType::Float | ScalarType::Double);
+        matches!(property, Some(PropertyType::List(_, of)) if is_whole(of))
+    };
+    if CORNERS.into_iter().any(is_list) {
+        Ok(())
+    } else {
+        Err((Place::Header, "its faces have no list vertex_indices of whole numbers".into()))
+    }
 }
 
 /// The elements announced must fit into the file, so that a small file cannot ask for much memory or time.
@@ -29,6 +151,7 @@ fn check_sizes(header: &Header, bytes: usize) -> Result<(), Problem> {
     for (name, element) in &header.elements {
         let size = least_size(element, header.encoding);
         if size == 0 && element.count > 0 {
+            let name: String = name.chars().take(40).collect();
             return Err((Place::Header, format!("element \"{name}\" has no properties")));
         }
         least = least.saturating_add(size.saturating_mul(element.count as u64));
@@ -53,19 +176,26 @@ fn least_size(element: &ElementDef, encoding: Encoding) -> u64 {
     };
     let property = |p: &PropertyType| match p {
         PropertyType::Scalar(t) => size(t),
-        PropertyType::List(count, _) => size(count),
+        // An empty list is its length alone.
+        PropertyType::List(length, _) => size(length),
     };
-    element.properties.values().map(|p| property(&p.data_type)).sum()
+    element.properties.iter().map(|(_, p)| property(&p.data_type)).sum()
 }
 
-fn position(v: usize, element: &DefaultElement) -> Result<DVec3, Problem> {
-    let coordinate = |name: &str| {
-        element
-            .get(name)
-            .and_then(scalar)
-            .ok_or_else(|| (Place::Vertex(v), format!("it has no coordinate {name}")))
-    };
-    Ok(DVec3::new(coordinate("x")?, coordinate("y")?, coordinate("z")?))
+/// A vertex's place.
+struct Vertex([f64; 3]);
+
+impl PropertyAccess for Vertex {
+    fn new() -> Self {
+        Self([0.0; 3])
+    }
+
+    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
+        let axis = ["x", "y", "z"].iter().position(|axis| *axis == name);
+        let Some((axis, value)) = axis.zip(scalar(&property)) else { return PropertyAccessResult::Ignored };
+        self.0[axis] = value;
+        PropertyAccessResult::Set
+    }
 }
 
 fn scalar(property: &Property) -> Option<f64> {
@@ -82,16 +212,42 @@ fn scalar(property: &Property) -> Option<f64> {
     })
 }
 
-fn polygon(f: usize, element: &DefaultElement) -> Result<Vec<u32>, Problem> {
-    let list = element.get("vertex_indices").or_else(|| element.get("vertex_index"));
-    let corners: Option<Vec<u32>> = match list {
-        Some(Property::ListChar(x)) => x.iter().map(|&v| u32::try_from(v).ok()).collect(),
-        Some(Property::ListUChar(x)) => Some(x.iter().map(|&v| u32::from(v)).collect()),
-        Some(Property::ListShort(x)) => x.iter().map(|&v| u32::try_from(v).ok()).collect(),
-        Some(Property::ListUShort(x)) => Some(x.iter().map(|&v| u32::from(v)).collect()),
-        Some(Property::ListInt(x)) => x.iter().map(|&v| u32::try_from(v).ok()).collect(),
-        Some(Property::ListUInt(x)) => Some(x.clone()),
-        _ => None,
-    };
-    corners.ok_or_else(|| (Place::Face(f), "it has no usable list of vertex numbers".into()))
+/// A face's vertices; none where a number of one is negative.
+struct Face(Option<Vec<u32>>);
+
+impl Face {
+    fn polygon(self, f: usize) -> Result<Vec<u32>, Problem> {
+        self.0.ok_or_else(|| (Place::Face(f), "it has no usable list of vertex numbers".into()))
+    }
+}
+
+impl PropertyAccess for Face {
+    fn new() -> Self {
+        Self(None)
+    }
+
+    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
+        if !CORNERS.contains(&name) {
+            return PropertyAccessResult::Ignored;
+        }
+        self.0 = match property {
+            Property::ListChar(x) => x.iter().map(|&v| u32::try_from(v).ok()).collect(),
+            Property::ListUChar(x) => Some(x.iter().map(|&v| u32::from(v)).collect()),
+            Property::ListShort(x) => x.iter().map(|&v| u32::try_from(v).ok()).collect(),
+            Property::ListUShort(x) => Some(x.iter().map(|&v| u32::from(v)).collect()),
+            Property::ListInt(x) => x.iter().map(|&v| u32::try_from(v).ok()).collect(),
+            Property::ListUInt(x) => Some(x),
+            _ => None,
+        };
+        PropertyAccessResult::Set
+    }
+}
+
+/// An element that is passed over.
+struct Passed;
+
+impl PropertyAccess for Passed {
+    fn new() -> Self {
+        Self
+    }
 }

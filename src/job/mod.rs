@@ -23,7 +23,7 @@ pub use taken::{OutputKind, TakenMap};
 
 use crate::io::landmark_file::LandmarkFile;
 use crate::io::landmark_formats::Space;
-use crate::landmark_exchange::{GivenFile, PairLandmarks, Remark, Surface, read_pairs};
+use crate::landmark_exchange::{GivenFile, PairLandmarks, Remark, Surface, compare_names, read_pairs};
 use crate::landmarks::{MeshSide, PlacedLandmarks, place};
 use crate::map_file::FileMesh;
 use crate::mesh::check::CheckedMesh;
@@ -120,6 +120,11 @@ impl Job {
         &self.repairs
     }
 
+    /// Whether its maps have a map file: not those of repaired meshes, whose numbers are not those of their files.
+    pub fn has_map_file(&self) -> bool {
+        !self.meshes.iter().any(FileMesh::is_repaired)
+    }
+
     /// Number of landmark pairs.
     pub fn landmark_count(&self) -> usize {
         self.placed.landmarks.len()
@@ -128,6 +133,12 @@ impl Job {
     /// What there is to know about the landmarks as they were read.
     pub fn landmark_remarks(&self) -> &[Remark] {
         &self.remarks
+    }
+
+    /// Compares the names of the mesh files, source and target, with those that the landmark file names. What differs is told
+    /// among [`Self::landmark_remarks`] and the report's warnings.
+    pub fn compare_names(&mut self, given: [&str; 2]) {
+        self.remarks.extend(compare_names(&self.landmarks, given));
     }
 
     /// Landmark pairs that do not fit and limbs without one, with the numbers of the files.
@@ -157,7 +168,8 @@ impl Job {
             [&|p| self.on_source_file(p), &|p| self.on_target_file(p)];
         result.report.distortion.replace_worst(on_files);
         let warnings = std::mem::take(&mut result.report.warnings);
-        result.report.warnings = self.repair_warnings().into_iter().chain(warnings).collect();
+        result.report.warnings =
+            self.repair_warnings().into_iter().chain(self.landmark_warnings()).chain(warnings).collect();
         Ok(result)
     }
 
@@ -173,6 +185,23 @@ impl Job {
             }
         }
         warnings
+    }
+
+    /// What makes it doubtful that the landmark file belongs to the meshes.
+    fn landmark_warnings(&self) -> impl Iterator<Item = Warning> {
+        let is_doubtful = |remark: &&Remark| {
+            matches!(
+                remark,
+                Remark::LabelCount { .. }
+                    | Remark::OtherMesh { .. }
+                    | Remark::ExchangedMeshes
+                    | Remark::PairedByOrder
+            )
+        };
+        self.remarks
+            .iter()
+            .filter(is_doubtful)
+            .map(|remark| Warning::LandmarkFile { remark: remark.to_string() })
     }
 
     fn input(&self) -> MapInput<'_> {

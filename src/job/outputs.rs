@@ -6,7 +6,7 @@ use crate::base_domain::BaseDomain;
 use crate::export;
 use crate::export::glb::GlbError;
 use crate::export::vertex_image::{self, Direction, PointImage};
-use crate::map_file::MapFile;
+use crate::map_file::{FileMesh, MapFile};
 use crate::mesh::mirror::mirrored;
 use crate::mesh::{Carrier, FaceFrame, FaceId};
 use crate::pipeline::{Choices, MapResult};
@@ -73,9 +73,10 @@ impl Job {
     pub fn textured_source(&self, result: &MapResult) -> Result<Vec<u8>, GlbError> {
         let mut common = result.common.clone();
         for vectors in [&mut common.target_positions, &mut common.target_normals] {
-            vectors.iter_mut().for_each(|p| *p = self.meshes[1].in_file(*p));
+            vectors.iter_mut().for_each(|p| *p = self.meshes[1].as_given(*p));
         }
-        export::glb::textured_source(&common, &result.common_vertex_distortion())
+        let frames = self.meshes.each_ref().map(FileMesh::frame);
+        export::glb::textured_source(&common, &result.common_vertex_distortion(), frames)
     }
 
     /// The image of each vertex of the source's file, as CSV; where the target has caps, with a column that tells whether the image
@@ -107,6 +108,11 @@ impl Job {
         let base = &result.base.mesh;
         // A mirror image has the connectivity of its mesh, so it never fails.
         let image = if self.meshes[1].is_mirrored() { mirrored(base).ok() } else { None };
-        BaseDomain { mesh: image.unwrap_or_else(|| base.clone()) }
+        let mesh = image.unwrap_or_else(|| base.clone());
+        let frame = self.meshes[1].frame();
+        if frame.is_the_files() {
+            return BaseDomain { mesh };
+        }
+        BaseDomain { mesh: mesh.with_positions(mesh.positions().iter().map(|p| frame.in_file(*p)).collect()) }
     }
 }

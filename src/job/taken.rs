@@ -234,12 +234,12 @@ impl<'a> TakenMap<'a> {
         correspondence::distortion(self.surfaces(), &self.map.correspondence, self.caps())
     }
 
-    /// The pieces as one mesh, in the files' coordinates.
+    /// The pieces as one mesh, in the coordinates of the checked meshes, not mirrored.
     pub fn common(&self) -> CommonMesh {
         let mut common =
             correspondence::common_mesh(self.surfaces(), &self.map.correspondence, self.map.texture.as_ref());
         for vectors in [&mut common.target_positions, &mut common.target_normals] {
-            vectors.iter_mut().for_each(|p| *p = self.meshes[1].in_file(*p));
+            vectors.iter_mut().for_each(|p| *p = self.meshes[1].as_given(*p));
         }
         common
     }
@@ -264,7 +264,11 @@ impl<'a> TakenMap<'a> {
 
     fn textured_source(&self) -> Result<Vec<u8>, GlbError> {
         let common = self.common();
-        export::glb::textured_source(&common, &self.common_distortion(&common))
+        export::glb::textured_source(
+            &common,
+            &self.common_distortion(&common),
+            self.meshes.map(FileMesh::frame),
+        )
     }
 
     /// The polygons of one file with its vertices at their images on the other mesh. A vertex that no face uses is put where the
@@ -290,14 +294,15 @@ impl<'a> TakenMap<'a> {
         })
     }
 
-    /// The sides of the flat base domain on the source and on the target, as line strips in the files' coordinates.
+    /// The sides of the flat base domain on the source and on the target, as line strips in the coordinates of the checked
+    /// meshes, not mirrored.
     pub fn patch_lines(&self) -> [Vec<Vec<DVec3>>; 2] {
         let Some(layout) = &self.map.layout else { return [Vec::new(), Vec::new()] };
         [0, 1].map(|side| {
             let mesh = self.meshes[side];
             let lines = layout.drawings[side].side_lines(&layout.base.mesh);
             let place = |v: &u32| {
-                mesh.in_file(layout.drawings[side].vertices[*v as usize].place.position(mesh.mesh()))
+                mesh.as_given(layout.drawings[side].vertices[*v as usize].place.position(mesh.mesh()))
             };
             lines.iter().map(|line| line.iter().map(place).collect()).collect()
         })

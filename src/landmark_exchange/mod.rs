@@ -3,6 +3,7 @@
 //! Points in space are put on the nearest point of the surface, with their distances told; the lists of two meshes are paired
 //! by equal labels, or else by order.
 
+mod mesh_names;
 mod pairing;
 mod problem;
 mod projection;
@@ -11,6 +12,7 @@ mod remark;
 mod surface;
 mod writing;
 
+pub use mesh_names::compare_names;
 pub use problem::{Advice, ExchangeError};
 pub use projection::{PlacedMark, SideLandmarks};
 pub use reading::{GivenFile, PairLandmarks, read_pairs, read_side};

@@ -48,6 +48,7 @@ pub struct SideLandmarks {
 /// What places the landmarks of one list.
 struct Placement<'a> {
     surface: Surface<'a>,
+    /// The square root of the mesh's area, in the units of its file.
     size: f64,
     /// The number in the file of each vertex of the mesh.
     numbers: Vec<usize>,
@@ -68,7 +69,7 @@ pub(super) fn place(
     let has_places = list.marks.iter().any(|mark| matches!(mark.spot, Some(Spot::InSpace(_))));
     let placement = Placement {
         surface,
-        size: surface.size(),
+        size: surface.size() * surface.mesh.frame.scale(),
         numbers: surface.mesh.file_from_vertex(),
         index: has_places.then(|| SurfaceIndex::new(&surface.mesh.mesh)),
     };
@@ -84,7 +85,7 @@ pub(super) fn place(
                 })?;
                 PlacedMark { label, point: Some(point), distance: 0.0 }
             }
-            Some(Spot::InSpace(p)) => placement.nearest(label, placement.in_mesh_space(list, p)),
+            Some(Spot::InSpace(p)) => placement.nearest(label, placement.in_system(list, p)),
         });
     }
     placement.check_distances(list, &marks, side, file)?;
@@ -115,7 +116,8 @@ impl Placement<'_> {
         (number < self.surface.mesh.vertex_from_file.len()).then_some(LandmarkPoint::Vertex(number as u32))
     }
 
-    fn in_mesh_space(&self, list: &MarkList, p: DVec3) -> DVec3 {
+    /// In the coordinate system of the mesh's file.
+    fn in_system(&self, list: &MarkList, p: DVec3) -> DVec3 {
         list.space.map_or(p, |space| space.to(self.surface.space, p))
     }
 
@@ -124,17 +126,19 @@ impl Placement<'_> {
         let Some(index) = &self.index else {
             return PlacedMark { label, point: None, distance: 0.0 };
         };
-        let found = index.nearest(p);
+        let frame = self.surface.mesh.frame;
+        let found = index.nearest(frame.on_mesh(p));
         let mesh = &self.surface.mesh.mesh;
         let at = found.point.position(mesh);
         let corners = mesh.triangles()[found.point.face];
-        let vertex = corners.iter().find(|v| mesh.positions()[**v].distance(at) <= AT_VERTEX * self.size);
+        let vertex =
+            corners.iter().find(|v| mesh.positions()[**v].distance(at) <= AT_VERTEX * self.surface.size());
         let on_face = || {
             let SurfacePoint { face, barycentric } = self.surface.mesh.on_file(found.point);
             LandmarkPoint::OnFace { face: face.0, barycentric }
         };
         let point = vertex.and_then(|v| self.vertex(*v)).unwrap_or_else(on_face);
-        PlacedMark { label, point: Some(point), distance: found.distance }
+        PlacedMark { label, point: Some(point), distance: found.distance * frame.scale() }
     }
 
     /// Refuses points that are far from the mesh, the farthest named.
@@ -167,12 +171,13 @@ impl Placement<'_> {
     fn advice(&self, list: &MarkList) -> Option<Advice> {
         let index = self.index.as_ref()?;
         let in_space = list.marks.iter().filter_map(|mark| match mark.spot {
-            Some(Spot::InSpace(p)) => Some(self.in_mesh_space(list, p)),
+            Some(Spot::InSpace(p)) => Some(self.in_system(list, p)),
             _ => None,
         });
         let points: Vec<DVec3> = in_space.take(LOOKED_AT).collect();
         let fit = |turned: &dyn Fn(DVec3) -> DVec3| {
-            points.iter().all(|p| index.nearest(turned(*p)).distance <= FITS * self.size)
+            let on_mesh = |p: &DVec3| self.surface.mesh.frame.on_mesh(turned(*p));
+            points.iter().all(|p| index.nearest(on_mesh(p)).distance <= FITS * self.surface.size())
         };
         if fit(&crate::io::landmark_formats::half_turned) {
             return Some(Advice::HalfTurn);

@@ -44,8 +44,15 @@ pub fn read_pairs(
     match files {
         [file] => match content(file, 0)? {
             (format, Content::Pairs(file)) => {
-                let distances = vec![[0.0; 2]; file.pairs.len()];
-                Ok(PairLandmarks { file, formats: vec![format], distances, remarks: Vec::new() })
+                let pairs = file.pairs.len();
+                let labels = file.labels.as_ref().map_or(pairs, Vec::len);
+                let remarks = (labels != pairs).then_some(Remark::LabelCount { labels, pairs });
+                Ok(PairLandmarks {
+                    file,
+                    formats: vec![format],
+                    distances: vec![[0.0; 2]; pairs],
+                    remarks: remarks.into_iter().collect(),
+                })
             }
             (format, Content::Sides([a, b])) => {
                 let sides =

@@ -40,6 +40,24 @@ pub enum Remark {
     },
     /// The labels of the two lists differ.
     PairedByOrder,
+    /// There are not as many labels as pairs.
+    LabelCount {
+        /// Labels.
+        labels: usize,
+        /// Pairs.
+        pairs: usize,
+    },
+    /// A file names another mesh than the one given.
+    OtherMesh {
+        /// The mesh.
+        side: MeshSide,
+        /// What the file calls it.
+        named: String,
+        /// The name of the file given.
+        given: String,
+    },
+    /// A file names the two meshes given the other way round.
+    ExchangedMeshes,
 }
 
 impl Remark {
@@ -49,6 +67,9 @@ impl Remark {
             Self::NotPlaced { .. } | Self::More { off_surface: false, .. } => "not_placed",
             Self::OffSurface { .. } | Self::More { off_surface: true, .. } => "off_surface",
             Self::PairedByOrder => "paired_by_order",
+            Self::LabelCount { .. } => "label_count",
+            Self::OtherMesh { .. } => "other_mesh",
+            Self::ExchangedMeshes => "exchanged_meshes",
         }
     }
 }
@@ -71,8 +92,7 @@ impl fmt::Display for Named<'_> {
         if self.label.is_empty() {
             return Ok(());
         }
-        let short: String = self.label.chars().take(60).filter(|c| !c.is_control()).collect();
-        write!(f, " (\"{short}\")")
+        write!(f, " (\"{}\")", short(self.label))
     }
 }
 
@@ -99,8 +119,29 @@ impl fmt::Display for Remark {
             Self::PairedByOrder => {
                 f.write_str("the labels of source and target differ: the landmarks are paired by their order")
             }
+            Self::LabelCount { labels, pairs } => {
+                write!(
+                    f,
+                    "the file has {labels} labels for {pairs} pairs: names may stand at other pairs than theirs"
+                )
+            }
+            Self::OtherMesh { side, named, given } => {
+                let [named, given] = [named, given].map(|name| short(name));
+                write!(
+                    f,
+                    "the file was made for the {side} \"{named}\", and \"{given}\" is given: its numbers may mean other places"
+                )
+            }
+            Self::ExchangedMeshes => f.write_str(
+                "the file was made for these meshes the other way round: exchange source and target",
+            ),
         }
     }
+}
+
+/// The first characters of a name, without those that steer terminals.
+fn short(name: &str) -> String {
+    name.chars().take(60).filter(|c| !c.is_control()).collect()
 }
 
 /// A length with four significant digits.

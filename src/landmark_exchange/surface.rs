@@ -13,7 +13,7 @@ pub struct Surface<'a> {
 }
 
 impl Surface<'_> {
-    /// The square root of the area: what distances are compared with.
+    /// The square root of the area, in the mesh's coordinates: what distances are compared with.
     pub fn size(self) -> f64 {
         self.mesh.mesh.area().sqrt()
     }

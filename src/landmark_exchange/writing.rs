@@ -77,7 +77,7 @@ fn marks(file: &LandmarkFile, surface: Surface<'_>, side: MeshSide) -> Result<Su
             LandmarkPoint::OnFace { barycentric, .. } => barycentric,
             LandmarkPoint::Vertex(_) => on_file.barycentric,
         };
-        let position = point.position(&surface.mesh.mesh);
+        let position = surface.mesh.frame.in_file(point.position(&surface.mesh.mesh));
         SurfaceMark { label: label(pair), position, face: on_file.face.0, weights }
     };
     let name = match side {

@@ -3,7 +3,7 @@
 use crate::io::{self, ReadError};
 use crate::mesh::check::{CheckedMesh, MeshFault, closed_genus_zero};
 use crate::mesh::mirror::{TargetImage, mirrored, mirrored_point};
-use crate::mesh::{FaceId, MeshError, SurfaceMesh, SurfacePoint, VertexId};
+use crate::mesh::{FaceId, FileFrame, MeshError, SurfaceMesh, SurfacePoint, VertexId};
 use glam::DVec3;
 use sha2::{Digest, Sha256};
 
@@ -16,7 +16,7 @@ impl Hash {
         Self(Sha256::digest(bytes).into())
     }
 
-    /// Of a checked mesh: numbers of vertices and faces of the mesh and of vertices of the file (u64), coordinates (f64), faces
+    /// Of a checked mesh: numbers of vertices and faces of the mesh and of vertices of the file (u64), coordinates as in the file (f64), faces
     /// (u32), the vertex of each of the file's vertices (u32, 2^32 - 1 for none) and which faces were turned (u8); all
     /// little-endian.
     pub fn of_checked(checked: &CheckedMesh) -> Self {
@@ -26,7 +26,7 @@ impl Hash {
             hash.update((count as u64).to_le_bytes());
         }
         for p in mesh.positions() {
-            p.to_array().iter().for_each(|x| hash.update(x.to_le_bytes()));
+            checked.frame.in_file(*p).to_array().iter().for_each(|x| hash.update(x.to_le_bytes()));
         }
         for v in mesh.triangles().iter().flatten() {
             hash.update(v.0.to_le_bytes());
@@ -165,12 +165,22 @@ impl FileMesh {
         self.numbers[v.index()]
     }
 
-    /// A position on the mesh, or a direction, as one of the file: not mirrored.
-    pub fn in_file(&self, p: DVec3) -> DVec3 {
+    /// A position on the mesh, or a direction, as one of the checked mesh: not mirrored.
+    pub fn as_given(&self, p: DVec3) -> DVec3 {
         match self.image {
             TargetImage::AsGiven => p,
             TargetImage::Mirrored => DVec3::new(-p.x, p.y, p.z),
         }
+    }
+
+    /// A position on the mesh as one of the file: not mirrored, with the file's origin and units.
+    pub fn in_file(&self, p: DVec3) -> DVec3 {
+        self.frame().in_file(self.as_given(p))
+    }
+
+    /// From the coordinates of the checked mesh, not mirrored, to those of the file.
+    pub fn frame(&self) -> FileFrame {
+        self.checked.frame
     }
 
     /// A point of the mesh as a point of the file: not mirrored, and with the face's corners in the file's order.

@@ -1,12 +1,14 @@
 //! From a polygon soup to one closed, oriented, manifold surface of genus 0, or to a sentence that says why not.
 
+use super::polygon::triangulate;
 use super::soup::PolygonSoup;
-use super::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
+use super::{FaceId, FileFrame, SurfaceMesh, SurfacePoint, VertexId};
 use crate::math::disjoint_sets::DisjointSets;
 use crate::math::triangle;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use serde::Serialize;
+use std::borrow::Cow;
 use std::fmt;
 use typed_index_collections::{TiSlice, TiVec};
 
@@ -16,8 +18,10 @@ use typed_index_collections::{TiSlice, TiVec};
 /// there: they count on from the last number of the file, vertices and faces apart, in the order of the mesh.
 #[derive(Clone, Debug)]
 pub struct CheckedMesh {
-    /// One closed component of genus 0, oriented outwards.
+    /// One closed component of genus 0, oriented outwards, in coordinates that formulas can take.
     pub mesh: SurfaceMesh,
+    /// From these coordinates to those of the file; the same for usual meshes.
+    pub frame: FileFrame,
     /// The mesh's vertex for each vertex of the file; `None` for vertices that no face uses, which are left out.
     pub vertex_from_file: Vec<Option<VertexId>>,
     /// Whether each face was turned, its last two corners exchanged, to agree with its neighbours or to face outwards.
@@ -51,6 +55,15 @@ impl CheckedMesh {
         let added = numbers.iter_mut().filter(|number| **number == usize::MAX);
         added.zip(self.vertex_from_file.len()..).for_each(|(number, next)| *number = next);
         numbers
+    }
+
+    /// The mesh with the coordinates of the file.
+    pub fn mesh_in_file(&self) -> Cow<'_, SurfaceMesh> {
+        if self.frame.is_the_files() {
+            return Cow::Borrowed(&self.mesh);
+        }
+        let places = self.mesh.positions().iter().map(|p| self.frame.in_file(*p)).collect();
+        Cow::Owned(self.mesh.with_positions(places))
     }
 
     /// Whether a face is part of a cap.
@@ -281,6 +294,13 @@ pub(crate) type Triangle = [u32; 3];
 /// # Errors
 /// The first [`MeshFault`] in the order of the enum, with counts and file numbers.
 pub fn closed_genus_zero(soup: &PolygonSoup) -> Result<CheckedMesh, MeshFault> {
+    let frame = FileFrame::of(soup);
+    let checked = judged(&frame.soup(soup))?;
+    Ok(CheckedMesh { frame, ..checked })
+}
+
+/// Judges a soup of usual coordinates.
+fn judged(soup: &PolygonSoup) -> Result<CheckedMesh, MeshFault> {
     let (mut triangles, polygon_of) = triangulated(soup)?;
     check_degenerate(soup, &triangles, &polygon_of)?;
     let edges = EdgeTable::new(&triangles)?;
@@ -302,7 +322,7 @@ pub fn closed_genus_zero(soup: &PolygonSoup) -> Result<CheckedMesh, MeshFault> {
     let mesh = SurfaceMesh::from_triangles(positions, faces);
     // Everything that could be refused was refused above with better words.
     let mesh = mesh.map_err(|_| MeshFault::PinchedVertices(Elements { count: 1, first: Vec::new() }))?;
-    Ok(CheckedMesh { mesh, vertex_from_file, turned, repaired_faces: None })
+    Ok(CheckedMesh { mesh, frame: FileFrame::default(), vertex_from_file, turned, repaired_faces: None })
 }
 
 /// Triangles, and the polygon that each comes from.
@@ -319,45 +339,10 @@ pub(crate) fn triangulated(soup: &PolygonSoup) -> Result<(Vec<Triangle>, Vec<usi
     }
     let (mut triangles, mut polygon_of) = (Vec::with_capacity(faces), Vec::with_capacity(faces));
     for (f, polygon) in soup.polygons.iter().enumerate() {
-        cut_ears(soup, polygon, &mut triangles);
+        triangulate(&soup.positions, polygon, &mut triangles);
         polygon_of.resize(triangles.len(), f);
     }
     Ok((triangles, polygon_of))
-}
-
-/// Cuts a polygon into triangles: repeatedly the best-shaped ear on the polygon's mean plane.
-fn cut_ears(soup: &PolygonSoup, polygon: &[u32], triangles: &mut Vec<Triangle>) {
-    let at = |v: u32| soup.positions[v as usize];
-    let mut ring: Vec<u32> = polygon.to_vec();
-    let mean = ring.iter().map(|&v| at(v)).sum::<DVec3>() / ring.len() as f64;
-    let spans = (0..ring.len()).map(|k| (at(ring[k]) - mean).cross(at(ring[(k + 1) % ring.len()]) - mean));
-    let normal: DVec3 = spans.sum();
-    while ring.len() > 3 {
-        let n = ring.len();
-        let quality = |k: usize| {
-            let [a, b, c] = [ring[(k + n - 1) % n], ring[k], ring[(k + 1) % n]];
-            let [p, q, r] = [a, b, c].map(at);
-            let cross = (q - p).cross(r - p);
-            let longest = p.distance_squared(q).max(q.distance_squared(r)).max(r.distance_squared(p));
-            let inside = |v: u32| {
-                let x = at(v);
-                let left = |u: DVec3, w: DVec3| (w - u).cross(x - u).dot(normal) >= 0.0;
-                v != a && v != b && v != c && left(p, q) && left(q, r) && left(r, p)
-            };
-            if cross.dot(normal) <= 0.0 || ring.iter().any(|&v| inside(v)) {
-                0.0
-            } else {
-                cross.length() / longest
-            }
-        };
-        // For long rings the first good ear is enough: trying all would be cubic.
-        // Few polygons have more than 64 corners.
-        let candidates = 0..n.min(64);
-        let best = candidates.max_by(|&i, &j| quality(i).total_cmp(&quality(j))).unwrap_or(0);
-        triangles.push([ring[(best + n - 1) % n], ring[best], ring[(best + 1) % n]]);
-        ring.remove(best);
-    }
-    triangles.push([ring[0], ring[1], ring[2]]);
 }
 
 fn check_degenerate(

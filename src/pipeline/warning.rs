@@ -23,6 +23,11 @@ pub enum Warning {
         /// Share of the mapped surface's area that is caps.
         share: f64,
     },
+    /// The landmark file may not belong to the meshes.
+    LandmarkFile {
+        /// What makes it doubtful.
+        remark: String,
+    },
     /// The result was asked for before the map was relaxed as far as usual.
     FinishedEarly {
         /// Its energy; 4 for an isometry.
@@ -77,6 +82,7 @@ impl Warning {
         match self {
             Self::Repaired { .. } => "repaired",
             Self::Capped { .. } => "capped",
+            Self::LandmarkFile { .. } => "landmark_file",
             Self::FinishedEarly { .. } => "finished_early",
             Self::RivalClass { .. } => "rival_class",
             Self::LongPath { .. } => "long_path",
@@ -105,6 +111,9 @@ impl fmt::Display for Warning {
                  caps; they count little in the map, and measures are those of skin onto skin.",
                 100.0 * share
             ),
+            Self::LandmarkFile { remark } => {
+                write!(f, "The landmark file may not fit these meshes: {remark}.")
+            }
             Self::FinishedEarly { energy } => write!(
                 f,
                 "Finished early on request, at energy {energy:.3} (4 is an isometry): the map is whole and certified, but a \
@@ -184,7 +193,10 @@ impl From<Warning> for WarningReport {
             | Warning::Unmapped { share: x } => value = Some(x),
             Warning::NoConeMetric { side: of, .. } | Warning::Repaired { side: of, .. } => side = Some(of),
             Warning::Capped { side: of, share } => (value, side) = (Some(share), Some(of)),
-            Warning::NoOverlay { .. } | Warning::NoBijection | Warning::InvertedPatches { .. } => {}
+            Warning::LandmarkFile { .. }
+            | Warning::NoOverlay { .. }
+            | Warning::NoBijection
+            | Warning::InvertedPatches { .. } => {}
         }
         Self { kind, sentence, value, side }
     }

@@ -43,6 +43,18 @@ pub struct Distances {
 }
 
 impl Report {
+    /// The same with lengths in another unit, of which `factor` make one of this.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        let EdgeLengths { mean, deviation } = self.edge_length;
+        let Distances { to_original, from_original } = self.distance;
+        Self {
+            edge_length: EdgeLengths { mean: mean * factor, deviation: deviation * factor },
+            distance: Distances { to_original: to_original * factor, from_original: from_original * factor },
+            ..self
+        }
+    }
+
     /// Measures a mesh against the surface that it stands for.
     pub(super) fn new(mesh: &SurfaceMesh, original: &SurfaceIndex<'_>, rounds: usize) -> Self {
         let smallest: Vec<_> = mesh.faces().map(|f| smallest_angle(mesh.corners(f)).to_degrees()).collect();

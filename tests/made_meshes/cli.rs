@@ -818,3 +818,76 @@ fn a_map_is_made_from_the_landmark_files_of_both_meshes() {
     };
     assert_eq!(images(&files, "from-two"), images(&[&pairs], "from-one"));
 }
+
+/// `map` with these options besides the files.
+fn map_with(files: &[PathBuf; 3], options: &[&OsStr]) -> std::process::Output {
+    let [source, target, pairs] = files.each_ref().map(|path| path.as_os_str());
+    let named = [OsStr::new("map"), source, target, OsStr::new("--landmarks"), pairs];
+    conemap([&named[..], options].concat())
+}
+
+#[test]
+fn what_cannot_be_written_is_found_before_the_run() {
+    let folder = folder("what_cannot_be_written_is_found_before_the_run");
+    let files = write_bodies(&folder);
+    let before = files.each_ref().map(|path| std::fs::read(path).unwrap());
+    let refused = |options: &[&Path], words: &str| {
+        let options: Vec<&OsStr> = options.iter().map(|option| option.as_os_str()).collect();
+        let output = map_with(&files, &options);
+        let said = errors(&output);
+        assert!(!output.status.success() && said.contains(words), "{options:?}: {said}");
+        // No stage was begun.
+        assert_eq!(said.lines().count(), 1, "{said}");
+    };
+    let [map, out, report] = ["--map", "--out", "--report"].map(Path::new);
+    let read = "this file is read; choose another name";
+    refused(&[report, &files[0]], read);
+    refused(&[report, &folder.join("../what_cannot_be_written_is_found_before_the_run/pairs.json")], read);
+    refused(
+        &[map, &folder.join("a"), report, &folder.join("a")],
+        "two results would be written to this file",
+    );
+    refused(
+        &[out, &folder, report, &folder.join("distortion.csv")],
+        "two results would be written to this file",
+    );
+    refused(&[report, &folder.join("a"), out, &folder.join("a")], "one would be the folder of the other");
+    refused(&[report, &folder], "it cannot be written");
+    refused(&[out, &files[0].join("below")], "it cannot be written");
+    refused(&[map, &folder.join("a"), Path::new("--method=thesis")], "has no pieces");
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(&files[1], folder.join("link.json")).unwrap();
+        refused(&[report, &folder.join("link.json")], read);
+    }
+    assert_eq!(files.each_ref().map(|path| std::fs::read(path).unwrap()), before);
+    // Nothing was left behind.
+    let names = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name());
+    assert!(names.into_iter().all(|name| !name.to_string_lossy().contains("part")));
+}
+
+#[test]
+fn a_result_is_written_although_nobody_listens() {
+    let folder = folder("a_result_is_written_although_nobody_listens");
+    let [source, target, pairs] = write_bodies(&folder);
+    let landmarks = std::fs::read_to_string(&pairs).unwrap();
+    let named = landmarks.replacen('{', "{\"source\": \"cow.off\", \"labels\": [\"one\"],", 1);
+    std::fs::write(&pairs, named).unwrap();
+    let report = folder.join("report.json");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_conemap"))
+        .args([OsStr::new("map"), source.as_os_str(), target.as_os_str()])
+        .args([OsStr::new("--landmarks"), pairs.as_os_str(), OsStr::new("--report"), report.as_os_str()])
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stderr.take());
+    assert!(child.wait().unwrap().success());
+    let report = json(&report);
+    assert_eq!(report["certificate"]["bijective"], true);
+    // That the landmark file is doubtful is told in the report as well.
+    let warnings = report["warnings"].as_array().unwrap();
+    let doubts: Vec<_> = warnings.iter().filter(|w| w["kind"] == "landmark_file").collect();
+    assert_eq!(doubts.len(), 2, "{warnings:?}");
+    let says = |words: &str| doubts.iter().any(|w| w["sentence"].as_str().unwrap().contains(words));
+    assert!(says("1 labels for 6 pairs") && says("\"cow.off\""), "{doubts:?}");
+}

@@ -29,6 +29,7 @@ mod bounds;
 #[cfg(feature = "cli")]
 mod cli;
 mod clicks;
+mod far_numbers;
 mod few;
 mod finish_now;
 mod flow;

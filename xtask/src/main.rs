@@ -1,7 +1,8 @@
-//! Build helper of the project: `cargo xtask serve | build | test | compare | survey | wasm`.
+//! Build helper of the project: `cargo xtask serve | build | test | compare | survey | fuzz | wasm`.
 
 mod browser;
 mod compare;
+mod fuzz;
 mod page;
 mod run;
 mod suite;
@@ -16,6 +17,7 @@ const USAGE: &str = "cargo xtask COMMAND
   test    run every test: formatting, lints, documentation, core, page, browser
   compare time whole maps, wasm in a browser against native: [--runs N] [PAIR.json ...], the demos without files
   survey  tables of many maps on the meshes of ../shared/data: TABLE [--pairs NAME,NAME] [--seeds N]; lists them without a name
+  fuzz    read changed files by every reader: [--runs N] of each, from one [--seed S]
   wasm    build only the wasm module, into www/wasm/; with --names it keeps the functions' names for profilers";
 
 fn main() -> ExitCode {
@@ -28,6 +30,7 @@ fn main() -> ExitCode {
         "test" => suite::test(),
         "compare" => compare::compare(&rest),
         "survey" => survey::survey(&rest),
+        "fuzz" => fuzz::fuzz(&rest),
         "wasm" if rest == ["--names"] => wasm::build(wasm::Names::Kept),
         "wasm" => wasm::build(wasm::Names::Removed),
         _ => Err(USAGE.to_owned()),

@@ -165,6 +165,13 @@ pub struct SavedMapArguments {
     pub target: PathBuf,
 }
 
+impl SavedMapArguments {
+    /// The files that are read.
+    pub fn files(&self) -> [&PathBuf; 3] {
+        [&self.map, &self.source, &self.target]
+    }
+}
+
 /// `conemap query`.
 #[derive(Debug, Args)]
 #[command(group = clap::ArgGroup::new("asked").required(true))]

@@ -1,33 +1,40 @@
 //! `conemap check`.
-#![allow(clippy::print_stdout, reason = "the result goes to standard output")]
 
 use crate::arguments::CheckArguments;
 use crate::input::{self, Failure};
+use crate::outputs;
+use crate::told::print;
 use conemap::mesh::check::{CheckedMesh, MeshFault, closed_genus_zero};
 use conemap::mesh::repair::{ChangeReport, RepairOptions, RepairRefusal, RepairedMesh, repaired};
 use conemap::monitor::Silent;
 use serde::Serialize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Tells whether a mesh can be mapped, as it is or repaired; an error where it cannot.
 pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     // Asked before the work is done.
     let out = arguments.out.as_deref().map(|out| Ok::<_, Failure>((out, input::format(out)?))).transpose()?;
+    let is_file = |path: &&PathBuf| *path != Path::new("-");
+    let files = arguments.out.iter().chain(arguments.report.iter().filter(is_file)).cloned();
+    outputs::check([&arguments.mesh], files)?;
     let soup = input::soup(&arguments.mesh)?;
     let fault = closed_genus_zero(&soup).err();
     let outcome = repaired(&soup, &RepairOptions::from(arguments.repairs), &mut Silent);
-    if let (Some((out, format)), Ok(mesh)) = (out, &outcome) {
-        input::write(out, &format.write(&mesh.checked.mesh))?;
-    }
+    // Both are tried, so that one that fails costs only itself.
+    let written = match (out, &outcome) {
+        (Some((out, format)), Ok(mesh)) => outputs::write(out, &format.write(&mesh.checked.mesh_in_file())),
+        _ => Ok(()),
+    };
     let report = CheckReport::new(arguments.repair, fault.as_ref(), &outcome);
     match arguments.report.as_deref() {
-        Some(path) if path == Path::new("-") => println!("{}", serde_json::to_string_pretty(&report)?),
+        Some(path) if path == Path::new("-") => print(serde_json::to_string_pretty(&report)?)?,
         Some(path) => {
-            input::write(path, &serde_json::to_vec_pretty(&report)?)?;
-            tell(&report);
+            outputs::write(path, &serde_json::to_vec_pretty(&report)?)?;
+            print(sentences(&report))?;
         }
-        None => tell(&report),
+        None => print(sentences(&report))?,
     }
+    written?;
     let path = arguments.mesh.display();
     match (&report.refusal, &report.fault) {
         _ if report.can_be_mapped => Ok(()),
@@ -113,18 +120,17 @@ impl CheckReport {
 }
 
 /// The report in sentences.
-fn tell(report: &CheckReport) {
-    match (&report.fault, &report.refusal) {
-        (None, _) => println!("can be mapped as it is"),
-        (Some(_), None) if report.repaired => println!("can be mapped, repaired:"),
+fn sentences(report: &CheckReport) -> String {
+    let first = match (&report.fault, &report.refusal) {
+        (None, _) => "can be mapped as it is".to_owned(),
+        (Some(_), None) if report.repaired => "can be mapped, repaired:".to_owned(),
         (Some(_), None) => {
-            println!("can be mapped when it is repaired (--repair; conemap map does it by itself):")
+            "can be mapped when it is repaired (--repair; conemap map does it by itself):".to_owned()
         }
-        (Some(_), Some(refusal)) => println!("cannot be mapped, nor repaired: {}", refusal.sentence),
-    }
-    for change in &report.changes {
-        println!("  {}{}", change.sentence, places(change));
-    }
+        (Some(_), Some(refusal)) => format!("cannot be mapped, nor repaired: {}", refusal.sentence),
+    };
+    let changes = report.changes.iter().map(|change| format!("\n  {}{}", change.sentence, places(change)));
+    std::iter::once(first).chain(changes).collect()
 }
 
 /// The first elements of a change.

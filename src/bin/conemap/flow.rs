@@ -3,6 +3,7 @@
 use crate::arguments::FlowArguments;
 use crate::clock::Clock;
 use crate::input::{self, Failure};
+use crate::outputs;
 use conemap::cone_metric::{FlowError, FlowOptions, flow, listed_curvature};
 use conemap::monitor::{Monitor, Stage};
 use conemap::pipeline::ConeMetricReport;
@@ -10,6 +11,7 @@ use serde_json::json;
 
 /// Runs one flow and writes its report; an error where it did not converge.
 pub fn run(arguments: &FlowArguments) -> Result<(), Failure> {
+    outputs::check([&arguments.mesh, &arguments.cones], arguments.report.clone())?;
     let checked = input::mesh(&arguments.mesh, arguments.faults)?;
     let mesh = &checked.mesh;
     let cones = cones(arguments, &checked.vertex_from_file)?;
@@ -32,7 +34,7 @@ pub fn run(arguments: &FlowArguments) -> Result<(), Failure> {
         let flow = ConeMetricReport { seconds: total, ..ConeMetricReport::from(&report) };
         let value =
             json!({ "converged": failure.is_none(), "cone_metric": flow, "faces": mesh.face_count() });
-        input::write(path, &serde_json::to_vec_pretty(&value)?)?;
+        outputs::write(path, &serde_json::to_vec_pretty(&value)?)?;
     }
     failure.map_or(Ok(()), |error| Err(error.into()))
 }

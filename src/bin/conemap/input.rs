@@ -1,6 +1,7 @@
 //! Meshes and landmarks from files, with errors that name the file.
 
 use crate::arguments::FaultArguments;
+use crate::told::say;
 use conemap::export::MeshFormat;
 use conemap::io::{self, gltf_parts};
 use conemap::job::{ReadMesh, read_mesh};
@@ -10,7 +11,7 @@ use conemap::mesh::soup::PolygonSoup;
 use conemap::monitor::Silent;
 use std::collections::BTreeMap;
 use std::error::Error;
-use std::path::{Component, Path};
+use std::path::{Component, Path, PathBuf};
 
 /// What the command line fails with: a sentence.
 pub type Failure = Box<dyn Error>;
@@ -52,6 +53,16 @@ pub fn mesh_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     Ok(packed.bytes)
 }
 
+/// A file with those beside it in which it keeps its data.
+pub fn files_of(path: &Path) -> Vec<PathBuf> {
+    let is_gltf = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("gltf"));
+    let parts =
+        is_gltf.then(|| std::fs::read(path).map(|own| gltf_parts::parts_of(&own)).unwrap_or_default());
+    let names = parts.into_iter().flat_map(|parts| parts.buffers.into_iter().chain(parts.images));
+    let folder = path.parent().unwrap_or(Path::new(""));
+    std::iter::once(path.to_owned()).chain(names.map(|name| folder.join(name))).collect()
+}
+
 /// Reads a mesh, and checks or repairs it.
 pub fn mesh(path: &Path, faults: FaultArguments) -> Result<CheckedMesh, Failure> {
     checked(path, &mesh_bytes(path)?, faults)
@@ -63,11 +74,11 @@ pub fn checked(path: &Path, bytes: &[u8], faults: FaultArguments) -> Result<Chec
     let ReadMesh { mesh, report } =
         read_mesh(bytes, faults.into(), &mut Silent).map_err(|e| format!("{name}: {e}"))?;
     if report.fault.is_some() {
-        eprintln!(
+        say(format_args!(
             "warning: {name} could not be used as it is and was repaired: {}. `conemap check` tells more and writes the repaired \
              mesh.",
             report.sentence()
-        );
+        ));
     }
     Ok(mesh.into_checked())
 }
@@ -86,12 +97,4 @@ impl NamedFiles {
     pub fn given(&self) -> Vec<GivenFile<'_>> {
         self.0.iter().map(|(name, bytes)| GivenFile { name, bytes }).collect()
     }
-}
-
-/// Writes a file, with the folder above it.
-pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    if let Some(folder) = path.parent().filter(|f| !f.as_os_str().is_empty()) {
-        std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    }
-    std::fs::write(path, bytes).map_err(|e| format!("{}: {e}", path.display()).into())
 }

@@ -1,5 +1,6 @@
 //! Ctrl-C: the first time the run is to finish with what it has, the second time the program ends.
 
+use crate::told::say;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -15,7 +16,7 @@ pub fn listen() -> Option<Arc<AtomicBool>> {
             // Nothing is written before the run has ended.
             std::process::exit(INTERRUPTED);
         }
-        eprintln!("\nfinishing with the best map so far; Ctrl-C again ends without one");
+        say("\nfinishing with the best map so far; Ctrl-C again ends without one");
     };
     ctrlc::set_handler(heard).is_ok().then_some(asked)
 }

@@ -1,10 +1,13 @@
 //! `conemap landmarks`.
-#![allow(clippy::print_stdout, reason = "the result goes to standard output")]
 
 use crate::arguments::{FaultArguments, LandmarksArguments};
 use crate::input::{self, Failure, NamedFiles};
+use crate::outputs;
+use crate::told::print;
 use conemap::io::landmark_formats::{LandmarkFormat, Space};
-use conemap::landmark_exchange::{PairLandmarks, Surface, read_pairs, write_pairs, write_side};
+use conemap::landmark_exchange::{
+    PairLandmarks, Surface, compare_names, read_pairs, write_pairs, write_side,
+};
 use conemap::landmarks::{MeshSide, check_side};
 use conemap::mesh::check::CheckedMesh;
 use serde_json::json;
@@ -15,6 +18,7 @@ const SIDES: [MeshSide; 2] = [MeshSide::Source, MeshSide::Target];
 /// Reads landmark files onto their meshes, prints how far their points were off, and writes them in other formats.
 pub fn run(arguments: &LandmarksArguments) -> Result<(), Failure> {
     let paths = [&arguments.source, &arguments.target];
+    outputs::check(paths.into_iter().chain(&arguments.inputs), arguments.outputs.clone())?;
     let (source, target) = (mesh(paths[0], arguments.faults)?, mesh(paths[1], arguments.faults)?);
     let surfaces = [&source, &target].map(|(mesh, space)| Surface { mesh, space: *space });
     let files = NamedFiles::read(&arguments.inputs)?;
@@ -25,14 +29,15 @@ pub fn run(arguments: &LandmarksArguments) -> Result<(), Failure> {
     for (surface, side) in surfaces.into_iter().zip(SIDES) {
         check_side(surface.mesh, side, &landmarks.file.pairs)?;
     }
+    let names = paths.map(|path| path.to_string_lossy());
+    landmarks.remarks.extend(compare_names(&landmarks.file, names.each_ref().map(|name| &**name)));
     let [source_name, target_name] =
         paths.map(|path| path.file_name().map(|name| name.to_string_lossy().into()));
     landmarks.file.source = landmarks.file.source.or(source_name);
     landmarks.file.target = landmarks.file.target.or(target_name);
     write(arguments, &landmarks, surfaces)?;
     let text = if arguments.json { as_json(&landmarks)? } else { as_text(&landmarks) };
-    println!("{text}");
-    Ok(())
+    print(text)
 }
 
 fn mesh(path: &Path, faults: FaultArguments) -> Result<(CheckedMesh, Space), Failure> {
@@ -55,12 +60,12 @@ fn write(
         [] => {}
         [path] => {
             let bytes = write_pairs(format(path)?, file, surfaces).map_err(|e| told(path, &e))?;
-            input::write(path, &bytes)?;
+            outputs::write(path, &bytes)?;
         }
         paths => {
             for ((path, surface), side) in paths.iter().zip(surfaces).zip(SIDES) {
                 let bytes = write_side(format(path)?, file, surface, side).map_err(|e| told(path, &e))?;
-                input::write(path, &bytes)?;
+                outputs::write(path, &bytes)?;
             }
         }
     }

@@ -3,15 +3,17 @@
 use crate::arguments::MapArguments;
 use crate::clock::Clock;
 use crate::input::{self, Failure};
-use crate::interrupt;
+use crate::told::say;
+use crate::{interrupt, outputs};
 use conemap::job::{Job, JobError, JobFile, JobFiles, OutputKind, ReadOptions, TargetImage};
 use conemap::pipeline::{FindingReport, MapResult, Method, PipelineOptions, RepairKind};
 use std::path::PathBuf;
 
 /// Maps, writes what was asked for, and tells the certificate; an error where there is no certified map.
 pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
-    let mut clock = Clock::start();
     let options = PipelineOptions::from(arguments.choices);
+    check_outputs(arguments, options.method)?;
+    let mut clock = Clock::start();
     // From the first byte on. The thesis' method has nothing to shorten.
     if options.method == Method::Relaxed {
         clock.ask_for_result(arguments.time_limit, interrupt::listen());
@@ -23,29 +25,42 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
     let (job, mut result) = made.map_err(|error| clock.missed_deadline().map_or(error, Failure::from))?;
     result.report.set_seconds(clock.stop());
     tell(&result);
-    if let Some(path) = &arguments.map {
-        let map = job.map_file(&result, &arguments.choices);
-        let map =
-            map.ok_or("--map: this map has no pieces (the method `thesis`, or a map without an overlay)")?;
-        let taken = job.taken(&map);
-        if !taken.has_map_file() {
-            return Err(
-                "--map: a mesh was repaired, and a map file tells of meshes as their files have them: save the repaired mesh by \
-                 `conemap check MESH --repair --out FILE`, and map that one"
-                    .into(),
-            );
-        }
-        input::write(path, &taken.output(OutputKind::Map)?)?;
+    // All are tried, so that one that fails costs only itself.
+    let written = [
+        write_map(arguments, &job, &result),
+        write_folder(arguments, &job, &result),
+        arguments
+            .report
+            .as_ref()
+            .map_or(Ok(()), |path| outputs::write(path, &serde_json::to_vec_pretty(&result.report)?)),
+    ];
+    written.into_iter().collect()
+}
+
+/// Finds before the run what cannot be written after it.
+fn check_outputs(arguments: &MapArguments, method: Method) -> Result<(), Failure> {
+    let MapArguments { source, target, target_landmarks, landmarks, map, out, report, .. } = arguments;
+    if map.is_some() && method == Method::Thesis {
+        return Err("--map: the map of the method `thesis` has no pieces, and so no map file".into());
     }
-    if let Some(folder) = &arguments.out {
-        for file in job.outputs(&result, &arguments.choices)? {
-            input::write(&folder.join(file.name), &file.bytes)?;
-        }
-    }
-    if let Some(path) = &arguments.report {
-        input::write(path, &serde_json::to_vec_pretty(&result.report)?)?;
-    }
-    Ok(())
+    let files = out.iter().flat_map(|folder| outputs::of_folder(folder));
+    outputs::check(
+        [source, target, landmarks].into_iter().chain(target_landmarks),
+        map.iter().chain(report).cloned().chain(files),
+    )
+}
+
+fn write_map(arguments: &MapArguments, job: &Job, result: &MapResult) -> Result<(), Failure> {
+    let Some(path) = &arguments.map else { return Ok(()) };
+    let map = job.map_file(result, &arguments.choices);
+    let map = map.ok_or("--map: this map has no overlay, and so no pieces for a map file")?;
+    outputs::write(path, &job.taken(&map).output(OutputKind::Map)?)
+}
+
+fn write_folder(arguments: &MapArguments, job: &Job, result: &MapResult) -> Result<(), Failure> {
+    let Some(folder) = &arguments.out else { return Ok(()) };
+    let files = job.outputs(result, &arguments.choices)?;
+    outputs::write_all(folder, files.into_iter().map(|file| Ok((file.name, file.bytes))))
 }
 
 /// Reads the files and makes the map.
@@ -55,7 +70,16 @@ fn made(
     clock: &mut Clock,
 ) -> Result<(Job, MapResult), Failure> {
     let job = read(arguments, clock)?;
-    clock.suspend(|| job.landmark_remarks().iter().for_each(|remark| eprintln!("landmarks: {remark}")));
+    if arguments.map.is_some() && !job.has_map_file() {
+        return Err(
+            "--map: a mesh was repaired, and a map file tells of meshes as their files have them: save the repaired mesh by \
+             `conemap check MESH --repair --out FILE`, and map that one"
+                .into(),
+        );
+    }
+    clock.suspend(|| {
+        job.landmark_remarks().iter().for_each(|remark| say(format_args!("landmarks: {remark}")))
+    });
     clock.plan(options.stages(job.landmark_count()));
     let findings = job.findings(clock)?;
     clock.suspend(|| findings.iter().for_each(tell_finding));
@@ -74,15 +98,19 @@ fn read(arguments: &MapArguments, clock: &mut Clock) -> Result<Job, Failure> {
     let files = JobFiles { source: &bytes[0], target: &bytes[1], landmarks: &landmark_files.given() };
     let target_image = if arguments.mirror_target { TargetImage::Mirrored } else { TargetImage::AsGiven };
     let options = ReadOptions { target_image, mesh_faults: arguments.faults.into() };
-    Job::read(files, options, clock).map_err(|error: JobError| {
+    let job = Job::read(files, options, clock).map_err(|error: JobError| {
         let file = match error.file() {
             Some(JobFile::Source) => Some(source),
             Some(JobFile::Target) => Some(target),
             Some(JobFile::Landmarks(number)) => landmarks.get(number).copied(),
             None => None,
         };
-        file.map_or_else(|| error.to_string(), |path| format!("{}: {error}", path.display())).into()
-    })
+        file.map_or_else(|| error.to_string(), |path| format!("{}: {error}", path.display()))
+    });
+    let mut job = job?;
+    let names = [source, target].map(|path| path.to_string_lossy());
+    job.compare_names(names.each_ref().map(|name| &**name));
+    Ok(job)
 }
 
 fn tell_finding(finding: &FindingReport) {
@@ -90,24 +118,26 @@ fn tell_finding(finding: &FindingReport) {
         RepairKind::MirrorTarget => " (--mirror-target)",
         RepairKind::Swap | RepairKind::Check | RepairKind::Mark => "",
     };
-    eprintln!("landmarks: {}{repair}", finding.sentence);
+    say(format_args!("landmarks: {}{repair}", finding.sentence));
 }
 
 fn tell(result: &MapResult) {
     let report = &result.report;
     match &report.certificate {
         Some(c) => {
-            eprintln!("certified bijective: {} of {} triangles flipped", c.flipped_triangles, c.triangles)
+            let (flipped, all) = (c.flipped_triangles, c.triangles);
+            say(format_args!("certified bijective: {flipped} of {all} triangles flipped"));
         }
-        None => eprintln!(
+        None => say(format_args!(
             "not bijective by construction: {:.1} % of the vertices are unmapped",
             100.0 * report.unmapped_share
-        ),
+        )),
     }
     if let Some(coverage) = &report.coverage {
-        eprintln!("coverage: {}", coverage.sentence());
+        say(format_args!("coverage: {}", coverage.sentence()));
     }
     let d = &report.distortion;
-    eprintln!("energy {:.3} (4 is an isometry), mean distortion {:.3} (1 is an isometry)", d.energy, d.mean);
-    report.warnings.iter().for_each(|w| eprintln!("warning: {w}"));
+    let (energy, mean) = (d.energy, d.mean);
+    say(format_args!("energy {energy:.3} (4 is an isometry), mean distortion {mean:.3} (1 is an isometry)"));
+    report.warnings.iter().for_each(|w| say(format_args!("warning: {w}")));
 }

@@ -2,7 +2,7 @@
 
 use crate::arguments::QueryArguments;
 use crate::input::{self, Failure};
-use crate::saved;
+use crate::{outputs, saved};
 use conemap::export::vertex_image::{self, Direction};
 use conemap::map_file::FileMesh;
 use conemap::mesh::{FaceId, SurfacePoint};
@@ -10,6 +10,7 @@ use std::path::Path;
 
 /// Answers images of points or of all vertices.
 pub fn run(arguments: &QueryArguments) -> Result<(), Failure> {
+    outputs::check(arguments.saved.files().into_iter().chain(&arguments.points), arguments.out.clone())?;
     let open = saved::open(&arguments.saved)?;
     let direction = if arguments.inverse { Direction::TargetToSource } else { Direction::SourceToTarget };
     let map = open.taken();

@@ -1,8 +1,9 @@
 //! Saved maps: opened with their meshes, measured, and written as files (`conemap report`, `conemap export`).
-#![allow(clippy::print_stdout, reason = "the result goes to standard output")]
 
 use crate::arguments::{ExportArguments, ReportArguments, SavedMapArguments};
 use crate::input::{self, Failure};
+use crate::outputs;
+use crate::told::print;
 use conemap::job::{MapFiles, OpenMap};
 use conemap::landmarks::MeshSide;
 use serde_json::json;
@@ -24,6 +25,7 @@ pub fn open(arguments: &SavedMapArguments) -> Result<OpenMap, Failure> {
 
 /// Measures the map from its pieces and tells it as JSON.
 pub fn report(arguments: &ReportArguments) -> Result<(), Failure> {
+    outputs::check(arguments.saved.files(), arguments.out.clone())?;
     let open = open(&arguments.saved)?;
     let map = open.taken();
     let [source, target] = map.surfaces().map(|mesh| mesh.face_count());
@@ -39,21 +41,17 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Failure> {
 
 /// Writes all files of the map.
 pub fn export(arguments: &ExportArguments) -> Result<(), Failure> {
+    outputs::check(arguments.saved.files(), outputs::of_folder(&arguments.out))?;
     let open = open(&arguments.saved)?;
     let map = open.taken();
-    for kind in map.kinds() {
-        input::write(&arguments.out.join(kind.file_name()), &map.output(kind)?)?;
-    }
-    Ok(())
+    let files = map.kinds().into_iter().map(|kind| Ok((kind.file_name(), map.output(kind)?)));
+    outputs::write_all(&arguments.out, files)
 }
 
 /// To a file, or to standard output where there is none.
 pub fn write_or_print(file: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
     match file {
-        Some(path) => input::write(path, bytes),
-        None => {
-            println!("{}", String::from_utf8_lossy(bytes).trim_end());
-            Ok(())
-        }
+        Some(path) => outputs::write(path, bytes),
+        None => print(String::from_utf8_lossy(bytes).trim_end()),
     }
 }

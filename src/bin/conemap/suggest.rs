@@ -1,9 +1,9 @@
 //! `conemap suggest`.
-#![allow(clippy::print_stdout, reason = "the result goes to standard output")]
 
 use crate::arguments::SuggestArguments;
 use crate::clock::Clock;
 use crate::input::{self, Failure};
+use crate::told::print;
 use conemap::landmark_suggestion::{Suggestion, kept, suggest};
 use conemap::monitor::{Monitor, Stage};
 use serde_json::json;
@@ -30,6 +30,5 @@ pub fn run(arguments: &SuggestArguments) -> Result<(), Failure> {
         json!({ "vertex": numbers[s.vertex.index()], "reason": s.reason, "partner": partner })
     };
     let entries: Vec<_> = found.iter().map(entry).collect();
-    println!("{}", serde_json::to_string_pretty(&json!({ "suggestions": entries }))?);
-    Ok(())
+    print(serde_json::to_string_pretty(&json!({ "suggestions": entries }))?)
 }

@@ -3,6 +3,7 @@
 use super::format::LandmarkFormat;
 use super::limits::MAX_BYTES;
 use super::{comma_separated, wrap};
+use crate::io::reading;
 use serde::de::IgnoredAny;
 use std::collections::BTreeMap;
 
@@ -26,7 +27,7 @@ fn head(bytes: &[u8]) -> String {
 }
 
 fn text(head: &str, named: Option<LandmarkFormat>) -> Option<LandmarkFormat> {
-    let mut lines = head.lines().map(str::trim).filter(|line| !line.is_empty());
+    let mut lines = reading::lines(head).map(|(_, line)| line.trim()).filter(|line| !line.is_empty());
     let first = lines.clone().next()?;
     let upper = first.to_ascii_uppercase();
     if upper.split_whitespace().take(2).eq(["VERSION", "1.0"]) {

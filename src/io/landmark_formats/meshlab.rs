@@ -9,7 +9,7 @@ use quick_xml::escape::escape;
 use quick_xml::events::{BytesStart, Event};
 
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<MarkList>, Problem> {
-    let text = reading::text(bytes)?;
+    let text = &*reading::text(bytes)?;
     let mut reader = Reader::from_str(text);
     reader.config_mut().check_end_names = true;
     let mut list = MarkList::default();

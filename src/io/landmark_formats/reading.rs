@@ -5,7 +5,7 @@ use super::{
     LandmarkFormat, LandmarkReadError, MAX_BYTES, comma_separated, detect, fcsv, idav, meshlab, nts,
     slicer_json, tps, wrap,
 };
-use crate::io::landmark_file;
+use crate::io::{landmark_file, reading};
 
 /// Reads a landmark file of any known format; the name decides where the content allows several.
 ///
@@ -15,6 +15,9 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<(LandmarkFormat, Content), Landm
     if bytes.len() > MAX_BYTES {
         return Err(LandmarkReadError::TooLarge { bytes: bytes.len() });
     }
+    let text = reading::text(bytes);
+    // What is no text is told as such by its format, or has none.
+    let bytes = text.as_deref().map_or(bytes, str::as_bytes);
     let format = match detect(name, bytes) {
         Some(format) => format,
         // Its error shows what the file should look like.

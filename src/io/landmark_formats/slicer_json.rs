@@ -62,7 +62,7 @@ impl ControlPoint {
 }
 
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<MarkList>, Problem> {
-    let file: File = serde_json::from_str(reading::text(bytes)?).map_err(|e| json_problem(&e))?;
+    let file: File = serde_json::from_str(&reading::text(bytes)?).map_err(|e| json_problem(&e))?;
     let is_list = |markup: &Markup| {
         !matches!(markup.kind.as_str(), "Plane" | "ROI") && !markup.control_points.is_empty()
     };

@@ -8,9 +8,11 @@ use glam::DVec3;
 /// The longest line in bytes.
 const MAX_LINE: usize = 1 << 20;
 
-/// The lines of a text with their numbers, counted from 1.
+/// The lines of a text (UTF-8, as [`super::read`] gives it) with their numbers, counted from 1.
 pub fn lines(bytes: &[u8]) -> Result<Vec<(usize, &str)>, Problem> {
-    let lines: Vec<_> = reading::text(bytes)?.lines().enumerate().map(|(i, line)| (i + 1, line)).collect();
+    let text = std::str::from_utf8(bytes);
+    let text = text.map_err(|_| (Place::Header, "it holds bytes that are not text".to_owned()))?;
+    let lines: Vec<_> = reading::lines(text).collect();
     match lines.iter().find(|(_, line)| line.len() > MAX_LINE) {
         Some((number, line)) => {
             let problem = format!("it has {} bytes, more than the {MAX_LINE} of a line", line.len());

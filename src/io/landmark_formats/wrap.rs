@@ -72,7 +72,7 @@ pub(super) fn has_form(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<MarkList>, Problem> {
-    let Points(points) = serde_json::from_str(reading::text(bytes)?).map_err(|e| json_problem(&e))?;
+    let Points(points) = serde_json::from_str(&reading::text(bytes)?).map_err(|e| json_problem(&e))?;
     let on_triangles = points.iter().all(|(_, [triangle, ..])| triangle.is_u64());
     let mark = |(number, (label, triple)): (usize, (String, Triple))| {
         let spot = if on_triangles { on_triangle(&triple) } else { in_space(&triple) };

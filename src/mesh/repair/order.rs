@@ -14,7 +14,7 @@ use super::report::{Change, RepairReport};
 use super::sheets::{Sheets, apart};
 use crate::mesh::check::{CheckedMesh, Elements, MeshFault, RepairedFaces, closed_genus_zero, triangulated};
 use crate::mesh::soup::PolygonSoup;
-use crate::mesh::{FaceId, VertexId};
+use crate::mesh::{FaceId, FileFrame, VertexId};
 use crate::monitor::{Monitor, Step};
 use typed_index_collections::TiVec;
 
@@ -35,6 +35,18 @@ const MOST_CAP: f64 = 0.45;
 /// # Errors
 /// [`RepairRefusal`].
 pub fn repaired(
+    soup: &PolygonSoup,
+    options: &RepairOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<RepairedMesh, RepairRefusal> {
+    let frame = FileFrame::of(soup);
+    let options = RepairOptions { join_within: options.join_within / frame.scale(), ..*options };
+    let repaired = repaired_usual(&frame.soup(soup), &options, monitor)?;
+    Ok(RepairedMesh { checked: CheckedMesh { frame, ..repaired.checked }, ..repaired })
+}
+
+/// Repairs a soup of usual coordinates.
+fn repaired_usual(
     soup: &PolygonSoup,
     options: &RepairOptions,
     monitor: &mut dyn Monitor,
@@ -186,6 +198,7 @@ fn checked(soup: &PolygonSoup, draft: &Draft, in_file: usize) -> Result<CheckedM
     let is_cap = draft.faces.iter().map(|face| face.origin == FaceOrigin::Cap).collect();
     let is_the_files = number.len() == in_file && next as usize == in_file;
     Ok(CheckedMesh {
+        frame: judged.frame,
         vertex_from_file: vertex_from_file(soup, draft, &judged),
         turned: turned.collect(),
         repaired_faces: (!is_the_files).then_some(RepairedFaces { in_file, number, is_cap }),

@@ -1,0 +1,164 @@
+//! Files that break readers: kept ones with what is said to each, large ones that ask for much, and changes of both. Every one
+//! is answered within 256 MiB; how long it takes is told alone, since other programs may run.
+//!
+//! `cargo xtask fuzz --runs N --seed S` makes more changes.
+#![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
+
+mod counting;
+mod large;
+mod mutation;
+mod readers;
+
+use counting::most_bytes;
+use mutation::Mutator;
+use readers::Reader;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Bytes that a file of up to 1 MiB may take, beyond its own.
+const MOST_BYTES: usize = 256 << 20;
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/hostile")
+}
+
+/// The kept files with their names, in the names' order.
+fn kept() -> Vec<(String, Vec<u8>)> {
+    let entries = std::fs::read_dir(folder().join("files")).unwrap().map(|entry| entry.unwrap().path());
+    let mut files: Vec<_> = entries
+        .map(|path| (path.file_name().unwrap().to_string_lossy().into_owned(), std::fs::read(&path).unwrap()))
+        .collect();
+    files.sort();
+    files
+}
+
+/// What is said of a file, with its bytes of memory.
+fn answer(name: &str, bytes: &[u8]) -> (String, usize) {
+    if name.ends_with(".json") {
+        most_bytes(|| readers::landmarks(name, bytes))
+    } else {
+        most_bytes(|| readers::mesh(bytes))
+    }
+}
+
+/// `outcomes.txt` has a line for each kept file: its name and what is said. With `CONEMAP_WRITE_OUTCOMES` set it is written anew.
+#[test]
+fn kept_files_are_answered_as_told() {
+    let mut told = String::new();
+    for (name, bytes) in kept() {
+        let (said, memory) = answer(&name, &bytes);
+        assert!(memory <= MOST_BYTES, "{name} took {memory} bytes");
+        let said: String = said.chars().take(300).map(|c| if c.is_control() { ' ' } else { c }).collect();
+        told += &format!("{name}: {said}\n");
+    }
+    let place = folder().join("outcomes.txt");
+    if std::env::var_os("CONEMAP_WRITE_OUTCOMES").is_some() {
+        std::fs::write(&place, &told).unwrap();
+    }
+    let expected = std::fs::read_to_string(&place).unwrap();
+    let other: Vec<_> = told.lines().filter(|line| !expected.lines().any(|known| known == *line)).collect();
+    assert!(other.is_empty(), "answered otherwise than in outcomes.txt:\n{}", other.join("\n"));
+    assert_eq!(told.lines().count(), expected.lines().count());
+}
+
+#[test]
+fn large_files_are_answered_in_little_memory() {
+    for (name, bytes) in large::files() {
+        assert!(bytes.len() <= (1 << 20) + 64, "{name}: {} bytes", bytes.len());
+        let begun = Instant::now();
+        let (_, of_mesh) = most_bytes(|| readers::mesh(&bytes));
+        let (_, of_landmarks) = most_bytes(|| readers::landmarks("a.json", &bytes));
+        let memory = of_mesh.max(of_landmarks);
+        println!("{name}: {:.2} s, {} MiB", begun.elapsed().as_secs_f64(), memory >> 20);
+        assert!(memory <= MOST_BYTES, "{name} took {memory} bytes");
+    }
+}
+
+/// Runs of a reader on changed files.
+struct Runs {
+    reader: Reader,
+    count: usize,
+    most_bytes: usize,
+    longest: Duration,
+}
+
+/// Reads changed files; a panic says how to have the file again.
+fn run(reader: Reader, count: usize, seed: u64) -> Runs {
+    let mut files = kept();
+    files.extend(written());
+    let seeds: Vec<Vec<u8>> =
+        files.into_iter().filter(|(name, bytes)| reader.reads(name, bytes)).map(|(_, bytes)| bytes).collect();
+    assert!(!seeds.is_empty(), "no file for {}", reader.name());
+    let mut mutator = Mutator::new(seed);
+    let mut runs = Runs { reader, count, most_bytes: 0, longest: Duration::ZERO };
+    for number in 0..count {
+        let bytes = mutator.changed(&seeds);
+        let begun = Instant::now();
+        let outcome = std::panic::catch_unwind(|| most_bytes(|| reader.read(&bytes)));
+        let place = folder().join("../../target/finding.bin");
+        let Ok((_, memory)) = outcome else {
+            std::fs::write(&place, &bytes).unwrap();
+            panic!("{}, seed {seed}, run {number}: panic; the file is {}", reader.name(), place.display());
+        };
+        if memory > MOST_BYTES {
+            std::fs::write(&place, &bytes).unwrap();
+            panic!("{}, seed {seed}, run {number}: {memory} bytes; {}", reader.name(), place.display());
+        }
+        runs.most_bytes = runs.most_bytes.max(memory);
+        runs.longest = runs.longest.max(begun.elapsed());
+    }
+    runs
+}
+
+/// Files that the program writes itself: landmark files of all formats.
+fn written() -> Vec<(String, Vec<u8>)> {
+    use conemap::io::landmark_file::{LandmarkFile, LandmarkPoint};
+    use conemap::io::landmark_formats::{LandmarkFormat, Space};
+    use conemap::landmark_exchange::{Surface, write_pairs, write_side};
+    use conemap::landmarks::MeshSide;
+    use conemap::map_file::FileMesh;
+    let octahedron = "OFF\n6 8 12\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n\
+                      3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n";
+    let mesh = FileMesh::read(octahedron.as_bytes()).unwrap();
+    let surface = Surface { mesh: mesh.checked(), space: Space::Lps };
+    let pairs = (0..6).map(|v| [LandmarkPoint::Vertex(v); 2]).collect();
+    let labels = Some((0..6).map(|k| format!("point {k}")).collect());
+    let file = LandmarkFile { pairs, labels, ..LandmarkFile::default() };
+    let mut files = Vec::new();
+    for format in LandmarkFormat::ALL {
+        let name = format!("a.{}", format.ending());
+        files.extend(write_pairs(format, &file, [surface; 2]).map(|bytes| (name.clone(), bytes)));
+        files.extend(write_side(format, &file, surface, MeshSide::Source).map(|bytes| (name, bytes)));
+    }
+    files.push(("a.conemap".to_owned(), [&b"CONEMAP\0"[..], &[1, 0, 0, 0, 0, 0, 0, 0], &[0; 64]].concat()));
+    files
+}
+
+#[test]
+fn changed_files_are_answered() {
+    for reader in Reader::all() {
+        run(reader, 400, 1);
+    }
+}
+
+/// Run by `cargo xtask fuzz`, which sets the numbers.
+#[test]
+#[ignore = "takes as long as one wants"]
+fn many_changed_files_are_answered() {
+    let number = |name: &str, usual: u64| {
+        std::env::var(name).ok().map_or(usual, |text| text.parse().expect("a whole number"))
+    };
+    let (count, seed) = (number("CONEMAP_FUZZ_RUNS", 100_000) as usize, number("CONEMAP_FUZZ_SEED", 1));
+    for reader in Reader::all() {
+        let begun = Instant::now();
+        let runs = run(reader, count, seed);
+        println!(
+            "{:24} {} runs, {:.0} s, longest {:.3} s, at most {:.1} MiB",
+            runs.reader.name(),
+            runs.count,
+            begun.elapsed().as_secs_f64(),
+            runs.longest.as_secs_f64(),
+            runs.most_bytes as f64 / (1 << 20) as f64
+        );
+    }
+}
