@@ -1,7 +1,6 @@
 /** What is wrong with a mesh, or was before it was repaired, as the core found it. */
 import type { Side } from '../landmarks.ts';
 import type { MeshDefects } from '../wasm/conemap.js';
-import type { State } from './state.ts';
 
 /** All defects of one kind. */
 export interface DefectGroup {
@@ -29,7 +28,13 @@ export interface Examined {
   readonly faceCount: number;
 }
 
+/** What a state knows of defects. */
+interface Shown {
+  readonly refused: { readonly meshes: readonly { readonly side: Side; readonly examined: Examined }[] } | null;
+  readonly examined: readonly [Examined | null, Examined | null];
+}
+
 /** What a side shows of this: of the mesh that was refused, else of its own as it was repaired; `null` for nothing. */
-export function shownDefects({ refused, examined }: Pick<State, 'refused' | 'examined'>, side: Side): Examined | null {
+export function shownDefects({ refused, examined }: Shown, side: Side): Examined | null {
   return refused?.meshes.find((mesh) => mesh.side === side)?.examined ?? examined[side];
 }

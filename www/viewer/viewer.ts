@@ -323,8 +323,8 @@ export class Views {
   #setDefects(viewer: Viewer, previous: State | null): void {
     for (const side of SIDES) {
       const shown = shownDefects(this.#state, side);
-      const isOtherMesh = previous?.meshes[side] !== this.#state.meshes[side];
-      if (!isOtherMesh && previous !== null && shownDefects(previous, side) === shown) {
+      const isSameMesh = previous?.meshes[side] === this.#state.meshes[side];
+      if (previous !== null && isSameMesh && shownDefects(previous, side) === shown) {
         continue;
       }
       const refused = this.#state.refused?.meshes.find((mesh) => mesh.side === side);
