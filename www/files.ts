@@ -10,10 +10,12 @@ import { FileRefused } from './named-file.ts';
 import type { Event } from './store/events.ts';
 import { landmarkFileOf } from './store/landmark-file.ts';
 import { wholePairs } from './store/order.ts';
+import type { DefectGroup, Examined } from './store/defects.ts';
 import type { Allowed } from './store/refused.ts';
 import { update } from './store/reducer.ts';
 import type { MeshFile, State } from './store/state.ts';
-import { checkLandmarks, mirrorTarget, repairMesh } from './wasm/conemap.js';
+import type { MeshDefects } from './wasm/conemap.js';
+import { checkLandmarks, meshDefects, mirrorTarget, repairedDefects, repairMesh } from './wasm/conemap.js';
 
 export type { NamedBytes } from './named-file.ts';
 export { FileRefused } from './named-file.ts';
@@ -38,8 +40,29 @@ export function meshFile(file: NamedBytes, allowed: Allowed = {}): MeshFile {
     };
   } catch (thrown) {
     const failure = failureOf(thrown);
-    throw new FileRefused(fileSentence(file.name, failure), failure.offer ?? null);
+    throw new FileRefused(fileSentence(file.name, failure), failure.offer ?? null, failure.code === 'mesh' ? 'mesh' : 'file');
   }
+}
+
+function examinedOf(found: MeshDefects): Examined {
+  return { found, groups: JSON.parse(found.list()) as DefectGroup[], faceCount: found.faceCount };
+}
+
+/** What is wrong with a mesh that was refused; `null` where there is nothing to be seen of it. */
+export function examinedMesh(file: NamedBytes, allowed: Allowed): Examined | null {
+  try {
+    return examinedOf(meshDefects(file.bytes, JSON.stringify(allowed)));
+  } catch (thrown) {
+    if (failureOf(thrown).code === 'mesh') {
+      return null;
+    }
+    throw thrown;
+  }
+}
+
+/** What was wrong with a mesh that was repaired. */
+export function examinedRepair({ bytes, mesh }: MeshFile): Examined {
+  return examinedOf(repairedDefects(bytes, mesh));
 }
 
 /** The event that puts a target's mirror image in its place, with the points of these pairs on it. */

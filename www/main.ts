@@ -11,7 +11,7 @@ import { saveMadeFile } from './app/made-files.ts';
 import { saveProject } from './app/projects.ts';
 import { listenForHalves } from './app/propose.ts';
 import { repair } from './app/repair.ts';
-import { repairMesh } from './app/repair-mesh.ts';
+import { freeExamined, repairMesh, showRepairs } from './app/repair-mesh.ts';
 import { Runner } from './app/run.ts';
 import { sharedLink } from './app/sharing.ts';
 import { suggest } from './app/suggest.ts';
@@ -95,6 +95,13 @@ const actions: Actions = {
   repairMesh: (mesh) => {
     void repairMesh(store, mesh);
   },
+  showRepairs: (side, shown) => {
+    void showRepairs(store, side, shown);
+  },
+  lookAtDefect: (side, examined, group, index) => {
+    showOwnShape();
+    views.lookAtDefect(side, examined, group, index);
+  },
   camera: (side, command) => {
     turn(side, command);
   },
@@ -173,6 +180,7 @@ store.subscribe((state, previous) => {
 });
 listenForHalves(store, views);
 store.subscribe(freeForgotten);
+store.subscribe(freeExamined);
 store.subscribe(mark);
 store.subscribe(followDemo);
 

@@ -13,10 +13,13 @@ export interface NamedBytes {
 export class FileRefused extends Error {
   /** The repair of a mesh that would help; `null` where there is none. */
   readonly offer: RepairOffer | null;
+  /** What is refused: the file, or the mesh in it, which was read. */
+  readonly what: 'file' | 'mesh';
 
-  constructor(sentence: string, offer: RepairOffer | null = null) {
+  constructor(sentence: string, offer: RepairOffer | null = null, what: 'file' | 'mesh' = 'file') {
     super(sentence);
     this.offer = offer;
+    this.what = what;
   }
 }
 

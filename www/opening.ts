@@ -1,5 +1,5 @@
 /** What given files mean: tells meshes, landmark files and maps from each other, and finds each mesh's side. */
-import { checkFit, meshFile, misfit } from './files.ts';
+import { checkFit, examinedMesh, meshFile, misfit } from './files.ts';
 import type { LandmarkFile, Side } from './landmarks.ts';
 import { otherSide, SIDES } from './landmarks.ts';
 import { contentOf, landmarkFile, pairsRead, sideCalledLike, sideRead } from './landmark-files.ts';
@@ -151,7 +151,7 @@ export function openingOf(given: readonly NamedBytes[], over: Side | null, state
 /** The meshes among some files that were read, and what became of the others. */
 interface ReadMeshes {
   readonly loaded: readonly { readonly side: Side; readonly file: MeshFile }[];
-  /** Those that a repair would help. */
+  /** Those that were refused as meshes: they are shown, and a repair may help. */
   readonly refused: readonly RefusedMesh[];
   /** Why the others were refused. */
   readonly faults: readonly FileRefused[];
@@ -161,6 +161,12 @@ function free({ loaded }: ReadMeshes): void {
   loaded.forEach(({ file }) => {
     file.mesh.free();
   });
+}
+
+/** A mesh that was refused, with what is wrong with it; `null` where the file has no mesh to be seen. */
+function refusedMesh(given: Pick<RefusedMesh, 'side' | 'file' | 'allowed'>, refusal: FileRefused): RefusedMesh | null {
+  const examined = refusal.what === 'mesh' ? examinedMesh(given.file, given.allowed) : null;
+  return examined === null ? null : { ...given, offer: refusal.offer, sentence: refusal.message, examined };
 }
 
 /** Reads meshes, each by itself: a good one is not given up for a bad one. */
@@ -175,10 +181,11 @@ function readMeshes(files: readonly NamedBytes[], sides: readonly Side[]): ReadM
         free({ loaded, refused, faults });
         throw thrown;
       }
-      if (thrown.offer === null) {
+      const mesh = refusedMesh({ side, file, allowed: {} }, thrown);
+      if (mesh === null) {
         faults.push(thrown);
       } else {
-        refused.push({ side, file, allowed: {}, offer: thrown.offer, sentence: thrown.message });
+        refused.push(mesh);
       }
     }
   }
@@ -301,10 +308,10 @@ export function repairedEvents(mesh: RefusedMesh, state: State): Event[] {
     if (!(thrown instanceof FileRefused)) {
       throw thrown;
     }
-    if (thrown.offer === null) {
+    const next = refusedMesh({ side, file, allowed }, thrown);
+    if (next === null) {
       return [{ kind: 'refused-closed', side }, { kind: 'error', sentence: thrown.message }];
     }
-    const next: RefusedMesh = { side, file, allowed, offer: thrown.offer, sentence: thrown.message };
     return [{ kind: 'refused', refused: { meshes: [...others, next], landmarks: waiting } }];
   }
 }

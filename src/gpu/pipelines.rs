@@ -1,6 +1,7 @@
 //! The pipelines and their common uniform layout.
 
 use crate::scene::colours::SCALE_COLOURS;
+use crate::scene::defects::MarkedLineVertex;
 use crate::scene::{LineVertex, MarkerInstance, PinInstance, SurfaceVertex};
 use std::mem::size_of;
 
@@ -52,6 +53,10 @@ pub(super) struct Pipelines {
     pub line: wgpu::RenderPipeline,
     /// Lines behind it.
     pub hidden_line: wgpu::RenderPipeline,
+    /// Lines with a colour and a stroke of their own, in front of the surface.
+    pub mark: wgpu::RenderPipeline,
+    /// Such lines behind it.
+    pub hidden_mark: wgpu::RenderPipeline,
     pub ball: wgpu::RenderPipeline,
     pub pin: wgpu::RenderPipeline,
     pub view_layout: wgpu::BindGroupLayout,
@@ -153,6 +158,10 @@ impl Pipelines {
         let surface = [Some(stepping(wgpu::VertexStepMode::Vertex, size_of::<SurfaceVertex>(), &surface))];
         let line = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32];
         let line = [Some(stepping(wgpu::VertexStepMode::Vertex, size_of::<LineVertex>(), &line))];
+        let mark = wgpu::vertex_attr_array![
+            0 => Float32x3, 1 => Float32x3, 2 => Float32, 3 => Float32x3, 4 => Float32, 5 => Float32
+        ];
+        let mark = [Some(stepping(wgpu::VertexStepMode::Vertex, size_of::<MarkedLineVertex>(), &mark))];
         let ball = wgpu::vertex_attr_array![0 => Float32x3];
         let marker = wgpu::vertex_attr_array![1 => Float32x3, 2 => Float32, 3 => Float32x3];
         let ball = [
@@ -165,6 +174,8 @@ impl Pipelines {
             surface: workshop.pipeline(["surface_vertex", "surface_fragment"], Layer::Solid, &surface),
             line: workshop.pipeline(["line_vertex", "line_fragment"], Layer::Over, &line),
             hidden_line: workshop.pipeline(["line_vertex", "hidden_line_fragment"], Layer::Through, &line),
+            mark: workshop.pipeline(["mark_vertex", "mark_fragment"], Layer::Over, &mark),
+            hidden_mark: workshop.pipeline(["mark_vertex", "hidden_mark_fragment"], Layer::Through, &mark),
             ball: workshop.pipeline(["ball_vertex", "ball_fragment"], Layer::Solid, &ball),
             pin: workshop.pipeline(["pin_vertex", "pin_fragment"], Layer::Top, &pin),
             view_layout,

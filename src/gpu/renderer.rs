@@ -3,6 +3,7 @@
 use super::pipelines::{DEPTH, Pipelines, ViewUniform};
 use crate::scene::buffers::unit_ball;
 use crate::scene::colours::{SCALE_END, distortion_scale};
+use crate::scene::defects::MarkedLineVertex;
 use crate::scene::{LineVertex, MarkerInstance, PinInstance, Pose, SurfaceVertex};
 use glam::Mat4;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -42,6 +43,8 @@ pub enum Paint {
     Distortion,
     /// A checkerboard in space, by the place on the target.
     Pattern,
+    /// Faint and hatched: a mesh that is not accepted.
+    Refused,
 }
 
 /// Colours of both views, linear RGB.
@@ -81,8 +84,14 @@ pub struct ViewDraw<'a> {
     pub surface: Option<&'a Mesh>,
     /// A plain surface a little behind it, seen where the surface has holes.
     pub under: Option<&'a Mesh>,
+    /// Faces painted in colours of their own, over the surface.
+    pub painted: Option<&'a Mesh>,
     /// Ribbons.
     pub lines: Option<&'a Mesh>,
+    /// Ribbons with colours and strokes of their own.
+    pub marks: Option<&'a Mesh>,
+    /// Length of a dash with its gap, in scene units.
+    pub dash: f32,
     /// Balls.
     pub balls: &'a [MarkerInstance],
     /// Pins over everything, the lowest first.
@@ -108,9 +117,10 @@ pub struct Renderer {
     samples: u32,
 }
 
-/// Uniform buffers of one view: for its surface, and for the plain one behind.
+/// Uniform buffers of one view: for its surface, for the plain one behind, and for faces painted over it.
 struct ViewUniforms {
     front: (wgpu::Buffer, wgpu::BindGroup),
+    painted: (wgpu::Buffer, wgpu::BindGroup),
     under: (wgpu::Buffer, wgpu::BindGroup),
 }
 
@@ -162,7 +172,8 @@ impl Renderer {
         surface.configure(&device, &config);
         let pipelines = Pipelines::new(&device, config.format, samples);
         let uniform = || view_uniform(&device, &pipelines);
-        let uniforms = [0, 1].map(|_| ViewUniforms { front: uniform(), under: uniform() });
+        let uniforms =
+            [0, 1].map(|_| ViewUniforms { front: uniform(), painted: uniform(), under: uniform() });
         let ball = ball(&device);
         let targets = Targets::new(&device, &config, samples);
         Ok(Self { surface, device, queue, config, pipelines, uniforms, ball, targets, samples })
@@ -201,8 +212,20 @@ impl Renderer {
         mesh(&self.device, &packed(vertices, floats), indices)
     }
 
+    /// Uploads ribbons with colours and strokes of their own.
+    pub fn marked_line_mesh(&self, vertices: &[MarkedLineVertex], indices: &[u32]) -> Mesh {
+        let floats = |bytes: &mut Vec<u8>, v: &MarkedLineVertex| {
+            push(bytes, &v.line.position);
+            push(bytes, &v.line.other);
+            push(bytes, &[v.line.side]);
+            push(bytes, &v.colour);
+            push(bytes, &[v.stroke, v.along]);
+        };
+        mesh(&self.device, &packed(vertices, floats), indices)
+    }
+
     /// Draws one frame. Frames that the browser cannot take now are left out.
-    pub fn draw(&mut self, Clear([r, g, b]): Clear, views: &[ViewDraw<'_>; 2]) {
+    pub fn draw(&self, Clear([r, g, b]): Clear, views: &[ViewDraw<'_>; 2]) {
         let frame = match self.surface.get_current_texture() {
             wgpu::CurrentSurfaceTexture::Success(frame) | wgpu::CurrentSurfaceTexture::Suboptimal(frame) => {
                 frame
@@ -219,6 +242,9 @@ impl Renderer {
             self.queue.write_buffer(&uniform.front.0, 0, &self.uniform(view).bytes());
             if view.under.is_some() {
                 self.queue.write_buffer(&uniform.under.0, 0, &self.under_uniform(view).bytes());
+            }
+            if view.painted.is_some() {
+                self.queue.write_buffer(&uniform.painted.0, 0, &self.painted_uniform(view).bytes());
             }
         }
         let instances = [0, 1].map(|k: usize| self.instances(&views[k]));
@@ -269,6 +295,7 @@ impl Renderer {
             Paint::Places => 2.0,
             Paint::Distortion => 3.0,
             Paint::Pattern => 4.0,
+            Paint::Refused => 5.0,
         };
         ViewUniform {
             clip_from_world: pose.view_projection(width / height.max(1.0)).to_cols_array_2d(),
@@ -283,7 +310,7 @@ impl Renderer {
             pattern_light: with_alpha(palette.pattern[0]),
             pattern_dark: with_alpha(palette.pattern[1]),
             rim: with_alpha(palette.rim),
-            wipe: [left + view.wipe * width, 0.0, 0.0, 0.0],
+            wipe: [left + view.wipe * width, view.dash, 0.0, 0.0],
             scale: distortion_scale().map(with_alpha),
         }
     }
@@ -293,6 +320,15 @@ impl Renderer {
         let mut uniform = self.uniform(view);
         uniform.size_and_style[2] = -1.0;
         uniform.surface = with_alpha(view.palette.under);
+        uniform
+    }
+
+    /// Faces with colours of their own.
+    fn painted_uniform(&self, view: &ViewDraw<'_>) -> ViewUniform {
+        let mut uniform = self.uniform(view);
+        uniform.size_and_style[2] = 6.0;
+        uniform.ways[0] = 0.0;
+        uniform.wipe[0] = 0.0;
         uniform
     }
 
@@ -329,8 +365,8 @@ impl Renderer {
         }
         pass.set_viewport(x, y, width, height, 0.0, 1.0);
         pass.set_scissor_rect(x as u32, y as u32, width as u32, height as u32);
-        let ViewUniforms { front, under } = &self.uniforms[k];
-        let Pipelines { surface, line, hidden_line, ball, pin, .. } = &self.pipelines;
+        let ViewUniforms { front, painted, under } = &self.uniforms[k];
+        let Pipelines { surface, line, hidden_line, mark, hidden_mark, ball, pin, .. } = &self.pipelines;
         let draw = |pass: &mut wgpu::RenderPass<'_>, mesh: &Mesh, pipeline: &wgpu::RenderPipeline| {
             pass.set_pipeline(pipeline);
             pass.set_vertex_buffer(0, mesh.vertices.slice(..));
@@ -345,6 +381,11 @@ impl Renderer {
         if let Some(mesh) = view.surface {
             draw(pass, mesh, surface);
         }
+        if let Some(mesh) = view.painted {
+            pass.set_bind_group(0, &painted.1, &[]);
+            draw(pass, mesh, surface);
+            pass.set_bind_group(0, &front.1, &[]);
+        }
         if let Some(balls) = &instances.balls {
             pass.set_pipeline(ball);
             pass.set_vertex_buffer(0, self.ball.vertices.slice(..));
@@ -355,6 +396,10 @@ impl Renderer {
         if let Some(mesh) = view.lines {
             draw(pass, mesh, hidden_line);
             draw(pass, mesh, line);
+        }
+        if let Some(mesh) = view.marks {
+            draw(pass, mesh, hidden_mark);
+            draw(pass, mesh, mark);
         }
         if let Some(pins) = &instances.pins {
             pass.set_pipeline(pin);

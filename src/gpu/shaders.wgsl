@@ -12,7 +12,8 @@ struct View {
     right: vec4<f32>,
     up: vec4<f32>,
     // xy: size of the view in pixels; z: surface style (-1 plain and a little behind, 0 plain, 1 checkerboard of the flat metric,
-    // 2 colours of the place on the target, 3 distortion, 4 solid pattern); w: half width of lines in pixels.
+    // 2 colours of the place on the target, 3 distortion, 4 solid pattern, 5 faint and hatched, 6 faces in their own colours, a
+    // little in front); w: half width of lines in pixels.
     size_and_style: vec4<f32>,
     // x: share of the way that every vertex has gone to its image; y: how strongly hollows are darkened;
     // z: opacity of lines behind the surface; w: the distortion at the end of the scale.
@@ -26,7 +27,8 @@ struct View {
     pattern_dark: vec4<f32>,
     // rgb: the border of pins.
     rim: vec4<f32>,
-    // x: from the left of the canvas to where the map's colours and lines begin, in pixels; before it the surface is plain.
+    // x: from the left of the canvas to where the map's colours and lines begin, in pixels; before it the surface is plain;
+    // y: length of a dash with its gap, in the world.
     wipe: vec4<f32>,
     // rgb: the colours of the distortion.
     scale: array<vec4<f32>, 10>,
@@ -59,6 +61,9 @@ fn surface_vertex(
     let end_normal = (view.world_from_image * vec4<f32>(image_normal, 0.0)).xyz;
     var out: SurfaceOut;
     out.world = mix(position, end, way);
+    if view.size_and_style.z > 5.5 {
+        out.world = mix(out.world, view.eye.xyz, 0.0012);
+    }
     out.clip = view.clip_from_world * vec4<f32>(out.world, 1.0);
     out.normal = mix(normal, end_normal, way);
     out.uv = uv;
@@ -128,6 +133,26 @@ fn place_colour(image: vec3<f32>) -> vec3<f32> {
     return 0.06 + 0.8 * smoothstep(vec3<f32>(-0.75), vec3<f32>(0.75), image);
 }
 
+// How much of a pixel lies in a stripe, of lines at whole multiples of the pixels `period` that are `width` pixels wide.
+fn stripe(at: f32, period: f32, width: f32) -> f32 {
+    return cover(abs(at - period * round(at / period)) - 0.5 * width);
+}
+
+// How much of a pixel the filling of a painted face covers, by its number: falling stripes, a grid, points, level stripes. On the
+// screen, so that it is as clear from afar; `unit` is the width of a line.
+fn filling(kind: f32, at: vec2<f32>, unit: f32) -> f32 {
+    let period = 5.0 * unit;
+    if kind > 2.5 {
+        return stripe(at.y, period, 1.6 * unit);
+    } else if kind > 1.5 {
+        let cell = at - period * round(at / period);
+        return cover(length(cell) - 1.3 * unit);
+    } else if kind > 0.5 {
+        return max(stripe(at.x + at.y, 1.4142 * period, 1.2 * unit), stripe(at.x - at.y, 1.4142 * period, 1.2 * unit));
+    }
+    return stripe(at.x - at.y, 1.4142 * period, 2.6 * unit);
+}
+
 @fragment
 fn surface_fragment(in: SurfaceOut) -> @location(0) vec4<f32> {
     let style = view.size_and_style.z;
@@ -136,7 +161,14 @@ fn surface_fragment(in: SurfaceOut) -> @location(0) vec4<f32> {
     let light = view.pattern_light.rgb;
     let dark = view.pattern_dark.rgb;
     var colour = view.surface.rgb;
-    if in.clip.x < view.wipe.x {
+    let unit = view.size_and_style.w / 0.9;
+    if style > 5.5 {
+        let stroke = filling(in.uv.x, in.clip.xy, 1.2 * unit);
+        colour = mix(mix(in.image, vec3<f32>(0.75), 0.55), in.image, stroke);
+    } else if style > 4.5 {
+        let hatch = stripe(in.clip.x + in.clip.y, 9.0 * unit, 1.6 * unit);
+        colour = mix(mix(colour, vec3<f32>(0.62), 0.6), vec3<f32>(0.30), 0.35 * hatch);
+    } else if in.clip.x < view.wipe.x {
         // The mesh as it is by itself.
     } else if style > 3.5 {
         // A breath of the place's own colour tells far parts of the pattern apart.
@@ -200,6 +232,67 @@ fn line_fragment(in: LineOut) -> @location(0) vec4<f32> {
 @fragment
 fn hidden_line_fragment(in: LineOut) -> @location(0) vec4<f32> {
     return vec4<f32>(view.line.rgb, view.ways.z * line_cover(in));
+}
+
+struct MarkOut {
+    @builtin(position) clip: vec4<f32>,
+    // From the middle of the line in pixels, and the line's length up to here in dashes.
+    @location(0) at: vec2<f32>,
+    @location(1) colour: vec3<f32>,
+    @location(2) stroke: f32,
+};
+
+@vertex
+fn mark_vertex(
+    @location(0) position: vec3<f32>,
+    @location(1) other: vec3<f32>,
+    @location(2) side: f32,
+    @location(3) colour: vec3<f32>,
+    @location(4) stroke: f32,
+    @location(5) along: f32,
+) -> MarkOut {
+    let here = view.clip_from_world * vec4<f32>(mix(position, view.eye.xyz, 0.004), 1.0);
+    let there = view.clip_from_world * vec4<f32>(mix(other, view.eye.xyz, 0.004), 1.0);
+    let size = view.size_and_style.xy;
+    let way = (there.xy / there.w - here.xy / here.w) * size;
+    let across = vec2<f32>(-way.y, way.x) / max(length(way), 1e-6);
+    let reach = sign(side) * (4.0 * view.size_and_style.w + 1.0);
+    var out: MarkOut;
+    out.clip = here;
+    let shift = across * reach * 2.0 / size;
+    out.clip.x += shift.x * here.w;
+    out.clip.y += shift.y * here.w;
+    out.at = vec2<f32>(select(reach, -reach, abs(side) > 1.5), along / view.wipe.y);
+    out.colour = colour;
+    out.stroke = stroke;
+    return out;
+}
+
+// How much of a pixel a stroke covers: solid, dashed, dotted, dashes with points, double.
+fn stroke_cover(in: MarkOut) -> f32 {
+    let half = view.size_and_style.w;
+    let place = fract(in.at.y);
+    let body = cover(abs(in.at.x) - 2.0 * half);
+    if in.stroke > 3.5 {
+        return cover(abs(abs(in.at.x) - 2.4 * half) - 1.1 * half);
+    } else if in.stroke > 2.5 {
+        return select(0.0, body, place < 0.5 || (place > 0.68 && place < 0.82));
+    } else if in.stroke > 1.5 {
+        return select(0.0, body, fract(3.0 * in.at.y) < 0.45);
+    } else if in.stroke > 0.5 {
+        return select(0.0, body, place < 0.6);
+    }
+    return body;
+}
+
+@fragment
+fn mark_fragment(in: MarkOut) -> @location(0) vec4<f32> {
+    return vec4<f32>(in.colour, stroke_cover(in));
+}
+
+@fragment
+fn hidden_mark_fragment(in: MarkOut) -> @location(0) vec4<f32> {
+    return vec4<f32>(in.colour, 0.3 * stroke_cover(in));
 }
 
 struct BallOut {
@@ -281,6 +374,15 @@ fn pin_fragment(in: PinOut) -> @location(0) vec4<f32> {
     let head = length(in.at - vec2<f32>(0.0, stem)) - radius;
     let needle = length(in.at - vec2<f32>(0.0, clamp(in.at.y, 0.0, max(stem - radius, 0.0))));
     let rim = view.rim.rgb;
+    if in.shape.z > 3.5 {
+        var shape = abs(in.at.x) + abs(in.at.y) - radius;
+        if in.shape.z > 4.5 {
+            let turned = vec2<f32>(in.at.x + in.at.y, in.at.x - in.at.y) * 0.7071;
+            let bar = 0.28 * radius;
+            shape = min(max(abs(turned.x) - radius, abs(turned.y) - bar), max(abs(turned.y) - radius, abs(turned.x) - bar));
+        }
+        return over(vec4<f32>(in.colour, cover(shape + 0.5)), vec4<f32>(0.02, 0.02, 0.02, 0.8 * cover(shape - 1.0)));
+    }
     if in.shape.z > 2.5 {
         // Proposed: the place shows through the head.
         let hoop = max(cover(abs(head + 1.0) - 1.0), cover(needle - 0.7) * cover(-head));

@@ -77,10 +77,15 @@ pub struct Frame {
 impl Frame {
     /// Centres the bounding box and scales the farthest vertex to distance 1.
     pub fn of(mesh: &SurfaceMesh) -> Self {
+        Self::around(mesh.positions().iter().copied())
+    }
+
+    /// Likewise of any points.
+    pub fn around(points: impl Iterator<Item = DVec3> + Clone) -> Self {
         let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let (low, high) = mesh.positions().iter().fold(start, |(l, h), p| (l.min(*p), h.max(*p)));
+        let (low, high) = points.clone().fold(start, |(l, h), p| (l.min(p), h.max(p)));
         let centre = 0.5 * (low + high);
-        let radius = mesh.positions().iter().map(|p| p.distance(centre)).fold(0.0, f64::max);
+        let radius = points.map(|p| p.distance(centre)).fold(0.0, f64::max);
         Self { centre, scale: 1.0 / radius.max(f64::MIN_POSITIVE) }
     }
 

@@ -24,6 +24,12 @@ const KEPT: usize = 10;
 /// Distance from which a single place is looked at, where the camera is farther.
 const CLOSE_UP: f32 = 1.4;
 
+/// From so many radii something small is seen with what lies around it.
+const ROOM: f32 = 5.0;
+
+/// Nearer the camera does not come by itself.
+const NEAREST: f32 = 0.5;
+
 /// A direction to look from.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq)]
 #[serde(rename_all = "lowercase")]
@@ -213,6 +219,12 @@ impl Camera {
         self.distance = self.distance.min(CLOSE_UP);
         self.target = place;
         self.pivot = place;
+    }
+
+    /// Looks at everything within a distance of a place from ahead of it, likewise.
+    pub fn face_around(&mut self, place: Vec3, normal: Vec3, radius: f32) {
+        self.face(place, normal);
+        self.distance = (ROOM * radius).clamp(NEAREST, Self::default().distance);
     }
 
     /// Turns about a point from now on, and brings it to the middle of the view.

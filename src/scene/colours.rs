@@ -35,7 +35,7 @@ pub fn distortion_scale() -> [[f32; 3]; SCALE_COLOURS] {
 }
 
 /// The standard's transfer function (IEC 61966-2-1) undone.
-fn linear(hex: Hex) -> [f32; 3] {
+pub(super) fn linear(hex: Hex) -> [f32; 3] {
     [16, 8, 0].map(|shift| {
         let c = (hex >> shift & 0xff) as f32 / 255.0;
         if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }

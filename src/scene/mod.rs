@@ -3,6 +3,7 @@
 pub mod buffers;
 pub mod camera;
 pub mod colours;
+pub mod defects;
 pub mod glide;
 pub mod hollows;
 pub mod map_picking;

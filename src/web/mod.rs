@@ -1,6 +1,7 @@
 //! The wasm boundary: typed arrays in and out, errors as JSON with a stable code and a sentence.
 
 mod compute;
+mod defects;
 mod files;
 mod landmark_files;
 mod output_file;

@@ -1,5 +1,6 @@
 //! One of the two views: its mesh, its camera, and what is marked on it.
 
+use super::defects::MeshDefects;
 use super::failure;
 use crate::gpu::{Mesh, Renderer};
 use crate::io::landmark_file::LandmarkPoint;
@@ -8,9 +9,10 @@ use crate::mesh::normals::vertex_normals;
 use crate::mesh::{FaceId, SurfacePoint};
 use crate::scene::buffers::{Frame, surface};
 use crate::scene::colours::landmark_colour;
+use crate::scene::defects::{DefectBuffers, painted, surface_as_read};
 use crate::scene::hollows::carried;
 use crate::scene::pins::{Pin, STEM, Stand, distance_to_pin};
-use crate::scene::{Camera, Glide, Picker, Pose, Ray, UpAxis};
+use crate::scene::{Camera, Glide, Picker, PinInstance, Pose, Ray, UpAxis};
 use glam::{DVec3, Vec2, Vec3};
 use rustc_hash::FxHashMap;
 use serde::Deserialize;
@@ -64,6 +66,36 @@ pub(super) struct Side {
     pub suggestions: Vec<Option<Vec3>>,
     /// A place that is asked for, or its partner.
     pub probe: Option<Vec3>,
+    /// What is wrong with a mesh, which may be one that is shown in the place of the side's own.
+    pub defects: Option<ShownDefects>,
+    /// How the side's own mesh was looked at before another one was shown in its place.
+    covered: Option<Covered>,
+}
+
+/// How a mesh was looked at.
+#[derive(Clone, Copy)]
+struct Covered {
+    camera: Camera,
+    look: Look,
+}
+
+/// What is wrong with a mesh, to be drawn.
+pub(super) struct ShownDefects {
+    pub frame: Frame,
+    /// The mesh as read, where it is shown in the place of the side's own.
+    surface: Option<RefusedSurface>,
+    /// Painted faces.
+    pub painted: Option<Mesh>,
+    pub lines: Option<Mesh>,
+    /// At one physical pixel per pixel of the page.
+    pub signs: Vec<PinInstance>,
+}
+
+/// A mesh that was refused.
+struct RefusedSurface {
+    mesh: Mesh,
+    /// Some of its points, which tell its size.
+    points: Vec<Vec3>,
 }
 
 /// A mesh that is shown.
@@ -97,13 +129,55 @@ impl Side {
     /// Moves the camera, which keeps its direction, so that the whole mesh is seen as large as the view allows.
     pub fn fit(&mut self) {
         self.look = Look::Whole;
+        let aspect = self.aspect();
+        if let Some(RefusedSurface { points, .. }) = self.refused_surface() {
+            let points = points.clone();
+            self.camera.fit(&points, aspect, SHARE);
+            return;
+        }
         let Some(mesh) = &self.mesh else { return };
         let positions = mesh.checked.mesh.positions();
-        // Some 2000 points tell the size of a mesh well enough.
-        let stride = positions.len() / 2000 + 1;
-        let points: Vec<Vec3> = positions.iter().step_by(stride).map(|p| mesh.frame.place(*p)).collect();
-        let aspect = self.aspect();
+        let points: Vec<Vec3> =
+            positions.iter().step_by(stride(positions.len())).map(|p| mesh.frame.place(*p)).collect();
         self.camera.fit(&points, aspect, SHARE);
+    }
+
+    fn refused_surface(&self) -> Option<&RefusedSurface> {
+        self.defects.as_ref()?.surface.as_ref()
+    }
+
+    /// The mesh that is shown in the place of the side's own.
+    pub fn refused(&self) -> Option<&Mesh> {
+        Some(&self.refused_surface()?.mesh)
+    }
+
+    /// Whether there is such a mesh.
+    pub fn is_covered(&self) -> bool {
+        self.refused_surface().is_some()
+    }
+
+    /// Shows a mesh that was refused in the place of the side's own.
+    pub fn cover(&mut self, defects: ShownDefects, up: UpAxis) {
+        if !self.is_covered() {
+            self.covered = Some(Covered { camera: self.camera, look: self.look });
+        }
+        self.defects = Some(defects);
+        self.probe = None;
+        self.glide = None;
+        self.camera.set_up(up);
+        self.first_look();
+    }
+
+    /// Shows the side's own mesh again, as it was looked at, without defects.
+    pub fn uncover(&mut self) {
+        self.defects = None;
+        self.probe = None;
+        if let Some(Covered { camera, look }) = self.covered.take() {
+            (self.camera, self.look, self.glide) = (camera, look, None);
+            if look == Look::Whole {
+                self.fit();
+            }
+        }
     }
 
     /// The first look: the whole mesh from ahead and a little above.
@@ -168,7 +242,7 @@ impl Side {
 
     /// The surface point seen at a place of the view, x and y from -1 to 1, y up.
     pub fn pick(&self, at: Vec2, now: f64) -> Option<SurfacePoint> {
-        let mesh = self.mesh.as_ref()?;
+        let mesh = self.mesh.as_ref().filter(|_| !self.is_covered())?;
         let (from, along) = mesh.ray(self.pose(now).ray(at, self.aspect()));
         mesh.picker.as_ref()?.pick(&mesh.checked.mesh, from, along)
     }
@@ -267,6 +341,35 @@ impl Side {
         let distance = eye.distance(at);
         // 1 % of the distance: no point is hidden by its own face.
         hit.is_some_and(|h| h.position(&mesh.checked.mesh).distance(eye) < distance - 0.01 * distance)
+    }
+}
+
+/// Some 2000 points tell the size of a mesh well enough.
+fn stride(points: usize) -> usize {
+    points / 2000 + 1
+}
+
+impl ShownDefects {
+    /// What is drawn of them in a frame.
+    pub fn new(found: &MeshDefects, frame: Frame, renderer: &Renderer) -> Self {
+        let DefectBuffers { faces, lines, signs } = painted(&found.defects, &found.normals, &frame);
+        Self {
+            frame,
+            surface: None,
+            painted: (!faces.1.is_empty()).then(|| renderer.surface_mesh(&faces.0, &faces.1)),
+            lines: (!lines.1.is_empty()).then(|| renderer.marked_line_mesh(&lines.0, &lines.1)),
+            signs,
+        }
+    }
+
+    /// Together with the mesh as read.
+    #[must_use]
+    pub fn with_surface(self, found: &MeshDefects, renderer: &Renderer) -> Self {
+        let (vertices, indices) = surface_as_read(&found.defects, &found.normals, &self.frame);
+        let corners = indices.iter().step_by(stride(indices.len()));
+        let points = corners.map(|&v| Vec3::from_array(vertices[v as usize].position)).collect();
+        let mesh = renderer.surface_mesh(&vertices, &indices);
+        Self { surface: Some(RefusedSurface { mesh, points }), ..self }
     }
 }
 

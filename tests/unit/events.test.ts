@@ -4,11 +4,13 @@ import type { Side } from '../../www/landmarks.ts';
 import type { RunOptions } from '../../www/report.ts';
 import { change } from '../../www/store/change.ts';
 import type { Event } from '../../www/store/events.ts';
+import type { Examined } from '../../www/store/defects.ts';
 import type { Refused, RefusedMesh } from '../../www/store/refused.ts';
 import type { Offer, Proposal, State, Style, Ui } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
 import { workOf } from '../../www/store/work.ts';
 import { AWAITED, DEMO, DONE, DOUBT, FOUR, mesh, OPENED, OUTPUT, pair, READY, REPORT, RUNNING, suggestion, SWAPPED } from './fixtures.ts';
+import type { MeshDefects } from '../../www/wasm/conemap.js';
 
 interface Case<K extends Event['kind']> {
   readonly before: State;
@@ -26,12 +28,14 @@ const OPTIONS: RunOptions = { method: 'thesis', base: 'qem', cones: 'uniform', c
 const STYLE: Style = { surface: 'colours', patchLines: false, cones: false, markers: false, morph: 0.25, wipe: 0.75 };
 const OFFER: Offer = { session: 'a', names: ['cat.off', 'lion.off'], pairs: 12, saved: 1 };
 const [CAT, LION] = READY.meshes;
+const EXAMINED: Examined = { found: {} as unknown as MeshDefects, groups: [], faceCount: 192 };
 const ringAt = (side: Side): RefusedMesh => ({
   side,
   file: { name: 'ring.obj', bytes: new Uint8Array(3) },
   allowed: {},
   offer: { kind: 'cut-handles', handles: 1, longest: 0.4 },
   sentence: 'ring.obj: The surface has 1 handle.',
+  examined: EXAMINED,
 });
 const REFUSED: Refused = { meshes: [ringAt(0), ringAt(1)], landmarks: [] };
 const HALF: State = { ...READY, pairs: [...FOUR, pair(5, 7, null)], nextId: 6 };
@@ -474,6 +478,12 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     event: { refused: REFUSED },
     step: null,
     changes: { refused: REFUSED },
+  },
+  examined: {
+    before: READY,
+    event: { side: 1, examined: EXAMINED },
+    step: null,
+    changes: { examined: [null, EXAMINED] },
   },
   'refused-closed': {
     before: { ...READY, refused: REFUSED },

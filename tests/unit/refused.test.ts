@@ -1,14 +1,16 @@
 /** Meshes that are refused, what is offered, and what comes of it. */
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
-import { beforeAll, expect, test } from 'vitest';
-import { meshFile } from '../../www/files.ts';
+import { beforeAll, expect, test, vi } from 'vitest';
+import { freeExamined } from '../../www/app/repair-mesh.ts';
+import { examinedRepair, meshFile } from '../../www/files.ts';
 import { eventsOfSides, openingOf, repairedEvents } from '../../www/opening.ts';
 import type { NamedBytes } from '../../www/files.ts';
 import { repairCommand } from '../../www/messages.ts';
 import type { Report } from '../../www/report.ts';
+import { shownDefects } from '../../www/store/defects.ts';
 import { NO_HISTORY } from '../../www/store/history.ts';
-import { ALL_ALLOWED } from '../../www/store/refused.ts';
+import { ALL_ALLOWED, allowedBy } from '../../www/store/refused.ts';
 import type { RefusedMesh } from '../../www/store/refused.ts';
 import type { State } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
@@ -77,6 +79,11 @@ function refusedIn(state: State, place = 0): RefusedMesh {
   return mesh;
 }
 
+/** The button under a refused mesh. */
+function command({ offer }: RefusedMesh): string | null {
+  return offer === null ? null : repairCommand(offer);
+}
+
 test('a good mesh that comes with a bad one stays, and the bad one waits with its repair', () => {
   const state = after(EMPTY, ...openingOf([GOOD, RING], null, EMPTY).events);
   expect(state.meshes[0]?.name).toBe('corner.obj');
@@ -86,7 +93,7 @@ test('a good mesh that comes with a bad one stays, and the bad one waits with it
   expect(refused).toMatchObject({ side: 1, offer: { kind: 'cut-handles', handles: 1 } });
   expect(refused.sentence).toMatch(/^ring\.obj: The surface has 1 handle \(at vertex \d+ a loop of 8 edges, /);
   expect(refused.sentence).not.toContain('--');
-  expect(repairCommand(refused.offer)).toBe('Cut 1 handle and cap it');
+  expect(command(refused)).toBe('Cut 1 handle and cap it');
 
   const repaired = after(state, ...repairedEvents(refused, state));
   expect(repaired.meshes.map((file) => file?.name)).toEqual(['corner.obj', 'ring.obj']);
@@ -106,7 +113,7 @@ test('one repair may lead to the next, and allows no more than was asked for', (
   const state = after(EMPTY, ...openingOf([both], 1, EMPTY).events);
   const first = refusedIn(state);
   expect(first.offer).toMatchObject({ kind: 'keep-largest', parts: 2 });
-  expect(repairCommand(first.offer)).toMatch(/^Keep the largest part \(7\d % of the area\)$/);
+  expect(command(first)).toMatch(/^Keep the largest part \(7\d % of the area\)$/);
   const next = after(state, ...repairedEvents(first, state));
   expect(next.meshes[1]).toBeNull();
   const second = refusedIn(next);
@@ -142,13 +149,59 @@ test('landmarks that do not fit a repaired mesh are told, and the mesh stays', (
   expect(repaired.error).toMatch(/^Pairs\.json|^pairs\.json/);
 });
 
-test('a mesh that no repair helps is told beside a good one, which stays', () => {
+test('a mesh that no repair helps is shown beside a good one, which stays', () => {
   const sheet = obj('sheet.obj', { vertices: CORNER.vertices, faces: CORNER.faces.slice(0, 1) });
-  const state = after(EMPTY, ...openingOf([GOOD, sheet, landmarks([[0, 0]])], null, EMPTY).events);
+  const state = after(EMPTY, ...openingOf([GOOD, sheet], null, EMPTY).events);
+  expect(state.meshes[0]?.name).toBe('corner.obj');
+  expect(state.error).toBeNull();
+  const refused = refusedIn(state);
+  expect(refused).toMatchObject({ side: 1, offer: null });
+  expect(refused.sentence).toMatch(/^sheet\.obj: The surface is an open sheet/);
+  expect(allowedBy(refused)).toEqual({});
+  expect(refused.examined.groups.map(({ sentence }) => sentence)).toEqual(['1 open rim']);
+  expect(refused.examined.groups[0]?.labels).toEqual(['3 edges from vertex 0 on']);
+});
+
+test('a file without a mesh is told, and there is nothing to show of it', () => {
+  const points = obj('points.obj', { vertices: CORNER.vertices, faces: [] });
+  const state = after(EMPTY, ...openingOf([GOOD, points, landmarks([[0, 0]])], null, EMPTY).events);
   expect(state.meshes[0]?.name).toBe('corner.obj');
   expect(state.refused).toBeNull();
-  expect(state.error).toMatch(/^sheet\.obj: The surface is an open sheet.*The landmarks were left out/);
-  expect(() => openingOf([sheet], null, EMPTY)).toThrow(/^sheet\.obj: /);
+  expect(state.error).toMatch(/^points\.obj: .*The landmarks were left out/);
+  expect(() => openingOf([points], null, EMPTY)).toThrow(/^points\.obj: /);
+});
+
+test('what is wrong with a refused mesh is told by kind and place, and given back with it', () => {
+  const both = obj('both.obj', beside(ring(12, 8), CORNER, 9));
+  const state = after(EMPTY, ...openingOf([both], 1, EMPTY).events);
+  const { examined } = refusedIn(state);
+  expect(examined.groups.map(({ kind, sentence, labels }) => [kind, sentence, labels])).toEqual([
+    ['loose_part', '1 part beside the largest', ['4 faces from face 192 on']],
+    ['handle_loop', '1 handle', [expect.stringMatching(/^8 edges from vertex \d+ on$/)]],
+  ]);
+  const looks = examined.groups.map(({ colour, stroke, fill }) => [colour, stroke, fill]);
+  expect(looks).toEqual([[expect.stringMatching(/^#[0-9a-f]{6}$/), null, 'grid'], [expect.stringMatching(/^#/), 'dash-dot', null]]);
+  expect([shownDefects(state, 0), shownDefects(state, 1)]).toEqual([null, examined]);
+
+  const free = vi.spyOn(examined.found, 'free');
+  const next = after(state, ...repairedEvents(refusedIn(state), state));
+  freeExamined(next, state);
+  expect(free).toHaveBeenCalledTimes(1);
+});
+
+test('where a mesh was repaired is shown when asked, and goes with the mesh', () => {
+  const state = after(EMPTY, ...openingOf([RING], 1, EMPTY).events);
+  const repaired = after(state, ...repairedEvents(refusedIn(state), state));
+  const file = repaired.meshes[1];
+  if (file === null) {
+    throw new Error('the ring is not there');
+  }
+  const examined = examinedRepair(file);
+  expect(examined.groups.map(({ sentence }) => sentence)).toEqual(['1 handle', '2 caps']);
+  const shown = after(repaired, { kind: 'examined', side: 1, examined });
+  expect(shownDefects(shown, 1)).toBe(examined);
+  expect(after(shown, { kind: 'swap-meshes' }).examined).toEqual([examined, null]);
+  expect(after(shown, { kind: 'undo' }).examined).toEqual([null, null]);
 });
 
 test('a mesh that was refused is left out when something else comes there, or when nobody wants it', () => {

@@ -117,6 +117,7 @@ test('two real meshes and their landmarks give a certified map', async ({ page }
   const refused = page.locator('.notice.refused');
   await expect(refused).toContainText(/^open-teapot\.off: .*4 separate parts/);
   await expect(refused.getByRole('button', { name: 'Keep the largest part (73 % of the area)' })).toBeEnabled();
+  await openStep(page, 'landmarks');
   await expect(rows).toHaveCount(count);
   await openStep(page, 'map');
   await expect(page.locator('#result')).toContainText('Certified');

@@ -1,6 +1,10 @@
-/** Repairs a mesh that was refused, as it was offered. */
+/** Repairs a mesh that was refused, as it was offered, and shows where one was repaired. */
 import { repairedEvents } from '../opening.ts';
+import { examinedRepair } from '../files.ts';
+import type { Side } from '../landmarks.ts';
+import type { Examined } from '../store/defects.ts';
 import type { RefusedMesh } from '../store/refused.ts';
+import type { State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { perform } from './task.ts';
 
@@ -21,4 +25,41 @@ export async function repairMesh(store: Store, mesh: RefusedMesh): Promise<void>
       }
     },
   );
+}
+
+/** Shows what was wrong with the mesh of a side before it was repaired, or no more. */
+export async function showRepairs(store: Store, side: Side, shown: 'shown' | 'hidden'): Promise<void> {
+  const file = store.state.meshes[side];
+  if (shown === 'hidden' || file === null) {
+    store.dispatch({ kind: 'examined', side, examined: null });
+    return;
+  }
+  await perform(
+    store,
+    `Looking at ${file.name}…`,
+    () => file,
+    () => {
+      if (store.state.meshes[side] === file) {
+        store.dispatch({ kind: 'examined', side, examined: examinedRepair(file) });
+      }
+    },
+  );
+}
+
+/** What is shown of defects. */
+function held({ refused, examined }: State): Set<Examined> {
+  return new Set([...examined, ...(refused?.meshes ?? []).map((mesh) => mesh.examined)].filter((one) => one !== null));
+}
+
+/** Gives back the core's memory of defects that nothing shows any more. */
+export function freeExamined(state: State, previous: State): void {
+  if (state.refused === previous.refused && state.examined === previous.examined) {
+    return;
+  }
+  const present = held(state);
+  for (const examined of held(previous)) {
+    if (!present.has(examined)) {
+      examined.found.free();
+    }
+  }
 }

@@ -2,6 +2,7 @@
 import type { Side, SurfacePoint } from '../landmarks.ts';
 import type { prospectSentence } from '../messages.ts';
 import type { Event } from '../store/events.ts';
+import type { Examined } from '../store/defects.ts';
 import type { RefusedMesh } from '../store/refused.ts';
 import type { Axis, Doubt, State } from '../store/state.ts';
 import type { Shell } from './shell.ts';
@@ -49,6 +50,10 @@ export interface Actions {
   readonly repair: (finding: Doubt) => void;
   /** Repairs a mesh that was refused. */
   readonly repairMesh: (mesh: RefusedMesh) => void;
+  /** Shows what was wrong with a mesh before it was repaired, or no more. */
+  readonly showRepairs: (side: Side, shown: 'shown' | 'hidden') => void;
+  /** Turns a view to a defect that is shown, by the places of its kind and its own. */
+  readonly lookAtDefect: (side: Side, examined: Examined, group: number, index: number) => void;
   /** Moves the camera of a view. */
   readonly camera: (side: Side, command: CameraCommand) => void;
   /** Shows the source on its way to the target's shape until the style changes: 0 is the source's shape, 1 the target's. */

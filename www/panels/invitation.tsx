@@ -13,7 +13,8 @@ const ASKS = [
 
 /** The drop zone of one view; nothing where there is a mesh. */
 export function Invitation({ state, side }: { readonly side: Side } & Pick<PartProps, 'state'>): VNode | null {
-  if (state.meshes[side] !== null || !state.ready || state.job.kind === 'busy') {
+  const isRefused = state.refused?.meshes.some((mesh) => mesh.side === side) === true;
+  if (state.meshes[side] !== null || isRefused || !state.ready || state.job.kind === 'busy') {
     return null;
   }
   const { title, about, chooser } = ASKS[side];

@@ -4,7 +4,9 @@ import type { Side } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
 import { integer } from '../numbers.ts';
 import { meshFormats } from '../wasm/conemap.js';
+import type { RefusedMesh } from '../store/refused.ts';
 import type { PartProps } from './actions.ts';
+import { DefectList } from './defects.tsx';
 import { Gallery } from './gallery.tsx';
 import { Icon } from './icons.tsx';
 import { choose } from './inputs.tsx';
@@ -14,8 +16,44 @@ const BLOCKS = [
   { title: 'Target', chooser: 'target-file', about: 'is what the source is mapped onto' },
 ] as const;
 
-function MeshBlock({ state, side }: { readonly side: Side } & Pick<PartProps, 'state'>): VNode {
+/** A mesh that was refused, with what is wrong with it. */
+function RefusedBlock({ mesh, actions }: { readonly mesh: RefusedMesh } & Pick<PartProps, 'actions'>): VNode {
+  const { side, file, examined } = mesh;
+  return (
+    <div class="refused-mesh">
+      <p class="mesh-name">{file.name}</p>
+      <p class="quiet">{integer(examined.faceCount)} triangles, not accepted. The view shows it as it is in the file:</p>
+      <DefectList side={side} examined={examined} actions={actions} />
+    </div>
+  );
+}
+
+/** What was repaired of a mesh that is there, and, when asked, where. */
+function Repairs({ state, actions, side }: { readonly side: Side } & Pick<PartProps, 'state' | 'actions'>): VNode {
+  const examined = state.examined[side];
+  const { job } = state;
+  return (
+    <>
+      <p class="quiet repairs">Repaired: {state.meshes[side]?.repairs}.</p>
+      <button
+        type="button"
+        class="show-repairs"
+        aria-pressed={examined !== null}
+        disabled={job.kind === 'busy' || job.kind === 'running'}
+        onClick={() => {
+          actions.showRepairs(side, examined === null ? 'shown' : 'hidden');
+        }}
+      >
+        {examined === null ? 'Show where' : 'Hide the repairs'}
+      </button>
+      {examined !== null && <DefectList side={side} examined={examined} actions={actions} />}
+    </>
+  );
+}
+
+function MeshBlock({ state, actions, side }: { readonly side: Side } & Pick<PartProps, 'state' | 'actions'>): VNode {
   const file = state.meshes[side];
+  const refused = state.refused?.meshes.find((mesh) => mesh.side === side);
   const { title, chooser, about } = BLOCKS[side];
   const running = state.job.kind === 'running';
   return (
@@ -33,7 +71,8 @@ function MeshBlock({ state, side }: { readonly side: Side } & Pick<PartProps, 's
           {file === null ? 'Choose…' : 'Replace…'}
         </button>
       </div>
-      {file === null ? (
+      {refused !== undefined && <RefusedBlock mesh={refused} actions={actions} />}
+      {refused !== undefined ? null : file === null ? (
         <p class="quiet">The mesh that {about}.</p>
       ) : (
         <>
@@ -42,7 +81,7 @@ function MeshBlock({ state, side }: { readonly side: Side } & Pick<PartProps, 's
             {integer(file.vertexCount)} vertices, {integer(file.faceCount)} triangles
             {file.repairs === '' && file.turnedFaces > 0 && `, ${integer(file.turnedFaces)} of them turned to look outwards`}
           </p>
-          {file.repairs !== '' && <p class="quiet repairs">Repaired: {file.repairs}.</p>}
+          {file.repairs !== '' && <Repairs state={state} actions={actions} side={side} />}
         </>
       )}
     </section>
@@ -55,7 +94,7 @@ export function MeshesPanel({ state, actions }: PartProps): VNode {
   return (
     <div class="content">
       {SIDES.map((side) => (
-        <MeshBlock key={side} state={state} side={side} />
+        <MeshBlock key={side} state={state} actions={actions} side={side} />
       ))}
       <div class="row">
         <button

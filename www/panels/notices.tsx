@@ -74,22 +74,24 @@ function MapNotice({ state, map, actions }: { readonly state: State; readonly ma
   );
 }
 
-/** A mesh that was refused, and the repair that would help. */
+/** A mesh that was refused, and the repair that would help, where one would. */
 function RefusedNotice({ mesh, state, actions }: { readonly mesh: RefusedMesh } & Pick<PartProps, 'state' | 'actions'>): VNode {
   const { kind } = state.job;
   return (
     <div class="notice refused" data-side={mesh.side}>
       <p>{mesh.sentence}</p>
-      <button
-        type="button"
-        class="main"
-        disabled={kind === 'running' || kind === 'busy'}
-        onClick={() => {
-          actions.repairMesh(mesh);
-        }}
-      >
-        {repairCommand(mesh.offer)}
-      </button>
+      {mesh.offer !== null && (
+        <button
+          type="button"
+          class="main"
+          disabled={kind === 'running' || kind === 'busy'}
+          onClick={() => {
+            actions.repairMesh(mesh);
+          }}
+        >
+          {repairCommand(mesh.offer)}
+        </button>
+      )}
       <button
         type="button"
         onClick={() => {

@@ -27,6 +27,16 @@ function changed(file: MeshFile): string {
 
 function Caption({ state, side }: { readonly state: State; readonly side: Side }): VNode {
   const file = state.meshes[side];
+  const refused = state.refused?.meshes.find((mesh) => mesh.side === side);
+  if (refused !== undefined) {
+    return (
+      <p class="caption clipped">
+        {side === 0 ? 'Source' : 'Target'} <strong>{refused.file.name}</strong>{' '}
+        <span class="facts">{integer(refused.examined.faceCount)} triangles, </span>
+        <span class="not-accepted">not accepted</span>
+      </p>
+    );
+  }
   return (
     <p class="caption clipped">
       {file !== null && (

@@ -44,6 +44,10 @@ export function stepAfter(state: State, previous: State): Step | null {
   if (state.result !== previous.result && state.result !== null && state.result.opened !== null) {
     return 'map';
   }
+  if (state.refused !== null && state.refused !== previous.refused && state.refused.meshes.some((mesh) => previous.refused?.meshes.includes(mesh) !== true)) {
+    // What is wrong with it is listed there.
+    return 'meshes';
+  }
   if (state.history.past.length <= previous.history.past.length) {
     // Nothing new: a step was taken back.
     return null;

@@ -2,6 +2,7 @@
 import type { VNode } from 'preact';
 import { useState } from 'preact/hooks';
 import type { Side } from '../landmarks.ts';
+import { shownDefects } from '../store/defects.ts';
 import { shownResult } from '../store/staleness.ts';
 import type { Axis, State } from '../store/state.ts';
 import type { Direction, PartProps } from './actions.ts';
@@ -168,7 +169,7 @@ function Alone({ shell, side }: Props): VNode {
 /** The bar of one view. */
 export function ViewBar(props: Props): VNode | null {
   const { state, actions, side } = props;
-  if (state.meshes[side] === null) {
+  if (state.meshes[side] === null && shownDefects(state, side) === null) {
     return null;
   }
   return (

@@ -4,6 +4,7 @@ import type { RunOptions } from '../report.ts';
 import type { LandmarkFile, Side, Suggestion, SurfacePoint } from '../landmarks.ts';
 import type { Finding, Report } from '../report.ts';
 import type { AwaitedMap } from './awaited.ts';
+import type { Examined } from './defects.ts';
 import type { History } from './history.ts';
 import type { Task } from './job.ts';
 import type { OpenedMap } from './opened.ts';
@@ -111,7 +112,9 @@ export type Event =
   | { readonly kind: 'toast-closed' }
   /** The link that was opened waits for something, or for nothing any more. */
   | { readonly kind: 'receiving'; readonly receiving: Receiving }
-  /** Meshes were refused that a repair would help, in the place of earlier ones. */
+  /** What was wrong with a side's mesh before it was repaired is shown, or no more. */
+  | { readonly kind: 'examined'; readonly side: Side; readonly examined: Examined | null }
+  /** Meshes were refused, in the place of earlier ones. */
   | { readonly kind: 'refused'; readonly refused: Refused | null }
   /** The refused mesh of a side is left out. */
   | { readonly kind: 'refused-closed'; readonly side: Side }

@@ -187,6 +187,8 @@ export function update(state: State, event: Event): State {
       return patched(state, { toast: null });
     case 'receiving':
       return { ...state, receiving: event.receiving };
+    case 'examined':
+      return { ...state, examined: event.side === 0 ? [event.examined, state.examined[1]] : [state.examined[0], event.examined] };
     case 'refused':
       return patched(state, { refused: event.refused });
     case 'refused-closed':

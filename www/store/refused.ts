@@ -1,6 +1,7 @@
-/** Meshes that were refused, while a repair is offered that would help. */
+/** Meshes that were refused: they are shown with what is wrong, and wait for a repair that would help, or to be left out. */
 import type { Side } from '../landmarks.ts';
 import type { RepairOffer } from '../report.ts';
+import type { Examined } from './defects.ts';
 
 /** What a repair may do beyond what does not change the shape, as the core reads it; what is left out it may not. */
 export interface Allowed {
@@ -28,10 +29,12 @@ export interface RefusedMesh {
   readonly file: GivenFile;
   /** What its repair may do already. */
   readonly allowed: Allowed;
-  /** What would help beyond. */
-  readonly offer: RepairOffer;
+  /** What would help beyond; `null` where nothing would. */
+  readonly offer: RepairOffer | null;
   /** Why it was refused. */
   readonly sentence: string;
+  /** What is wrong with it, for the view and the list. */
+  readonly examined: Examined;
 }
 
 /** What waits for the user's word. */
@@ -44,6 +47,9 @@ export interface Refused {
 
 /** The options that an offer allows beside those that there are. */
 export function allowedBy({ allowed, offer }: Pick<RefusedMesh, 'allowed' | 'offer'>): Allowed {
+  if (offer === null) {
+    return allowed;
+  }
   return offer.kind === 'cut-handles' ? { ...allowed, handles: 'cut' } : { ...allowed, parts: 'largest-alone' };
 }
 

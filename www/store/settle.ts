@@ -57,6 +57,7 @@ export function inLine(state: State, before: State): State {
   return {
     ...next,
     suggestions: follow(before.suggestions, []),
+    examined: before.examined.every((one) => one === null) ? before.examined : follow(before.examined, null),
     ui: {
       ...next.ui,
       cameras: cameras === before.ui.cameras ? follow(cameras, null) : cameras,

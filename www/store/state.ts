@@ -3,6 +3,7 @@ import type { RunOutput } from '../compute/messages.ts';
 import type { Side, Suggestion, SurfacePoint } from '../landmarks.ts';
 import type { Finding, Report } from '../report.ts';
 import type { AwaitedMap } from './awaited.ts';
+import type { Examined } from './defects.ts';
 import type { History } from './history.ts';
 import { NO_HISTORY } from './history.ts';
 import type { Job } from './job.ts';
@@ -128,8 +129,10 @@ export interface State extends Work {
   readonly receiving: Receiving;
   /** A map file that waits for its meshes. */
   readonly awaited: AwaitedMap | null;
-  /** Meshes that were refused, while a repair is offered. */
+  /** Meshes that were refused and not left out. */
   readonly refused: Refused | null;
+  /** By side what was wrong with the mesh before it was repaired, while it is shown. */
+  readonly examined: readonly [Examined | null, Examined | null];
   /** Whether a newer build of the page waits for a reload. */
   readonly isOutdated: boolean;
   readonly offer: Offer | null;
@@ -163,6 +166,7 @@ export const INITIAL: State = {
   receiving: { kind: 'nothing' },
   awaited: null,
   refused: null,
+  examined: [null, null],
   isOutdated: false,
   offer: null,
   error: null,

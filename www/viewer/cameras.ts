@@ -2,7 +2,7 @@
 import type { Side } from '../landmarks.ts';
 import { otherSide, SIDES } from '../landmarks.ts';
 import type { Axis, Camera } from '../store/state.ts';
-import type { Viewer } from '../wasm/conemap.js';
+import type { MeshDefects, Viewer } from '../wasm/conemap.js';
 import type { Place } from './gestures.ts';
 
 /** A side to look from. */
@@ -96,6 +96,13 @@ export class Cameras {
   face(side: Side, point: string): void {
     this.#one(side, 'smoothly', (viewer) => {
       viewer.face(side, point);
+    });
+  }
+
+  /** Turns one view to a defect that it shows, and comes near. */
+  faceDefect(side: Side, found: MeshDefects, group: number, index: number): void {
+    this.#one(side, 'smoothly', (viewer) => {
+      viewer.lookAtDefect(side, found, group, index);
     });
   }
 

@@ -4,9 +4,12 @@ import { byId } from '../dom.ts';
 import type { Side, SurfacePoint } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
 import { failureSentence, SENTENCES } from '../messages.ts';
+import type { Examined } from '../store/defects.ts';
+import { shownDefects } from '../store/defects.ts';
 import type { Event } from '../store/events.ts';
 import { hasItsCones, shownResult } from '../store/staleness.ts';
 import type { Axis, Camera, Proposal, State } from '../store/state.ts';
+import { upOf } from '../store/work.ts';
 import { Viewer } from '../wasm/conemap.js';
 import type { Direction } from './cameras.ts';
 import { cameraOf, Cameras } from './cameras.ts';
@@ -171,6 +174,12 @@ export class Views {
     this.#moved();
   }
 
+  /** Turns a view to a defect that it shows. */
+  lookAtDefect(side: Side, { found }: Examined, group: number, index: number): void {
+    this.#cameras.faceDefect(side, found, group, index);
+    this.#moved();
+  }
+
   /** Turns both views to a pair's points. */
   lookAtPair(id: number): void {
     const pair = this.#state.pairs.find((candidate) => candidate.id === id);
@@ -237,6 +246,7 @@ export class Views {
         previous.ui.hovered !== state.ui.hovered,
       suggestions: isOtherMesh || previous.suggestions !== state.suggestions,
       cameras: previous?.ui.cameras !== state.ui.cameras,
+      defects: isOtherMesh || previous.refused !== state.refused || previous.examined !== state.examined,
     };
     this.#cameras.linked = state.ui.link !== 'free';
     if (!Object.values(changes).includes(true)) {
@@ -260,6 +270,9 @@ export class Views {
       }
       if (changes.suggestions) {
         this.#setSuggestions(viewer);
+      }
+      if (changes.defects) {
+        this.#setDefects(viewer, previous);
       }
       if (changes.picture) {
         this.#setStyle(viewer);
@@ -302,6 +315,25 @@ export class Views {
       if (camera !== this.#told[side]) {
         this.#told[side] = camera;
         this.#cameras.restore(side, camera);
+      }
+    }
+  }
+
+  /** What is wrong with a mesh: a refused one in the place of the side's own, or over that where it was repaired. */
+  #setDefects(viewer: Viewer, previous: State | null): void {
+    for (const side of SIDES) {
+      const shown = shownDefects(this.#state, side);
+      const isSameMesh = previous?.meshes[side] === this.#state.meshes[side];
+      if (previous !== null && isSameMesh && shownDefects(previous, side) === shown) {
+        continue;
+      }
+      const refused = this.#state.refused?.meshes.find((mesh) => mesh.side === side);
+      if (shown === null) {
+        viewer.clearDefects(side);
+      } else if (refused === undefined) {
+        viewer.showRepaired(side, shown.found);
+      } else {
+        viewer.showRefused(side, shown.found, upOf(refused.file.name));
       }
     }
   }

@@ -9,6 +9,7 @@
 //! Limits: intersections of the surface with itself, there before or made by a cap, are not looked for.
 
 mod caps;
+mod defects;
 mod degenerate;
 mod draft;
 mod duplicates;
@@ -22,6 +23,7 @@ mod refusal;
 mod report;
 mod sheets;
 
+pub use defects::{Defect, DefectGroup, DefectKind, Defects, MOST_DEFECTS, MOST_POINTS, Outlook, defects};
 pub use options::{Handles, Parts, RepairOptions};
 pub use order::{RepairedMesh, repaired};
 pub use refusal::RepairRefusal;

@@ -4,19 +4,26 @@ use super::draft::{Draft, DraftFace, NONE, across, edges};
 use super::refusal::RepairRefusal;
 use crate::mesh::check::MeshFault;
 
-/// The draft with faces turned so that neighbours across edges with two faces agree, in each part as most of its faces lie.
-///
-/// # Errors
-/// [`MeshFault::NotOrientable`] where a part is one-sided.
-pub(super) fn oriented(draft: Draft) -> Result<Draft, RepairRefusal> {
+/// Which faces have to be turned so that neighbours agree.
+pub(super) struct Turns {
+    /// By face; in each part as most of its faces lie, and none in one-sided parts.
+    pub turned: Vec<bool>,
+    /// Sides across which one-sided parts cannot agree.
+    pub seams: Vec<usize>,
+}
+
+/// Which faces have to be turned so that neighbours across edges with two faces agree.
+pub(super) fn turns(draft: &Draft) -> Turns {
     let across = across(&draft.faces, &edges(&draft.faces));
     let mut turned: Vec<Option<bool>> = vec![None; draft.faces.len()];
+    let mut seams = Vec::new();
     for root in 0..draft.faces.len() {
         if turned[root].is_some() {
             continue;
         }
         turned[root] = Some(false);
         let mut part = vec![root];
+        let known = seams.len();
         let mut next = 0;
         while let Some(&f) = part.get(next) {
             next += 1;
@@ -32,21 +39,33 @@ pub(super) fn oriented(draft: Draft) -> Result<Draft, RepairRefusal> {
                         turned[other / 3] = wanted;
                         part.push(other / 3);
                     }
-                    found if found != wanted => {
-                        let edge = draft.faces[f].side(side % 3).map(|v| draft.number(v));
-                        return Err(MeshFault::NotOrientable { edge }.into());
-                    }
+                    found if found != wanted => seams.push(side),
                     _ => {}
                 }
             }
         }
         let count = part.iter().filter(|&&f| turned[f] == Some(true)).count();
-        if 2 * count > part.len() {
+        if seams.len() > known {
+            part.iter().for_each(|&f| turned[f] = Some(false));
+        } else if 2 * count > part.len() {
             part.iter().for_each(|&f| turned[f] = turned[f].map(|x| !x));
         }
     }
+    Turns { turned: turned.into_iter().map(|turned| turned == Some(true)).collect(), seams }
+}
+
+/// The draft with faces turned as [`turns`] tells.
+///
+/// # Errors
+/// [`MeshFault::NotOrientable`] where a part is one-sided.
+pub(super) fn oriented(draft: Draft) -> Result<Draft, RepairRefusal> {
+    let Turns { turned, seams } = turns(&draft);
+    if let Some(&side) = seams.first() {
+        let edge = draft.faces[side / 3].side(side % 3).map(|v| draft.number(v));
+        return Err(MeshFault::NotOrientable { edge }.into());
+    }
     let mut draft = draft;
-    for (face, _) in draft.faces.iter_mut().zip(turned).filter(|(_, turned)| *turned == Some(true)) {
+    for (face, _) in draft.faces.iter_mut().zip(turned).filter(|(_, turned)| *turned) {
         *face = face.turned();
     }
     Ok(draft)

@@ -28,10 +28,7 @@ pub(super) fn largest(draft: Draft, allowed: Parts) -> Result<(Draft, Option<Dro
     if count < 2 {
         return Ok((draft, None));
     }
-    let mut areas = vec![0.0; count];
-    for (face, &p) in draft.faces.iter().zip(&part) {
-        areas[p] += draft.face_area(face);
-    }
+    let areas = areas(&draft, &part);
     // Of equal ones the first.
     let largest = (0..count).rev().max_by(|&a, &b| areas[a].total_cmp(&areas[b])).unwrap_or(0);
     let area_share = 1.0 - areas[largest] / areas.iter().sum::<f64>();
@@ -43,4 +40,13 @@ pub(super) fn largest(draft: Draft, allowed: Parts) -> Result<(Draft, Option<Dro
         (0..part.len()).filter(goes).filter_map(|f| draft.faces[f].number()).collect();
     let kept: Vec<_> = (0..part.len()).filter(|f| !goes(f)).map(|f| draft.faces[f]).collect();
     Ok((draft.with_faces(kept), Some(DroppedParts { parts: count - 1, faces, area_share })))
+}
+
+/// The area of each part.
+pub(super) fn areas(draft: &Draft, part: &[usize]) -> Vec<f64> {
+    let mut areas = vec![0.0; part.iter().max().map_or(0, |last| last + 1)];
+    for (face, &p) in draft.faces.iter().zip(part) {
+        areas[p] += draft.face_area(face);
+    }
+    areas
 }

@@ -1,6 +1,7 @@
 //! What a repair changed, in counts, numbers of the file and sentences.
 
 use crate::mesh::check::{Count, Elements, MeshFault};
+use glam::DVec3;
 use serde::Serialize;
 use std::fmt;
 
@@ -94,6 +95,9 @@ pub struct Handle {
     pub area_share: f64,
     /// The vertices of the loop, by their numbers in the file; from its number of vertices on where the loop passes over a cap.
     pub vertices: Vec<usize>,
+    /// Where these are, in the file's units.
+    #[serde(skip)]
+    pub places: Vec<DVec3>,
 }
 
 /// A change as reports tell it.

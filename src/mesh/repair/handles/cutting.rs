@@ -8,6 +8,7 @@ use super::crossings::{Crossings, Generator};
 use super::graph::Graph;
 use super::shortest::shortest_loop;
 use crate::monitor::{Cancelled, Monitor, Portion};
+use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A surface whose handles were cut.
@@ -28,6 +29,8 @@ pub(in crate::mesh::repair) struct WithoutHandles {
 struct Cut {
     /// The loop's vertices in the numbers of the file.
     vertices: Vec<usize>,
+    /// Where they are.
+    places: Vec<DVec3>,
     /// Its length.
     length: f64,
     /// Faces of both walls.
@@ -62,6 +65,7 @@ pub(in crate::mesh::repair) fn without_handles(
         faces: cut.faces,
         area_share: cut.area / area,
         vertices: cut.vertices.clone(),
+        places: cut.places.clone(),
     };
     let caps = draft.faces.iter().filter(|face| face.origin == FaceOrigin::Cap);
     Ok(WithoutHandles {
@@ -96,6 +100,7 @@ fn cut(mut draft: Draft, graph: &Graph, along: &Generator) -> (Draft, Cut) {
     }
     sides.iter().flatten().for_each(|&side| across[side] = NONE);
     let vertices = along.vertices.iter().map(|&v| draft.number(v)).collect();
+    let places = along.vertices.iter().map(|&v| draft.positions[v as usize]).collect();
     copy_vertices(&mut draft, fans(&across));
     // Of the sides against the loop the ends, so that both rims follow it.
     let start = |side: usize| draft.faces[side / 3].corners[side % 3];
@@ -108,7 +113,7 @@ fn cut(mut draft: Draft, graph: &Graph, along: &Generator) -> (Draft, Cut) {
     add_wall(&mut draft, &rims, chords(graph, &along.vertices));
     let made = &draft.faces[before..];
     let area = made.iter().map(|face| draft.face_area(face)).sum();
-    let cut = Cut { vertices, length: along.length, faces: made.len(), area };
+    let cut = Cut { vertices, places, length: along.length, faces: made.len(), area };
     (draft, cut)
 }
 

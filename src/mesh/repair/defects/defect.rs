@@ -1,0 +1,147 @@
+//! What is wrong with a mesh, by kind.
+
+use crate::mesh::check::Triangle;
+use glam::DVec3;
+use serde::Serialize;
+use std::fmt;
+
+/// So many defects of a kind are given one by one; the others are counted.
+pub const MOST_DEFECTS: usize = 1000;
+
+/// Lines of one kind have so many points in all; a line that would have more ends early.
+pub const MOST_POINTS: usize = 100_000;
+
+/// What is wrong at a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum DefectKind {
+    /// A row of edges with one face: the rim of a hole, or of an open sheet.
+    OpenRim,
+    /// A row of edges with more than two faces.
+    CrowdedEdges,
+    /// A row of edges across which faces cannot be oriented alike: the surface is one-sided.
+    OneSidedSeam,
+    /// Faces that look to the other side than most of their part.
+    TurnedPatch,
+    /// A part of the surface beside the largest by area.
+    LoosePart,
+    /// The loop along which the repair would cut a handle, or has cut it.
+    HandleLoop,
+    /// A vertex where several parts of the surface only touch.
+    PinchedVertex,
+    /// A face that names a vertex twice or has no area.
+    FaceWithoutArea,
+    /// A face whose vertices another face has as well.
+    DoubleFace,
+    /// A surface that a repair made up to close a hole or a cut.
+    Cap,
+}
+
+impl DefectKind {
+    /// One and several, in words.
+    fn words(self) -> [&'static str; 2] {
+        match self {
+            Self::OpenRim => ["open rim", "open rims"],
+            Self::CrowdedEdges => {
+                ["row of edges with more than two faces", "rows of edges with more than two faces"]
+            }
+            Self::OneSidedSeam => {
+                ["seam where the surface is one-sided", "seams where the surface is one-sided"]
+            }
+            Self::TurnedPatch => ["patch that is turned over", "patches that are turned over"],
+            Self::LoosePart => ["part beside the largest", "parts beside the largest"],
+            Self::HandleLoop => ["handle", "handles"],
+            Self::PinchedVertex => ["vertex where parts only touch", "vertices where parts only touch"],
+            Self::FaceWithoutArea => ["face without area", "faces without area"],
+            Self::DoubleFace => ["double face", "double faces"],
+            Self::Cap => ["cap", "caps"],
+        }
+    }
+}
+
+/// One defect.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Defect {
+    /// Lines along it, by numbers of [`Defects::positions`]; a closed one ends where it begins, and a place alone is a line of one
+    /// point.
+    pub lines: Vec<Vec<u32>>,
+    /// Its faces, by numbers of [`Defects::triangles`], rising.
+    pub faces: Vec<u32>,
+}
+
+/// All defects of one kind.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DefectGroup {
+    /// What is wrong.
+    pub kind: DefectKind,
+    /// How many there are.
+    pub count: usize,
+    /// The first [`MOST_DEFECTS`] at most, the largest first but for vertices and single faces, which are in the file's order.
+    pub defects: Vec<Defect>,
+}
+
+impl DefectGroup {
+    /// A kind of which there are some, as far as they are given one by one.
+    pub(super) fn new(kind: DefectKind, mut defects: Vec<Defect>) -> Option<Self> {
+        let count = defects.len();
+        defects.truncate(MOST_DEFECTS);
+        let mut room = MOST_POINTS;
+        for line in defects.iter_mut().flat_map(|defect| &mut defect.lines) {
+            line.truncate(room);
+            room -= line.len();
+        }
+        (count > 0).then_some(Self { kind, count, defects })
+    }
+}
+
+impl fmt::Display for DefectGroup {
+    /// As in "3 open rims".
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [one, many] = self.kind.words();
+        write!(f, "{} {}", self.count, if self.count == 1 { one } else { many })
+    }
+}
+
+/// What is wrong with a mesh, with what is needed to show it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Defects {
+    /// The file's vertices by their numbers there, then vertices of caps.
+    pub positions: Vec<DVec3>,
+    /// The triangulated file's faces by their numbers there, with vertices at one place joined and turned until neighbours agree;
+    /// then faces of caps.
+    pub triangles: Vec<Triangle>,
+    /// How many of the positions are the file's.
+    pub file_vertices: usize,
+    /// The kinds of which there are some, in their order.
+    pub groups: Vec<DefectGroup>,
+}
+
+impl Defects {
+    /// The defects of one kind; `None` where there are none.
+    pub fn of(&self, kind: DefectKind) -> Option<&DefectGroup> {
+        self.groups.iter().find(|group| group.kind == kind)
+    }
+
+    /// Takes further defects of a kind.
+    pub(super) fn add(&mut self, kind: DefectKind, defects: Vec<Defect>) {
+        self.groups.extend(DefectGroup::new(kind, defects));
+    }
+
+    /// A defect in words, with a number of the file to find it by: "24 edges from vertex 812 on".
+    pub fn label(&self, kind: DefectKind, defect: &Defect) -> String {
+        let edges = || -> usize { defect.lines.iter().map(|line| line.len().saturating_sub(1)).sum() };
+        let counted = |n: usize, one: &str| format!("{n} {one}{}", if n == 1 { "" } else { "s" });
+        let vertex = defect.lines.iter().flatten().find(|v| (**v as usize) < self.file_vertices);
+        let from = vertex.map_or(String::new(), |v| format!(" from vertex {v} on"));
+        match (kind, vertex, defect.faces.first()) {
+            (DefectKind::PinchedVertex, Some(v), _) => format!("vertex {v}"),
+            (DefectKind::FaceWithoutArea | DefectKind::DoubleFace, _, Some(face)) => format!("face {face}"),
+            (DefectKind::TurnedPatch | DefectKind::LoosePart, _, Some(face)) => {
+                format!("{} from face {face} on", counted(defect.faces.len(), "face"))
+            }
+            (DefectKind::Cap, ..) => format!("{}, rim{from}", counted(defect.faces.len(), "face")),
+            _ => format!("{}{from}", counted(edges(), "edge")),
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! Where a mesh fails to be one closed, oriented surface of genus 0: every place, to be shown.
+//!
+//! The steps of the repair that change no shape go first, or each edge of a file that shares no vertices would be a fault: vertices
+//! at one place on open edges are joined, faces without area and double faces told and dropped. What is then left is told by kind:
+//! open edges and crowded ones as lines, patches that look the other way, parts beside the largest, vertices where parts only
+//! touch. Handles are those that the repair would cut.
+//!
+//! Limits: so many defects of one kind are given one by one ([`MOST_DEFECTS`], [`MOST_POINTS`]); all are counted. Handles are
+//! looked for where the repair gets as far, with all other parts left out.
+
+mod caps;
+mod chains;
+mod defect;
+mod finding;
+mod outlook;
+#[cfg(test)]
+mod tests;
+
+pub use defect::{Defect, DefectGroup, DefectKind, Defects, MOST_DEFECTS, MOST_POINTS};
+pub use finding::defects;
+pub use outlook::Outlook;

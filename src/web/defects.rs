@@ -1,0 +1,84 @@
+//! What is wrong with a mesh, for the page: a list, and what the views draw of it.
+
+use super::failure;
+use super::files::LoadedMesh;
+use crate::io;
+use crate::mesh::repair::{DefectGroup, Defects, RepairOptions, defects};
+use crate::monitor::Silent;
+use crate::scene::defects::Look;
+use glam::DVec3;
+use serde_json::{Value, json};
+use wasm_bindgen::prelude::*;
+
+/// So many defects of a kind are listed.
+const LISTED: usize = 50;
+
+/// What is wrong with a mesh, or was before it was repaired.
+#[wasm_bindgen]
+pub struct MeshDefects {
+    pub(super) defects: Defects,
+    /// At its positions.
+    pub(super) normals: Vec<DVec3>,
+}
+
+impl MeshDefects {
+    fn new(defects: Defects) -> Self {
+        Self { normals: defects.normals(), defects }
+    }
+}
+
+#[wasm_bindgen]
+impl MeshDefects {
+    /// Number of faces that are drawn: the triangulated file's.
+    #[wasm_bindgen(getter, js_name = faceCount)]
+    pub fn face_count(&self) -> usize {
+        self.defects.triangles.len()
+    }
+
+    /// The kinds of which there are some, as JSON `[{"kind", "sentence", "count", "drawn", "labels", "colour", "stroke", "fill",
+    /// "sign"}]`: `sentence` as in "3 open rims", `labels` of the first 50, `colour` as style sheets write it, `stroke` of lines
+    /// (`solid`, `dashed`, `dotted`, `dash-dot`, `double`), `fill` of faces (`stripes`, `grid`, `dots`, `bars`) and `sign` of
+    /// places (`diamond`, `cross`) null where the kind has none.
+    pub fn list(&self) -> String {
+        let group = |group: &DefectGroup| {
+            let look = Look::of(group.kind);
+            let label = |defect| self.defects.label(group.kind, defect);
+            let labels: Vec<String> = group.defects.iter().take(LISTED).map(label).collect();
+            json!({
+                "kind": group.kind,
+                "sentence": group.to_string(),
+                "count": group.count,
+                "drawn": group.defects.len(),
+                "labels": labels,
+                "colour": format!("#{:06x}", look.colour),
+                "stroke": look.stroke,
+                "fill": look.fill,
+                "sign": look.sign,
+            })
+        };
+        Value::from(self.defects.groups.iter().map(group).collect::<Vec<_>>()).to_string()
+    }
+}
+
+/// What is wrong with a mesh file. `allowed` is as for `repairMesh`: parts that may go and handles that may be cut are told all the
+/// same.
+///
+/// # Errors
+/// `{"code": "file" | "mesh" | "options", "message"}` where there is nothing to look at.
+#[wasm_bindgen(js_name = meshDefects)]
+pub fn mesh_defects(bytes: &[u8], allowed: &str) -> Result<MeshDefects, JsValue> {
+    let options: RepairOptions = serde_json::from_str(allowed).map_err(|e| failure("options", e))?;
+    let soup = io::read_mesh(bytes).map_err(|e| failure("file", e))?;
+    let found = defects(&soup, &options, &mut Silent).map_err(|e| failure("mesh", e))?;
+    Ok(MeshDefects::new(found))
+}
+
+/// What was wrong with the file of a mesh that was repaired, with the caps that it got.
+///
+/// # Errors
+/// As `meshDefects`.
+#[wasm_bindgen(js_name = repairedDefects)]
+pub fn repaired_defects(bytes: &[u8], mesh: &LoadedMesh) -> Result<MeshDefects, JsValue> {
+    let MeshDefects { defects, .. } = mesh_defects(bytes, "{}")?;
+    Ok(MeshDefects::new(defects.with_caps(&mesh.checked)))
+}

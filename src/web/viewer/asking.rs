@@ -1,0 +1,117 @@
+//! What is under the pointer, and where the map takes it.
+
+use super::canvas::Viewer;
+use crate::scene::MapPlace;
+use glam::Vec2;
+use serde_json::json;
+use wasm_bindgen::prelude::*;
+
+#[wasm_bindgen]
+impl Viewer {
+    /// Marks what is seen at a place of a view with a ring.
+    pub fn mark(&mut self, side: usize, x: f32, y: f32) {
+        self.clear_probe();
+        if self.shows_another_shape(side) {
+            return;
+        }
+        let now = self.now;
+        let side = self.side_mut(side);
+        side.probe = side.pick_place(Vec2::new(x, y), now);
+    }
+
+    /// The surface point at a place of a view, x and y from -1 to 1, y up: JSON `{"face", "barycentric"}`. `undefined` where there
+    /// is none, or a cap, which takes no landmark.
+    pub fn pick(&self, side: usize, x: f32, y: f32) -> Option<String> {
+        if self.shows_another_shape(side) {
+            return None;
+        }
+        let side = self.side(side);
+        let point = side.pick(Vec2::new(x, y), self.now)?;
+        side.mesh.as_ref()?.on_skin(point)
+    }
+
+    /// The number of the pin at a place of a view, among those that the body does not hide; `slack` in pixels of the page.
+    #[wasm_bindgen(js_name = pinAt)]
+    pub fn pin_at(&self, side: usize, x: f32, y: f32, slack: f32) -> Option<usize> {
+        if self.shows_another_shape(side) {
+            return None;
+        }
+        self.side(side).pin_at(Vec2::new(x, y), slack, self.now, self.pixel_ratio)
+    }
+
+    /// Where the place of a pin is seen, x and y from -1 to 1, y up.
+    #[wasm_bindgen(js_name = pinPlace)]
+    pub fn pin_place(&self, side: usize, pin: usize) -> Option<Vec<f32>> {
+        let side = self.side(side);
+        let seen = side.pose(self.now).project(side.base(pin)?, side.aspect())?;
+        Some(vec![seen.x, seen.y])
+    }
+
+    /// The surface point some pixels of the page beside a pin, y up: JSON `{"face", "barycentric"}`. `undefined` where there is
+    /// none, or a cap.
+    pub fn beside(&self, side: usize, pin: usize, dx: f32, dy: f32) -> Option<String> {
+        let side = self.side(side);
+        let point = side.beside(pin, Vec2::new(dx, dy), self.now, self.pixel_ratio)?;
+        side.mesh.as_ref()?.on_skin(point)
+    }
+
+    /// Asks the map at a place of a view, and marks the place and its partner with rings: JSON `{"points", "positions",
+    /// "distortion"}`, the first two by side, the last null where it is not known. `undefined` where there is no map.
+    pub fn probe(&mut self, side: usize, x: f32, y: f32) -> Option<String> {
+        self.clear_probe();
+        let side = side.min(1);
+        if self.shows_another_shape(side) {
+            return None;
+        }
+        let view = &self.sides[side];
+        let ray = view.pose(self.now).ray(Vec2::new(x, y), view.aspect());
+        let (from, along) = view.mesh.as_ref()?.ray(ray);
+        let place = self.map.as_mut()?.under_ray(side, from, along)?;
+        self.show_probe(place)
+    }
+
+    /// Likewise at a landmark point, given as JSON.
+    #[wasm_bindgen(js_name = probePoint)]
+    pub fn probe_point(&mut self, side: usize, point: &str) -> Option<String> {
+        self.clear_probe();
+        let side = side.min(1);
+        let mesh = self.sides[side].mesh.as_ref()?;
+        let point = mesh.surface_point(serde_json::from_str(point).ok()?)?;
+        let place = self.map.as_mut()?.nearest(side, point.position(&mesh.checked.mesh))?;
+        self.show_probe(place)
+    }
+
+    /// The image of a landmark point of one side on the other one, both as JSON. `undefined` where there is no map, or the image
+    /// lies in a cap, which takes no landmark.
+    #[wasm_bindgen(js_name = imageOf)]
+    pub fn image_of(&mut self, side: usize, point: &str) -> Option<String> {
+        let side = side.min(1);
+        let [mesh, other] = [side, 1 - side].map(|k| self.sides[k].mesh.as_ref());
+        let (mesh, other) = (mesh?, other?);
+        let point = mesh.surface_point(serde_json::from_str(point).ok()?)?;
+        let place = self.map.as_mut()?.nearest(side, point.position(&mesh.checked.mesh))?;
+        other.on_skin(other.picker.as_ref()?.nearest(&other.checked.mesh, place.positions[1 - side]))
+    }
+
+    /// Takes the rings away; whether there were any.
+    #[wasm_bindgen(js_name = clearProbe)]
+    pub fn clear_probe(&mut self) -> bool {
+        let shown = self.sides.iter().any(|side| side.probe.is_some());
+        self.sides.iter_mut().for_each(|side| side.probe = None);
+        shown
+    }
+}
+
+impl Viewer {
+    fn show_probe(&mut self, place: MapPlace) -> Option<String> {
+        let mut points = Vec::new();
+        for (side, position) in self.sides.iter_mut().zip(place.positions) {
+            let mesh = side.mesh.as_ref()?;
+            let point = mesh.picker.as_ref()?.nearest(&mesh.checked.mesh, position);
+            points.push(mesh.in_file(point));
+            side.probe = Some(mesh.frame.place(position));
+        }
+        let positions = place.positions.map(|p| p.to_array());
+        Some(json!({ "points": points, "positions": positions, "distortion": place.distortion }).to_string())
+    }
+}

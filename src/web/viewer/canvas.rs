@@ -1,0 +1,210 @@
+//! The canvas with two views: what is shown on each.
+
+use super::super::failure;
+use super::super::files::LoadedMesh;
+use super::super::view_side::{Look, Side, SideMesh};
+use super::reading::parsed;
+use crate::gpu::{Paint, Renderer};
+use crate::scene::MapPicker;
+use glam::Mat4;
+use serde::Deserialize;
+use wasm_bindgen::prelude::*;
+
+/// What the page wants to see.
+#[derive(Default, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Style {
+    pub(super) surface: SurfaceStyle,
+    pub(super) patch_lines: bool,
+    pub(super) cones: bool,
+    pub(super) markers: bool,
+    #[serde(default)]
+    pub(super) dark: bool,
+    /// Share of the source's view, from the left, in which the source is plain.
+    #[serde(default)]
+    pub(super) wipe: Option<f32>,
+    /// Whether parts of the surfaces may be unmapped: the plain meshes are drawn behind.
+    #[serde(default)]
+    pub(super) holes: bool,
+}
+
+/// What the surfaces' colours tell.
+#[derive(Clone, Copy, Default, Deserialize, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum SurfaceStyle {
+    #[default]
+    Shaded,
+    Pattern,
+    Checkerboard,
+    Colours,
+    Distortion,
+}
+
+impl SurfaceStyle {
+    pub(super) fn paint(self) -> Paint {
+        match self {
+            Self::Shaded => Paint::Plain,
+            Self::Pattern => Paint::Pattern,
+            Self::Checkerboard => Paint::Checkerboard,
+            Self::Colours => Paint::Places,
+            Self::Distortion => Paint::Distortion,
+        }
+    }
+
+    /// Whether the target's own mesh can show it: what follows from the place on the target alone.
+    pub(super) fn is_of_places(self) -> bool {
+        matches!(self, Self::Pattern | Self::Colours)
+    }
+}
+
+/// A canvas with two views, source (0) and target (1). Times are in milliseconds, as the browser gives them to animations.
+#[wasm_bindgen]
+pub struct Viewer {
+    pub(super) renderer: Renderer,
+    pub(super) sides: [Side; 2],
+    pub(super) style: Style,
+    pub(super) map: Option<MapPicker>,
+    /// Share of the way from the source's shape to the target's.
+    pub(super) morph: f32,
+    /// Lays the target on the source, in scene coordinates.
+    pub(super) source_from_target: Mat4,
+    pub(super) pixel_ratio: f32,
+    /// The time of the last frame.
+    pub(super) now: f64,
+}
+
+#[wasm_bindgen]
+impl Viewer {
+    /// Takes over a canvas.
+    ///
+    /// # Errors
+    /// `{"code": "webgl", "message"}` where the browser has no WebGL2.
+    pub async fn create(canvas: web_sys::HtmlCanvasElement, samples: u32) -> Result<Viewer, JsValue> {
+        let samples = if samples > 1 { 4 } else { 1 };
+        let renderer = Renderer::new(canvas, samples).await.map_err(|e| failure("webgl", e))?;
+        Ok(Self {
+            renderer,
+            sides: Default::default(),
+            style: Style::default(),
+            map: None,
+            morph: 0.0,
+            source_from_target: Mat4::IDENTITY,
+            pixel_ratio: 1.0,
+            now: 0.0,
+        })
+    }
+
+    /// Follows the canvas, in physical pixels.
+    pub fn resize(&mut self, width: u32, height: u32, pixel_ratio: f32) {
+        self.renderer.resize(width, height);
+        self.pixel_ratio = pixel_ratio;
+    }
+
+    /// Where a view is, in physical pixels from the top left.
+    #[wasm_bindgen(js_name = setViewport)]
+    pub fn set_viewport(&mut self, side: usize, x: f32, y: f32, width: f32, height: f32) {
+        let side = self.side_mut(side);
+        let rectangle = [x, y, width, height];
+        if side.rectangle != rectangle {
+            side.rectangle = rectangle;
+            if side.look == Look::Whole {
+                side.fit();
+            }
+        }
+    }
+
+    /// Shows a mesh; its landmarks and result go.
+    #[wasm_bindgen(js_name = setMesh)]
+    pub fn set_mesh(&mut self, side: usize, mesh: &LoadedMesh) {
+        let shown = SideMesh::new(mesh.checked.clone(), &self.renderer);
+        self.clear_result();
+        let side = self.side_mut(side);
+        side.uncover();
+        side.mesh = Some(shown);
+        side.clear_marks();
+        side.glide = None;
+        side.first_look();
+    }
+
+    /// Empties a view.
+    #[wasm_bindgen(js_name = clearMesh)]
+    pub fn clear_mesh(&mut self, side: usize) {
+        self.clear_result();
+        let side = self.side_mut(side);
+        if !side.is_covered() {
+            side.defects = None;
+        }
+        side.mesh = None;
+        side.clear_marks();
+    }
+
+    /// Shows landmarks: a JSON array, in pair order, of `{"point", "colour", "stand", "cone"}` or null: `colour` is the number
+    /// that [`colour_of_landmark`] takes, `stand` is `plain`, `raised` or `ghost`, and `cone` the curvature of the landmark's cone
+    /// in radians or null.
+    ///
+    /// # Errors
+    /// `{"code": "landmarks", "message"}`.
+    #[wasm_bindgen(js_name = setLandmarks)]
+    pub fn set_landmarks(&mut self, side: usize, marks: &str) -> Result<(), JsValue> {
+        self.side_mut(side).set_landmarks(marks)
+    }
+
+    /// Takes suggested points, a JSON array of landmark points or null; they are not drawn, see [`Viewer::suggestions`].
+    ///
+    /// # Errors
+    /// `{"code": "landmarks", "message"}`.
+    #[wasm_bindgen(js_name = setSuggestions)]
+    pub fn set_suggestions(&mut self, side: usize, points: &str) -> Result<(), JsValue> {
+        self.side_mut(side).set_suggestions(points)
+    }
+
+    /// What to show: JSON `{"surface", "patchLines", "cones", "markers", "dark"?, "holes"?, "wipe"?}`; with `wipe`, a share of the
+    /// source's view, the source is plain from the left to there.
+    ///
+    /// # Errors
+    /// `{"code": "style", "message"}`.
+    #[wasm_bindgen(js_name = setStyle)]
+    pub fn set_style(&mut self, style: &str) -> Result<(), JsValue> {
+        self.style = parsed("style", style)?;
+        Ok(())
+    }
+
+    /// For each landmark x and y of its head from -1 to 1, y up, and whether the number should be shown (1) or hides behind the
+    /// surface (0).
+    pub fn labels(&self, side: usize) -> Vec<f32> {
+        self.shown(side, self.side(side).heads(self.now, self.pixel_ratio))
+    }
+
+    /// Where the suggested points are, as [`Viewer::labels`].
+    pub fn suggestions(&self, side: usize) -> Vec<f32> {
+        self.shown(side, self.side(side).suggested(self.now))
+    }
+}
+
+impl Viewer {
+    pub(super) fn side(&self, side: usize) -> &Side {
+        &self.sides[side.min(1)]
+    }
+
+    pub(super) fn side_mut(&mut self, side: usize) -> &mut Side {
+        &mut self.sides[side.min(1)]
+    }
+
+    /// Whether a view shows its mesh on the way to the other shape.
+    pub(super) fn is_morphed(&self, side: usize) -> bool {
+        side == 0 && self.morph > 0.0 && !self.side(side).is_covered()
+    }
+
+    /// Whether a view shows another shape than its mesh has: that, or a mesh that was refused.
+    pub(super) fn shows_another_shape(&self, side: usize) -> bool {
+        self.is_morphed(side) || self.side(side).is_covered()
+    }
+
+    /// Places of marks, x, y and visible for each, of which none is seen while the shape is another one.
+    pub(super) fn shown(&self, side: usize, mut places: Vec<f32>) -> Vec<f32> {
+        if self.shows_another_shape(side) {
+            places.chunks_exact_mut(3).for_each(|place| place[2] = 0.0);
+        }
+        places
+    }
+}

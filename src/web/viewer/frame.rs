@@ -1,0 +1,160 @@
+//! One frame of both views.
+
+use super::super::view_side::{Landmark, Side};
+use super::canvas::Viewer;
+use crate::gpu::{Clear, Paint, Palette, ViewDraw};
+use crate::scene::pins::Stand;
+use crate::scene::{MarkerInstance, PinInstance, Pose};
+use glam::Vec3;
+use wasm_bindgen::prelude::*;
+
+/// About the length of a dash with its gap, in pixels of the page.
+const DASH: f32 = 15.0;
+
+#[wasm_bindgen]
+impl Viewer {
+    /// Draws a frame at a time; whether another one is to follow, as a camera is on its way.
+    pub fn render(&mut self, now: f64) -> bool {
+        self.now = now;
+        for side in &mut self.sides {
+            side.glide = side.glide.filter(|glide| !glide.is_over(now));
+        }
+        let balls = [0, 1].map(|k: usize| self.balls(k));
+        let pins = [0, 1].map(|k: usize| self.pins(k));
+        let views = [0, 1].map(|k: usize| self.view(k, Marks { balls: &balls[k], pins: &pins[k] }));
+        // Linear RGB, chosen by eye.
+        let background = if self.style.dark { [0.011, 0.013, 0.018] } else { [0.84, 0.86, 0.88] };
+        self.renderer.draw(Clear(background), &views);
+        self.sides.iter().any(|side| side.glide.is_some())
+    }
+}
+
+/// What is marked in a view.
+#[derive(Clone, Copy)]
+struct Marks<'a> {
+    balls: &'a [MarkerInstance],
+    pins: &'a [PinInstance],
+}
+
+impl Viewer {
+    /// What is drawn of a view.
+    fn view<'a>(&'a self, k: usize, marks: Marks<'a>) -> ViewDraw<'a> {
+        let (side, style): (&Side, _) = (&self.sides[k], &self.style);
+        let pose = side.pose(self.now);
+        let defects = side.defects.as_ref().filter(|_| !self.is_morphed(k));
+        let bare = ViewDraw {
+            rectangle: side.rectangle,
+            pose,
+            paint: Paint::Plain,
+            palette: self.palette(),
+            line_half_width: 0.9 * self.pixel_ratio,
+            morph: 0.0,
+            world_from_image: self.source_from_target,
+            wipe: 0.0,
+            surface: None,
+            under: None,
+            painted: defects.and_then(|defects| defects.painted.as_ref()),
+            lines: None,
+            marks: defects.and_then(|defects| defects.lines.as_ref()),
+            dash: self.dash(side, pose),
+            balls: marks.balls,
+            pins: marks.pins,
+        };
+        if let Some(refused) = side.refused() {
+            return ViewDraw { paint: Paint::Refused, surface: Some(refused), ..bare };
+        }
+        let own = side.mesh.as_ref().map(|m| &m.surface);
+        let paint = style.surface.paint();
+        let morph = if k == 0 && side.overlay.is_some() { self.morph } else { 0.0 };
+        let shows_own = morph == 0.0 && (paint == Paint::Plain || (k == 1 && style.surface.is_of_places()));
+        let overlay = side.overlay.as_ref().filter(|_| !shows_own);
+        ViewDraw {
+            paint: if overlay.is_some() || shows_own { paint } else { Paint::Plain },
+            morph,
+            wipe: style.wipe.filter(|_| k == 0).unwrap_or(0.0),
+            surface: overlay.or(own),
+            under: own.filter(|_| style.holes && overlay.is_some() && morph == 0.0),
+            lines: side.lines.as_ref().filter(|_| style.patch_lines && morph == 0.0),
+            ..bare
+        }
+    }
+
+    /// The length of a dash with its gap in scene units: about as long on the screen whatever the distance, and the same while the
+    /// camera only turns.
+    fn dash(&self, side: &Side, pose: Pose) -> f32 {
+        let pixel = pose.height_at(pose.target, side.aspect()) / side.rectangle[3].max(1.0);
+        (DASH * self.pixel_ratio * pixel).max(1e-9).log2().round().exp2()
+    }
+
+    /// Where the ring of a view is: on the surface as it is shown.
+    fn ring(&self, side: usize) -> Option<Vec3> {
+        let place = self.side(side).probe?;
+        if !self.is_morphed(side) {
+            return Some(place);
+        }
+        let image = self.source_from_target.transform_point3(self.sides[1].probe?);
+        Some(place.lerp(image, self.morph))
+    }
+
+    /// Linear RGB, chosen by eye.
+    fn palette(&self) -> Palette {
+        let light = Palette {
+            surface: [0.60, 0.56, 0.50],
+            under: [0.26, 0.27, 0.29],
+            line: [0.62, 0.16, 0.01],
+            pattern: [[0.80, 0.76, 0.68], [0.10, 0.19, 0.32]],
+            rim: [1.0, 1.0, 1.0],
+        };
+        let dark = Palette {
+            surface: [0.50, 0.47, 0.42],
+            line: [0.95, 0.42, 0.05],
+            rim: [0.93, 0.93, 0.93],
+            ..light
+        };
+        if self.style.dark { dark } else { light }
+    }
+
+    /// Pins, hidden ones below and raised ones on top, then the rings of a place that is asked for.
+    fn pins(&self, k: usize) -> Vec<PinInstance> {
+        let side = self.side(k);
+        let pose = side.pose(self.now);
+        // In another shape nothing is where it was.
+        let still = !self.shows_another_shape(k);
+        let is_shown = |mark: &&Landmark| still && (self.style.markers || mark.pin.stand == Stand::Ghost);
+        let shown = side.landmarks.iter().flatten().filter(is_shown);
+        let mut pins: Vec<(bool, f32, PinInstance)> = shown
+            .map(|Landmark { pin, .. }| {
+                let hidden = side.is_hidden(pin.base, pose);
+                let nearness = (pin.base - pose.eye()).dot(pose.back());
+                (hidden, nearness, pin.instance(hidden, self.pixel_ratio))
+            })
+            .collect();
+        pins.sort_by(|a, b| {
+            let rank = |p: &(bool, f32, PinInstance)| (!p.0, p.2.radius.to_bits());
+            rank(a).cmp(&rank(b)).then(a.1.total_cmp(&b.1))
+        });
+        let ring = self.ring(k).map(|place| PinInstance {
+            base: place.to_array(),
+            colour: [0.02, 0.02, 0.02],
+            radius: 8.0 * self.pixel_ratio,
+            stem: 0.0,
+            kind: 2.0,
+        });
+        let signs = side.defects.iter().filter(|_| !self.is_morphed(k)).flat_map(|defects| &defects.signs);
+        let sign = |sign: &PinInstance| PinInstance { radius: sign.radius * self.pixel_ratio, ..*sign };
+        signs.map(sign).chain(pins.into_iter().map(|(_, _, pin)| pin)).chain(ring).collect()
+    }
+
+    /// Cones in red (positive) and blue (negative curvature).
+    fn balls(&self, k: usize) -> Vec<MarkerInstance> {
+        let ball = |Landmark { pin, cone }: &Landmark| {
+            let curvature = *cone.as_ref()?;
+            // A ball's radius is 0.012 to 0.03 of the surface's and grows with the root of the curvature.
+            let size = (curvature.abs() as f32 / std::f32::consts::TAU).min(1.0).sqrt();
+            let colour = if curvature >= 0.0 { [0.78, 0.04, 0.03] } else { [0.03, 0.16, 0.80] };
+            Some(MarkerInstance { centre: pin.base.to_array(), radius: 0.012 + 0.018 * size, colour })
+        };
+        let is_shown = self.style.cones && !self.shows_another_shape(k);
+        self.side(k).landmarks.iter().flatten().filter(|_| is_shown).filter_map(ball).collect()
+    }
+}

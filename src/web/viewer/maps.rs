@@ -1,0 +1,97 @@
+//! What a map brings to the views.
+
+use super::super::view_side::Side;
+use super::canvas::Viewer;
+use super::reading::point;
+use crate::scene::buffers::ribbons;
+use crate::scene::morph::laid_on;
+use crate::scene::{MapPicker, SurfaceVertex};
+use glam::Vec3;
+use wasm_bindgen::prelude::*;
+
+#[wasm_bindgen]
+impl Viewer {
+    /// Takes the map's triangles as one side sees them: positions and normals there, texture coordinates, distortion by point
+    /// (or none), and the images on the target.
+    #[wasm_bindgen(js_name = setOverlay)]
+    #[allow(clippy::too_many_arguments, reason = "typed arrays cannot be bundled")]
+    pub fn set_overlay(
+        &mut self,
+        side: usize,
+        positions: &[f32],
+        normals: &[f32],
+        uvs: &[f32],
+        distortion: &[f32],
+        triangles: &[u32],
+        images: &[f32],
+        image_normals: &[f32],
+    ) {
+        let [Some(target), Some(own)] = [&self.sides[1].mesh, &self.sides[side.min(1)].mesh] else { return };
+        let count = positions.len() / 3;
+        let numbers = [normals.len(), images.len(), image_normals.len()];
+        if numbers.iter().any(|n| *n != 3 * count)
+            || uvs.len() != 2 * count
+            || triangles.iter().any(|&v| v as usize >= count)
+        {
+            return;
+        }
+        let hollows = own.hollows_at(positions, triangles);
+        let three = |a: &[f32], k: usize| [a[3 * k], a[3 * k + 1], a[3 * k + 2]];
+        let vertex = |k: usize| SurfaceVertex {
+            position: own.frame.place(point(three(positions, k))).to_array(),
+            normal: three(normals, k),
+            uv: [uvs[2 * k], uvs[2 * k + 1]],
+            distortion: distortion.get(k).copied().unwrap_or(1.0),
+            image: target.frame.place(point(three(images, k))).to_array(),
+            image_normal: three(image_normals, k),
+            hollow: hollows[k],
+        };
+        let vertices: Vec<SurfaceVertex> = (0..count).map(vertex).collect();
+        let uploaded = self.renderer.surface_mesh(&vertices, triangles);
+        if side == 0 {
+            let (images, places): (Vec<Vec3>, Vec<Vec3>) =
+                vertices.iter().map(|v| (Vec3::from_array(v.image), Vec3::from_array(v.position))).unzip();
+            self.source_from_target = laid_on(&images, &places);
+        }
+        self.side_mut(side).overlay = Some(uploaded);
+    }
+
+    /// Takes patch lines of one side: their points, and where each line starts among them, and one past the end.
+    #[wasm_bindgen(js_name = setLines)]
+    pub fn set_lines(&mut self, side: usize, points: &[f32], starts: &[u32]) {
+        let Some(mesh) = &self.sides[side.min(1)].mesh else { return };
+        let points: Vec<Vec3> =
+            points.chunks_exact(3).map(|p| mesh.frame.place(point([p[0], p[1], p[2]]))).collect();
+        let strips: Vec<Vec<Vec3>> = starts
+            .windows(2)
+            .filter_map(|w| points.get(w[0] as usize..w[1] as usize).map(<[Vec3]>::to_vec))
+            .collect();
+        let (vertices, indices) = ribbons(&strips);
+        let uploaded = self.renderer.line_mesh(&vertices, &indices);
+        self.side_mut(side).lines = Some(uploaded);
+    }
+
+    /// Takes the map to be asked by [`Viewer::probe`]: places of its points on both meshes, its distortion there (or none), and its
+    /// triangles.
+    #[wasm_bindgen(js_name = setMap)]
+    pub fn set_map(&mut self, source: &[f32], target: &[f32], distortion: &[f32], triangles: &[u32]) {
+        let points = |a: &[f32]| a.chunks_exact(3).map(|p| point([p[0], p[1], p[2]])).collect();
+        let triangles = triangles.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
+        self.map = MapPicker::new([points(source), points(target)], distortion.to_vec(), triangles);
+    }
+
+    /// Shows the source's shape on its way to the target's: 0 the source's, 1 the target's, laid on it. Needs the source's overlay.
+    /// Beyond 0 nothing is where the source's mesh has it, and the source's view shows no marks and picks nothing.
+    #[wasm_bindgen(js_name = setMorph)]
+    pub fn set_morph(&mut self, share: f32) {
+        self.morph = share.clamp(0.0, 1.0);
+    }
+
+    /// Everything of a result goes.
+    #[wasm_bindgen(js_name = clearResult)]
+    pub fn clear_result(&mut self) {
+        self.sides.iter_mut().for_each(Side::clear_result);
+        self.map = None;
+        self.morph = 0.0;
+    }
+}

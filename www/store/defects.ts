@@ -1,0 +1,40 @@
+/** What is wrong with a mesh, or was before it was repaired, as the core found it. */
+import type { Side } from '../landmarks.ts';
+import type { MeshDefects } from '../wasm/conemap.js';
+
+/** All defects of one kind. */
+export interface DefectGroup {
+  readonly kind: string;
+  /** "3 open rims". */
+  readonly sentence: string;
+  readonly count: number;
+  /** So many are drawn, the first. */
+  readonly drawn: number;
+  /** Of the first ones, in words with a number of the file. */
+  readonly labels: readonly string[];
+  /** As style sheets write it. */
+  readonly colour: string;
+  /** How its lines, faces and places are drawn; `null` where it has none. */
+  readonly stroke: 'solid' | 'dashed' | 'dotted' | 'dash-dot' | 'double' | null;
+  readonly fill: 'stripes' | 'grid' | 'dots' | 'bars' | null;
+  readonly sign: 'diamond' | 'cross' | null;
+}
+
+/** A mesh that was looked at. */
+export interface Examined {
+  /** Of the core's memory; given back when no side shows it. */
+  readonly found: MeshDefects;
+  readonly groups: readonly DefectGroup[];
+  readonly faceCount: number;
+}
+
+/** What a state knows of defects. */
+interface Shown {
+  readonly refused: { readonly meshes: readonly { readonly side: Side; readonly examined: Examined }[] } | null;
+  readonly examined: readonly [Examined | null, Examined | null];
+}
+
+/** What a side shows of this: of the mesh that was refused, else of its own as it was repaired; `null` for nothing. */
+export function shownDefects({ refused, examined }: Shown, side: Side): Examined | null {
+  return refused?.meshes.find((mesh) => mesh.side === side)?.examined ?? examined[side];
+}
