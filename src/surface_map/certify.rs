@@ -109,14 +109,15 @@ mod tests {
             if middle == good || middle == bad {
                 break;
             }
-            if certificate_at(middle).flipped_triangles == 0 { good = middle } else { bad = middle }
+            if certificate_at(middle).bijective { good = middle } else { bad = middle }
         }
         assert!(good.distance(bad) < 2.0 * f64::EPSILON);
         let before = certificate_at(good);
-        assert!(before.bijective, "{before}");
+        assert!(before.bijective && good != begin, "{before}");
+        // Its angle in the triangle that turns over is half a turn, and rounding may give it either sign.
         let after = certificate_at(bad);
-        assert!(!after.bijective && after.flipped_triangles == 1, "{after}");
-        assert!(after.max_transition_error < 1e-9 && after.max_angle_sum_error < 1e-6, "{after}");
+        assert!(!after.bijective && after.max_transition_error < 1e-9, "{after}");
+        assert!(after.flipped_triangles == 1 || after.max_angle_sum_error > 6.0, "{after}");
     }
 
     #[test]

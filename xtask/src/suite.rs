@@ -50,7 +50,7 @@ fn helper() -> Result<(), String> {
 }
 
 fn lints() -> Result<(), String> {
-    run(&cargo(), &[&["clippy"], &PACKAGES[..], &["--all-targets", "--", "-D", "warnings"]].concat())?;
+    run(&cargo(), &[&["clippy"][..], &PACKAGES, &["--all-targets", "--", "-D", "warnings"]].concat())?;
     // The core alone is built for wasm by the tests in Node.
     let web = [
         "clippy",
@@ -66,13 +66,13 @@ fn lints() -> Result<(), String> {
 
 fn documentation() -> Result<(), String> {
     let strict = [("RUSTDOCFLAGS", "-D warnings")];
-    run_with(&cargo(), &[&["doc"], &PACKAGES[..], &["--no-deps", "--quiet"]].concat(), &strict)
+    run_with(&cargo(), &[&["doc"][..], &PACKAGES, &["--no-deps", "--quiet"]].concat(), &strict)
 }
 
 fn core() -> Result<(), String> {
     // The library alone builds without the command line; the tests then run with it.
     run(&cargo(), &["check", "--lib", "--no-default-features"])?;
-    run(&cargo(), &[&["test"], &PACKAGES[..]].concat())
+    run(&cargo(), &[&["test"][..], &PACKAGES].concat())
 }
 
 fn checks() -> Result<(), String> {
