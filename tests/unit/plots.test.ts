@@ -59,7 +59,7 @@ describe('the plot of the residuals', () => {
   });
 
   test('reads its values out', () => {
-    expect(chart && reading(chart, 1)).toBe('Newton step 1: Source 0.01, Target 1.0·10⁻⁹, Target before 1');
+    expect(chart && reading(chart, 1)).toBe('Newton step 1. Largest curvature error (rad): Source 0.01, Target 1.0·10⁻⁹, Target before 1');
     expect(chart && indexAt(chart, 1.7)).toBe(2);
   });
 });

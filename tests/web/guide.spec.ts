@@ -116,9 +116,9 @@ test('a map is plotted, read by keys, saved, and compared with the one before it
 
   const residuals = plots.getByRole('img', { name: /^Convergence/ });
   await residuals.press('Home');
-  await expect(plots.getByRole('status').filter({ hasText: /^Newton step 0: Source [\d.]+, Target [\d.]+$/ })).toBeVisible();
+  await expect(plots.getByRole('status').filter({ hasText: /^Newton step 0\. Largest curvature error \(rad\): Source [\d.]+, Target [\d.]+$/ })).toBeVisible();
   await residuals.press('ArrowRight');
-  await expect(plots.getByRole('status').filter({ hasText: /^Newton step 1: / })).toBeVisible();
+  await expect(plots.getByRole('status').filter({ hasText: /^Newton step 1\. / })).toBeVisible();
 
   const table = (await saved(page, 'residuals', 'CSV')).toString();
   expect(table.split('\n')[0]).toBe('Newton step,Source,Target');

@@ -137,12 +137,12 @@ export const METHOD: readonly MethodStep[] = [
   {
     name: 'For the texture: a flat metric of each mesh',
     text: [
-      'The checkerboard comes from another flat surface: each mesh is deformed conformally until its only curvature sits at the landmarks. Each vertex has a circle, each edge the inversive distance of its two circles, which stays while the radii change. Newton’s method on a convex energy finds the radii for the wanted curvatures; its Hessian is a graph Laplacian, solved by conjugate gradients.',
+      'The checkerboard comes from another flat surface: each mesh is deformed conformally until its only curvature sits at the landmarks. Each vertex has a circle, each edge the inversive distance of its two circles, which stays while the radii change. Newton’s method on a convex energy finds the radii γ = exp u for the wanted curvatures K*; its Hessian H is a graph Laplacian, solved by conjugate gradients.',
       'This is for texture coordinates alone. That two such surfaces have equal cones does not make them equal.',
     ],
     formula: {
-      tex: String.raw`\ell_{ij}^2=\gamma_i^2+\gamma_j^2+2\eta_{ij}\gamma_i\gamma_j,\quad H\,\delta u=\bar K-K`,
-      plain: 'ℓ² = γᵢ² + γⱼ² + 2 η γᵢ γⱼ; H δu = K̄ − K, with γ = exp u',
+      tex: String.raw`\ell_{ij}^2=\gamma_i^2+\gamma_j^2+2\eta_{ij}\gamma_i\gamma_j,\quad H\,\delta u=K^{*}-K`,
+      plain: 'ℓ² = γᵢ² + γⱼ² + 2 η γᵢ γⱼ; H δu = K* − K, with γ = exp u',
     },
     Picture: Circles,
     fact: ({ cone_metric: flows }: Report): string | null => {

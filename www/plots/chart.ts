@@ -83,7 +83,7 @@ export function shareOf({ scale, range: [low, high] }: Axis, value: number): num
 }
 
 /** The values at one place of a plot in words. */
-export function reading({ x, at, curves, shape }: Chart, index: number): string {
+export function reading({ x, y, at, curves, shape }: Chart, index: number): string {
   const place = at[index];
   if (place === undefined) {
     return '';
@@ -94,7 +94,7 @@ export function reading({ x, at, curves, shape }: Chart, index: number): string 
     const value = of[index] ?? null;
     return value === null ? [] : [`${name} ${figure(value)}`];
   });
-  return `${x.title} ${where}: ${values.length === 0 ? 'no value' : values.join(', ')}`;
+  return `${x.title} ${where}. ${y.title}: ${values.length === 0 ? 'none' : values.join(', ')}`;
 }
 
 /** The place of a plot that holds a value of x: the nearest one, or the step that it lies in. */

@@ -70,7 +70,7 @@ function draw(element: HTMLElement, chart: Chart, asked: (index: number | null) 
     width: element.clientWidth,
     height: HEIGHT,
     scales: { x: scaleOf(chart.x), y: scaleOf(chart.y) },
-    axes: [axisOf(chart.x, palette, 36), axisOf(chart.y, palette, 56)],
+    axes: [axisOf(chart.x, palette, 36), axisOf(chart.y, palette, 60)],
     series: [{}, ...chart.curves.map((curve) => seriesOf(chart, curve, palette))],
     legend: { show: false },
     cursor: { drag: { x: false, y: false }, y: false },

@@ -102,14 +102,17 @@ function fan(centre: Point): readonly (readonly Point[])[] {
 export function Overlay(): VNode {
   const [x, setX] = useState(96);
   const [source, target] = [fan(point(150, 110)), fan(point(x, 62))];
-  const pieces = source.flatMap((a) => target.map((b) => intersection(a, b))).filter((piece) => area(piece) > 1e-9 * SQUARE_AREA);
-  const share = pieces.reduce((sum, piece) => sum + area(piece), 0) / SQUARE_AREA;
+  // Neighbours have different looks: across an edge of either mesh one of the two numbers is odd where it was even.
+  const pieces = source
+    .flatMap((a, i) => target.map((b, k) => ({ corners: intersection(a, b), look: (i + k) % 2 === 0 ? 'piece' : 'piece other' })))
+    .filter(({ corners }) => area(corners) > 1e-9 * SQUARE_AREA);
+  const share = pieces.reduce((sum, { corners }) => sum + area(corners), 0) / SQUARE_AREA;
   const text = `${pieces.length} pieces, ${(100 * share).toFixed(1)} % covered`;
   return (
     <figure>
       <Drawing says={`Two triangulations over each other: ${text}.`}>
-        {pieces.map((piece, k) => (
-          <Shape key={k} points={piece} look={k % 2 === 0 ? 'piece' : 'piece other'} />
+        {pieces.map(({ corners, look }, k) => (
+          <Shape key={k} points={corners} look={look} />
         ))}
         {source.map((face, k) => (
           <Shape key={k} points={face} look="line accent" />
