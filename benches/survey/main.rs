@@ -16,6 +16,7 @@ mod clicks;
 mod fit;
 mod fit_faults;
 mod holes;
+mod matched;
 mod pairs;
 mod remesh;
 mod remeshed;
@@ -78,6 +79,11 @@ const SURVEYS: &[Survey] = &[
         name: "fit",
         about: "landmarks that do not fit: false alarms on correct pairs, and the share of faults that are named",
         run: fit::table,
+    },
+    Survey {
+        name: "match",
+        about: "pairs matched without a landmark, both directions: known landmarks, verdict; --seeds N for varied targets",
+        run: matched::table,
     },
 ];
 

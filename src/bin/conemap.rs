@@ -1,4 +1,4 @@
-//! The command line: `conemap check`, `map`, `query`, `report`, `export`, `suggest`, `flow`, `landmarks` and `remesh`.
+//! The command line: `conemap check`, `map`, `match`, `query`, `report`, `export`, `suggest`, `flow`, `landmarks` and `remesh`.
 //!
 //! Progress and errors go to standard error; the exit code is 0 only for a converged, certified result.
 #![allow(clippy::print_stderr, reason = "a command line prints")]
@@ -19,6 +19,8 @@ mod interrupt;
 mod landmarks;
 #[path = "conemap/map.rs"]
 mod map;
+#[path = "conemap/matching.rs"]
+mod matching;
 #[path = "conemap/query.rs"]
 mod query;
 #[path = "conemap/remesh.rs"]
@@ -36,6 +38,7 @@ fn main() -> ExitCode {
     let outcome = match &arguments.command {
         arguments::Command::Check(options) => check::run(options),
         arguments::Command::Map(options) => map::run(options),
+        arguments::Command::Match(options) => matching::run(options),
         arguments::Command::Query(options) => query::run(options),
         arguments::Command::Report(options) => saved::report(options),
         arguments::Command::Export(options) => saved::export(options),

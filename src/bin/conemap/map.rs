@@ -4,14 +4,18 @@ use crate::arguments::MapArguments;
 use crate::clock::Clock;
 use crate::input::{self, Failure};
 use crate::interrupt;
-use conemap::job::{Job, JobError, JobFile, JobFiles, OutputKind, ReadOptions, TargetImage};
+use crate::matching;
+use conemap::job::{FewLandmarks, Job, JobError, JobFile, JobFiles, OutputKind, ReadOptions, TargetImage};
 use conemap::pipeline::{FindingReport, MapResult, Method, PipelineOptions, RepairKind};
+use conemap::monitor::{PlannedStage, Stage};
 use std::path::PathBuf;
 
 /// Maps, writes what was asked for, and tells the certificate; an error where there is no certified map.
 pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
     let mut clock = Clock::start();
+    clock.plan(vec![PlannedStage { stage: Stage::Matching, time: 1.0 }]);
     let job = read(arguments, &mut clock)?;
+    clock.suspend(|| job.matching().into_iter().for_each(matching::tell));
     let options = PipelineOptions::from(arguments.choices);
     clock.suspend(|| job.landmark_remarks().iter().for_each(|remark| eprintln!("landmarks: {remark}")));
     clock.plan(options.stages(job.landmark_count()));
@@ -45,7 +49,7 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
         }
     }
     if let Some(path) = &arguments.report {
-        input::write(path, &serde_json::to_vec_pretty(&result.report)?)?;
+        input::write(path, &serde_json::to_vec_pretty(&job.report(&result))?)?;
     }
     Ok(())
 }
@@ -54,12 +58,12 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
 fn read(arguments: &MapArguments, clock: &mut Clock) -> Result<Job, Failure> {
     let [source, target] = [&arguments.source, &arguments.target];
     let landmarks: Vec<&PathBuf> =
-        std::iter::once(&arguments.landmarks).chain(&arguments.target_landmarks).collect();
+        arguments.landmarks.iter().chain(&arguments.target_landmarks).collect();
     let bytes = [input::mesh_bytes(source)?, input::mesh_bytes(target)?];
     let landmark_files = input::NamedFiles::read(&landmarks)?;
     let files = JobFiles { source: &bytes[0], target: &bytes[1], landmarks: &landmark_files.given() };
     let target_image = if arguments.mirror_target { TargetImage::Mirrored } else { TargetImage::AsGiven };
-    let options = ReadOptions { target_image, mesh_faults: arguments.faults.into() };
+    let options = ReadOptions { target_image, mesh_faults: arguments.faults.into(), few_landmarks: FewLandmarks::Matched };
     Job::read(files, options, clock).map_err(|error: JobError| {
         let file = match error.file() {
             Some(JobFile::Source) => Some(source),

@@ -1,0 +1,103 @@
+//! Pairs with the coarse map that they lead to.
+
+use super::difference::Difference;
+use super::judge::Judged;
+use super::search::Assignment;
+use super::shape::Shape;
+use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use typed_index_collections::TiVec;
+
+/// Where a pair comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PairOrigin {
+    /// It was given, and is held.
+    Given,
+    /// Two ends of limbs.
+    Tips,
+    /// A point far from all tips, at a place that has the same distances to the other pairs.
+    Between,
+}
+
+/// A pair of vertices of the two meshes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MatchedPair {
+    /// Vertex of the source.
+    pub source: VertexId,
+    /// Vertex of the target.
+    pub target: VertexId,
+    /// Where the pair comes from.
+    pub origin: PairOrigin,
+}
+
+/// The coarse map of a candidate, in the units of the two meshes.
+#[derive(Clone, Debug)]
+pub struct CoarsePicture {
+    /// The source, coarse.
+    pub source: SurfaceMesh,
+    /// The target, coarse.
+    pub target: SurfaceMesh,
+    /// The image of each vertex of the coarse source on the coarse target.
+    pub target_from_source: TiVec<VertexId, SurfacePoint>,
+}
+
+/// Pairs with the coarse map that they lead to.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// The pairs: the given ones in their order, then the others.
+    pub pairs: Vec<MatchedPair>,
+    /// The less the better: the terms below, weighted.
+    pub score: f64,
+    /// Mean log density of the coarse map; 0 for an isometry.
+    pub mean_log: f64,
+    /// Mean difference between how far a point lies from its whole surface, and its image from its own, in units of the root of
+    /// the area.
+    pub remoteness: f64,
+    /// Share of the cyclic orders of shortest paths between the pairs that are the same on both meshes; 1 where all are.
+    pub agreement: f64,
+    /// Ends of limbs without a partner, on the source and on the target.
+    pub unmatched: [usize; 2],
+    /// How it differs from the best candidate; `None` for the best itself.
+    pub difference: Option<Difference>,
+    /// The coarse map.
+    pub picture: CoarsePicture,
+    /// The marks by which it was found, for further search.
+    pub(super) assignment: Assignment,
+}
+
+/// Weights of the score beside the mean log density, found on SHREC07 pairs (see `docs/figures.md`).
+const REMOTENESS: f64 = 5.0;
+const UNMATCHED: f64 = 0.12;
+const ORDERS: f64 = 0.2;
+
+impl Candidate {
+    /// An assignment with what its map said.
+    pub(super) fn new(shapes: [&Shape; 2], assignment: Assignment, judged: Judged) -> Self {
+        let pair = |&[s, t]: &[usize; 2]| MatchedPair {
+            source: shapes[0].on_mesh(shapes[0].marks[s].vertex),
+            target: shapes[1].on_mesh(shapes[1].marks[t].vertex),
+            origin: shapes[0].origin(s),
+        };
+        let Judged { mean_log, remoteness, images } = judged;
+        // A limb that only one of both has costs nothing.
+        let unmatched = assignment.unmatched[0].min(assignment.unmatched[1]) as f64;
+        let score = mean_log
+            + REMOTENESS * remoteness
+            + UNMATCHED * unmatched
+            + ORDERS * (1.0 - assignment.agreement);
+        let mesh = |side: usize| shapes[side].in_units_of_mesh(&images.levels[side].mesh);
+        let picture =
+            CoarsePicture { source: mesh(0), target: mesh(1), target_from_source: images.target_from_source };
+        Self {
+            pairs: assignment.pairs.iter().map(pair).collect(),
+            score,
+            mean_log,
+            remoteness,
+            agreement: assignment.agreement,
+            unmatched: assignment.unmatched,
+            difference: None,
+            picture,
+            assignment,
+        }
+    }
+}
