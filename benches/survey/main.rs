@@ -82,7 +82,7 @@ const SURVEYS: &[Survey] = &[
     },
     Survey {
         name: "match",
-        about: "pairs matched without a landmark, both directions: known landmarks, verdict; --seeds N for varied targets",
+        about: "pairs matched without a landmark, both directions: known landmarks, verdict; --seeds N: varied targets, --variants full: whole maps, --depth 2: all candidates",
         run: matched::table,
     },
 ];

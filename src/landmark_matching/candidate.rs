@@ -88,8 +88,13 @@ impl Candidate {
         let mesh = |side: usize| shapes[side].in_units_of_mesh(&images.levels[side].mesh);
         let picture =
             CoarsePicture { source: mesh(0), target: mesh(1), target_from_source: images.target_from_source };
+        let between = assignment.between.map(|[s, t]| MatchedPair {
+            source: shapes[0].on_mesh(s),
+            target: shapes[1].on_mesh(t),
+            origin: PairOrigin::Between,
+        });
         Self {
-            pairs: assignment.pairs.iter().map(pair).collect(),
+            pairs: assignment.pairs.iter().map(pair).chain(between).collect(),
             score,
             mean_log,
             remoteness,

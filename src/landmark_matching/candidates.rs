@@ -1,5 +1,6 @@
 //! Which assignments are judged by their maps.
 
+use super::between::{LEAST_TO_PLACE, between};
 use super::options::MatchOptions;
 use super::search::Assignment;
 use super::shape::Shape;
@@ -16,7 +17,7 @@ pub(super) fn chosen(
     options: &MatchOptions,
 ) -> Vec<Assignment> {
     let partners = shapes.map(Shape::partners);
-    all.retain(|assignment| assignment.pairs.len() >= LEAST_LANDMARKS);
+    all.retain(|assignment| assignment.pairs.len() >= LEAST_TO_PLACE);
     let is_main = |side: usize, k: usize| shapes[side].marks[k].persistence >= options.main_persistence;
     let main_pairs = |assignment: &Assignment| {
         let pairs = assignment.pairs.iter().filter(|[s, t]| is_main(0, *s) && is_main(1, *t));
@@ -46,7 +47,14 @@ pub(super) fn chosen(
     take(&symmetric, options.symmetric, &mut chosen);
     take(&blind, options.without_orders, &mut chosen);
     take(&all, options.more_candidates, &mut chosen);
-    chosen
+    let with_room = |assignment: Assignment| -> Vec<Assignment> {
+        if assignment.pairs.len() >= LEAST_LANDMARKS {
+            return vec![assignment];
+        }
+        let places = between(shapes, &assignment.pairs).into_iter();
+        places.map(|pair| Assignment { between: Some(pair), ..assignment.clone() }).collect()
+    };
+    chosen.into_iter().flat_map(with_room).collect()
 }
 
 /// Whether partners go to partners, and what has none to what has none: as when two symmetric bodies are laid side by side.

@@ -102,7 +102,10 @@ pub(super) fn difference(shapes: [&Shape; 2], best: &Candidate, other: &Candidat
     } else {
         DifferenceKind::Places
     };
-    let pairs = changed.into_iter().map(|k| other.pairs[k]).collect();
+    let mut pairs: Vec<MatchedPair> = changed.into_iter().map(|k| other.pairs[k]).collect();
+    if other.assignment.between.is_some() && other.assignment.between != best.assignment.between {
+        pairs.extend(other.pairs.last());
+    }
     Difference { kind, pairs, share: parting.share }
 }
 

@@ -12,6 +12,7 @@ use super::moves::moves;
 use super::options::MatchOptions;
 use super::search::{Assignment, Tables, assignments};
 use super::shape::{Body, Shape};
+use super::sharpening::sharpen;
 use super::verdict::{Verdict, verdict};
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Stage};
@@ -80,9 +81,11 @@ pub struct LandmarkMatch {
     pub verdict: Verdict,
 }
 
-/// Shares of the time: when both bodies have been looked at, and when the candidates have been judged.
+/// Shares of the time: when both bodies have been looked at, and when the candidates have been judged, and
+/// when small changes have.
 const LOOKED: f64 = 0.15;
-const JUDGED: f64 = 0.7;
+const JUDGED: f64 = 0.6;
+const IMPROVED: f64 = 0.95;
 
 /// Finds landmark pairs of two bodies beside the given ones, with alternatives and a verdict.
 ///
@@ -108,9 +111,10 @@ pub fn match_landmarks(
     let tables = Tables::new(shapes, options);
     let mut search = Search { shapes, options, found: Vec::new(), judged: 0 };
     search.first_look(&tables, &mut Portion::new(monitor, LOOKED, JUDGED))?;
-    search.improve(&tables, &mut Portion::new(monitor, JUDGED, 1.0))?;
+    search.improve(&tables, &mut Portion::new(monitor, JUDGED, IMPROVED))?;
     let meshes = [input.source, input.target];
     let mut candidates = search.found;
+    sharpen(input, &mut candidates, &mut Portion::new(monitor, IMPROVED, 1.0))?;
     if let Some((best, others)) = candidates.split_first_mut() {
         others.iter_mut().for_each(|other| other.difference = Some(difference(shapes, best, other)));
     }
@@ -146,7 +150,8 @@ impl Search<'_> {
     fn judge(&mut self, assignment: &Assignment, monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
         self.judged += 1;
         let vertices = |pair: &[usize; 2]| [0, 1].map(|side: usize| self.shapes[side].marks[pair[side]].vertex);
-        let pairs: Vec<[VertexId; 2]> = assignment.pairs.iter().map(vertices).collect();
+        let pairs = assignment.pairs.iter().map(vertices).chain(assignment.between);
+        let pairs: Vec<[VertexId; 2]> = pairs.collect();
         let Some(judged) = judge(self.shapes, &pairs, self.options, monitor)? else { return Ok(false) };
         let candidate = Candidate::new(self.shapes, assignment.clone(), judged);
         let place = self.found.partition_point(|other| other.score <= candidate.score);
@@ -185,7 +190,7 @@ impl Search<'_> {
                 if left == 0 || better || monitor.wants_result() {
                     break;
                 }
-                if tried.iter().any(|known| known.pairs == change.pairs) {
+                if tried.iter().any(|known| known.pairs == change.pairs && known.between == change.between) {
                     continue;
                 }
                 let share = |left: usize| 1.0 - left as f64 / most as f64;

@@ -1,6 +1,7 @@
 //! Landmark pairs that nobody gave: ends of limbs of two bodies matched, judged by coarse maps, and told with their doubts.
 
 mod agreement;
+mod between;
 mod candidate;
 mod candidates;
 mod difference;
@@ -11,6 +12,7 @@ mod options;
 mod persistence;
 mod search;
 mod shape;
+mod sharpening;
 mod verdict;
 
 pub use candidate::{Candidate, CoarsePicture, MatchedPair, PairOrigin};

@@ -3,6 +3,7 @@
 //! Which of nose, ear and crown is the end of a head differs from body to body, and so do small tips that both have: these are left
 //! to the map to judge.
 
+use super::between::between;
 use super::search::{Assignment, Tables};
 use crate::landmarks::LEAST_LANDMARKS;
 
@@ -10,6 +11,9 @@ use crate::landmarks::LEAST_LANDMARKS;
 const NEAR: f64 = 0.45;
 /// Small tips are paired where their mean misfit is below this. Chosen by hand.
 const FITS: f64 = 0.25;
+
+/// With so few pairs a map may wind either way round the body: a further pair is tried.
+const FEW: usize = 5;
 
 /// Assignments that differ little from one, the cheapest first.
 pub(super) fn moves(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignment> {
@@ -41,7 +45,16 @@ pub(super) fn moves(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignment> {
             }
         }
     }
-    let mut moves: Vec<Assignment> = changed.iter().map(|pairs| tables.assignment(pairs)).collect();
+    let mut moves: Vec<Assignment> = changed
+        .iter()
+        .filter(|pairs| pairs.len() >= LEAST_LANDMARKS)
+        .map(|pairs| tables.assignment(pairs))
+        .collect();
     moves.sort_by(|a, b| a.full_cost().total_cmp(&b.full_cost()));
+    if from.between.is_none() && pairs.len() <= FEW {
+        let places = between(tables.shapes, pairs).into_iter();
+        let with = places.map(|pair| Assignment { between: Some(pair), ..from.clone() });
+        moves.splice(0..0, with);
+    }
     moves
 }

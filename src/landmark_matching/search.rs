@@ -4,6 +4,7 @@ use super::agreement::turns_left;
 use super::options::MatchOptions;
 use super::shape::Shape;
 use crate::math::scalar::{ln, min};
+use crate::mesh::VertexId;
 
 /// An assignment of marks of the source to marks of the target.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +17,8 @@ pub(super) struct Assignment {
     pub(super) agreement: f64,
     /// Main tips without a partner, by side.
     pub(super) unmatched: [usize; 2],
+    /// A pair of vertices of both levels beside those of marks.
+    pub(super) between: Option<[VertexId; 2]>,
 }
 
 /// What reversed orders cost; the other weights are beside it. They were found on SHREC07 pairs among four animals.
@@ -149,6 +152,7 @@ impl Partial {
             agreement: agreement(tables.shapes, &self.pairs),
             unmatched: self.unmatched,
             pairs: self.pairs,
+            between: None,
         }
     }
 

@@ -45,6 +45,8 @@ pub(super) struct Shape {
     /// The given landmarks in their order, then the tips, the most persistent first.
     pub(super) marks: Vec<Mark>,
     pub(super) given: usize,
+    /// Which vertices of the level may be landmarks; `None` where all may.
+    may_mark: Option<TiVec<VertexId, bool>>,
 }
 
 /// A given landmark or a tip.
@@ -83,7 +85,9 @@ impl Shape {
         let held: Vec<VertexId> = level.numbers(given).collect();
         let tips = peaks(&level.mesh, &remoteness, options.least_persistence);
         let fields: Vec<_> = held.iter().map(|&v| distances(&level.mesh, &[v])).collect();
-        let mut shape = Self { level, scale, areas, remoteness, marks: Vec::new(), given: held.len() };
+        let may_mark = may_mark.map(|may| level.vertices.iter().map(|&v| may[v]).collect());
+        let given = held.len();
+        let mut shape = Self { level, scale, areas, remoteness, marks: Vec::new(), given, may_mark };
         for (v, field) in held.into_iter().zip(fields) {
             shape.add(v, 0.0, field);
         }
@@ -94,7 +98,7 @@ impl Shape {
             if shape.marks[..shape.given].iter().any(|mark| mark.field[peak.vertex] < SAME_PLACE) {
                 continue;
             }
-            let Some(vertex) = shape.allowed(peak.vertex, may_mark) else { continue };
+            let Some(vertex) = shape.allowed(peak.vertex) else { continue };
             let field = distances(&shape.level.mesh, &[vertex]);
             shape.add(vertex, peak.persistence, field);
         }
@@ -102,12 +106,14 @@ impl Shape {
         Ok(shape)
     }
 
+    /// Whether a vertex may be a landmark.
+    pub(super) fn may(&self, v: VertexId) -> bool {
+        self.may_mark.as_ref().is_none_or(|may| may[v])
+    }
+
     /// The nearest vertex that may be a landmark and is none yet; `None` where that is another place.
-    fn allowed(&self, tip: VertexId, may_mark: Option<&TiSlice<VertexId, bool>>) -> Option<VertexId> {
-        let Some(may_mark) = may_mark else { return Some(tip) };
-        let may = |v: VertexId| {
-            may_mark[self.level.vertices[v]] && self.marks.iter().all(|mark| mark.vertex != v)
-        };
+    fn allowed(&self, tip: VertexId) -> Option<VertexId> {
+        let may = |v: VertexId| self.may(v) && self.marks.iter().all(|mark| mark.vertex != v);
         if may(tip) {
             return Some(tip);
         }

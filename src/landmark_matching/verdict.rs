@@ -1,6 +1,6 @@
 //! How sure a match is, and the question that settles a doubt.
 
-use super::candidate::{Candidate, MatchedPair};
+use super::candidate::{Candidate, PairOrigin};
 use super::difference::Parting;
 use super::shape::Shape;
 use crate::landmarks::MeshSide;
@@ -79,11 +79,13 @@ pub struct VerdictLimits {
     pub margin: f64,
     /// A candidate whose map parts from the best one on a smaller share of the area is no rival.
     pub parting: f64,
+    /// Fewer given pairs and pairs of ends are never sure.
+    pub least_pairs: usize,
 }
 
 impl Default for VerdictLimits {
     fn default() -> Self {
-        Self { sure_score: 0.7, unknown_score: 1.0, margin: 0.04, parting: 0.02 }
+        Self { sure_score: 0.7, unknown_score: 1.0, margin: 0.04, parting: 0.02, least_pairs: 5 }
     }
 }
 
@@ -101,7 +103,8 @@ pub(super) fn verdict(
     let parts = |c: &&Candidate| c.difference.as_ref().is_some_and(|d| d.share > limits.parting);
     let rival = candidates.iter().find(parts);
     let near = rival.is_some_and(|rival| rival.score < best.score + limits.margin);
-    if best.score < limits.sure_score && !near {
+    let clear = best.pairs.iter().filter(|pair| pair.origin != PairOrigin::Between).count();
+    if best.score < limits.sure_score && !near && clear >= limits.least_pairs {
         return Verdict::Sure;
     }
     match rival {
@@ -118,12 +121,15 @@ fn question(
 ) -> Question {
     let number = candidates.iter().position(|c| std::ptr::eq(c, rival)).unwrap_or(0);
     let place = |v: VertexId| meshes[1].positions()[v];
-    let partner = |pair: &MatchedPair| {
-        let other = rival.pairs.iter().find(|other| other.source == pair.source)?;
-        (other.target != pair.target).then_some([pair.target, other.target])
+    let marks = [best, rival].map(|candidate| &candidate.assignment.pairs);
+    // Both candidates may have the same end at slightly different vertices: marks tell what is the same.
+    let partner = |k: usize| {
+        let [source, target] = marks[0][k];
+        let other = marks[1].iter().position(|mark| mark[0] == source && mark[1] != target)?;
+        Some((best.pairs[k].source, [best.pairs[k].target, rival.pairs[other].target]))
     };
     // A pair is easier to answer than a place between: the one whose two partners are farthest apart.
-    let pairs = best.pairs.iter().filter_map(|pair| Some((pair.source, partner(pair)?)));
+    let pairs = (0..marks[0].len()).filter_map(partner);
     let apart = |targets: [VertexId; 2]| place(targets[0]).distance(place(targets[1]));
     if let Some((source, targets)) = pairs.max_by(|a, b| apart(a.1).total_cmp(&apart(b.1))) {
         return Question { source, targets, rival: number };

@@ -606,7 +606,7 @@ fn bad_cones_are_refused_by_line() {
 #[test]
 fn wrong_arguments_end_in_the_usage() {
     let cases: [(&[&str], &str); 5] = [
-        (&["map", "only-one.obj"], "--landmarks"),
+        (&["map", "only-one.obj"], "<TARGET>"),
         (&["remesh", "ball.obj", "--faces=100"], "--out"),
         (&["remesh", "ball.obj", "--out=new.obj"], "--faces"),
         (&["remesh", "ball.obj", "--out=new.obj", "--faces=-5"], "--faces"),

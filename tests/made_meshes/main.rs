@@ -36,6 +36,7 @@ mod handles;
 mod holes;
 mod job;
 mod landmark_fit;
+mod landmark_matching;
 mod layout;
 mod map;
 mod map_file;
