@@ -82,7 +82,8 @@ pub fn table(arguments: &Arguments) {
 }
 
 fn sum_up(reached: &[Reached]) {
-    let count = |right: bool, sure: bool| reached.iter().filter(|r| r.right == right && r.sure == sure).count();
+    let count =
+        |right: bool, sure: bool| reached.iter().filter(|r| r.right == right && r.sure == sure).count();
     let mut errors: Vec<f64> = reached.iter().map(|r| r.error).collect();
     errors.sort_by(f64::total_cmp);
     let (median, worst) = (errors.get(errors.len() / 2), errors.last());
@@ -161,7 +162,8 @@ impl Change {
             }
             Self::Remeshed => {
                 let options = Options::to_faces(known.meshes[1].face_count());
-                let remeshed = remesh(&known.meshes[1], &options, &mut Silent).expect("a mesh in other triangles");
+                let remeshed =
+                    remesh(&known.meshes[1], &options, &mut Silent).expect("a mesh in other triangles");
                 known.meshes[1] = remeshed.mesh;
                 known.truth = GroundTruth::Unknown;
                 known.name.push_str(" remeshed");
@@ -223,9 +225,11 @@ fn alternatives(known: &Known, found: &LandmarkMatch) -> String {
             let n = known.places[side].len();
             (0..n).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
         };
-        let pairs = candidate.pairs.iter().map(|p| format!("{}-{}", nearest(0, p.source), nearest(1, p.target)));
+        let pairs =
+            candidate.pairs.iter().map(|p| format!("{}-{}", nearest(0, p.source), nearest(1, p.target)));
         let pairs: Vec<String> = pairs.collect();
-        text += &format!("\n   {} | {}", described(candidate, &of_candidate(known, candidate)), pairs.join(" "));
+        text +=
+            &format!("\n   {} | {}", described(candidate, &of_candidate(known, candidate)), pairs.join(" "));
         if let Some(difference) = &candidate.difference {
             text += &format!(" | {:?} {:.3}", difference.kind, difference.share);
         }

@@ -122,15 +122,15 @@ pub fn match_meshes(
     let placed = |side: MeshSide| -> Result<Insertion, JobError> {
         let mesh = meshes[side as usize];
         check_side(mesh, side, &given.pairs)?;
-        Ok(insert(&mesh.mesh, &points(mesh, side, &given.pairs)?).map_err(crate::landmarks::LandmarkError::from)?)
+        Ok(insert(&mesh.mesh, &points(mesh, side, &given.pairs)?)
+            .map_err(crate::landmarks::LandmarkError::from)?)
     };
     let placed = [placed(MeshSide::Source)?, placed(MeshSide::Target)?];
     let ends = placed[0].vertices.iter().zip(&placed[1].vertices);
     let pairs: Vec<[VertexId; 2]> = ends.map(|(s, t)| [*s, *t]).collect();
     let may_mark = [0, 1].map(|k| may_mark(meshes[k], &placed[k]));
     let may_mark = MayMark { source: may_mark[0].as_deref(), target: may_mark[1].as_deref() };
-    let input =
-        MatchInput { source: &placed[0].mesh, target: &placed[1].mesh, given: &pairs, may_mark };
+    let input = MatchInput { source: &placed[0].mesh, target: &placed[1].mesh, given: &pairs, may_mark };
     let found = match_landmarks(input, options, monitor)?;
     let numbers = meshes.map(CheckedMesh::file_from_vertex);
     let told = Told { given, numbers: &numbers };
@@ -138,7 +138,10 @@ pub fn match_meshes(
         verdict: told.verdict(&found.verdict),
         candidates: found.candidates.iter().map(|candidate| told.candidate(candidate)).collect(),
     };
-    Ok(Matched { report, pictures: found.candidates.into_iter().map(|candidate| candidate.picture).collect() })
+    Ok(Matched {
+        report,
+        pictures: found.candidates.into_iter().map(|candidate| candidate.picture).collect(),
+    })
 }
 
 /// Which vertices may be landmarks: those of the file that no cap has; `None` where all may.

@@ -15,7 +15,8 @@ mod taken;
 pub use crate::mesh::mirror::TargetImage;
 pub use error::{JobError, JobFile};
 pub use matching::{
-    CandidateReport, DifferenceReport, FewLandmarks, MatchReport, Matched, QuestionReport, VerdictReport, match_meshes,
+    CandidateReport, DifferenceReport, FewLandmarks, MatchReport, Matched, QuestionReport, VerdictReport,
+    match_meshes,
 };
 pub use mesh_file::{MeshFaults, MeshFileError, ReadMesh, read_mesh};
 pub use outputs::OutputFile;
@@ -152,7 +153,16 @@ impl Job {
             _ => GroundTruth::Unknown,
         };
         let caps = [caps(source.checked(), &placed.source), caps(target.checked(), &placed.target)];
-        Ok(Self { meshes: [source, target], repairs, placed, caps, landmarks, remarks, ground_truth, matching })
+        Ok(Self {
+            meshes: [source, target],
+            repairs,
+            placed,
+            caps,
+            landmarks,
+            remarks,
+            ground_truth,
+            matching,
+        })
     }
 
     /// What was repaired of the source and of the target.

@@ -94,8 +94,7 @@ mod tests {
             .collect();
         let root = at(DVec3::Z);
         let image = mirrored(&ball).unwrap();
-        let [one, other] =
-            [&ball, &image].map(|mesh| ranks(mesh, root, &distances(mesh, &[root]), &marks));
+        let [one, other] = [&ball, &image].map(|mesh| ranks(mesh, root, &distances(mesh, &[root]), &marks));
         for (a, b, c) in [(0, 1, 2), (0, 1, 3), (1, 2, 4), (2, 3, 4)] {
             assert!(turns_left([one[a], one[b], one[c]]) != turns_left([other[a], other[b], other[c]]));
         }

@@ -6,46 +6,17 @@
 
 use super::candidate::Candidate;
 use super::candidates::chosen;
-use super::difference::difference;
+use super::input::MatchInput;
 use super::judge::judge;
 use super::moves::moves;
 use super::options::MatchOptions;
+use super::parting::difference;
 use super::search::{Assignment, Tables, assignments};
 use super::shape::{Body, Shape};
 use super::sharpening::sharpen;
 use super::verdict::{Verdict, verdict};
-use crate::mesh::{SurfaceMesh, VertexId};
+use crate::mesh::VertexId;
 use crate::monitor::{Cancelled, Monitor, Portion, Stage};
-use typed_index_collections::TiSlice;
-
-/// Two bodies, and what is known of their landmarks.
-#[derive(Clone, Copy, Debug)]
-pub struct MatchInput<'a> {
-    /// Closed, of genus 0.
-    pub source: &'a SurfaceMesh,
-    /// Closed, of genus 0.
-    pub target: &'a SurfaceMesh,
-    /// Pairs of vertices that are held, different ones on each mesh; there may be none.
-    pub given: &'a [[VertexId; 2]],
-    /// Which vertices may be landmarks.
-    pub may_mark: MayMark<'a>,
-}
-
-/// Which vertices may be landmarks; `None` where all may.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct MayMark<'a> {
-    /// Of the source.
-    pub source: Option<&'a TiSlice<VertexId, bool>>,
-    /// Of the target.
-    pub target: Option<&'a TiSlice<VertexId, bool>>,
-}
-
-impl<'a> MatchInput<'a> {
-    /// Two meshes of which nothing is known; every vertex may be a landmark.
-    pub fn new(source: &'a SurfaceMesh, target: &'a SurfaceMesh) -> Self {
-        Self { source, target, given: &[], may_mark: MayMark::default() }
-    }
-}
 
 /// Why nothing was matched.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -149,7 +120,8 @@ impl Search<'_> {
     /// Judges an assignment. Whether it is the best so far.
     fn judge(&mut self, assignment: &Assignment, monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
         self.judged += 1;
-        let vertices = |pair: &[usize; 2]| [0, 1].map(|side: usize| self.shapes[side].marks[pair[side]].vertex);
+        let vertices =
+            |pair: &[usize; 2]| [0, 1].map(|side: usize| self.shapes[side].marks[pair[side]].vertex);
         let pairs = assignment.pairs.iter().map(vertices).chain(assignment.between);
         let pairs: Vec<[VertexId; 2]> = pairs.collect();
         let Some(judged) = judge(self.shapes, &pairs, self.options, monitor)? else { return Ok(false) };

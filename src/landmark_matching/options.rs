@@ -1,6 +1,5 @@
 //! How landmarks are matched.
 
-use super::verdict::VerdictLimits;
 use crate::coarse_map::MultilevelOptions;
 use crate::layout::SearchOptions;
 use crate::surface_map::energy::map_energy::MapEnergy;
@@ -73,5 +72,26 @@ impl Default for MatchOptions {
             },
             limits: VerdictLimits::default(),
         }
+    }
+}
+
+/// Limits of the verdict.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VerdictLimits {
+    /// A candidate with a score above this is doubtful whatever the others are.
+    pub sure_score: f64,
+    /// With a score above this nothing fits.
+    pub unknown_score: f64,
+    /// A rival whose score is no more than this above the best one's makes it doubtful.
+    pub margin: f64,
+    /// A candidate whose map parts from the best one on a smaller share of the area is no rival.
+    pub parting: f64,
+    /// Fewer given pairs and pairs of ends are never sure.
+    pub least_pairs: usize,
+}
+
+impl Default for VerdictLimits {
+    fn default() -> Self {
+        Self { sure_score: 0.7, unknown_score: 1.0, margin: 0.04, parting: 0.02, least_pairs: 5 }
     }
 }

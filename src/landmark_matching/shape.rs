@@ -1,8 +1,8 @@
 //! A body as the matching sees it: a coarse level of area 1 with its tips, and what each tip sees of the body.
 
 use super::agreement::{Rank, ranks};
-use super::candidate::PairOrigin;
 use super::options::MatchOptions;
+use super::pair::PairOrigin;
 use super::persistence::peaks;
 use crate::geodesic::distances;
 use crate::math::scalar::ln;

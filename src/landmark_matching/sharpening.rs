@@ -4,8 +4,9 @@
 //! the vertex near it that is farthest from the other pairs of its candidate, by the sum of the distances: the same on both bodies, so
 //! that partners end alike.
 
-use super::candidate::{Candidate, PairOrigin};
-use super::matching::MatchInput;
+use super::candidate::Candidate;
+use super::input::MatchInput;
+use super::pair::PairOrigin;
 use crate::geodesic::distances;
 use crate::mesh::coarsening::Level;
 use crate::mesh::{SurfaceMesh, VertexId};

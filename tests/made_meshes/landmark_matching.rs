@@ -35,11 +35,20 @@ fn limb(name: &str) -> String {
         return "head".to_owned();
     }
     let words: Vec<&str> = name.split(' ').collect();
-    if name.starts_with("left") || name.starts_with("right") { words[..2].join(" ") } else { words[0].to_owned() }
+    if name.starts_with("left") || name.starts_with("right") {
+        words[..2].join(" ")
+    } else {
+        words[0].to_owned()
+    }
 }
 
 /// The limbs of source and target that the best candidate takes to each other; `back` undoes what was done to the target.
-fn limbs(demo: &Demo, found: &LandmarkMatch, target: &SurfaceMesh, back: impl Fn(DVec3) -> DVec3) -> Vec<[String; 2]> {
+fn limbs(
+    demo: &Demo,
+    found: &LandmarkMatch,
+    target: &SurfaceMesh,
+    back: impl Fn(DVec3) -> DVec3,
+) -> Vec<[String; 2]> {
     let best = &found.candidates[0];
     let pair = |source: VertexId, onto: VertexId| {
         [
@@ -60,11 +69,13 @@ fn all_feet_and_both_ends(limbs: &[[String; 2]]) {
 }
 
 fn turned(p: DVec3) -> DVec3 {
-    3.0 * (DQuat::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 2.0) * p) + DVec3::new(5.0, -7.0, 1.0)
+    3.0 * (DQuat::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 2.0) * p)
+        + DVec3::new(5.0, -7.0, 1.0)
 }
 
 fn turned_back(p: DVec3) -> DVec3 {
-    DQuat::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), -2.0) * ((p - DVec3::new(5.0, -7.0, 1.0)) / 3.0)
+    DQuat::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), -2.0)
+        * ((p - DVec3::new(5.0, -7.0, 1.0)) / 3.0)
 }
 
 /// The mesh with its vertices numbered otherwise, and its faces in another order.

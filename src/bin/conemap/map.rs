@@ -6,8 +6,8 @@ use crate::input::{self, Failure};
 use crate::interrupt;
 use crate::matching;
 use conemap::job::{FewLandmarks, Job, JobError, JobFile, JobFiles, OutputKind, ReadOptions, TargetImage};
-use conemap::pipeline::{FindingReport, MapResult, Method, PipelineOptions, RepairKind};
 use conemap::monitor::{PlannedStage, Stage};
+use conemap::pipeline::{FindingReport, MapResult, Method, PipelineOptions, RepairKind};
 use std::path::PathBuf;
 
 /// Maps, writes what was asked for, and tells the certificate; an error where there is no certified map.
@@ -57,13 +57,16 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
 /// Reads the files; a fault is told with the file's name.
 fn read(arguments: &MapArguments, clock: &mut Clock) -> Result<Job, Failure> {
     let [source, target] = [&arguments.source, &arguments.target];
-    let landmarks: Vec<&PathBuf> =
-        arguments.landmarks.iter().chain(&arguments.target_landmarks).collect();
+    let landmarks: Vec<&PathBuf> = arguments.landmarks.iter().chain(&arguments.target_landmarks).collect();
     let bytes = [input::mesh_bytes(source)?, input::mesh_bytes(target)?];
     let landmark_files = input::NamedFiles::read(&landmarks)?;
     let files = JobFiles { source: &bytes[0], target: &bytes[1], landmarks: &landmark_files.given() };
     let target_image = if arguments.mirror_target { TargetImage::Mirrored } else { TargetImage::AsGiven };
-    let options = ReadOptions { target_image, mesh_faults: arguments.faults.into(), few_landmarks: FewLandmarks::Matched };
+    let options = ReadOptions {
+        target_image,
+        mesh_faults: arguments.faults.into(),
+        few_landmarks: FewLandmarks::Matched,
+    };
     Job::read(files, options, clock).map_err(|error: JobError| {
         let file = match error.file() {
             Some(JobFile::Source) => Some(source),

@@ -16,7 +16,8 @@ pub fn run(arguments: &MatchArguments) -> Result<(), Failure> {
     let bytes = [input::mesh_bytes(paths[0])?, input::mesh_bytes(paths[1])?];
     let checked = |k: usize| input::checked(paths[k], &bytes[k], arguments.faults);
     let meshes = [checked(0)?, checked(1)?];
-    let given = given(arguments, [0, 1].map(|k| Surface { mesh: &meshes[k], space: Space::of_mesh(&bytes[k]) }))?;
+    let given =
+        given(arguments, [0, 1].map(|k| Surface { mesh: &meshes[k], space: Space::of_mesh(&bytes[k]) }))?;
     let mut clock = Clock::start_only(Stage::Matching);
     let found = match_meshes([&meshes[0], &meshes[1]], &given, &MatchOptions::default(), &mut clock)?;
     clock.stop();
@@ -53,7 +54,10 @@ pub fn tell(report: &MatchReport) {
     }
     for (number, candidate) in report.candidates.iter().enumerate().skip(1).take(TOLD) {
         if let Some(difference) = &candidate.difference {
-            eprintln!("landmarks: alternative {number}, score {:.3}: {}", candidate.score, difference.sentence);
+            eprintln!(
+                "landmarks: alternative {number}, score {:.3}: {}",
+                candidate.score, difference.sentence
+            );
         }
     }
 }
