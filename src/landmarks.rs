@@ -14,6 +14,9 @@ id!(
     LandmarkId
 );
 
+/// A map needs so many landmarks.
+pub const LEAST_LANDMARKS: usize = 4;
+
 /// Corresponding vertices of two meshes, at least 4, distinct on each mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Landmarks {
@@ -246,7 +249,7 @@ impl Landmarks {
         target: &SurfaceMesh,
         pairs: &[[u32; 2]],
     ) -> Result<Self, LandmarkError> {
-        if pairs.len() < 4 {
+        if pairs.len() < LEAST_LANDMARKS {
             return Err(LandmarkError::TooFew { count: pairs.len() });
         }
         Ok(Self {

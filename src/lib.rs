@@ -17,6 +17,7 @@ pub mod io;
 pub mod job;
 pub mod landmark_exchange;
 pub mod landmark_fit;
+pub mod landmark_matching;
 pub mod landmark_suggestion;
 pub mod landmarks;
 pub mod layout;

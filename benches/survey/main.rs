@@ -17,6 +17,7 @@ mod fit;
 mod fit_faults;
 mod holes;
 mod hostile;
+mod matched;
 mod pairs;
 mod remesh;
 mod remeshed;
@@ -99,6 +100,11 @@ const SURVEYS: &[Survey] = &[
         run: silence::table,
     },
     Survey { name: "hostile-case", about: "one of them in this process, for the table", run: hostile::case },
+    Survey {
+        name: "match",
+        about: "pairs matched without a landmark, both directions: known landmarks, verdict; --seeds N: varied targets, --variants full: whole maps, --depth 2: all candidates",
+        run: matched::table,
+    },
 ];
 
 fn main() {

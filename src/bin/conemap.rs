@@ -1,4 +1,4 @@
-//! The command line: `conemap check`, `map`, `query`, `report`, `verify`, `export`, `suggest`, `flow`, `landmarks` and `remesh`.
+//! The command line: `conemap check`, `map`, `match`, `query`, `report`, `verify`, `export`, `suggest`, `flow`, `landmarks` and `remesh`.
 //!
 //! Progress and errors go to standard error; the exit code is 0 only for a converged, certified result.
 
@@ -20,6 +20,8 @@ mod interrupt;
 mod landmarks;
 #[path = "conemap/map.rs"]
 mod map;
+#[path = "conemap/matching.rs"]
+mod matching;
 #[path = "conemap/outputs.rs"]
 mod outputs;
 #[path = "conemap/query.rs"]
@@ -43,6 +45,7 @@ fn main() -> ExitCode {
     let outcome = match &arguments.command {
         arguments::Command::Check(options) => check::run(options),
         arguments::Command::Map(options) => map::run(options),
+        arguments::Command::Match(options) => matching::run(options),
         arguments::Command::Query(options) => query::run(options),
         arguments::Command::Report(options) => saved::report(options),
         arguments::Command::Verify(options) => verify::run(options),

@@ -237,6 +237,9 @@ fn pairs(
     let is_known = |v: VertexId| source.vertices[v].index() < full[0].refined.mesh.vertex_count();
     mesh.vertices().filter(|&v| !is_known(v)).for_each(|v| free[v.index()] = false);
     mesh.vertices().filter(|&v| !weights[0].is_on_skin(mesh, v)).for_each(|v| free[v.index()] = false);
+    // What the round before inserted around its own points is no vertex of the mesh with the user's landmarks alone.
+    let known = full[0].refined.mesh.vertex_count();
+    mesh.vertices().filter(|&v| source.vertices[v].index() >= known).for_each(|v| free[v.index()] = false);
     let wanted = Spread { count, least_distance: LEAST_DISTANCE };
     let chosen = farthest_points(mesh, distances(mesh, &avoid), wanted, |v| free[v.index()], monitor)?;
     let mut places: Vec<DVec3> =

@@ -3,6 +3,7 @@
 use super::mesh_file::MeshFileError;
 use crate::io::ReadError;
 use crate::landmark_exchange::ExchangeError;
+use crate::landmark_matching::MatchError;
 use crate::landmarks::{LandmarkError, MeshSide};
 use crate::mesh::MeshError;
 use crate::mesh::check::MeshFault;
@@ -44,12 +45,30 @@ pub enum JobError {
     /// The landmarks do not belong to the meshes.
     #[error(transparent)]
     Landmarks(#[from] LandmarkError),
+    /// Nothing could be matched.
+    #[error(transparent)]
+    Matching(MatchError),
+    /// The program found no landmarks that lead to a map.
+    #[error("{sentence}")]
+    Unmatched {
+        /// What to do about it, with the numbers of the files.
+        sentence: String,
+    },
     /// The target has no mirror image.
     #[error("the mirror image of the target: {0}")]
     Mirror(#[from] MeshError),
     /// There is no map.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),
+}
+
+impl From<MatchError> for JobError {
+    fn from(error: MatchError) -> Self {
+        match error {
+            MatchError::Cancelled(stop) => stop.into(),
+            error => Self::Matching(error),
+        }
+    }
 }
 
 impl From<Cancelled> for JobError {
@@ -91,7 +110,7 @@ impl JobError {
             }
             Self::LandmarkFiles(error) => error.file().map(JobFile::Landmarks),
             Self::Landmarks(_) => Some(JobFile::Landmarks(0)),
-            Self::Mirror(_) | Self::Pipeline(_) => None,
+            Self::Matching(_) | Self::Unmatched { .. } | Self::Mirror(_) | Self::Pipeline(_) => None,
         }
     }
 
@@ -100,7 +119,9 @@ impl JobError {
         match self {
             Self::Read { .. } => "file",
             Self::Mesh { .. } | Self::Repair { .. } | Self::Mirror(_) => "mesh",
-            Self::LandmarkFiles(_) | Self::Landmarks(_) => "landmarks",
+            Self::LandmarkFiles(_) | Self::Landmarks(_) | Self::Matching(_) | Self::Unmatched { .. } => {
+                "landmarks"
+            }
             Self::Pipeline(error) => error.code(),
         }
     }

@@ -6,6 +6,7 @@
 //! ([`TakenMap`]).
 
 mod error;
+mod matching;
 mod mesh_file;
 mod outputs;
 mod proof;
@@ -15,6 +16,10 @@ mod taken;
 pub use crate::mesh::mirror::TargetImage;
 pub use conemap_verify::Proof;
 pub use error::{JobError, JobFile};
+pub use matching::{
+    CandidateReport, DifferenceReport, FewLandmarks, MatchReport, Matched, QuestionReport, VerdictReport,
+    match_meshes,
+};
 pub use mesh_file::{MeshFaults, MeshFileError, ReadMesh, read_mesh};
 pub use outputs::OutputFile;
 pub use proof::{ProofError, prove};
@@ -24,7 +29,8 @@ pub use taken::{OutputKind, TakenMap};
 use crate::io::landmark_file::LandmarkFile;
 use crate::io::landmark_formats::Space;
 use crate::landmark_exchange::{GivenFile, PairLandmarks, Remark, Surface, compare_names, read_pairs};
-use crate::landmarks::{MeshSide, PlacedLandmarks, place};
+use crate::landmark_matching::MatchOptions;
+use crate::landmarks::{LEAST_LANDMARKS, MeshSide, PlacedLandmarks, place};
 use crate::map_file::FileMesh;
 use crate::mesh::check::CheckedMesh;
 use crate::mesh::insertion::Insertion;
@@ -32,9 +38,10 @@ use crate::mesh::repair::RepairReport;
 use crate::mesh::{FaceId, SurfacePoint};
 use crate::monitor::{Cancelled, Monitor, Portion, Stage};
 use crate::pipeline::{
-    self, CapFaces, FindingReport, GroundTruth, MapInput, MapResult, PipelineError, PipelineOptions, Warning,
-    findings,
+    self, CapFaces, FindingReport, GroundTruth, MapInput, MapResult, PipelineError, PipelineOptions, Report,
+    Warning, findings,
 };
+use serde::Serialize;
 use typed_index_collections::TiVec;
 
 /// The contents of the files of a job.
@@ -48,6 +55,17 @@ pub struct JobFiles<'a> {
     pub landmarks: &'a [GivenFile<'a>],
 }
 
+/// The report of a map with that of the landmarks that the program found, stable as JSON.
+#[derive(Clone, Debug, Serialize)]
+pub struct JobReport<'a> {
+    /// The numbers of the run.
+    #[serde(flatten)]
+    pub report: &'a Report,
+    /// Of landmarks that the program found.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub matching: Option<&'a MatchReport>,
+}
+
 /// How the files of a job are read.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ReadOptions {
@@ -55,6 +73,8 @@ pub struct ReadOptions {
     pub target_image: TargetImage,
     /// What becomes of meshes with faults.
     pub mesh_faults: MeshFaults,
+    /// What becomes of fewer landmarks than a map needs.
+    pub few_landmarks: FewLandmarks,
 }
 
 impl From<TargetImage> for ReadOptions {
@@ -75,6 +95,8 @@ pub struct Job {
     landmarks: LandmarkFile,
     remarks: Vec<Remark>,
     ground_truth: GroundTruth,
+    /// What is told of landmarks that the program found; `None` where enough were given.
+    matching: Option<MatchReport>,
 }
 
 impl Job {
@@ -88,7 +110,7 @@ impl Job {
         monitor: &mut dyn Monitor,
     ) -> Result<Self, JobError> {
         monitor.enter(Stage::Landmarks);
-        let ReadOptions { target_image, mesh_faults } = options.into();
+        let ReadOptions { target_image, mesh_faults, few_landmarks } = options.into();
         let mut read = |side, bytes, [from, to]: [f64; 2]| {
             read_mesh(bytes, mesh_faults, &mut Portion::new(monitor, from, to))
                 .map_err(|error| JobError::of_mesh(side, error))
@@ -99,12 +121,34 @@ impl Job {
         let (source, mut target) = (source.mesh, target.mesh);
         let surfaces = [(&source, files.source), (&target, files.target)]
             .map(|(mesh, bytes)| Surface { mesh: mesh.checked(), space: Space::of_mesh(bytes) });
-        let PairLandmarks { file: landmarks, remarks, .. } = read_pairs(files.landmarks, surfaces)?;
+        let (mut landmarks, remarks) = match (files.landmarks, few_landmarks) {
+            ([], FewLandmarks::Matched) => Default::default(),
+            (files, _) => {
+                let PairLandmarks { file, remarks, .. } = read_pairs(files, surfaces)?;
+                (file, remarks)
+            }
+        };
+        let matches = few_landmarks == FewLandmarks::Matched && landmarks.pairs.len() < LEAST_LANDMARKS;
         let mut pairs = landmarks.pairs.clone();
         if target_image == TargetImage::Mirrored {
             target = target.into_mirrored()?;
             pairs.iter_mut().for_each(|[_, point]| *point = point.mirrored());
         }
+        let matching = if matches {
+            let given = LandmarkFile { pairs, ..landmarks.clone() };
+            let options = MatchOptions::default();
+            let found = match_meshes([source.checked(), target.checked()], &given, &options, monitor)?;
+            let best = found.landmarks(0);
+            let unmatched = || JobError::Unmatched { sentence: found.report.verdict.sentence.clone() };
+            let best = best.ok_or_else(unmatched)?;
+            pairs = best.pairs.clone();
+            // What was given stays as it is told of the file; a vertex has the same number on a mesh and on its mirror image.
+            landmarks.pairs.extend_from_slice(&best.pairs[landmarks.pairs.len()..]);
+            landmarks.labels = best.labels;
+            Some(found.report)
+        } else {
+            None
+        };
         let placed = place([source.checked(), target.checked()], &pairs)?;
         let is_same = source.mesh().triangles() == target.mesh().triangles();
         let ground_truth = match landmarks.ground_truth {
@@ -112,7 +156,16 @@ impl Job {
             _ => GroundTruth::Unknown,
         };
         let caps = [caps(source.checked(), &placed.source), caps(target.checked(), &placed.target)];
-        Ok(Self { meshes: [source, target], repairs, placed, caps, landmarks, remarks, ground_truth })
+        Ok(Self {
+            meshes: [source, target],
+            repairs,
+            placed,
+            caps,
+            landmarks,
+            remarks,
+            ground_truth,
+            matching,
+        })
     }
 
     /// What was repaired of the source and of the target.
@@ -139,6 +192,16 @@ impl Job {
     /// among [`Self::landmark_remarks`] and the report's warnings.
     pub fn compare_names(&mut self, given: [&str; 2]) {
         self.remarks.extend(compare_names(&self.landmarks, given));
+    }
+
+    /// What is told of landmarks that the program found; `None` where enough were given.
+    pub fn matching(&self) -> Option<&MatchReport> {
+        self.matching.as_ref()
+    }
+
+    /// The report of a result of this job, with what is told of landmarks that the program found.
+    pub fn report<'a>(&'a self, result: &'a MapResult) -> JobReport<'a> {
+        JobReport { report: &result.report, matching: self.matching.as_ref() }
     }
 
     /// Landmark pairs that do not fit and limbs without one, with the numbers of the files.

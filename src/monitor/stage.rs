@@ -10,6 +10,8 @@ use std::fmt;
 pub enum Stage {
     /// Files are read and checked, landmarks inserted.
     Landmarks,
+    /// Landmark pairs that nobody gave are looked for.
+    Matching,
     /// Landmark pairs that do not fit and limbs without a landmark are looked for.
     Findings,
     /// The base domain is drawn on both meshes at full resolution (the thesis' method).
@@ -43,6 +45,7 @@ impl Stage {
     pub fn sentence(self) -> &'static str {
         match self {
             Self::Landmarks => "Placing the landmarks",
+            Self::Matching => "Matching the two bodies",
             Self::Findings => "Comparing the landmark pairs",
             Self::BaseDomain => "Drawing the base domain on both meshes",
             Self::ClassSearch => "Choosing the class of the map",

@@ -382,11 +382,9 @@ fn bad_meshes_and_landmarks_are_refused_by_name() {
     let [source, target, pairs] = write_bodies(&folder);
     let sheet = folder.join("sheet.obj");
     std::fs::write(&sheet, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
-    let [noise, few, far, broken, shared, corner] =
-        ["noise.obj", "few.json", "far.json", "broken.json", "shared.json", "corner.json"]
-            .map(|name| folder.join(name));
+    let [noise, far, broken, shared, corner] =
+        ["noise.obj", "far.json", "broken.json", "shared.json", "corner.json"].map(|name| folder.join(name));
     std::fs::write(&noise, "this is not a mesh\n").unwrap();
-    std::fs::write(&few, r#"{"pairs": [[0, 0], [1, 1], [2, 2]]}"#).unwrap();
     std::fs::write(&far, r#"{"pairs": [[0, 0], [1, 1], [2, 2], [3, 999999]]}"#).unwrap();
     std::fs::write(&broken, "{\"pairs\":\n [[0, 0]").unwrap();
     std::fs::write(&shared, r#"{"pairs": [[0, 0], [1, 1], [2, 2], [3, 1], [4, 4]]}"#).unwrap();
@@ -395,13 +393,12 @@ fn bad_meshes_and_landmarks_are_refused_by_name() {
     std::fs::write(&corner, format!("{{\"pairs\": [[{first}, 0], [{on_corner}, 1], [100, 2], [101, 3]]}}"))
         .unwrap();
     let missing = folder.join("missing.obj");
-    let cases: [([&Path; 3], &[&str]); 9] = [
+    let cases: [([&Path; 3], &[&str]); 8] = [
         ([&missing, &target, &pairs], &["missing.obj"]),
         ([&source, &noise, &pairs], &["noise.obj", "not a mesh file"]),
         ([&sheet, &target, &pairs], &["sheet.obj", "open sheet"]),
         ([&source, &target, &missing], &["missing.obj"]),
         ([&source, &target, &broken], &["broken.json", "line 2"]),
-        ([&source, &target, &few], &["few.json", "at least 4"]),
         ([&source, &target, &far], &["far.json", "999999"]),
         ([&source, &target, &shared], &["shared.json", "pairs 2 and 4", "the target"]),
         ([&source, &target, &corner], &["corner.json", "pairs 1 and 2", "same vertex of the source"]),
@@ -643,10 +640,40 @@ fn a_map_file_is_proved_or_refused() {
 }
 
 #[test]
+fn landmarks_that_nobody_gave_are_found_or_asked_for() {
+    let folder = folder("landmarks_that_nobody_gave_are_found_or_asked_for");
+    let demo = conemap::demo::build("horse-cat").unwrap();
+    let first = &demo.landmarks[..1];
+    let [source, target, given] = write_files(&folder, [&demo.source, &demo.target], first);
+    let [found, told, report] = ["found.json", "told.json", "report.json"].map(|name| folder.join(name));
+    let [with, out, to] = ["--landmarks", "--out", "--report"].map(OsStr::new);
+    let meshes = [source.as_os_str(), target.as_os_str()];
+    let [given, pairs] = [given.as_os_str(), found.as_os_str()];
+    let held = [with, given, out, pairs, to, told.as_os_str()];
+    let output = conemap([OsStr::new("match")].into_iter().chain(meshes).chain(held));
+    assert!(output.status.success(), "{}", errors(&output));
+    let file = landmark_file::read(&std::fs::read(&found).unwrap()).unwrap();
+    assert_eq!(file.pairs[0], first[0].map(landmark_file::LandmarkPoint::Vertex));
+    assert!(file.pairs.len() >= 5, "{file:?}");
+    let told = json(&told);
+    assert_eq!(told["candidates"][0]["pairs"].as_array().unwrap().len(), file.pairs.len(), "{told}");
+    assert!(errors(&output).contains(told["verdict"]["sentence"].as_str().unwrap()), "{}", errors(&output));
+
+    let output = conemap([OsStr::new("map")].into_iter().chain(meshes).chain([to, report.as_os_str()]));
+    assert!(errors(&output).contains("certified bijective"), "{}", errors(&output));
+    let matching = &json(&report)["matching"];
+    assert!(errors(&output).contains(matching["verdict"]["sentence"].as_str().unwrap()), "{matching}");
+
+    // Round bodies have no limbs: the user is asked.
+    let [source, target, _] = write_bodies(&folder);
+    assert_refused(&["map".as_ref(), source.as_os_str(), target.as_os_str()], &["mark the vertices"]);
+}
+
+#[test]
 fn wrong_arguments_end_in_the_usage() {
     let cases: [(&[&str], &str); 6] = [
         (&["verify", "map.conemap", "source.off"], "<TARGET>"),
-        (&["map", "only-one.obj"], "--landmarks"),
+        (&["map", "only-one.obj"], "<TARGET>"),
         (&["remesh", "ball.obj", "--faces=100"], "--out"),
         (&["remesh", "ball.obj", "--out=new.obj"], "--faces"),
         (&["remesh", "ball.obj", "--out=new.obj", "--faces=-5"], "--faces"),

@@ -38,6 +38,7 @@ mod handles;
 mod holes;
 mod job;
 mod landmark_fit;
+mod landmark_matching;
 mod layout;
 mod map;
 mod map_file;

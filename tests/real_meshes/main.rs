@@ -44,6 +44,7 @@ mod few;
 mod flow;
 mod geodesic;
 mod landmark_fit;
+mod landmark_matching;
 mod layout;
 mod limbs;
 mod map;
@@ -62,6 +63,7 @@ fn modules() -> Vec<(&'static str, Vec<(&'static str, Test)>)> {
     vec![
         ("base", base::tests()),
         ("landmark_fit", landmark_fit::tests()),
+        ("landmark_matching", landmark_matching::tests()),
         ("pipeline", pipeline::tests()),
         ("few", few::tests()),
         ("layout", layout::tests()),

@@ -26,6 +26,8 @@ pub enum Command {
     Check(CheckArguments),
     /// Map a source mesh onto a target mesh from corresponding landmarks.
     Map(MapArguments),
+    /// Find landmark pairs of two meshes, with their alternatives and how sure they are.
+    Match(MatchArguments),
     /// Answer images of points from a map file, without computing.
     Query(QueryArguments),
     /// Measure the map of a map file anew, from its pieces alone.
@@ -122,10 +124,11 @@ pub struct MapArguments {
     /// Target mesh, likewise.
     pub target: PathBuf,
     /// The target's landmark file, where --landmarks names that of the source.
+    #[arg(requires = "landmarks")]
     pub target_landmarks: Option<PathBuf>,
     /// Landmark file.
-    #[arg(long, value_name = "FILE", help = landmarks_help("Landmark file"))]
-    pub landmarks: PathBuf,
+    #[arg(long, value_name = "FILE", help = landmarks_help("Landmark file; with fewer than four pairs, or without it, landmarks are looked for"))]
+    pub landmarks: Option<PathBuf>,
     /// What is chosen of the run.
     #[command(flatten)]
     pub choices: Choices,
@@ -152,6 +155,31 @@ pub struct MapArguments {
     /// File for the report (JSON).
     #[arg(long)]
     pub report: Option<PathBuf>,
+}
+
+/// `conemap match`.
+#[derive(Debug, Args)]
+pub struct MatchArguments {
+    /// Source mesh.
+    #[arg(help = mesh_help("Source mesh"))]
+    pub source: PathBuf,
+    /// Target mesh, likewise.
+    pub target: PathBuf,
+    /// The target's landmark file, where --landmarks names that of the source.
+    #[arg(requires = "landmarks")]
+    pub target_landmarks: Option<PathBuf>,
+    /// Landmarks that are held.
+    #[arg(long, value_name = "FILE", help = landmarks_help("Landmarks that are held"))]
+    pub landmarks: Option<PathBuf>,
+    /// File for the best pairs (JSON).
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    /// File for all candidates with their scores, and the verdict (JSON).
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
+    /// What becomes of meshes with faults.
+    #[command(flatten)]
+    pub faults: FaultArguments,
 }
 
 /// A map file with the meshes that it was made with.

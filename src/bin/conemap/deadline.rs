@@ -3,6 +3,7 @@
 //! From half of the time on the run is to finish with what it has, at the deadline its monitor stops it. Where the program is busy
 //! with something that asks no monitor, such as a disk, it ends by itself a little later.
 
+use crate::told::say;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -30,7 +31,7 @@ impl Deadline {
         std::thread::spawn(move || {
             std::thread::sleep(time.saturating_add(GRACE).saturating_sub(begun.elapsed()));
             let doing = *watched.lock().unwrap_or_else(PoisonError::into_inner);
-            eprintln!("conemap: {}", sentence(time, doing));
+            say(format_args!("conemap: {}", sentence(time, doing)));
             std::process::exit(FAILED);
         });
         Self { begun, time, doing }

@@ -4,8 +4,9 @@ use crate::arguments::MapArguments;
 use crate::clock::Clock;
 use crate::input::{self, Failure};
 use crate::told::say;
-use crate::{interrupt, outputs};
-use conemap::job::{Job, JobError, JobFile, JobFiles, OutputKind, ReadOptions, TargetImage};
+use crate::{interrupt, matching, outputs};
+use conemap::job::{FewLandmarks, Job, JobError, JobFile, JobFiles, OutputKind, ReadOptions, TargetImage};
+use conemap::monitor::{PlannedStage, Stage};
 use conemap::pipeline::{FindingReport, MapResult, Method, PipelineOptions, RepairKind};
 use std::path::PathBuf;
 
@@ -32,7 +33,7 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
         arguments
             .report
             .as_ref()
-            .map_or(Ok(()), |path| outputs::write(path, &serde_json::to_vec_pretty(&result.report)?)),
+            .map_or(Ok(()), |path| outputs::write(path, &serde_json::to_vec_pretty(&job.report(&result))?)),
     ];
     written.into_iter().collect()
 }
@@ -45,7 +46,7 @@ fn check_outputs(arguments: &MapArguments, method: Method) -> Result<(), Failure
     }
     let files = out.iter().flat_map(|folder| outputs::of_folder(folder));
     outputs::check(
-        [source, target, landmarks].into_iter().chain(target_landmarks),
+        [source, target].into_iter().chain(landmarks).chain(target_landmarks),
         map.iter().chain(report).cloned().chain(files),
     )
 }
@@ -69,7 +70,9 @@ fn made(
     options: &PipelineOptions,
     clock: &mut Clock,
 ) -> Result<(Job, MapResult), Failure> {
+    clock.plan(vec![PlannedStage { stage: Stage::Matching, time: 1.0 }]);
     let job = read(arguments, clock)?;
+    clock.suspend(|| job.matching().into_iter().for_each(matching::tell));
     if arguments.map.is_some() && !job.has_map_file() {
         return Err(
             "--map: a mesh was repaired, and a map file tells of meshes as their files have them: save the repaired mesh by \
@@ -91,13 +94,16 @@ fn made(
 /// Reads the files; a fault is told with the file's name.
 fn read(arguments: &MapArguments, clock: &mut Clock) -> Result<Job, Failure> {
     let [source, target] = [&arguments.source, &arguments.target];
-    let landmarks: Vec<&PathBuf> =
-        std::iter::once(&arguments.landmarks).chain(&arguments.target_landmarks).collect();
+    let landmarks: Vec<&PathBuf> = arguments.landmarks.iter().chain(&arguments.target_landmarks).collect();
     let bytes = [input::mesh_bytes(source)?, input::mesh_bytes(target)?];
     let landmark_files = input::NamedFiles::read(&landmarks)?;
     let files = JobFiles { source: &bytes[0], target: &bytes[1], landmarks: &landmark_files.given() };
     let target_image = if arguments.mirror_target { TargetImage::Mirrored } else { TargetImage::AsGiven };
-    let options = ReadOptions { target_image, mesh_faults: arguments.faults.into() };
+    let options = ReadOptions {
+        target_image,
+        mesh_faults: arguments.faults.into(),
+        few_landmarks: FewLandmarks::Matched,
+    };
     let job = Job::read(files, options, clock).map_err(|error: JobError| {
         let file = match error.file() {
             Some(JobFile::Source) => Some(source),

@@ -1,8 +1,9 @@
 //! `conemap verify`.
-#![allow(clippy::print_stdout, reason = "the result goes to standard output")]
 
 use crate::arguments::VerifyArguments;
 use crate::input::{self, Failure};
+use crate::outputs;
+use crate::told::print;
 use conemap::job::{MapFiles, Proof, ProofError, prove};
 use conemap::landmarks::MeshSide;
 use serde_json::{Value, json};
@@ -11,6 +12,7 @@ use std::time::Instant;
 
 /// Proves a map, and tells what was found; an error where it is not proved.
 pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
+    outputs::check(arguments.saved.files(), arguments.report.clone())?;
     let begun = Instant::now();
     let [map, source, target] = [&arguments.saved.map, &arguments.saved.source, &arguments.saved.target];
     let bytes = [input::bytes(map)?, input::mesh_bytes(source)?, input::mesh_bytes(target)?];
@@ -18,11 +20,11 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
     let outcome = prove(files, &mut |_| ControlFlow::Continue(()));
     if let Some(path) = &arguments.report {
         let report = report(&outcome, begun.elapsed().as_secs_f64());
-        input::write(path, &serde_json::to_vec_pretty(&report)?)?;
+        outputs::write(path, &serde_json::to_vec_pretty(&report)?)?;
     }
     match outcome {
         Ok(proof) => {
-            tell(&proof);
+            tell(&proof)?;
             if proof.is_exact() {
                 Ok(())
             } else {
@@ -40,12 +42,12 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
     }
 }
 
-fn tell(proof: &Proof) {
+fn tell(proof: &Proof) -> Result<(), Failure> {
     let Proof { faces, vertices, pieces, segments, signs, landmarks, matrices, .. } = proof;
-    println!("{}", proof.sentence());
-    println!("faces: {} of the source, {} of the target", faces[0], faces[1]);
-    println!("pieces: {pieces} with {vertices} vertices, {segments} of them without inside");
-    println!("determinants: {} signs, {} of them by integers", signs.signs, signs.by_integers);
+    print(proof.sentence())?;
+    print(format_args!("faces: {} of the source, {} of the target", faces[0], faces[1]))?;
+    print(format_args!("pieces: {pieces} with {vertices} vertices, {segments} of them without inside"))?;
+    print(format_args!("determinants: {} signs, {} of them by integers", signs.signs, signs.by_integers))?;
     let others = match landmarks.pairs - landmarks.exact {
         0 => String::new(),
         others => format!(
@@ -53,11 +55,11 @@ fn tell(proof: &Proof) {
             landmarks.largest_distance
         ),
     };
-    println!("landmarks: {} of {} pairs meet exactly{others}", landmarks.exact, landmarks.pairs);
-    println!(
+    print(format_args!("landmarks: {} of {} pairs meet exactly{others}", landmarks.exact, landmarks.pairs))?;
+    print(format_args!(
         "matrices: {} given; images by matrices are off by at most {:.1e} of the root of the target's area",
         matrices.given, matrices.largest_distance
-    );
+    ))
 }
 
 /// What is known, stable as JSON.

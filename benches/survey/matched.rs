@@ -1,0 +1,335 @@
+//! Pairs matched without a landmark: how far the known landmarks are from where the map takes them, and what the verdict says.
+//!
+//! A match is right when the image of each known landmark is nearer to its partner than to any other landmark that is more than 0.15 of
+//! the root of the area away from it, with left and right of the whole body as given or exchanged.
+
+use crate::arguments::Arguments;
+use crate::common;
+use conemap::geodesic::distances;
+use conemap::landmark_matching::{
+    Candidate, CoarsePicture, LandmarkMatch, MatchInput, MatchOptions, Verdict, match_landmarks,
+};
+use conemap::landmarks::Landmarks;
+use conemap::math::random::SplitMix;
+use conemap::mesh::mirror::mirrored;
+use conemap::mesh::surface_index::SurfaceIndex;
+use conemap::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use conemap::monitor::Silent;
+use conemap::pipeline::{GroundTruth, MapInput, run};
+use conemap::remesh::{Options, remesh};
+use cpu_time::ThreadTime;
+use glam::{DQuat, DVec3};
+use std::collections::VecDeque;
+use std::sync::Mutex;
+use typed_index_collections::TiVec;
+
+/// Left and right partners among the landmarks of SHREC07.
+const PARTNERS: [[usize; 2]; 8] = [[2, 3], [4, 10], [5, 11], [6, 8], [7, 9], [15, 16], [17, 18], [19, 20]];
+
+/// Landmarks nearer to each other than this share of the root of the area are not told apart.
+const APART: f64 = 0.15;
+
+/// A pair with the places of its known landmarks.
+struct Known {
+    name: String,
+    meshes: [SurfaceMesh; 2],
+    places: [Vec<DVec3>; 2],
+    truth: GroundTruth,
+}
+
+/// How well a map fits the known landmarks.
+#[derive(Clone, Debug)]
+struct Fit {
+    /// Mean distance in units of the root of the area.
+    error: f64,
+    /// Landmarks whose image is nearer to another one's partner.
+    wrong: usize,
+}
+
+/// What was reached of a pair.
+struct Reached {
+    line: String,
+    right: bool,
+    sure: bool,
+    error: f64,
+}
+
+/// Both directions of each pair, or seeded variations of its target.
+pub fn table(arguments: &Arguments) {
+    let mut cases: VecDeque<(String, Change)> = VecDeque::new();
+    for name in arguments.names() {
+        if arguments.seeds > 1 {
+            cases.extend((0..arguments.seeds).map(|seed| (name.clone(), Change::of_seed(seed))));
+        } else {
+            cases.extend([(name.clone(), Change::None), (name, Change::Exchanged)]);
+        }
+    }
+    let (queue, reached) = (Mutex::new(cases), Mutex::new(Vec::new()));
+    std::thread::scope(|scope| {
+        for _ in 0..arguments.jobs.max(1) {
+            scope.spawn(|| {
+                loop {
+                    let next = queue.lock().expect("a queue").pop_front();
+                    let Some((name, change)) = next else { break };
+                    let one = one(arguments, change.known(arguments, &name));
+                    println!("{}", one.line);
+                    reached.lock().expect("a list").push(one);
+                }
+            });
+        }
+    });
+    sum_up(&reached.into_inner().expect("a list"));
+}
+
+fn sum_up(reached: &[Reached]) {
+    let count =
+        |right: bool, sure: bool| reached.iter().filter(|r| r.right == right && r.sure == sure).count();
+    let mut errors: Vec<f64> = reached.iter().map(|r| r.error).collect();
+    errors.sort_by(f64::total_cmp);
+    let (median, worst) = (errors.get(errors.len() / 2), errors.last());
+    println!("median error {:.2} %, worst {:.2} %", percent(median), percent(worst));
+    println!("sure: {} right, {} wrong", count(true, true), count(false, true));
+    println!("not sure: {} right, {} wrong", count(true, false), count(false, false));
+}
+
+fn percent(share: Option<&f64>) -> f64 {
+    100.0 * share.copied().unwrap_or(f64::NAN)
+}
+
+/// What becomes of a pair before it is matched.
+#[derive(Clone, Copy)]
+enum Change {
+    None,
+    /// Source and target exchanged.
+    Exchanged,
+    /// The target turned and scaled.
+    Turned(u64),
+    /// Its mirror image.
+    Mirrored,
+    /// In other triangles, as many.
+    Remeshed,
+    /// Each vertex moved by up to a tenth of the mean edge.
+    Noise(u64),
+}
+
+impl Change {
+    fn of_seed(seed: u64) -> Self {
+        match seed % 4 {
+            0 => Self::Turned(seed),
+            1 => Self::Noise(seed),
+            2 => Self::Mirrored,
+            _ => Self::Remeshed,
+        }
+    }
+
+    fn known(self, arguments: &Arguments, name: &str) -> Known {
+        let pair = common::read_pair(&arguments.data, name);
+        let pairs = common::vertex_pairs(&pair.file);
+        let place = |mesh: &SurfaceMesh, side: usize| {
+            pairs.iter().map(|ends| mesh.positions()[VertexId(ends[side])]).collect::<Vec<_>>()
+        };
+        let truth = match pair.file.ground_truth {
+            Some(_) => GroundTruth::SameConnectivity,
+            None => GroundTruth::Unknown,
+        };
+        let places = [place(&pair.source, 0), place(&pair.target, 1)];
+        let mut known = Known { name: name.to_owned(), meshes: [pair.source, pair.target], places, truth };
+        let moved = |mesh: &SurfaceMesh, to: &mut dyn FnMut(DVec3) -> DVec3| {
+            mesh.with_positions(mesh.positions().iter().map(|&p| to(p)).collect())
+        };
+        match self {
+            Self::None => {}
+            Self::Exchanged => {
+                known.meshes.reverse();
+                known.places.reverse();
+                known.name.push_str(" back");
+            }
+            Self::Turned(seed) => {
+                let mut random = SplitMix::new(seed);
+                let axis = DVec3::new(random.unit(), random.unit(), random.unit()) - 0.5;
+                let turn = DQuat::from_axis_angle(axis.normalize_or(DVec3::X), 6.0 * random.unit());
+                let scale = 0.1 + 10.0 * random.unit();
+                let mut to = |p: DVec3| scale * (turn * p);
+                known.meshes[1] = moved(&known.meshes[1], &mut to);
+                known.places[1].iter_mut().for_each(|p| *p = to(*p));
+                known.name.push_str(" turned");
+            }
+            Self::Mirrored => {
+                known.meshes[1] = mirrored(&known.meshes[1]).expect("a mirror image");
+                known.places[1].iter_mut().for_each(|p| p.x = -p.x);
+                known.truth = GroundTruth::Unknown;
+                known.name.push_str(" mirrored");
+            }
+            Self::Remeshed => {
+                let options = Options::to_faces(known.meshes[1].face_count());
+                let remeshed =
+                    remesh(&known.meshes[1], &options, &mut Silent).expect("a mesh in other triangles");
+                known.meshes[1] = remeshed.mesh;
+                known.truth = GroundTruth::Unknown;
+                known.name.push_str(" remeshed");
+            }
+            Self::Noise(seed) => {
+                let mut random = SplitMix::new(seed);
+                let mesh = &known.meshes[1];
+                let mean = mesh.edges().map(|h| mesh.length(h)).sum::<f64>() / mesh.edge_count() as f64;
+                let mut to = |p: DVec3| {
+                    p + 0.2 * mean * (DVec3::new(random.unit(), random.unit(), random.unit()) - 0.5)
+                };
+                known.meshes[1] = moved(mesh, &mut to);
+                known.name.push_str(" noise");
+            }
+        }
+        known
+    }
+}
+
+fn one(arguments: &Arguments, known: Known) -> Reached {
+    let begun = ThreadTime::now();
+    let input = MatchInput::new(&known.meshes[0], &known.meshes[1]);
+    let found = match_landmarks(input, &MatchOptions::default(), &mut Silent).expect("nobody stops");
+    let seconds = begun.elapsed().as_secs_f64();
+    let mut line = format!("{:28} {seconds:6.2} s {:9}", known.name, found.verdict.word());
+    let Some(best) = found.candidates.first() else {
+        return Reached { line: line + " no candidate", right: false, sure: false, error: f64::NAN };
+    };
+    let mut fits = of_candidate(&known, best);
+    line += &described(best, &fits);
+    if arguments.variants.iter().any(|variant| variant == "full") {
+        match full(&known, best, arguments) {
+            Ok((text, measured)) => {
+                line += &text;
+                fits = measured;
+            }
+            Err(error) => line += &format!("\n    full FAILED: {error}"),
+        }
+    }
+    if arguments.depth > 1 {
+        line += &alternatives(&known, &found);
+    }
+    let better = fits.iter().min_by_key(|fit| fit.wrong);
+    Reached {
+        line,
+        right: better.is_some_and(|fit| fit.wrong == 0),
+        sure: found.verdict == Verdict::Sure,
+        error: better.map_or(f64::NAN, |fit| fit.error),
+    }
+}
+
+/// All candidates but the best, each with the known landmarks nearest to its pairs.
+fn alternatives(known: &Known, found: &LandmarkMatch) -> String {
+    let mut text = String::new();
+    for candidate in &found.candidates {
+        let nearest = |side: usize, v: VertexId| {
+            let place = known.meshes[side].positions()[v];
+            let distance = |k: &usize| known.places[side][*k].distance(place);
+            let n = known.places[side].len();
+            (0..n).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
+        };
+        let pairs =
+            candidate.pairs.iter().map(|p| format!("{}-{}", nearest(0, p.source), nearest(1, p.target)));
+        let pairs: Vec<String> = pairs.collect();
+        text +=
+            &format!("\n   {} | {}", described(candidate, &of_candidate(known, candidate)), pairs.join(" "));
+        if let Some(difference) = &candidate.difference {
+            text += &format!(" | {:?} {:.3}", difference.kind, difference.share);
+        }
+    }
+    text
+}
+
+fn described(candidate: &Candidate, [straight, exchanged]: &[Fit; 2]) -> String {
+    format!(
+        " score {:.3} log {:.3} remoteness {:.4} orders {:.2} unmatched {:?} | error {:5.2} % wrong {:2} | exchanged {:5.2} % {:2}",
+        candidate.score,
+        candidate.mean_log,
+        candidate.remoteness,
+        candidate.agreement,
+        candidate.unmatched,
+        100.0 * straight.error,
+        straight.wrong,
+        100.0 * exchanged.error,
+        exchanged.wrong
+    )
+}
+
+/// The fit of a candidate's coarse map, and with left and right of the target exchanged where partners are known.
+fn of_candidate(known: &Known, candidate: &Candidate) -> [Fit; 2] {
+    let CoarsePicture { source, target, target_from_source } = &candidate.picture;
+    let index = SurfaceIndex::new(source);
+    let image = |&p: &DVec3| {
+        let point = index.nearest(p).point;
+        let corners = source.triangles()[point.face];
+        (0..3).map(|k| point.barycentric[k] * target_from_source[corners[k]].position(target)).sum()
+    };
+    let images: Vec<DVec3> = known.places[0].iter().map(image).collect();
+    measured(known, target, &images)
+}
+
+/// The map of the full meshes with the pairs of a candidate: what it reached, and its fit.
+fn full(known: &Known, candidate: &Candidate, arguments: &Arguments) -> Result<(String, [Fit; 2]), String> {
+    let pairs: Vec<[u32; 2]> = candidate.pairs.iter().map(|p| [p.source.0, p.target.0]).collect();
+    let [source, target] = &known.meshes;
+    let landmarks = Landmarks::from_vertices(source, target, &pairs).map_err(|e| e.to_string())?;
+    let input = MapInput { ground_truth: known.truth, ..MapInput::new(source, target, &landmarks) };
+    let begun = ThreadTime::now();
+    let result = run(input, &arguments.options, &mut Silent).map_err(|e| e.to_string())?;
+    let seconds = begun.elapsed().as_secs_f64();
+    let index = SurfaceIndex::new(source);
+    let image = |&p: &DVec3| {
+        let point = index.nearest(p).point;
+        let corners = source.triangles()[point.face];
+        let image = |k: usize| result.target_from_source[corners[k]].map(|image| image.position(target));
+        (0..3).map(|k| point.barycentric[k] * image(k).unwrap_or_default()).sum()
+    };
+    let images: Vec<DVec3> = known.places[0].iter().map(image).collect();
+    let fits = measured(known, target, &images);
+    let d = &result.report.distortion;
+    let truth = result.report.ground_truth.as_ref();
+    let truth = truth.map_or(String::new(), |truth| format!(" truth {:.2} %", 100.0 * truth.mean));
+    let text = format!(
+        "\n    full {seconds:.1} s E {:.3} log {:.3}{truth} | error {:5.2} % wrong {:2} | exchanged {:5.2} % {:2}",
+        d.energy,
+        d.mean_log,
+        100.0 * fits[0].error,
+        fits[0].wrong,
+        100.0 * fits[1].error,
+        fits[1].wrong
+    );
+    Ok((text, fits))
+}
+
+/// The fit of images on a mesh that is the target or a level of it, and with left and right of the target exchanged.
+fn measured(known: &Known, target: &SurfaceMesh, images: &[DVec3]) -> [Fit; 2] {
+    let n = images.len();
+    let onto = SurfaceIndex::new(target);
+    let at = |field: &TiVec<VertexId, f64>, point: &SurfacePoint| -> f64 {
+        let corners = target.triangles()[point.face];
+        (0..3).map(|k| point.barycentric[k] * field[corners[k]]).sum()
+    };
+    let images: Vec<SurfacePoint> = images.iter().map(|&p| onto.nearest(p).point).collect();
+    let goals: Vec<SurfacePoint> = known.places[1].iter().map(|&p| onto.nearest(p).point).collect();
+    // By landmark: distances from the nearest vertex.
+    let field = |goal: &SurfacePoint| {
+        let weight = |k: &usize| goal.barycentric[*k];
+        let nearest = (0..3).max_by(|a, b| weight(a).total_cmp(&weight(b))).unwrap_or(0);
+        distances(target, &[target.triangles()[goal.face][nearest]])
+    };
+    let fields: Vec<_> = goals.iter().map(field).collect();
+    let root = target.area().sqrt();
+    let mut partner: Vec<usize> = (0..n).collect();
+    if known.name.starts_with("shrec07") {
+        PARTNERS.iter().for_each(|&[a, b]| partner.swap(a, b));
+    }
+    let fit = |partner: &dyn Fn(usize) -> usize| {
+        let mut fit = Fit { error: 0.0, wrong: 0 };
+        for (k, image) in images.iter().enumerate() {
+            let own = partner(k);
+            fit.error += image.position(target).distance(goals[own].position(target)) / root / n as f64;
+            let to = at(&fields[own], image);
+            let far = |j: usize| at(&fields[j], &goals[own]) > APART * root;
+            fit.wrong += usize::from((0..n).any(|j| j != own && far(j) && at(&fields[j], image) < to));
+        }
+        fit
+    };
+    [fit(&|k| k), fit(&|k| partner[k])]
+}

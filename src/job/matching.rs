@@ -1,0 +1,222 @@
+//! Landmarks found by the program for two meshes, told in the files' own numbers.
+
+use super::error::JobError;
+use crate::io::landmark_file::{LandmarkFile, LandmarkPoint};
+use crate::landmark_matching::{
+    Candidate, CoarsePicture, DifferenceKind, MatchInput, MatchOptions, MayMark, PairOrigin, Verdict,
+    match_landmarks,
+};
+use crate::landmarks::{MeshSide, check_side, points};
+use crate::mesh::check::CheckedMesh;
+use crate::mesh::insertion::{Insertion, insert};
+use crate::mesh::{FaceId, VertexId};
+use crate::monitor::Monitor;
+use serde::Serialize;
+use typed_index_collections::TiVec;
+
+/// What becomes of fewer landmarks than a map needs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FewLandmarks {
+    /// They are refused.
+    #[default]
+    Refused,
+    /// They are held, and the program finds others.
+    Matched,
+}
+
+/// Landmarks that the program found, stable as JSON. Vertices have the numbers of the files.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MatchReport {
+    /// How sure the first candidate is.
+    pub verdict: VerdictReport,
+    /// The candidates, the best first; none where fewer than four pairs were found.
+    pub candidates: Vec<CandidateReport>,
+}
+
+/// How sure a match is.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct VerdictReport {
+    /// `sure`, `doubtful` or `unknown`.
+    pub kind: &'static str,
+    /// One sentence for the user, with what to do.
+    pub sentence: String,
+    /// Where it is doubtful: what settles it.
+    pub question: Option<QuestionReport>,
+    /// Where it is unknown: vertices of the source that should be marked.
+    pub places: Vec<usize>,
+}
+
+/// Whether a vertex of the source belongs here or there.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct QuestionReport {
+    /// A vertex of the source.
+    pub source: usize,
+    /// The target's vertex by the best candidate, and by the rival.
+    pub targets: [usize; 2],
+    /// The number of the rival among the candidates, 0-based.
+    pub rival: usize,
+}
+
+/// Pairs with what their coarse map says of them.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CandidateReport {
+    /// The pairs: the given ones in their order, then the others.
+    pub pairs: Vec<[LandmarkPoint; 2]>,
+    /// One name per pair.
+    pub labels: Vec<String>,
+    /// Where each pair comes from.
+    pub origins: Vec<PairOrigin>,
+    /// The less the better.
+    pub score: f64,
+    /// Mean log density of the coarse map; 0 for an isometry.
+    pub mean_log: f64,
+    /// See [`Candidate::remoteness`].
+    pub remoteness: f64,
+    /// See [`Candidate::agreement`].
+    pub agreement: f64,
+    /// Ends of limbs without a partner, on the source and on the target.
+    pub unmatched: [usize; 2],
+    /// How it differs from the best; `null` for the best itself.
+    pub difference: Option<DifferenceReport>,
+}
+
+/// How a candidate differs from the best.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DifferenceReport {
+    /// What a user would call it.
+    pub kind: DifferenceKind,
+    /// One sentence for the user.
+    pub sentence: String,
+    /// Share of the source's area that goes elsewhere.
+    pub share: f64,
+}
+
+/// Landmarks that the program found.
+#[derive(Clone, Debug)]
+pub struct Matched {
+    /// What is told of them.
+    pub report: MatchReport,
+    /// By candidate: its coarse map, in the coordinates of the two meshes.
+    pub pictures: Vec<CoarsePicture>,
+}
+
+impl Matched {
+    /// The landmark file of a candidate; `None` where there is none of that number.
+    pub fn landmarks(&self, candidate: usize) -> Option<LandmarkFile> {
+        let CandidateReport { pairs, labels, .. } = self.report.candidates.get(candidate)?;
+        let (pairs, labels) = (pairs.clone(), Some(labels.clone()));
+        Some(LandmarkFile { pairs, labels, ..LandmarkFile::default() })
+    }
+}
+
+/// Finds landmarks of two meshes beside given ones, which may be none: with alternatives and a verdict.
+///
+/// # Errors
+/// [`JobError::Landmarks`] where a given landmark does not belong to its mesh, [`JobError::Matching`], or the wish to stop.
+pub fn match_meshes(
+    meshes: [&CheckedMesh; 2],
+    given: &LandmarkFile,
+    options: &MatchOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Matched, JobError> {
+    let placed = |side: MeshSide| -> Result<Insertion, JobError> {
+        let mesh = meshes[side as usize];
+        check_side(mesh, side, &given.pairs)?;
+        Ok(insert(&mesh.mesh, &points(mesh, side, &given.pairs)?)
+            .map_err(crate::landmarks::LandmarkError::from)?)
+    };
+    let placed = [placed(MeshSide::Source)?, placed(MeshSide::Target)?];
+    let ends = placed[0].vertices.iter().zip(&placed[1].vertices);
+    let pairs: Vec<[VertexId; 2]> = ends.map(|(s, t)| [*s, *t]).collect();
+    let may_mark = [0, 1].map(|k| may_mark(meshes[k], &placed[k]));
+    let may_mark = MayMark { source: may_mark[0].as_deref(), target: may_mark[1].as_deref() };
+    let input = MatchInput { source: &placed[0].mesh, target: &placed[1].mesh, given: &pairs, may_mark };
+    let found = match_landmarks(input, options, monitor)?;
+    let numbers = meshes.map(CheckedMesh::file_from_vertex);
+    let told = Told { given, numbers: &numbers };
+    let report = MatchReport {
+        verdict: told.verdict(&found.verdict),
+        candidates: found.candidates.iter().map(|candidate| told.candidate(candidate)).collect(),
+    };
+    Ok(Matched {
+        report,
+        pictures: found.candidates.into_iter().map(|candidate| candidate.picture).collect(),
+    })
+}
+
+/// Which vertices may be landmarks: those of the file that no cap has; `None` where all may.
+fn may_mark(mesh: &CheckedMesh, placed: &Insertion) -> Option<TiVec<VertexId, bool>> {
+    let file = mesh.vertex_from_file.len();
+    let numbers = mesh.file_from_vertex();
+    let all_in_file = numbers.iter().all(|&number| number < file);
+    if all_in_file && !mesh.has_caps() {
+        return None;
+    }
+    let on_cap = |v: VertexId| {
+        placed.mesh.star(v).any(|h| {
+            let face: FaceId = h.face();
+            mesh.is_cap(placed.face_origin[face])
+        })
+    };
+    let in_file = |v: VertexId| numbers.get(v.index()).is_some_and(|&number| number < file);
+    Some(placed.mesh.vertices().map(|v| in_file(v) && !on_cap(v)).collect())
+}
+
+/// What is told of a match in the numbers of the files.
+struct Told<'a> {
+    given: &'a LandmarkFile,
+    numbers: &'a [Vec<usize>; 2],
+}
+
+impl Told<'_> {
+    /// The file's number of a vertex; given landmarks inside faces, which no file numbers, are named by their pair elsewhere.
+    fn number(&self, side: MeshSide, v: VertexId) -> usize {
+        self.numbers[side as usize].get(v.index()).copied().unwrap_or(v.index())
+    }
+
+    fn verdict(&self, verdict: &Verdict) -> VerdictReport {
+        let number = |side, v| self.number(side, v);
+        let (question, places) = match verdict {
+            Verdict::Sure => (None, Vec::new()),
+            Verdict::Doubtful(question) => {
+                let targets = question.targets.map(|v| number(MeshSide::Target, v));
+                let source = number(MeshSide::Source, question.source);
+                (Some(QuestionReport { source, targets, rival: question.rival }), Vec::new())
+            }
+            Verdict::Unknown { places } => {
+                (None, places.iter().map(|&v| number(MeshSide::Source, v)).collect())
+            }
+        };
+        VerdictReport { kind: verdict.word(), sentence: verdict.sentence(number), question, places }
+    }
+
+    fn candidate(&self, candidate: &Candidate) -> CandidateReport {
+        let number = |side, v| self.number(side, v);
+        let point = |side, v| LandmarkPoint::Vertex(u32::try_from(number(side, v)).unwrap_or(u32::MAX));
+        let given = self.given.pairs.len();
+        let found = candidate.pairs[given..]
+            .iter()
+            .map(|pair| [point(MeshSide::Source, pair.source), point(MeshSide::Target, pair.target)]);
+        let known = |k: usize| self.given.labels.as_ref().and_then(|labels| labels.get(k)).cloned();
+        let label = |k: usize| match candidate.pairs[k].origin {
+            PairOrigin::Given => known(k).unwrap_or_default(),
+            PairOrigin::Tips => format!("end {}", k + 1 - given),
+            PairOrigin::Between => format!("between {}", k + 1 - given),
+        };
+        CandidateReport {
+            pairs: self.given.pairs.iter().copied().chain(found).collect(),
+            labels: (0..candidate.pairs.len()).map(label).collect(),
+            origins: candidate.pairs.iter().map(|pair| pair.origin).collect(),
+            score: candidate.score,
+            mean_log: candidate.mean_log,
+            remoteness: candidate.remoteness,
+            agreement: candidate.agreement,
+            unmatched: candidate.unmatched,
+            difference: candidate.difference.as_ref().map(|difference| DifferenceReport {
+                kind: difference.kind,
+                sentence: difference.sentence(number),
+                share: difference.share,
+            }),
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! Points far from all pairs, placed by their distances to them.
+//!
+//! Three pairs are no map yet, and around a body whose tips lie in a plane a map may wind either way: a further pair settles both. Its
+//! source is the point farthest from the others; the target has two places with nearly the same distances, one on either side.
+
+use super::shape::Shape;
+use crate::math::scalar::ln;
+use crate::mesh::VertexId;
+
+/// Distances are compared from here on: nearer ones say little. Units of the root of the area.
+const SOFTENING: f64 = 0.05;
+/// Two places of the target nearer than this are one.
+const SAME: f64 = 0.3;
+/// Places that are tried.
+const PLACES: usize = 2;
+/// Fewer pairs leave a whole line of places.
+pub(super) const LEAST_TO_PLACE: usize = 3;
+
+/// The pairs, each of vertices of both levels, that may be added to pairs of marks: none where there are too few.
+pub(super) fn between(shapes: [&Shape; 2], pairs: &[[usize; 2]]) -> Vec<[VertexId; 2]> {
+    if pairs.len() < LEAST_TO_PLACE {
+        return Vec::new();
+    }
+    let [source, target] = shapes;
+    let distance = |side: usize, pair: &[usize; 2], v: VertexId| shapes[side].marks[pair[side]].field[v];
+    let nearest = |side: usize, v: VertexId| {
+        pairs.iter().map(|pair| distance(side, pair, v)).fold(f64::INFINITY, f64::min)
+    };
+    let far = source.level.mesh.vertices().filter(|&v| source.may(v));
+    let Some(from) = far.max_by(|a, b| nearest(0, *a).total_cmp(&nearest(0, *b))) else { return Vec::new() };
+    let misfit = |v: VertexId| {
+        let ratio = |pair: &[usize; 2]| {
+            let [s, t] = [distance(0, pair, from), distance(1, pair, v)];
+            ln((s + SOFTENING) / (t + SOFTENING)).abs()
+        };
+        pairs.iter().map(ratio).sum::<f64>() / pairs.len() as f64
+    };
+    let may = |v: &VertexId| target.may(*v) && nearest(1, *v) > 0.0;
+    let mut order: Vec<(f64, VertexId)> =
+        target.level.mesh.vertices().filter(may).map(|v| (misfit(v), v)).collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let mut places: Vec<VertexId> = Vec::new();
+    for (_, v) in order {
+        let place = target.level.mesh.positions()[v];
+        if places.len() < PLACES
+            && places.iter().all(|&w| target.level.mesh.positions()[w].distance(place) > SAME)
+        {
+            places.push(v);
+        }
+    }
+    places.into_iter().map(|v| [from, v]).collect()
+}

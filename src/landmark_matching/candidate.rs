@@ -1,0 +1,86 @@
+//! Pairs with the coarse map that they lead to.
+
+use super::difference::Difference;
+use super::judge::Judged;
+use super::pair::{MatchedPair, PairOrigin};
+use super::search::Assignment;
+use super::shape::Shape;
+use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use typed_index_collections::TiVec;
+
+/// The coarse map of a candidate, in the units of the two meshes.
+#[derive(Clone, Debug)]
+pub struct CoarsePicture {
+    /// The source, coarse.
+    pub source: SurfaceMesh,
+    /// The target, coarse.
+    pub target: SurfaceMesh,
+    /// The image of each vertex of the coarse source on the coarse target.
+    pub target_from_source: TiVec<VertexId, SurfacePoint>,
+}
+
+/// Pairs with the coarse map that they lead to.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// The pairs: the given ones in their order, then the others.
+    pub pairs: Vec<MatchedPair>,
+    /// The less the better: the terms below, weighted.
+    pub score: f64,
+    /// Mean log density of the coarse map; 0 for an isometry.
+    pub mean_log: f64,
+    /// Mean difference between how far a point lies from its whole surface, and its image from its own, in units of the root of
+    /// the area.
+    pub remoteness: f64,
+    /// Share of the cyclic orders of shortest paths between the pairs that are the same on both meshes; 1 where all are.
+    pub agreement: f64,
+    /// Ends of limbs without a partner, on the source and on the target.
+    pub unmatched: [usize; 2],
+    /// How it differs from the best candidate; `None` for the best itself.
+    pub difference: Option<Difference>,
+    /// The coarse map.
+    pub picture: CoarsePicture,
+    /// The marks by which it was found, for further search.
+    pub(super) assignment: Assignment,
+}
+
+/// Weights of the score beside the mean log density, found on SHREC07 pairs (see `docs/figures.md`).
+const REMOTENESS: f64 = 5.0;
+const UNMATCHED: f64 = 0.12;
+const ORDERS: f64 = 0.2;
+
+impl Candidate {
+    /// An assignment with what its map said.
+    pub(super) fn new(shapes: [&Shape; 2], assignment: Assignment, judged: Judged) -> Self {
+        let pair = |&[s, t]: &[usize; 2]| MatchedPair {
+            source: shapes[0].on_mesh(shapes[0].marks[s].vertex),
+            target: shapes[1].on_mesh(shapes[1].marks[t].vertex),
+            origin: shapes[0].origin(s),
+        };
+        let Judged { mean_log, remoteness, images } = judged;
+        // A limb that only one of both has costs nothing.
+        let unmatched = assignment.unmatched[0].min(assignment.unmatched[1]) as f64;
+        let score = mean_log
+            + REMOTENESS * remoteness
+            + UNMATCHED * unmatched
+            + ORDERS * (1.0 - assignment.agreement);
+        let mesh = |side: usize| shapes[side].in_units_of_mesh(&images.levels[side].mesh);
+        let picture =
+            CoarsePicture { source: mesh(0), target: mesh(1), target_from_source: images.target_from_source };
+        let between = assignment.between.map(|[s, t]| MatchedPair {
+            source: shapes[0].on_mesh(s),
+            target: shapes[1].on_mesh(t),
+            origin: PairOrigin::Between,
+        });
+        Self {
+            pairs: assignment.pairs.iter().map(pair).chain(between).collect(),
+            score,
+            mean_log,
+            remoteness,
+            agreement: assignment.agreement,
+            unmatched: assignment.unmatched,
+            difference: None,
+            picture,
+            assignment,
+        }
+    }
+}

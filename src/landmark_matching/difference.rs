@@ -1,0 +1,74 @@
+//! How one candidate differs from another, in words for the user.
+
+use super::pair::MatchedPair;
+use crate::landmarks::MeshSide;
+use crate::mesh::VertexId;
+
+/// What a user would call the difference of two candidates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DifferenceKind {
+    /// Every limb that has a partner on the other side of its body goes to that side.
+    Mirrored,
+    /// Some limbs do so, others stay.
+    Sides,
+    /// Most ends go elsewhere, not only to the other side: as with head and tail exchanged.
+    Ends,
+    /// Some ends go elsewhere.
+    Places,
+    /// The pairs are the same but for some that only one of both has.
+    Fewer,
+}
+
+/// How a candidate differs from the best.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// What a user would call it.
+    pub kind: DifferenceKind,
+    /// The pairs of this candidate that the best does not have.
+    pub pairs: Vec<MatchedPair>,
+    /// Share of the source's area whose images are farther than 0.15 of the root of the target's area from those of the best.
+    pub share: f64,
+}
+
+impl Difference {
+    /// One sentence for the user. `number` tells how the user's file numbers a vertex of a mesh.
+    pub fn sentence(&self, number: impl Fn(MeshSide, VertexId) -> usize) -> String {
+        let pairs: Vec<String> = self
+            .pairs
+            .iter()
+            .take(NAMED)
+            .map(|pair| {
+                let [s, t] = [number(MeshSide::Source, pair.source), number(MeshSide::Target, pair.target)];
+                format!("{s} to {t}")
+            })
+            .collect();
+        let more = if self.pairs.len() > NAMED { ", ..." } else { "" };
+        let list = format!("{}{more}", pairs.join(", "));
+        match self.kind {
+            DifferenceKind::Mirrored => {
+                format!("Left and right are exchanged: of the source's vertices it takes {list}.")
+            }
+            DifferenceKind::Sides => {
+                format!(
+                    "Some limbs go to the other side of the body: of the source's vertices it takes {list}."
+                )
+            }
+            DifferenceKind::Ends => {
+                format!(
+                    "Most ends go elsewhere, as with head and tail exchanged: of the source's vertices it takes {list}."
+                )
+            }
+            DifferenceKind::Places if self.pairs.is_empty() => {
+                "The same pairs, but the map goes another way round the body.".to_owned()
+            }
+            DifferenceKind::Places => {
+                format!("Other ends correspond: of the source's vertices it takes {list}.")
+            }
+            DifferenceKind::Fewer => "Some ends are left without a partner.".to_owned(),
+        }
+    }
+}
+
+/// Pairs that a sentence names, at most.
+const NAMED: usize = 4;

@@ -1,0 +1,33 @@
+//! What a matching starts from.
+
+use crate::mesh::{SurfaceMesh, VertexId};
+use typed_index_collections::TiSlice;
+
+/// Two bodies, and what is known of their landmarks.
+#[derive(Clone, Copy, Debug)]
+pub struct MatchInput<'a> {
+    /// Closed, of genus 0.
+    pub source: &'a SurfaceMesh,
+    /// Closed, of genus 0.
+    pub target: &'a SurfaceMesh,
+    /// Pairs of vertices that are held, different ones on each mesh; there may be none.
+    pub given: &'a [[VertexId; 2]],
+    /// Which vertices may be landmarks.
+    pub may_mark: MayMark<'a>,
+}
+
+/// Which vertices may be landmarks; `None` where all may.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MayMark<'a> {
+    /// Of the source.
+    pub source: Option<&'a TiSlice<VertexId, bool>>,
+    /// Of the target.
+    pub target: Option<&'a TiSlice<VertexId, bool>>,
+}
+
+impl<'a> MatchInput<'a> {
+    /// Two meshes of which nothing is known; every vertex may be a landmark.
+    pub fn new(source: &'a SurfaceMesh, target: &'a SurfaceMesh) -> Self {
+        Self { source, target, given: &[], may_mark: MayMark::default() }
+    }
+}

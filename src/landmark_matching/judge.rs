@@ -1,0 +1,84 @@
+//! An assignment judged by the coarse map that it leads to.
+
+use super::options::MatchOptions;
+use super::shape::Shape;
+use crate::coarse_map::class_search::{ClassChoice, ClassSearchOptions, choose_class};
+use crate::coarse_map::multilevel::LevelImages;
+use crate::coarse_map::{CoarseMapError, LEAST_PER_LANDMARK, LandmarkedMesh, MeshWithCoarse};
+use crate::mesh::{SurfacePoint, VertexId};
+use crate::monitor::{Cancelled, Monitor, Portion};
+use crate::surface_map::MapError;
+
+/// What a coarse map says of its landmarks.
+pub(super) struct Judged {
+    /// Mean log density of the map; 0 for an isometry.
+    pub(super) mean_log: f64,
+    /// Mean difference of a point's and its image's mean distance to their surfaces, in units of the root of the area.
+    pub(super) remoteness: f64,
+    /// The map.
+    pub(super) images: LevelImages,
+}
+
+/// Makes a coarse map with the pairs as landmarks; `None` where there is none.
+pub(super) fn judge(
+    shapes: [&Shape; 2],
+    pairs: &[[VertexId; 2]],
+    options: &MatchOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Option<Judged>, Cancelled> {
+    let side = |k: usize| {
+        let vertices: Vec<VertexId> = pairs.iter().map(|pair| pair[k]).collect();
+        LandmarkedMesh::new(&shapes[k].level.mesh, &vertices)
+    };
+    let (Ok(source), Ok(target)) = (side(0), side(1)) else { return Ok(None) };
+    let full = [source, target];
+    let vertices = options.judge_vertices.max(LEAST_PER_LANDMARK * pairs.len());
+    let mut coarse = |k: usize| {
+        let preparing = &mut Portion::new(monitor, 0.0, 0.0);
+        MeshWithCoarse::new(&full[k], vertices, options.multilevel.rims, preparing)
+    };
+    let levels = [coarse(0)?, coarse(1)?];
+    let class = ClassSearchOptions {
+        multilevel: &options.multilevel,
+        search: &options.search,
+        choice: ClassChoice::Best,
+    };
+    let chosen = match choose_class(&levels, class, &mut Portion::new(monitor, 0.0, 0.8)) {
+        Ok(chosen) => chosen,
+        Err(CoarseMapError::Cancelled(stop)) => return Err(stop),
+        Err(_) => return Ok(None),
+    };
+    let mut map = chosen.map;
+    match map.relax(&options.relaxation, &mut Portion::new(monitor, 0.8, 1.0)) {
+        Err(MapError::Cancelled(stop)) => return Err(stop),
+        Err(_) => return Ok(None),
+        Ok(()) => {}
+    }
+    let mean_log = map.mean_log;
+    let Some(images) = map.images() else { return Ok(None) };
+    let remoteness = remoteness(shapes, &full, &images);
+    Ok(Some(Judged { mean_log, remoteness, images }))
+}
+
+/// Mean difference of a point's and its image's mean distance to their surfaces.
+fn remoteness(shapes: [&Shape; 2], full: &[LandmarkedMesh; 2], images: &LevelImages) -> f64 {
+    let at = |side: usize, v: VertexId| {
+        let origin = full[side].refined.vertex_origin[images.levels[side].vertices[v]];
+        value_at(shapes[side], origin)
+    };
+    let [source, target] = &images.levels;
+    let areas = source.mesh.vertex_areas();
+    let difference = |v: VertexId| {
+        let SurfacePoint { face, barycentric } = images.target_from_source[v];
+        let corners = target.mesh.triangles()[face];
+        let image: f64 = (0..3).map(|k| barycentric[k] * at(1, corners[k])).sum();
+        (at(0, v) - image).abs()
+    };
+    let sum: f64 = source.mesh.vertices().map(|v| areas[v] * difference(v)).sum();
+    sum / areas.iter().sum::<f64>()
+}
+
+fn value_at(shape: &Shape, point: SurfacePoint) -> f64 {
+    let corners = shape.level.mesh.triangles()[point.face];
+    (0..3).map(|k| point.barycentric[k] * shape.remoteness[corners[k]]).sum()
+}

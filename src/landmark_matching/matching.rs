@@ -1,0 +1,179 @@
+//! Landmark pairs found by the program.
+//!
+//! Both bodies are looked at on coarse levels: their tips, and what these see of the body (`shape`). Assignments of tips are searched by
+//! their distances, and the orders in which paths lead to them (`search`). The best are judged by the coarse maps that they lead to
+//! (`judge`), then changed a little as long as that helps (`moves`). The verdict compares the best with those that differ from it.
+
+use super::candidate::Candidate;
+use super::candidates::chosen;
+use super::input::MatchInput;
+use super::judge::judge;
+use super::moves::moves;
+use super::options::MatchOptions;
+use super::parting::difference;
+use super::search::{Assignment, Tables, assignments};
+use super::shape::{Body, Shape};
+use super::sharpening::sharpen;
+use super::verdict::{Verdict, verdict};
+use crate::mesh::VertexId;
+use crate::monitor::{Cancelled, Monitor, Portion, Stage};
+
+/// Why nothing was matched.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MatchError {
+    /// The user asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// A given pair names a vertex that its mesh does not have.
+    #[error("landmark pair {} (the first is 1) names vertex {vertex}, but its mesh has {vertices} vertices", pair + 1)]
+    MissingVertex {
+        /// The pair, 0-based.
+        pair: usize,
+        /// The vertex.
+        vertex: usize,
+        /// Vertices of the mesh.
+        vertices: usize,
+    },
+    /// Two given pairs share a vertex.
+    #[error("landmark pairs {} and {} (the first is 1) are at the same vertex", pairs[0] + 1, pairs[1] + 1)]
+    Coincident {
+        /// The pairs, 0-based.
+        pairs: [usize; 2],
+    },
+}
+
+/// What was matched.
+#[derive(Clone, Debug)]
+pub struct LandmarkMatch {
+    /// The candidates, the best first; none where fewer than four pairs were found.
+    pub candidates: Vec<Candidate>,
+    /// How sure the best one is.
+    pub verdict: Verdict,
+}
+
+/// Shares of the time: when both bodies have been looked at, and when the candidates have been judged, and
+/// when small changes have.
+const LOOKED: f64 = 0.15;
+const JUDGED: f64 = 0.6;
+const IMPROVED: f64 = 0.95;
+
+/// Finds landmark pairs of two bodies beside the given ones, with alternatives and a verdict.
+///
+/// The given pairs are in every candidate. A monitor that wants a result gets the best candidates so far. The time is bounded by the
+/// options: a coarse map for each candidate.
+///
+/// # Errors
+/// [`MatchError`]: cancellation, or given pairs that are no different vertices of the meshes.
+pub fn match_landmarks(
+    input: MatchInput<'_>,
+    options: &MatchOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<LandmarkMatch, MatchError> {
+    monitor.enter(Stage::Matching);
+    check(input)?;
+    let given = |side: usize| -> Vec<VertexId> { input.given.iter().map(|pair| pair[side]).collect() };
+    let half = 0.5 * LOOKED;
+    let source = Body { mesh: input.source, given: &given(0), may_mark: input.may_mark.source };
+    let source = Shape::new(source, options, &mut Portion::new(monitor, 0.0, half))?;
+    let target = Body { mesh: input.target, given: &given(1), may_mark: input.may_mark.target };
+    let target = Shape::new(target, options, &mut Portion::new(monitor, half, LOOKED))?;
+    let shapes = [&source, &target];
+    let tables = Tables::new(shapes, options);
+    let mut search = Search { shapes, options, found: Vec::new(), judged: 0 };
+    search.first_look(&tables, &mut Portion::new(monitor, LOOKED, JUDGED))?;
+    search.improve(&tables, &mut Portion::new(monitor, JUDGED, IMPROVED))?;
+    let meshes = [input.source, input.target];
+    let mut candidates = search.found;
+    sharpen(input, &mut candidates, &mut Portion::new(monitor, IMPROVED, 1.0))?;
+    if let Some((best, others)) = candidates.split_first_mut() {
+        others.iter_mut().for_each(|other| other.difference = Some(difference(shapes, best, other)));
+    }
+    let verdict = verdict(meshes, shapes, &candidates, &options.limits);
+    Ok(LandmarkMatch { candidates, verdict })
+}
+
+fn check(input: MatchInput<'_>) -> Result<(), MatchError> {
+    for (side, mesh) in [input.source, input.target].into_iter().enumerate() {
+        for (pair, ends) in input.given.iter().enumerate() {
+            let (vertex, vertices) = (ends[side].index(), mesh.vertex_count());
+            if vertex >= vertices {
+                return Err(MatchError::MissingVertex { pair, vertex, vertices });
+            }
+            if let Some(first) = input.given[..pair].iter().position(|other| other[side] == ends[side]) {
+                return Err(MatchError::Coincident { pairs: [first, pair] });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Candidates that were judged, the best first.
+struct Search<'a> {
+    shapes: [&'a Shape; 2],
+    options: &'a MatchOptions,
+    found: Vec<Candidate>,
+    judged: usize,
+}
+
+impl Search<'_> {
+    /// Judges an assignment. Whether it is the best so far.
+    fn judge(&mut self, assignment: &Assignment, monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
+        self.judged += 1;
+        let vertices =
+            |pair: &[usize; 2]| [0, 1].map(|side: usize| self.shapes[side].marks[pair[side]].vertex);
+        let pairs = assignment.pairs.iter().map(vertices).chain(assignment.between);
+        let pairs: Vec<[VertexId; 2]> = pairs.collect();
+        let Some(judged) = judge(self.shapes, &pairs, self.options, monitor)? else { return Ok(false) };
+        let candidate = Candidate::new(self.shapes, assignment.clone(), judged);
+        let place = self.found.partition_point(|other| other.score <= candidate.score);
+        self.found.insert(place, candidate);
+        Ok(place == 0)
+    }
+
+    fn least_score(&self) -> f64 {
+        self.found.first().map_or(f64::INFINITY, |best| best.score)
+    }
+
+    /// Judges the most promising assignments, and more where these are poor.
+    fn first_look(&mut self, tables: &Tables<'_>, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
+        let listed = chosen(self.shapes, assignments(tables, self.options), self.options);
+        let MatchOptions { candidates, symmetric, without_orders, .. } = self.options;
+        let first = candidates + symmetric + without_orders;
+        for (k, assignment) in listed.iter().enumerate() {
+            let enough = k >= first && self.least_score() < self.options.doubtful_score;
+            if enough || (monitor.wants_result() && !self.found.is_empty()) {
+                break;
+            }
+            let share = |k: usize| k as f64 / listed.len() as f64;
+            self.judge(assignment, &mut Portion::new(monitor, share(k), share(k + 1)))?;
+        }
+        Ok(())
+    }
+
+    /// Judges small changes of the best, and goes on from what is better.
+    fn improve(&mut self, tables: &Tables<'_>, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
+        let mut tried: Vec<Assignment> = self.found.iter().map(|c| c.assignment.clone()).collect();
+        let most = self.options.changes;
+        let mut left = most;
+        while let Some(best) = self.found.first().map(|best| best.assignment.clone()) {
+            let mut better = false;
+            for change in moves(tables, &best) {
+                if left == 0 || better || monitor.wants_result() {
+                    break;
+                }
+                if tried.iter().any(|known| known.pairs == change.pairs && known.between == change.between) {
+                    continue;
+                }
+                let share = |left: usize| 1.0 - left as f64 / most as f64;
+                better = self.judge(&change, &mut Portion::new(monitor, share(left), share(left - 1)))?;
+                tried.push(change);
+                left -= 1;
+            }
+            if !better {
+                break;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,27 @@
+//! Landmark pairs that nobody gave: ends of limbs of two bodies matched, judged by coarse maps, and told with their doubts.
+
+mod agreement;
+mod between;
+mod candidate;
+mod candidates;
+mod difference;
+mod input;
+mod judge;
+mod matching;
+mod moves;
+mod options;
+mod pair;
+mod parting;
+mod persistence;
+mod search;
+mod shape;
+mod sharpening;
+mod verdict;
+
+pub use candidate::{Candidate, CoarsePicture};
+pub use difference::{Difference, DifferenceKind};
+pub use input::{MatchInput, MayMark};
+pub use matching::{LandmarkMatch, MatchError, match_landmarks};
+pub use options::{MatchOptions, VerdictLimits};
+pub use pair::{MatchedPair, PairOrigin};
+pub use verdict::{Question, Verdict};

@@ -1,0 +1,88 @@
+//! Where the maps of two candidates part, and what a user would call that.
+
+use super::candidate::Candidate;
+use super::difference::{Difference, DifferenceKind};
+use super::pair::MatchedPair;
+use super::shape::Shape;
+use crate::mesh::surface_index::SurfaceIndex;
+use crate::mesh::{SurfacePoint, VertexId};
+use glam::DVec3;
+
+/// Images farther apart than this, in units of the root of the target's area, are at different places: that many landmarks of SHREC07
+/// are told apart by it, too.
+pub(super) const APART: f64 = 0.15;
+
+/// How a candidate differs from the best one.
+pub(super) fn difference(shapes: [&Shape; 2], best: &Candidate, other: &Candidate) -> Difference {
+    let parting = Parting::of(best, other);
+    let old = &best.assignment.pairs;
+    let new = &other.assignment.pairs;
+    let changed: Vec<usize> = (0..new.len()).filter(|&k| !old.contains(&new[k])).collect();
+    let partners = shapes[1].partners();
+    // What becomes of the ends that both have.
+    let (mut moved, mut to_partner, mut kept, mut kept_with_partner) = (0, 0, 0, 0);
+    for &[s, t] in new {
+        let Some(&[_, before]) = old.iter().find(|pair| pair[0] == s) else { continue };
+        if before == t {
+            kept += 1;
+            kept_with_partner += usize::from(partners[t].is_some());
+        } else {
+            moved += 1;
+            to_partner += usize::from(partners[before] == Some(t));
+        }
+    }
+    let kind = if moved == 0 && (changed.is_empty() || new.len() < old.len()) {
+        if new.len() < old.len() { DifferenceKind::Fewer } else { DifferenceKind::Places }
+    } else if to_partner == moved && moved > 1 {
+        if kept_with_partner == 0 { DifferenceKind::Mirrored } else { DifferenceKind::Sides }
+    } else if moved > kept {
+        DifferenceKind::Ends
+    } else {
+        DifferenceKind::Places
+    };
+    let mut pairs: Vec<MatchedPair> = changed.into_iter().map(|k| other.pairs[k]).collect();
+    if other.assignment.between.is_some() && other.assignment.between != best.assignment.between {
+        pairs.extend(other.pairs.last());
+    }
+    Difference { kind, pairs, share: parting.share }
+}
+
+/// Where two maps of the same meshes part.
+pub(super) struct Parting {
+    /// Share of the source's area whose images are far apart.
+    pub(super) share: f64,
+    /// The source's coarse vertex whose images are farthest apart.
+    pub(super) vertex: VertexId,
+    /// Its images in space.
+    pub(super) images: [DVec3; 2],
+}
+
+impl Parting {
+    /// Compares the images of the first map's coarse vertices.
+    pub(super) fn of(first: &Candidate, second: &Candidate) -> Self {
+        let [a, b] = [&first.picture, &second.picture];
+        let root = a.target.area().sqrt();
+        let areas = a.source.vertex_areas();
+        let index = SurfaceIndex::new(&b.source);
+        let mut parting = Self { share: 0.0, vertex: VertexId(0), images: [DVec3::ZERO; 2] };
+        let (mut farthest, mut total) = (-1.0, 0.0);
+        for v in a.source.vertices() {
+            let image = a.target_from_source[v].position(&a.target);
+            let SurfacePoint { face, barycentric } = index.nearest(a.source.positions()[v]).point;
+            let corners = b.source.triangles()[face];
+            let other: DVec3 =
+                (0..3).map(|k| barycentric[k] * b.target_from_source[corners[k]].position(&b.target)).sum();
+            let apart = image.distance(other) / root;
+            total += areas[v];
+            if apart > APART {
+                parting.share += areas[v];
+            }
+            if apart > farthest {
+                farthest = apart;
+                parting = Self { vertex: v, images: [image, other], ..parting };
+            }
+        }
+        parting.share /= total;
+        parting
+    }
+}

@@ -1,0 +1,236 @@
+//! Assignments of the tips of one body to those of another: a beam search over partial assignments.
+
+use super::agreement::turns_left;
+use super::options::MatchOptions;
+use super::shape::Shape;
+use crate::math::scalar::{ln, min};
+use crate::mesh::VertexId;
+
+/// An assignment of marks of the source to marks of the target.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Assignment {
+    /// Numbers of the marks of source and target; the given ones first.
+    pub(super) pairs: Vec<[usize; 2]>,
+    /// What it costs without regard to orders.
+    pub(super) cost: f64,
+    /// Share of the cyclic orders that are the same on both; 1 where there are none.
+    pub(super) agreement: f64,
+    /// Main tips without a partner, by side.
+    pub(super) unmatched: [usize; 2],
+    /// A pair of vertices of both levels beside those of marks.
+    pub(super) between: Option<[VertexId; 2]>,
+}
+
+/// What reversed orders cost; the other weights are beside it. They were found on SHREC07 pairs among four animals.
+const ORDERS: f64 = 0.3;
+const PERSISTENCE: f64 = 0.05;
+const UNMATCHED: f64 = 0.35;
+/// An unmatched tip costs no more than one of this persistence: a long tail may be missing.
+const MOST_UNMATCHED: f64 = 0.25;
+/// A log ratio of distances above this is as bad as any.
+const MOST_RATIO: f64 = 1.0;
+
+impl Assignment {
+    /// What it costs with regard to orders.
+    pub(super) fn full_cost(&self) -> f64 {
+        self.cost + ORDERS * (1.0 - self.agreement)
+    }
+}
+
+/// Tables of what pairs cost.
+pub(super) struct Tables<'a> {
+    pub(super) shapes: [&'a Shape; 2],
+    main: [Vec<usize>; 2],
+    /// By side and two marks: logarithm of their distance.
+    log_distance: [Vec<Vec<f64>>; 2],
+    /// By mark of the source and of the target.
+    difference: Vec<Vec<f64>>,
+}
+
+impl<'a> Tables<'a> {
+    pub(super) fn new(shapes: [&'a Shape; 2], options: &MatchOptions) -> Self {
+        let log_distance = shapes.map(|shape| {
+            let n = shape.marks.len();
+            // Nearer marks are as good as at one place.
+            let log = |a: usize, b: usize| ln(shape.distance([a, b]).max(0.02));
+            (0..n).map(|a| (0..n).map(|b| log(a, b)).collect()).collect()
+        });
+        let difference = |s: usize, t: usize| shapes[0].marks[s].difference(&shapes[1].marks[t]);
+        let [n, m] = shapes.map(|shape| shape.marks.len());
+        let difference = (0..n).map(|s| (0..m).map(|t| difference(s, t)).collect()).collect();
+        let main = shapes.map(|shape| shape.main(options));
+        Self { shapes, main, log_distance, difference }
+    }
+
+    fn misfit(&self, [s, t]: [usize; 2], [p, q]: [usize; 2]) -> f64 {
+        min((self.log_distance[0][s][p] - self.log_distance[1][t][q]).abs(), MOST_RATIO)
+    }
+
+    /// Mean misfit of a pair to others.
+    pub(super) fn mean_misfit(&self, pair: [usize; 2], others: &[[usize; 2]]) -> f64 {
+        let others = others.iter().filter(|other| **other != pair);
+        let (sum, count) = others.fold((0.0, 0), |(sum, n), &other| (sum + self.misfit(pair, other), n + 1));
+        sum / f64::from(count.max(1))
+    }
+
+    /// Pairs, the given ones first, with what they cost.
+    pub(super) fn assignment(&self, pairs: &[[usize; 2]]) -> Assignment {
+        let mut partial = Partial::of_given(self);
+        let given = self.shapes[0].given;
+        pairs[given..].iter().for_each(|&pair| partial.join(self, pair));
+        for side in 0..2 {
+            for &mark in &self.main[side] {
+                if !partial.has(side, mark) {
+                    partial.leave(self, side, mark);
+                }
+            }
+        }
+        partial.finished(self)
+    }
+}
+
+/// A partial assignment.
+#[derive(Clone)]
+struct Partial {
+    pairs: Vec<[usize; 2]>,
+    lesser: usize,
+    /// Sum of the misfits of all pairs of pairs.
+    misfit: f64,
+    difference: f64,
+    persistence: f64,
+    unmatched_cost: f64,
+    unmatched: [usize; 2],
+}
+
+impl Partial {
+    fn of_given(tables: &Tables<'_>) -> Self {
+        let mut partial = Self {
+            pairs: Vec::new(),
+            lesser: 0,
+            misfit: 0.0,
+            difference: 0.0,
+            persistence: 0.0,
+            unmatched_cost: 0.0,
+            unmatched: [0; 2],
+        };
+        for k in 0..tables.shapes[0].given {
+            partial.join(tables, [k, k]);
+        }
+        partial
+    }
+
+    fn join(&mut self, tables: &Tables<'_>, [s, t]: [usize; 2]) {
+        self.misfit += self.pairs.iter().map(|&other| tables.misfit([s, t], other)).sum::<f64>();
+        self.pairs.push([s, t]);
+        let [a, b] = [&tables.shapes[0].marks[s], &tables.shapes[1].marks[t]];
+        if a.persistence > 0.0 && b.persistence > 0.0 {
+            self.difference += tables.difference[s][t];
+            self.persistence += ln(a.persistence / b.persistence).abs();
+        }
+    }
+
+    fn with(&self, tables: &Tables<'_>, pair: [usize; 2]) -> Self {
+        let mut next = self.clone();
+        next.join(tables, pair);
+        next
+    }
+
+    fn without(&self, tables: &Tables<'_>, side: usize, mark: usize) -> Self {
+        let mut next = self.clone();
+        next.leave(tables, side, mark);
+        next
+    }
+
+    fn leave(&mut self, tables: &Tables<'_>, side: usize, mark: usize) {
+        self.unmatched_cost += min(tables.shapes[side].marks[mark].persistence, MOST_UNMATCHED);
+        self.unmatched[side] += 1;
+    }
+
+    fn finished(self, tables: &Tables<'_>) -> Assignment {
+        Assignment {
+            cost: self.cost(tables.shapes[0].given),
+            agreement: agreement(tables.shapes, &self.pairs),
+            unmatched: self.unmatched,
+            pairs: self.pairs,
+            between: None,
+        }
+    }
+
+    fn cost(&self, given: usize) -> f64 {
+        let n = self.pairs.len() as f64;
+        let tips = (self.pairs.len() - given).max(1) as f64;
+        let pairs = (0.5 * n * (n - 1.0)).max(1.0);
+        self.misfit / pairs
+            + self.difference / tips
+            + PERSISTENCE * self.persistence / tips
+            + UNMATCHED * self.unmatched_cost
+    }
+
+    fn has(&self, side: usize, mark: usize) -> bool {
+        self.pairs.iter().any(|pair| pair[side] == mark)
+    }
+}
+
+/// The best assignments without regard to orders, the best first, each with its agreement of orders.
+pub(super) fn assignments(tables: &Tables<'_>, options: &MatchOptions) -> Vec<Assignment> {
+    let given = tables.shapes[0].given;
+    let mut beam = vec![Partial::of_given(tables)];
+    for (side, mains) in tables.main.iter().enumerate() {
+        for &mark in mains {
+            beam = beam.iter().flat_map(|partial| step(tables, partial, side, mark, options)).collect();
+            beam.sort_by(|a, b| a.cost(given).total_cmp(&b.cost(given)));
+            beam.truncate(options.beam);
+        }
+    }
+    beam.into_iter().map(|partial| partial.finished(tables)).collect()
+}
+
+/// All that can become of a main tip of one side: the source's first meet any tip of the target, then those of the target that are
+/// left meet lesser ones of the source.
+fn step(
+    tables: &Tables<'_>,
+    partial: &Partial,
+    side: usize,
+    mark: usize,
+    options: &MatchOptions,
+) -> Vec<Partial> {
+    if partial.has(side, mark) {
+        return vec![partial.clone()];
+    }
+    let other = tables.shapes[1 - side];
+    let mut next = vec![partial.without(tables, side, mark)];
+    for partner in (other.given..other.marks.len()).filter(|&k| !partial.has(1 - side, k)) {
+        let is_main = other.marks[partner].persistence >= options.main_persistence;
+        // The source's main tips have been decided when those of the target come.
+        if (is_main && side == 1) || (!is_main && partial.lesser >= options.lesser_partners) {
+            continue;
+        }
+        let pair = if side == 0 { [mark, partner] } else { [partner, mark] };
+        let mut joined = partial.with(tables, pair);
+        joined.lesser += usize::from(!is_main);
+        next.push(joined);
+    }
+    next
+}
+
+/// Share of the cyclic orders of three around a fourth that are the same on both; 1 where there are fewer than four pairs.
+fn agreement(shapes: [&Shape; 2], pairs: &[[usize; 2]]) -> f64 {
+    let (mut same, mut all) = (0, 0);
+    for (root, of) in pairs.iter().enumerate() {
+        let ranks = [0, 1].map(|side: usize| &shapes[side].marks[of[side]].ranks);
+        let others: Vec<[u32; 2]> = (0..pairs.len())
+            .filter(|&k| k != root)
+            .map(|k| [0, 1].map(|side: usize| ranks[side][pairs[k][side]]))
+            .collect();
+        for (i, a) in others.iter().enumerate() {
+            for (j, b) in others[..i].iter().enumerate() {
+                for c in &others[..j] {
+                    all += 1;
+                    let turns = [0, 1].map(|side: usize| turns_left([a[side], b[side], c[side]]));
+                    same += usize::from(turns[0] == turns[1]);
+                }
+            }
+        }
+    }
+    if all == 0 { 1.0 } else { same as f64 / all as f64 }
+}

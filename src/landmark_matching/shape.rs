@@ -1,0 +1,255 @@
+//! A body as the matching sees it: a coarse level of area 1 with its tips, and what each tip sees of the body.
+
+use super::agreement::{Rank, ranks};
+use super::options::MatchOptions;
+use super::pair::PairOrigin;
+use super::persistence::peaks;
+use crate::geodesic::distances;
+use crate::math::scalar::ln;
+use crate::mesh::coarsening::Level;
+use crate::mesh::{SurfaceMesh, VertexId};
+use crate::monitor::{Cancelled, Monitor, Portion, Step};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
+
+/// Shares of the area whose enclosing radii describe a tip: from the tip of a toe to the whole body. Chosen by hand.
+const SHARES: [f64; 10] = [0.003, 0.006, 0.0125, 0.025, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0];
+
+/// Nearer to a given landmark than this a tip is the same place.
+const SAME_PLACE: f64 = 0.12;
+
+/// Tips whose log radii differ by less than this in the mean see the body alike. Chosen by hand: feet of one pair differ by 0.02 to
+/// 0.1.
+const ALIKE: f64 = 0.15;
+
+/// Places that are asked for where nothing fits.
+const PLACES: usize = 3;
+
+/// A mesh with what is known of its landmarks.
+#[derive(Clone, Copy)]
+pub(super) struct Body<'a> {
+    pub(super) mesh: &'a SurfaceMesh,
+    pub(super) given: &'a [VertexId],
+    /// Which vertices may be landmarks; `None` where all may.
+    pub(super) may_mark: Option<&'a TiSlice<VertexId, bool>>,
+}
+
+/// A body as the matching sees it.
+pub(super) struct Shape {
+    /// The level, of area 1; its vertices are numbered on the full mesh.
+    pub(super) level: Level,
+    /// The level's length of a length of the full mesh.
+    scale: f64,
+    pub(super) areas: TiVec<VertexId, f64>,
+    /// Mean distance of each vertex to the whole surface.
+    pub(super) remoteness: TiVec<VertexId, f64>,
+    /// The given landmarks in their order, then the tips, the most persistent first.
+    pub(super) marks: Vec<Mark>,
+    pub(super) given: usize,
+    /// Which vertices of the level may be landmarks; `None` where all may.
+    may_mark: Option<TiVec<VertexId, bool>>,
+}
+
+/// A given landmark or a tip.
+pub(super) struct Mark {
+    pub(super) vertex: VertexId,
+    /// 0 of a given landmark.
+    pub(super) persistence: f64,
+    /// Distance of each vertex.
+    pub(super) field: TiVec<VertexId, f64>,
+    /// Logarithms of the radii that enclose shares of the area.
+    radii: [f64; SHARES.len()],
+    /// The order in which shortest paths lead to the other marks.
+    pub(super) ranks: Vec<Rank>,
+}
+
+impl Mark {
+    /// Mean difference of what two marks see of their bodies.
+    pub(super) fn difference(&self, other: &Self) -> f64 {
+        let pairs = self.radii.iter().zip(&other.radii);
+        pairs.map(|(a, b)| (a - b).abs()).sum::<f64>() / SHARES.len() as f64
+    }
+}
+
+impl Shape {
+    /// Looks at a body.
+    pub(super) fn new(
+        body: Body<'_>,
+        options: &MatchOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        let Body { mesh, given, may_mark } = body;
+        let (level, scale) =
+            unit_level(mesh, given, options.level_vertices, &mut Portion::new(monitor, 0.0, 0.1))?;
+        let areas = level.mesh.vertex_areas();
+        let remoteness =
+            remoteness(&level.mesh, &areas, options.samples, &mut Portion::new(monitor, 0.1, 0.9))?;
+        let held: Vec<VertexId> = level.numbers(given).collect();
+        let tips = peaks(&level.mesh, &remoteness, options.least_persistence);
+        let fields: Vec<_> = held.iter().map(|&v| distances(&level.mesh, &[v])).collect();
+        let may_mark = may_mark.map(|may| level.vertices.iter().map(|&v| may[v]).collect());
+        let given = held.len();
+        let mut shape = Self { level, scale, areas, remoteness, marks: Vec::new(), given, may_mark };
+        for (v, field) in held.into_iter().zip(fields) {
+            shape.add(v, 0.0, field);
+        }
+        for peak in tips {
+            if shape.marks.len() >= shape.given + options.most_tips {
+                break;
+            }
+            if shape.marks[..shape.given].iter().any(|mark| mark.field[peak.vertex] < SAME_PLACE) {
+                continue;
+            }
+            let Some(vertex) = shape.allowed(peak.vertex) else { continue };
+            let field = distances(&shape.level.mesh, &[vertex]);
+            shape.add(vertex, peak.persistence, field);
+        }
+        shape.order();
+        Ok(shape)
+    }
+
+    /// Whether a vertex may be a landmark.
+    pub(super) fn may(&self, v: VertexId) -> bool {
+        self.may_mark.as_ref().is_none_or(|may| may[v])
+    }
+
+    /// The nearest vertex that may be a landmark and is none yet; `None` where that is another place.
+    fn allowed(&self, tip: VertexId) -> Option<VertexId> {
+        let may = |v: VertexId| self.may(v) && self.marks.iter().all(|mark| mark.vertex != v);
+        if may(tip) {
+            return Some(tip);
+        }
+        let field = distances(&self.level.mesh, &[tip]);
+        let near = self.level.mesh.vertices().filter(|&v| may(v) && field[v] < SAME_PLACE);
+        near.min_by(|a, b| field[*a].total_cmp(&field[*b]))
+    }
+
+    fn add(&mut self, vertex: VertexId, persistence: f64, field: TiVec<VertexId, f64>) {
+        let radii = radii(&self.areas, &field);
+        self.marks.push(Mark { vertex, persistence, field, radii, ranks: Vec::new() });
+    }
+
+    fn order(&mut self) {
+        let vertices: Vec<VertexId> = self.marks.iter().map(|mark| mark.vertex).collect();
+        for mark in &mut self.marks {
+            mark.ranks = ranks(&self.level.mesh, mark.vertex, &mark.field, &vertices);
+        }
+    }
+
+    /// Distance between two marks.
+    pub(super) fn distance(&self, [a, b]: [usize; 2]) -> f64 {
+        0.5 * (self.marks[a].field[self.marks[b].vertex] + self.marks[b].field[self.marks[a].vertex])
+    }
+
+    /// A vertex of the level as one of the full mesh.
+    pub(super) fn on_mesh(&self, v: VertexId) -> VertexId {
+        self.level.vertices[v]
+    }
+
+    /// Where a mark comes from.
+    pub(super) fn origin(&self, mark: usize) -> PairOrigin {
+        if mark < self.given { PairOrigin::Given } else { PairOrigin::Tips }
+    }
+
+    /// A level of this level in the units of the full mesh.
+    pub(super) fn in_units_of_mesh(&self, level: &SurfaceMesh) -> SurfaceMesh {
+        level.with_positions(level.positions().iter().map(|&p| p / self.scale).collect())
+    }
+
+    /// By mark the number of the tip that sees the body alike, as the left foot does and the right one.
+    pub(super) fn partners(&self) -> Vec<Option<usize>> {
+        let tips = || self.given..self.marks.len();
+        let nearest = |a: usize| {
+            let others = tips().filter(|&b| a >= self.given && b != a);
+            let differences = others.map(|b| (self.marks[a].difference(&self.marks[b]), b));
+            let least = differences.min_by(|a, b| a.0.total_cmp(&b.0));
+            least.filter(|least| least.0 < ALIKE).map(|least| least.1)
+        };
+        let nearest: Vec<Option<usize>> = (0..self.marks.len()).map(nearest).collect();
+        (0..self.marks.len()).map(|a| nearest[a].filter(|&b| nearest[b] == Some(a))).collect()
+    }
+
+    /// Three places of the full mesh that tell most where marked: the most persistent tips, then points far from them.
+    pub(super) fn far_places(&self) -> Vec<VertexId> {
+        let mut places: Vec<VertexId> =
+            self.marks[self.given..].iter().take(PLACES).map(|mark| mark.vertex).collect();
+        let held = self.marks[..self.given].iter().map(|mark| mark.vertex);
+        let mut seeds: Vec<VertexId> = places.iter().copied().chain(held).collect();
+        while places.len() < PLACES {
+            let field = distances(&self.level.mesh, &seeds);
+            let far = self.level.mesh.vertices().max_by(|a, b| field[*a].total_cmp(&field[*b]));
+            let Some(far) = far else { break };
+            places.push(far);
+            seeds.push(far);
+        }
+        places.into_iter().map(|v| self.on_mesh(v)).collect()
+    }
+
+    /// The numbers of the main tips.
+    pub(super) fn main(&self, options: &MatchOptions) -> Vec<usize> {
+        let tips = self.given..self.marks.len();
+        tips.filter(|&k| self.marks[k].persistence >= options.main_persistence).collect()
+    }
+}
+
+/// A level scaled to area 1, with its scale.
+fn unit_level(
+    mesh: &SurfaceMesh,
+    held: &[VertexId],
+    vertices: usize,
+    monitor: &mut dyn Monitor,
+) -> Result<(Level, f64), Cancelled> {
+    let mut level = Level::coarse(mesh, held, vertices, monitor)?;
+    let scale = 1.0 / level.mesh.area().sqrt();
+    level.mesh = level.mesh.with_positions(level.mesh.positions().iter().map(|&p| p * scale).collect());
+    Ok((level, scale))
+}
+
+/// Mean distance of every vertex to the surface: to farthest points, each counted by the area nearest to it.
+fn remoteness(
+    mesh: &SurfaceMesh,
+    areas: &TiVec<VertexId, f64>,
+    samples: usize,
+    monitor: &mut dyn Monitor,
+) -> Result<TiVec<VertexId, f64>, Cancelled> {
+    let mut nearest: TiVec<VertexId, (f64, usize)> = ti_vec![(f64::INFINITY, 0); mesh.vertex_count()];
+    let mut fields = Vec::with_capacity(samples);
+    let mut sample = VertexId(0);
+    for k in 0..samples.min(mesh.vertex_count()) {
+        monitor.step(Step { fraction: k as f64 / samples as f64, residual: None })?;
+        let field = distances(mesh, &[sample]);
+        for (near, &d) in nearest.iter_mut().zip(&field) {
+            if d < near.0 {
+                *near = (d, k);
+            }
+        }
+        fields.push(field);
+        let farthest = mesh.vertices().max_by(|a, b| nearest[*a].0.total_cmp(&nearest[*b].0));
+        sample = farthest.unwrap_or(sample);
+    }
+    let mut weights = vec![0.0; fields.len()];
+    mesh.vertices().for_each(|v| weights[nearest[v].1] += areas[v]);
+    let total: f64 = weights.iter().sum();
+    let mean = |v: VertexId| fields.iter().zip(&weights).map(|(field, w)| w * field[v]).sum::<f64>() / total;
+    Ok(mesh.vertices().map(mean).collect())
+}
+
+/// Logarithms of the radii around a mark that enclose shares of the area.
+fn radii(areas: &TiVec<VertexId, f64>, field: &TiVec<VertexId, f64>) -> [f64; SHARES.len()] {
+    let mut order: Vec<VertexId> = field.keys().collect();
+    order.sort_by(|a, b| field[*a].total_cmp(&field[*b]));
+    let total: f64 = areas.iter().sum();
+    let mut radii = [0.0; SHARES.len()];
+    let (mut within, mut next, mut before) = (0.0, 0, [0.0; 2]);
+    for v in order {
+        within += areas[v] / total;
+        while next < SHARES.len() && within >= SHARES[next].min(1.0 - 1e-9) {
+            // Between two vertices the area grows in proportion: on a coarse level a toe has few vertices.
+            let share = (SHARES[next] - before[0]) / (within - before[0]);
+            let radius = before[1] + share.clamp(0.0, 1.0) * (field[v] - before[1]);
+            radii[next] = ln(radius.max(1e-3));
+            next += 1;
+        }
+        before = [within, field[v]];
+    }
+    radii
+}

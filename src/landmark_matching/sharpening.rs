@@ -1,0 +1,101 @@
+//! Tips put where the limbs of the meshes end.
+//!
+//! On a coarse level a tip is one of few vertices, up to a triangle's width away from the end of its limb. On a finer level it goes to
+//! the vertex near it that is farthest from the other pairs of its candidate, by the sum of the distances: the same on both bodies, so
+//! that partners end alike.
+
+use super::candidate::Candidate;
+use super::input::MatchInput;
+use super::pair::PairOrigin;
+use crate::geodesic::distances;
+use crate::mesh::coarsening::Level;
+use crate::mesh::{SurfaceMesh, VertexId};
+use crate::monitor::{Cancelled, Monitor, Portion, Step};
+use typed_index_collections::{TiSlice, TiVec};
+
+/// Vertices of the level on which tips are put right, at most: edges of 1 % of the root of the area.
+const VERTICES: usize = 6000;
+/// A tip moves no farther, in units of the root of the area: two edges of the coarse level. Chosen by hand.
+const FARTHEST: f64 = 0.05;
+
+/// Moves the tips of all candidates.
+pub(super) fn sharpen(
+    input: MatchInput<'_>,
+    candidates: &mut [Candidate],
+    monitor: &mut dyn Monitor,
+) -> Result<(), Cancelled> {
+    let sides = [(input.source, input.may_mark.source), (input.target, input.may_mark.target)];
+    for (side, (mesh, may_mark)) in sides.into_iter().enumerate() {
+        let at = |candidate: &Candidate, k: usize| {
+            let pair = candidate.pairs[k];
+            [pair.source, pair.target][side]
+        };
+        let mut ends: Vec<VertexId> = candidates
+            .iter()
+            .flat_map(|candidate| (0..candidate.pairs.len()).map(move |k| at(candidate, k)))
+            .collect();
+        ends.sort_unstable();
+        ends.dedup();
+        let fine = Fine::new(mesh, &ends, may_mark, monitor)?;
+        for candidate in candidates.iter_mut() {
+            let before: Vec<VertexId> = (0..candidate.pairs.len()).map(|k| at(candidate, k)).collect();
+            let mut after = before.clone();
+            for k in 0..before.len() {
+                if candidate.pairs[k].origin == PairOrigin::Tips {
+                    after[k] = fine.end(&before, k, &after);
+                }
+            }
+            for (pair, v) in candidate.pairs.iter_mut().zip(after) {
+                *[&mut pair.source, &mut pair.target][side] = v;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A finer level with the distances from all ends.
+struct Fine<'a> {
+    level: Level,
+    ends: &'a [VertexId],
+    fields: Vec<TiVec<VertexId, f64>>,
+    may_mark: Option<&'a TiSlice<VertexId, bool>>,
+    farthest: f64,
+}
+
+impl<'a> Fine<'a> {
+    fn new(
+        mesh: &SurfaceMesh,
+        ends: &'a [VertexId],
+        may_mark: Option<&'a TiSlice<VertexId, bool>>,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        let level =
+            Level::coarse(mesh, ends, VERTICES.max(2 * ends.len()), &mut Portion::new(monitor, 0.0, 0.0))?;
+        let mut fields = Vec::with_capacity(ends.len());
+        for v in level.numbers(ends) {
+            monitor.step(Step { fraction: fields.len() as f64 / ends.len() as f64, residual: None })?;
+            fields.push(distances(&level.mesh, &[v]));
+        }
+        let farthest = FARTHEST * level.mesh.area().sqrt();
+        Ok(Self { level, ends, fields, may_mark, farthest })
+    }
+
+    fn field(&self, end: VertexId) -> Option<&TiVec<VertexId, f64>> {
+        self.ends.binary_search(&end).ok().map(|k| &self.fields[k])
+    }
+
+    /// The vertex near one of some ends that is farthest from the others and none of those that are taken.
+    fn end(&self, ends: &[VertexId], k: usize, taken: &[VertexId]) -> VertexId {
+        let Some(own) = self.field(ends[k]) else { return ends[k] };
+        let others: Vec<_> = ends.iter().filter(|v| **v != ends[k]).filter_map(|v| self.field(*v)).collect();
+        let full = |v: VertexId| self.level.vertices[v];
+        let may = |v: VertexId| {
+            own[v] < self.farthest
+                && self.may_mark.is_none_or(|may| may[full(v)])
+                && (full(v) == ends[k] || !taken.contains(&full(v)))
+        };
+        let sum = |v: VertexId| others.iter().map(|field| field[v]).sum::<f64>();
+        let near = self.level.mesh.vertices().filter(|&v| may(v));
+        near.max_by(|a, b| sum(*a).total_cmp(&sum(*b))).map_or(ends[k], full)
+    }
+}

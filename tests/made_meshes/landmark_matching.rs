@@ -1,0 +1,180 @@
+//! Two bodies matched without a landmark, or with few: on the program's own animals every limb finds its partner, however the meshes
+//! are turned, scaled or numbered.
+
+use conemap::demo::{self, Demo};
+use conemap::landmark_matching::{
+    LandmarkMatch, MatchError, MatchInput, MatchOptions, Verdict, match_landmarks,
+};
+use conemap::mesh::generators::icosphere;
+use conemap::mesh::mirror::mirrored;
+use conemap::mesh::{FaceId, SurfaceMesh, VertexId};
+use conemap::monitor::{Cancelled, Monitor, Silent, Step};
+use glam::{DQuat, DVec3};
+use typed_index_collections::TiVec;
+
+/// Fewer candidates than usual: the right one is among the first.
+fn few() -> MatchOptions {
+    MatchOptions { candidates: 3, symmetric: 1, without_orders: 1, changes: 2, ..MatchOptions::default() }
+}
+
+fn matched(source: &SurfaceMesh, target: &SurfaceMesh) -> LandmarkMatch {
+    match_landmarks(MatchInput::new(source, target), &few(), &mut Silent).unwrap()
+}
+
+/// The name of the known landmark nearest to a place on one side of a demo.
+fn name(demo: &Demo, side: usize, place: DVec3) -> &str {
+    let mesh = [&demo.source, &demo.target][side];
+    let distance = |k: &usize| mesh.positions()[VertexId(demo.landmarks[*k][side])].distance(place);
+    let nearest = (0..demo.labels.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap();
+    &demo.labels[nearest]
+}
+
+/// The limb of a landmark's name: its first two words; the end of a head may be its nose or an ear.
+fn limb(name: &str) -> String {
+    if ["nose", "throat", "left ear", "right ear"].contains(&name) {
+        return "head".to_owned();
+    }
+    let words: Vec<&str> = name.split(' ').collect();
+    if name.starts_with("left") || name.starts_with("right") {
+        words[..2].join(" ")
+    } else {
+        words[0].to_owned()
+    }
+}
+
+/// The limbs of source and target that the best candidate takes to each other; `back` undoes what was done to the target.
+fn limbs(
+    demo: &Demo,
+    found: &LandmarkMatch,
+    target: &SurfaceMesh,
+    back: impl Fn(DVec3) -> DVec3,
+) -> Vec<[String; 2]> {
+    let best = &found.candidates[0];
+    let pair = |source: VertexId, onto: VertexId| {
+        [
+            limb(name(demo, 0, demo.source.positions()[source])),
+            limb(name(demo, 1, back(target.positions()[onto]))),
+        ]
+    };
+    let mut limbs: Vec<[String; 2]> = best.pairs.iter().map(|p| pair(p.source, p.target)).collect();
+    limbs.sort();
+    limbs
+}
+
+fn all_feet_and_both_ends(limbs: &[[String; 2]]) {
+    for foot in ["left fore", "right fore", "left hind", "right hind", "tail", "head"] {
+        assert!(limbs.iter().any(|pair| pair[0] == foot && pair[1] == foot), "{foot}: {limbs:?}");
+    }
+    assert!(limbs.iter().all(|[a, b]| a == b), "{limbs:?}");
+}
+
+fn turned(p: DVec3) -> DVec3 {
+    3.0 * (DQuat::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 2.0) * p)
+        + DVec3::new(5.0, -7.0, 1.0)
+}
+
+fn turned_back(p: DVec3) -> DVec3 {
+    DQuat::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), -2.0)
+        * ((p - DVec3::new(5.0, -7.0, 1.0)) / 3.0)
+}
+
+/// The mesh with its vertices numbered otherwise, and its faces in another order.
+fn renumbered(mesh: &SurfaceMesh) -> SurfaceMesh {
+    let n = mesh.vertex_count();
+    // A step that shares no factor with n visits every number once.
+    let step = (n / 2..n).find(|k| (2..=*k).all(|d| k % d != 0 || n % d != 0)).unwrap();
+    let new = |v: VertexId| VertexId::from((v.index() * step) % n);
+    let mut positions: TiVec<VertexId, DVec3> = vec![DVec3::ZERO; n].into();
+    mesh.vertices().for_each(|v| positions[new(v)] = mesh.positions()[v]);
+    let faces: TiVec<FaceId, [VertexId; 3]> = mesh.triangles().iter().rev().map(|t| t.map(new)).collect();
+    SurfaceMesh::from_triangles(positions, faces).unwrap()
+}
+
+#[test]
+fn every_limb_of_the_horse_finds_its_partner_on_the_cat() {
+    let demo = demo::build("horse-cat").unwrap();
+    let found = matched(&demo.source, &demo.target);
+    all_feet_and_both_ends(&limbs(&demo, &found, &demo.target, |p| p));
+    assert!(found.candidates.is_sorted_by_key(|candidate| candidate.score));
+    assert!(!matches!(found.verdict, Verdict::Unknown { .. }), "{:?}", found.verdict);
+    assert!(found.candidates[0].difference.is_none());
+    assert!(found.candidates[1..].iter().all(|candidate| candidate.difference.is_some()));
+}
+
+#[test]
+fn a_turned_larger_target_in_another_order_is_matched_alike() {
+    let demo = demo::build("horse-cat").unwrap();
+    let moved = demo.target.with_positions(demo.target.positions().iter().map(|&p| turned(p)).collect());
+    let target = renumbered(&moved);
+    let found = matched(&demo.source, &target);
+    all_feet_and_both_ends(&limbs(&demo, &found, &target, turned_back));
+}
+
+#[test]
+fn on_the_mirror_image_left_and_right_are_those_of_the_image() {
+    let demo = demo::build("horse-cat").unwrap();
+    let image = mirrored(&demo.target).unwrap();
+    let found = matched(&demo.source, &image);
+    let back = |p: DVec3| DVec3::new(-p.x, p.y, p.z);
+    let exchanged = |limb: &str| match limb.split_once(' ') {
+        Some(("left", rest)) => format!("right {rest}"),
+        Some(("right", rest)) => format!("left {rest}"),
+        _ => limb.to_owned(),
+    };
+    let limbs = limbs(&demo, &found, &image, back);
+    assert!(limbs.iter().all(|[a, b]| exchanged(a) == *b), "{limbs:?}");
+    assert!(limbs.len() >= 5, "{limbs:?}");
+}
+
+#[test]
+fn given_pairs_are_held_and_steer_the_rest() {
+    let demo = demo::build("horse-cat").unwrap();
+    let place = |label: &str| demo.labels.iter().position(|l| l.starts_with(label)).unwrap();
+    // Wrong on purpose: the left fore foot on the right one.
+    let [left, right] = ["left fore", "right fore"].map(|label| demo.landmarks[place(label)]);
+    let given = [[VertexId(left[0]), VertexId(right[1])]];
+    let input = MatchInput { given: &given, ..MatchInput::new(&demo.source, &demo.target) };
+    let found = match_landmarks(input, &few(), &mut Silent).unwrap();
+    for candidate in &found.candidates {
+        assert_eq!([candidate.pairs[0].source, candidate.pairs[0].target], given[0]);
+    }
+    let twice = [given[0], given[0]];
+    let error = match_landmarks(MatchInput { given: &twice, ..input }, &few(), &mut Silent).unwrap_err();
+    assert_eq!(error, MatchError::Coincident { pairs: [0, 1] });
+    let missing = [[VertexId(0), VertexId(u32::MAX)]];
+    let error = match_landmarks(MatchInput { given: &missing, ..input }, &few(), &mut Silent).unwrap_err();
+    assert!(matches!(error, MatchError::MissingVertex { pair: 0, .. }), "{error}");
+}
+
+#[test]
+fn a_ball_is_never_sure_and_three_pairs_on_it_lead_to_a_map() {
+    let ball = icosphere(3);
+    let found = matched(&ball, &ball);
+    let Verdict::Unknown { places } = &found.verdict else { panic!("{:?}", found.verdict) };
+    assert_eq!(places.len(), 3);
+    let given = [[VertexId(0); 2], [VertexId(3); 2], [VertexId(7); 2]];
+    let found =
+        match_landmarks(MatchInput { given: &given, ..MatchInput::new(&ball, &ball) }, &few(), &mut Silent)
+            .unwrap();
+    assert_ne!(found.verdict, Verdict::Sure);
+    let best = &found.candidates[0];
+    assert_eq!(best.pairs.len(), 4);
+    // The fourth point is found on the right side of the plane of the others.
+    let last = best.pairs[3];
+    assert!(ball.positions()[last.source].distance(ball.positions()[last.target]) < 0.3, "{last:?}");
+}
+
+struct Stop;
+
+impl Monitor for Stop {
+    fn step(&mut self, _: Step) -> Result<(), Cancelled> {
+        Err(Cancelled)
+    }
+}
+
+#[test]
+fn it_stops_on_request() {
+    let ball = icosphere(2);
+    let error = match_landmarks(MatchInput::new(&ball, &ball), &few(), &mut Stop).unwrap_err();
+    assert_eq!(error, MatchError::Cancelled(Cancelled));
+}
