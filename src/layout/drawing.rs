@@ -1,6 +1,7 @@
 //! The growing drawing of one graph on two meshes: the same rotation system at every landmark.
 
-use super::bounds::{Allowance, Bounds};
+use super::allowance::Allowance;
+use super::bounds::{Bounds, worst};
 use super::error::LayoutError;
 use super::landmark_distances::LandmarkDistances;
 use super::path_search::{Bounded, EndStep, FoundPath, Node, PathSearch, Query, Sector};
@@ -57,7 +58,8 @@ impl<'a> Planner<'a> {
         monitor: &'a mut dyn Monitor,
     ) -> Self {
         let searches = [PathSearch::default(), PathSearch::default()];
-        let (bounds, allowance) = (Bounds::new(distances), Allowance::new(monitor));
+        let bounds = Bounds::new(distances.landmark_count(), distances.vertex_counts());
+        let allowance = Allowance::new(monitor);
         let mut planner = Self { searches, distances, midpoint_penalty, bounds, allowance };
         planner.begin();
         planner
@@ -65,7 +67,7 @@ impl<'a> Planner<'a> {
 
     /// A drawing begins, with its own allowance.
     pub fn begin(&mut self) {
-        self.allowance.renew(&self.bounds);
+        self.allowance.renew(self.bounds.steps);
     }
 
     /// Tells the monitor how far the drawing is.
@@ -73,7 +75,7 @@ impl<'a> Planner<'a> {
     /// # Errors
     /// [`LayoutError::Cancelled`].
     pub fn tell(&mut self, fraction: f64) -> Result<(), LayoutError> {
-        self.allowance.tell(fraction)
+        Ok(self.allowance.tell(fraction)?)
     }
 
     /// Draws a plan, where there is one, within the bounds.
@@ -87,9 +89,10 @@ impl<'a> Planner<'a> {
         plan: Option<Plan>,
     ) -> Result<(), LayoutError> {
         let no_path = LayoutError::NoPath { landmarks: ends };
-        let plan = plan.ok_or_else(|| self.allowance.fault(drawing, self.distances, no_path.clone()))?;
+        let plan = plan.ok_or_else(|| self.fault(drawing, no_path.clone()))?;
         drawing.draw(&plan).ok_or(no_path)?;
-        self.bounds.check(drawing, self.distances)
+        let vertices = drawing.sides.each_ref().map(|side| side.mesh.positions.len());
+        if self.bounds.has_room_for(vertices) { Ok(()) } else { Err(drawing.tangled(self.distances)) }
     }
 
     /// Whether the paths of a tree are straight enough.
@@ -97,7 +100,8 @@ impl<'a> Planner<'a> {
     /// # Errors
     /// [`LayoutError::Tangled`].
     pub fn check_tree(&self, drawing: &Drawing) -> Result<(), LayoutError> {
-        self.bounds.check_detour(drawing, self.distances)
+        let is_straight = drawing.detour(self.distances) <= self.bounds.detour;
+        if is_straight { Ok(()) } else { Err(drawing.tangled(self.distances)) }
     }
 
     /// Whether to finish with the drawings that are there.
@@ -112,7 +116,11 @@ impl<'a> Planner<'a> {
 
     /// Why no further path was found.
     pub fn fault(&self, drawing: &Drawing, otherwise: LayoutError) -> LayoutError {
-        self.allowance.fault(drawing, self.distances, otherwise)
+        match self.allowance.cancelled() {
+            Some(stop) => stop.into(),
+            None if self.allowance.is_left() => otherwise,
+            None => drawing.tangled(self.distances),
+        }
     }
 }
 
@@ -304,6 +312,27 @@ impl Drawing {
                 self.rotation[i].iter_mut().filter(|p| **p == last).for_each(|p| *p = path);
             }
         }
+    }
+
+    /// The sum of the detours of all paths ([`super::LayoutReport::detour`]).
+    pub fn detour(&self, distances: &LandmarkDistances) -> f64 {
+        (0..self.ends.len()).map(|path| self.detour_of(path, distances)).sum()
+    }
+
+    /// By how much a path is longer than the shortest one, on both meshes, in units of the shortest.
+    fn detour_of(&self, path: usize, distances: &LandmarkDistances) -> f64 {
+        let shortest = distances.between(self.ends[path]);
+        // 10 % is left to paths over vertices and midpoints, as in the report of a layout.
+        (0..2).map(|s| (self.sides[s].lengths[path] / shortest[s] - 1.1).max(0.0)).sum()
+    }
+
+    /// The error of a drawing that has become too large, with the landmarks whose paths wind most.
+    pub fn tangled(&self, distances: &LandmarkDistances) -> LayoutError {
+        let mut blame = vec![0.0; self.rotation.len()];
+        for (path, ends) in self.ends.iter().enumerate() {
+            ends.iter().for_each(|&landmark| blame[landmark] += self.detour_of(path, distances));
+        }
+        LayoutError::Tangled { near: worst(&blame) }
     }
 
     /// Replaces a path on one mesh by another in the sector beside it.
