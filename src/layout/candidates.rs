@@ -190,7 +190,7 @@ impl<'a> Candidates<'a> {
         let distances = &self.distances;
         let bounds = Bounds::new(distances.landmark_count(), distances.vertex_counts());
         if report.detour > bounds.detour {
-            return Err(drawing.tangled(distances));
+            return Err(drawing.tangled(distances).into());
         }
         let base = patches::base_of(&drawing, self.meshes[1], self.landmarks)?;
         let layout = patches::finish(drawing.clone(), base, self.meshes, report)?;

@@ -2,7 +2,7 @@
 
 use super::allowance::Allowance;
 use super::bounds::{Bounds, worst};
-use super::error::LayoutError;
+use super::drawing_fault::DrawingFault;
 use super::landmark_distances::LandmarkDistances;
 use super::path_search::{Bounded, EndStep, FoundPath, Node, PathSearch, Query, Sector};
 use super::refinable::RefinableMesh;
@@ -73,23 +73,23 @@ impl<'a> Planner<'a> {
     /// Tells the monitor how far the drawing is.
     ///
     /// # Errors
-    /// [`LayoutError::Cancelled`].
-    pub fn tell(&mut self, fraction: f64) -> Result<(), LayoutError> {
-        Ok(self.allowance.tell(fraction)?)
+    /// [`Cancelled`].
+    pub fn tell(&mut self, fraction: f64) -> Result<(), Cancelled> {
+        self.allowance.tell(fraction)
     }
 
     /// Draws a plan, where there is one, within the bounds.
     ///
     /// # Errors
-    /// [`LayoutError::Cancelled`], [`LayoutError::Tangled`], [`LayoutError::NoPath`]; the drawing is unusable then.
+    /// [`DrawingFault`]; the drawing is unusable then.
     pub fn draw(
         &self,
         drawing: &mut Drawing,
         ends: [usize; 2],
         plan: Option<Plan>,
-    ) -> Result<(), LayoutError> {
-        let no_path = LayoutError::NoPath { landmarks: ends };
-        let plan = plan.ok_or_else(|| self.fault(drawing, no_path.clone()))?;
+    ) -> Result<(), DrawingFault> {
+        let no_path = DrawingFault::NoPath { landmarks: ends };
+        let Some(plan) = plan else { return Err(self.fault(drawing).unwrap_or(no_path)) };
         drawing.draw(&plan).ok_or(no_path)?;
         let vertices = drawing.sides.each_ref().map(|side| side.mesh.positions.len());
         if self.bounds.has_room_for(vertices) { Ok(()) } else { Err(drawing.tangled(self.distances)) }
@@ -98,8 +98,8 @@ impl<'a> Planner<'a> {
     /// Whether the paths of a tree are straight enough.
     ///
     /// # Errors
-    /// [`LayoutError::Tangled`].
-    pub fn check_tree(&self, drawing: &Drawing) -> Result<(), LayoutError> {
+    /// [`DrawingFault::Tangled`].
+    pub fn check_tree(&self, drawing: &Drawing) -> Result<(), DrawingFault> {
         let is_straight = drawing.detour(self.distances) <= self.bounds.detour;
         if is_straight { Ok(()) } else { Err(drawing.tangled(self.distances)) }
     }
@@ -114,12 +114,11 @@ impl<'a> Planner<'a> {
         self.allowance.is_left()
     }
 
-    /// Why no further path was found.
-    pub fn fault(&self, drawing: &Drawing, otherwise: LayoutError) -> LayoutError {
+    /// Why searches found nothing, where it is not for want of a path.
+    pub fn fault(&self, drawing: &Drawing) -> Option<DrawingFault> {
         match self.allowance.cancelled() {
-            Some(stop) => stop.into(),
-            None if self.allowance.is_left() => otherwise,
-            None => drawing.tangled(self.distances),
+            Some(stop) => Some(DrawingFault::Cancelled(stop)),
+            None => (!self.allowance.is_left()).then(|| drawing.tangled(self.distances)),
         }
     }
 }
@@ -327,12 +326,12 @@ impl Drawing {
     }
 
     /// The error of a drawing that has become too large, with the landmarks whose paths wind most.
-    pub fn tangled(&self, distances: &LandmarkDistances) -> LayoutError {
+    pub fn tangled(&self, distances: &LandmarkDistances) -> DrawingFault {
         let mut blame = vec![0.0; self.rotation.len()];
         for (path, ends) in self.ends.iter().enumerate() {
             ends.iter().for_each(|&landmark| blame[landmark] += self.detour_of(path, distances));
         }
-        LayoutError::Tangled { near: worst(&blame) }
+        DrawingFault::Tangled { near: worst(&blame) }
     }
 
     /// Replaces a path on one mesh by another in the sector beside it.

@@ -12,6 +12,7 @@ mod bounds;
 mod candidates;
 mod draw;
 mod drawing;
+mod drawing_fault;
 mod error;
 mod isotopy;
 mod joint;
