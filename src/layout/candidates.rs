@@ -187,7 +187,11 @@ impl<'a> Candidates<'a> {
 
     pub(super) fn candidate(&self, drawing: Drawing) -> Result<Candidate, LayoutError> {
         let report = LayoutReport::of(&drawing, &self.distances);
-        Bounds::new(&self.distances).check_detour(&drawing, &self.distances)?;
+        let distances = &self.distances;
+        let bounds = Bounds::new(distances.landmark_count(), distances.vertex_counts());
+        if report.detour > bounds.detour {
+            return Err(drawing.tangled(distances).into());
+        }
         let base = patches::base_of(&drawing, self.meshes[1], self.landmarks)?;
         let layout = patches::finish(drawing.clone(), base, self.meshes, report)?;
         Ok(Candidate { layout, drawing })

@@ -1,7 +1,8 @@
 //! The growing drawing of one graph on two meshes: the same rotation system at every landmark.
 
-use super::bounds::{Allowance, Bounds};
-use super::error::LayoutError;
+use super::allowance::Allowance;
+use super::bounds::{Bounds, worst};
+use super::drawing_fault::DrawingFault;
 use super::landmark_distances::LandmarkDistances;
 use super::path_search::{Bounded, EndStep, FoundPath, Node, PathSearch, Query, Sector};
 use super::refinable::RefinableMesh;
@@ -57,7 +58,8 @@ impl<'a> Planner<'a> {
         monitor: &'a mut dyn Monitor,
     ) -> Self {
         let searches = [PathSearch::default(), PathSearch::default()];
-        let (bounds, allowance) = (Bounds::new(distances), Allowance::new(monitor));
+        let bounds = Bounds::new(distances.landmark_count(), distances.vertex_counts());
+        let allowance = Allowance::new(monitor);
         let mut planner = Self { searches, distances, midpoint_penalty, bounds, allowance };
         planner.begin();
         planner
@@ -65,39 +67,41 @@ impl<'a> Planner<'a> {
 
     /// A drawing begins, with its own allowance.
     pub fn begin(&mut self) {
-        self.allowance.renew(&self.bounds);
+        self.allowance.renew(self.bounds.steps);
     }
 
     /// Tells the monitor how far the drawing is.
     ///
     /// # Errors
-    /// [`LayoutError::Cancelled`].
-    pub fn tell(&mut self, fraction: f64) -> Result<(), LayoutError> {
+    /// [`Cancelled`].
+    pub fn tell(&mut self, fraction: f64) -> Result<(), Cancelled> {
         self.allowance.tell(fraction)
     }
 
     /// Draws a plan, where there is one, within the bounds.
     ///
     /// # Errors
-    /// [`LayoutError::Cancelled`], [`LayoutError::Tangled`], [`LayoutError::NoPath`]; the drawing is unusable then.
+    /// [`DrawingFault`]; the drawing is unusable then.
     pub fn draw(
         &self,
         drawing: &mut Drawing,
         ends: [usize; 2],
         plan: Option<Plan>,
-    ) -> Result<(), LayoutError> {
-        let no_path = LayoutError::NoPath { landmarks: ends };
-        let plan = plan.ok_or_else(|| self.allowance.fault(drawing, self.distances, no_path.clone()))?;
+    ) -> Result<(), DrawingFault> {
+        let no_path = DrawingFault::NoPath { landmarks: ends };
+        let Some(plan) = plan else { return Err(self.fault(drawing).unwrap_or(no_path)) };
         drawing.draw(&plan).ok_or(no_path)?;
-        self.bounds.check(drawing, self.distances)
+        let vertices = drawing.sides.each_ref().map(|side| side.mesh.positions.len());
+        if self.bounds.has_room_for(vertices) { Ok(()) } else { Err(drawing.tangled(self.distances)) }
     }
 
     /// Whether the paths of a tree are straight enough.
     ///
     /// # Errors
-    /// [`LayoutError::Tangled`].
-    pub fn check_tree(&self, drawing: &Drawing) -> Result<(), LayoutError> {
-        self.bounds.check_detour(drawing, self.distances)
+    /// [`DrawingFault::Tangled`].
+    pub fn check_tree(&self, drawing: &Drawing) -> Result<(), DrawingFault> {
+        let is_straight = drawing.detour(self.distances) <= self.bounds.detour;
+        if is_straight { Ok(()) } else { Err(drawing.tangled(self.distances)) }
     }
 
     /// Whether to finish with the drawings that are there.
@@ -110,9 +114,12 @@ impl<'a> Planner<'a> {
         self.allowance.is_left()
     }
 
-    /// Why no further path was found.
-    pub fn fault(&self, drawing: &Drawing, otherwise: LayoutError) -> LayoutError {
-        self.allowance.fault(drawing, self.distances, otherwise)
+    /// Why searches found nothing, where it is not for want of a path.
+    pub fn fault(&self, drawing: &Drawing) -> Option<DrawingFault> {
+        match self.allowance.cancelled() {
+            Some(stop) => Some(DrawingFault::Cancelled(stop)),
+            None => (!self.allowance.is_left()).then(|| drawing.tangled(self.distances)),
+        }
     }
 }
 
@@ -304,6 +311,27 @@ impl Drawing {
                 self.rotation[i].iter_mut().filter(|p| **p == last).for_each(|p| *p = path);
             }
         }
+    }
+
+    /// The sum of the detours of all paths ([`super::LayoutReport::detour`]).
+    pub fn detour(&self, distances: &LandmarkDistances) -> f64 {
+        (0..self.ends.len()).map(|path| self.detour_of(path, distances)).sum()
+    }
+
+    /// By how much a path is longer than the shortest one, on both meshes, in units of the shortest.
+    fn detour_of(&self, path: usize, distances: &LandmarkDistances) -> f64 {
+        let shortest = distances.between(self.ends[path]);
+        // 10 % is left to paths over vertices and midpoints, as in the report of a layout.
+        (0..2).map(|s| (self.sides[s].lengths[path] / shortest[s] - 1.1).max(0.0)).sum()
+    }
+
+    /// The error of a drawing that has become too large, with the landmarks whose paths wind most.
+    pub fn tangled(&self, distances: &LandmarkDistances) -> DrawingFault {
+        let mut blame = vec![0.0; self.rotation.len()];
+        for (path, ends) in self.ends.iter().enumerate() {
+            ends.iter().for_each(|&landmark| blame[landmark] += self.detour_of(path, distances));
+        }
+        DrawingFault::Tangled { near: worst(&blame) }
     }
 
     /// Replaces a path on one mesh by another in the sector beside it.

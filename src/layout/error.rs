@@ -1,5 +1,6 @@
 //! Why no layout was found.
 
+use super::drawing_fault::DrawingFault;
 use super::patches::PatchFault;
 use crate::monitor::Cancelled;
 
@@ -61,6 +62,16 @@ pub enum LayoutError {
     /// The paths do not bound discs.
     #[error("the patches are not valid: {0}")]
     Patches(#[from] PatchFault),
+}
+
+impl From<DrawingFault> for LayoutError {
+    fn from(fault: DrawingFault) -> Self {
+        match fault {
+            DrawingFault::Cancelled(stop) => Self::Cancelled(stop),
+            DrawingFault::NoPath { landmarks } => Self::NoPath { landmarks },
+            DrawingFault::Tangled { near } => Self::Tangled { near },
+        }
+    }
 }
 
 /// Where layouts failed, in words; landmarks are counted from 1.

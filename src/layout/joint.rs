@@ -48,7 +48,7 @@ pub(super) fn complete(
         planner.tell(drawing.ends.len() as f64 / wanted as f64)?;
         let Some(plan) = queue.next(drawing, planner) else {
             let stuck = LayoutError::Stuck { paths: drawing.ends.len(), wanted };
-            return Err(planner.fault(drawing, stuck));
+            return Err(planner.fault(drawing).map_or(stuck, LayoutError::from));
         };
         planner.draw(drawing, plan.ends, Some(plan))?;
     }

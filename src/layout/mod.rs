@@ -6,11 +6,13 @@
 //! never separates; then the shortest and straightest of the pairs not yet adjacent. Several orders are tried and the
 //! one with the least detours is kept.
 
+mod allowance;
 mod base_layout;
 mod bounds;
 mod candidates;
 mod draw;
 mod drawing;
+mod drawing_fault;
 mod error;
 mod isotopy;
 mod joint;

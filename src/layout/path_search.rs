@@ -4,7 +4,7 @@
 //! all paths; links run inside triangles. Midpoints cannot be blocked: a path exists whenever both ends lie on one face of
 //! the layout.
 
-use super::bounds::Allowance;
+use super::allowance::Allowance;
 use super::refinable::RefinableMesh;
 use crate::math::min_queue::{MinQueue, Queued};
 use crate::mesh::{HalfedgeId, VertexId};
