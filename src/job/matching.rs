@@ -26,6 +26,7 @@ pub enum FewLandmarks {
 
 /// Landmarks that the program found, stable as JSON. Vertices have the numbers of the files.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct MatchReport {
     /// How sure the first candidate is.
     pub verdict: VerdictReport,
@@ -35,8 +36,10 @@ pub struct MatchReport {
 
 /// How sure a match is.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct VerdictReport {
     /// `sure`, `doubtful` or `unknown`.
+    #[cfg_attr(all(feature = "web", target_arch = "wasm32"), tsify(type = "'sure' | 'doubtful' | 'unknown'"))]
     pub kind: &'static str,
     /// One sentence for the user, with what to do.
     pub sentence: String,
@@ -48,6 +51,7 @@ pub struct VerdictReport {
 
 /// Whether a vertex of the source belongs here or there.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct QuestionReport {
     /// A vertex of the source.
     pub source: usize,
@@ -59,8 +63,13 @@ pub struct QuestionReport {
 
 /// Pairs with what their coarse map says of them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct CandidateReport {
     /// The pairs: the given ones in their order, then the others.
+    #[cfg_attr(
+        all(feature = "web", target_arch = "wasm32"),
+        tsify(type = "[number | { face: number; barycentric: [number, number, number] }, number | { face: number; barycentric: [number, number, number] }][]")
+    )]
     pub pairs: Vec<[LandmarkPoint; 2]>,
     /// One name per pair.
     pub labels: Vec<String>,
@@ -82,6 +91,7 @@ pub struct CandidateReport {
 
 /// How a candidate differs from the best.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct DifferenceReport {
     /// What a user would call it.
     pub kind: DifferenceKind,

@@ -6,6 +6,7 @@ use crate::mesh::VertexId;
 
 /// What a user would call the difference of two candidates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "snake_case")]
 pub enum DifferenceKind {
     /// Every limb that has a partner on the other side of its body goes to that side.

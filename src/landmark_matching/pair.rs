@@ -4,6 +4,7 @@ use crate::mesh::VertexId;
 
 /// Where a pair comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "snake_case")]
 pub enum PairOrigin {
     /// It was given, and is held.

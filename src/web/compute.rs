@@ -58,7 +58,7 @@ const MESSAGE_INTERVAL: f64 = 33.0;
 const QUESTION_INTERVAL: f64 = 100.0;
 
 /// Tells the page how the run goes on and takes the time of each stage.
-struct Messenger<'a> {
+pub(super) struct Messenger<'a> {
     listener: &'a RunListener,
     /// Energy of the map that is being relaxed.
     energy: f64,
@@ -73,7 +73,7 @@ struct Messenger<'a> {
 }
 
 impl<'a> Messenger<'a> {
-    fn new(listener: &'a RunListener) -> Self {
+    pub(super) fn new(listener: &'a RunListener) -> Self {
         Self {
             listener,
             energy: f64::NAN,
@@ -87,7 +87,7 @@ impl<'a> Messenger<'a> {
     }
 
     /// The stages that the run will pass.
-    fn plan(&mut self, stages: Vec<PlannedStage>) {
+    pub(super) fn plan(&mut self, stages: Vec<PlannedStage>) {
         self.progress = Progress::new(stages);
     }
 

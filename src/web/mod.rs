@@ -4,6 +4,7 @@ mod compute;
 mod defects;
 mod files;
 mod landmark_files;
+mod matching;
 mod output_file;
 mod repair;
 mod saved;
