@@ -39,7 +39,10 @@ pub struct MatchReport {
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct VerdictReport {
     /// `sure`, `doubtful` or `unknown`.
-    #[cfg_attr(all(feature = "web", target_arch = "wasm32"), tsify(type = "'sure' | 'doubtful' | 'unknown'"))]
+    #[cfg_attr(
+        all(feature = "web", target_arch = "wasm32"),
+        tsify(type = "'sure' | 'doubtful' | 'unknown'")
+    )]
     pub kind: &'static str,
     /// One sentence for the user, with what to do.
     pub sentence: String,
@@ -68,7 +71,9 @@ pub struct CandidateReport {
     /// The pairs: the given ones in their order, then the others.
     #[cfg_attr(
         all(feature = "web", target_arch = "wasm32"),
-        tsify(type = "[number | { face: number; barycentric: [number, number, number] }, number | { face: number; barycentric: [number, number, number] }][]")
+        tsify(
+            type = "[number | { face: number; barycentric: [number, number, number] }, number | { face: number; barycentric: [number, number, number] }][]"
+        )
     )]
     pub pairs: Vec<[LandmarkPoint; 2]>,
     /// One name per pair.
