@@ -159,6 +159,11 @@ impl Document {
         Ok(document)
     }
 
+    /// Whether positions may be whole numbers.
+    pub(super) fn is_quantised(&self) -> bool {
+        self.extensions_required.iter().any(|name| name == "KHR_mesh_quantization")
+    }
+
     /// The scene's nodes in their order with the number of the node above each; every node at most once.
     pub(super) fn tree(&self) -> Result<Vec<(usize, Option<usize>)>, String> {
         let scene = match self.scene {

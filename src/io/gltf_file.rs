@@ -155,6 +155,12 @@ impl Reader<'_> {
             Some(indices) => self.indices(&indices, accessor.count())?,
             None => (0..accessor.count() as u32).collect(),
         };
+        if mode == Mode::Triangles && indices.len() % 3 != 0 {
+            return Err(format!(
+                "its {} corners do not make whole triangles: the file may be cut off",
+                indices.len()
+            ));
+        }
         let polygon = |t: [u32; 3]| t.map(|i| start + i).to_vec();
         polygons.extend(triangles(mode, &indices).map(polygon));
         Ok(())
@@ -180,6 +186,9 @@ impl Reader<'_> {
             return Err("its positions are not three numbers each".into());
         }
         let kind = accessor.data_type();
+        if kind != DataType::F32 && !self.document.is_quantised() {
+            return Err("its positions are not floats".into());
+        }
         let divisor = if accessor.normalized() { normal_divisor(kind) } else { 1.0 };
         let point = |bytes: &[u8]| {
             let components: Vec<f64> = bytes.chunks_exact(kind.size()).map(|b| component(kind, b)).collect();

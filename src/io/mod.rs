@@ -87,10 +87,8 @@ fn check_numbers(soup: &PolygonSoup) -> Result<(), Problem> {
     // Products of three coordinates stay finite up to 1e100.
     let sane = |p: &glam::DVec3| p.is_finite() && p.abs().max_element() < 1e100;
     if let Some(v) = soup.positions.iter().position(|p| !sane(p)) {
-        return Err((
-            Place::Vertex(v),
-            format!("the coordinates {} are not usable numbers", soup.positions[v]),
-        ));
+        let [x, y, z] = soup.positions[v].to_array().map(short);
+        return Err((Place::Vertex(v), format!("the coordinates [{x}, {y}, {z}] are not usable numbers")));
     }
     for (f, polygon) in soup.polygons.iter().enumerate() {
         if polygon.len() < 3 {
@@ -105,6 +103,15 @@ fn check_numbers(soup: &PolygonSoup) -> Result<(), Problem> {
         }
     }
     Ok(())
+}
+
+/// A number without hundreds of digits.
+fn short(x: f64) -> String {
+    if x == 0.0 || (1e-6..1e15).contains(&x.abs()) || !x.is_finite() {
+        x.to_string()
+    } else {
+        format!("{x:e}")
+    }
 }
 
 #[cfg(test)]

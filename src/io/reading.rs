@@ -29,7 +29,7 @@ pub fn text(bytes: &[u8]) -> Result<Cow<'_, str>, Problem> {
         Cow::Borrowed(bytes) => std::str::from_utf8(bytes).map(Cow::Borrowed).ok(),
         Cow::Owned(bytes) => String::from_utf8(bytes).map(Cow::Owned).ok(),
     };
-    match (text, bytes.iter().position(|b| is_control(b))) {
+    match (text, bytes.iter().position(is_control)) {
         // Control characters in comments and names of good text do no harm, zeros show that it is none.
         (Some(text), _) if !text.contains('\0') => Ok(text),
         (None, None) => Ok(Cow::Owned(bytes.iter().map(|&b| char::from(b)).collect())),

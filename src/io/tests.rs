@@ -96,6 +96,140 @@ fn every_format_gives_the_same_tetrahedron() {
     samples().iter().for_each(|bytes| drop(tetrahedron_of(bytes)));
 }
 
+/// A glTF of one primitive whose accessor 0 has the positions and accessor 1 the indices.
+fn gltf_of(parts: &[&[u8]], positions: &str, indices: &str, mode: u32, extension: &str) -> Vec<u8> {
+    let mut views = Vec::new();
+    for (k, part) in parts.iter().enumerate() {
+        let offset: usize = parts[..k].iter().map(|part| part.len()).sum();
+        views.push(format!("{{\"buffer\":0,\"byteOffset\":{offset},\"byteLength\":{}}}", part.len()));
+    }
+    let buffer = parts.concat();
+    let code = base64::Engine::encode(&base64::engine::general_purpose::STANDARD, &buffer);
+    format!(
+        r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[1]}}],"extensionsRequired":["{extension}"],
+        "nodes":[{{"mesh":0,"scale":[2,2,2]}},{{"children":[0],"scale":[0.5,0.5,0.5],"translation":[7,0,0]}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1,"mode":{mode}}}]}}],
+        "accessors":[{positions},{indices}],"bufferViews":[{}],
+        "buffers":[{{"byteLength":{},"uri":"data:;base64,{code}"}}]}}"#,
+        views.join(","),
+        buffer.len()
+    )
+    .into_bytes()
+}
+
+#[test]
+fn gltf_positions_and_triangles_come_in_many_ways() {
+    let floats: Vec<u8> =
+        [0.0_f32, 0., 0., 1., 0., 0., 0., 1., 0., 0., 0., 1.].iter().flat_map(|x| x.to_le_bytes()).collect();
+    let list = [0_u8, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];
+    let whole = r#"{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}"#;
+    let bytes =
+        |count: usize| format!(r#"{{"bufferView":1,"componentType":5121,"count":{count},"type":"SCALAR"}}"#);
+    let texture = "KHR_texture_transform";
+    tetrahedron_of(&gltf_of(&[&floats, &list], whole, &bytes(12), 4, texture));
+    let strip = [0_u8, 2, 1, 3, 0, 2];
+    tetrahedron_of(&gltf_of(&[&floats, &strip], whole, &bytes(6), 5, "KHR_materials_unlit"));
+
+    let shorts: Vec<u8> =
+        [0_i16, 0, 0, 32767, 0, 0, 0, 32767, 0, 0, 0, 32767].iter().flat_map(|x| x.to_le_bytes()).collect();
+    let quantised = r#"{"bufferView":0,"componentType":5122,"normalized":true,"count":4,"type":"VEC3"}"#;
+    tetrahedron_of(&gltf_of(&[&shorts, &list], quantised, &bytes(12), 4, "KHR_mesh_quantization"));
+
+    let sparse = r#"{"componentType":5126,"count":4,"type":"VEC3","sparse":{"count":3,
+        "indices":{"bufferView":2,"componentType":5121},"values":{"bufferView":0,"byteOffset":12}}}"#;
+    tetrahedron_of(&gltf_of(&[&floats, &list, &[1, 2, 3]], sparse, &bytes(12), 4, texture));
+
+    let says = |file: &[u8]| read_mesh(file).unwrap_err().to_string();
+    let broken = [
+        (gltf_of(&[&shorts, &list], quantised, &bytes(12), 4, texture), "its positions are not floats"),
+        (
+            gltf_of(&[&floats, &list, &[1, 2, 4]], sparse, &bytes(12), 4, texture),
+            "sparse element 4 is not there",
+        ),
+        (
+            gltf_of(&[&floats, &[0, 2, 9]], whole, &bytes(3), 4, texture),
+            "it names vertex 9, but has 4 vertices",
+        ),
+        (
+            gltf_of(&[&floats, &list], whole, &bytes(13), 4, texture),
+            "accessor 1 reaches past the end of its view",
+        ),
+        (
+            gltf_of(&[&floats, &list], whole, &bytes(11), 4, texture),
+            "its 11 corners do not make whole triangles",
+        ),
+        (gltf_of(&[&floats, &list], whole, &bytes(12), 7, texture), "its mode 7 is unknown"),
+        (gltf_of(&[&floats, &list], whole, &bytes(12), 4, "EXT_meshopt_compression"), "packed by meshopt"),
+        (
+            gltf_of(&[&floats, &list], whole, &bytes(12), 4, "ACME_shape"),
+            "it requires the extension ACME_shape",
+        ),
+    ];
+    for (file, words) in broken {
+        let sentence = says(&file);
+        assert!(sentence.contains(words), "{sentence}");
+    }
+}
+
+#[test]
+fn text_formats_have_many_forms() {
+    let faces = "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+    let files = [
+        OFF.replace("OFF\n", ""),
+        OFF.replace('\n', "\r"),
+        OFF.replace("# a comment\n", "").replace('\n', " "),
+        OFF.replace("OFF\n# a comment\n", "OFF"),
+        format!("4OFF\n4 4 6\n0 0 0 2\n2 0 0 2\n0 2 0 2\n0 0 2 2\n{faces}"),
+        format!("nOFF 3\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n{faces}"),
+        format!(
+            "CNOFF 4 4 6 {} {}",
+            ["0 0 0", "1 0 0", "0 1 0", "0 0 1"].map(|p| format!("{p} 0 0 1 1 1 1 1")).join(" "),
+            faces.replace('\n', " ")
+        ),
+        OBJ.replace("f 2 3 4", "f 2 \\\n 3 \\\r\n4 # the third"),
+        format!("{}vp 0.5\nl 1 2\np 3\n{OBJ}", "# \u{fc}ber C:\\\n".repeat(2000)),
+        ascii_stl().to_uppercase(),
+    ];
+    for file in files {
+        tetrahedron_of(file.as_bytes());
+        // Not UTF-8, and UTF-16.
+        let latin1: Vec<u8> = file.chars().map(|c| c as u8).collect();
+        tetrahedron_of(&latin1);
+        let utf16: Vec<u8> = format!("\u{feff}{file}").encode_utf16().flat_map(u16::to_le_bytes).collect();
+        tetrahedron_of(&utf16);
+    }
+    let says = |text: &str| read_mesh(text.as_bytes()).unwrap_err().to_string();
+    assert!(says("4OFF\n1 0 0\n1 2 3 0\n").contains("it lies at infinity"));
+    assert!(says("nOFF 5\n1 0 0\n1 2 3 4 5\n").contains("its vertices have 5 coordinates"));
+    let stl = ascii_stl();
+    assert!(says(&stl[..stl.len() - 12]).contains("cut off"));
+    let binary = binary_stl(b"binary");
+    tetrahedron_of(&[&binary[..], &[0; 7]].concat());
+    let cut = read_mesh(&binary[..binary.len() - 1]).unwrap_err().to_string();
+    assert_eq!(cut, "STL file, header: it announces 4 triangles and has 3: the file is cut off");
+}
+
+#[test]
+fn ply_headers_are_read_from_any_system() {
+    let text = String::from_utf8(ply("ascii")).unwrap();
+    tetrahedron_of(text.replace('\n', "\r").as_bytes());
+    tetrahedron_of(text.replace('\n', "\r\n").as_bytes());
+    let binary = ply("binary_little_endian");
+    let end = binary.windows(11).position(|word| word == b"end_header\n").unwrap() + 11;
+    for line_end in ["\r", "\r\n"] {
+        let header = String::from_utf8(binary[..end].to_vec()).unwrap().replace('\n', line_end);
+        tetrahedron_of(&[header.as_bytes(), &binary[end..]].concat());
+    }
+    let commented = text.replace("element face", "comment \u{e9}\nelement face");
+    let latin1: Vec<u8> = commented.chars().map(|c| c as u8).collect();
+    tetrahedron_of(&latin1);
+    let says = |text: String| read_mesh(text.as_bytes()).unwrap_err().to_string();
+    assert!(says(text.replace("float z", "float y")).contains("its name is there twice"));
+    assert!(says(text.replace("float z", "float w")).contains("its vertices have no coordinate z"));
+    assert!(says(text.replace("vertex_indices", "vertices")).contains("no list vertex_indices"));
+    assert!(says(text.replace("end_header\n", "")).contains("end_header"));
+}
+
 #[test]
 fn joined_vertices_keep_the_files_numbers() {
     // Corner k of triangle t is vertex 3 t + k.

@@ -47,11 +47,12 @@ pub fn write_all<'a>(
     folder: &Path,
     files: impl IntoIterator<Item = Result<(&'a str, Vec<u8>), Failure>>,
 ) -> Result<(), Failure> {
-    let write_one = |file: Result<(&str, Vec<u8>), Failure>| {
-        let (name, bytes) = file?;
-        write(&folder.join(name), &bytes)
-    };
-    files.into_iter().fold(Ok(()), |so_far, file| so_far.and(write_one(file)))
+    let mut first = Ok(());
+    for file in files {
+        let written = file.and_then(|(name, bytes)| write(&folder.join(name), &bytes));
+        first = first.and(written);
+    }
+    first
 }
 
 /// Writes a file, with the folder above it.

@@ -1,6 +1,6 @@
 //! What the program says on standard error, and the results that it prints on standard output.
 
-use crate::input::Failure;
+use std::error::Error;
 use std::fmt::Display;
 use std::io::Write;
 
@@ -10,7 +10,7 @@ pub fn say(line: impl Display) {
 }
 
 /// Prints a result on standard output; an error where it cannot be.
-pub fn print(text: impl Display) -> Result<(), Failure> {
+pub fn print(text: impl Display) -> Result<(), Box<dyn Error>> {
     let mut output = std::io::stdout().lock();
     let printed = writeln!(output, "{text}").and_then(|()| output.flush());
     printed.map_err(|e| format!("standard output: {e}").into())
