@@ -10,7 +10,7 @@ use conemap::landmark_matching::{
     Candidate, CoarsePicture, LandmarkMatch, MatchInput, MatchOptions, Verdict, match_landmarks,
 };
 use conemap::landmarks::Landmarks;
-use conemap::math::random::Random;
+use conemap::math::random::SplitMix as Random;
 use conemap::mesh::mirror::mirrored;
 use conemap::mesh::surface_index::SurfaceIndex;
 use conemap::mesh::{SurfaceMesh, SurfacePoint, VertexId};
