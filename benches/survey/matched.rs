@@ -10,7 +10,7 @@ use conemap::landmark_matching::{
     Candidate, CoarsePicture, LandmarkMatch, MatchInput, MatchOptions, Verdict, match_landmarks,
 };
 use conemap::landmarks::Landmarks;
-use conemap::math::random::SplitMix;
+use conemap::math::random::SplitMix as Random;
 use conemap::mesh::mirror::mirrored;
 use conemap::mesh::surface_index::SurfaceIndex;
 use conemap::mesh::{SurfaceMesh, SurfacePoint, VertexId};
@@ -145,7 +145,7 @@ impl Change {
                 known.name.push_str(" back");
             }
             Self::Turned(seed) => {
-                let mut random = SplitMix::new(seed);
+                let mut random = Random::new(seed);
                 let axis = DVec3::new(random.unit(), random.unit(), random.unit()) - 0.5;
                 let turn = DQuat::from_axis_angle(axis.normalize_or(DVec3::X), 6.0 * random.unit());
                 let scale = 0.1 + 10.0 * random.unit();
@@ -169,7 +169,7 @@ impl Change {
                 known.name.push_str(" remeshed");
             }
             Self::Noise(seed) => {
-                let mut random = SplitMix::new(seed);
+                let mut random = Random::new(seed);
                 let mesh = &known.meshes[1];
                 let mean = mesh.edges().map(|h| mesh.length(h)).sum::<f64>() / mesh.edge_count() as f64;
                 let mut to = |p: DVec3| {

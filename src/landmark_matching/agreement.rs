@@ -70,6 +70,7 @@ pub(super) fn turns_left([a, b, c]: [Rank; 3]) -> bool {
 mod tests {
     use super::*;
     use crate::geodesic::distances;
+    use crate::math::scalar::{cos, sin};
     use crate::mesh::generators::icosphere;
     use crate::mesh::mirror::mirrored;
     use glam::DVec3;
@@ -90,7 +91,7 @@ mod tests {
             ball.vertices().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
         };
         let marks: Vec<VertexId> = (0..5)
-            .map(|k| at(DVec3::new((1.3 * f64::from(k)).cos(), (1.3 * f64::from(k)).sin(), 0.3).normalize()))
+            .map(|k| at(DVec3::new(cos(1.3 * f64::from(k)), sin(1.3 * f64::from(k)), 0.3).normalize()))
             .collect();
         let root = at(DVec3::Z);
         let image = mirrored(&ball).unwrap();

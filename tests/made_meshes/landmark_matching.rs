@@ -82,7 +82,7 @@ fn turned_back(p: DVec3) -> DVec3 {
 fn renumbered(mesh: &SurfaceMesh) -> SurfaceMesh {
     let n = mesh.vertex_count();
     // A step that shares no factor with n visits every number once.
-    let step = (n / 2..n).find(|k| (2..=*k).all(|d| k % d != 0 || n % d != 0)).unwrap();
+    let step = (n / 2..n).find(|k| (2..=*k).all(|d| !k.is_multiple_of(d) || !n.is_multiple_of(d))).unwrap();
     let new = |v: VertexId| VertexId::from((v.index() * step) % n);
     let mut positions: TiVec<VertexId, DVec3> = vec![DVec3::ZERO; n].into();
     mesh.vertices().for_each(|v| positions[new(v)] = mesh.positions()[v]);
