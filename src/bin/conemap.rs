@@ -1,4 +1,4 @@
-//! The command line: `conemap check`, `map`, `query`, `report`, `export`, `suggest`, `flow`, `landmarks` and `remesh`.
+//! The command line: `conemap check`, `map`, `wrap`, `query`, `report`, `export`, `suggest`, `flow`, `landmarks` and `remesh`.
 //!
 //! Progress and errors go to standard error; the exit code is 0 only for a converged, certified result.
 #![allow(clippy::print_stderr, reason = "a command line prints")]
@@ -27,6 +27,8 @@ mod remesh;
 mod saved;
 #[path = "conemap/suggest.rs"]
 mod suggest;
+#[path = "conemap/wrap.rs"]
+mod wrap;
 
 use clap::Parser;
 use std::process::ExitCode;
@@ -36,6 +38,7 @@ fn main() -> ExitCode {
     let outcome = match &arguments.command {
         arguments::Command::Check(options) => check::run(options),
         arguments::Command::Map(options) => map::run(options),
+        arguments::Command::Wrap(options) => wrap::run(options),
         arguments::Command::Query(options) => query::run(options),
         arguments::Command::Report(options) => saved::report(options),
         arguments::Command::Export(options) => saved::export(options),

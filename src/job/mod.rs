@@ -10,13 +10,16 @@ mod mesh_file;
 mod outputs;
 mod saved;
 mod taken;
+mod wrapping;
 
+pub use crate::io::moved::Normals;
 pub use crate::mesh::mirror::TargetImage;
 pub use error::{JobError, JobFile};
 pub use mesh_file::{MeshFaults, MeshFileError, ReadMesh, read_mesh};
 pub use outputs::OutputFile;
 pub use saved::{MapFiles, OpenMap, OpenMapError};
 pub use taken::{OutputKind, TakenMap};
+pub use wrapping::{QuadAngles, WrapFileError, WrappedFile, WrappedFileReport};
 
 use crate::io::landmark_file::LandmarkFile;
 use crate::io::landmark_formats::Space;
