@@ -55,8 +55,8 @@ fn of_body(is_gone: impl Fn(DVec3) -> bool) -> (SurfaceMesh, SurfaceMesh, TiVec<
 fn a_lost_limb_follows_in_the_size_and_direction_of_the_body() {
     // Of the scan the limb is a flat cap: its places tell nothing.
     let (base, mut scan, caps) = of_body(|p| p.z > 1.05);
-    let flat =
-        |(v, p): (VertexId, &DVec3)| if base.positions()[v].z > 1.1 { moved(DVec3::Z * 1.1) } else { *p };
+    let is_inside = |v: VertexId| base.star(v).all(|h| caps[h.face()]);
+    let flat = |(v, p): (VertexId, &DVec3)| if is_inside(v) { moved(DVec3::Z * 1.1) } else { *p };
     scan = scan.with_positions(scan.positions().iter_enumerated().map(flat).collect());
     let map = identity(&base);
     let input = WrapInput {
