@@ -3,6 +3,7 @@
 use crate::arguments::Arguments;
 use crate::case::Limit;
 use crate::common::{self, Pair};
+use crate::punching::remove_around;
 use conemap::geodesic::distances;
 use conemap::landmarks::Landmarks;
 use conemap::mesh::check::CheckedMesh;
@@ -139,22 +140,6 @@ fn of_holes(arguments: &Arguments, pair: &Pair, holes: &Holes) -> Vec<Reached> {
         reached.extend(outcome);
     }
     reached
-}
-
-/// Marks the faces nearest to a vertex until they have a share of the area.
-fn remove_around(mesh: &SurfaceMesh, centre: VertexId, share: f64, removed: &mut TiVec<FaceId, bool>) {
-    let far = distances(mesh, &[centre]);
-    let farthest = |f: FaceId| mesh.triangles()[f].iter().map(|&v| far[v]).fold(0.0, f64::max);
-    let mut order: Vec<FaceId> = mesh.faces().collect();
-    order.sort_by(|&a, &b| farthest(a).total_cmp(&farthest(b)));
-    let mut left = share * mesh.area();
-    for f in order {
-        left -= mesh.face_area(f);
-        if left < 0.0 {
-            break;
-        }
-        removed[f] = true;
-    }
 }
 
 /// A mesh without some faces, as a user's file would be read.

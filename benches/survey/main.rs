@@ -8,6 +8,10 @@
 
 #[path = "../../tests/common/mod.rs"]
 mod common;
+#[path = "../../tests/common/punching.rs"]
+mod punching;
+#[path = "../../tests/common/quads.rs"]
+mod quads;
 
 mod arguments;
 mod case;
@@ -21,11 +25,13 @@ mod matched;
 mod pairs;
 mod remesh;
 mod remeshed;
+mod repaired;
 mod silence;
 mod stages;
 mod table;
 mod verify;
 mod watch;
+mod wrap;
 
 use arguments::Arguments;
 
@@ -73,6 +79,16 @@ const SURVEYS: &[Survey] = &[
         name: "holes",
         about: "poses with holes punched and capped, against the closed pairs; --variants 'foot 0.5','limb 10',... --cap-weight 1 counts caps like skin",
         run: holes::punched,
+    },
+    Survey {
+        name: "wrap",
+        about: "bases with quads laid onto scans with and without holes: distances, flipped triangles; --variants clean,'at 12',...",
+        run: wrap::bases,
+    },
+    Survey {
+        name: "repaired",
+        about: "files with faults, after the repairs that are offered, onto a partner or a remeshed, bent copy; --pairs NAME,...",
+        run: repaired::files,
     },
     Survey {
         name: "stages",

@@ -1,4 +1,4 @@
-//! The command line: `conemap check`, `map`, `match`, `query`, `report`, `verify`, `export`, `suggest`, `flow`, `landmarks` and `remesh`.
+//! The command line: `conemap check`, `map`, `match`, `wrap`, `query`, `report`, `verify`, `export`, `suggest`, `flow`, `landmarks` and `remesh`.
 //!
 //! Progress and errors go to standard error; the exit code is 0 only for a converged, certified result.
 
@@ -36,6 +36,8 @@ mod suggest;
 mod told;
 #[path = "conemap/verify.rs"]
 mod verify;
+#[path = "conemap/wrap.rs"]
+mod wrap;
 
 use clap::Parser;
 use std::process::ExitCode;
@@ -46,6 +48,7 @@ fn main() -> ExitCode {
         arguments::Command::Check(options) => check::run(options),
         arguments::Command::Map(options) => map::run(options),
         arguments::Command::Match(options) => matching::run(options),
+        arguments::Command::Wrap(options) => wrap::run(options),
         arguments::Command::Query(options) => query::run(options),
         arguments::Command::Report(options) => saved::report(options),
         arguments::Command::Verify(options) => verify::run(options),

@@ -10,6 +10,7 @@ mod gltf_file;
 pub mod gltf_parts;
 pub mod landmark_file;
 pub mod landmark_formats;
+pub mod moved;
 mod obj;
 mod off;
 mod other_file;

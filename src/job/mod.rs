@@ -12,7 +12,9 @@ mod outputs;
 mod proof;
 mod saved;
 mod taken;
+mod wrapping;
 
+pub use crate::io::moved::Normals;
 pub use crate::mesh::mirror::TargetImage;
 pub use conemap_verify::Proof;
 pub use error::{JobError, JobFile};
@@ -25,6 +27,7 @@ pub use outputs::OutputFile;
 pub use proof::{ProofError, prove};
 pub use saved::{MapFiles, OpenMap, OpenMapError};
 pub use taken::{OutputKind, TakenMap};
+pub use wrapping::{QuadAngles, WrapFileError, WrappedFile, WrappedFileReport};
 
 use crate::io::landmark_file::LandmarkFile;
 use crate::io::landmark_formats::Space;

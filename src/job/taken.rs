@@ -183,6 +183,11 @@ impl<'a> TakenMap<'a> {
         self.map
     }
 
+    /// Both meshes with what is known of their files.
+    pub fn meshes(&self) -> [&'a FileMesh; 2] {
+        self.meshes
+    }
+
     /// The meshes that are mapped.
     pub fn surfaces(&self) -> [&'a SurfaceMesh; 2] {
         self.meshes.map(FileMesh::mesh)

@@ -150,6 +150,11 @@ impl FileMesh {
         self.hash
     }
 
+    /// Whether these are the bytes of the file.
+    pub fn is_of(&self, bytes: &[u8]) -> bool {
+        self.hash == Hash::of(bytes)
+    }
+
     /// Hash of the checked mesh, not mirrored: see `docs/map-file.md`.
     pub fn checked_hash(&self) -> Hash {
         self.checked_hash

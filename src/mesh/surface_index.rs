@@ -53,10 +53,22 @@ impl<'a> SurfaceIndex<'a> {
     /// that is so.
     pub fn nearest_facing(&self, p: DVec3, normal: DVec3, near: FaceId) -> Nearest {
         let facing = |point: SurfacePoint| self.normal(point).dot(normal) > 0.0;
+        let any = || self.search(p, self.in_face(p, near), |_| true);
+        self.nearest_where(p, near, facing).unwrap_or_else(any)
+    }
+
+    /// The nearest point among those that are allowed; `None` where there is none. The search begins in the face `near` and is fast
+    /// where that is so.
+    pub fn nearest_where(
+        &self,
+        p: DVec3,
+        near: FaceId,
+        allowed: impl Fn(SurfacePoint) -> bool,
+    ) -> Option<Nearest> {
         let first = self.in_face(p, near);
-        let begin = if facing(first.point) { first } else { Nearest { distance: f64::MAX, ..first } };
-        let found = self.search(p, begin, facing);
-        if found.distance < f64::MAX { found } else { self.search(p, first, |_| true) }
+        let begin = if allowed(first.point) { first } else { Nearest { distance: f64::MAX, ..first } };
+        let found = self.search(p, begin, allowed);
+        (found.distance < f64::MAX).then_some(found)
     }
 
     /// The nearest point of one face.

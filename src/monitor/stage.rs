@@ -38,6 +38,8 @@ pub enum Stage {
     Remeshing,
     /// Vertices that are worth a landmark are looked for.
     Suggestion,
+    /// A base mesh is laid onto a scan.
+    Wrapping,
 }
 
 impl Stage {
@@ -59,6 +61,7 @@ impl Stage {
             Self::Transfer => "Carrying the texture over",
             Self::Remeshing => "Making new triangles",
             Self::Suggestion => "Looking for places that are worth a landmark",
+            Self::Wrapping => "Laying the base onto the scan",
         }
     }
 }

@@ -4,10 +4,10 @@
 //! points. A solve from x = 0 allocates nothing when its [`CgWorkspace`] has been used before. Not converged is an error; x is
 //! the last iterate then, and it is for the caller to say whether that is of use.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use std::ops::{Add, AddAssign, Mul, SubAssign};
 
-/// An entry of the vectors of a system: a number, or a point of the plane.
+/// An entry of the vectors of a system: a number, or a point of the plane or of space.
 pub trait Entry: Copy + AddAssign + SubAssign + Add<Output = Self> + Mul<f64, Output = Self> {
     /// Zero.
     const ZERO: Self;
@@ -26,6 +26,15 @@ impl Entry for f64 {
 }
 
 impl Entry for DVec2 {
+    const ZERO: Self = Self::ZERO;
+
+    #[inline]
+    fn dot(self, other: Self) -> f64 {
+        self.dot(other)
+    }
+}
+
+impl Entry for DVec3 {
     const ZERO: Self = Self::ZERO;
 
     #[inline]

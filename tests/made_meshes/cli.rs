@@ -3,6 +3,7 @@
 use crate::command_line::{a_failed_flow_reports, conemap, cones, errors, folder, json, map_and_check};
 use crate::common;
 use crate::fixtures;
+use crate::quads::obj_with_quads;
 use conemap::export;
 use conemap::io::{self, landmark_file};
 use conemap::mesh::check::closed_genus_zero;
@@ -581,6 +582,58 @@ fn handles_are_told_and_cut_when_that_is_asked_for() {
     assert_eq!(report["cap_share"], change["area_share"]);
     let again = conemap([check, fixed.as_os_str()]);
     assert_eq!(String::from_utf8_lossy(&again.stdout), "can be mapped as it is\n");
+}
+
+fn wrap<'a>([base, scan, pairs]: [&'a Path; 3], out: &'a Path, flags: &[&'a str]) -> std::process::Output {
+    let [command, landmarks, to] = ["wrap", "--landmarks", "--out"].map(OsStr::new);
+    let mut arguments = vec![command, base.as_os_str(), scan.as_os_str()];
+    arguments.extend([landmarks, pairs.as_os_str(), to, out.as_os_str()]);
+    arguments.extend(flags.iter().map(OsStr::new));
+    conemap(arguments)
+}
+
+#[test]
+fn a_base_is_laid_onto_a_scan() {
+    let folder = folder("a_base_is_laid_onto_a_scan");
+    let [base, scan, pairs] = write_bodies(&folder);
+    let text = obj_with_quads(&octasphere(), |_| true);
+    std::fs::write(&base, &text).unwrap();
+    let (out, report) = (folder.join("new/wrapped.obj"), folder.join("report.json"));
+    let flags = ["--drop-normals", &format!("--report={}", report.display())];
+    let output = wrap([&base, &scan, &pairs], &out, &flags);
+    assert!(output.status.success(), "{}", errors(&output));
+    for words in ["certified bijective", "wrapped: ", "distance to the scan: mean", "quads: largest angle"] {
+        assert!(errors(&output).contains(words), "{words}: {}", errors(&output));
+    }
+    assert!(!errors(&output).contains("normals"), "{}", errors(&output));
+    let wrapped = std::fs::read_to_string(&out).unwrap();
+    assert!(!wrapped.contains("vn ") && wrapped.contains("usemtl skin0"));
+    let [before, after] = [&text[..], wrapped.as_bytes()].map(|bytes| io::read_mesh(bytes).unwrap());
+    assert_eq!(before.polygons, after.polygons);
+    // On the egg, whose vertices are farther apart than those of the ball.
+    let off = |p: &DVec3| ((*p / DVec3::new(1.0, 1.3, 0.9)).length() - 1.0).abs();
+    assert!(after.positions.iter().all(|p| off(p) < 0.05));
+    let report = json(&report);
+    assert_eq!(report["map"]["certificate"]["bijective"], true);
+    assert_eq!(report["wrap"]["flipped_triangles"], 0);
+    assert!(report["wrap"]["distance"]["from_scan"]["p95"].as_f64().unwrap() < 0.01);
+    assert!(report["wrap"]["quads"]["largest"].as_f64().unwrap() > 90.0);
+}
+
+#[test]
+fn a_base_without_lines_to_keep_is_refused_before_the_work() {
+    let folder = folder("a_base_without_lines_to_keep_is_refused_before_the_work");
+    let [base, scan, pairs] = write_bodies(&folder);
+    let ply = folder.join("base.ply");
+    std::fs::write(&ply, export::ply::mesh(&octasphere())).unwrap();
+    let refused = |base: &Path, out: &str, words: &str| {
+        let output = wrap([base, &scan, &pairs], &folder.join(out), &[]);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(errors(&output).contains(words), "{}", errors(&output));
+        assert!(!folder.join(out).exists());
+    };
+    refused(&ply, "out.ply", "base.ply: lines can be kept of OBJ and OFF files only");
+    refused(&base, "out.off", "its name must end in .obj");
 }
 
 #[test]

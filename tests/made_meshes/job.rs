@@ -33,6 +33,12 @@ impl Files {
         Self { source, target, landmarks: landmark_file::write(&file) }
     }
 
+    /// Takes other landmarks, pairs of vertices.
+    pub fn set_landmarks(&mut self, pairs: &[[u32; 2]]) {
+        let pairs = pairs.iter().map(|pair| pair.map(LandmarkPoint::Vertex)).collect();
+        self.landmarks = landmark_file::write(&LandmarkFile { pairs, ..LandmarkFile::default() });
+    }
+
     fn read(&self, monitor: &mut dyn Monitor) -> Result<Job, JobError> {
         let Self { source, target, landmarks } = self;
         let landmarks = [GivenFile { name: "landmarks.json", bytes: landmarks }];

@@ -14,6 +14,8 @@ mod distance_bounds;
 mod fit;
 #[path = "../common/points.rs"]
 mod points;
+#[path = "../common/quads.rs"]
+mod quads;
 #[path = "../common/remeshing.rs"]
 mod remeshing;
 #[path = "../common/theorems.rs"]
@@ -47,3 +49,4 @@ mod remesh;
 mod repair;
 mod search;
 mod thesis;
+mod wrap;

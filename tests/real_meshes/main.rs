@@ -20,6 +20,10 @@ mod distance_bounds;
 mod fit;
 #[path = "../common/points.rs"]
 mod points;
+#[path = "../common/punching.rs"]
+mod punching;
+#[path = "../common/quads.rs"]
+mod quads;
 #[path = "../common/remeshing.rs"]
 mod remeshing;
 #[path = "../common/theorems.rs"]
@@ -54,6 +58,7 @@ mod remesh;
 mod repair;
 mod search;
 mod thesis;
+mod wrap;
 
 /// Takes the data folder; fails by a panic.
 type Test = fn(&Path);
@@ -72,6 +77,7 @@ fn modules() -> Vec<(&'static str, Vec<(&'static str, Test)>)> {
         ("search", search::tests()),
         ("limbs", limbs::tests()),
         ("clicks", clicks::tests()),
+        ("wrap", wrap::tests()),
         ("flow", flow::tests()),
         ("thesis", thesis::tests()),
         ("remesh", remesh::tests()),

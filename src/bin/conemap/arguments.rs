@@ -28,6 +28,8 @@ pub enum Command {
     Map(MapArguments),
     /// Find landmark pairs of two meshes, with their alternatives and how sure they are.
     Match(MatchArguments),
+    /// Lay a base mesh onto a scan: its own vertices, polygons and texture coordinates in the scan's shape.
+    Wrap(WrapArguments),
     /// Answer images of points from a map file, without computing.
     Query(QueryArguments),
     /// Measure the map of a map file anew, from its pieces alone.
@@ -180,6 +182,40 @@ pub struct MatchArguments {
     /// What becomes of meshes with faults.
     #[command(flatten)]
     pub faults: FaultArguments,
+}
+
+/// `conemap wrap`.
+#[derive(Debug, Args)]
+pub struct WrapArguments {
+    /// Base mesh: OBJ or OFF, whose lines are kept but for the places of its vertices; repaired for the map where it is not closed.
+    pub base: PathBuf,
+    /// Scan that it is laid onto.
+    #[arg(help = mesh_help("Scan that it is laid onto"))]
+    pub scan: PathBuf,
+    /// The scan's landmark file, where --landmarks names that of the base.
+    pub scan_landmarks: Option<PathBuf>,
+    /// Landmark file of base and scan.
+    #[arg(long, value_name = "FILE", help = landmarks_help("Landmark file of base and scan"))]
+    pub landmarks: PathBuf,
+    /// File for the wrapped base, in the format of the base's file.
+    #[arg(long)]
+    pub out: PathBuf,
+    /// Leave out the base's normals, which are those of its own shape, so that programs make new ones.
+    #[arg(long)]
+    pub drop_normals: bool,
+    /// What is chosen of the run.
+    #[command(flatten)]
+    pub choices: Choices,
+    /// Finish from then on with the best map so far: less relaxed, but whole and certified. Ctrl-C does the same; pressed
+    /// twice it ends without a map.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub time_limit: Option<Duration>,
+    /// What becomes of meshes with faults.
+    #[command(flatten)]
+    pub faults: FaultArguments,
+    /// File for the report (JSON): that of the map, and that of the wrapped base.
+    #[arg(long)]
+    pub report: Option<PathBuf>,
 }
 
 /// A map file with the meshes that it was made with.

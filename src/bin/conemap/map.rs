@@ -7,22 +7,17 @@ use crate::told::say;
 use crate::{interrupt, matching, outputs};
 use conemap::job::{FewLandmarks, Job, JobError, JobFile, JobFiles, OutputKind, ReadOptions, TargetImage};
 use conemap::monitor::{PlannedStage, Stage};
-use conemap::pipeline::{FindingReport, MapResult, Method, PipelineOptions, RepairKind};
+use conemap::pipeline::{Choices, FindingReport, MapResult, Method, PipelineOptions, RepairKind};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// Maps, writes what was asked for, and tells the certificate; an error where there is no certified map.
 pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
     let options = PipelineOptions::from(arguments.choices);
     check_outputs(arguments, options.method)?;
-    let mut clock = Clock::start();
-    // From the first byte on. The thesis' method has nothing to shorten.
-    if options.method == Method::Relaxed {
-        clock.ask_for_result(arguments.time_limit, interrupt::listen());
-    }
-    if let Some(time) = arguments.deadline {
-        clock.end_within(time);
-    }
-    let made = made(arguments, &options, &mut clock);
+    let asked = Asked::from(arguments);
+    let mut clock = asked.clock();
+    let made = made(arguments, &asked, &mut clock);
     let (job, mut result) = made.map_err(|error| clock.missed_deadline().map_or(error, Failure::from))?;
     result.report.set_seconds(clock.stop());
     tell(&result);
@@ -65,14 +60,8 @@ fn write_folder(arguments: &MapArguments, job: &Job, result: &MapResult) -> Resu
 }
 
 /// Reads the files and makes the map.
-fn made(
-    arguments: &MapArguments,
-    options: &PipelineOptions,
-    clock: &mut Clock,
-) -> Result<(Job, MapResult), Failure> {
-    clock.plan(vec![PlannedStage { stage: Stage::Matching, time: 1.0 }]);
-    let job = read(arguments, clock)?;
-    clock.suspend(|| job.matching().into_iter().for_each(matching::tell));
+fn made(arguments: &MapArguments, asked: &Asked<'_>, clock: &mut Clock) -> Result<(Job, MapResult), Failure> {
+    let job = asked.read(clock)?;
     if arguments.map.is_some() && !job.has_map_file() {
         return Err(
             "--map: a mesh was repaired, and a map file tells of meshes as their files have them: save the repaired mesh by \
@@ -80,43 +69,94 @@ fn made(
                 .into(),
         );
     }
-    clock.suspend(|| {
-        job.landmark_remarks().iter().for_each(|remark| say(format_args!("landmarks: {remark}")))
-    });
-    clock.plan(options.stages(job.landmark_count()));
-    let findings = job.findings(clock)?;
-    clock.suspend(|| findings.iter().for_each(tell_finding));
-    let mut result = job.run(options, clock)?;
-    result.report.findings = findings;
+    let result = asked.map(&job, clock)?;
     Ok((job, result))
 }
 
-/// Reads the files; a fault is told with the file's name.
-fn read(arguments: &MapArguments, clock: &mut Clock) -> Result<Job, Failure> {
-    let [source, target] = [&arguments.source, &arguments.target];
-    let landmarks: Vec<&PathBuf> = arguments.landmarks.iter().chain(&arguments.target_landmarks).collect();
-    let bytes = [input::mesh_bytes(source)?, input::mesh_bytes(target)?];
-    let landmark_files = input::NamedFiles::read(&landmarks)?;
-    let files = JobFiles { source: &bytes[0], target: &bytes[1], landmarks: &landmark_files.given() };
-    let target_image = if arguments.mirror_target { TargetImage::Mirrored } else { TargetImage::AsGiven };
-    let options = ReadOptions {
-        target_image,
-        mesh_faults: arguments.faults.into(),
-        few_landmarks: FewLandmarks::Matched,
-    };
-    let job = Job::read(files, options, clock).map_err(|error: JobError| {
-        let file = match error.file() {
-            Some(JobFile::Source) => Some(source),
-            Some(JobFile::Target) => Some(target),
-            Some(JobFile::Landmarks(number)) => landmarks.get(number).copied(),
-            None => None,
-        };
-        file.map_or_else(|| error.to_string(), |path| format!("{}: {error}", path.display()))
-    });
-    let mut job = job?;
-    let names = [source, target].map(|path| path.to_string_lossy());
-    job.compare_names(names.each_ref().map(|name| &**name));
-    Ok(job)
+/// A map that is asked for.
+pub struct Asked<'a> {
+    /// Source and target.
+    pub meshes: [&'a PathBuf; 2],
+    /// One landmark file of both, or one of each; none where the program is to find the landmarks.
+    pub landmarks: Vec<&'a PathBuf>,
+    /// How the files are read.
+    pub options: ReadOptions,
+    /// What is chosen of the run.
+    pub choices: Choices,
+    /// Time from the start after which the run is to finish.
+    pub time_limit: Option<Duration>,
+    /// Time from the start after which the program is to have ended.
+    pub deadline: Option<Duration>,
+}
+
+impl<'a> From<&'a MapArguments> for Asked<'a> {
+    fn from(arguments: &'a MapArguments) -> Self {
+        let target_image = if arguments.mirror_target { TargetImage::Mirrored } else { TargetImage::AsGiven };
+        Self {
+            meshes: [&arguments.source, &arguments.target],
+            landmarks: arguments.landmarks.iter().chain(&arguments.target_landmarks).collect(),
+            options: ReadOptions {
+                target_image,
+                mesh_faults: arguments.faults.into(),
+                few_landmarks: FewLandmarks::Matched,
+            },
+            choices: arguments.choices,
+            time_limit: arguments.time_limit,
+            deadline: arguments.deadline,
+        }
+    }
+}
+
+impl Asked<'_> {
+    /// A clock that holds what was asked of the time, from the first byte on.
+    pub fn clock(&self) -> Clock {
+        let mut clock = Clock::start();
+        // The thesis' method has nothing to shorten.
+        if self.choices.method == Method::Relaxed {
+            clock.ask_for_result(self.time_limit, interrupt::listen());
+        }
+        if let Some(time) = self.deadline {
+            clock.end_within(time);
+        }
+        clock.plan(vec![PlannedStage { stage: Stage::Matching, time: 1.0 }]);
+        clock
+    }
+
+    /// Reads the files; a fault is told with the file's name. Landmarks that the program found are told.
+    pub fn read(&self, clock: &mut Clock) -> Result<Job, Failure> {
+        let [source, target] = self.meshes;
+        let bytes = [input::mesh_bytes(source)?, input::mesh_bytes(target)?];
+        let landmark_files = input::NamedFiles::read(&self.landmarks)?;
+        let files = JobFiles { source: &bytes[0], target: &bytes[1], landmarks: &landmark_files.given() };
+        let job = Job::read(files, self.options, clock).map_err(|error: JobError| {
+            let file = match error.file() {
+                Some(JobFile::Source) => Some(source),
+                Some(JobFile::Target) => Some(target),
+                Some(JobFile::Landmarks(number)) => self.landmarks.get(number).copied(),
+                None => None,
+            };
+            file.map_or_else(|| error.to_string(), |path| format!("{}: {error}", path.display()))
+        });
+        let mut job = job?;
+        clock.suspend(|| job.matching().into_iter().for_each(matching::tell));
+        let names = [source, target].map(|path| path.to_string_lossy());
+        job.compare_names(names.each_ref().map(|name| &**name));
+        Ok(job)
+    }
+
+    /// Makes the map; what there is to know about the landmarks is told, and is in the report.
+    pub fn map(&self, job: &Job, clock: &mut Clock) -> Result<MapResult, Failure> {
+        let options = PipelineOptions::from(self.choices);
+        clock.suspend(|| {
+            job.landmark_remarks().iter().for_each(|remark| say(format_args!("landmarks: {remark}")))
+        });
+        clock.plan(options.stages(job.landmark_count()));
+        let findings = job.findings(clock)?;
+        clock.suspend(|| findings.iter().for_each(tell_finding));
+        let mut result = job.run(&options, clock)?;
+        result.report.findings = findings;
+        Ok(result)
+    }
 }
 
 fn tell_finding(finding: &FindingReport) {
@@ -127,7 +167,8 @@ fn tell_finding(finding: &FindingReport) {
     say(format_args!("landmarks: {}{repair}", finding.sentence));
 }
 
-fn tell(result: &MapResult) {
+/// Tells the certificate and the measures.
+pub fn tell(result: &MapResult) {
     let report = &result.report;
     match &report.certificate {
         Some(c) => {
