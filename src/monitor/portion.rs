@@ -1,6 +1,6 @@
 //! A part of a stage that reports its own progress from 0 to 1.
 
-use super::{Cancelled, Monitor, Stage, Step};
+use super::{Cancelled, MapPreview, Monitor, Stage, Step};
 
 /// The monitor of a part of a stage: it passes the part's fractions on as fractions of the stage. They never fall, also where
 /// nested parts each begin at 0.
@@ -10,12 +10,26 @@ pub struct Portion<'a> {
     to: f64,
     /// The largest fraction of the part so far.
     done: f64,
+    previews: Previews,
+}
+
+/// What becomes of the previews of a part.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Previews {
+    Shown,
+    Hidden,
 }
 
 impl<'a> Portion<'a> {
     /// The part of the present stage of `monitor` that leads from the share `from` to the share `to` (0 to 1).
     pub fn new(monitor: &'a mut dyn Monitor, from: f64, to: f64) -> Self {
-        Self { monitor, from, to, done: 0.0 }
+        Self { monitor, from, to, done: 0.0, previews: Previews::Shown }
+    }
+
+    /// The same, but that its previews are not passed on: of maps that may be worse than one that was seen.
+    #[must_use]
+    pub fn unseen(self) -> Self {
+        Self { previews: Previews::Hidden, ..self }
     }
 }
 
@@ -30,6 +44,12 @@ impl Monitor for Portion<'_> {
 
     fn map_energy(&mut self, energy: f64) {
         self.monitor.map_energy(energy);
+    }
+
+    fn preview(&mut self, preview: &dyn MapPreview) {
+        if self.previews == Previews::Shown {
+            self.monitor.preview(preview);
+        }
     }
 
     fn wants_result(&self) -> bool {
