@@ -66,6 +66,8 @@ impl Monitor for Portion<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::monitor::PreviewOf;
+    use glam::DVec3;
 
     /// Remembers fractions.
     #[derive(Default)]
@@ -76,6 +78,40 @@ mod tests {
             self.0.push(step.fraction);
             Ok(())
         }
+    }
+
+    /// Counts previews, and asks none for images.
+    #[derive(Default)]
+    struct Counter(usize);
+
+    impl Monitor for Counter {
+        fn preview(&mut self, _preview: &dyn MapPreview) {
+            self.0 += 1;
+        }
+
+        fn step(&mut self, _step: Step) -> Result<(), Cancelled> {
+            Ok(())
+        }
+    }
+
+    /// Must not be asked.
+    struct Unasked;
+
+    impl MapPreview for Unasked {
+        fn images(&self, _of: PreviewOf) -> Option<Vec<DVec3>> {
+            panic!("nobody wanted images")
+        }
+    }
+
+    #[test]
+    fn previews_pass_through_portions_but_for_those_that_are_not_to_be_seen() {
+        let mut counter = Counter::default();
+        Portion::new(&mut Portion::new(&mut counter, 0.0, 0.5), 0.0, 0.1).preview(&Unasked);
+        assert_eq!(counter.0, 1);
+        let mut unseen = Portion::new(&mut counter, 0.5, 1.0).unseen();
+        Portion::new(&mut unseen, 0.0, 1.0).preview(&Unasked);
+        assert_eq!(counter.0, 1);
+        Recorder::default().preview(&Unasked);
     }
 
     #[test]
