@@ -145,6 +145,9 @@ impl Finalists<'_, '_> {
                 self.maps.push(Finalist { number, candidate, map, first_look, is_relaxed: false });
                 self.maps.sort_by(|a, b| a.first_look.total_cmp(&b.first_look));
                 self.maps.truncate(self.options.finalists);
+                if let Some(best) = self.maps.first().filter(|best| best.number == number) {
+                    monitor.preview(&best.map);
+                }
                 Ok(Some(first_look))
             }
             Err(MapError::Cancelled(stop)) => Err(stop),

@@ -8,6 +8,7 @@ mod mesh_with_coarse;
 pub mod multilevel;
 mod options;
 pub mod own_cones;
+mod preview;
 mod rims;
 mod skin;
 

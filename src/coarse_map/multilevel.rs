@@ -14,14 +14,14 @@ use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::coarsening::Level;
 use crate::mesh::face_weights::FaceWeights;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
-use crate::monitor::{Cancelled, Monitor, Portion, Step};
+use crate::monitor::{Cancelled, Monitor, Portion, PreviewOf, Step};
 use crate::registration::patch_fit::OrientedSurface;
 use crate::registration::rigid_patches::{self, MappedLevel, RigidPatchOptions, WeightedLevel};
 use crate::surface_map::MapError;
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::energy::point_constraint::PointConstraint;
 use crate::surface_map::overlay::base_lines::mend_anchors;
-use crate::surface_map::overlay::location::{barycentric, locate};
+use crate::surface_map::overlay::location::{Location, barycentric, locate};
 use crate::surface_map::overlay::overlay;
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
 use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
@@ -30,6 +30,7 @@ use crate::surface_map::parametrisation::level::{ParametrisedLevel, Snapshot};
 use crate::surface_map::relaxation::dent_energy::DentEnergy;
 use crate::surface_map::relaxation::dents::{self, DentOptions};
 use crate::surface_map::relaxation::map_relaxation::{self, MapRelaxationOptions, Relaxed};
+use glam::DVec3;
 use std::sync::Arc;
 use typed_index_collections::{TiSlice, TiVec};
 
@@ -130,6 +131,22 @@ impl CoarseMap<'_> {
         let [source, target] = present;
         let weights = [source.weights, target.weights];
         Some(LevelImages { levels: [source.level, target.level], weights, target_from_source })
+    }
+
+    /// The present level of a mesh with the images of its vertices; `None` where a vertex is not found.
+    pub(super) fn placed(&self, of: PreviewOf) -> Option<PlacedLevel<'_>> {
+        let k = match of {
+            PreviewOf::Source => 0,
+            PreviewOf::Target => 1,
+        };
+        let present = self.present();
+        let [from, onto] = [k, 1 - k].map(|k| present[k].parametrised());
+        let locations = locate(from, onto, &self.surface).ok()?;
+        let image = |at: &Location| barycentric(from, onto, at).position(onto.mesh);
+        let images = locations.by_vertex.iter().map(image).collect();
+        let [source, target] = present;
+        let level = if k == 0 { source.level } else { target.level };
+        Some(PlacedLevel { level, images, full: self.full[k], onto: self.full[1 - k] })
     }
 
     fn present(&self) -> [PresentLevel; 2] {
@@ -348,6 +365,16 @@ impl PresentLevel {
     }
 }
 
+/// A level of one mesh with its images on the other.
+pub(super) struct PlacedLevel<'a> {
+    pub level: Level,
+    /// By vertex of the level.
+    pub images: TiVec<VertexId, DVec3>,
+    /// The full mesh of the level, and the full mesh on which the images are, nearly.
+    pub full: &'a SurfaceMesh,
+    pub onto: &'a SurfaceMesh,
+}
+
 /// The map of two levels, read off at the source level's vertices.
 pub struct LevelImages {
     /// Source and target level.
@@ -391,6 +418,9 @@ pub fn solve_fine(
         }
         map.lower(&fine, &mut Portion::new(level, 0.1, 0.5), |_| ())?;
         map.register_patches(&options.rigid_patches, &fine, &mut Portion::new(level, 0.5, 0.9))?;
+        if !is_finest {
+            level.preview(&map);
+        }
         if is_finest && map.constraints.iter().any(|constraints| !constraints.is_empty()) {
             map.constraints = Default::default();
             map.lower(&fine, &mut Portion::new(level, 0.9, 1.0), |_| ())?;

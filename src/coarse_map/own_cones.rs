@@ -166,7 +166,11 @@ pub fn add<'a>(
         let levels = mesh_with_coarse::both(with_own, vertices, multilevel.rims, coarsening)?;
         let levels = levels_cell.get_or_init(|| levels);
         let options = ClassSearchOptions { multilevel, search: &own.search, choice: ClassChoice::Best };
-        let next = match choose_class(levels, options, &mut Portion::new(monitor, share(0.1), share(0.8))) {
+        let next = match choose_class(
+            levels,
+            options,
+            &mut Portion::new(monitor, share(0.1), share(0.8)).unseen(),
+        ) {
             Ok(chosen) => {
                 finished(chosen.map, multilevel, &mut Portion::new(monitor, share(0.8), share(1.0)))?
             }
@@ -179,6 +183,7 @@ pub fn add<'a>(
         if mean_log < (1.0 - own.least_gain) * least {
             without_gain = 0;
         }
+        monitor.preview(&next);
         images = next_images;
         best = Some(OwnCones { full: with_own, map: next });
     }

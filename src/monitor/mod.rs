@@ -1,10 +1,12 @@
 //! Progress, cancellation and the wish to finish now: the only upward call of the core.
 
 mod portion;
+mod preview;
 mod progress;
 mod stage;
 
 pub use portion::Portion;
+pub use preview::{MapPreview, PreviewOf};
 pub use progress::{PlannedStage, Progress};
 pub use stage::Stage;
 
@@ -43,6 +45,8 @@ pub trait Monitor {
     /// The present energy of the map that is being relaxed, of the kind that is lowered: 4 for an isometry. It falls until the
     /// next relaxation begins, but for a little that a step may give to the barrier (2e-4 of 4.6 was seen).
     fn map_energy(&mut self, _energy: f64) {}
+    /// A coarse map is the best so far, or was refined. It costs nothing unless it is asked for images.
+    fn preview(&mut self, _preview: &dyn MapPreview) {}
     /// Whether to finish now: no more is tried than a whole, valid result needs. Asked between rounds, levels and
     /// candidates; once true it must stay true.
     fn wants_result(&self) -> bool {

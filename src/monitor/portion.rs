@@ -1,6 +1,6 @@
 //! A part of a stage that reports its own progress from 0 to 1.
 
-use super::{Cancelled, Monitor, Stage, Step};
+use super::{Cancelled, MapPreview, Monitor, Stage, Step};
 
 /// The monitor of a part of a stage: it passes the part's fractions on as fractions of the stage. They never fall, also where
 /// nested parts each begin at 0.
@@ -10,12 +10,26 @@ pub struct Portion<'a> {
     to: f64,
     /// The largest fraction of the part so far.
     done: f64,
+    previews: Previews,
+}
+
+/// What becomes of the previews of a part.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Previews {
+    Shown,
+    Hidden,
 }
 
 impl<'a> Portion<'a> {
     /// The part of the present stage of `monitor` that leads from the share `from` to the share `to` (0 to 1).
     pub fn new(monitor: &'a mut dyn Monitor, from: f64, to: f64) -> Self {
-        Self { monitor, from, to, done: 0.0 }
+        Self { monitor, from, to, done: 0.0, previews: Previews::Shown }
+    }
+
+    /// The same, but that its previews are not passed on: of maps that may be worse than one that was seen.
+    #[must_use]
+    pub fn unseen(self) -> Self {
+        Self { previews: Previews::Hidden, ..self }
     }
 }
 
@@ -32,6 +46,12 @@ impl Monitor for Portion<'_> {
         self.monitor.map_energy(energy);
     }
 
+    fn preview(&mut self, preview: &dyn MapPreview) {
+        if self.previews == Previews::Shown {
+            self.monitor.preview(preview);
+        }
+    }
+
     fn wants_result(&self) -> bool {
         self.monitor.wants_result()
     }
@@ -46,6 +66,8 @@ impl Monitor for Portion<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::monitor::PreviewOf;
+    use glam::DVec3;
 
     /// Remembers fractions.
     #[derive(Default)]
@@ -56,6 +78,40 @@ mod tests {
             self.0.push(step.fraction);
             Ok(())
         }
+    }
+
+    /// Counts previews, and asks none for images.
+    #[derive(Default)]
+    struct Counter(usize);
+
+    impl Monitor for Counter {
+        fn preview(&mut self, _preview: &dyn MapPreview) {
+            self.0 += 1;
+        }
+
+        fn step(&mut self, _step: Step) -> Result<(), Cancelled> {
+            Ok(())
+        }
+    }
+
+    /// Must not be asked.
+    struct Unasked;
+
+    impl MapPreview for Unasked {
+        fn images(&self, _of: PreviewOf) -> Option<Vec<DVec3>> {
+            panic!("nobody wanted images")
+        }
+    }
+
+    #[test]
+    fn previews_pass_through_portions_but_for_those_that_are_not_to_be_seen() {
+        let mut counter = Counter::default();
+        Portion::new(&mut Portion::new(&mut counter, 0.0, 0.5), 0.0, 0.1).preview(&Unasked);
+        assert_eq!(counter.0, 1);
+        let mut unseen = Portion::new(&mut counter, 0.5, 1.0).unseen();
+        Portion::new(&mut unseen, 0.0, 1.0).preview(&Unasked);
+        assert_eq!(counter.0, 1);
+        Recorder::default().preview(&Unasked);
     }
 
     #[test]

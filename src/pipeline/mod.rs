@@ -7,6 +7,7 @@ mod input;
 mod options;
 mod outcome;
 mod parametrise;
+mod previews;
 mod relaxed;
 mod report;
 mod result;

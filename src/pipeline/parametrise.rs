@@ -208,6 +208,7 @@ fn coarse<'a>(
             let chosen = choose_class(sides, search_options, &mut Portion::new(monitor, 0.0, 0.9))?;
             let Chosen { candidate, search, mut map } = chosen;
             map.finish(&options.multilevel, &mut Portion::new(monitor, 0.9, 1.0))?;
+            monitor.preview(&map);
             Ok(Coarse { layout: candidate.layout, search, map })
         }
         Base::Qem => {
@@ -224,6 +225,7 @@ fn coarse<'a>(
                 _ => LayoutError::NoMap { layouts: 1, near: Vec::new() }.into(),
             })?;
             map.finish(&options.multilevel, &mut Portion::new(monitor, 0.8, 1.0))?;
+            monitor.preview(&map);
             Ok(Coarse { layout, search: SearchReport::default(), map })
         }
     }

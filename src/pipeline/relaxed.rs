@@ -3,6 +3,7 @@
 use super::flows::Flows;
 use super::outcome::Outcome;
 use super::parametrise::parametrise;
+use super::previews::{InGivenMeshes, Roles};
 use super::{Base, MapInput, MapResult, PipelineError, PipelineOptions};
 use crate::base_domain::BaseDomain;
 use crate::landmarks::Landmarks;
@@ -31,9 +32,12 @@ pub(super) fn run(
             caps: input.caps.exchanged(),
             ..input
         };
-        parametrise(inverse, options, monitor)?.exchanged()
+        let meshes = [inverse.source, inverse.target];
+        let mut monitor = InGivenMeshes::new(monitor, meshes, Roles::Exchanged);
+        parametrise(inverse, options, &mut monitor)?.exchanged()
     } else {
-        parametrise(input, options, monitor)?
+        let meshes = [input.source, input.target];
+        parametrise(input, options, &mut InGivenMeshes::new(monitor, meshes, Roles::AsGiven))?
     };
     monitor.enter(Stage::Composition);
     let [source, target] = map.sides();

@@ -28,7 +28,7 @@ const CLOSE_UP: f32 = 1.4;
 const ROOM: f32 = 5.0;
 
 /// Nearer the camera does not come by itself.
-const NEAREST: f32 = 0.5;
+const NEAREST: f32 = 0.12;
 
 /// A direction to look from.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq)]

@@ -4,7 +4,7 @@ use super::{failure, output_file};
 use crate::job::{Job, JobError, JobFiles, MeshFaults, OutputKind, ReadOptions};
 use crate::landmark_exchange::GivenFile;
 use crate::mesh::repair::RepairOptions;
-use crate::monitor::{Cancelled, Monitor, PlannedStage, Progress, Stage, Step};
+use crate::monitor::{Cancelled, MapPreview, Monitor, PlannedStage, PreviewOf, Progress, Stage, Step};
 use crate::pipeline::{Choices, MapResult, PipelineOptions};
 use crate::surface_map::measures::transfer::CommonMesh;
 use glam::{DVec2, DVec3};
@@ -22,6 +22,11 @@ export interface RunListener {
    * the whole run that is done (0 to 1, never falling), and the energy of the map being relaxed (4 for an isometry).
    */
   progress(stage: string, sentence: string, share: number, residual: number, energy: number): void;
+  /**
+   * The map as it is being made: by vertex of the checked source (those of landmarks inside faces may follow) its place on the target,
+   * three numbers each.
+   */
+  preview(places: Float32Array): void;
   /** Landmark pairs that do not fit, before the map is made. */
   found(json: string): void;
   /** Whether to finish now with a whole map, only less relaxed; asked at most ten times a second. */
@@ -46,6 +51,8 @@ extern "C" {
     #[wasm_bindgen(method, catch)]
     fn relaxes(this: &RunListener) -> Result<(), JsValue>;
     #[wasm_bindgen(method, catch)]
+    fn preview(this: &RunListener, places: js_sys::Float32Array) -> Result<(), JsValue>;
+    #[wasm_bindgen(method, catch)]
     fn found(this: &RunListener, json: &str) -> Result<(), JsValue>;
     #[wasm_bindgen(method, catch, js_name = wantsResult)]
     fn wants_result(this: &RunListener) -> Result<bool, JsValue>;
@@ -56,6 +63,9 @@ const MESSAGE_INTERVAL: f64 = 33.0;
 
 /// The least time between two questions, in milliseconds.
 const QUESTION_INTERVAL: f64 = 100.0;
+
+/// Previews take no more than this share of the time that has passed, but for the first.
+const PREVIEW_SHARE: f64 = 0.03;
 
 /// Tells the page how the run goes on and takes the time of each stage.
 pub(super) struct Messenger<'a> {
@@ -70,6 +80,9 @@ pub(super) struct Messenger<'a> {
     told: f64,
     seconds: BTreeMap<String, f64>,
     progress: Progress,
+    begun: f64,
+    /// Time that previews took, in milliseconds.
+    previewing: f64,
 }
 
 impl<'a> Messenger<'a> {
@@ -83,6 +96,8 @@ impl<'a> Messenger<'a> {
             told: 0.0,
             seconds: BTreeMap::new(),
             progress: Progress::new(Vec::new()),
+            begun: js_sys::Date::now(),
+            previewing: 0.0,
         }
     }
 
@@ -123,6 +138,19 @@ impl Monitor for Messenger<'_> {
 
     fn map_energy(&mut self, energy: f64) {
         self.energy = energy;
+    }
+
+    fn preview(&mut self, preview: &dyn MapPreview) {
+        let now = js_sys::Date::now();
+        if self.previewing > PREVIEW_SHARE * (now - self.begun) {
+            return;
+        }
+        if let Some(places) = preview.images(PreviewOf::Source) {
+            let places = js_sys::Float32Array::from(&flat3(&places)[..]);
+            // A page that does not listen is not a reason to stop.
+            let _ = self.listener.preview(places);
+        }
+        self.previewing += js_sys::Date::now() - now;
     }
 
     fn wants_result(&self) -> bool {

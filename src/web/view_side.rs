@@ -12,7 +12,7 @@ use crate::scene::colours::landmark_colour;
 use crate::scene::defects::{DefectBuffers, painted, surface_as_read};
 use crate::scene::hollows::carried;
 use crate::scene::pins::{Pin, STEM, Stand, distance_to_pin};
-use crate::scene::{Camera, Glide, Picker, PinInstance, Pose, Ray, UpAxis};
+use crate::scene::{Camera, Glide, Picker, PinInstance, Pose, Ray, SurfaceVertex, UpAxis};
 use glam::{DVec3, Vec2, Vec3};
 use rustc_hash::FxHashMap;
 use serde::Deserialize;
@@ -60,6 +60,8 @@ pub(super) struct Side {
     /// The map's own triangles on this side.
     pub overlay: Option<Mesh>,
     pub lines: Option<Mesh>,
+    /// The mesh with the places to which a map that is being made takes its vertices.
+    pub preview: Option<Preview>,
     /// In pair order; `None` where not picked yet.
     pub landmarks: Vec<Option<Landmark>>,
     /// Points that the page marks itself.
@@ -70,6 +72,26 @@ pub(super) struct Side {
     pub defects: Option<ShownDefects>,
     /// How the side's own mesh was looked at before another one was shown in its place.
     covered: Option<Covered>,
+}
+
+/// A mesh that shows a map in the making.
+pub(super) struct Preview {
+    vertices: Vec<SurfaceVertex>,
+    indices: Vec<u32>,
+    pub mesh: Mesh,
+}
+
+impl Preview {
+    /// A mesh with the places of its first vertices on the target, in the target's scene coordinates; what the last preview of the same
+    /// mesh has made is used again.
+    pub fn new(last: Option<Self>, own: &SideMesh, places: &[Vec3], renderer: &Renderer) -> Self {
+        let (mut vertices, indices) = match last {
+            Some(last) => (last.vertices, last.indices),
+            None => surface(&own.checked.mesh, &own.frame),
+        };
+        vertices.iter_mut().zip(places).for_each(|(vertex, place)| vertex.image = place.to_array());
+        Self { mesh: renderer.surface_mesh(&vertices, &indices), vertices, indices }
+    }
 }
 
 /// How a mesh was looked at.

@@ -45,6 +45,7 @@ mod layout;
 mod map;
 mod map_file;
 mod pipeline;
+mod preview;
 mod remesh;
 mod repair;
 mod search;

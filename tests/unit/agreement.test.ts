@@ -11,7 +11,7 @@ import { buildDemo, initSync, openMap, runMap } from '../../www/wasm/conemap.js'
 const ROOT = fileURLToPath(new URL('../../', import.meta.url));
 const LEFT = join(process.env['CARGO_TARGET_DIR'] ?? join(ROOT, 'target'), 'tmp/agreement');
 
-const SILENT = { relaxes: () => undefined, progress: () => undefined, found: () => undefined, wantsResult: () => false };
+const SILENT = { relaxes: () => undefined, progress: () => undefined, preview: () => undefined, found: () => undefined, wantsResult: () => false };
 
 function native(id: string, name: string): Buffer {
   const path = join(LEFT, id, name);

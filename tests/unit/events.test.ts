@@ -28,6 +28,7 @@ const OPTIONS: RunOptions = { method: 'thesis', base: 'qem', cones: 'uniform', c
 const STYLE: Style = { surface: 'colours', patchLines: false, cones: false, markers: false, morph: 0.25, wipe: 0.75 };
 const OFFER: Offer = { session: 'a', names: ['cat.off', 'lion.off'], pairs: 12, saved: 1 };
 const [CAT, LION] = READY.meshes;
+const PLACES = new Float32Array(9);
 const EXAMINED: Examined = { found: {} as unknown as MeshDefects, groups: [], faceCount: 192 };
 const ringAt = (side: Side): RefusedMesh => ({
   side,
@@ -377,6 +378,12 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     event: {},
     step: null,
     changes: { job: { ...RUNNING, energies: [[6, 5], []] } },
+  },
+  'run-preview': {
+    before: during({}),
+    event: { places: PLACES },
+    step: null,
+    changes: { job: { ...RUNNING, preview: PLACES } },
   },
   'run-finishable': {
     before: during({}),

@@ -66,7 +66,7 @@ export const READY: State = {
   named: ['cat.off', 'lion.off'],
   nextId: 5,
 };
-export const RUNNING: Running = { kind: 'running', inputs: workOf(READY), progress: null, finish: 'no', energies: [] };
+export const RUNNING: Running = { kind: 'running', inputs: workOf(READY), progress: null, finish: 'no', energies: [], preview: null };
 
 /** A map was made from them. */
 export const DONE: State = {

@@ -38,7 +38,7 @@ vi.mock('../../www/compute/saved-client.ts', async (original) => {
   };
 });
 
-const NO_LISTENER = { relaxes: () => undefined, progress: () => undefined, found: () => undefined, wantsResult: () => false };
+const NO_LISTENER = { relaxes: () => undefined, progress: () => undefined, preview: () => undefined, found: () => undefined, wantsResult: () => false };
 
 let source: NamedBytes;
 let target: NamedBytes;

@@ -231,6 +231,7 @@ test('a run repairs a mesh as it was accepted, whatever that took', () => {
   const output = runMap(both, RING.bytes, pairs, JSON.stringify(INITIAL.options), {
     progress: () => undefined,
     relaxes: () => undefined,
+    preview: () => undefined,
     found: () => undefined,
     wantsResult: () => false,
   });

@@ -3,6 +3,7 @@ import { beforeEach, expect, test, vi } from 'vitest';
 import { Runner } from '../../www/app/run.ts';
 import type { RunRequest, WarmUpRequest, WorkerMessage } from '../../www/compute/messages.ts';
 import { wholePairs } from '../../www/store/order.ts';
+import { shownPreview } from '../../www/store/job.ts';
 import { Store } from '../../www/store/store.ts';
 import { DOUBT, mesh, OUTPUT, READY, SWAPPED } from './fixtures.ts';
 
@@ -86,6 +87,9 @@ test('brings what the worker says into the state, up to the map', () => {
   worker.says({ kind: 'finishable' });
   worker.says({ kind: 'found', findings: [SWAPPED] });
   worker.says({ kind: 'relaxes' });
+  const places = new Float32Array(9);
+  worker.says({ kind: 'preview', places });
+  expect(shownPreview(store.state)).toBe(places);
   worker.says({ kind: 'progress', stage: 'relaxation', sentence: 'Relaxing the map', share: 0.5, residual: null, energy: 5 });
   expect(store.state).toMatchObject({ findings: [DOUBT], job: { finish: 'possible', energies: [[5]] } });
   runner.finish();

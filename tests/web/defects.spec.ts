@@ -32,8 +32,8 @@ function ball(rings: number, around: number): { readonly points: Point[]; readon
 /** A large ball with a hole and a turned patch, and beside it a small one: two parts, so that it is refused. */
 function bad(): string {
   const large = ball(12, 24);
-  const turned = new Set([60, 61, 70, 71]);
-  const faces = large.faces.flatMap((face, k) => (k === 120 ? [] : [turned.has(k) ? face.toReversed() : face]));
+  const turned = new Set([149, 150, 161, 162]);
+  const faces = large.faces.flatMap((face, k) => (k === 126 ? [] : [turned.has(k) ? face.toReversed() : face]));
   const small = ball(8, 12);
   const first = large.points.length;
   const points = [...large.points, ...small.points.map(([x, y, z]): Point => [0.5 * x + 2, 0.5 * y, 0.5 * z])];
@@ -50,7 +50,8 @@ async function pixelsNear(page: Page, view: string, colour: string): Promise<num
   const picture = (await page.screenshot({ clip: box })).toString('base64');
   return page.evaluate(
     async ([data, wanted]) => {
-      const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob());
+      const bytes = Uint8Array.from(atob(data), (c) => c.charCodeAt(0));
+      const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
       const canvas = new OffscreenCanvas(image.width, image.height);
       const context = canvas.getContext('2d');
       context?.drawImage(image, 0, 0);

@@ -85,6 +85,9 @@ export class Runner {
       relaxes: () => {
         dispatch({ kind: 'run-relaxes' });
       },
+      preview: (places) => {
+        dispatch({ kind: 'run-preview', places });
+      },
       finishable: () => {
         dispatch({ kind: 'run-finishable' });
       },

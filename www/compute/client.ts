@@ -36,6 +36,8 @@ export interface RunListener {
   progress(progress: Progress): void;
   /** A map is relaxed, or is on a finer level: energies do not compare with those before. */
   relaxes(): void;
+  /** The map as it is being made: by vertex of the source its place on the target. */
+  preview(places: Float32Array): void;
   /** From now on the run can be asked to finish. */
   finishable(): void;
   /** Landmark pairs that do not fit, before the map is made. */
@@ -75,6 +77,9 @@ export function startRun(request: Omit<RunRequest, 'finishUrl'>, listener: RunLi
         break;
       case 'relaxes':
         listener.relaxes();
+        break;
+      case 'preview':
+        listener.preview(message.places);
         break;
       case 'finishable':
         listener.finishable();

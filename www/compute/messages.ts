@@ -76,6 +76,8 @@ export type WorkerMessage =
   | ({ readonly kind: 'progress' } & Progress)
   | { readonly kind: 'relaxes' }
   | { readonly kind: 'finishable' }
+  /** The map as it is being made: by vertex of the source its place on the target. */
+  | { readonly kind: 'preview'; readonly places: Float32Array<ArrayBuffer> }
   | { readonly kind: 'found'; readonly findings: readonly Finding[] }
   | { readonly kind: 'done'; readonly output: RunOutput }
   | { readonly kind: 'failed'; readonly failure: Failure };

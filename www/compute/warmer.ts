@@ -10,7 +10,7 @@ async function warm(request: WarmUpRequest): Promise<void> {
   if (demo !== undefined) {
     const landmarks = new TextDecoder().decode(demo.landmarks());
     const nothing = (): void => undefined;
-    const listener = { relaxes: nothing, progress: nothing, found: nothing, wantsResult: () => false };
+    const listener = { relaxes: nothing, progress: nothing, preview: nothing, found: nothing, wantsResult: () => false };
     runMap(demo.source(), demo.target(), landmarks, '{}', listener);
   }
 }

@@ -64,6 +64,10 @@ async function run(request: RunRequest): Promise<void> {
         relaxes: () => {
           post({ kind: 'relaxes' });
         },
+        preview: (places) => {
+          const own = places as Float32Array<ArrayBuffer>;
+          post({ kind: 'preview', places: own }, [own.buffer]);
+        },
         found: (json) => {
           post({ kind: 'found', findings: JSON.parse(json) as Finding[] });
         },

@@ -3,6 +3,7 @@ import type { VNode } from 'preact';
 import { integer } from '../numbers.ts';
 import type { Side } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
+import { shownPreview } from '../store/job.ts';
 import type { MeshFile, State } from '../store/state.ts';
 import type { PartProps } from './actions.ts';
 import { Divider } from './divider.tsx';
@@ -32,8 +33,7 @@ function Caption({ state, side }: { readonly state: State; readonly side: Side }
     return (
       <p class="caption clipped">
         {side === 0 ? 'Source' : 'Target'} <strong>{refused.file.name}</strong>{' '}
-        <span class="facts">{integer(refused.examined.faceCount)} triangles, </span>
-        <span class="not-accepted">not accepted</span>
+        <span class="not-accepted">not accepted</span> <span class="facts">{integer(refused.examined.faceCount)} triangles</span>
       </p>
     );
   }
@@ -45,6 +45,7 @@ function Caption({ state, side }: { readonly state: State; readonly side: Side }
           <span class="facts">
             {integer(file.faceCount)} triangles{changed(file)}
           </span>
+          {side === 0 && shownPreview(state) !== null && <span class="coarse-map">coarse map</span>}
         </>
       )}
     </p>

@@ -91,6 +91,8 @@ export type Event =
   | { readonly kind: 'run-progress'; readonly progress: Progress }
   /** A relaxation begins: energies do not compare with those before. */
   | { readonly kind: 'run-relaxes' }
+  /** The map as it is being made: by vertex of the source its place on the target. */
+  | { readonly kind: 'run-preview'; readonly places: Float32Array }
   /** From now on the run can be asked to finish. */
   | { readonly kind: 'run-finishable' }
   /** It is asked. */

@@ -30,13 +30,15 @@ export interface Running {
   readonly finish: 'no' | 'possible' | 'asked';
   /** Falling energies of each relaxation, the first first. */
   readonly energies: readonly (readonly number[])[];
+  /** The map as it is being made: by vertex of the source its place on the target. */
+  readonly preview: Float32Array | null;
 }
 
 export type Job = Rest | Busy | Running;
 
 /** A run of this work that has just begun. */
 export function started(inputs: Work): Running {
-  return { kind: 'running', inputs, progress: null, finish: 'no', energies: [] };
+  return { kind: 'running', inputs, progress: null, finish: 'no', energies: [], preview: null };
 }
 
 /** A task begins, in place of another one; during a run none does. */
@@ -81,4 +83,9 @@ export function advanced(job: Running, progress: Progress): Running {
   const present = job.energies.at(-1) ?? [];
   const falls = stage === 'relaxation' && energy !== null && energy < (present.at(-1) ?? Infinity);
   return { ...job, progress, finish, energies: falls ? [...job.energies.slice(0, -1), [...present, energy]] : job.energies };
+}
+
+/** The map in the making that a state shows; `null` where no run of the meshes on the page has one. */
+export function shownPreview({ job, meshes }: { readonly job: Job; readonly meshes: Work['meshes'] }): Float32Array | null {
+  return job.kind === 'running' && job.inputs.meshes[0] === meshes[0] && job.inputs.meshes[1] === meshes[1] ? job.preview : null;
 }

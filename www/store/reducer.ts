@@ -159,6 +159,8 @@ export function update(state: State, event: Event): State {
       return withRun(state, (job) => advanced(job, event.progress));
     case 'run-relaxes':
       return withRun(state, (job) => ({ ...job, energies: [...job.energies, []] }));
+    case 'run-preview':
+      return withRun(state, (job) => ({ ...job, preview: event.places }));
     case 'run-finishable':
       return withRun(state, (job) => ({ ...job, finish: 'possible' }));
     case 'run-finish':

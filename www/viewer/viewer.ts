@@ -5,16 +5,16 @@ import type { Side, SurfacePoint } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
 import { failureSentence, SENTENCES } from '../messages.ts';
 import type { Examined } from '../store/defects.ts';
-import { shownDefects } from '../store/defects.ts';
 import type { Event } from '../store/events.ts';
+import { shownPreview } from '../store/job.ts';
 import { hasItsCones, shownResult } from '../store/staleness.ts';
 import type { Axis, Camera, Proposal, State } from '../store/state.ts';
-import { upOf } from '../store/work.ts';
 import { Viewer } from '../wasm/conemap.js';
 import type { Direction } from './cameras.ts';
 import { cameraOf, Cameras } from './cameras.ts';
 import type { Box } from './gestures.ts';
 import { Hands } from './hands.ts';
+import { showDefects, showPreview } from './instead.ts';
 import { HELP } from './keys.ts';
 import { Labels } from './labels.ts';
 import { Picture } from './picture.ts';
@@ -246,6 +246,7 @@ export class Views {
         previous.ui.hovered !== state.ui.hovered,
       suggestions: isOtherMesh || previous.suggestions !== state.suggestions,
       cameras: previous?.ui.cameras !== state.ui.cameras,
+      preview: isOtherMesh || shownPreview(previous) !== shownPreview(state),
       defects: isOtherMesh || previous.refused !== state.refused || previous.examined !== state.examined,
     };
     this.#cameras.linked = state.ui.link !== 'free';
@@ -271,8 +272,11 @@ export class Views {
       if (changes.suggestions) {
         this.#setSuggestions(viewer);
       }
+      if (changes.preview) {
+        showPreview(viewer, state);
+      }
       if (changes.defects) {
-        this.#setDefects(viewer, previous);
+        showDefects(viewer, state, previous);
       }
       if (changes.picture) {
         this.#setStyle(viewer);
@@ -315,25 +319,6 @@ export class Views {
       if (camera !== this.#told[side]) {
         this.#told[side] = camera;
         this.#cameras.restore(side, camera);
-      }
-    }
-  }
-
-  /** What is wrong with a mesh: a refused one in the place of the side's own, or over that where it was repaired. */
-  #setDefects(viewer: Viewer, previous: State | null): void {
-    for (const side of SIDES) {
-      const shown = shownDefects(this.#state, side);
-      const isSameMesh = previous?.meshes[side] === this.#state.meshes[side];
-      if (previous !== null && isSameMesh && shownDefects(previous, side) === shown) {
-        continue;
-      }
-      const refused = this.#state.refused?.meshes.find((mesh) => mesh.side === side);
-      if (shown === null) {
-        viewer.clearDefects(side);
-      } else if (refused === undefined) {
-        viewer.showRepaired(side, shown.found);
-      } else {
-        viewer.showRefused(side, shown.found, upOf(refused.file.name));
       }
     }
   }

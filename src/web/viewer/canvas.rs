@@ -120,6 +120,7 @@ impl Viewer {
         self.clear_result();
         let side = self.side_mut(side);
         side.uncover();
+        side.preview = None;
         side.mesh = Some(shown);
         side.clear_marks();
         side.glide = None;
@@ -134,6 +135,7 @@ impl Viewer {
         if !side.is_covered() {
             side.defects = None;
         }
+        side.preview = None;
         side.mesh = None;
         side.clear_marks();
     }
@@ -191,8 +193,9 @@ impl Viewer {
     }
 
     /// Whether a view shows its mesh on the way to the other shape.
-    pub(super) fn is_morphed(&self, side: usize) -> bool {
-        side == 0 && self.morph > 0.0 && !self.side(side).is_covered()
+    pub(super) fn is_morphed(&self, number: usize) -> bool {
+        let side = &self.sides[0];
+        number == 0 && self.morph > 0.0 && side.preview.is_none() && !side.is_covered()
     }
 
     /// Whether a view shows another shape than its mesh has: that, or a mesh that was refused.

@@ -64,6 +64,10 @@ impl Viewer {
             return ViewDraw { paint: Paint::Refused, surface: Some(refused), ..bare };
         }
         let own = side.mesh.as_ref().map(|m| &m.surface);
+        if let Some(preview) = &self.sides[0].preview {
+            let surface = if k == 0 { Some(&preview.mesh) } else { own };
+            return ViewDraw { paint: Paint::Pattern, surface, ..bare };
+        }
         let paint = style.surface.paint();
         let morph = if k == 0 && side.overlay.is_some() { self.morph } else { 0.0 };
         let shows_own = morph == 0.0 && (paint == Paint::Plain || (k == 1 && style.surface.is_of_places()));

@@ -7,4 +7,5 @@ mod colours;
 mod defects;
 mod frame;
 mod maps;
+mod preview;
 mod reading;

@@ -108,8 +108,8 @@ impl fmt::Display for DefectGroup {
 pub struct Defects {
     /// The file's vertices by their numbers there, then vertices of caps.
     pub positions: Vec<DVec3>,
-    /// The triangulated file's faces by their numbers there, with vertices at one place joined and turned until neighbours agree;
-    /// then faces of caps.
+    /// The triangulated file's faces by their numbers there, with vertices at one place joined and turned until neighbours agree
+    /// and look outwards; then faces of caps.
     pub triangles: Vec<Triangle>,
     /// How many of the positions are the file's.
     pub file_vertices: usize,

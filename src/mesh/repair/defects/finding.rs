@@ -17,6 +17,7 @@ use crate::math::disjoint_sets::DisjointSets;
 use crate::mesh::check::is_degenerate;
 use crate::mesh::soup::PolygonSoup;
 use crate::monitor::{Cancelled, Monitor};
+use glam::DVec3;
 use rustc_hash::FxHashSet;
 
 /// Every place where a soup fails to be one closed, oriented surface of genus 0.
@@ -47,6 +48,7 @@ pub fn defects(
             found.triangles[number].swap(1, 2);
         }
     }
+    look_outwards(&mut found, &draft, &edges);
     found.add(DefectKind::OpenRim, lines(&edges, |edge| edge.sides.len() == 1));
     found.add(DefectKind::CrowdedEdges, lines(&edges, |edge| edge.sides.len() > 2));
     let torn: FxHashSet<[u32; 2]> = turns.seams.iter().map(|&side| ends_of(&draft.faces, side)).collect();
@@ -61,6 +63,30 @@ pub fn defects(
     found.add(DefectKind::FaceWithoutArea, flat);
     found.add(DefectKind::DoubleFace, double);
     Ok(found)
+}
+
+/// Turns the triangles of whole parts that look inwards, by their volume about the middle of each; open ones have one nearly.
+fn look_outwards(found: &mut Defects, draft: &Draft, edges: &[Edge]) {
+    let part = parts(draft.faces.len(), &across(&draft.faces, edges));
+    let count = part.iter().max().map_or(0, |last| last + 1);
+    let numbers = || draft.faces.iter().zip(&part).filter_map(|(face, &p)| Some((face.number()?, p)));
+    let corners = |found: &Defects, f: usize| found.triangles[f].map(|v| found.positions[v as usize]);
+    let mut middle = vec![(DVec3::ZERO, 0.0); count];
+    for (f, p) in numbers() {
+        middle[p].0 += corners(found, f).into_iter().sum::<DVec3>();
+        middle[p].1 += 3.0;
+    }
+    let mut volume = vec![0.0; count];
+    for (f, p) in numbers() {
+        let (sum, corners_of_part) = middle[p];
+        let [a, b, c] = corners(found, f).map(|corner| corner - sum / corners_of_part);
+        volume[p] += a.dot(b.cross(c));
+    }
+    for (f, p) in numbers() {
+        if volume[p] < 0.0 {
+            found.triangles[f].swap(1, 2);
+        }
+    }
 }
 
 /// Some edges as lines, each a defect.

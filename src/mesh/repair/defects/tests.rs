@@ -74,6 +74,13 @@ fn a_hole_is_a_closed_rim_that_is_seen_from_outside() {
     let outlook = found.outlook(rim, &found.normals()).unwrap();
     let hole = whole.positions()[VertexId(40)];
     assert!(outlook.place.distance(hole) < 0.1 && outlook.normal.dot(hole) > 0.99, "{outlook:?}");
+    // Likewise where the file has all faces inside out.
+    let mut inside_out = punched();
+    inside_out.polygons.iter_mut().for_each(|polygon| polygon.reverse());
+    let turned = self::found(&inside_out);
+    assert_eq!(kinds(&turned), [DefectKind::OpenRim]);
+    let rim = only(&turned, DefectKind::OpenRim);
+    assert!(turned.outlook(rim, &turned.normals()).unwrap().normal.dot(hole) > 0.99);
     assert!(line.iter().all(|&v| found.positions[v as usize].distance(outlook.place) <= outlook.radius));
 }
 

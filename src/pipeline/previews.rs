@@ -1,0 +1,81 @@
+//! Previews of a map in the vertices and the coordinates of the meshes as they were given.
+
+use crate::mesh::SurfaceMesh;
+use crate::monitor::{Cancelled, MapPreview, Monitor, PreviewOf, Stage, Step};
+use glam::DVec3;
+
+/// Which of two meshes the map is made of and which is its target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Roles {
+    /// As they were given.
+    AsGiven,
+    /// Exchanged for the work.
+    Exchanged,
+}
+
+/// The monitor of a map's making: it passes previews on as they are of the meshes that were given, and all else as it is.
+pub(super) struct InGivenMeshes<'a> {
+    monitor: &'a mut dyn Monitor,
+    /// Those that the map is made of.
+    meshes: [&'a SurfaceMesh; 2],
+    roles: Roles,
+}
+
+impl<'a> InGivenMeshes<'a> {
+    /// For a map from the first to the second mesh.
+    pub(super) fn new(monitor: &'a mut dyn Monitor, meshes: [&'a SurfaceMesh; 2], roles: Roles) -> Self {
+        Self { monitor, meshes, roles }
+    }
+}
+
+/// A preview of a map between meshes of area 1 that refine given ones.
+struct OfGivenMeshes<'a> {
+    preview: &'a dyn MapPreview,
+    meshes: [&'a SurfaceMesh; 2],
+    roles: Roles,
+}
+
+impl MapPreview for OfGivenMeshes<'_> {
+    fn images(&self, of: PreviewOf) -> Option<Vec<DVec3>> {
+        let of = match self.roles {
+            Roles::AsGiven => of,
+            Roles::Exchanged => of.other(),
+        };
+        let [from, onto] = match of {
+            PreviewOf::Source => self.meshes,
+            PreviewOf::Target => [self.meshes[1], self.meshes[0]],
+        };
+        let mut places = self.preview.images(of)?;
+        // A refinement's first vertices are the mesh's own.
+        places.truncate(from.vertex_count());
+        let unit = onto.area().sqrt();
+        places.iter_mut().for_each(|place| *place *= unit);
+        Some(places)
+    }
+}
+
+impl Monitor for InGivenMeshes<'_> {
+    fn enter(&mut self, stage: Stage) {
+        self.monitor.enter(stage);
+    }
+
+    fn relaxation_begins(&mut self) {
+        self.monitor.relaxation_begins();
+    }
+
+    fn map_energy(&mut self, energy: f64) {
+        self.monitor.map_energy(energy);
+    }
+
+    fn preview(&mut self, preview: &dyn MapPreview) {
+        self.monitor.preview(&OfGivenMeshes { preview, meshes: self.meshes, roles: self.roles });
+    }
+
+    fn wants_result(&self) -> bool {
+        self.monitor.wants_result()
+    }
+
+    fn step(&mut self, step: Step) -> Result<(), Cancelled> {
+        self.monitor.step(step)
+    }
+}

@@ -1,0 +1,71 @@
+/** The map in the making: seen soon after the start, refined, gone with the end of the run. */
+import type { Page } from '@playwright/test';
+import { expect, test } from '@playwright/test';
+import { SETTLED } from './canvas.ts';
+import { finished, openDemo, openStep } from './page.ts';
+
+/** Turns of each preview that the page has been told since it was opened, in ms from the click. */
+async function listen(page: Page): Promise<void> {
+  await page.addInitScript(() => {
+    const told: { at: number; places: Float32Array }[] = [];
+    Reflect.set(window, 'previews', told);
+    const { prototype } = Worker;
+    const add: (...rest: unknown[]) => void = Reflect.get(prototype, 'addEventListener') as never;
+    Reflect.set(prototype, 'addEventListener', function (this: Worker, kind: string, ...rest: unknown[]) {
+      if (kind === 'message') {
+        add.call(this, kind, (event: MessageEvent<{ kind?: string; places?: Float32Array }>) => {
+          if (event.data.kind === 'preview' && event.data.places !== undefined) {
+            told.push({ at: performance.now(), places: event.data.places });
+          }
+        });
+      }
+      add.call(this, kind, ...rest);
+    });
+  });
+}
+
+async function source(page: Page): Promise<Buffer> {
+  const box = await page.locator('#view-source').boundingBox();
+  if (box === null) {
+    throw new Error('the view is not there');
+  }
+  // Without the caption, which tells of the coarse map.
+  return page.screenshot({ clip: { x: box.x, y: box.y + 48, width: box.width, height: box.height - 120 } });
+}
+
+test('the coarse map is seen while the run goes on, and is gone with it', async ({ page }) => {
+  await listen(page);
+  await openDemo(page);
+  await openStep(page, 'map');
+  await page.waitForTimeout(SETTLED);
+  const before = await source(page);
+  const coarse = page.locator('#view-source .coarse-map');
+  await page.locator('#run').click();
+  await expect(coarse).toBeVisible({ timeout: 30_000 });
+  await page.waitForTimeout(200);
+  expect((await source(page)).equals(before)).toBe(false);
+  await page.locator('#cancel').click();
+  await expect(coarse).toHaveCount(0);
+  await openStep(page, 'map');
+  await page.waitForTimeout(SETTLED);
+  expect((await source(page)).equals(before)).toBe(true);
+
+  await page.evaluate(() => {
+    (Reflect.get(window, 'previews') as unknown[]).length = 0;
+  });
+  await page.locator('#run').click();
+  await finished(page);
+  await expect(coarse).toHaveCount(0);
+  // Several, each another one, by vertex of the source; the last ones differ less than the first.
+  const steps = await page.evaluate(() => {
+    const previews = (Reflect.get(window, 'previews') as { places: Float32Array }[]).map(({ places }) => places);
+    const between = (a: Float32Array, b: Float32Array): number =>
+      a.reduce((sum, x, k) => sum + Math.abs(x - (b[k] ?? 0)), 0) / a.length;
+    const last = previews.at(-1) ?? new Float32Array();
+    return previews.map((places) => (places.length === last.length ? between(places, last) : Number.NaN));
+  });
+  expect(steps.length).toBeGreaterThan(2);
+  expect(steps.every((step) => Number.isFinite(step))).toBe(true);
+  expect(steps[0]).toBeGreaterThan(0);
+  expect(steps.at(-2) ?? 0).toBeLessThan(steps[0] ?? 0);
+});

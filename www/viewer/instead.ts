@@ -1,0 +1,36 @@
+/** What the views show in the place of the meshes as they are: refused meshes, defects, a map in the making. */
+import { SIDES } from '../landmarks.ts';
+import { shownDefects } from '../store/defects.ts';
+import { shownPreview } from '../store/job.ts';
+import type { State } from '../store/state.ts';
+import { upOf } from '../store/work.ts';
+import type { Viewer } from '../wasm/conemap.js';
+
+/** What is wrong with a mesh: a refused one in the place of the side's own, or over that where it was repaired. */
+export function showDefects(viewer: Viewer, state: State, previous: State | null): void {
+  for (const side of SIDES) {
+    const shown = shownDefects(state, side);
+    const isSameMesh = previous?.meshes[side] === state.meshes[side];
+    if (previous !== null && isSameMesh && shownDefects(previous, side) === shown) {
+      continue;
+    }
+    const refused = state.refused?.meshes.find((mesh) => mesh.side === side);
+    if (shown === null) {
+      viewer.clearDefects(side);
+    } else if (refused === undefined) {
+      viewer.showRepaired(side, shown.found);
+    } else {
+      viewer.showRefused(side, shown.found, upOf(refused.file.name));
+    }
+  }
+}
+
+/** The map that is being made, where there is one. */
+export function showPreview(viewer: Viewer, state: State): void {
+  const preview = shownPreview(state);
+  if (preview === null) {
+    viewer.clearPreview();
+  } else {
+    viewer.setPreview(preview);
+  }
+}
