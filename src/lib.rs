@@ -31,6 +31,7 @@ pub mod registration;
 pub mod remesh;
 pub mod scene;
 pub mod surface_map;
+pub mod transfer;
 
 #[cfg(all(feature = "gpu", target_arch = "wasm32"))]
 pub mod gpu;

@@ -9,5 +9,6 @@ pub mod obj;
 pub mod off;
 pub mod ply;
 pub mod vertex_image;
+pub mod vertex_table;
 
 pub use mesh_format::MeshFormat;

@@ -13,6 +13,7 @@ mod ply;
 mod problem;
 mod reading;
 mod stl;
+pub mod vertex_table;
 
 pub use format::Format;
 pub use problem::Place;

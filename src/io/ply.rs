@@ -5,17 +5,25 @@ use crate::mesh::soup::PolygonSoup;
 use glam::DVec3;
 
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
-use ply_rs_bw::ply::{DefaultElement, ElementDef, Encoding, Header, Property, PropertyType, ScalarType};
+use ply_rs_bw::ply::{
+    DefaultElement, ElementDef, Encoding, Header, Payload, Property, PropertyType, ScalarType,
+};
 
-pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
+/// What a file announces, and its elements; the sizes are checked before memory is taken.
+pub(super) fn header_and_payload(bytes: &[u8]) -> Result<(Header, Payload<DefaultElement>), Problem> {
     let broken = |e: ParseError| (Place::Header, format!("it cannot be read: {e}"));
     let mut reader = Reader::new(bytes);
     let parser = Parser::<DefaultElement>::new();
     let header = parser.read_header(&mut reader).map_err(broken)?;
     check_sizes(&header, bytes.len())?;
-    let mut payload = parser.read_payload(&mut reader, &header).map_err(|e| {
+    let payload = parser.read_payload(&mut reader, &header).map_err(|e| {
         (Place::Header, format!("its contents do not match its header ({e}): the file may be cut off"))
     })?;
+    Ok((header, payload))
+}
+
+pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
+    let (_, mut payload) = header_and_payload(bytes)?;
     let vertices = payload.swap_remove("vertex").ok_or((Place::Header, "it has no vertices".to_owned()))?;
     let faces = payload.swap_remove("face").ok_or((Place::Header, "it has no faces".to_owned()))?;
     let positions = vertices.iter().enumerate().map(|(v, e)| position(v, e)).collect::<Result<_, _>>()?;
@@ -68,7 +76,8 @@ fn position(v: usize, element: &DefaultElement) -> Result<DVec3, Problem> {
     Ok(DVec3::new(coordinate("x")?, coordinate("y")?, coordinate("z")?))
 }
 
-fn scalar(property: &Property) -> Option<f64> {
+/// A number of any type; `None` for a list.
+pub(super) fn scalar(property: &Property) -> Option<f64> {
     Some(match property {
         Property::Char(x) => f64::from(*x),
         Property::UChar(x) => f64::from(*x),
