@@ -4,6 +4,9 @@
 
 pub mod attributes;
 mod cells;
+pub mod deformation;
+pub mod frames;
+mod gradients;
 mod mapped_files;
 mod mass;
 #[cfg(test)]
