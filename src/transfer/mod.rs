@@ -9,6 +9,7 @@ pub mod frames;
 mod gradients;
 mod mapped_files;
 mod mass;
+pub mod shape;
 #[cfg(test)]
 mod tests;
 mod values;
