@@ -1,6 +1,7 @@
 //! Results to bytes.
 
 pub mod csv;
+pub mod curves;
 pub mod flat_sheet;
 pub mod glb;
 pub mod layout;

@@ -2,6 +2,7 @@
 //!
 //! Everything is hostile until checked: sizes are compared with the file before anything is allocated.
 
+pub mod curve_file;
 mod format;
 mod gltf_file;
 pub mod gltf_parts;

@@ -4,6 +4,7 @@
 
 pub mod attributes;
 mod cells;
+pub mod curves;
 pub mod deformation;
 pub mod frames;
 mod gradients;
