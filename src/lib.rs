@@ -32,6 +32,7 @@ pub mod registration;
 pub mod remesh;
 pub mod scene;
 pub mod surface_map;
+pub mod transfer;
 pub mod wrap;
 
 #[cfg(all(feature = "gpu", target_arch = "wasm32"))]

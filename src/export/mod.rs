@@ -1,6 +1,7 @@
 //! Results to bytes.
 
 pub mod csv;
+pub mod curves;
 pub mod flat_sheet;
 pub mod glb;
 pub mod layout;
@@ -9,5 +10,6 @@ pub mod obj;
 pub mod off;
 pub mod ply;
 pub mod vertex_image;
+pub mod vertex_table;
 
 pub use mesh_format::MeshFormat;

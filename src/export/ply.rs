@@ -1,11 +1,12 @@
 //! Meshes as binary PLY; coordinates in f64.
 
+use crate::io::vertex_table::Column;
 use crate::mesh::SurfaceMesh;
 use glam::DVec3;
 
 /// Vertices and triangles, in order.
 pub fn mesh(mesh: &SurfaceMesh) -> Vec<u8> {
-    let mut bytes = vertices(mesh.positions().as_ref(), mesh.face_count(), "uchar");
+    let mut bytes = vertices(mesh.positions().as_ref(), mesh.face_count(), "uchar", &[]);
     for t in mesh.triangles() {
         bytes.push(3);
         t.iter().for_each(|v| bytes.extend(v.0.to_le_bytes()));
@@ -15,7 +16,12 @@ pub fn mesh(mesh: &SurfaceMesh) -> Vec<u8> {
 
 /// Vertices and polygons, in order. The number of corners takes four bytes, so that any polygon has room.
 pub fn polygons(positions: &[DVec3], faces: &[Vec<u32>]) -> Vec<u8> {
-    let mut bytes = vertices(positions, faces.len(), "uint");
+    polygons_with(positions, faces, &[])
+}
+
+/// The same with further properties of the vertices; 0 where a vertex has no value.
+pub fn polygons_with(positions: &[DVec3], faces: &[Vec<u32>], properties: &[Column]) -> Vec<u8> {
+    let mut bytes = vertices(positions, faces.len(), "uint", properties);
     for face in faces {
         bytes.extend((face.len() as u32).to_le_bytes());
         face.iter().for_each(|v| bytes.extend(v.to_le_bytes()));
@@ -24,18 +30,31 @@ pub fn polygons(positions: &[DVec3], faces: &[Vec<u32>]) -> Vec<u8> {
 }
 
 /// The head of a file with so many faces, their number of corners of this type, and its vertices.
-fn vertices(positions: &[DVec3], faces: usize, corners: &str) -> Vec<u8> {
+fn vertices(positions: &[DVec3], faces: usize, corners: &str, properties: &[Column]) -> Vec<u8> {
     let coordinates = ["x", "y", "z"].map(|name| format!("property double {name}\n")).concat();
+    let further: String = properties
+        .iter()
+        .map(|column| format!("property {} {}\n", column.number_type.name(), one_word(&column.name)))
+        .collect();
     let mut bytes = format!(
-        "ply\nformat binary_little_endian 1.0\nelement vertex {}\n{coordinates}\
+        "ply\nformat binary_little_endian 1.0\nelement vertex {}\n{coordinates}{further}\
          element face {faces}\nproperty list {corners} int vertex_indices\nend_header\n",
         positions.len()
     )
     .into_bytes();
-    for p in positions {
+    for (v, p) in positions.iter().enumerate() {
         p.to_array().iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+        for column in properties {
+            let value = column.values.get(v).copied().flatten().unwrap_or(0.0);
+            column.number_type.push(value, &mut bytes);
+        }
     }
     bytes
+}
+
+/// A name as a head can hold it.
+fn one_word(name: &str) -> String {
+    name.chars().map(|c| if c.is_ascii_graphic() { c } else { '_' }).collect()
 }
 
 #[cfg(test)]

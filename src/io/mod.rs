@@ -2,6 +2,7 @@
 //!
 //! Everything is hostile until checked: sizes are compared with the file before anything is allocated.
 
+pub mod curve_file;
 mod detection;
 mod format;
 mod gltf_container;
@@ -18,6 +19,7 @@ mod ply;
 mod problem;
 mod reading;
 mod stl;
+pub mod vertex_table;
 
 pub use detection::detect;
 pub use format::Format;

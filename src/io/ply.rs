@@ -46,6 +46,24 @@ pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
     Ok(soup)
 }
 
+/// The vertices with their numbers: what is announced of them, and by vertex the values of its properties that are no lists, in order.
+pub(super) fn vertex_rows(bytes: &[u8]) -> Result<(ElementDef, Vec<Vec<f64>>), Problem> {
+    let file = File::split(bytes)?;
+    check_names(&file.header)?;
+    let mut reader = Reader::new(file.header.as_bytes().chain(&file.body[..]));
+    let header = Parser::<Passed>::new().read_header(&mut reader);
+    let header = header.map_err(|e| (Place::Header, format!("it cannot be read: {}", short(&e))))?;
+    check_sizes(&header, bytes.len())?;
+    for (name, element) in &header.elements {
+        if name == "vertex" {
+            let rows = elements::<Row, _>(&mut reader, element, &header)?;
+            return Ok((element.clone(), rows.into_iter().map(|row| row.0).collect()));
+        }
+        drop(elements::<Passed, _>(&mut reader, element, &header)?);
+    }
+    Err((Place::Header, "it has no vertices".into()))
+}
+
 /// All elements of a kind.
 fn elements<E: PropertyAccess, R: BufRead>(
     reader: &mut Reader<R>,
@@ -182,6 +200,21 @@ fn least_size(element: &ElementDef, encoding: Encoding) -> u64 {
     element.properties.iter().map(|(_, p)| property(&p.data_type)).sum()
 }
 
+/// The numbers of an element; lists are left out.
+struct Row(Vec<f64>);
+
+impl PropertyAccess for Row {
+    fn new() -> Self {
+        Self(Vec::new())
+    }
+
+    fn set_property(&mut self, _: &str, property: Property) -> PropertyAccessResult {
+        let Some(value) = scalar(&property) else { return PropertyAccessResult::Ignored };
+        self.0.push(value);
+        PropertyAccessResult::Set
+    }
+}
+
 /// A vertex's place.
 struct Vertex([f64; 3]);
 
@@ -198,6 +231,7 @@ impl PropertyAccess for Vertex {
     }
 }
 
+/// A number of any type; `None` for a list.
 fn scalar(property: &Property) -> Option<f64> {
     Some(match property {
         Property::Char(x) => f64::from(*x),

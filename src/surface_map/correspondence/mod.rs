@@ -10,6 +10,7 @@ mod measure;
 mod pieces;
 mod texture;
 
+pub use by_face::PiecesByFace;
 pub use check::{CorrespondenceFault, check};
 pub use locator::PointLocator;
 pub use measure::distortion;

@@ -1,0 +1,237 @@
+//! Curves on a mesh, as users give them: polylines over its vertices or over points of its faces.
+//!
+//! OBJ: lines `l` over vertices by the numbers of the mesh's own file, which may hold its `v` lines too. Tables: `curve,vertex` or
+//! `curve,face,b0,b1,b2` with or without more columns; lines that follow each other with one name are one curve, closed where its
+//! last point is its first. JSON: `{"curves": [{"name"?, "closed"?, "points": [vertex or {"face", "barycentric"}]}]}`.
+
+use super::MAX_BYTES;
+use super::landmark_file::LandmarkPoint;
+use super::problem::{Place, Problem};
+use super::reading::{number, text};
+use serde::Deserialize;
+
+/// A curve as a file gives it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Curve {
+    /// Its name; its number, from 1, where it has none.
+    pub name: String,
+    /// Whether its last point is joined with its first.
+    pub is_closed: bool,
+    /// Its points, in the mesh file's numbers; not checked against the mesh.
+    pub points: Vec<LandmarkPoint>,
+}
+
+/// More points than this are refused.
+pub const MAX_POINTS: usize = 1_000_000;
+
+/// What is wrong with a curve file, and where.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{place}: {problem}")]
+pub struct CurveFileError {
+    /// Where.
+    pub place: Place,
+    /// What is wrong and what to do.
+    pub problem: String,
+}
+
+impl From<Problem> for CurveFileError {
+    fn from((place, problem): Problem) -> Self {
+        Self { place, problem }
+    }
+}
+
+/// Reads the curves of a mesh whose file has that many vertices. Formats are told by content.
+///
+/// # Errors
+/// [`CurveFileError`] with the line.
+pub fn read(bytes: &[u8], vertices: usize) -> Result<Vec<Curve>, CurveFileError> {
+    if bytes.len() > MAX_BYTES {
+        let problem = format!("the file has {} bytes; the limit is {MAX_BYTES}", bytes.len());
+        return Err(CurveFileError { place: Place::Header, problem });
+    }
+    let text = text(bytes)?;
+    let words = |line: &str| line.split_whitespace().next().map(str::to_owned);
+    let is_obj = |word: String| {
+        ["v", "vn", "vt", "l", "f", "o", "g", "s", "mtllib", "usemtl", "p"].contains(&word.as_str())
+    };
+    let content = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
+    let curves = match text.lines().find(content) {
+        Some(line) if line.trim_start().starts_with('{') => json(text)?,
+        Some(line) if words(line).is_some_and(is_obj) => obj(text, vertices)?,
+        _ => table(text)?,
+    };
+    let curves: Vec<Curve> = curves.into_iter().map(closed_at_its_end).collect();
+    if curves.is_empty() {
+        let problem = "it has no curves: give OBJ lines `l`, a table `curve,vertex`, or JSON".to_owned();
+        return Err(CurveFileError { place: Place::Header, problem });
+    }
+    Ok(curves)
+}
+
+/// A curve whose last point is its first is closed, and has the point once.
+fn closed_at_its_end(mut curve: Curve) -> Curve {
+    if curve.points.len() > 2 && curve.points.first() == curve.points.last() {
+        curve.points.pop();
+        curve.is_closed = true;
+    }
+    curve
+}
+
+fn check_count(count: usize, line: usize) -> Result<(), Problem> {
+    if count > MAX_POINTS {
+        return Err((Place::Line(line), format!("there are more than {MAX_POINTS} points of curves")));
+    }
+    Ok(())
+}
+
+fn obj(text: &str, vertices: usize) -> Result<Vec<Curve>, Problem> {
+    let (mut curves, mut count, mut own, mut group) = (Vec::new(), 0, 0_usize, None);
+    for (index, content) in text.lines().enumerate() {
+        let line = index + 1;
+        let mut words = content.split_whitespace();
+        match words.next() {
+            Some("v") => own += 1,
+            Some("o" | "g") => group = words.next().map(str::to_owned),
+            Some("l") => {
+                let mut points = Vec::new();
+                for word in words {
+                    count += 1;
+                    check_count(count, line)?;
+                    points.push(LandmarkPoint::Vertex(vertex(word, own, line)?));
+                }
+                let name = group.clone().unwrap_or_else(|| (curves.len() + 1).to_string());
+                curves.push(Curve { name, is_closed: false, points });
+            }
+            _ => {}
+        }
+    }
+    if own != 0 && own != vertices {
+        let problem = format!(
+            "it has {own} vertices, but the mesh file has {vertices}: lines must run over the vertices of the mesh's own file"
+        );
+        return Err((Place::Header, problem));
+    }
+    Ok(curves)
+}
+
+/// The vertex of a word `v` or `v/t`; negative numbers count back from the last vertex so far.
+fn vertex(word: &str, own: usize, line: usize) -> Result<u32, Problem> {
+    let value: i64 = number(word.split('/').next(), line, "a vertex number")?;
+    let index = if value < 0 { (own as i64).checked_add(value) } else { value.checked_sub(1) };
+    let index = index.and_then(|index| u32::try_from(index).ok());
+    index.ok_or_else(|| (Place::Line(line), format!("there is no vertex {value}")))
+}
+
+fn table(text: &str) -> Result<Vec<Curve>, Problem> {
+    let mut curves: Vec<Curve> = Vec::new();
+    let mut count = 0;
+    for (index, content) in text.lines().enumerate() {
+        let line = index + 1;
+        let content = content.split('#').next().unwrap_or_default().trim();
+        let fields: Vec<&str> = content.split(',').take(6).map(str::trim).collect();
+        let is_heading =
+            count == 0 && fields.get(1).is_some_and(|field| field.starts_with(char::is_alphabetic));
+        if content.is_empty() || is_heading {
+            continue;
+        }
+        count += 1;
+        check_count(count, line)?;
+        let point = match fields[..] {
+            [_, vertex] => LandmarkPoint::Vertex(number(Some(vertex), line, "a vertex number")?),
+            [_, face, a, b, c, ..] => {
+                let weight = |word| number::<f64>(Some(word), line, "a weight");
+                LandmarkPoint::OnFace {
+                    face: number(Some(face), line, "a face number")?,
+                    barycentric: [weight(a)?, weight(b)?, weight(c)?],
+                }
+            }
+            _ => {
+                return Err((
+                    Place::Line(line),
+                    "expected `curve,vertex` or `curve,face,b0,b1,b2`".to_owned(),
+                ));
+            }
+        };
+        match curves.last_mut().filter(|curve| curve.name == fields[0]) {
+            Some(curve) => curve.points.push(point),
+            None => curves.push(Curve { name: fields[0].to_owned(), is_closed: false, points: vec![point] }),
+        }
+    }
+    Ok(curves)
+}
+
+fn json(text: &str) -> Result<Vec<Curve>, Problem> {
+    #[derive(Deserialize)]
+    struct File {
+        curves: Vec<Given>,
+    }
+    #[derive(Deserialize)]
+    struct Given {
+        name: Option<String>,
+        #[serde(default)]
+        closed: bool,
+        points: Vec<LandmarkPoint>,
+    }
+    let file: File = serde_json::from_str(text).map_err(|e| {
+        let words = e.to_string();
+        let problem = words.split(" at line ").next().unwrap_or_default().to_owned();
+        (Place::Line(e.line().max(1)), problem)
+    })?;
+    let count = file.curves.iter().map(|curve| curve.points.len()).sum();
+    check_count(count, 1)?;
+    let curve = |(k, given): (usize, Given)| Curve {
+        name: given.name.unwrap_or_else(|| (k + 1).to_string()),
+        is_closed: given.closed,
+        points: given.points,
+    };
+    Ok(file.curves.into_iter().enumerate().map(curve).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curves(text: &str) -> Result<Vec<Curve>, String> {
+        read(text.as_bytes(), 8).map_err(|e| e.to_string())
+    }
+
+    fn over(name: &str, is_closed: bool, vertices: &[u32]) -> Curve {
+        let points = vertices.iter().map(|v| LandmarkPoint::Vertex(*v)).collect();
+        Curve { name: name.to_owned(), is_closed, points }
+    }
+
+    #[test]
+    fn every_format_is_read() {
+        let vertices = "v 0 0 0\n".repeat(8);
+        let belt = [over("belt", true, &[0, 1, 2]), over("2", false, &[7, 6])];
+        assert_eq!(curves(&format!("{vertices}g belt\nl 1 2/2 3 1\ng\nl -1 -2\n")).unwrap(), belt);
+        assert_eq!(curves("l 1 2\n").unwrap(), [over("1", false, &[0, 1])]);
+        assert_eq!(curves("curve,vertex\nbelt,0\nbelt,1\nbelt,2\nbelt,0 # again\n2,7\n2,6\n").unwrap(), belt);
+        let json =
+            r#"{"curves": [{"name": "belt", "closed": true, "points": [0, 1, 2]}, {"points": [7, 6]}]}"#;
+        assert_eq!(curves(json).unwrap(), belt);
+        let on_face = LandmarkPoint::OnFace { face: 3, barycentric: [0.5, 0.5, 0.0] };
+        let mixed = curves("a,3,0.5,0.5,0,1,2,3\na,4\n").unwrap();
+        assert_eq!(mixed[0].points, [on_face, LandmarkPoint::Vertex(4)]);
+    }
+
+    #[test]
+    fn faults_are_told_with_their_line() {
+        let cases = [
+            ("", "header: it has no curves: give OBJ lines `l`, a table `curve,vertex`, or JSON"),
+            (
+                "v 0 0 0\nl 1 1\n",
+                "header: it has 1 vertices, but the mesh file has 8: lines must run over the vertices of the mesh's own file",
+            ),
+            ("l 1 x\n", "line 1: \"x\" should be a vertex number"),
+            ("l 1 0\n", "line 1: there is no vertex 0"),
+            ("l 1 -9223372036854775808\n", "line 1: there is no vertex -9223372036854775808"),
+            ("a,1\na,2,3\n", "line 2: expected `curve,vertex` or `curve,face,b0,b1,b2`"),
+            ("a,1\na,-2\n", "line 2: \"-2\" should be a vertex number"),
+            ("{\n\"curves\": 3}", "line 2: invalid type: integer `3`, expected a sequence"),
+        ];
+        for (text, sentence) in cases {
+            assert_eq!(curves(text), Err(sentence.to_owned()), "{text}");
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Tables of values by vertex: a line for each vertex, its fields apart by commas. A first line may name the columns; where it
+//! calls the first one `vertex`, `source_vertex` or `target_vertex`, that column has the vertex numbers and lines may come in any
+//! order. What follows `#` is left out. A vertex that no face uses needs no values.
+
+use super::{Column, Heading, NumberType, Rows, VertexTable};
+use crate::io::problem::{Place, Problem};
+use crate::io::reading::{number, text};
+
+/// The longest line in bytes.
+const MAX_LINE: usize = 1 << 20;
+
+/// Names of a column of vertex numbers.
+const NUMBERS: [&str; 3] = ["vertex", "source_vertex", "target_vertex"];
+
+pub(super) fn read(bytes: &[u8], vertices: usize) -> Result<VertexTable, Problem> {
+    let mut lines = text(bytes)?
+        .lines()
+        .enumerate()
+        .map(|(index, line)| (index + 1, line.split('#').next().unwrap_or_default().trim()))
+        .filter(|(_, line)| !line.is_empty())
+        .peekable();
+    let Some(&(first, line)) = lines.peek() else {
+        return Err((Place::Line(1), "the table is empty".to_owned()));
+    };
+    check_length(first, line)?;
+    let mut names: Vec<String> = line.split(',').map(|name| name.trim().to_owned()).collect();
+    let is_named = names.iter().any(|name| name.parse::<f64>().is_err() && !name.is_empty());
+    let rows = if is_named {
+        lines.next();
+        check_names(first, &names)?;
+        if NUMBERS.contains(&names[0].as_str()) {
+            Rows::Numbered(names.remove(0))
+        } else {
+            Rows::InOrder { heading: Heading::Named }
+        }
+    } else {
+        names = (1..=names.len()).map(|k| k.to_string()).collect();
+        Rows::InOrder { heading: Heading::Missing }
+    };
+    let mut filling = Filling::new(names, vertices);
+    for (row, (line, content)) in lines.enumerate() {
+        check_length(line, content)?;
+        filling.line(line, row, content, &rows)?;
+    }
+    filling.finish(rows)
+}
+
+fn check_length(line: usize, content: &str) -> Result<(), Problem> {
+    if content.len() > MAX_LINE {
+        let problem = format!("it has {} bytes, more than the {MAX_LINE} of a line", content.len());
+        return Err((Place::Line(line), problem));
+    }
+    Ok(())
+}
+
+fn check_names(line: usize, names: &[String]) -> Result<(), Problem> {
+    if let Some(k) = names.iter().position(String::is_empty) {
+        return Err((Place::Line(line), format!("column {} has no name", k + 1)));
+    }
+    let mut sorted: Vec<&String> = names.iter().collect();
+    sorted.sort_unstable();
+    match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
+        Some(pair) => Err((Place::Line(line), format!("two columns are called \"{}\"", pair[0]))),
+        None => Ok(()),
+    }
+}
+
+/// Columns that are being read.
+struct Filling {
+    columns: Vec<Column>,
+    /// The line of each vertex, 0 for none so far.
+    line_of: Vec<usize>,
+    /// Rows so far.
+    rows: usize,
+}
+
+impl Filling {
+    /// Memory is taken as rows come, not as the mesh is large.
+    fn new(names: Vec<String>, vertices: usize) -> Self {
+        let column = |name| Column { name, number_type: NumberType::Double, values: Vec::new() };
+        Self { columns: names.into_iter().map(column).collect(), line_of: vec![0; vertices], rows: 0 }
+    }
+
+    fn line(&mut self, line: usize, row: usize, content: &str, rows: &Rows) -> Result<(), Problem> {
+        let mut fields = content.split(',').map(str::trim);
+        let vertex = match rows {
+            Rows::InOrder { .. } => row,
+            Rows::Numbered(_) => number(fields.next(), line, "a vertex number")?,
+        };
+        let Some(earlier) = self.line_of.get_mut(vertex) else {
+            let vertices = self.line_of.len();
+            let problem = format!("there is no vertex {vertex}: the mesh file has {vertices} vertices");
+            return Err((Place::Line(line), problem));
+        };
+        if *earlier != 0 {
+            return Err((Place::Line(line), format!("vertex {vertex} is already in line {earlier}")));
+        }
+        *earlier = line;
+        self.rows += 1;
+        for column in &mut self.columns {
+            let what = || format!("a number of \"{}\"", column.name);
+            let field = fields.next();
+            let value = match field {
+                Some("") => None,
+                _ => Some(number::<f64>(field, line, &what())?),
+            };
+            if let Some(value) = value.filter(|value| !value.is_finite()) {
+                return Err((
+                    Place::Line(line),
+                    format!("{value} is no usable value of \"{}\"", column.name),
+                ));
+            }
+            if column.values.len() <= vertex {
+                column.values.resize(vertex + 1, None);
+            }
+            column.values[vertex] = value;
+        }
+        match fields.next() {
+            Some(_) => Err((Place::Line(line), format!("it has more than {} values", self.columns.len()))),
+            None => Ok(()),
+        }
+    }
+
+    fn finish(mut self, rows: Rows) -> Result<VertexTable, Problem> {
+        let vertices = self.line_of.len();
+        if matches!(rows, Rows::InOrder { .. }) && self.rows != vertices {
+            let problem = format!(
+                "it has {} rows, but the mesh file has {vertices} vertices: give each a row, or a first column `vertex`",
+                self.rows
+            );
+            return Err((Place::Header, problem));
+        }
+        self.columns.iter_mut().for_each(|column| column.values.resize(vertices, None));
+        Ok(VertexTable { rows, columns: self.columns, left_out: Vec::new() })
+    }
+}

@@ -1,0 +1,83 @@
+//! Tables that are read, and the sentences of those that are not.
+
+use super::*;
+
+fn csv(text: &str, vertices: usize) -> Result<VertexTable, String> {
+    read(text.as_bytes(), vertices).map_err(|e| e.to_string())
+}
+
+fn values(table: &VertexTable) -> Vec<Vec<Option<f64>>> {
+    table.columns.iter().map(|column| column.values.clone()).collect()
+}
+
+#[test]
+fn rows_in_order_and_numbered_rows_are_read() {
+    let wanted = vec![vec![Some(1.5), Some(-2.0)], vec![Some(0.25), Some(3.0)]];
+    let texts =
+        ["1.5,0.25\n-2,3\n", "heat, u # both\n1.5,0.25\n\n-2,3", "vertex,heat,u\r\n1,-2,3\r\n0,1.5,0.25\r\n"];
+    for text in texts {
+        assert_eq!(values(&csv(text, 2).unwrap()), wanted, "{text}");
+    }
+    let names = |text| csv(text, 2).unwrap().columns.into_iter().map(|c| c.name).collect::<Vec<_>>();
+    assert_eq!(names(texts[0]), ["1", "2"]);
+    assert_eq!(names(texts[1]), ["heat", "u"]);
+    assert_eq!(csv(texts[2], 2).unwrap().rows, Rows::Numbered("vertex".to_owned()));
+    // A vertex may be left out, or have an empty field: whether that may be is for the mesh to say.
+    assert_eq!(values(&csv("vertex,heat\n1,\n2,5\n", 4).unwrap()), [[None, None, Some(5.0), None]]);
+}
+
+#[test]
+fn faults_are_told_with_their_line() {
+    let cases = [
+        ("", "line 1: the table is empty"),
+        ("# nothing\n", "line 1: the table is empty"),
+        ("vertex,a\n0,1\n7,1\n", "line 3: there is no vertex 7: the mesh file has 2 vertices"),
+        ("vertex,a\n0,1\n\n0,2\n", "line 4: vertex 0 is already in line 2"),
+        ("vertex,a\n0,warm\n", "line 2: \"warm\" should be a number of \"a\""),
+        ("vertex,a\n-1,2\n", "line 2: \"-1\" should be a vertex number"),
+        ("vertex,a,b\n0,1\n", "line 2: a number of \"b\" is missing: the file may be cut off"),
+        ("vertex,a\n0,1,2\n", "line 2: it has more than 1 values"),
+        ("vertex,a\n0,inf\n", "line 2: inf is no usable value of \"a\""),
+        ("vertex,a,a\n0,1,2\n", "line 1: two columns are called \"a\""),
+        ("vertex,,a\n0,1,2\n", "line 1: column 2 has no name"),
+        (
+            "a\n1\n",
+            "header: it has 1 rows, but the mesh file has 2 vertices: give each a row, or a first column `vertex`",
+        ),
+        ("a\n1\n2\n3\n", "line 4: there is no vertex 2: the mesh file has 2 vertices"),
+        ("vertex\n0\n1\n", "header: there is nothing but the vertices: give each of them at least one value"),
+    ];
+    for (text, sentence) in cases {
+        assert_eq!(csv(text, 2), Err(sentence.to_owned()), "{text}");
+    }
+    let long = format!("a\n{}\n", "1,".repeat(1 << 20));
+    assert!(csv(&long, 2).unwrap_err().starts_with("line 2: it has 2097152 bytes"), "a long line");
+    assert!(read(b"a\n\xff\n", 1).is_err());
+}
+
+#[test]
+fn properties_keep_their_types_and_coordinates_are_none() {
+    let head = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n\
+                property uchar red\nproperty double heat\nproperty list uchar int others\nend_header\n";
+    let table = csv(&format!("{head}0 0 0 255 0.5 0\n1 0 0 7 -1e3 2 4 5\n"), 2).unwrap();
+    assert_eq!(values(&table), [[Some(255.0), Some(7.0)], [Some(0.5), Some(-1e3)]]);
+    let types: Vec<_> = table.columns.iter().map(|c| (c.name.as_str(), c.number_type)).collect();
+    assert_eq!(types, [("red", NumberType::UChar), ("heat", NumberType::Double)]);
+    assert_eq!(table.left_out, ["others"]);
+    let other = csv(&format!("{head}0 0 0 255 0.5 0\n1 0 0 7 -1e3 0\n"), 3).unwrap_err();
+    assert_eq!(other, "header: it has 2 vertices, but the mesh file has 3");
+    let huge = head.replace("vertex 2", "vertex 2000000000");
+    assert!(csv(&huge, 2).unwrap_err().contains("announces at least"), "sizes come first");
+    let broken = csv(&format!("{head}0 0 0 255 nan 0\n1 0 0 7 1 0\n"), 2).unwrap_err();
+    assert!(broken.contains("vertex 0: its \"heat\"") || broken.contains("contents"), "{broken}");
+}
+
+#[test]
+fn numbers_go_to_the_nearest_of_their_type() {
+    assert_eq!([300.0, -4.0, 12.5, 12.4].map(|x| NumberType::UChar.nearest(x)), [255.0, 0.0, 13.0, 12.0]);
+    assert_eq!(NumberType::Double.nearest(0.1), 0.1);
+    let mut bytes = Vec::new();
+    NumberType::Short.push(-2.6, &mut bytes);
+    NumberType::Float.push(0.5, &mut bytes);
+    assert_eq!(bytes, [&(-3_i16).to_le_bytes()[..], &0.5_f32.to_le_bytes()].concat());
+}

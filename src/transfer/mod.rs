@@ -1,0 +1,19 @@
+//! What maps are for: values, curves, shapes and motions of one mesh brought to the other, by the pieces of a finished map.
+//!
+//! Nothing here computes a map. Everything is exact on the overlay: on each of its triangles the map is affine.
+
+pub mod attributes;
+mod cells;
+pub mod curves;
+pub mod deformation;
+pub mod frames;
+mod gradients;
+mod mapped_files;
+mod mass;
+pub mod shape;
+#[cfg(test)]
+mod tests;
+mod values;
+
+pub use mapped_files::MappedFiles;
+pub use values::{Carrying, ValueCarrier, ValueError, Values};
