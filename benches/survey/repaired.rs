@@ -8,7 +8,7 @@ use conemap::export::obj;
 use conemap::export::vertex_image::Direction;
 use conemap::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 use conemap::io::read_mesh as read_soup;
-use conemap::job::{Job, JobFiles, MeshFaults, ReadMesh, ReadOptions, TargetImage, read_mesh};
+use conemap::job::{Job, JobFiles, MeshFaults, ReadMesh, ReadOptions, read_mesh};
 use conemap::landmark_exchange::GivenFile;
 use conemap::math::scalar::{cos, sin};
 use conemap::mesh::repair::{Handles, Parts, RepairOptions};
@@ -116,8 +116,7 @@ fn read(files: &Files, monitor: &mut dyn Monitor) -> Result<Job, String> {
     let landmarks = [GivenFile { name: "pairs.json", bytes: &files.landmarks }];
     let [source, target] = &files.meshes;
     let given = JobFiles { source, target, landmarks: &landmarks };
-    let options =
-        ReadOptions { target_image: TargetImage::AsGiven, mesh_faults: MeshFaults::Repaired(REPAIRS) };
+    let options = ReadOptions { mesh_faults: MeshFaults::Repaired(REPAIRS), ..ReadOptions::default() };
     Job::read(given, options, monitor).map_err(|e| e.to_string())
 }
 

@@ -56,9 +56,9 @@ pub fn read(bytes: &[u8], vertices: usize) -> Result<Vec<Curve>, CurveFileError>
     };
     let content = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
     let curves = match text.lines().find(content) {
-        Some(line) if line.trim_start().starts_with('{') => json(text)?,
-        Some(line) if words(line).is_some_and(is_obj) => obj(text, vertices)?,
-        _ => table(text)?,
+        Some(line) if line.trim_start().starts_with('{') => json(&text)?,
+        Some(line) if words(line).is_some_and(is_obj) => obj(&text, vertices)?,
+        _ => table(&text)?,
     };
     let curves: Vec<Curve> = curves.into_iter().map(closed_at_its_end).collect();
     if curves.is_empty() {

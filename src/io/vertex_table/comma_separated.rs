@@ -13,7 +13,8 @@ const MAX_LINE: usize = 1 << 20;
 const NUMBERS: [&str; 3] = ["vertex", "source_vertex", "target_vertex"];
 
 pub(super) fn read(bytes: &[u8], vertices: usize) -> Result<VertexTable, Problem> {
-    let mut lines = text(bytes)?
+    let text = text(bytes)?;
+    let mut lines = text
         .lines()
         .enumerate()
         .map(|(index, line)| (index + 1, line.split('#').next().unwrap_or_default().trim()))

@@ -1,10 +1,12 @@
 use super::*;
+use crate::math::scalar::{cos, sin};
 use crate::mesh::generators::{icosphere, torus};
 use crate::mesh::repair::{RepairOptions, repaired};
 use crate::mesh::soup::PolygonSoup;
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::Silent;
 use glam::DVec3;
+use std::f64::consts::{PI, TAU};
 
 fn soup_of(mesh: &SurfaceMesh) -> PolygonSoup {
     PolygonSoup {
@@ -190,9 +192,9 @@ fn a_band_with_half_a_turn_has_a_seam_and_no_turned_patch() {
     let edge = |k: u32| [2 * (k % n), 2 * (k % n) + 1];
     let place = |v: u32| {
         let (k, rung) = (f64::from(v / 2), f64::from(v % 2) - 0.5);
-        let (way, twist) = (k * 0.5236, k * 0.2618);
-        let out = 2.0 + rung * twist.cos();
-        DVec3::new(out * way.cos(), out * way.sin(), rung * twist.sin())
+        let (way, twist) = (k * TAU / 12.0, k * PI / 12.0);
+        let out = 2.0 + rung * cos(twist);
+        DVec3::new(out * cos(way), out * sin(way), rung * sin(twist))
     };
     let mut polygons = Vec::new();
     for k in 0..n {
