@@ -17,6 +17,8 @@ import {
   stacked,
 } from '../../www/guide/geometry.ts';
 import type { Point } from '../../www/guide/geometry.ts';
+import { METHOD } from '../../www/guide/steps.ts';
+import { typeset } from '../../www/guide/typeset.ts';
 
 const TRIANGLE = [point(0, 0), point(4, 0), point(1, 3)] as const;
 const UNIT_SQUARE = [point(0, 0), point(1, 0), point(1, 1), point(0, 1)];
@@ -90,5 +92,20 @@ describe('the drawings', () => {
     expect(pathLength(wound)).toBeGreaterThan(9);
     expect(distance(straight.at(-1) ?? point(0, 0), wound.at(-1) ?? point(0, 0))).toBeCloseTo(0, 12);
     expect(wound.at(-1)).toEqual(polar(0.3 + 2 * Math.PI, 2));
+  });
+});
+
+describe('the equations', () => {
+  test('are MathML without an inline style, which the page would refuse', () => {
+    expect(METHOD).toHaveLength(10);
+    for (const { formula } of METHOD) {
+      const markup = typeset(formula.tex);
+      expect(markup).toContain('<math');
+      expect(markup).not.toContain('style=');
+    }
+  });
+
+  test('that are no TeX are refused', () => {
+    expect(() => typeset(String.raw`\nonsense{x`)).toThrow();
   });
 });
