@@ -11,21 +11,22 @@ pub fn obj_with_quads(mesh: &SurfaceMesh, is_kept: impl Fn(FaceId) -> bool) -> V
     let mut text = String::from("# a base\nmtllib base.mtl\no body\n");
     let normals = vertex_normals(mesh);
     for (v, p) in mesh.positions().iter_enumerated() {
-        writeln!(text, "v {} {} {}  0.5 0.25 {}", p.x, p.y, p.z, (v.0 % 10) as f64 / 10.0).unwrap();
+        writeln!(text, "v {} {} {}  0.5 0.25 {}", p.x, p.y, p.z, (v.0 % 10) as f64 / 10.0)
+            .expect("memory takes text");
     }
     // Cylindrical coordinates around the y axis would need arcs: any numbers do.
     for p in mesh.positions() {
-        writeln!(text, "vt {:.6} {:.6}", 0.5 + p.x, 0.5 + p.y).unwrap();
+        writeln!(text, "vt {:.6} {:.6}", 0.5 + p.x, 0.5 + p.y).expect("memory takes text");
     }
     for n in &normals {
-        writeln!(text, "vn {:.4} {:.4} {:.4}", n.x, n.y, n.z).unwrap();
+        writeln!(text, "vn {:.4} {:.4} {:.4}", n.x, n.y, n.z).expect("memory takes text");
     }
     for (k, polygon) in polygons(mesh, is_kept).iter().enumerate() {
         if k % 2000 == 0 {
-            writeln!(text, "g part{k}\nusemtl skin{}\ns {}", k % 3, k % 2).unwrap();
+            writeln!(text, "g part{k}\nusemtl skin{}\ns {}", k % 3, k % 2).expect("memory takes text");
         }
         let corners: Vec<String> = polygon.iter().map(|v| format!("{0}/{0}/{0}", v + 1)).collect();
-        writeln!(text, "f {}", corners.join(" ")).unwrap();
+        writeln!(text, "f {}", corners.join(" ")).expect("memory takes text");
     }
     text.into_bytes()
 }
