@@ -141,8 +141,8 @@ impl Search<'_> {
     /// Judges the most promising assignments, and more where these are poor.
     fn first_look(&mut self, tables: &Tables<'_>, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
         let listed = chosen(self.shapes, assignments(tables, self.options), self.options);
-        let MatchOptions { candidates, symmetric, without_orders, .. } = self.options;
-        let first = candidates + symmetric + without_orders;
+        let MatchOptions { candidates, symmetric, one_missing, without_orders, .. } = self.options;
+        let first = candidates + symmetric + one_missing + without_orders;
         for (k, assignment) in listed.iter().enumerate() {
             let enough = k >= first && self.least_score() < self.options.doubtful_score;
             if enough || (monitor.wants_result() && !self.found.is_empty()) {

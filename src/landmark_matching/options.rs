@@ -26,6 +26,8 @@ pub struct MatchOptions {
     pub candidates: usize,
     /// More of them that take symmetric partners to symmetric partners.
     pub symmetric: usize,
+    /// More of them in which one limb of one body has no partner, which costs nothing here.
+    pub one_missing: usize,
     /// More of them that are chosen without regard to orders.
     pub without_orders: usize,
     /// More that are judged where the best of the first ones is doubtful.
@@ -60,6 +62,7 @@ impl Default for MatchOptions {
             beam: 3000,
             candidates: 6,
             symmetric: 3,
+            one_missing: 2,
             without_orders: 2,
             more_candidates: 10,
             doubtful_score: 0.6,

@@ -13,6 +13,8 @@ pub(super) struct Assignment {
     pub(super) pairs: Vec<[usize; 2]>,
     /// What it costs without regard to orders.
     pub(super) cost: f64,
+    /// The part of it for main tips without a partner.
+    pub(super) unmatched_cost: f64,
     /// Share of the cyclic orders that are the same on both; 1 where there are none.
     pub(super) agreement: f64,
     /// Main tips without a partner, by side.
@@ -149,6 +151,7 @@ impl Partial {
     fn finished(self, tables: &Tables<'_>) -> Assignment {
         Assignment {
             cost: self.cost(tables.shapes[0].given),
+            unmatched_cost: UNMATCHED * self.unmatched_cost,
             agreement: agreement(tables.shapes, &self.pairs),
             unmatched: self.unmatched,
             pairs: self.pairs,
