@@ -23,7 +23,7 @@ pub(super) struct Assignment {
     pub(super) between: Option<[VertexId; 2]>,
 }
 
-/// What reversed orders cost; the other weights are beside it. They were found on SHREC07 pairs among four animals.
+/// What reversed orders cost; the other weights are beside it. They were found with a prototype on SHREC07 pairs.
 const ORDERS: f64 = 0.3;
 const PERSISTENCE: f64 = 0.05;
 const UNMATCHED: f64 = 0.35;
