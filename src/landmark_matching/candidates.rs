@@ -45,6 +45,12 @@ pub(super) fn chosen(
     take(&all, options.candidates, &mut chosen);
     let symmetric: Vec<Assignment> = all.iter().filter(|a| is_symmetric(&partners, a)).cloned().collect();
     take(&symmetric, options.symmetric, &mut chosen);
+    // A long tail that only one of both has must not drive a leg to the other's head.
+    let one_missing = |a: &&Assignment| a.unmatched[0] + a.unmatched[1] == 1;
+    let mut missing: Vec<Assignment> = all.iter().filter(one_missing).cloned().collect();
+    let rest = |a: &Assignment| a.full_cost() - a.unmatched_cost;
+    missing.sort_by(|a, b| rest(a).total_cmp(&rest(b)));
+    take(&missing, options.one_missing, &mut chosen);
     take(&blind, options.without_orders, &mut chosen);
     take(&all, options.more_candidates, &mut chosen);
     let with_room = |assignment: Assignment| -> Vec<Assignment> {

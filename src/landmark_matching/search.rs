@@ -13,6 +13,8 @@ pub(super) struct Assignment {
     pub(super) pairs: Vec<[usize; 2]>,
     /// What it costs without regard to orders.
     pub(super) cost: f64,
+    /// The part of it for main tips without a partner.
+    pub(super) unmatched_cost: f64,
     /// Share of the cyclic orders that are the same on both; 1 where there are none.
     pub(super) agreement: f64,
     /// Main tips without a partner, by side.
@@ -21,7 +23,7 @@ pub(super) struct Assignment {
     pub(super) between: Option<[VertexId; 2]>,
 }
 
-/// What reversed orders cost; the other weights are beside it. They were found on SHREC07 pairs among four animals.
+/// What reversed orders cost; the other weights are beside it. They were found with a prototype on SHREC07 pairs.
 const ORDERS: f64 = 0.3;
 const PERSISTENCE: f64 = 0.05;
 const UNMATCHED: f64 = 0.35;
@@ -149,6 +151,7 @@ impl Partial {
     fn finished(self, tables: &Tables<'_>) -> Assignment {
         Assignment {
             cost: self.cost(tables.shapes[0].given),
+            unmatched_cost: UNMATCHED * self.unmatched_cost,
             agreement: agreement(tables.shapes, &self.pairs),
             unmatched: self.unmatched,
             pairs: self.pairs,

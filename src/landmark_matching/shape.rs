@@ -17,8 +17,7 @@ const SHARES: [f64; 10] = [0.003, 0.006, 0.0125, 0.025, 0.05, 0.1, 0.2, 0.4, 0.7
 /// Nearer to a given landmark than this a tip is the same place.
 const SAME_PLACE: f64 = 0.12;
 
-/// Tips whose log radii differ by less than this in the mean see the body alike. Chosen by hand: feet of one pair differ by 0.02 to
-/// 0.1.
+/// Tips whose log radii differ by less than this in the mean see the body alike. Chosen by hand.
 const ALIKE: f64 = 0.15;
 
 /// Places that are asked for where nothing fits.

@@ -85,7 +85,8 @@ pub(super) fn verdict(
     let rival = candidates.iter().find(parts);
     let near = rival.is_some_and(|rival| rival.score < best.score + limits.margin);
     let clear = best.pairs.iter().filter(|pair| pair.origin != PairOrigin::Between).count();
-    if best.score < limits.sure_score && !near && clear >= limits.least_pairs {
+    let fits = best.score < limits.sure_score && best.agreement >= limits.agreement;
+    if fits && !near && clear >= limits.least_pairs {
         return Verdict::Sure;
     }
     match rival {
