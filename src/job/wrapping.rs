@@ -118,7 +118,8 @@ impl TakenMap<'_> {
         let input = WrapInput { base: base.mesh(), scan: scan.mesh(), map, caps };
         let wrapped = wrapped(&input, monitor)?;
         let before = &io::read_mesh(base_file)?.positions;
-        let positions = file_positions(base, before, &wrapped);
+        let mut positions = file_positions(base, before, &wrapped);
+        positions.iter_mut().for_each(|p| *p = scan.in_file(*p));
         let laid = base.checked().by_file_vertex(&wrapped.laid.raw);
         let is_extended = |(v, laid): (usize, &Option<Laid>)| (*laid == Some(Laid::Extended)).then_some(v);
         let report = WrappedFileReport {
@@ -134,7 +135,7 @@ impl TakenMap<'_> {
     }
 }
 
-/// The new places of the file's vertices: those of vertices that the map does not know part by part.
+/// The new places of the file's vertices on the scan's mesh: those of vertices that the map does not know part by part.
 fn file_positions(base: &FileMesh, before: &[DVec3], wrapped: &Wrapped) -> Vec<DVec3> {
     let known = base.checked().by_file_vertex(&wrapped.positions.raw);
     let mut positions: Vec<DVec3> = known.iter().map(|p| p.unwrap_or_default()).collect();
@@ -142,7 +143,7 @@ fn file_positions(base: &FileMesh, before: &[DVec3], wrapped: &Wrapped) -> Vec<D
     for part in loose_parts(base.polygons(), &known) {
         let moved = loose
             .get_or_insert_with(|| LooseParts::new(base.mesh(), &wrapped.positions))
-            .moved(&part.iter().map(|&v| before[v]).collect::<Vec<_>>());
+            .moved(&part.iter().map(|&v| base.frame().on_mesh(before[v])).collect::<Vec<_>>());
         part.iter().zip(moved).for_each(|(&v, p)| positions[v] = p);
     }
     positions

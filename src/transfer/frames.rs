@@ -72,8 +72,8 @@ pub fn read(mesh: &FileMesh, bytes: &[u8]) -> Result<Shape, FrameError> {
         let [found, expected] = [&soup.polygons[face], &mesh.polygons()[face]].map(corners);
         return Err(FrameError::Corners { face, found, expected });
     }
-    // The number of a mirrored point's place is its own inverse.
-    let position = |v| mesh.in_file(soup.positions[mesh.vertex_number(v)]);
+    // A mirrored place mirrored again is the given one.
+    let position = |v| mesh.as_given(mesh.frame().on_mesh(soup.positions[mesh.vertex_number(v)]));
     Ok(mesh.mesh().vertices().map(position).collect())
 }
 
