@@ -3,6 +3,7 @@ import { openDropped } from './app/dropped.ts';
 import { BROWSER, Keeper } from './app/keep.ts';
 import { listenForProposal, listenForUndo } from './app/keys.ts';
 import { saveLandmarks } from './app/landmarks.ts';
+import { Finder } from './app/find.ts';
 import { mark } from './app/mark.ts';
 import { Links } from './app/links.ts';
 import { Maps } from './app/maps.ts';
@@ -35,6 +36,7 @@ const store = new Store();
 const runner = new Runner(store);
 const links = new Links(store);
 const maps = new Maps(store, () => runner.core);
+const finder = new Finder(store, () => runner.core);
 /** Reloads the page into its newer build, when there is one. */
 let reload = (): void => undefined;
 const keeper = new Keeper(store, BROWSER);
@@ -76,6 +78,9 @@ const actions: Actions = {
   },
   openDemo: (id) => {
     void openDemo(store, id);
+  },
+  findLandmarks: () => {
+    finder.start();
   },
   suggest: (side) => {
     void suggest(store, side);

@@ -106,6 +106,11 @@ export function pairsGone(number: number): string {
   return `${count(number, 'landmark pair')} went.`;
 }
 
+/** Pairs that a search has found. */
+export function foundSentence(number: number): string {
+  return `${count(number, 'landmark pair')} found.`;
+}
+
 /** Pairs whose points on one mesh went with it. */
 export function pointsGone(number: number): string {
   return `${count(number, 'landmark pair')} lost a point with its mesh; the partners wait for new ones.`;

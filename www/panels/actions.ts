@@ -42,6 +42,8 @@ export interface Actions {
   readonly reload: () => void;
   readonly openDemo: (id: string) => void;
   readonly run: () => void;
+  /** Looks for landmark pairs of both meshes. */
+  readonly findLandmarks: () => void;
   /** Looks for places of one mesh that are worth a landmark. */
   readonly suggest: (side: Side) => void;
   /** Asks the run for its result. */

@@ -5,6 +5,7 @@ import { canRun, MIN_PAIRS } from '../store/readiness.ts';
 import { staleness } from '../store/staleness.ts';
 import type { State } from '../store/state.ts';
 import type { Actions, PartProps } from './actions.ts';
+import { FindLandmarks } from './matching.tsx';
 import { choose } from './inputs.tsx';
 import { meshName } from './names.ts';
 
@@ -79,6 +80,7 @@ export function MainAction({ state, actions }: PartProps): VNode {
         >
           <span>Place landmarks</span>
         </button>
+        <FindLandmarks state={state} actions={actions} />
         <p class="reason">{reason(state)}</p>
       </>
     );

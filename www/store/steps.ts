@@ -53,6 +53,8 @@ const NAMES: Names = {
   'pair-locked': ({ id, locked }, before) => `${locked ? 'Lock' : 'Unlock'} ${called(before, id)}`,
   'pair-moved': ({ id }, before) => `Reorder ${called(before, id)}`,
   'pairs-cleared': () => 'Delete all pairs',
+  'search-done': () => 'Find landmarks',
+  'candidate-taken': ({ candidate }) => (candidate === 0 ? 'Take the best pairs found' : `Take answer ${candidate} of the search`),
   'targets-exchanged': ({ ids }, before) => `Exchange the targets of ${ids.map((id) => called(before, id)).join(' and ')}`,
   options: ({ options }) => {
     const [key] = Object.keys(options) as (keyof typeof OPTION_NAMES)[];
