@@ -1,9 +1,9 @@
 /** Wires the store, the views, the panels and the worker together. */
 import { openDropped } from './app/dropped.ts';
+import { Finder } from './app/find.ts';
 import { BROWSER, Keeper } from './app/keep.ts';
 import { listenForProposal, listenForUndo } from './app/keys.ts';
 import { saveLandmarks } from './app/landmarks.ts';
-import { Finder } from './app/find.ts';
 import { mark } from './app/mark.ts';
 import { Links } from './app/links.ts';
 import { Maps } from './app/maps.ts';

@@ -1,9 +1,8 @@
 /** Looks for landmarks in a worker of its own, while the page can be used. */
 import { startMatch } from '../compute/match-client.ts';
-import { failureSentence, foundSentence } from '../messages.ts';
+import { failureSentence } from '../messages.ts';
 import type { MatchReport } from '../report.ts';
 import { landmarkFileOf } from '../store/landmark-file.ts';
-import type { Searching } from '../store/matching.ts';
 import { canSearch } from '../store/search.ts';
 import type { Store } from '../store/store.ts';
 
@@ -42,7 +41,7 @@ export class Finder {
           dispatch({ kind: 'search-progress', share });
         },
         done: (report) => {
-          this.#done(JSON.parse(report) as MatchReport);
+          dispatch({ kind: 'search-done', report: JSON.parse(report) as MatchReport });
         },
         failed: (failure) => {
           console.error(failure);
@@ -50,15 +49,5 @@ export class Finder {
         },
       },
     );
-  }
-
-  #done(report: MatchReport): void {
-    const { dispatch, state } = this.#store;
-    const of: Searching['of'] | null = state.matching?.kind === 'searching' ? state.matching.of : null;
-    dispatch({ kind: 'search-done', report });
-    const made = this.#store.state.pairs.filter((pair) => of?.pairs.includes(pair) === false).length;
-    if (made > 0) {
-      dispatch({ kind: 'toast', sentence: foundSentence(made), undo: true });
-    }
   }
 }

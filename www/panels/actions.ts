@@ -23,7 +23,8 @@ export type CameraCommand =
 
 /** What panels ask for beyond a change of state. */
 export interface Actions {
-  readonly dispatch: (event: Event) => void;
+  /** Events that are dispatched together are one step. */
+  readonly dispatch: (...events: readonly Event[]) => void;
   readonly openFiles: (files: readonly File[], side: Side | null) => void;
   /** The click that the link which was opened waits for. */
   readonly acceptLink: () => void;

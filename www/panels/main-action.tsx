@@ -5,8 +5,8 @@ import { canRun, MIN_PAIRS } from '../store/readiness.ts';
 import { staleness } from '../store/staleness.ts';
 import type { State } from '../store/state.ts';
 import type { Actions, PartProps } from './actions.ts';
-import { FindLandmarks } from './matching.tsx';
 import { choose } from './inputs.tsx';
+import { FindLandmarks } from './matching.tsx';
 import { meshName } from './names.ts';
 
 /** Why no map can be made, or what it would be made of. */

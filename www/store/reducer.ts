@@ -165,7 +165,14 @@ export function update(state: State, event: Event): State {
     case 'search-closed':
       return patched(state, { matching: null });
     case 'run-started':
-      return { ...state, matching: state.matching?.kind === 'searching' ? null : state.matching, job: started(workOf(state)), found: null, findings: [], error: null };
+      return {
+        ...state,
+        matching: state.matching?.kind === 'searching' ? null : state.matching,
+        job: started(workOf(state)),
+        found: null,
+        findings: [],
+        error: null,
+      };
     case 'run-progress':
       return withRun(state, (job) => advanced(job, event.progress));
     case 'run-relaxes':
