@@ -1,5 +1,6 @@
 /** Wires the store, the views, the panels and the worker together. */
 import { openDropped } from './app/dropped.ts';
+import { Finder } from './app/find.ts';
 import { BROWSER, Keeper } from './app/keep.ts';
 import { listenForProposal, listenForUndo } from './app/keys.ts';
 import { saveLandmarks } from './app/landmarks.ts';
@@ -35,6 +36,7 @@ const store = new Store();
 const runner = new Runner(store);
 const links = new Links(store);
 const maps = new Maps(store, () => runner.core);
+const finder = new Finder(store, () => runner.core);
 /** Reloads the page into its newer build, when there is one. */
 let reload = (): void => undefined;
 const keeper = new Keeper(store, BROWSER);
@@ -76,6 +78,9 @@ const actions: Actions = {
   },
   openDemo: (id) => {
     void openDemo(store, id);
+  },
+  findLandmarks: () => {
+    finder.start();
   },
   suggest: (side) => {
     void suggest(store, side);

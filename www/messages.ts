@@ -106,6 +106,18 @@ export function pairsGone(number: number): string {
   return `${count(number, 'landmark pair')} went.`;
 }
 
+/** Pairs that came by a search, and others that went for them. */
+export function foundSentence(came: number, went: number): string {
+  const others = went === 0 ? '' : ` ${count(went, 'other pair')} went.`;
+  return `${count(came, 'landmark pair')} found.${others}`;
+}
+
+/** Pairs that came or changed by another answer of a search, and others that went for them. */
+export function takenSentence(came: number, went: number): string {
+  const others = went === 0 ? '' : ` ${count(went, 'other pair')} went.`;
+  return `${count(came, 'landmark pair')} placed as in the chosen answer.${others}`;
+}
+
 /** Pairs whose points on one mesh went with it. */
 export function pointsGone(number: number): string {
   return `${count(number, 'landmark pair')} lost a point with its mesh; the partners wait for new ones.`;

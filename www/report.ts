@@ -1,7 +1,15 @@
 /** The report of a run and the choices of one, as the core declares them. */
-import type { Choices, FindingReport } from './wasm/conemap.js';
+import type { CandidateReport, Choices, FindingReport, QuestionReport } from './wasm/conemap.js';
 
 export type { CertificateReport, ConeMetricReport, CoverageReport, LayoutSearchReport, Report } from './wasm/conemap.js';
+
+export type { MatchReport } from './wasm/conemap.js';
+
+/** Landmark pairs that the program has found. */
+export type Candidate = CandidateReport;
+
+/** What settles a doubt about them. */
+export type Question = QuestionReport;
 
 /** A doubt about landmark pairs, or limbs of one mesh without a landmark. */
 export type Finding = FindingReport;

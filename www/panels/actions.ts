@@ -23,7 +23,8 @@ export type CameraCommand =
 
 /** What panels ask for beyond a change of state. */
 export interface Actions {
-  readonly dispatch: (event: Event) => void;
+  /** Events that are dispatched together are one step. */
+  readonly dispatch: (...events: readonly Event[]) => void;
   readonly openFiles: (files: readonly File[], side: Side | null) => void;
   /** The click that the link which was opened waits for. */
   readonly acceptLink: () => void;
@@ -42,6 +43,8 @@ export interface Actions {
   readonly reload: () => void;
   readonly openDemo: (id: string) => void;
   readonly run: () => void;
+  /** Looks for landmark pairs of both meshes. */
+  readonly findLandmarks: () => void;
   /** Looks for places of one mesh that are worth a landmark. */
   readonly suggest: (side: Side) => void;
   /** Asks the run for its result. */

@@ -5,6 +5,7 @@ import type { PartProps } from './actions.ts';
 import { choose } from './inputs.tsx';
 import { LandmarkFormats } from './landmark-formats.tsx';
 import { LandmarkTable } from './landmark-table.tsx';
+import { FindLandmarks, Matched } from './matching.tsx';
 import { ProposalNote } from './proposal.tsx';
 import { Suggestions } from './suggestions.tsx';
 
@@ -52,6 +53,8 @@ export function LandmarksPanel({ state, actions }: PartProps): VNode {
   return (
     <div class="content of-landmarks" id="landmarks">
       <FileButtons state={state} actions={actions} />
+      <FindLandmarks state={state} actions={actions} />
+      <Matched state={state} actions={actions} />
       <ProposalNote state={state} actions={actions} />
       <Suggestions state={state} actions={actions} />
       <div class="table">

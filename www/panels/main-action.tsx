@@ -6,6 +6,7 @@ import { staleness } from '../store/staleness.ts';
 import type { State } from '../store/state.ts';
 import type { Actions, PartProps } from './actions.ts';
 import { choose } from './inputs.tsx';
+import { FindLandmarks } from './matching.tsx';
 import { meshName } from './names.ts';
 
 /** Why no map can be made, or what it would be made of. */
@@ -79,6 +80,7 @@ export function MainAction({ state, actions }: PartProps): VNode {
         >
           <span>Place landmarks</span>
         </button>
+        <FindLandmarks state={state} actions={actions} />
         <p class="reason">{reason(state)}</p>
       </>
     );

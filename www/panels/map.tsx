@@ -12,6 +12,7 @@ import { ReportFacts, ReportTimes } from './facts.tsx';
 import { Findings } from './findings.tsx';
 import { Icon } from './icons.tsx';
 import { choose } from './inputs.tsx';
+import { DoubtfulLandmarks } from './matching.tsx';
 import { PlotsButton } from './plots-dialog.tsx';
 import { verdictOf } from './verdict.ts';
 import { WorstPlaces } from './worst.tsx';
@@ -86,6 +87,7 @@ export function MapPanel({ state, actions, shell }: PartProps): VNode {
           <EnergyCurve energies={state.job.energies} />
         </section>
       )}
+      <DoubtfulLandmarks state={state} actions={actions} />
       <Findings state={state} actions={actions} />
       {result !== null && (
         <ResultSection

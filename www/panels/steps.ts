@@ -48,6 +48,10 @@ export function stepAfter(state: State, previous: State): Step | null {
     // What is wrong with it is listed there.
     return 'meshes';
   }
+  if (state.matching?.kind === 'found' && previous.matching?.kind === 'searching') {
+    // How sure the pairs are is told there.
+    return 'landmarks';
+  }
   if (state.history.past.length <= previous.history.past.length) {
     // Nothing new: a step was taken back.
     return null;

@@ -2,7 +2,7 @@
 import type { Progress, RunOutput } from '../compute/messages.ts';
 import type { RunOptions } from '../report.ts';
 import type { LandmarkFile, Side, Suggestion, SurfacePoint } from '../landmarks.ts';
-import type { Finding, Report } from '../report.ts';
+import type { Finding, MatchReport, Report } from '../report.ts';
 import type { AwaitedMap } from './awaited.ts';
 import type { Examined } from './defects.ts';
 import type { History } from './history.ts';
@@ -52,6 +52,10 @@ export type Event =
   | { readonly kind: 'pair-moved'; readonly id: number; readonly to: number }
   /** All pairs go but the locked ones. */
   | { readonly kind: 'pairs-cleared' }
+  /** A search for landmarks is over: the best pairs that it found come beside those that were held. */
+  | { readonly kind: 'search-done'; readonly report: MatchReport }
+  /** The pairs of another candidate of the search come in the place of the present ones. */
+  | { readonly kind: 'candidate-taken'; readonly candidate: number }
   /** Two pairs get each other's target. */
   | { readonly kind: 'targets-exchanged'; readonly ids: readonly number[] }
   | { readonly kind: 'options'; readonly options: Partial<RunOptions> }
@@ -84,6 +88,11 @@ export type Event =
   | { readonly kind: 'proposed'; readonly proposal: Proposal }
   /** The place is not the partner; the half pair waits for a click. */
   | { readonly kind: 'proposal-dropped' }
+  /** A search for landmarks begins. */
+  | { readonly kind: 'search-begun' }
+  | { readonly kind: 'search-progress'; readonly share: number }
+  /** It is given up, or what it found is seen no more. */
+  | { readonly kind: 'search-closed' }
 
   // The run.
 

@@ -26,6 +26,7 @@ import { withoutSide } from './refused.ts';
 import { withRestored } from './restore.ts';
 import { withFindings } from './settle.ts';
 import { withSideMarks } from './side-marks.ts';
+import { withFound, withSearch, withSearched, withTaken } from './search.ts';
 import type { Result, State, Style } from './state.ts';
 import { shownResult } from './staleness.ts';
 import type { Axis } from './work.ts';
@@ -153,8 +154,25 @@ export function update(state: State, event: Event): State {
       return { ...state, proposal: event.proposal };
     case 'proposal-dropped':
       return patched(state, { proposal: null });
+    case 'search-begun':
+      return withSearch(state);
+    case 'search-progress':
+      return withSearched(state, event.share);
+    case 'search-done':
+      return withFound(state, event.report);
+    case 'candidate-taken':
+      return withTaken(state, event.candidate);
+    case 'search-closed':
+      return patched(state, { matching: null });
     case 'run-started':
-      return { ...state, job: started(workOf(state)), found: null, findings: [], error: null };
+      return {
+        ...state,
+        matching: state.matching?.kind === 'searching' ? null : state.matching,
+        job: started(workOf(state)),
+        found: null,
+        findings: [],
+        error: null,
+      };
     case 'run-progress':
       return withRun(state, (job) => advanced(job, event.progress));
     case 'run-relaxes':

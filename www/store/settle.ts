@@ -2,6 +2,7 @@
 import { SIDES } from '../landmarks.ts';
 import { heldMeshes } from './history.ts';
 import { settled } from './job.ts';
+import { stillMatching } from './matching.ts';
 import { changesBetween, shownResult } from './staleness.ts';
 import type { State } from './state.ts';
 
@@ -40,7 +41,8 @@ export function inLine(state: State, before: State): State {
   const hovered = present(state, state.ui.hovered);
   const isSelected = selected === state.ui.selected && hovered === state.ui.hovered;
   const pruned = isSelected ? state : { ...state, ui: { ...state.ui, selected, hovered } };
-  const next = withFindings({ ...pruned, result: reachableResult(pruned) });
+  const matching = stillMatching(pruned.matching, pruned, before);
+  const next = withFindings({ ...pruned, matching, result: reachableResult(pruned) });
   if (next.meshes === before.meshes) {
     return next;
   }

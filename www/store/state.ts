@@ -7,6 +7,7 @@ import type { Examined } from './defects.ts';
 import type { History } from './history.ts';
 import { NO_HISTORY } from './history.ts';
 import type { Job } from './job.ts';
+import type { Matching } from './matching.ts';
 import type { Receiving } from './receiving.ts';
 import type { Refused } from './refused.ts';
 import type { Demo, Work } from './work.ts';
@@ -124,6 +125,8 @@ export interface State extends Work {
   readonly found: { readonly doubts: readonly Doubt[]; readonly inputs: Work } | null;
   /** Those doubts while they are about what is on the page; else none. */
   readonly findings: readonly Doubt[];
+  /** Landmarks that the program looks for or has found. */
+  readonly matching: Matching | null;
   readonly toast: Toast | null;
   /** What the link that was opened waits for. */
   readonly receiving: Receiving;
@@ -162,6 +165,7 @@ export const INITIAL: State = {
   earlier: null,
   found: null,
   findings: [],
+  matching: null,
   toast: null,
   receiving: { kind: 'nothing' },
   awaited: null,

@@ -1,6 +1,16 @@
 /** Steps of the work in words: their names, and what is said where they drop something. */
 import type { Pair } from '../landmarks.ts';
-import { clearedSentence, count, pairGone, pairsGone, pointsGone, pointsReplaced, SENTENCES } from '../messages.ts';
+import {
+  clearedSentence,
+  count,
+  foundSentence,
+  pairGone,
+  pairsGone,
+  pointsGone,
+  pointsReplaced,
+  SENTENCES,
+  takenSentence,
+} from '../messages.ts';
 import type { Event } from './events.ts';
 import type { State, Toast } from './state.ts';
 
@@ -53,6 +63,8 @@ const NAMES: Names = {
   'pair-locked': ({ id, locked }, before) => `${locked ? 'Lock' : 'Unlock'} ${called(before, id)}`,
   'pair-moved': ({ id }, before) => `Reorder ${called(before, id)}`,
   'pairs-cleared': () => 'Delete all pairs',
+  'search-done': () => 'Find landmarks',
+  'candidate-taken': ({ candidate }) => `Take answer ${candidate + 1} of the search`,
   'targets-exchanged': ({ ids }, before) => `Exchange the targets of ${ids.map((id) => called(before, id)).join(' and ')}`,
   options: ({ options }) => {
     const [key] = Object.keys(options) as (keyof typeof OPTION_NAMES)[];
@@ -92,6 +104,10 @@ export function toastOf(events: readonly Event[], before: State, after: State): 
   }
   const dropped = droppedCount(before, after);
   const kinds = new Set(events.map(({ kind }) => kind));
+  if (kinds.has('search-done') || kinds.has('candidate-taken')) {
+    const came = after.pairs.filter((pair) => !before.pairs.includes(pair)).length;
+    return { sentence: kinds.has('search-done') ? foundSentence(came, dropped) : takenSentence(came, dropped), undo };
+  }
   if (dropped === 0 || kinds.has('pick-dropped')) {
     return null;
   }

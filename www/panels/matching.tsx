@@ -1,0 +1,212 @@
+/** Landmarks that the program finds: the search, how sure it is, and what else it found. */
+import type { VNode } from 'preact';
+import { count } from '../messages.ts';
+import type { Candidate, MatchReport, Question } from '../report.ts';
+import type { Event } from '../store/events.ts';
+import type { Found } from '../store/matching.ts';
+import { canSearch, haveSamePairs, isDoubtful, takenCandidate } from '../store/search.ts';
+import type { State } from '../store/state.ts';
+import type { PartProps } from './actions.ts';
+import { Fold } from './controls.tsx';
+import { Icon } from './icons.tsx';
+import type { IconName } from './icons.tsx';
+import { meshName } from './names.ts';
+
+type Props = Pick<PartProps, 'state' | 'actions'>;
+
+/** Alternatives that are listed. */
+const LISTED = 5;
+
+interface Told {
+  readonly icon: IconName;
+  readonly word: string;
+  readonly sentence: string;
+}
+
+/** How sure a search is, in the page's words. */
+const VERDICTS: Readonly<Record<MatchReport['verdict']['kind'], Told>> = {
+  sure: { icon: 'check', word: 'Sure.', sentence: 'No other answer comes near.' },
+  doubtful: { icon: 'doubt', word: 'Doubtful.', sentence: 'Another answer fits nearly as well. The question below settles it.' },
+  unknown: {
+    icon: 'help',
+    word: 'Not found.',
+    sentence: 'No answer fits well. Click a ring on the source, then the same place on the target; find landmarks again after a few.',
+  },
+};
+const SETTLED: Told = { icon: 'check', word: 'Chosen by you.', sentence: 'The other answers can still be taken.' };
+
+/** The button; while a search goes on, its progress and the way out. */
+export function FindLandmarks({ state, actions }: Props): VNode {
+  const { matching } = state;
+  if (matching?.kind === 'searching') {
+    return (
+      <div class="searching">
+        <progress max={1} value={matching.share} aria-label="Looking for landmarks" />
+        <button
+          type="button"
+          onClick={() => {
+            actions.dispatch({ kind: 'search-closed' });
+          }}
+        >
+          Stop looking
+        </button>
+      </div>
+    );
+  }
+  return (
+    <button
+      type="button"
+      class="find-landmarks"
+      title="Find pairs at the ends of limbs by the shapes of both meshes; whole pairs that are there stay"
+      disabled={!canSearch(state)}
+      onClick={actions.findLandmarks}
+    >
+      <Icon name="target" />
+      Find landmarks
+    </button>
+  );
+}
+
+/** What an answer to a question does: the pairs of its candidate, and the pair asked about where both candidates have the same pairs. */
+function answered({ candidates }: MatchReport, { source, targets, rival }: Question, answer: 0 | 1): readonly Event[] {
+  const candidate = answer === 0 ? 0 : rival;
+  const [best, other] = [candidates[0], candidates[rival]];
+  const taken: Event = { kind: 'candidate-taken', candidate };
+  return best === undefined || other === undefined || !haveSamePairs(best, other)
+    ? [taken]
+    : [taken, { kind: 'point-picked', side: 0, point: source }, { kind: 'point-picked', side: 1, point: targets[answer] }];
+}
+
+/** The question that settles a doubt: the same place of the source, here or there on the target. */
+function Asked({ report, question, state, actions }: { readonly report: MatchReport; readonly question: Question } & Props): VNode {
+  const { source, targets } = question;
+  return (
+    <div class="question" role="group" aria-label="Which place is right?">
+      <p>
+        Where on the {meshName(state, 1)} does vertex {source} of the {meshName(state, 0)} belong?
+      </p>
+      {([0, 1] as const).map((answer) => (
+        <div class="answer" key={answer}>
+          <span>{answer === 0 ? 'The best answer' : 'The other'}: vertex {targets[answer]}</span>
+          <button
+            type="button"
+            class="bare"
+            aria-label={`Show vertex ${targets[answer]}`}
+            title="Turn both views to the place and its partner"
+            onClick={() => {
+              actions.lookAtPlaces([source, targets[answer]]);
+            }}
+          >
+            Show
+          </button>
+          <button
+            type="button"
+            aria-label={`Vertex ${targets[answer]} is right`}
+            onClick={() => {
+              actions.dispatch(...answered(report, question, answer));
+            }}
+          >
+            Right
+          </button>
+        </div>
+      ))}
+    </div>
+  );
+}
+
+/** The candidates that are listed, with their numbers: those whose pairs are other ones than those of the candidates before. */
+function listed({ candidates }: MatchReport): readonly { readonly candidate: Candidate; readonly number: number }[] {
+  return candidates
+    .map((candidate, number) => ({ candidate, number }))
+    .filter(({ candidate, number }) => !candidates.slice(0, number).some((earlier) => haveSamePairs(earlier, candidate)))
+    .slice(0, LISTED + 1);
+}
+
+/** Other pairs that were found, the best first. */
+function Alternatives({ found, state, actions }: { readonly found: Found } & Props): VNode | null {
+  const answers = listed(found.report);
+  const taken = takenCandidate(state);
+  if (answers.length < 2) {
+    return null;
+  }
+  return (
+    <Fold title={count(answers.length - 1, 'other answer')}>
+      <ol class="answers">
+        {answers.map(({ candidate: { score, difference }, number }) => (
+          <li key={number}>
+            <button
+              type="button"
+              class="bare"
+              aria-pressed={taken === number}
+              onClick={() => {
+                actions.dispatch({ kind: 'candidate-taken', candidate: number });
+              }}
+            >
+              <span>{difference === null ? 'The best answer.' : difference.sentence}</span>
+              <span class="quiet">{score.toFixed(2)}</span>
+            </button>
+          </li>
+        ))}
+      </ol>
+      <p class="quiet small">The number says how badly an answer fits: the smaller the better.</p>
+    </Fold>
+  );
+}
+
+function toldOf(state: State, { report, isSettled }: Found): Told {
+  return isSettled && takenCandidate(state) !== null ? SETTLED : VERDICTS[report.verdict.kind];
+}
+
+/** What was found, and how sure it is; nothing before a search. */
+export function Matched({ state, actions }: Props): VNode | null {
+  const { matching } = state;
+  if (matching?.kind !== 'found') {
+    return null;
+  }
+  const told = toldOf(state, matching);
+  const { icon, word, sentence } = told;
+  const { question } = matching.report.verdict;
+  return (
+    <section class="matched" aria-label="Landmarks that were found">
+      <div class={`told of-${icon}`} role="status">
+        <Icon name={icon} />
+        <p>
+          <strong>{word}</strong> {sentence}
+        </p>
+        <button
+          type="button"
+          class="square"
+          aria-label="Hide what was found"
+          title="Hide"
+          onClick={() => {
+            actions.dispatch({ kind: 'search-closed' });
+          }}
+        >
+          <Icon name="close" />
+        </button>
+      </div>
+      {question !== null && told !== SETTLED && <Asked report={matching.report} question={question} state={state} actions={actions} />}
+      <Alternatives found={matching} state={state} actions={actions} />
+    </section>
+  );
+}
+
+/** That a map is made of landmarks that may be wrong. */
+export function DoubtfulLandmarks({ state, actions }: Props): VNode | null {
+  return isDoubtful(state) ? (
+    <div class="note">
+      <Icon name="doubt" />
+      <div>
+        <p>The landmarks were found by the program and are doubtful.</p>
+        <button
+          type="button"
+          onClick={() => {
+            actions.dispatch({ kind: 'ui', ui: { step: 'landmarks' } });
+          }}
+        >
+          Answer the question
+        </button>
+      </div>
+    </div>
+  ) : null;
+}
