@@ -4,28 +4,38 @@ use crate::run::{cargo, run, run_with};
 use crate::{browser, page, wasm};
 use std::time::Instant;
 
-type Task = fn() -> Result<(), String>;
-
-/// In this order, the quick ones first; all are run, and the failed ones are named at the end.
-const TASKS: [(&str, Task); 7] = [
-    ("formatting", formatting),
-    ("build helper", helper),
-    ("lints", lints),
-    ("documentation", documentation),
-    ("core", core),
-    ("page", checks),
-    ("browser", browser_tests),
-];
+type Task<'a> = Box<dyn FnOnce() -> Outcome + 'a>;
+type Outcome = Result<(), String>;
 
 /// The project's packages but this helper.
 const PACKAGES: [&str; 4] = ["--package", "conemap", "--package", "conemap-verify"];
 
-/// Runs every test.
-pub fn test() -> Result<(), String> {
+/// Runs every test, the quick ones first; all are run, and the failed ones are named at the end.
+///
+/// The page is built beside the lints and the core's tests: its last and longest step, the optimisation of the whole module, keeps
+/// one processor busy.
+pub fn test() -> Outcome {
     wasm::ensure_target()?;
     page::ensure_packages()?;
+    std::thread::scope(|scope| {
+        let page = scope.spawn(page::build);
+        let built = || page.join().unwrap_or_else(|_| Err("the build of the page panicked".into()));
+        all([
+            ("formatting", Box::new(formatting)),
+            ("build helper", Box::new(helper)),
+            ("lints", Box::new(lints)),
+            ("documentation", Box::new(documentation)),
+            ("core", Box::new(core)),
+            ("page", Box::new(move || built().and_then(|()| checks()))),
+            ("browser", Box::new(browser::test)),
+        ])
+    })
+}
+
+fn all(tasks: [(&str, Task<'_>); 7]) -> Outcome {
+    let count = tasks.len();
     let mut failed = Vec::new();
-    for (name, task) in TASKS {
+    for (name, task) in tasks {
         let begun = Instant::now();
         let outcome = task();
         let seconds = begun.elapsed().as_secs();
@@ -37,21 +47,20 @@ pub fn test() -> Result<(), String> {
             }
         }
     }
-    println!("{} passed, {} failed", TASKS.len() - failed.len(), failed.len());
+    println!("{} passed, {} failed", count - failed.len(), failed.len());
     if failed.is_empty() { Ok(()) } else { Err(format!("failed: {}", failed.join(", "))) }
 }
 
-fn formatting() -> Result<(), String> {
+fn formatting() -> Outcome {
     run(&cargo(), &["fmt", "--all", "--check"])
 }
 
-fn helper() -> Result<(), String> {
+fn helper() -> Outcome {
     run(&cargo(), &["test", "--package", "xtask", "--profile", "tool"])
 }
 
-fn lints() -> Result<(), String> {
+fn lints() -> Outcome {
     run(&cargo(), &[&["clippy"][..], &PACKAGES, &["--all-targets", "--", "-D", "warnings"]].concat())?;
-    // The core alone is built for wasm by the tests in Node.
     let web = [
         "clippy",
         "--lib",
@@ -64,24 +73,19 @@ fn lints() -> Result<(), String> {
     run(&cargo(), &[&web[..], &["--", "-D", "warnings"]].concat())
 }
 
-fn documentation() -> Result<(), String> {
+fn documentation() -> Outcome {
     let strict = [("RUSTDOCFLAGS", "-D warnings")];
     run_with(&cargo(), &[&["doc"][..], &PACKAGES, &["--no-deps", "--quiet"]].concat(), &strict)
 }
 
-fn core() -> Result<(), String> {
+fn core() -> Outcome {
     // The library alone builds without the command line; the tests then run with it.
     run(&cargo(), &["check", "--lib", "--no-default-features"])?;
     run(&cargo(), &[&["test"][..], &PACKAGES].concat())
 }
 
-fn checks() -> Result<(), String> {
-    page::build()?;
+fn checks() -> Outcome {
     run("npm", &["run", "--silent", "check"])?;
     run("npm", &["run", "--silent", "lint"])?;
     run("npm", &["run", "--silent", "unit"])
-}
-
-fn browser_tests() -> Result<(), String> {
-    browser::test()
 }
