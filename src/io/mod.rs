@@ -10,10 +10,12 @@ pub mod landmark_file;
 pub mod landmark_formats;
 mod obj;
 mod off;
+pub mod picture;
 mod ply;
 mod problem;
 mod reading;
 mod stl;
+pub mod texture_coordinates;
 pub mod vertex_table;
 
 pub use format::Format;
