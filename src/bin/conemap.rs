@@ -1,4 +1,4 @@
-//! The command line: `conemap check`, `map`, `query`, `report`, `export`, `suggest`, `flow`, `landmarks` and `remesh`.
+//! The command line: `conemap check`, `map`, `query`, `report`, `export`, `transfer`, `suggest`, `flow`, `landmarks` and `remesh`.
 //!
 //! Progress and errors go to standard error; the exit code is 0 only for a converged, certified result.
 #![allow(clippy::print_stderr, reason = "a command line prints")]
@@ -27,6 +27,8 @@ mod remesh;
 mod saved;
 #[path = "conemap/suggest.rs"]
 mod suggest;
+#[path = "conemap/transfer.rs"]
+mod transfer;
 
 use clap::Parser;
 use std::process::ExitCode;
@@ -39,6 +41,7 @@ fn main() -> ExitCode {
         arguments::Command::Query(options) => query::run(options),
         arguments::Command::Report(options) => saved::report(options),
         arguments::Command::Export(options) => saved::export(options),
+        arguments::Command::Transfer(options) => transfer::run(options),
         arguments::Command::Suggest(options) => suggest::run(options),
         arguments::Command::Flow(options) => flow::run(options),
         arguments::Command::Landmarks(options) => landmarks::run(options),

@@ -44,3 +44,5 @@ mod remesh;
 mod repair;
 mod search;
 mod thesis;
+#[cfg(feature = "cli")]
+mod transfer;

@@ -53,6 +53,7 @@ mod remesh;
 mod repair;
 mod search;
 mod thesis;
+mod transfer;
 
 /// Takes the data folder; fails by a panic.
 type Test = fn(&Path);
@@ -66,6 +67,7 @@ fn modules() -> Vec<(&'static str, Vec<(&'static str, Test)>)> {
         ("few", few::tests()),
         ("layout", layout::tests()),
         ("poses", poses::tests()),
+        ("transfer", transfer::tests()),
         ("map", map::tests()),
         ("search", search::tests()),
         ("limbs", limbs::tests()),
