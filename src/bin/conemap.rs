@@ -1,4 +1,5 @@
-//! The command line: `conemap check`, `map`, `match`, `wrap`, `query`, `report`, `verify`, `export`, `suggest`, `flow`, `landmarks` and `remesh`.
+//! The command line: `conemap check`, `map`, `match`, `wrap`, `query`, `report`, `verify`, `export`, `transfer`, `suggest`, `flow`,
+//! `landmarks` and `remesh`.
 //!
 //! Progress and errors go to standard error; the exit code is 0 only for a converged, certified result.
 
@@ -34,6 +35,8 @@ mod saved;
 mod suggest;
 #[path = "conemap/told.rs"]
 mod told;
+#[path = "conemap/transfer.rs"]
+mod transfer;
 #[path = "conemap/verify.rs"]
 mod verify;
 #[path = "conemap/wrap.rs"]
@@ -53,6 +56,7 @@ fn main() -> ExitCode {
         arguments::Command::Report(options) => saved::report(options),
         arguments::Command::Verify(options) => verify::run(options),
         arguments::Command::Export(options) => saved::export(options),
+        arguments::Command::Transfer(options) => transfer::run(options),
         arguments::Command::Suggest(options) => suggest::run(options),
         arguments::Command::Flow(options) => flow::run(options),
         arguments::Command::Landmarks(options) => landmarks::run(options),

@@ -8,6 +8,7 @@ pub mod layout;
 mod mesh_format;
 pub mod obj;
 pub mod off;
+pub mod picture;
 pub mod ply;
 pub mod vertex_image;
 pub mod vertex_table;

@@ -15,10 +15,12 @@ pub mod moved;
 mod obj;
 mod off;
 mod other_file;
+pub mod picture;
 mod ply;
 mod problem;
 mod reading;
 mod stl;
+pub mod texture_coordinates;
 pub mod vertex_table;
 
 pub use detection::detect;

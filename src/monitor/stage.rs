@@ -58,7 +58,7 @@ impl Stage {
             Self::SourceConeMetric => "Flattening the source to its cones",
             Self::TargetConeMetric => "Flattening the target to its cones",
             Self::PatchwiseMap => "Mapping patch by patch",
-            Self::Transfer => "Carrying the texture over",
+            Self::Transfer => "Carrying textures and values over",
             Self::Remeshing => "Making new triangles",
             Self::Suggestion => "Looking for places that are worth a landmark",
             Self::Wrapping => "Laying the base onto the scan",

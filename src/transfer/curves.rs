@@ -10,21 +10,29 @@ use crate::io::curve_file::Curve;
 use crate::io::landmark_file::LandmarkPoint;
 use crate::map_file::FileMesh;
 use crate::mesh::{FaceId, Place, SurfaceMesh, SurfacePoint};
+use crate::monitor::{Cancelled, Monitor, Step};
 use crate::surface_map::correspondence::{Correspondence, MappedPiece, PiecesByFace};
 use glam::DVec2;
 
 /// Why a curve cannot be brought over.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("curve {} (\"{name}\"), point {}: {problem}", curve + 1, point + 1)]
-pub struct CurveError {
-    /// The curve, from 0.
-    pub curve: usize,
-    /// Its name.
-    pub name: String,
-    /// The point, from 0.
-    pub point: usize,
-    /// What is wrong and what to do.
-    pub problem: String,
+#[non_exhaustive]
+pub enum CurveError {
+    /// The user asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// A point is at fault.
+    #[error("curve {} (\"{name}\"), point {}: {problem}", curve + 1, point + 1)]
+    Point {
+        /// The curve, from 0.
+        curve: usize,
+        /// Its name.
+        name: String,
+        /// The point, from 0.
+        point: usize,
+        /// What is wrong and what to do.
+        problem: String,
+    },
 }
 
 /// Weights below this count as 0 in given points: files have rounded digits.
@@ -44,6 +52,7 @@ pub fn of_files(
     mapped: MappedFiles<'_>,
     direction: Direction,
     curves: &[Curve],
+    monitor: &mut dyn Monitor,
 ) -> Result<Vec<CarriedCurve>, CurveError> {
     let files = mapped.files;
     let carrier = CurveCarrier::new(mapped.meshes(), mapped.map, direction);
@@ -55,8 +64,10 @@ pub fn of_files(
             position: receiver.in_file(place.position(receiver.mesh())),
         }
     };
-    let carried = |(number, curve): (usize, &Curve)| {
-        let fault = |(point, problem)| CurveError { curve: number, name: curve.name.clone(), point, problem };
+    let carried = |(number, curve): (usize, &Curve)| -> Result<CarriedCurve, CurveError> {
+        monitor.step(Step { fraction: number as f64 / curves.len() as f64, residual: None })?;
+        let fault =
+            |(point, problem)| CurveError::Point { curve: number, name: curve.name.clone(), point, problem };
         let place =
             |(k, p): (usize, &LandmarkPoint)| place_of(giver, *p).map_err(|problem| fault((k, problem)));
         let places = curve.points.iter().enumerate().map(place).collect::<Result<Vec<_>, _>>()?;

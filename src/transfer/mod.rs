@@ -13,6 +13,7 @@ mod mass;
 pub mod shape;
 #[cfg(test)]
 mod tests;
+pub mod texture;
 mod values;
 
 pub use mapped_files::MappedFiles;

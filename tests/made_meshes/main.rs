@@ -50,4 +50,6 @@ mod remesh;
 mod repair;
 mod search;
 mod thesis;
+#[cfg(feature = "cli")]
+mod transfer;
 mod wrap;

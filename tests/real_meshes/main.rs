@@ -58,6 +58,7 @@ mod remesh;
 mod repair;
 mod search;
 mod thesis;
+mod transfer;
 mod wrap;
 
 /// Takes the data folder; fails by a panic.
@@ -73,6 +74,7 @@ fn modules() -> Vec<(&'static str, Vec<(&'static str, Test)>)> {
         ("few", few::tests()),
         ("layout", layout::tests()),
         ("poses", poses::tests()),
+        ("transfer", transfer::tests()),
         ("map", map::tests()),
         ("search", search::tests()),
         ("limbs", limbs::tests()),

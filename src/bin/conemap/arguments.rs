@@ -1,12 +1,14 @@
 //! What the user types.
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use conemap::cone_metric::Scheme;
+use conemap::export::vertex_image::Direction;
 use conemap::io::Format;
 use conemap::io::landmark_formats::LandmarkFormat;
 use conemap::job::MeshFaults;
 use conemap::mesh::repair::{Handles, Parts, RepairOptions};
 use conemap::pipeline::Choices;
+use conemap::transfer::Carrying;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -38,6 +40,8 @@ pub enum Command {
     Verify(VerifyArguments),
     /// Write all files of the map of a map file, without computing.
     Export(ExportArguments),
+    /// Bring attributes, motions, curves or the shape of one mesh onto the other by the map of a map file.
+    Transfer(TransferArguments),
     /// Print vertices of a mesh that are worth a landmark: ends of limbs, then points far from all others.
     Suggest(SuggestArguments),
     /// Deform one mesh conformally to a flat metric with prescribed cones.
@@ -288,6 +292,92 @@ pub struct ExportArguments {
     /// Folder for the files.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+}
+
+/// `conemap transfer`.
+#[derive(Debug, Args)]
+#[command(group = clap::ArgGroup::new("what").required(true))]
+pub struct TransferArguments {
+    /// The map.
+    #[command(flatten)]
+    pub saved: SavedMapArguments,
+    /// Values of the vertices: a table (`vertex,value,...`, or a row for each vertex) or a PLY file with vertex properties.
+    #[arg(long, value_name = "FILE", group = "what")]
+    pub attributes: Option<PathBuf>,
+    /// Mesh files with the same vertices and faces, moved: the other mesh moves likewise.
+    #[arg(long, value_name = "FILE", num_args = 1.., group = "what")]
+    pub frames: Vec<PathBuf>,
+    /// Curves over vertices (OBJ with `l` lines, or CSV) or over points of faces (CSV or JSON).
+    #[arg(long, value_name = "FILE", group = "what")]
+    pub curves: Option<PathBuf>,
+    /// Texture of the giving mesh (PNG), baked into a picture over the receiving mesh's own texture coordinates. Both mesh files
+    /// must have theirs: OBJ, or PLY with the vertex properties u and v.
+    #[arg(long, value_name = "FILE", group = "what")]
+    pub texture: Option<PathBuf>,
+    /// Each mesh's triangles in the shape of the other, with distances and how well the normals agree.
+    #[arg(long, group = "what", conflicts_with = "from")]
+    pub shape: bool,
+    /// The mesh that gives.
+    #[arg(long, value_enum, default_value_t = Side::Target)]
+    pub from: Side,
+    /// How values are made.
+    #[arg(long, value_enum, default_value_t = Method::Projection, requires = "attributes")]
+    pub method: Method,
+    /// Columns that are labels: whole numbers that are not to be mixed.
+    #[arg(long, value_name = "NAME", value_delimiter = ',', requires = "attributes")]
+    pub labels: Vec<String>,
+    /// Columns that are weights: none below 0, and the sum of a row is kept.
+    #[arg(long, value_name = "NAME", value_delimiter = ',', requires = "attributes")]
+    pub weights: Vec<String>,
+    /// Texels in a row and in a column of the picture.
+    #[arg(long, value_name = "TEXELS", default_value_t = 1024, requires = "texture", value_parser = clap::value_parser!(u16).range(1..=8192))]
+    pub size: u16,
+    /// Texels by which colours are carried on beyond the charts.
+    #[arg(long, value_name = "TEXELS", default_value_t = 8, requires = "texture", value_parser = clap::value_parser!(u8).range(..=64))]
+    pub border: u8,
+    /// File for values (csv or ply by its ending), curves (json, csv or obj) or a texture (png); folder for frames and shapes.
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+}
+
+/// One of both meshes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Side {
+    /// The source.
+    Source,
+    /// The target.
+    Target,
+}
+
+impl From<Side> for Direction {
+    /// From this mesh to the other.
+    fn from(side: Side) -> Self {
+        match side {
+            Side::Source => Self::SourceToTarget,
+            Side::Target => Self::TargetToSource,
+        }
+    }
+}
+
+/// How a value at a vertex is made of those of the other mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Method {
+    /// The nearest function that is linear on every face, by least squares over the area.
+    Projection,
+    /// The mean over the vertex's share of the area: blurred, but never beyond what is given.
+    Mean,
+    /// The value at the vertex's image.
+    Sample,
+}
+
+impl From<Method> for Carrying {
+    fn from(method: Method) -> Self {
+        match method {
+            Method::Projection => Self::Projection,
+            Method::Mean => Self::Mean,
+            Method::Sample => Self::Sample,
+        }
+    }
 }
 
 /// `conemap suggest`.

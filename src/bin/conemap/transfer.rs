@@ -1,0 +1,179 @@
+//! `conemap transfer`: attributes, motions, curves and shapes from one mesh to the other by a saved map.
+
+use crate::arguments::TransferArguments;
+use crate::clock::Clock;
+use crate::input::{self, Failure};
+use crate::saved;
+use conemap::export::vertex_image::Direction;
+use conemap::export::{self, ply};
+use conemap::io::{curve_file, picture, texture_coordinates, vertex_table};
+use conemap::job::{OpenMap, OutputKind};
+use conemap::map_file::FileMesh;
+use conemap::monitor::Stage;
+use conemap::transfer::attributes::{AttributeOptions, attributes};
+use conemap::transfer::deformation::DeformationTransfer;
+use conemap::transfer::shape::shape_report;
+use conemap::transfer::texture::{self, BakeOptions, GivenTexture};
+use conemap::transfer::{MappedFiles, curves, frames};
+use serde_json::json;
+use std::path::Path;
+
+/// Brings over what was asked for.
+pub fn run(arguments: &TransferArguments) -> Result<(), Failure> {
+    let out = &arguments.out;
+    // Asked before the work is done.
+    let format = match (&arguments.attributes, &arguments.curves, &arguments.texture) {
+        (Some(_), _, _) => ending(out, &["csv", "ply"])?,
+        (_, Some(_), _) => ending(out, &["json", "csv", "obj"])?,
+        (_, _, Some(_)) => ending(out, &["png"])?,
+        _ => "",
+    };
+    let open = saved::open(&arguments.saved)?;
+    let transfer = Transfer { arguments, open: &open, direction: arguments.from.into() };
+    if let Some(path) = &arguments.attributes {
+        transfer.attributes(path, format)
+    } else if let Some(path) = &arguments.curves {
+        transfer.curves(path, format)
+    } else if let Some(path) = &arguments.texture {
+        transfer.texture(path)
+    } else if arguments.shape {
+        transfer.shapes()
+    } else {
+        transfer.motions()
+    }
+}
+
+/// The one of some endings that a name has.
+fn ending(out: &Path, known: &[&'static str]) -> Result<&'static str, Failure> {
+    let ending = out.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    known.iter().find(|known| known.eq_ignore_ascii_case(ending)).copied().ok_or_else(|| {
+        let known = known.iter().map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(", ");
+        format!("{}: the name must end in one of {known}", out.display()).into()
+    })
+}
+
+/// A sentence that names the file.
+fn of_file(path: &Path, error: &dyn std::fmt::Display) -> Failure {
+    format!("{}: {error}", path.display()).into()
+}
+
+/// A saved map, and what is to be brought over by it.
+struct Transfer<'a> {
+    arguments: &'a TransferArguments,
+    open: &'a OpenMap,
+    direction: Direction,
+}
+
+impl<'a> Transfer<'a> {
+    fn mapped(&self) -> MappedFiles<'a> {
+        MappedFiles { files: self.open.meshes(), map: &self.open.taken().map().correspondence }
+    }
+
+    fn giver(&self) -> &'a FileMesh {
+        self.open.meshes()[self.direction.side()]
+    }
+
+    fn receiver(&self) -> &'a FileMesh {
+        self.open.meshes()[1 - self.direction.side()]
+    }
+
+    fn attributes(&self, path: &Path, format: &str) -> Result<(), Failure> {
+        let bytes = input::bytes(path)?;
+        let table =
+            vertex_table::read(&bytes, self.giver().file_vertices()).map_err(|e| of_file(path, &e))?;
+        if !table.left_out.is_empty() {
+            eprintln!("{}: lists are left out: {}", path.display(), table.left_out.join(", "));
+        }
+        let options = AttributeOptions {
+            direction: self.direction,
+            carrying: self.arguments.method.into(),
+            labels: self.arguments.labels.clone(),
+            weights: self.arguments.weights.clone(),
+        };
+        let mut clock = Clock::start_only(Stage::Transfer);
+        let carried =
+            attributes(self.mapped(), &table, &options, &mut clock).map_err(|e| of_file(path, &e))?;
+        let bytes = if format == "ply" {
+            let receiver = self.receiver();
+            let positions = frames::of_file(receiver, receiver.mesh().positions());
+            ply::polygons_with(&positions, receiver.polygons(), &carried.columns)
+        } else {
+            export::vertex_table::csv(&carried)
+        };
+        input::write(&self.arguments.out, &bytes)
+    }
+
+    fn texture(&self, path: &Path) -> Result<(), Failure> {
+        let picture = picture::read(&input::bytes(path)?).map_err(|e| of_file(path, &e))?;
+        let files = self.open.meshes();
+        let saved = &self.arguments.saved;
+        let uvs = |mesh: &FileMesh, path: &Path| -> Result<_, Failure> {
+            let corners = texture_coordinates::read(&input::bytes(path)?).map_err(|e| of_file(path, &e))?;
+            texture::face_uvs(mesh, &corners).map_err(|e| of_file(path, &e))
+        };
+        let uvs = [uvs(files[0], &saved.source)?, uvs(files[1], &saved.target)?];
+        let given = GivenTexture { uvs: uvs.each_ref(), picture: &picture };
+        let options = BakeOptions {
+            direction: self.direction,
+            size: self.arguments.size.into(),
+            border: self.arguments.border.into(),
+        };
+        let mut clock = Clock::start_only(Stage::Transfer);
+        let baked = texture::baked(self.mapped(), given, options, &mut clock)?;
+        input::write(&self.arguments.out, &export::picture::png(&baked)?)
+    }
+
+    fn motions(&self) -> Result<(), Failure> {
+        let paths = &self.arguments.frames;
+        // All frames are looked at before the first is brought over.
+        let mut shapes = Vec::new();
+        for path in paths {
+            let shape = frames::read(self.giver(), &input::mesh_bytes(path)?);
+            shapes.push(shape.map_err(|e| of_file(path, &e))?);
+        }
+        let mut clock = Clock::start_only(Stage::Transfer);
+        let mapped = self.mapped();
+        let mut transfer = DeformationTransfer::new(mapped.meshes(), mapped.map, self.direction, &mut clock)?;
+        for (number, (shape, path)) in shapes.iter().zip(paths).enumerate() {
+            let moved = transfer.moved(shape, &mut clock).map_err(|e| of_file(path, &e))?;
+            let positions = frames::of_file(self.receiver(), &moved);
+            let bytes = export::obj::polygons(&positions, self.receiver().polygons());
+            input::write(&self.arguments.out.join(format!("frame-{number:03}.obj")), &bytes)?;
+        }
+        Ok(())
+    }
+
+    fn shapes(&self) -> Result<(), Failure> {
+        let out = &self.arguments.out;
+        let mapped = self.mapped();
+        let mut reports = serde_json::Map::new();
+        let ways = [
+            (Direction::SourceToTarget, OutputKind::SourceShapeObj),
+            (Direction::TargetToSource, OutputKind::TargetShapeObj),
+        ];
+        for (direction, kind) in ways {
+            let mut clock = Clock::start_only(Stage::Transfer);
+            let report = shape_report(mapped.meshes(), mapped.map, direction, &mut clock)?;
+            drop(clock);
+            let [mesh, shape] = direction.names();
+            eprintln!("{mesh} in the {shape}'s shape: {}", report.sentence());
+            reports.insert(format!("{mesh}_in_{shape}_shape"), json!(report));
+            input::write(&out.join(kind.file_name()), &self.open.taken().output(kind)?)?;
+        }
+        input::write(&out.join("shape.json"), &serde_json::to_vec_pretty(&reports)?)
+    }
+
+    fn curves(&self, path: &Path, format: &str) -> Result<(), Failure> {
+        let bytes = input::bytes(path)?;
+        let given = curve_file::read(&bytes, self.giver().file_vertices()).map_err(|e| of_file(path, &e))?;
+        let mut clock = Clock::start_only(Stage::Transfer);
+        let carried = curves::of_files(self.mapped(), self.direction, &given, &mut clock)
+            .map_err(|e| of_file(path, &e))?;
+        let bytes = match format {
+            "obj" => export::curves::obj(&carried),
+            "csv" => export::curves::csv(self.direction, &carried),
+            _ => export::curves::json(self.direction, &carried),
+        };
+        input::write(&self.arguments.out, &bytes)
+    }
+}
