@@ -100,7 +100,7 @@ function Asked({ report, question, state, actions }: { readonly report: MatchRep
           <div class="answer" key={answer}>
             <span>
               At {name}
-              {name === place && ', as it is now'}
+              {state.pairs.some(({ points }) => points[0] === source && points[1] === target) && ', as it is now'}
             </span>
             <button
               type="button"
