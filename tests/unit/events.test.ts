@@ -9,7 +9,7 @@ import type { Refused, RefusedMesh } from '../../www/store/refused.ts';
 import type { Offer, Proposal, State, Style, Ui } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
 import { workOf } from '../../www/store/work.ts';
-import { AWAITED, DEMO, DONE, DOUBT, FOUR, mesh, OPENED, OUTPUT, pair, READY, REPORT, RUNNING, suggestion, SWAPPED } from './fixtures.ts';
+import { AWAITED, DEMO, DONE, DOUBT, FOUR, MATCH, mesh, OPENED, OUTPUT, pair, READY, REPORT, RUNNING, suggestion, SWAPPED } from './fixtures.ts';
 import type { MeshDefects } from '../../www/wasm/conemap.js';
 
 interface Case<K extends Event['kind']> {
@@ -43,6 +43,8 @@ const HALF: State = { ...READY, pairs: [...FOUR, pair(5, 7, null)], nextId: 6 };
 /** A map is there, and has proposed a place for the half pair. */
 const PROPOSAL: Proposal = { id: 5, of: 7, side: 1, point: 17 };
 const PROPOSED: State = { ...HALF, result: DONE.result, job: { kind: 'done' }, proposal: PROPOSAL };
+const TWO: State = { ...READY, pairs: FOUR.slice(0, 2) };
+const SEARCHING: State = { ...TWO, matching: { kind: 'searching', of: TWO.pairs, share: 0.25 } };
 const DOUBTS = [DOUBT];
 const DOUBTED: State = { ...READY, found: { doubts: DOUBTS, inputs: workOf(READY) }, findings: DOUBTS };
 const during = (job: Partial<typeof RUNNING>): State => ({ ...READY, job: { ...RUNNING, ...job } });
@@ -360,6 +362,46 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     event: {},
     step: null,
     changes: { proposal: null },
+  },
+  'search-begun': {
+    before: { ...TWO, error: 'Something failed.' },
+    event: {},
+    step: null,
+    changes: { matching: { kind: 'searching', of: TWO.pairs, share: 0 }, error: null },
+  },
+  'search-progress': {
+    before: SEARCHING,
+    event: { share: 0.5 },
+    step: null,
+    changes: { matching: { kind: 'searching', of: TWO.pairs, share: 0.5 } },
+  },
+  'search-done': {
+    before: SEARCHING,
+    event: { report: MATCH },
+    step: 'Find landmarks',
+    changes: {
+      matching: { kind: 'found', report: MATCH, isSettled: false },
+      pairs: [...TWO.pairs, { ...pair(5, 4, 14, 'end 3'), number: 3 }, { ...pair(6, 5, 15, 'end 4'), number: 4 }],
+      nextId: 7,
+      ...toast('2 landmark pairs found.'),
+    },
+  },
+  'candidate-taken': {
+    before: { ...TWO, matching: { kind: 'found', report: MATCH, isSettled: false } },
+    event: { candidate: 0 },
+    step: 'Take answer 1 of the search',
+    changes: {
+      matching: { kind: 'found', report: MATCH, isSettled: true },
+      pairs: [...TWO.pairs, { ...pair(5, 4, 14, 'end 3'), number: 3 }, { ...pair(6, 5, 15, 'end 4'), number: 4 }],
+      nextId: 7,
+      ...toast('2 landmark pairs placed as in the chosen answer.'),
+    },
+  },
+  'search-closed': {
+    before: SEARCHING,
+    event: {},
+    step: null,
+    changes: { matching: null },
   },
   'run-started': {
     before: { ...DOUBTED, error: 'Something failed.' },

@@ -1,7 +1,7 @@
 /** States and files to test with. */
 import type { RunOutput, SideOutput } from '../../www/compute/messages.ts';
 import type { Pair, Suggestion, SurfacePoint } from '../../www/landmarks.ts';
-import type { Finding, Report } from '../../www/report.ts';
+import type { Candidate, Finding, MatchReport, Report } from '../../www/report.ts';
 import { change } from '../../www/store/change.ts';
 import type { Event } from '../../www/store/events.ts';
 import type { AwaitedMap } from '../../www/store/awaited.ts';
@@ -99,6 +99,27 @@ export const OPENED: OpenedMap = {
     ],
   },
   options: READY.options,
+};
+
+/** Pairs that a search has found, with a name for each. */
+export function candidate(...pairs: readonly (readonly [number, number])[]): Candidate {
+  return {
+    pairs: pairs.map(([source, target]): [number, number] => [source, target]),
+    labels: pairs.map((_, index) => `end ${index + 1}`),
+    origins: pairs.map(() => 'tips'),
+    score: 1,
+    mean_log: 0.2,
+    remoteness: 0.1,
+    agreement: 0.9,
+    unmatched: [0, 0],
+    difference: null,
+  };
+}
+
+/** Two answers of a search beside the first two of FOUR, which were held: they exchange two targets. */
+export const MATCH: MatchReport = {
+  verdict: { kind: 'doubtful', sentence: 'The landmarks are doubtful.', question: { source: 4, targets: [14, 15], rival: 1 }, places: [] },
+  candidates: [candidate([0, 10], [1, 11], [4, 14], [5, 15]), candidate([0, 10], [1, 11], [4, 15], [5, 14], [6, 16])],
 };
 
 /** The state after these events, each a step of its own. */

@@ -1,5 +1,6 @@
 /** Landmarks that the program finds: the search, how sure it is, and what else it found. */
 import type { VNode } from 'preact';
+import type { Side } from '../landmarks.ts';
 import { count } from '../messages.ts';
 import type { Candidate, MatchReport, Question } from '../report.ts';
 import type { Event } from '../store/events.ts';
@@ -77,39 +78,53 @@ function answered({ candidates }: MatchReport, { source, targets, rival }: Quest
     : [taken, { kind: 'point-picked', side: 0, point: source }, { kind: 'point-picked', side: 1, point: targets[answer] }];
 }
 
+/** A place by its pin where it has one, else by its vertex. */
+function placeName({ pairs }: State, side: Side, vertex: number): string {
+  const pair = pairs.find(({ points }) => points[side] === vertex);
+  return pair === undefined ? `vertex ${vertex}` : `pin ${pair.number}`;
+}
+
 /** The question that settles a doubt: the same place of the source, here or there on the target. */
 function Asked({ report, question, state, actions }: { readonly report: MatchReport; readonly question: Question } & Props): VNode {
   const { source, targets } = question;
+  const place = placeName(state, 0, source);
   return (
     <div class="question" role="group" aria-label="Which place is right?">
       <p>
-        Where on the {meshName(state, 1)} does vertex {source} of the {meshName(state, 0)} belong?
+        Where on the {meshName(state, 1)} does {place} of the {meshName(state, 0)} belong?
       </p>
-      {([0, 1] as const).map((answer) => (
-        <div class="answer" key={answer}>
-          <span>{answer === 0 ? 'The best answer' : 'The other'}: vertex {targets[answer]}</span>
-          <button
-            type="button"
-            class="bare"
-            aria-label={`Show vertex ${targets[answer]}`}
-            title="Turn both views to the place and its partner"
-            onClick={() => {
-              actions.lookAtPlaces([source, targets[answer]]);
-            }}
-          >
-            Show
-          </button>
-          <button
-            type="button"
-            aria-label={`Vertex ${targets[answer]} is right`}
-            onClick={() => {
-              actions.dispatch(...answered(report, question, answer));
-            }}
-          >
-            Right
-          </button>
-        </div>
-      ))}
+      {([0, 1] as const).map((answer) => {
+        const target = targets[answer];
+        const name = placeName(state, 1, target);
+        return (
+          <div class="answer" key={answer}>
+            <span>
+              At {name}
+              {state.pairs.some(({ points }) => points[0] === source && points[1] === target) && ', as it is now'}
+            </span>
+            <button
+              type="button"
+              class="bare"
+              aria-label={`Show ${name}`}
+              title="Turn both views to the place and its partner"
+              onClick={() => {
+                actions.lookAtPlaces([source, target]);
+              }}
+            >
+              Show
+            </button>
+            <button
+              type="button"
+              aria-label={`This one: ${name}`}
+              onClick={() => {
+                actions.dispatch(...answered(report, question, answer));
+              }}
+            >
+              This one
+            </button>
+          </div>
+        );
+      })}
     </div>
   );
 }

@@ -3,7 +3,8 @@
 use crate::arguments::TransferArguments;
 use crate::clock::Clock;
 use crate::input::{self, Failure};
-use crate::saved;
+use crate::told::say;
+use crate::{outputs, saved};
 use conemap::export::vertex_image::Direction;
 use conemap::export::{self, ply};
 use conemap::io::{curve_file, picture, texture_coordinates, vertex_table};
@@ -16,7 +17,16 @@ use conemap::transfer::shape::shape_report;
 use conemap::transfer::texture::{self, BakeOptions, GivenTexture};
 use conemap::transfer::{MappedFiles, curves, frames};
 use serde_json::json;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// The meshes of `--shape`, and the file of its figures.
+const SHAPES: [OutputKind; 2] = [OutputKind::SourceShapeObj, OutputKind::TargetShapeObj];
+const SHAPE_REPORT: &str = "shape.json";
+
+/// The file of a frame.
+fn frame_name(number: usize) -> String {
+    format!("frame-{number:03}.obj")
+}
 
 /// Brings over what was asked for.
 pub fn run(arguments: &TransferArguments) -> Result<(), Failure> {
@@ -28,6 +38,7 @@ pub fn run(arguments: &TransferArguments) -> Result<(), Failure> {
         (_, _, Some(_)) => ending(out, &["png"])?,
         _ => "",
     };
+    outputs::check(inputs(arguments), outputs_of(arguments))?;
     let open = saved::open(&arguments.saved)?;
     let transfer = Transfer { arguments, open: &open, direction: arguments.from.into() };
     if let Some(path) = &arguments.attributes {
@@ -40,6 +51,25 @@ pub fn run(arguments: &TransferArguments) -> Result<(), Failure> {
         transfer.shapes()
     } else {
         transfer.motions()
+    }
+}
+
+/// The files that are read.
+fn inputs(arguments: &TransferArguments) -> impl Iterator<Item = &PathBuf> {
+    let TransferArguments { saved, attributes, frames, curves, texture, .. } = arguments;
+    saved.files().into_iter().chain(attributes).chain(curves).chain(texture).chain(frames)
+}
+
+/// The files that are written.
+fn outputs_of(arguments: &TransferArguments) -> Vec<PathBuf> {
+    let out = &arguments.out;
+    if arguments.shape {
+        let kinds = SHAPES.iter().map(|kind| out.join(kind.file_name()));
+        kinds.chain([out.join(SHAPE_REPORT)]).collect()
+    } else if arguments.frames.is_empty() {
+        vec![out.clone()]
+    } else {
+        (0..arguments.frames.len()).map(|number| out.join(frame_name(number))).collect()
     }
 }
 
@@ -82,7 +112,7 @@ impl<'a> Transfer<'a> {
         let table =
             vertex_table::read(&bytes, self.giver().file_vertices()).map_err(|e| of_file(path, &e))?;
         if !table.left_out.is_empty() {
-            eprintln!("{}: lists are left out: {}", path.display(), table.left_out.join(", "));
+            say(format_args!("{}: lists are left out: {}", path.display(), table.left_out.join(", ")));
         }
         let options = AttributeOptions {
             direction: self.direction,
@@ -100,7 +130,7 @@ impl<'a> Transfer<'a> {
         } else {
             export::vertex_table::csv(&carried)
         };
-        input::write(&self.arguments.out, &bytes)
+        outputs::write(&self.arguments.out, &bytes)
     }
 
     fn texture(&self, path: &Path) -> Result<(), Failure> {
@@ -120,7 +150,7 @@ impl<'a> Transfer<'a> {
         };
         let mut clock = Clock::start_only(Stage::Transfer);
         let baked = texture::baked(self.mapped(), given, options, &mut clock)?;
-        input::write(&self.arguments.out, &export::picture::png(&baked)?)
+        outputs::write(&self.arguments.out, &export::picture::png(&baked)?)
     }
 
     fn motions(&self) -> Result<(), Failure> {
@@ -138,7 +168,7 @@ impl<'a> Transfer<'a> {
             let moved = transfer.moved(shape, &mut clock).map_err(|e| of_file(path, &e))?;
             let positions = frames::of_file(self.receiver(), &moved);
             let bytes = export::obj::polygons(&positions, self.receiver().polygons());
-            input::write(&self.arguments.out.join(format!("frame-{number:03}.obj")), &bytes)?;
+            outputs::write(&self.arguments.out.join(frame_name(number)), &bytes)?;
         }
         Ok(())
     }
@@ -147,20 +177,18 @@ impl<'a> Transfer<'a> {
         let out = &self.arguments.out;
         let mapped = self.mapped();
         let mut reports = serde_json::Map::new();
-        let ways = [
-            (Direction::SourceToTarget, OutputKind::SourceShapeObj),
-            (Direction::TargetToSource, OutputKind::TargetShapeObj),
-        ];
-        for (direction, kind) in ways {
+        for (direction, kind) in
+            [Direction::SourceToTarget, Direction::TargetToSource].into_iter().zip(SHAPES)
+        {
             let mut clock = Clock::start_only(Stage::Transfer);
             let report = shape_report(mapped.meshes(), mapped.map, direction, &mut clock)?;
             drop(clock);
             let [mesh, shape] = direction.names();
-            eprintln!("{mesh} in the {shape}'s shape: {}", report.sentence());
+            say(format_args!("{mesh} in the {shape}'s shape: {}", report.sentence()));
             reports.insert(format!("{mesh}_in_{shape}_shape"), json!(report));
-            input::write(&out.join(kind.file_name()), &self.open.taken().output(kind)?)?;
+            outputs::write(&out.join(kind.file_name()), &self.open.taken().output(kind)?)?;
         }
-        input::write(&out.join("shape.json"), &serde_json::to_vec_pretty(&reports)?)
+        outputs::write(&out.join(SHAPE_REPORT), &serde_json::to_vec_pretty(&reports)?)
     }
 
     fn curves(&self, path: &Path, format: &str) -> Result<(), Failure> {
@@ -174,6 +202,6 @@ impl<'a> Transfer<'a> {
             "csv" => export::curves::csv(self.direction, &carried),
             _ => export::curves::json(self.direction, &carried),
         };
-        input::write(&self.arguments.out, &bytes)
+        outputs::write(&self.arguments.out, &bytes)
     }
 }

@@ -1,0 +1,49 @@
+/** Landmarks that the program finds: from no pair to a certified map, and back by one step. */
+import { expect, test } from '@playwright/test';
+import { openDemo, openStep, pairs, ROOT, runMap } from './page.ts';
+
+test('landmarks are found for meshes without any, and the map goes through them', async ({ page }) => {
+  await openDemo(page);
+  await openStep(page, 'landmarks');
+  await page.getByRole('button', { name: 'Clear all' }).click();
+  await expect(pairs(page)).toHaveCount(0);
+  await expect(page.locator('#run')).toBeDisabled();
+
+  // A search that is given up leaves nothing.
+  const find = page.getByRole('button', { name: 'Find landmarks' });
+  const progress = page.getByRole('progressbar', { name: 'Looking for landmarks' });
+  await find.click();
+  await expect(progress).toBeVisible();
+  await page.getByRole('button', { name: 'Stop looking' }).click();
+  await expect(progress).toBeHidden();
+  await expect(pairs(page)).toHaveCount(0);
+
+  // One that goes to its end brings pairs and says how sure they are; the page opens their list.
+  await openStep(page, 'meshes');
+  await find.click();
+  const told = page.locator('.matched .told');
+  await expect(told).toHaveText(/^(Sure|Doubtful)\. /, { timeout: 120_000 });
+  await expect(page.locator('#step-landmarks')).toHaveAttribute('aria-current', 'step');
+  const found = await pairs(page).count();
+  expect(found).toBeGreaterThanOrEqual(4);
+  await expect(page.locator('.toast')).toContainText(`${found} landmark pairs found.`);
+  await page.screenshot({ path: `${ROOT}test-results/found-landmarks.png` });
+  await runMap(page);
+
+  // The pairs came in one step; the answers stay, and can be taken again.
+  await openStep(page, 'landmarks');
+  await page.locator('#view-source').focus();
+  await page.keyboard.press('Control+z');
+  await expect(pairs(page)).toHaveCount(0);
+  await page.getByText(/^\d+ other answers?$/).click();
+  const best = page.getByRole('button', { name: /^The best answer/ });
+  await expect(best).toHaveAttribute('aria-pressed', 'false');
+  await best.click();
+  await expect(best).toHaveAttribute('aria-pressed', 'true');
+  await expect(pairs(page)).toHaveCount(found);
+  await expect(told).toContainText('Chosen by you.');
+  await page.screenshot({ path: `${ROOT}test-results/found-answers.png` });
+  await page.getByRole('button', { name: 'Hide what was found' }).click();
+  await expect(told).toBeHidden();
+  await expect(pairs(page)).toHaveCount(found);
+});
