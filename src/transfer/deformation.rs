@@ -70,7 +70,7 @@ impl<'a> DeformationTransfer<'a> {
     ) -> Result<Self, Cancelled> {
         let giver = direction.side();
         let (giving, receiving) = (meshes[giver], meshes[1 - giver]);
-        let (begins, shares) = shares(meshes, map, giver, monitor)?;
+        let Shares { begins, shares } = shares(meshes, map, giver, monitor)?;
         let laplacian = cotangent_laplacian(receiving);
         let factor = ApproximateCholesky::new(&preconditioning(&laplacian));
         let workspace = CgWorkspace::default();
@@ -151,13 +151,20 @@ fn weighted_hats(mesh: &SurfaceMesh, f: FaceId) -> [DVec3; 3] {
     [r - q, p - r, q - p].map(|side| 0.5 * normal.cross(side))
 }
 
+/// Faces of the giving mesh by face of the receiving one.
+struct Shares {
+    /// Where the shares of each face begin, and one past the last.
+    begins: Vec<u32>,
+    shares: Vec<(FaceId, f64)>,
+}
+
 /// For each face of the receiving mesh the giving mesh's faces and their shares of it, which sum to 1.
 fn shares(
     meshes: [&SurfaceMesh; 2],
     map: &Correspondence,
     giver: usize,
     monitor: &mut dyn Monitor,
-) -> Result<(Vec<u32>, Vec<(FaceId, f64)>), Cancelled> {
+) -> Result<Shares, Cancelled> {
     let receiver = 1 - giver;
     let mut by_face: TiVec<FaceId, Vec<(FaceId, f64)>> = ti_vec![Vec::new(); meshes[receiver].face_count()];
     let mut cells = Cells::new(meshes, map);
@@ -176,7 +183,7 @@ fn shares(
         shares.extend(found.iter().map(|(g, area)| (*g, share(*area))));
         begins.push(shares.len() as u32);
     }
-    Ok((begins, shares))
+    Ok(Shares { begins, shares })
 }
 
 /// The Laplacian of a surface: half the cotangents opposite each edge.

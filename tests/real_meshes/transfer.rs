@@ -55,12 +55,10 @@ fn values_and_poses_go_from_horse_to_camel(data: &Path) {
 
     let all = [Carrying::Projection, Carrying::Mean, Carrying::Sample];
     let [projection, mean, sample] = all.map(|carrying| round_trip(meshes, &map, carrying));
-    println!("there and back: projection {projection:?}, mean {mean:?}, sample {sample:?}");
     assert!(projection[0] < 0.005 && sample[0] < 0.005, "{projection:?} {sample:?}");
     assert!(projection[0] < mean[0], "{projection:?} {mean:?}");
 
     let report = shape_report(meshes, &map, SourceToTarget, &mut Silent).unwrap();
-    println!("horse in the camel's shape: {}", report.sentence());
     assert!(report.to_shape.mean < 0.002 * report.size && report.hausdorff < 0.1 * report.size, "{report:?}");
 
     let mut transfer = DeformationTransfer::new(meshes, &map, SourceToTarget, &mut Silent).unwrap();
@@ -70,9 +68,6 @@ fn values_and_poses_go_from_horse_to_camel(data: &Path) {
         let moved = transfer.moved(&frame, &mut Silent).unwrap();
         let [horse, camel] = [stretches(&pair.source, &frame), stretches(&pair.target, &moved)];
         let at = |all: &[f64], share: f64| all[(share * (all.len() - 1) as f64) as usize];
-        for (who, all) in [("horse", &horse), ("camel", &camel)] {
-            println!("{name}, {who}: edges {:?}", [0.0, 0.01, 0.5, 0.99, 1.0].map(|share| at(all, share)));
-        }
         // The camel's edges are stretched as the horse's are, not more.
         assert!(at(&camel, 0.01) > 0.5 * at(&horse, 0.01) && at(&camel, 0.99) < 2.0 * at(&horse, 0.99));
         assert!((at(&camel, 0.5) - 1.0).abs() < 0.1);
@@ -84,7 +79,6 @@ fn values_and_poses_go_from_horse_to_camel(data: &Path) {
             (0..2).for_each(|k| squares[k] += steps[k].length_squared());
         }
         let agreement = dot / (squares[0] * squares[1]).sqrt();
-        println!("{name}: agreement of the landmarks' steps {agreement}");
-        assert!(agreement > 0.8, "{agreement}");
+        assert!(agreement > 0.8, "{name}: {agreement}");
     }
 }
