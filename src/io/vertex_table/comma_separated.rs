@@ -2,7 +2,8 @@
 //! calls the first one `vertex`, `source_vertex` or `target_vertex`, that column has the vertex numbers and lines may come in any
 //! order. What follows `#` is left out. A vertex that no face uses needs no values.
 
-use super::{Column, Heading, NumberType, Rows, VertexTable};
+use super::content::{Column, Heading, Rows, VertexTable};
+use super::number_type::NumberType;
 use crate::io::problem::{Place, Problem};
 use crate::io::reading::{number, text};
 

@@ -1,92 +1,13 @@
 //! Values at the vertices of a mesh file: tables (CSV) and the vertex properties of PLY files.
 
 mod comma_separated;
+mod content;
 mod number_type;
 mod properties;
+mod reading;
 #[cfg(test)]
 mod tests;
 
+pub use content::{Column, Heading, Rows, TableError, VertexTable};
 pub use number_type::NumberType;
-
-use super::MAX_BYTES;
-use super::problem::{Place, Problem};
-
-/// Columns of numbers, one number for each vertex of a mesh file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct VertexTable {
-    /// How rows tell their vertex.
-    pub rows: Rows,
-    /// The columns in the order of the file.
-    pub columns: Vec<Column>,
-    /// Properties that are lists of numbers, and are left out.
-    pub left_out: Vec<String>,
-}
-
-/// How the rows of a table tell their vertex.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Rows {
-    /// Row i is vertex i.
-    InOrder {
-        /// Whether the first line of a CSV table names the columns.
-        heading: Heading,
-    },
-    /// The first column, of this name, has the number.
-    Numbered(String),
-}
-
-/// Whether the first line of a table names its columns.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Heading {
-    /// It does.
-    Named,
-    /// It has numbers as all others, and the columns are called `1`, `2` and so on.
-    Missing,
-}
-
-/// A number for each vertex.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Column {
-    /// Its name.
-    pub name: String,
-    /// How its numbers are written.
-    pub number_type: NumberType,
-    /// By vertex of the file; `None` where it has none.
-    pub values: Vec<Option<f64>>,
-}
-
-/// What is wrong with a table, and where.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{place}: {problem}")]
-pub struct TableError {
-    /// Where.
-    pub place: Place,
-    /// What is wrong and what to do.
-    pub problem: String,
-}
-
-impl From<Problem> for TableError {
-    fn from((place, problem): Problem) -> Self {
-        Self { place, problem }
-    }
-}
-
-/// Reads the values of the vertices of a mesh file with that many vertices: a table, or a PLY file.
-///
-/// # Errors
-/// [`TableError`] that names the line or vertex.
-pub fn read(bytes: &[u8], vertices: usize) -> Result<VertexTable, TableError> {
-    if bytes.len() > MAX_BYTES {
-        let problem = format!("the file has {} bytes; the limit is {MAX_BYTES}", bytes.len());
-        return Err(TableError { place: Place::Header, problem });
-    }
-    let table = if bytes.starts_with(b"ply") {
-        properties::read(bytes, vertices)
-    } else {
-        comma_separated::read(bytes, vertices)
-    }?;
-    if table.columns.is_empty() {
-        let problem = "there is nothing but the vertices: give each of them at least one value".to_owned();
-        return Err(TableError { place: Place::Header, problem });
-    }
-    Ok(table)
-}
+pub use reading::read;

@@ -1,6 +1,7 @@
 //! The vertex properties of PLY files, but for the coordinates.
 
-use super::{Column, Heading, NumberType, Rows, VertexTable};
+use super::content::{Column, Heading, Rows, VertexTable};
+use super::number_type::NumberType;
 use crate::io::ply::vertex_rows;
 use crate::io::problem::{Place, Problem};
 use ply_rs_bw::ply::{PropertyType, ScalarType};
