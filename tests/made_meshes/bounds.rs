@@ -74,7 +74,7 @@ fn senseless_orders_end_in_a_sentence() {
     let ball = icosphere(3);
     for (seed, step) in [(1, 8), (2, 20)] {
         let pairs = permuted(&every(step, 642), seed);
-        let sentence = bounded([&ball, &ball], &pairs).err().expect("no map in this order");
+        let Err(sentence) = bounded([&ball, &ball], &pairs) else { panic!("a map in a senseless order") };
         assert!(sentence.contains("no map was found") && sentence.contains("landmarks"), "{sentence}");
         assert!(sentence.contains("the first is 1") && sentence.contains("exchanged"), "{sentence}");
     }
