@@ -5,8 +5,9 @@ import type { MatchMessage, MatchRequest } from '../../www/compute/match-message
 import type { Pair } from '../../www/landmarks.ts';
 import { stepAfter } from '../../www/panels/steps.ts';
 import type { MatchReport } from '../../www/report.ts';
+import { change } from '../../www/store/change.ts';
 import type { Event } from '../../www/store/events.ts';
-import { isDoubtful, takenCandidate } from '../../www/store/search.ts';
+import { answered, isDoubtful, listed, takenCandidate } from '../../www/store/search.ts';
 import { Store } from '../../www/store/store.ts';
 import type { State } from '../../www/store/state.ts';
 import { staleness } from '../../www/store/staleness.ts';
@@ -128,6 +129,33 @@ describe('an answer', () => {
     expect(isDoubtful(after(found, take(0)))).toBe(false);
     expect(isDoubtful(after(found, { kind: 'run-started' }))).toBe(true);
     expect(isDoubtful(after(TWO, SEARCH, sure(candidate([0, 10], [1, 11], [4, 14], [5, 15]))))).toBe(false);
+  });
+
+  test('to the question settles the doubt', () => {
+    const { question } = MATCH.verdict;
+    if (question === null) {
+      throw new Error('the match asks a question');
+    }
+    const first = change(found, answered(MATCH, question, 0));
+    expect([takenCandidate(first), isDoubtful(first), first.pairs]).toEqual([0, false, found.pairs]);
+    const second = change(found, answered(MATCH, question, 1));
+    expect([takenCandidate(second), isDoubtful(second)]).toEqual([1, false]);
+  });
+
+  test('to a question about another way round the body is one more pair, in one step', () => {
+    const [best = candidate()] = MATCH.candidates;
+    const question = { source: 6, targets: [16, 17] as [number, number], rival: 1 };
+    const report: MatchReport = { verdict: { ...MATCH.verdict, question }, candidates: [best, { ...best, pairs: [...best.pairs].reverse() }] };
+    expect(listed(report).map(({ number }) => number)).toEqual([0]);
+    const asked = after(TWO, SEARCH, { kind: 'search-done', report });
+    const settled = change(asked, answered(report, question, 1));
+    expect(pointsOf(settled)).toEqual([...pointsOf(asked), [6, 17]]);
+    expect([isDoubtful(settled), takenCandidate(settled)]).toEqual([false, 0]);
+    expect(after(settled, { kind: 'undo' }).pairs).toBe(asked.pairs);
+  });
+
+  test('is listed once', () => {
+    expect(listed(MATCH).map(({ number }) => number)).toEqual([0, 1]);
   });
 
   test('is known beside pairs that came later', () => {

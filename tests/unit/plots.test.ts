@@ -92,6 +92,7 @@ describe('the pieces of a map', () => {
       relaxes: () => undefined,
       progress: () => undefined,
       found: () => undefined,
+      preview: () => undefined,
       wantsResult: () => false,
     });
     report = JSON.parse(output.report()) as Report;

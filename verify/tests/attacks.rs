@@ -1,5 +1,5 @@
 //! Attacks: map files that are changed in one way each, and refused for that reason.
-#![allow(clippy::expect_used, clippy::unwrap_used, reason = "a test fails by a panic")]
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by a panic")]
 
 mod support;
 

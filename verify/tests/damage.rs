@@ -1,5 +1,5 @@
 //! Damaged files: whatever happens to the bytes, the answer is a refusal with a sentence, or a proof; never a panic.
-#![allow(clippy::expect_used, clippy::unwrap_used, reason = "a test fails by a panic")]
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by a panic")]
 
 mod support;
 

@@ -2,10 +2,9 @@
 import type { VNode } from 'preact';
 import type { Side } from '../landmarks.ts';
 import { count } from '../messages.ts';
-import type { Candidate, MatchReport, Question } from '../report.ts';
-import type { Event } from '../store/events.ts';
+import type { MatchReport, Question } from '../report.ts';
 import type { Found } from '../store/matching.ts';
-import { canSearch, haveSamePairs, isDoubtful, takenCandidate } from '../store/search.ts';
+import { answered, canSearch, isDoubtful, listed, takenCandidate } from '../store/search.ts';
 import type { State } from '../store/state.ts';
 import type { PartProps } from './actions.ts';
 import { Fold } from './controls.tsx';
@@ -15,7 +14,7 @@ import { meshName } from './names.ts';
 
 type Props = Pick<PartProps, 'state' | 'actions'>;
 
-/** Alternatives that are listed. */
+/** Alternatives that are listed at most. */
 const LISTED = 5;
 
 interface Told {
@@ -68,16 +67,6 @@ export function FindLandmarks({ state, actions }: Props): VNode {
   );
 }
 
-/** What an answer to a question does: the pairs of its candidate, and the pair asked about where both candidates have the same pairs. */
-function answered({ candidates }: MatchReport, { source, targets, rival }: Question, answer: 0 | 1): readonly Event[] {
-  const candidate = answer === 0 ? 0 : rival;
-  const [best, other] = [candidates[0], candidates[rival]];
-  const taken: Event = { kind: 'candidate-taken', candidate };
-  return best === undefined || other === undefined || !haveSamePairs(best, other)
-    ? [taken]
-    : [taken, { kind: 'point-picked', side: 0, point: source }, { kind: 'point-picked', side: 1, point: targets[answer] }];
-}
-
 /** A place by its pin where it has one, else by its vertex. */
 function placeName({ pairs }: State, side: Side, vertex: number): string {
   const pair = pairs.find(({ points }) => points[side] === vertex);
@@ -100,7 +89,7 @@ function Asked({ report, question, state, actions }: { readonly report: MatchRep
           <div class="answer" key={answer}>
             <span>
               At {name}
-              {state.pairs.some(({ points }) => points[0] === source && points[1] === target) && ', as it is now'}
+              {state.pairs.some(({ points }) => points[0] === source && points[1] === target) && ', as now'}
             </span>
             <button
               type="button"
@@ -129,17 +118,9 @@ function Asked({ report, question, state, actions }: { readonly report: MatchRep
   );
 }
 
-/** The candidates that are listed, with their numbers: those whose pairs are other ones than those of the candidates before. */
-function listed({ candidates }: MatchReport): readonly { readonly candidate: Candidate; readonly number: number }[] {
-  return candidates
-    .map((candidate, number) => ({ candidate, number }))
-    .filter(({ candidate, number }) => !candidates.slice(0, number).some((earlier) => haveSamePairs(earlier, candidate)))
-    .slice(0, LISTED + 1);
-}
-
 /** Other pairs that were found, the best first. */
 function Alternatives({ found, state, actions }: { readonly found: Found } & Props): VNode | null {
-  const answers = listed(found.report);
+  const answers = listed(found.report).slice(0, LISTED + 1);
   const taken = takenCandidate(state);
   if (answers.length < 2) {
     return null;

@@ -2,7 +2,8 @@
 import type { Pair, Suggestion, WholePair } from '../landmarks.ts';
 import { isSamePoint, isWhole, SIDES } from '../landmarks.ts';
 import { pairLocked } from '../messages.ts';
-import type { Candidate, MatchReport } from '../report.ts';
+import type { Candidate, MatchReport, Question } from '../report.ts';
+import type { Event } from './events.ts';
 import { withNewPairs, withSuggestions } from './pairs.ts';
 import type { State } from './state.ts';
 
@@ -28,7 +29,7 @@ function arePoints({ points }: Pair, [source, target]: Points): boolean {
 }
 
 /** Whether two candidates have the same pairs; their maps may still be others, which go another way round the body. */
-export function haveSamePairs(a: Candidate, b: Candidate): boolean {
+function haveSamePairs(a: Candidate, b: Candidate): boolean {
   const isSame = ([source, target]: Points, [s, t]: Points): boolean => isSamePoint(source, s) && isSamePoint(target, t);
   return a.pairs.length === b.pairs.length && a.pairs.every((pair) => b.pairs.some((other) => isSame(pair, other)));
 }
@@ -112,4 +113,23 @@ export function isDoubtful(state: Pick<State, 'matching' | 'pairs'>): boolean {
   return (
     matching?.kind === 'found' && matching.report.verdict.kind === 'doubtful' && !matching.isSettled && takenCandidate(state) !== null
   );
+}
+
+/** The candidates whose pairs are other ones than those of the candidates before them, with their numbers. */
+export function listed({ candidates }: MatchReport): readonly { readonly candidate: Candidate; readonly number: number }[] {
+  return candidates
+    .map((candidate, number) => ({ candidate, number }))
+    .filter(({ candidate, number }) => !candidates.slice(0, number).some((earlier) => haveSamePairs(earlier, candidate)));
+}
+
+/**
+ * What an answer to a question does: the pairs of its candidate are taken, and where both have the same ones, the place that was
+ * asked about becomes one more.
+ */
+export function answered({ candidates }: MatchReport, { source, targets, rival }: Question, answer: 0 | 1): readonly Event[] {
+  const [best, other] = [candidates[0], candidates[rival]];
+  const taken: Event = { kind: 'candidate-taken', candidate: answer === 0 ? 0 : rival };
+  return best === undefined || other === undefined || !haveSamePairs(best, other)
+    ? [taken]
+    : [taken, { kind: 'point-picked', side: 0, point: source }, { kind: 'point-picked', side: 1, point: targets[answer] }];
 }
