@@ -1,7 +1,7 @@
 //! How far the laid base and the scan are from each other, on the skin that both have.
 
+use super::input::WrapInput;
 use super::samples::{Sample, samples};
-use super::wrapped::WrapInput;
 use crate::math::quantile::{Weighted, quantile, sort_by_value};
 use crate::math::scalar::max;
 use crate::mesh::surface_index::SurfaceIndex;

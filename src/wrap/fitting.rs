@@ -5,8 +5,8 @@
 //! scan's tangent planes are least in the mean square (Chen & Medioni 1991): along the surface nothing pulls. Two small terms keep
 //! the correspondence: how far a vertex has moved from its image, and how differently neighbours have moved.
 
+use super::input::WrapInput;
 use super::samples::samples;
-use super::wrapped::WrapInput;
 use crate::math::rigid3::outer;
 use crate::mesh::surface_index::SurfaceIndex;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};

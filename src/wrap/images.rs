@@ -1,6 +1,6 @@
 //! Where the map takes the base's vertices.
 
-use super::wrapped::WrapInput;
+use super::input::WrapInput;
 use crate::math::scalar::{ln, max};
 use crate::mesh::{SurfaceMesh, VertexId};
 use glam::{DMat3, DVec3};

@@ -14,6 +14,7 @@ mod distances;
 mod extension;
 mod fitting;
 mod images;
+mod input;
 mod loose_parts;
 mod orientation;
 mod rigid_energy;
@@ -22,8 +23,9 @@ mod untangling;
 mod wrapped;
 
 pub use distances::{DistanceFigures, WrapDistances};
+pub use input::WrapInput;
 pub use loose_parts::LooseParts;
-pub use wrapped::{Laid, WrapError, WrapInput, WrapReport, Wrapped, wrapped};
+pub use wrapped::{Laid, WrapError, WrapReport, Wrapped, wrapped};
 
 #[cfg(test)]
 mod tests;

@@ -3,7 +3,7 @@
 //! The image of a face on the scan has an area vector: its area times its mean normal. The laid face should look as that does. A
 //! face that has no image should look as its neighbours do.
 
-use super::wrapped::WrapInput;
+use super::input::WrapInput;
 use crate::mesh::{FaceId, SurfaceMesh, VertexId};
 use glam::{DVec2, DVec3};
 use typed_index_collections::{TiVec, ti_vec};

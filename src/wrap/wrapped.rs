@@ -4,39 +4,16 @@ use super::distances::WrapDistances;
 use super::extension::extended;
 use super::fitting::fit;
 use super::images::Images;
+use super::input::WrapInput;
 use super::orientation::Orientation;
 use super::rigid_energy::edge_weights;
 use super::untangling::untangle;
-use crate::mesh::cap_faces::CapFaces;
-use crate::mesh::{FaceId, SurfaceMesh, VertexId};
+use crate::mesh::{FaceId, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Stage, Step};
-use crate::surface_map::correspondence::{Correspondence, PointLocator};
+use crate::surface_map::correspondence::PointLocator;
 use glam::DVec3;
 use serde::Serialize;
 use typed_index_collections::TiVec;
-
-/// A map from a base mesh to a scan, both closed, with the marks of what closed them.
-#[derive(Clone, Copy, Debug)]
-pub struct WrapInput<'a> {
-    /// The base: the map's source.
-    pub base: &'a SurfaceMesh,
-    /// The scan: the map's target.
-    pub scan: &'a SurfaceMesh,
-    /// The map between them.
-    pub map: &'a Correspondence,
-    /// Which faces of both were made up to close holes.
-    pub caps: CapFaces<'a>,
-}
-
-impl WrapInput<'_> {
-    pub(super) fn is_base_skin(&self, face: FaceId) -> bool {
-        !self.caps.source.is_some_and(|caps| caps[face])
-    }
-
-    pub(super) fn is_scan_skin(&self, face: FaceId) -> bool {
-        !self.caps.target.is_some_and(|caps| caps[face])
-    }
-}
 
 /// How a vertex came to its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
