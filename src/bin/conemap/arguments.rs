@@ -192,6 +192,7 @@ pub struct MatchArguments {
 #[derive(Debug, Args)]
 pub struct WrapArguments {
     /// Base mesh: OBJ or OFF, whose lines are kept but for the places of its vertices; repaired for the map where it is not closed.
+    #[arg(id = "base_mesh", value_name = "BASE")]
     pub base: PathBuf,
     /// Scan that it is laid onto.
     #[arg(help = mesh_help("Scan that it is laid onto"))]
