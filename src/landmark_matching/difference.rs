@@ -44,7 +44,7 @@ impl Difference {
                 format!("{s} to {t}")
             })
             .collect();
-        let more = if self.pairs.len() > NAMED { ", ..." } else { "" };
+        let more = if self.pairs.len() > NAMED { " and more" } else { "" };
         let list = format!("{}{more}", pairs.join(", "));
         match self.kind {
             DifferenceKind::Mirrored => {
