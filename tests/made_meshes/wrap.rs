@@ -118,8 +118,9 @@ fn assert_lies_on_scan(wrapped: &WrappedFile, vertices: usize) {
     }
     // The lost foot is there, as a foot: about as far below the body as the others.
     assert!(surface.extended > 5 && surface.covered > 0.9 && surface.covered < 0.999, "{surface:?}");
-    assert_eq!(report.extended_vertices.len(), surface.extended);
-    assert_eq!(report.loose_vertices, wrapped.positions.len() - surface.on_scan - surface.extended);
+    // By the file's numbers, of which several may be one vertex of the surface.
+    assert!(report.extended_vertices.len() >= surface.extended, "{surface:?}");
+    assert_eq!(report.loose_vertices, wrapped.laid.iter().filter(|laid| laid.is_none()).count());
     assert!(report.loose_vertices >= 43 && wrapped.laid[vertices..].iter().all(Option::is_none));
     let lowest = |of: &mut dyn Iterator<Item = usize>| {
         of.map(|v| wrapped.positions[v].y).fold(f64::INFINITY, f64::min)

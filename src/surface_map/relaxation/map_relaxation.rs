@@ -92,6 +92,12 @@ impl Relaxed<'_> {
 /// Share of the diagonal that is added to the Hessian at first; adapted after every step. Chosen by hand.
 const FIRST_DAMPING: f64 = 0.03;
 
+/// Whether an edge joins two landmarks, and so is moved by no nudge.
+fn has_fixed_edges(side: &Parametrised<'_>) -> bool {
+    let landmarks = side.landmark_vertices;
+    landmarks.iter().any(|&v| side.mesh.star(v).any(|h| landmarks.contains(&side.mesh.head(h))))
+}
+
 /// Nudges of a start without an overlay, at most; growing sixfold they end at 5e-5 of the shortest edge.
 const NUDGES: usize = 8;
 
@@ -233,7 +239,8 @@ impl<'a> Relaxation<'a> {
                 return Ok(true);
             }
         }
-        self.begin_with_both(monitor)
+        // Nothing else stays where it is.
+        if self.sides.iter().any(has_fixed_edges) { self.begin_with_both(monitor) } else { Ok(false) }
     }
 
     /// Evaluates the start with both sides nudged, by different lengths: edges between landmarks of one side stay where they are, and
