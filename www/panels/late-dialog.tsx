@@ -1,6 +1,6 @@
 /** A dialog over the page whose content is fetched when it is first opened. */
 import type { ComponentType, VNode } from 'preact';
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { IconButton } from './controls.tsx';
 
 interface LateDialogProps<P extends object> {
@@ -35,7 +35,8 @@ export function LateDialog<P extends object>({ id, title, isOpen, onClose, load,
       },
     );
   };
-  useEffect(() => {
+  // Before the content's own effects, which bring the keyboard to where one begins to read.
+  useLayoutEffect(() => {
     if (isOpen) {
       dialog.current?.showModal();
       if (content.kind !== 'there') {
