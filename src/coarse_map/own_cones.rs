@@ -238,9 +238,6 @@ fn pairs(
         .collect();
     let mut free = vec![true; mesh.vertex_count()];
     avoid.iter().for_each(|&v| free[v.index()] = false);
-    // Levels of small meshes keep what the round before inserted; the next round begins without.
-    let is_known = |v: VertexId| source.vertices[v].index() < full[0].refined.mesh.vertex_count();
-    mesh.vertices().filter(|&v| !is_known(v)).for_each(|v| free[v.index()] = false);
     mesh.vertices().filter(|&v| !weights[0].is_on_skin(mesh, v)).for_each(|v| free[v.index()] = false);
     // What the round before inserted around its own points is no vertex of the mesh with the user's landmarks alone.
     let known = full[0].refined.mesh.vertex_count();

@@ -285,8 +285,9 @@ pub fn identity_is_found(name: &str, mesh: &SurfaceMesh, chosen: &[VertexId]) {
         Case { name: name.into(), source: mesh.clone(), target: mesh.clone(), landmarks, ground_truth };
     let result = case.map();
     let distortion = &result.report.distortion;
-    assert!((distortion.energy - 4.0).abs() < 1e-6, "{name}: {distortion:?}");
-    assert!((distortion.mean - 1.0).abs() < 1e-6, "{name}: {distortion:?}");
+    // Coincident edges are parted by nudges, whose traces beside landmarks are a millionth.
+    assert!((distortion.energy - 4.0).abs() < 1e-5, "{name}: {distortion:?}");
+    assert!((distortion.mean - 1.0).abs() < 1e-5, "{name}: {distortion:?}");
     let bound = 1e-6 * mesh.area().sqrt();
     for (v, image) in mesh.vertices().zip(images(&result)) {
         let miss = image.position(mesh).distance(mesh.positions()[v]);
