@@ -36,7 +36,7 @@ impl Weight {
     }
 }
 
-/// Weights are at most this, so that six products of three of them, with all their rounding, are off by less than [`CERTAIN`].
+/// Weights are at most this, so that six products of three of them, with all their rounding, are off by less than `CERTAIN`.
 pub const LARGEST: f64 = 1.0 + 1e-9;
 
 /// A determinant in f64 beyond this has the sign of the exact one. Entries are off by 2^-53 of themselves and at most
