@@ -11,6 +11,7 @@ import { answered, isDoubtful, listed, takenCandidate } from '../../www/store/se
 import { Store } from '../../www/store/store.ts';
 import type { State } from '../../www/store/state.ts';
 import { staleness } from '../../www/store/staleness.ts';
+import { fakeWorkers } from './fake-worker.ts';
 import { after, candidate, DEMO, DONE, FOUR, MATCH, mesh, pair, READY } from './fixtures.ts';
 
 const SEARCH: Event = { kind: 'search-begun' };
@@ -201,28 +202,8 @@ describe('a search', () => {
   });
 });
 
-class FakeWorker extends EventTarget {
-  static made: FakeWorker[] = [];
-  readonly posted: unknown[] = [];
-  ended = false;
-
-  constructor() {
-    super();
-    FakeWorker.made.push(this);
-  }
-
-  postMessage(message: unknown): void {
-    this.posted.push(message);
-  }
-
-  terminate(): void {
-    this.ended = true;
-  }
-
-  says(data: MatchMessage): void {
-    this.dispatchEvent(new MessageEvent('message', { data }));
-  }
-}
+const FakeWorker = fakeWorkers<MatchMessage>();
+type FakeWorker = InstanceType<typeof FakeWorker>;
 
 describe('the worker of a search', () => {
   const CORE = {} as WebAssembly.Module;

@@ -5,30 +5,11 @@ import type { RunRequest, WarmUpRequest, WorkerMessage } from '../../www/compute
 import { wholePairs } from '../../www/store/order.ts';
 import { shownPreview } from '../../www/store/job.ts';
 import { Store } from '../../www/store/store.ts';
+import { fakeWorkers } from './fake-worker.ts';
 import { DOUBT, mesh, OUTPUT, READY, SWAPPED } from './fixtures.ts';
 
-class FakeWorker extends EventTarget {
-  static made: FakeWorker[] = [];
-  readonly posted: unknown[] = [];
-  ended = false;
-
-  constructor() {
-    super();
-    FakeWorker.made.push(this);
-  }
-
-  postMessage(message: unknown): void {
-    this.posted.push(message);
-  }
-
-  terminate(): void {
-    this.ended = true;
-  }
-
-  says(data: WorkerMessage): void {
-    this.dispatchEvent(new MessageEvent('message', { data }));
-  }
-}
+const FakeWorker = fakeWorkers<WorkerMessage>();
+type FakeWorker = InstanceType<typeof FakeWorker>;
 
 const POINTS = wholePairs(READY).map(({ points }) => points);
 const CORE = {} as WebAssembly.Module;

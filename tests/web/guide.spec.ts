@@ -76,6 +76,7 @@ test('the guide opens by its link, draws its equations, and closes by Escape', a
   await page.keyboard.press('4');
   await guide.getByRole('button', { name: 'Close: Guide' }).click();
   await expect(guide).toBeHidden();
+  await expect(page.locator('#step-use')).not.toHaveAttribute('aria-current', 'step');
   await openStep(page, 'method');
   await page.locator('#read-guide').click();
   await expect(guide.getByRole('heading', { name: 'The method in ten steps' })).toBeFocused();

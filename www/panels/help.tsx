@@ -1,8 +1,7 @@
 /** The first steps and the keys. */
 import type { VNode } from 'preact';
 import { Fragment } from 'preact';
-import { useEffect, useRef } from 'preact/hooks';
-import { IconButton } from './controls.tsx';
+import { Dialog } from './dialog.tsx';
 import type { Shell } from './shell.ts';
 
 const FIRST_STEPS = [
@@ -85,36 +84,14 @@ function KeyList({ title, keys }: Keys): VNode {
 
 /** The dialog; it covers the page while it is open. */
 export function Help({ shell }: { readonly shell: Shell }): VNode {
-  const dialog = useRef<HTMLDialogElement>(null);
   const isOpen = shell.state.dialog?.kind === 'help';
   const close = (): void => {
     if (shell.state.dialog?.kind === 'help') {
       shell.set({ dialog: null });
     }
   };
-  useEffect(() => {
-    if (isOpen) {
-      dialog.current?.showModal();
-    } else {
-      dialog.current?.close();
-    }
-  }, [isOpen]);
   return (
-    <dialog
-      ref={dialog}
-      class="help"
-      aria-labelledby="help-title"
-      onClose={close}
-      onClick={(event) => {
-        if (event.target === dialog.current) {
-          close();
-        }
-      }}
-    >
-      <header>
-        <h2 id="help-title">First steps and keys</h2>
-        <IconButton icon="close" label="Close the help" onClick={close} />
-      </header>
+    <Dialog id="help" kind="help" title="First steps and keys" closing="Close the help" isOpen={isOpen} onClose={close}>
       <div class="columns">
         <section>
           <h3>First steps</h3>
@@ -136,6 +113,6 @@ export function Help({ shell }: { readonly shell: Shell }): VNode {
           <KeyList key={keys.title} {...keys} />
         ))}
       </div>
-    </dialog>
+    </Dialog>
   );
 }

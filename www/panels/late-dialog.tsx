@@ -1,7 +1,7 @@
 /** A dialog over the page whose content is fetched when it is first opened. */
 import type { ComponentType, VNode } from 'preact';
-import { useLayoutEffect, useRef, useState } from 'preact/hooks';
-import { IconButton } from './controls.tsx';
+import { useEffect, useState } from 'preact/hooks';
+import { Dialog } from './dialog.tsx';
 
 interface LateDialogProps<P extends object> {
   /** Of the dialog's element. */
@@ -21,7 +21,6 @@ type Content<P extends object> =
 
 /** The dialog; nothing of its content is drawn while it is closed. */
 export function LateDialog<P extends object>({ id, title, isOpen, onClose, load, given }: LateDialogProps<P>): VNode {
-  const dialog = useRef<HTMLDialogElement>(null);
   const [content, setContent] = useState<Content<P>>({ kind: 'waiting' });
   const bring = (): void => {
     setContent({ kind: 'waiting' });
@@ -35,34 +34,13 @@ export function LateDialog<P extends object>({ id, title, isOpen, onClose, load,
       },
     );
   };
-  // Before the content's own effects, which bring the keyboard to where one begins to read.
-  useLayoutEffect(() => {
-    if (isOpen) {
-      dialog.current?.showModal();
-      if (content.kind !== 'there') {
-        bring();
-      }
-    } else {
-      dialog.current?.close();
+  useEffect(() => {
+    if (isOpen && content.kind !== 'there') {
+      bring();
     }
   }, [isOpen]);
   return (
-    <dialog
-      ref={dialog}
-      id={id}
-      class="late"
-      aria-labelledby={`${id}-title`}
-      onClose={onClose}
-      onClick={(event) => {
-        if (event.target === dialog.current) {
-          onClose();
-        }
-      }}
-    >
-      <header>
-        <h2 id={`${id}-title`}>{title}</h2>
-        <IconButton icon="close" label={`Close: ${title}`} onClick={onClose} />
-      </header>
+    <Dialog id={id} kind="late" title={title} closing={`Close: ${title}`} isOpen={isOpen} onClose={onClose}>
       {isOpen && (
         <div class="inside">
           {content.kind === 'waiting' && <p role="status">Loading…</p>}
@@ -77,6 +55,6 @@ export function LateDialog<P extends object>({ id, title, isOpen, onClose, load,
           {content.kind === 'there' && <content.Component {...given} />}
         </div>
       )}
-    </dialog>
+    </Dialog>
   );
 }
