@@ -7,6 +7,11 @@ export function integer(value: number): string {
   return INTEGER.format(value);
 }
 
+/** A share in percent, rounded down so that only what is whole is called so. */
+export function percent(share: number): string {
+  return `${(Math.floor(share * 10_000) / 100).toFixed(2)} %`;
+}
+
 /** A number to read: three or four figures, powers of ten where very small or large. */
 export function figure(value: number): string {
   const size = Math.abs(value);

@@ -157,9 +157,13 @@ interface ReadMeshes {
   readonly faults: readonly FileRefused[];
 }
 
-function free({ loaded }: ReadMeshes): void {
+/** Gives back the core's memory of what does not come onto the page. */
+function free({ loaded, refused }: ReadMeshes): void {
   loaded.forEach(({ file }) => {
     file.mesh.free();
+  });
+  refused.forEach(({ examined }) => {
+    examined.found.free();
   });
 }
 
@@ -172,13 +176,11 @@ function refusedMesh(given: Pick<RefusedMesh, 'side' | 'file' | 'allowed'>, refu
 /** Reads meshes, each by itself: a good one is not given up for a bad one. */
 function readMeshes(files: readonly NamedBytes[], sides: readonly Side[]): ReadMeshes {
   const [loaded, refused, faults]: [{ side: Side; file: MeshFile }[], RefusedMesh[], FileRefused[]] = [[], [], []];
-  for (const [index, file] of files.entries()) {
-    const side = sides[index] ?? 0;
+  const readOne = (file: NamedBytes, side: Side): void => {
     try {
       loaded.push({ side, file: meshFile(file) });
     } catch (thrown) {
       if (!(thrown instanceof FileRefused)) {
-        free({ loaded, refused, faults });
         throw thrown;
       }
       const mesh = refusedMesh({ side, file, allowed: {} }, thrown);
@@ -188,8 +190,17 @@ function readMeshes(files: readonly NamedBytes[], sides: readonly Side[]): ReadM
         refused.push(mesh);
       }
     }
+  };
+  const read = { loaded, refused, faults };
+  try {
+    files.forEach((file, index) => {
+      readOne(file, sides[index] ?? 0);
+    });
+  } catch (thrown) {
+    free(read);
+    throw thrown;
   }
-  return { loaded, refused, faults };
+  return read;
 }
 
 /** Read meshes on the sides that a map wants, where all were good. */

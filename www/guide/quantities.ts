@@ -1,5 +1,5 @@
 /** What each number of a map means, and what it is for the map on the page. */
-import { figure, integer } from '../numbers.ts';
+import { figure, integer, percent } from '../numbers.ts';
 import type { Report } from '../report.ts';
 
 export interface Quantity {
@@ -7,10 +7,6 @@ export interface Quantity {
   readonly text: string;
   /** Its value in a report; `null` where it has none. */
   readonly value: (report: Report) => string | null;
-}
-
-function percent(share: number): string {
-  return `${(100 * share).toFixed(2)} %`;
 }
 
 export const QUANTITIES: readonly Quantity[] = [

@@ -2,7 +2,7 @@
 import type { VNode } from 'preact';
 import { Fragment } from 'preact';
 import { stageName } from '../messages.ts';
-import { figure, integer } from '../numbers.ts';
+import { figure, integer, percent } from '../numbers.ts';
 import type { ConeMetricReport, CoverageReport, LayoutSearchReport, Report } from '../report.ts';
 
 interface Fact {
@@ -23,11 +23,6 @@ function layoutSentence(layout: LayoutSearchReport): string {
   }
   words.push(`longest path ${layout.path_stretch.toFixed(2)} times its shortest`);
   return words.join('; ');
-}
-
-/** A share in percent, rounded down so that only what is whole is called so. */
-function percent(share: number): string {
-  return `${(Math.floor(share * 10_000) / 100).toFixed(2)} %`;
 }
 
 /** How much of the skin has a partner in words. */
