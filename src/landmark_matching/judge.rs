@@ -43,7 +43,7 @@ pub(super) fn judge(
         search: &options.search,
         choice: ClassChoice::Best,
     };
-    let chosen = match choose_class(&levels, class, &mut Portion::new(monitor, 0.0, 0.8)) {
+    let chosen = match choose_class(&levels, class, &mut Portion::new(monitor, 0.0, 0.8).unseen()) {
         Ok(chosen) => chosen,
         Err(CoarseMapError::Cancelled(stop)) => return Err(stop),
         Err(_) => return Ok(None),

@@ -5,7 +5,8 @@
 
 use super::input::WrapInput;
 use crate::mesh::{FaceId, SurfaceMesh, VertexId};
-use glam::{DVec2, DVec3};
+use crate::surface_map::correspondence::share;
+use glam::DVec3;
 use typed_index_collections::{TiVec, ti_vec};
 
 /// Which way each face of the base should look, as far as the scan tells.
@@ -29,7 +30,7 @@ impl Orientation {
             }
             map.ring(base, 0, piece, &mut rings[0]);
             map.ring(scan, 1, piece, &mut rings[1]);
-            let [here, there] = rings.each_ref().map(|ring| double_area(ring));
+            let [here, there] = rings.each_ref().map(|ring| share(ring));
             let [p, q, r] = scan.corners(piece.faces[1]);
             vectors[piece.faces[0]] += (q - p).cross(r - p) * there;
             shares[piece.faces[0]] += here;
@@ -80,10 +81,4 @@ impl Orientation {
 fn double_area_vector(base: &SurfaceMesh, positions: &TiVec<VertexId, DVec3>, f: FaceId) -> DVec3 {
     let [p, q, r] = base.triangles()[f].map(|v| positions[v]);
     (q - p).cross(r - p)
-}
-
-/// Twice the area of a polygon.
-fn double_area(ring: &[DVec2]) -> f64 {
-    let Some(&origin) = ring.first() else { return 0.0 };
-    ring.windows(2).map(|w| (w[0] - origin).perp_dot(w[1] - origin)).sum()
 }

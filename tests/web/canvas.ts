@@ -11,6 +11,15 @@ export interface Drawn {
   readonly calls: number;
   /** Triangles of the largest call. */
   readonly triangles: number;
+  /** When each call was made, by the page's clock, in ms. */
+  readonly at: readonly number[];
+}
+
+/** A coarse map that the page was told. */
+export interface Preview {
+  /** By the page's clock, in ms. */
+  readonly at: number;
+  readonly places: Float32Array;
 }
 
 /** From the middle of a pin's head to its number, also of a raised one, and down to its place, in CSS pixels. */
@@ -24,13 +33,14 @@ export const SETTLED = 900;
 /** Counts what a page draws from its first frame on; to be called before it is opened. */
 export async function countDraws(page: Page): Promise<void> {
   await page.addInitScript(() => {
-    const drawn = { calls: 0, triangles: 0 };
+    const drawn = { calls: 0, triangles: 0, at: [] as number[] };
     Reflect.set(window, 'drawn', drawn);
     const { prototype } = WebGL2RenderingContext;
     for (const name of ['drawElements', 'drawElementsInstanced', 'drawArrays', 'drawArraysInstanced'] as const) {
       const draw: (...rest: number[]) => void = Reflect.get(prototype, name);
       Reflect.set(prototype, name, function (this: WebGL2RenderingContext, ...rest: number[]) {
         drawn.calls += 1;
+        drawn.at.push(performance.now());
         if (name.startsWith('drawElements')) {
           drawn.triangles = Math.max(drawn.triangles, (rest[1] ?? 0) / 3);
         }
@@ -43,12 +53,38 @@ export async function countDraws(page: Page): Promise<void> {
 /** What was drawn since it was last asked. */
 export async function drawn(page: Page): Promise<Drawn> {
   return page.evaluate(() => {
-    const counts = Reflect.get(window, 'drawn') as { calls: number; triangles: number };
+    const counts = Reflect.get(window, 'drawn') as { calls: number; triangles: number; at: number[] };
     const copy = { ...counts };
     counts.calls = 0;
     counts.triangles = 0;
+    counts.at = [];
     return copy;
   });
+}
+
+/** Keeps each coarse map that the page is told in `window.previews`; to be called before it is opened. */
+export async function keepPreviews(page: Page): Promise<void> {
+  await page.addInitScript(() => {
+    const told: Preview[] = [];
+    Reflect.set(window, 'previews', told);
+    const { prototype } = Worker;
+    const add: (...rest: unknown[]) => void = Reflect.get(prototype, 'addEventListener') as never;
+    Reflect.set(prototype, 'addEventListener', function (this: Worker, kind: string, ...rest: unknown[]) {
+      if (kind === 'message') {
+        add.call(this, kind, (event: MessageEvent<{ kind?: string; places?: Float32Array }>) => {
+          if (event.data.kind === 'preview' && event.data.places !== undefined) {
+            told.push({ at: performance.now(), places: event.data.places });
+          }
+        });
+      }
+      add.call(this, kind, ...rest);
+    });
+  });
+}
+
+/** When each coarse map was told, by the page's clock, in ms. */
+export async function previewTimes(page: Page): Promise<number[]> {
+  return page.evaluate(() => (Reflect.get(window, 'previews') as Preview[]).map(({ at }) => at));
 }
 
 /** The middles of the pins' heads in the window by their numbers, of those that the body does not hide. */

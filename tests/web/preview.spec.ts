@@ -1,28 +1,8 @@
 /** The map in the making: seen soon after the start, refined, gone with the end of the run. */
 import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
-import { SETTLED } from './canvas.ts';
+import { keepPreviews, SETTLED } from './canvas.ts';
 import { finished, openDemo, openStep } from './page.ts';
-
-/** Turns of each preview that the page has been told since it was opened, in ms from the click. */
-async function listen(page: Page): Promise<void> {
-  await page.addInitScript(() => {
-    const told: { at: number; places: Float32Array }[] = [];
-    Reflect.set(window, 'previews', told);
-    const { prototype } = Worker;
-    const add: (...rest: unknown[]) => void = Reflect.get(prototype, 'addEventListener') as never;
-    Reflect.set(prototype, 'addEventListener', function (this: Worker, kind: string, ...rest: unknown[]) {
-      if (kind === 'message') {
-        add.call(this, kind, (event: MessageEvent<{ kind?: string; places?: Float32Array }>) => {
-          if (event.data.kind === 'preview' && event.data.places !== undefined) {
-            told.push({ at: performance.now(), places: event.data.places });
-          }
-        });
-      }
-      add.call(this, kind, ...rest);
-    });
-  });
-}
 
 async function source(page: Page): Promise<Buffer> {
   const box = await page.locator('#view-source').boundingBox();
@@ -34,7 +14,7 @@ async function source(page: Page): Promise<Buffer> {
 }
 
 test('the coarse map is seen while the run goes on, and is gone with it', async ({ page }) => {
-  await listen(page);
+  await keepPreviews(page);
   await openDemo(page);
   await openStep(page, 'map');
   await page.waitForTimeout(SETTLED);

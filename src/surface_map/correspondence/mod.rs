@@ -14,5 +14,6 @@ pub use by_face::PiecesByFace;
 pub use check::{CorrespondenceFault, check};
 pub use locator::PointLocator;
 pub use measure::distortion;
+pub(crate) use pieces::share;
 pub use pieces::{Correspondence, MappedPiece, matrix_of_corners};
 pub use texture::{TextureDrawing, TextureVertex, common_mesh};

@@ -158,7 +158,7 @@ pub fn matrix_of_corners(source: &[DVec2], target: &[DVec2]) -> Option<DMat2> {
 }
 
 /// Twice the area of a polygon; in weights of a face, the share of the face that it covers.
-pub(super) fn share(ring: &[DVec2]) -> f64 {
+pub(crate) fn share(ring: &[DVec2]) -> f64 {
     let Some(&origin) = ring.first() else { return 0.0 };
     ring.windows(2).map(|w| (w[0] - origin).perp_dot(w[1] - origin)).sum()
 }

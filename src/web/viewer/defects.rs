@@ -31,7 +31,10 @@ impl Viewer {
     pub fn show_repaired(&mut self, side: usize, defects: &MeshDefects) {
         let Some(frame) = self.side(side).mesh.as_ref().map(|mesh| mesh.frame) else { return };
         let shown = ShownDefects::new(defects, frame, &self.renderer);
-        self.side_mut(side).defects = Some(shown);
+        let side = self.side_mut(side);
+        // A refused mesh may have been shown here, with a camera of its own.
+        side.uncover();
+        side.defects = Some(shown);
     }
 
     /// Shows nothing of the kind any more; where a refused mesh was shown the mesh of the side is, with its camera as it was.
