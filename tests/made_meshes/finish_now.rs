@@ -87,6 +87,7 @@ fn check(input: MapInput<'_>, limits: impl Fn(usize) -> Vec<usize>) -> Vec<f64> 
 }
 
 #[test]
+#[ignore = "long: run by `cargo xtask test --all`"]
 fn two_round_bodies_at_all_times() {
     let (source, ball) = (icosphere(3), icosphere(4));
     let axes = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];

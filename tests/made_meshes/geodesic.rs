@@ -19,6 +19,7 @@ fn distances_on_rough_meshes_are_between_those_in_space_and_those_along_edges() 
 }
 
 #[test]
+#[ignore = "long: run by `cargo xtask test --all`"]
 fn distances_on_rough_meshes_hardly_depend_on_the_direction() {
     for number in 0..200 {
         let mut random = Random::new(number);

@@ -9,6 +9,7 @@ fn every_demo_has_a_valid_layout() {
 }
 
 #[test]
+#[ignore = "long: run by `cargo xtask test --all`"]
 fn demos_of_other_sizes_have_a_valid_layout() {
     for id in ["horse-cat", "poses"] {
         for faces in [[1500, 3000], [3000, 1500], [10_000, 2000]] {

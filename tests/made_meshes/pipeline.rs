@@ -16,6 +16,7 @@ fn every_demo_is_certified() {
 }
 
 #[test]
+#[ignore = "long: run by `cargo xtask test --all`"]
 fn demos_of_other_sizes_are_certified() {
     for (id, faces) in [("horse-cat", [2000, 12_000]), ("poses", [12_000, 2000])] {
         map_is_certified(&fixtures::remeshed_demo(id, faces), 5.0);

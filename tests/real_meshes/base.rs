@@ -5,7 +5,7 @@ use crate::data::pair_names;
 use crate::theorems::{Case, simplified_base_is_drawn};
 use std::path::Path;
 
-tests![every_simplified_base_domain_is_drawn];
+tests![; long: every_simplified_base_domain_is_drawn];
 
 fn every_simplified_base_domain_is_drawn(data: &Path) {
     for name in pair_names() {

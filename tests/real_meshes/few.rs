@@ -4,7 +4,7 @@ use crate::common::read_pair;
 use crate::theorems::{farthest_landmarks, maps_with_and_without_own_cones};
 use std::path::Path;
 
-tests![own_cones_lower_the_distortion_of_twelve_landmarks];
+tests![; long: own_cones_lower_the_distortion_of_twelve_landmarks];
 
 fn own_cones_lower_the_distortion_of_twelve_landmarks(data: &Path) {
     let results =

@@ -5,7 +5,7 @@ use crate::data::pair_names;
 use crate::theorems::has_a_valid_layout;
 use std::path::Path;
 
-tests![every_pair_has_a_valid_layout];
+tests![; long: every_pair_has_a_valid_layout];
 
 fn every_pair_has_a_valid_layout(data: &Path) {
     for name in pair_names() {

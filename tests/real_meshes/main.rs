@@ -1,5 +1,6 @@
 //! The tests on real meshes, which are not part of the project and lie beside it (`../shared/data`). In a plain checkout each is
-//! shown as ignored, by its name; where the folder is there, a missing file fails the tests that read it, and is named.
+//! shown as ignored, by its name; where the folder is there, a missing file fails the tests that read it, and is named. The long
+//! ones are ignored unless asked for (`--include-ignored`, `cargo xtask test --all`).
 #![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
 #![allow(clippy::print_stderr, reason = "says once why tests are ignored")]
 
@@ -29,11 +30,15 @@ mod remeshing;
 #[path = "../common/theorems.rs"]
 mod theorems;
 
-/// The tests of a module, by their functions' names. A function that is left out is unused, which the compiler tells.
+/// The tests of a module, by their functions' names, and after `long:` those that take too long for every run. A function that is
+/// left out is unused, which the compiler tells.
 macro_rules! tests {
-    ($($name:ident),+ $(,)?) => {
-        pub fn tests() -> Vec<(&'static str, crate::Test)> {
-            vec![$((stringify!($name), $name)),+]
+    ($($name:ident),* $(,)? $(; long: $($long:ident),+ $(,)?)?) => {
+        pub fn tests() -> Vec<crate::Test> {
+            vec![
+                $(crate::Test { name: stringify!($name), run: $name, length: crate::Length::Short },)*
+                $($(crate::Test { name: stringify!($long), run: $long, length: crate::Length::Long },)+)?
+            ]
         }
     };
 }
@@ -61,11 +66,25 @@ mod thesis;
 mod transfer;
 mod wrap;
 
-/// Takes the data folder; fails by a panic.
-type Test = fn(&Path);
+/// A test of a module.
+pub struct Test {
+    name: &'static str,
+    /// Takes the data folder; fails by a panic.
+    run: fn(&Path),
+    length: Length,
+}
+
+/// Whether a test is part of every run.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Length {
+    /// It is.
+    Short,
+    /// Where all are asked for.
+    Long,
+}
 
 /// The tests by module, the longest first: they are begun in this order.
-fn modules() -> Vec<(&'static str, Vec<(&'static str, Test)>)> {
+fn modules() -> Vec<(&'static str, Vec<Test>)> {
     vec![
         ("base", base::tests()),
         ("landmark_fit", landmark_fit::tests()),
@@ -92,21 +111,24 @@ fn modules() -> Vec<(&'static str, Vec<(&'static str, Test)>)> {
     ]
 }
 
-fn trial(module: &str, name: &str, test: Test) -> Trial {
+fn trial(module: &str, test: Test) -> Trial {
     let run = move || -> Result<(), Failed> {
-        test(&common::data_path());
+        (test.run)(&common::data_path());
         Ok(())
     };
-    Trial::test(format!("{module}::{name}"), run).with_ignored_flag(!common::has_data())
+    let ignored = !common::has_data() || test.length == Length::Long;
+    Trial::test(format!("{module}::{}", test.name), run).with_ignored_flag(ignored)
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::from_args();
+    let mut arguments = Arguments::from_args();
     let named = modules()
         .into_iter()
-        .flat_map(|(module, tests)| tests.into_iter().map(move |(name, test)| trial(module, name, test)));
+        .flat_map(|(module, tests)| tests.into_iter().map(move |test| trial(module, test)));
     let trials: Vec<Trial> = named.collect();
     if !common::has_data() && !arguments.list {
+        // Nothing can be asked of meshes that are not here.
+        (arguments.ignored, arguments.include_ignored) = (false, false);
         eprintln!(
             "the {} tests on real meshes are ignored: ../shared/data is not part of a plain checkout",
             trials.len()

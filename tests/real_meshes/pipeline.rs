@@ -10,8 +10,9 @@ tests![
     cat_to_lion,
     two_animals_with_few_landmarks,
     two_poses_come_near_the_true_map,
+    a_mesh_maps_identically_onto_itself;
+    long:
     runs_repeat_exactly_and_stop_when_asked,
-    a_mesh_maps_identically_onto_itself,
     exchanging_source_and_target_gives_the_inverse_map,
 ];
 

@@ -6,7 +6,7 @@ use conemap::pipeline::{DistortionReport, GroundTruth, PipelineOptions, run};
 use conemap::registration::rigid_patches::RigidPatchOptions;
 use std::path::Path;
 
-tests![the_relief_of_the_skin_brings_the_map_nearer_to_the_known_one];
+tests![; long: the_relief_of_the_skin_brings_the_map_nearer_to_the_known_one];
 
 /// Hardly any dents, and the worst places told in order, at points of the meshes.
 fn no_dents(distortion: &DistortionReport, faces: [usize; 2]) {

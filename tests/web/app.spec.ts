@@ -197,7 +197,7 @@ test('the views come back after a lost graphics context', async ({ page }) => {
   }
 });
 
-test('each demo opens by its link and maps', async ({ page }) => {
+test('each demo opens by its link and maps', { tag: '@long' }, async ({ page }) => {
   test.setTimeout(900_000);
   await openDemo(page, '');
   await openStep(page, 'meshes');

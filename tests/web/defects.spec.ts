@@ -123,7 +123,7 @@ test('a refused mesh is painted, its defects turn the camera, and the repaired o
   await expect(page.locator('.defects')).toHaveCount(0);
 });
 
-test('every bad mesh is painted', async ({ page }) => {
+test('every bad mesh is painted', { tag: '@long' }, async ({ page }) => {
   const folder = `${DATA}/bad`;
   test.skip(!existsSync(folder), 'the bad meshes (../shared/data/bad) are not here');
   await open(page, '#demo=sphere-tetrahedron');

@@ -105,7 +105,7 @@ test('landmarks and exports can be read again', async ({ page }) => {
   expect((await downloaded(page, 'Layout')).toString()).toContain('<svg');
 });
 
-test('a mirrored set is repaired by a click', async ({ page }) => {
+test('a mirrored set is repaired by a click', { tag: '@long' }, async ({ page }) => {
   needsSharedData();
   await openDemo(page, '');
   // The mirror image of the lion: x turned, and every triangle with it.

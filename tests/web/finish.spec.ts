@@ -43,7 +43,7 @@ test('Finish now gives a certified map that is marked as finished early', async 
   expect(late.every(([, hidden]) => hidden)).toBe(true);
 });
 
-test('a run on real meshes finishes when asked during its relaxation', async ({ page }) => {
+test('a run on real meshes finishes when asked during its relaxation', { tag: '@long' }, async ({ page }) => {
   needsSharedData();
   await openDemo(page, '');
   await page.locator('#source-file').setInputFiles(`${DATA}/sumner/horse.off`);

@@ -157,7 +157,7 @@ test('where motion is reduced it is in the other shape at once', async () => {
   await page.emulateMedia({ reducedMotion: null });
 });
 
-test('a line wipes what the map carries across the source', async () => {
+test('a line wipes what the map carries across the source', { tag: '@long' }, async () => {
   const clip = await inside('#view-source');
   const view = await boxOf('#view-source');
   await showSurface(page, 'Plain');

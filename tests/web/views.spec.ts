@@ -177,11 +177,10 @@ test('a pin that was clicked obeys the keys', async ({ page }) => {
   await expect(page.locator('#view-source .labels .raised')).toHaveCount(0);
   const before = await heads(page, '#view-source');
   await page.keyboard.press('ArrowLeft');
-  await page.waitForTimeout(SETTLED);
-  expect(Math.max(...moves(before, await heads(page, '#view-source')))).toBeGreaterThan(5);
+  await expect.poll(async () => Math.max(...moves(before, await heads(page, '#view-source')))).toBeGreaterThan(5);
 });
 
-test('keys zoom, look from six sides and fit', async ({ page }) => {
+test('keys zoom, look from six sides and fit', { tag: '@long' }, async ({ page }) => {
   await open(page);
   const view = page.locator('#view-source');
   await view.focus();

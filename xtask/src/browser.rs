@@ -1,17 +1,22 @@
 //! A Chromium for the browser tests: the one that is there, else the system's package, else Playwright's own.
 
 use crate::run::{output_of, run, run_with, works};
+use crate::suite::Extent;
 
 /// Names under which a Chromium may be on the PATH.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
 
-/// Runs the browser tests on the built page.
-pub fn test() -> Result<(), String> {
+/// Runs the browser tests on the built page; those tagged `@long` only where all are asked for.
+pub fn test(extent: Extent) -> Result<(), String> {
     let variables: Vec<(&str, String)> =
         chromium()?.into_iter().map(|program| ("CHROMIUM", program)).collect();
     let variables: Vec<(&str, &str)> =
         variables.iter().map(|(name, value)| (*name, value.as_str())).collect();
-    run_with("npm", &["test"], &variables)
+    let arguments: &[&str] = match extent {
+        Extent::Usual => &["test", "--", "--grep-invert", "@long"],
+        Extent::All => &["test"],
+    };
+    run_with("npm", arguments, &variables)
 }
 
 /// The Chromium to use; `None` for Playwright's own.

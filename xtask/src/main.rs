@@ -14,7 +14,7 @@ use std::process::ExitCode;
 const USAGE: &str = "cargo xtask COMMAND
   serve   build the app, serve it and print its address
   build   build the app into dist/, to be put on any static web server
-  test    run every test: formatting, lints, documentation, core, page, browser
+  test    run the tests: formatting, lints, documentation, core, page, browser; with --all the long ones, too
   compare time whole maps, wasm in a browser against native: [--runs N] [PAIR.json ...], the demos without files
   survey  tables of many maps on the meshes of ../shared/data: TABLE [--pairs NAME,NAME] [--seeds N]; lists them without a name
   fuzz    read changed files by every reader: [--runs N] of each, from one [--seed S]
@@ -27,7 +27,8 @@ fn main() -> ExitCode {
     let outcome = match command.as_str() {
         "serve" => page::serve(&rest),
         "build" => page::build(),
-        "test" => suite::test(),
+        "test" if rest == ["--all"] => suite::test(suite::Extent::All),
+        "test" if rest.is_empty() => suite::test(suite::Extent::Usual),
         "compare" => compare::compare(&rest),
         "survey" => survey::survey(&rest),
         "fuzz" => fuzz::fuzz(&rest),

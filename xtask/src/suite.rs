@@ -1,4 +1,4 @@
-//! Every test of the project.
+//! The tests of the project.
 
 use crate::run::{cargo, run, run_with};
 use crate::{browser, page, wasm};
@@ -10,11 +10,19 @@ type Outcome = Result<(), String>;
 /// The project's packages but this helper.
 const PACKAGES: [&str; 4] = ["--package", "conemap", "--package", "conemap-verify"];
 
-/// Runs every test, the quick ones first; all are run, and the failed ones are named at the end.
+/// Which tests are run.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// All but the long ones, which are shown as ignored: under half an hour on two processors from nothing.
+    Usual,
+    All,
+}
+
+/// Runs the tests, the quick ones first; none is left out after one that failed, and the failed ones are named at the end.
 ///
 /// The page is built beside the lints and the core's tests: its last and longest step, the optimisation of the whole module, keeps
 /// one processor busy.
-pub fn test() -> Outcome {
+pub fn test(extent: Extent) -> Outcome {
     wasm::ensure_target()?;
     page::ensure_packages()?;
     std::thread::scope(|scope| {
@@ -25,9 +33,9 @@ pub fn test() -> Outcome {
             ("build helper", Box::new(helper)),
             ("lints", Box::new(lints)),
             ("documentation", Box::new(documentation)),
-            ("core", Box::new(core)),
+            ("core", Box::new(move || core(extent))),
             ("page", Box::new(move || built().and_then(|()| checks()))),
-            ("browser", Box::new(browser::test)),
+            ("browser", Box::new(move || browser::test(extent))),
         ])
     })
 }
@@ -78,10 +86,14 @@ fn documentation() -> Outcome {
     run_with(&cargo(), &[&["doc"][..], &PACKAGES, &["--no-deps", "--quiet"]].concat(), &strict)
 }
 
-fn core() -> Outcome {
-    // The library alone builds without the command line; the tests then run with it.
+fn core(extent: Extent) -> Outcome {
+    run(&cargo(), &[&["test"][..], &PACKAGES].concat())?;
+    if extent == Extent::Usual {
+        return Ok(());
+    }
+    // The library alone builds without the command line.
     run(&cargo(), &["check", "--lib", "--no-default-features"])?;
-    run(&cargo(), &[&["test"][..], &PACKAGES].concat())
+    run(&cargo(), &["test", "--test", "made_meshes", "--test", "real_meshes", "--", "--ignored"])
 }
 
 fn checks() -> Outcome {
