@@ -61,6 +61,7 @@ test('the list of a built page holds every file with its hash, and changes with 
       { path: '', integrity: expect.stringMatching(/^sha256-[\w+/]{43}=$/) as string },
     ]);
     writeFileSync(join(folder, 'service-worker.js'), 'not part of its own list');
+    writeFileSync(join(folder, '_headers'), 'for the host alone');
     expect(precacheOf(folder)).toEqual(first);
     writeFileSync(join(folder, 'assets', 'a.js'), 'abd');
     expect(precacheOf(folder).version).not.toBe(first.version);

@@ -8,18 +8,20 @@ import { build } from 'vite';
 import type { KeptFile, Precache } from './precache.ts';
 
 const FILE = 'service-worker.js';
+/** What some hosts read and none serves. */
+const HEADERS = '_headers';
 const ENTRY = fileURLToPath(new URL('service-worker.ts', import.meta.url));
 
 function sha256(data: Uint8Array | string, encoding: 'base64' | 'hex'): string {
   return createHash('sha256').update(data).digest(encoding);
 }
 
-/** All files of a built page, in the order of their paths. */
+/** All files of a built page that a host serves, in the order of their paths. */
 export function precacheOf(folder: string): Precache {
   const files: KeptFile[] = readdirSync(folder, { recursive: true, withFileTypes: true })
     .filter((entry) => entry.isFile())
     .map((entry) => relative(folder, join(entry.parentPath, entry.name)))
-    .filter((path) => path !== FILE)
+    .filter((path) => path !== FILE && path !== HEADERS)
     .sort()
     .map((path) => ({
       path: path === 'index.html' ? '' : path.split(sep).join('/'),
