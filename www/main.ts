@@ -1,6 +1,7 @@
 /** Wires the store, the views, the panels and the worker together. */
 import { openDropped } from './app/dropped.ts';
 import { Finder } from './app/find.ts';
+import { findUnasked } from './app/find-unasked.ts';
 import { BROWSER, Keeper } from './app/keep.ts';
 import { listenForProposal, listenForUndo } from './app/keys.ts';
 import { saveLandmarks } from './app/landmarks.ts';
@@ -8,7 +9,7 @@ import { mark } from './app/mark.ts';
 import { Links } from './app/links.ts';
 import { Maps } from './app/maps.ts';
 import { followDemo, freeForgotten, openDemo, showOwnLink } from './app/open.ts';
-import { saveMadeFile } from './app/made-files.ts';
+import { proveMap, saveMadeFile, saveWrapped } from './app/made-files.ts';
 import { saveProject } from './app/projects.ts';
 import { listenForHalves } from './app/propose.ts';
 import { repair } from './app/repair.ts';
@@ -64,6 +65,16 @@ const actions: Actions = {
   saveMadeFile: (file) => {
     if (runner.core !== null) {
       void saveMadeFile(store, runner.core, file);
+    }
+  },
+  saveWrapped: () => {
+    if (runner.core !== null) {
+      void saveWrapped(store, runner.core);
+    }
+  },
+  proveMap: () => {
+    if (runner.core !== null) {
+      void proveMap(store, runner.core);
     }
   },
   savePicture: () => {
@@ -184,6 +195,9 @@ store.subscribe((state, previous) => {
   views.sync(state, previous);
 });
 listenForHalves(store, views);
+findUnasked(store, () => {
+  finder.start();
+});
 store.subscribe(freeForgotten);
 store.subscribe(freeExamined);
 store.subscribe(mark);

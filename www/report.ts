@@ -1,7 +1,7 @@
 /** The report of a run and the choices of one, as the core declares them. */
 import type { CandidateReport, Choices, FindingReport, QuestionReport } from './wasm/conemap.js';
 
-export type { CertificateReport, ConeMetricReport, CoverageReport, LayoutSearchReport, Report } from './wasm/conemap.js';
+export type { CertificateReport, ConeMetricReport, CoverageReport, LayoutSearchReport, ProofReport, Report } from './wasm/conemap.js';
 
 export type { MatchReport } from './wasm/conemap.js';
 

@@ -27,6 +27,7 @@ mod remesh;
 mod remeshed;
 mod repaired;
 mod silence;
+mod soak;
 mod stages;
 mod table;
 mod verify;
@@ -114,6 +115,11 @@ const SURVEYS: &[Survey] = &[
         name: "silence",
         about: "how long a run asks its monitor nothing, by stage, on large balls; --pairs for others",
         run: silence::table,
+    },
+    Survey {
+        name: "soak",
+        about: "what one process holds in memory over 200 maps of the demos (--seeds N: over N)",
+        run: soak::table,
     },
     Survey { name: "hostile-case", about: "one of them in this process, for the table", run: hostile::case },
     Survey {

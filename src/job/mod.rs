@@ -10,6 +10,7 @@ mod matching;
 mod mesh_file;
 mod outputs;
 mod proof;
+mod proof_report;
 mod saved;
 mod taken;
 mod wrapping;
@@ -25,6 +26,9 @@ pub use matching::{
 pub use mesh_file::{MeshFaults, MeshFileError, ReadMesh, read_mesh};
 pub use outputs::OutputFile;
 pub use proof::{ProofError, prove};
+pub use proof_report::{
+    DoubtfulReport, FaceCounts, LandmarkFigures, MatrixFigures, ProofFigures, ProofReport, SignCounts,
+};
 pub use saved::{MapFiles, OpenMap, OpenMapError};
 pub use taken::{OutputKind, TakenMap};
 pub use wrapping::{QuadAngles, WrapFileError, WrappedFile, WrappedFileReport};

@@ -84,6 +84,27 @@ pub enum WrapFileError {
     Stopped(Cancelled),
 }
 
+impl WrappedFileReport {
+    /// What became of the base, in sentences.
+    pub fn sentence(&self) -> String {
+        let WrapReport { on_scan, extended, flipped_triangles, ref distance, .. } = self.surface;
+        let [mean, p95] = [distance.to_scan.mean, distance.to_scan.p95].map(|share| 100.0 * share);
+        let mut told = format!(
+            "{on_scan} vertices lie on the scan, whose surface is {mean:.3} % of its size away in the mean and within {p95:.3} % in 95 %."
+        );
+        if extended > 0 {
+            told += &format!(" {extended} vertices were laid on where the scan has no surface.");
+        }
+        if flipped_triangles > 0 {
+            told += &format!(" {flipped_triangles} triangles look the wrong way: add landmarks there.");
+        }
+        if self.has_old_normals {
+            told += " The normals in the file are still those of the base as it was.";
+        }
+        told
+    }
+}
+
 impl From<WrapError> for WrapFileError {
     fn from(error: WrapError) -> Self {
         match error {

@@ -3,11 +3,13 @@
 use super::compute::{MapOutput, Shown};
 use super::failure;
 use super::output_file::file;
-use crate::job::{MapFiles, OpenMap, OpenMapError, TargetImage};
+use crate::job::{MapFiles, Normals, OpenMap, OpenMapError, ProofReport, TargetImage, prove};
 use crate::landmarks::MeshSide;
 use crate::map_file;
+use crate::monitor::Silent;
 use crate::pipeline::Choices;
 use serde_json::json;
+use std::ops::ControlFlow;
 use wasm_bindgen::prelude::*;
 
 /// A saved map that is open.
@@ -31,6 +33,36 @@ fn opening_failure(error: &OpenMapError) -> JsValue {
 pub fn open_map(map: &[u8], source: &[u8], target: &[u8]) -> Result<SavedMap, JsValue> {
     let open = OpenMap::read(MapFiles { map, source, target }).map_err(|e| opening_failure(&e))?;
     Ok(SavedMap { open })
+}
+
+/// Proves a map file with its meshes by a program that shares nothing with what made it. The answer is a [`ProofReport`] as JSON.
+///
+/// # Errors
+/// `{"code": "map-file", "message"}` where the answer cannot be written.
+#[wasm_bindgen(js_name = proveMap)]
+pub fn prove_map(map: &[u8], source: &[u8], target: &[u8]) -> Result<String, JsValue> {
+    let outcome = prove(MapFiles { map, source, target }, &mut |_| ControlFlow::Continue(()));
+    serde_json::to_string(&ProofReport::of(&outcome)).map_err(|e| failure("map-file", e))
+}
+
+/// A base file that was laid onto a scan.
+#[wasm_bindgen]
+pub struct WrappedBase {
+    bytes: Vec<u8>,
+    sentence: String,
+}
+
+#[wasm_bindgen]
+impl WrappedBase {
+    /// The file: the base's own, but for the places of its vertices.
+    pub fn bytes(&self) -> Vec<u8> {
+        self.bytes.clone()
+    }
+
+    /// What became of it.
+    pub fn sentence(&self) -> String {
+        self.sentence.clone()
+    }
 }
 
 /// Whether a file says of itself that it is a map file, whole or not.
@@ -90,6 +122,16 @@ impl SavedMap {
     #[wasm_bindgen(js_name = isMirrored)]
     pub fn is_mirrored(&self) -> bool {
         self.open.meshes()[1].image() == TargetImage::Mirrored
+    }
+
+    /// The source's file with its vertices laid onto the target, every other line kept.
+    ///
+    /// # Errors
+    /// `{"code": "wrap", "message"}`.
+    pub fn wrapped(&self, source: &[u8]) -> Result<WrappedBase, JsValue> {
+        let wrapped = self.open.taken().wrapped(source, Normals::Kept, &mut Silent);
+        let wrapped = wrapped.map_err(|e| failure("wrap", e))?;
+        Ok(WrappedBase { sentence: wrapped.report.sentence(), bytes: wrapped.bytes })
     }
 
     /// One of its files by name.

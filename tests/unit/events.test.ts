@@ -9,7 +9,7 @@ import type { Refused, RefusedMesh } from '../../www/store/refused.ts';
 import type { Offer, Proposal, State, Style, Ui } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
 import { workOf } from '../../www/store/work.ts';
-import { AWAITED, DEMO, DONE, DOUBT, FOUR, MATCH, mesh, OPENED, OUTPUT, pair, READY, REPORT, RUNNING, suggestion, SWAPPED } from './fixtures.ts';
+import { AWAITED, DEMO, DONE, DOUBT, FOUR, MATCH, mesh, OPENED, OUTPUT, pair, READY, REFUSAL, REPORT, RESULT, RUNNING, suggestion, SWAPPED } from './fixtures.ts';
 import type { MeshDefects } from '../../www/wasm/conemap.js';
 
 interface Case<K extends Event['kind']> {
@@ -485,6 +485,18 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     event: { sentence: 'No map was found.' },
     step: null,
     changes: { job: { kind: 'error' }, error: 'No map was found.' },
+  },
+  'proof-begun': {
+    before: DONE,
+    event: { of: RESULT },
+    step: null,
+    changes: { proof: { of: RESULT, answer: null } },
+  },
+  'proof-done': {
+    before: { ...DONE, proof: { of: RESULT, answer: null } },
+    event: { of: RESULT, answer: REFUSAL },
+    step: null,
+    changes: { proof: { of: RESULT, answer: REFUSAL } },
   },
   'run-cancelled': {
     before: during({}),

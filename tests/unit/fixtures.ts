@@ -1,13 +1,13 @@
 /** States and files to test with. */
 import type { RunOutput, SideOutput } from '../../www/compute/messages.ts';
 import type { Pair, Suggestion, SurfacePoint } from '../../www/landmarks.ts';
-import type { Candidate, Finding, MatchReport, Report } from '../../www/report.ts';
+import type { Candidate, Finding, MatchReport, ProofReport, Report } from '../../www/report.ts';
 import { change } from '../../www/store/change.ts';
 import type { Event } from '../../www/store/events.ts';
 import type { AwaitedMap } from '../../www/store/awaited.ts';
 import type { Running } from '../../www/store/job.ts';
 import type { OpenedMap } from '../../www/store/opened.ts';
-import type { Demo, Doubt, MeshFile, State } from '../../www/store/state.ts';
+import type { Demo, Doubt, MeshFile, Result, State } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
 import { workOf } from '../../www/store/work.ts';
 import type { LoadedMesh } from '../../www/wasm/conemap.js';
@@ -69,11 +69,9 @@ export const READY: State = {
 export const RUNNING: Running = { kind: 'running', inputs: workOf(READY), progress: null, finish: 'no', energies: [], preview: null };
 
 /** A map was made from them. */
-export const DONE: State = {
-  ...READY,
-  job: { kind: 'done' },
-  result: { output: OUTPUT, report: REPORT, inputs: workOf(READY), opened: null },
-};
+export const RESULT: Result = { output: OUTPUT, report: REPORT, inputs: workOf(READY), opened: null };
+export const DONE: State = { ...READY, job: { kind: 'done' }, result: RESULT };
+export const REFUSAL: ProofReport = { verdict: 'refused', kind: 'hash', sentence: 'The map was made with another source.' };
 
 /** A map file for meshes that are nowhere. */
 export const AWAITED: AwaitedMap = {

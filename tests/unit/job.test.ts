@@ -2,7 +2,7 @@
 import { describe, expect, test } from 'vitest';
 import { canRun } from '../../www/store/readiness.ts';
 import type { State } from '../../www/store/state.ts';
-import { after, DONE, FOUR, OUTPUT, READY, REPORT, RUNNING } from './fixtures.ts';
+import { after, DONE, FOUR, OUTPUT, READY, REFUSAL, REPORT, RESULT, RUNNING } from './fixtures.ts';
 
 const [FIRST, SECOND] = [{ sentence: 'Reading the files…' }, { sentence: 'Reading the files…' }];
 const relaxed = (energy: number | null, stage = 'relaxation') =>
@@ -32,6 +32,20 @@ describe('a run can start', () => {
     const busy = after(READY, { kind: 'task-begun', task: FIRST });
     expect(canRun(busy)).toBe(false);
     expect(canRun(after(busy, { kind: 'task-ended', task: FIRST }))).toBe(true);
+  });
+});
+
+describe('a proof', () => {
+  const other = { ...RESULT };
+
+  test('that comes after another map was asked about is left out', () => {
+    const asked = after(DONE, { kind: 'proof-begun', of: RESULT }, { kind: 'proof-begun', of: other });
+    expect(after(asked, { kind: 'proof-done', of: RESULT, answer: REFUSAL }).proof).toEqual({ of: other, answer: null });
+  });
+
+  test('that could not be made can be asked for again', () => {
+    const asked = after(DONE, { kind: 'proof-begun', of: RESULT });
+    expect(after(asked, { kind: 'proof-done', of: RESULT, answer: null }).proof).toBeNull();
   });
 });
 

@@ -103,6 +103,26 @@ test('landmarks and exports can be read again', async ({ page }) => {
   expect(shape.filter((line) => line.startsWith('v '))).toHaveLength(vertices);
   expect(shape.filter((line) => line.startsWith('f '))).toHaveLength(faces);
   expect((await downloaded(page, 'Layout')).toString()).toContain('<svg');
+
+  // The source's own lines but the places, which are on the target.
+  const wrapped = (await downloaded(page, 'Wrapped')).toString().split('\n');
+  const places = (text: readonly string[]): readonly string[] => text.filter((line) => line.startsWith('v '));
+  expect(places(wrapped)).toHaveLength(vertices);
+  expect(wrapped.filter((line) => line.startsWith('f '))).toHaveLength(faces);
+  const height = Math.max(...places(wrapped).map((line) => Number(line.split(' ')[2])));
+  const shapeHeight = Math.max(...places(shape).map((line) => Number(line.split(' ')[2])));
+  expect(Math.abs(height - shapeHeight)).toBeLessThan(0.05 * shapeHeight);
+  await expect(page.getByText(`${vertices.toLocaleString('en-US').replaceAll(',', '')} vertices lie on the scan`)).toBeVisible();
+
+  // A second program proves the map.
+  await openStep(page, 'map');
+  await page.locator('.shield summary').click();
+  await page.locator('#prove').click();
+  await expect(page.locator('#second-proof')).toContainText('Proved: the map is one-to-one', { timeout: 60_000 });
+  await openStep(page, 'use');
+  await openStep(page, 'map');
+  await page.locator('.shield summary').click();
+  await expect(page.locator('#second-proof')).toContainText('Proved');
 });
 
 test('a mirrored set is repaired by a click', { tag: '@long' }, async ({ page }) => {

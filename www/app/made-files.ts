@@ -1,4 +1,4 @@
-/** Files of the map that are made when somebody asks for them: from its map file, in a worker of their own. */
+/** What is made of the map when somebody asks for it: files, a wrapped base, a proof; from its map file, in a worker of their own. */
 import type { SavedMapHandle } from '../compute/saved-client.ts';
 import { openSavedMap, SavedMapError } from '../compute/saved-client.ts';
 import { download } from '../dom.ts';
@@ -8,22 +8,34 @@ import type { Result } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { perform, sentenceOf } from './task.ts';
 
-/** The file of a map by its name, as the core lists them. Throws `FileRefused`. */
-async function fileOf(core: WebAssembly.Module, { output, inputs }: Result, name: string): Promise<Uint8Array<ArrayBuffer>> {
+/** What a map's own worker gives for `use`. Throws `FileRefused`. */
+async function askMap<T>(core: WebAssembly.Module, { output, inputs }: Result, use: (saved: SavedMapHandle) => Promise<T>): Promise<T> {
   const [source, target] = inputs.meshes;
   if (output.map === null || source === null || target === null) {
-    throw new FileRefused(`This map gives no file ${name}.`);
+    throw new FileRefused('This map has no map file, from which more could be made: the relaxed method gives one.');
   }
   let saved: SavedMapHandle | null = null;
   try {
     saved = openSavedMap(core, { map: output.map, source: source.bytes, target: target.bytes }, 'files');
     await saved.opened;
-    return await saved.file(name);
+    return await use(saved);
   } catch (thrown) {
     throw thrown instanceof SavedMapError ? new FileRefused(failureSentence(thrown.failure)) : thrown;
   } finally {
     saved?.close();
   }
+}
+
+/** Makes something of the map on the page while the page says so; beside a run or other work, which are not given up for it. */
+async function make<T>(store: Store, sentence: string, prepare: () => Promise<T>, use: (made: T) => void): Promise<void> {
+  const { job } = store.state;
+  if (job.kind === 'running' || job.kind === 'busy') {
+    await prepare().then(use, (thrown: unknown) => {
+      store.dispatch({ kind: 'error', sentence: sentenceOf(thrown) });
+    });
+    return;
+  }
+  await perform(store, sentence, prepare, use);
 }
 
 /** A file of a map: the core's name for it, that under which it is saved, and its type. */
@@ -35,19 +47,38 @@ interface MadeFile {
 
 /** Saves a file of the map on the page. */
 export async function saveMadeFile(store: Store, core: WebAssembly.Module, { made, name, type }: MadeFile): Promise<void> {
-  const { job, result } = store.state;
+  const { result } = store.state;
+  if (result !== null) {
+    await make(store, `Making ${name}…`, () => askMap(core, result, (saved) => saved.file(made)), (bytes) => {
+      download(name, type, bytes);
+    });
+  }
+}
+
+/** Saves the source's own file with its vertices laid onto the target, and says what became of it. */
+export async function saveWrapped(store: Store, core: WebAssembly.Module): Promise<void> {
+  const { result } = store.state;
+  const source = result?.inputs.meshes[0] ?? null;
+  if (result === null || source === null) {
+    return;
+  }
+  await make(store, `Laying ${source.name} onto the target…`, () => askMap(core, result, (saved) => saved.wrapped()), ({ bytes, sentence }) => {
+    download(`wrapped-${source.name}`, 'application/octet-stream', bytes);
+    store.dispatch({ kind: 'toast', sentence, undo: false });
+  });
+}
+
+/** Has the map on the page proved by the program that shares nothing with what made it. */
+export async function proveMap(store: Store, core: WebAssembly.Module): Promise<void> {
+  const { result } = store.state;
   if (result === null) {
     return;
   }
-  const save = (bytes: Uint8Array<ArrayBuffer>): void => {
-    download(name, type, bytes);
-  };
-  if (job.kind === 'running' || job.kind === 'busy') {
-    // Neither a run nor other work is given up for a file, which is made beside it.
-    await fileOf(core, result, made).then(save, (thrown: unknown) => {
-      store.dispatch({ kind: 'error', sentence: sentenceOf(thrown) });
-    });
-    return;
+  store.dispatch({ kind: 'proof-begun', of: result });
+  try {
+    const answer = await askMap(core, result, (saved) => saved.proof());
+    store.dispatch({ kind: 'proof-done', of: result, answer });
+  } catch (thrown) {
+    store.dispatch({ kind: 'proof-done', of: result, answer: null }, { kind: 'error', sentence: sentenceOf(thrown) });
   }
-  await perform(store, `Making ${name}…`, () => fileOf(core, result, made), save);
 }

@@ -1,6 +1,7 @@
-/** A saved map in a worker of its own: opened with its meshes, shown and exported, without computing. */
+/** A saved map in a worker of its own: opened with its meshes, shown, exported, wrapped and proved. */
+import type { ProofReport } from '../report.ts';
 import { failureOf } from './messages.ts';
-import type { OpenedMap, SavedAnswer, SavedFailure, SavedFiles, SavedRequest } from './saved-messages.ts';
+import type { OpenedMap, SavedAnswer, SavedFailure, SavedFiles, SavedRequest, WrappedFile } from './saved-messages.ts';
 
 /** What a saved map's promises fail with. */
 export class SavedMapError extends Error {
@@ -19,6 +20,10 @@ export interface SavedMapHandle {
   readonly opened: Promise<OpenedMap | null>;
   /** One file of the map by name: `map.conemap`, `source-with-target-texture.glb`, and the others that the command line writes. */
   file(name: string): Promise<Uint8Array<ArrayBuffer>>;
+  /** The source's file with its vertices laid onto the target. */
+  wrapped(): Promise<WrappedFile>;
+  /** What a program says of the map that shares nothing with what made it. */
+  proof(): Promise<ProofReport>;
   /** Ends the worker; what was asked and not answered fails with the code `closed`. */
   close(): void;
 }
@@ -85,6 +90,14 @@ export function openSavedMap(module: WebAssembly.Module, files: SavedFiles, show
     file: async (name) => {
       const answer = await ask({ kind: 'file', name });
       return answer.kind === 'file' ? answer.bytes : wrong();
+    },
+    wrapped: async () => {
+      const answer = await ask({ kind: 'wrap' });
+      return answer.kind === 'wrapped' ? answer.wrapped : wrong();
+    },
+    proof: async () => {
+      const answer = await ask({ kind: 'prove' });
+      return answer.kind === 'proved' ? answer.proof : wrong();
     },
     close: () => {
       end({ code: 'closed', message: 'the map was closed', side: null });

@@ -1,5 +1,6 @@
 /** What the page and the worker of a saved map say to each other. */
 
+import type { ProofReport } from '../report.ts';
 import type { Failure, RunOutput } from './messages.ts';
 
 /** A map file with the meshes that it was made with. */
@@ -26,7 +27,16 @@ export interface OpenedMap {
 /** To the worker. It opens one map, then answers. */
 export type SavedRequest =
   | ({ readonly kind: 'open'; readonly id: number; readonly module: WebAssembly.Module; readonly show: 'views' | 'files' } & SavedFiles)
-  | { readonly kind: 'file'; readonly id: number; readonly name: string };
+  | { readonly kind: 'file'; readonly id: number; readonly name: string }
+  | { readonly kind: 'wrap'; readonly id: number }
+  | { readonly kind: 'prove'; readonly id: number };
+
+/** The source's file laid onto the target. */
+export interface WrappedFile {
+  readonly bytes: Uint8Array<ArrayBuffer>;
+  /** What became of it, in sentences. */
+  readonly sentence: string;
+}
 
 /** A failure, with the mesh that is not the map's where it is one. */
 export interface SavedFailure extends Failure {
@@ -37,4 +47,6 @@ export interface SavedFailure extends Failure {
 export type SavedAnswer =
   | { readonly kind: 'opened'; readonly id: number; readonly opened: OpenedMap | null }
   | { readonly kind: 'file'; readonly id: number; readonly bytes: Uint8Array<ArrayBuffer> }
+  | { readonly kind: 'wrapped'; readonly id: number; readonly wrapped: WrappedFile }
+  | { readonly kind: 'proved'; readonly id: number; readonly proof: ProofReport }
   | { readonly kind: 'failed'; readonly id: number; readonly failure: SavedFailure };

@@ -1,8 +1,9 @@
-/** A saved map: opens it once, then gives what the views show and its files. Nothing is computed. */
-import init, { openMap } from '../wasm/conemap.js';
+/** A saved map: opens it once, then gives what the views show and its files, lays its source onto its target, and proves it. */
+import type { ProofReport } from '../report.ts';
+import init, { openMap, proveMap } from '../wasm/conemap.js';
 import type { SavedMap } from '../wasm/conemap.js';
 import { failureOf } from './messages.ts';
-import type { SavedAnswer, SavedFailure, SavedRequest } from './saved-messages.ts';
+import type { SavedAnswer, SavedFailure, SavedFiles, SavedRequest } from './saved-messages.ts';
 import { openedOf, transferable } from './view-buffers.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
@@ -22,11 +23,17 @@ function sideOf(thrown: unknown): SavedFailure['side'] {
   }
 }
 
-let open: Promise<SavedMap> | null = null;
+interface Open {
+  readonly map: SavedMap;
+  readonly files: SavedFiles;
+}
 
-async function start(request: Extract<SavedRequest, { kind: 'open' }>): Promise<SavedMap> {
+let open: Promise<Open> | null = null;
+
+async function start(request: Extract<SavedRequest, { kind: 'open' }>): Promise<Open> {
   await init({ module_or_path: request.module });
-  return openMap(request.map, request.source, request.target);
+  const { map, source, target } = request;
+  return { map: openMap(map, source, target), files: { map, source, target } };
 }
 
 async function answer(request: SavedRequest): Promise<void> {
@@ -38,7 +45,7 @@ async function answer(request: SavedRequest): Promise<void> {
     if (open === null) {
       throw new Error('no map is open');
     }
-    const map = await open;
+    const { map, files } = await open;
     switch (request.kind) {
       case 'open': {
         const opened = request.show === 'views' ? openedOf(map) : null;
@@ -48,6 +55,19 @@ async function answer(request: SavedRequest): Promise<void> {
       case 'file': {
         const bytes = map.file(request.name).slice();
         post({ kind: 'file', id, bytes }, [bytes.buffer]);
+        break;
+      }
+      case 'wrap': {
+        const wrapped = map.wrapped(files.source);
+        const bytes = wrapped.bytes().slice();
+        const sentence = wrapped.sentence();
+        wrapped.free();
+        post({ kind: 'wrapped', id, wrapped: { bytes, sentence } }, [bytes.buffer]);
+        break;
+      }
+      case 'prove': {
+        const proof = JSON.parse(proveMap(files.map, files.source, files.target)) as ProofReport;
+        post({ kind: 'proved', id, proof });
         break;
       }
     }

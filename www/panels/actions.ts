@@ -37,6 +37,10 @@ export interface Actions {
   readonly saveLandmarks: (format?: string) => void;
   /** Makes a file of the map, by the name `made` that the core has for it, and saves it under another. */
   readonly saveMadeFile: (file: { readonly made: string; readonly name: string; readonly type: string }) => void;
+  /** Saves the source's own file with its vertices laid onto the target. */
+  readonly saveWrapped: () => void;
+  /** Has the map proved by a second program. */
+  readonly proveMap: () => void;
   /** Saves what the views show as a picture of twice the screen's size. */
   readonly savePicture: () => void;
   /** Begins anew with the newer build of the page. */

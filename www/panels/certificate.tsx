@@ -1,7 +1,9 @@
-/** The certificate as a shield that opens its proof. */
+/** The certificate as a shield that opens its proof, and has it checked by a second program. */
 import type { VNode } from 'preact';
 import { figure, integer } from '../numbers.ts';
-import type { CertificateReport, Report } from '../report.ts';
+import type { CertificateReport } from '../report.ts';
+import type { MapProof, Result } from '../store/state.ts';
+import type { Actions } from './actions.ts';
 import { Icon } from './icons.tsx';
 
 function flips({ flipped_triangles: flipped, triangles }: CertificateReport): string {
@@ -29,8 +31,37 @@ function Proof({ certificate, early }: { readonly certificate: CertificateReport
   );
 }
 
+interface SecondProofProps {
+  /** What the second program says of this map; `null` where it was not asked. */
+  readonly proof: MapProof | null;
+  readonly actions: Actions;
+}
+
+/** The second program's answer, or the button that asks it. */
+function SecondProof({ proof, actions }: SecondProofProps): VNode {
+  if (proof === null) {
+    return (
+      <div class="row">
+        <button type="button" id="prove" onClick={actions.proveMap} title="By another program, which reads only the map file and both meshes, in exact arithmetic">
+          Prove it again, exactly
+        </button>
+      </div>
+    );
+  }
+  return (
+    <p id="second-proof" role="status" class={proof.answer?.verdict === 'refused' ? 'warning' : ''}>
+      {proof.answer === null ? 'A second program looks at every piece…' : proof.answer.sentence}
+    </p>
+  );
+}
+
+interface CertificateProps extends SecondProofProps {
+  readonly result: Result;
+}
+
 /** The shield. */
-export function Certificate({ report }: { readonly report: Report }): VNode {
+export function Certificate({ result, proof, actions }: CertificateProps): VNode {
+  const { report, output } = result;
   const { certificate } = report;
   if (certificate?.bijective === true) {
     return (
@@ -41,6 +72,7 @@ export function Certificate({ report }: { readonly report: Report }): VNode {
           <Icon name="turn" turns />
         </summary>
         <Proof certificate={certificate} early={report.stopped_early} />
+        {output.map !== null && <SecondProof proof={proof} actions={actions} />}
       </details>
     );
   }

@@ -13,7 +13,7 @@ export interface Export {
   readonly save: () => void;
 }
 
-type Saving = Pick<Actions, 'saveMadeFile' | 'saveLandmarks'>;
+type Saving = Pick<Actions, 'saveMadeFile' | 'saveWrapped' | 'saveLandmarks'>;
 
 /** A file of a map. */
 interface MapExport extends Omit<Export, 'save'> {
@@ -61,6 +61,15 @@ function exportOf({ output }: Result, { key, made, name, type, ...shown }: MapEx
       };
 }
 
+/** The source laid onto the target; none where the map gives no files, or goes to the target's mirror image. */
+function wrapped({ output, opened }: Result, { saveWrapped }: Saving): readonly Export[] {
+  if (output.map === null || opened?.isMirrored === true) {
+    return [];
+  }
+  const about = 'Your source’s own OBJ or OFF file: polygons, texture coordinates and order kept, every vertex fitted to the target';
+  return [{ format: 'Wrapped', title: 'Source wrapped onto the target', about, save: saveWrapped }];
+}
+
 function reportAndMap({ output }: Result): readonly Export[] {
   const { map, report } = output;
   const numbers = {
@@ -85,7 +94,7 @@ function reportAndMap({ output }: Result): readonly Export[] {
 /** The files that there are now, the most wanted first. */
 export function exportsOf(state: State, saving: Saving): readonly Export[] {
   const { result } = state;
-  const files = result === null ? [] : [...MAP_EXPORTS.flatMap((file) => exportOf(result, file, saving) ?? []), ...reportAndMap(result)];
+  const files = result === null ? [] : [...MAP_EXPORTS.flatMap((file) => exportOf(result, file, saving) ?? []), ...wrapped(result, saving), ...reportAndMap(result)];
   const landmarks = {
     format: 'JSON',
     title: 'Landmarks',

@@ -2,7 +2,7 @@
 import type { VNode } from 'preact';
 import { reopenedSentence, SENTENCES, staleSentence } from '../messages.ts';
 import { shownResult, staleness } from '../store/staleness.ts';
-import type { Demo, Result } from '../store/state.ts';
+import type { Demo, MapProof, Result } from '../store/state.ts';
 import type { Actions, PartProps } from './actions.ts';
 import { Certificate } from './certificate.tsx';
 import { Choices } from './choices.tsx';
@@ -32,10 +32,12 @@ interface ResultProps {
   readonly stale: string | null;
   /** Whether the views show it. */
   readonly shown: boolean;
+  /** What a second program says of it; `null` where it was not asked. */
+  readonly proof: MapProof | null;
   readonly actions: Actions;
 }
 
-function ResultSection({ result, stale, shown, actions }: ResultProps): VNode {
+function ResultSection({ result, stale, shown, proof, actions }: ResultProps): VNode {
   const { report } = result;
   const { level, sentence, more } = verdictOf(report);
   return (
@@ -44,7 +46,7 @@ function ResultSection({ result, stale, shown, actions }: ResultProps): VNode {
       <div class={`verdict dimmed ${level}`}>
         <p class="sentence">{sentence}</p>
         <p class="quiet">{more}</p>
-        <Certificate report={report} />
+        <Certificate result={result} proof={proof} actions={actions} />
         {result.opened !== null && <p class="quiet" id="reopened">{reopenedSentence(result.opened.name)}</p>}
         {result.opened?.isMirrored === true && <Note sentence={SENTENCES.mirroredMap} />}
         {report.warnings.map((warning) => (
@@ -94,6 +96,7 @@ export function MapPanel({ state, actions, shell }: PartProps): VNode {
           result={result}
           stale={changes === null ? null : staleSentence(changes)}
           shown={shownResult(state) === result}
+          proof={state.proof?.of === result ? state.proof : null}
           actions={actions}
         />
       )}

@@ -2,7 +2,7 @@
 import type { Progress, RunOutput } from '../compute/messages.ts';
 import type { RunOptions } from '../report.ts';
 import type { LandmarkFile, Side, Suggestion, SurfacePoint } from '../landmarks.ts';
-import type { Finding, MatchReport, Report } from '../report.ts';
+import type { Finding, MatchReport, ProofReport, Report } from '../report.ts';
 import type { AwaitedMap } from './awaited.ts';
 import type { Examined } from './defects.ts';
 import type { History } from './history.ts';
@@ -11,7 +11,7 @@ import type { OpenedMap } from './opened.ts';
 import type { Receiving } from './receiving.ts';
 import type { Refused } from './refused.ts';
 import type { SidePoint } from './side-marks.ts';
-import type { Axis, Camera, Demo, MeshFile, Offer, Proposal, Style, Ui, Work } from './state.ts';
+import type { Axis, Camera, Demo, MeshFile, Offer, Proposal, Result, Style, Ui, Work } from './state.ts';
 
 export type Event =
   /** The core is there. */
@@ -115,6 +115,11 @@ export type Event =
   | { readonly kind: 'map-awaited'; readonly map: AwaitedMap | null }
   | { readonly kind: 'run-failed'; readonly sentence: string }
   | { readonly kind: 'run-cancelled' }
+
+  /** A second program begins to prove a map. */
+  | { readonly kind: 'proof-begun'; readonly of: Result }
+  /** It has answered; `null` where it could not. */
+  | { readonly kind: 'proof-done'; readonly of: Result; readonly answer: ProofReport | null }
 
   // What the page says.
 

@@ -3,6 +3,7 @@ import type { Side } from '../landmarks.ts';
 import type { Event } from './events.ts';
 import { earlierOf } from './comparison.ts';
 import { NO_HISTORY, redone, undone } from './history.ts';
+import type { ProofReport } from '../report.ts';
 import { advanced, begun, ended, started } from './job.ts';
 import type { Running } from './job.ts';
 import { withLandmarks, withMesh, withMirrored, withSwap } from './loads.ts';
@@ -79,6 +80,11 @@ function withResult(state: State, result: Result): State {
   const { surface } = state.ui.style;
   const isShown = surface !== 'shaded' && (surface !== 'distortion' || result.output.distortion.length > 0);
   return isShown ? done : withStyle(done, { surface: 'pattern' });
+}
+
+/** A proof is over; what came too late for the map that is proved now is left out. */
+function withProof(state: State, of: Result, answer: ProofReport | null): State {
+  return state.proof?.of === of ? { ...state, proof: answer === null ? null : { of, answer } } : state;
 }
 
 /** The state after an event. */
@@ -199,6 +205,10 @@ export function update(state: State, event: Event): State {
       return patched(state, { awaited: event.map });
     case 'run-failed':
       return { ...state, job: { kind: 'error' }, error: event.sentence };
+    case 'proof-begun':
+      return { ...state, proof: { of: event.of, answer: null } };
+    case 'proof-done':
+      return withProof(state, event.of, event.answer);
     case 'run-cancelled':
       return { ...state, job: { kind: shownResult(state) === null ? 'idle' : 'done' } };
     case 'toast':

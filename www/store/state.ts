@@ -1,7 +1,7 @@
 /** The state of the page: everything that it shows follows from it. */
 import type { RunOutput } from '../compute/messages.ts';
 import type { Side, Suggestion, SurfacePoint } from '../landmarks.ts';
-import type { Finding, Report } from '../report.ts';
+import type { Finding, ProofReport, Report } from '../report.ts';
 import type { AwaitedMap } from './awaited.ts';
 import type { Examined } from './defects.ts';
 import type { History } from './history.ts';
@@ -58,6 +58,14 @@ export interface Result {
   readonly inputs: Work;
   /** The map file that it was opened from; `null` where it was made here. */
   readonly opened: { readonly name: string; readonly isMirrored: boolean } | null;
+}
+
+/** What a second program says of a map. */
+export interface MapProof {
+  /** The map that it is about. */
+  readonly of: Result;
+  /** `null` while it is at work. */
+  readonly answer: ProofReport | null;
 }
 
 /** What is kept of a map that another one has taken the place of, to compare both. */
@@ -119,6 +127,8 @@ export interface State extends Work {
   readonly job: Job;
   /** The last map. It stays when its inputs change, and is current again when they come back. */
   readonly result: Result | null;
+  /** The proof of a map, which may be another one than that. */
+  readonly proof: MapProof | null;
   /** The map before it, of this visit. */
   readonly earlier: EarlierMap | null;
   /** The doubts of the last run, and what it was about. */
@@ -162,6 +172,7 @@ export const INITIAL: State = {
   },
   job: { kind: 'idle' },
   result: null,
+  proof: null,
   earlier: null,
   found: null,
   findings: [],

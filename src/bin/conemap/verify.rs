@@ -4,9 +4,9 @@ use crate::arguments::VerifyArguments;
 use crate::input::{self, Failure};
 use crate::outputs;
 use crate::told::print;
-use conemap::job::{MapFiles, Proof, ProofError, prove};
+use conemap::job::{MapFiles, Proof, ProofReport, prove};
 use conemap::landmarks::MeshSide;
-use serde_json::{Value, json};
+use serde::Serialize;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -19,7 +19,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
     let files = MapFiles { map: &bytes[0], source: &bytes[1], target: &bytes[2] };
     let outcome = prove(files, &mut |_| ControlFlow::Continue(()));
     if let Some(path) = &arguments.report {
-        let report = report(&outcome, begun.elapsed().as_secs_f64());
+        let report = Told { proof: ProofReport::of(&outcome), seconds: begun.elapsed().as_secs_f64() };
         outputs::write(path, &serde_json::to_vec_pretty(&report)?)?;
     }
     match outcome {
@@ -63,39 +63,9 @@ fn tell(proof: &Proof) -> Result<(), Failure> {
 }
 
 /// What is known, stable as JSON.
-fn report(outcome: &Result<Proof, ProofError>, seconds: f64) -> Value {
-    let proof = match outcome {
-        Ok(proof) => proof,
-        Err(error) => {
-            return json!({
-                "verdict": "refused", "kind": error.kind(), "sentence": error.to_string(), "seconds": seconds,
-            });
-        }
-    };
-    let (doubtful, landmarks, matrices) = (&proof.doubtful, &proof.landmarks, &proof.matrices);
-    json!({
-        "verdict": if proof.is_exact() { "proved" } else { "within-rounding" },
-        "sentence": proof.sentence(),
-        "faces": { "source": proof.faces[0], "target": proof.faces[1] },
-        "vertices": proof.vertices,
-        "pieces": proof.pieces,
-        "segments": proof.segments,
-        "triangles": proof.triangles,
-        "doubtful": {
-            "triangles": doubtful.triangles,
-            "first_piece": doubtful.first_piece,
-            "source_share": doubtful.source_share,
-            "target_share": doubtful.target_share,
-            "turned_share": doubtful.turned_share,
-        },
-        "signs": { "all": proof.signs.signs, "by_integers": proof.signs.by_integers },
-        "landmarks": {
-            "pairs": landmarks.pairs,
-            "exact": landmarks.exact,
-            "largest_distance": landmarks.largest_distance,
-        },
-        "matrices": { "given": matrices.given, "largest_distance": matrices.largest_distance },
-        "mirrored": proof.is_mirrored,
-        "seconds": seconds,
-    })
+#[derive(Serialize)]
+struct Told {
+    #[serde(flatten)]
+    proof: ProofReport,
+    seconds: f64,
 }

@@ -1,0 +1,60 @@
+//! The memory of one process over many maps.
+
+use crate::arguments::Arguments;
+use crate::case::Case;
+use conemap::demo;
+use conemap::mesh::{SurfacePoint, VertexId};
+use conemap::monitor::Silent;
+
+/// Maps where nothing else is asked for (`--seeds`).
+const RUNS: u64 = 200;
+/// After as many the memory should stay.
+const WARM: u64 = 10;
+
+/// Maps the demos in turn, and tells what the process holds after each tenth of the runs.
+pub fn table(arguments: &Arguments) {
+    let runs = if arguments.seeds > 1 { arguments.seeds } else { RUNS };
+    let cases: Vec<Case> = demo::list().iter().take(3).map(|info| of_demo(info.id)).collect();
+    let mut warm = None;
+    println!("{:>6} {:>12}  of {} demos in turn", "maps", "MiB held", cases.len());
+    for count in 1..=runs {
+        let case = &cases[(count - 1) as usize % cases.len()];
+        if let Err(error) = case.run(&arguments.options, &mut Silent) {
+            println!("{count:>6} {}: {error}", case.name);
+        }
+        let Some(held) = resident_mib() else {
+            println!("this system does not tell what a process holds: use one with /proc");
+            return;
+        };
+        if count == WARM {
+            warm = Some(held);
+        }
+        if count == WARM || count % runs.div_ceil(10) == 0 {
+            println!("{count:>6} {held:>12.1}");
+        }
+    }
+    if let (Some(warm), Some(held)) = (warm, resident_mib()) {
+        println!(
+            "after {runs} maps {:+.1} MiB against {WARM} maps ({:+.1} %)",
+            held - warm,
+            100.0 * (held / warm - 1.0)
+        );
+    }
+}
+
+fn of_demo(id: &str) -> Case {
+    let demo = demo::build(id).expect("a demo of the list");
+    let meshes = [demo.source, demo.target];
+    let points = [0, 1].map(|side| {
+        let at = |pair: &[u32; 2]| SurfacePoint::at_vertex(&meshes[side], VertexId(pair[side]));
+        demo.landmarks.iter().map(at).collect()
+    });
+    Case { name: id.to_owned(), variant: String::new(), meshes, points, truth: None }
+}
+
+/// What this process holds in memory; `None` where the system does not tell.
+fn resident_mib() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmRSS:"))?;
+    Some(line.split_whitespace().nth(1)?.parse::<f64>().ok()? / 1024.0)
+}
