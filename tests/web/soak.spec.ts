@@ -1,0 +1,41 @@
+/** Many maps in one page: what the browser holds for it stays. */
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
+import { expect, test } from '@playwright/test';
+import { finished, openDemo, openStep } from './page.ts';
+
+const MAPS = Number(process.env['CONEMAP_SOAK'] ?? 40);
+/** After as many the memory should stay. */
+const WARM = 10;
+
+/** MiB in memory of the largest process that draws and computes a page; its workers are threads of it. */
+function held(): number {
+  const renderers = readdirSync('/proc').filter((name) => {
+    try {
+      return /^\d+$/.test(name) && readFileSync(`/proc/${name}/cmdline`, 'utf8').includes('--type=renderer');
+    } catch {
+      return false;
+    }
+  });
+  const sizes = renderers.map((name) => Number(/VmRSS:\s*(\d+)/.exec(readFileSync(`/proc/${name}/status`, 'utf8'))?.[1] ?? 0));
+  return Math.max(...sizes) / 1024;
+}
+
+test('forty maps in one page take no more memory than ten', { tag: '@long' }, async ({ page }) => {
+  test.skip(!existsSync('/proc/self/status'), 'this system does not tell what a process holds');
+  test.setTimeout(60_000 * MAPS);
+  await openDemo(page);
+  await openStep(page, 'map');
+  await page.locator('#details summary').click();
+  const sizes: number[] = [];
+  for (let run = 0; run < MAPS; run++) {
+    // Without a change nothing would be run again.
+    await page.getByRole('combobox', { name: 'Own cones' }).selectOption(run % 2 === 0 ? 'None' : 'Up to 10');
+    await page.locator('#run').click();
+    await expect(page.locator('body')).toHaveAttribute('data-state', 'running');
+    await finished(page);
+    sizes.push(Math.round(held()));
+  }
+  console.log(`MiB held after each map: ${sizes.join(' ')}`);
+  const highest = (from: number, to: number): number => Math.max(...sizes.slice(from, to));
+  expect(highest(MAPS - WARM, MAPS)).toBeLessThan(1.15 * highest(0, WARM));
+});
