@@ -22,6 +22,7 @@ mod reading;
 mod stl;
 pub mod texture_coordinates;
 pub mod vertex_table;
+mod written_text;
 
 pub use detection::detect;
 pub use format::Format;
