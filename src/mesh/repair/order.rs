@@ -10,7 +10,7 @@ use super::options::{Handles, RepairOptions};
 use super::orientation::oriented;
 use super::parts::{DroppedParts, largest};
 use super::refusal::RepairRefusal;
-use super::report::{Change, RepairReport};
+use super::report::{Change, Handle, RepairReport};
 use super::sheets::{Sheets, apart};
 use crate::mesh::check::{CheckedMesh, Elements, MeshFault, RepairedFaces, closed_genus_zero, triangulated};
 use crate::mesh::soup::PolygonSoup;
@@ -41,8 +41,25 @@ pub fn repaired(
 ) -> Result<RepairedMesh, RepairRefusal> {
     let frame = FileFrame::of(soup);
     let options = RepairOptions { join_within: options.join_within / frame.scale(), ..*options };
-    let repaired = repaired_usual(&frame.soup(soup), &options, monitor)?;
+    let mut repaired =
+        repaired_usual(&frame.soup(soup), &options, monitor).map_err(|refusal| match refusal {
+            RepairRefusal::Handles(mut handles) => {
+                to_file(&mut handles, &frame);
+                RepairRefusal::Handles(handles)
+            }
+            other => other,
+        })?;
+    for change in &mut repaired.report.changes {
+        if let Change::CutHandles { handles, .. } = change {
+            to_file(&mut handles.first, &frame);
+        }
+    }
     Ok(RepairedMesh { checked: CheckedMesh { frame, ..repaired.checked }, ..repaired })
+}
+
+/// Tells the places of handles in the file's coordinates.
+fn to_file(handles: &mut [Handle], frame: &FileFrame) {
+    handles.iter_mut().flat_map(|handle| &mut handle.places).for_each(|place| *place = frame.in_file(*place));
 }
 
 /// Repairs a soup of usual coordinates.

@@ -14,6 +14,7 @@ use super::super::sheets::apart;
 use super::chains::chains;
 use super::defect::{Defect, DefectKind, Defects};
 use crate::math::disjoint_sets::DisjointSets;
+use crate::mesh::FileFrame;
 use crate::mesh::check::is_degenerate;
 use crate::mesh::soup::PolygonSoup;
 use crate::monitor::{Cancelled, Monitor};
@@ -29,8 +30,12 @@ pub fn defects(
     options: &RepairOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Defects, RepairRefusal> {
+    let frame = FileFrame::of(soup);
+    let options = &RepairOptions { join_within: options.join_within / frame.scale(), ..*options };
+    let soup = &*frame.soup(soup);
     let draft = joined(drafted(soup)?, options.join_within);
     let mut found = Defects {
+        frame,
         positions: soup.positions.clone(),
         triangles: draft.faces.iter().map(|face| face.corners).collect(),
         file_vertices: soup.positions.len(),
