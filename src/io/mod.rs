@@ -3,6 +3,7 @@
 //! Everything is hostile until checked: sizes are compared with the file before anything is allocated.
 
 pub mod curve_file;
+mod data_uri;
 mod detection;
 mod format;
 mod gltf_container;

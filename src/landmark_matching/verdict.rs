@@ -137,36 +137,11 @@ fn nearest_vertex(index: &SurfaceIndex<'_>, place: DVec3) -> VertexId {
 
 #[cfg(test)]
 mod tests {
-    use super::super::candidate::CoarsePicture;
     use super::super::input::MayMark;
-    use super::super::search::Assignment;
     use super::*;
+    use crate::mesh::SurfacePoint;
     use crate::mesh::generators::icosphere;
-    use crate::mesh::{SurfaceMesh, SurfacePoint};
     use typed_index_collections::TiVec;
-
-    /// A candidate without pairs whose map takes every vertex of a sphere to a vertex.
-    fn candidate(mesh: &SurfaceMesh, image: impl Fn(VertexId) -> VertexId) -> Candidate {
-        let images = mesh.vertices().map(|v| SurfacePoint::at_vertex(mesh, image(v))).collect();
-        Candidate {
-            pairs: Vec::new(),
-            score: 0.7,
-            mean_log: 0.7,
-            remoteness: 0.0,
-            agreement: 1.0,
-            unmatched: [0; 2],
-            difference: None,
-            picture: CoarsePicture { source: mesh.clone(), target: mesh.clone(), target_from_source: images },
-            assignment: Assignment {
-                pairs: Vec::new(),
-                cost: 0.0,
-                unmatched_cost: 0.0,
-                agreement: 1.0,
-                unmatched: [0; 2],
-                between: None,
-            },
-        }
-    }
 
     #[test]
     fn a_question_is_about_vertices_that_may_be_marked() {
@@ -175,7 +150,10 @@ mod tests {
         let index = SurfaceIndex::new(&mesh);
         // Half a turn about the last axis: what lies on it stays, what is far from it goes far.
         let turned = |v: VertexId| nearest_vertex(&index, at(v) * DVec3::new(-1.0, -1.0, 1.0));
-        let candidates = [candidate(&mesh, |v| v), candidate(&mesh, turned)];
+        let images = |image: &dyn Fn(VertexId) -> VertexId| {
+            mesh.vertices().map(|v| SurfacePoint::at_vertex(&mesh, image(v))).collect()
+        };
+        let candidates = [images(&|v| v), images(&turned)].map(|images| Candidate::of_images(&mesh, images));
         let free = question(MatchInput::new(&mesh, &mesh), &candidates, 1).unwrap();
         assert_eq!((free.targets, free.rival), ([free.source, turned(free.source)], 1));
         // Neither the source's vertex there nor the target's on one side of the axis.
