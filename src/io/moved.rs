@@ -39,9 +39,12 @@ pub enum MoveError {
     /// It is not text.
     #[error("the file holds bytes that are not text: it may be damaged; save the mesh anew as OBJ")]
     NotText,
-    /// It cannot be read, as it is or with other places.
+    /// It cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// It could not be read with other places, or without its normals.
+    #[error("what would be written cannot be read ({0}): save the mesh anew as OBJ")]
+    Unreadable(ReadError),
     /// It has another number of vertices.
     #[error("the file has {found} vertices, but there are places for {places}")]
     Count {
@@ -108,7 +111,7 @@ fn moved(bytes: &[u8], soup: &PolygonSoup, places: &[DVec3], normals: Normals) -
     };
     let written = WrittenText::of(bytes).ok_or(MoveError::NotText)?;
     let moved = written.encoded(&rewritten(&written.text, places, normals));
-    let again = read_mesh(&moved)?;
+    let again = read_mesh(&moved).map_err(MoveError::Unreadable)?;
     match other_place(soup, places, &again) {
         Some(place) => Err(MoveError::ReadsOtherwise(place)),
         None => Ok(moved),
@@ -280,7 +283,7 @@ mod tests {
         let mut places = places();
         places[1].y = f64::INFINITY;
         let error = with_positions(OBJ.as_bytes(), &places, Normals::Kept).unwrap_err();
-        assert!(matches!(error, MoveError::Read(_)), "{error}");
+        assert!(matches!(error, MoveError::Unreadable(_)), "{error}");
         let soup = read_mesh(OBJ.as_bytes()).unwrap();
         let mut other = soup.clone();
         other.positions[2].z = 1.0;

@@ -8,6 +8,7 @@ mod counting;
 mod large;
 mod mutation;
 mod readers;
+mod small_map;
 
 use counting::most_bytes;
 use mutation::Mutator;
@@ -36,8 +37,6 @@ fn kept() -> Vec<(String, Vec<u8>)> {
 fn answer(name: &str, bytes: &[u8]) -> (String, usize) {
     if name.ends_with(".json") {
         most_bytes(|| readers::landmarks(name, bytes))
-    } else if name.ends_with(".conemap") {
-        most_bytes(|| readers::map(bytes))
     } else {
         most_bytes(|| readers::mesh(bytes))
     }
@@ -120,9 +119,7 @@ fn written() -> Vec<(String, Vec<u8>)> {
     use conemap::io::landmark_formats::{LandmarkFormat, Space};
     use conemap::landmark_exchange::{Surface, write_pairs, write_side};
     use conemap::landmarks::MeshSide;
-    use conemap::map_file::FileMesh;
-    let mesh = FileMesh::read(readers::OCTAHEDRON.as_bytes()).unwrap();
-    let surface = Surface { mesh: mesh.checked(), space: Space::Lps };
+    let surface = Surface { mesh: readers::MESH.checked(), space: Space::Lps };
     let pairs = (0..6).map(|v| [LandmarkPoint::Vertex(v); 2]).collect();
     let labels = Some((0..6).map(|k| format!("point {k}")).collect());
     let file = LandmarkFile { pairs, labels, ..LandmarkFile::default() };
@@ -154,7 +151,7 @@ fn beside_meshes() -> Vec<(String, Vec<u8>)> {
         [head.as_bytes(), &row.repeat(6), &face].concat()
     };
     let curves = r#"{"curves": [{"name": "belt", "closed": true, "points": [0, 2, {"face": 3, "barycentric": [0.5, 0.5, 0]}]}]}"#;
-    let map = std::fs::read(folder().join("files/octahedron.conemap")).unwrap();
+    let map = small_map::bytes(&readers::MESH);
     let texts = [
         ("table.csv", "1.5,0.25\n-2,3\n0,0\n1e3,-1e-3\n5,5\n6,6\n"),
         ("table-numbered.csv", "vertex,heat,u # both\r\n3,1.5,0.25\r\n\r\n0,,3\r\n5,1,1"),
@@ -198,7 +195,7 @@ fn changed_files_are_answered() {
     }
 }
 
-/// Run by `cargo xtask fuzz`, which sets the numbers.
+/// Run by `cargo xtask fuzz`, which sets the numbers and, where one is wanted alone, the reader's name.
 #[test]
 #[ignore = "takes as long as one wants"]
 fn many_changed_files_are_answered() {
@@ -206,7 +203,17 @@ fn many_changed_files_are_answered() {
         std::env::var(name).ok().map_or(usual, |text| text.parse().expect("a whole number"))
     };
     let (count, seed) = (number("CONEMAP_FUZZ_RUNS", 100_000) as usize, number("CONEMAP_FUZZ_SEED", 1));
-    for reader in Reader::all() {
+    let wanted = std::env::var("CONEMAP_FUZZ_READER").ok();
+    let readers: Vec<Reader> = Reader::all()
+        .into_iter()
+        .filter(|reader| wanted.as_ref().is_none_or(|name| *name == reader.name()))
+        .collect();
+    assert!(
+        !readers.is_empty(),
+        "the readers: {}",
+        Reader::all().into_iter().map(Reader::name).collect::<Vec<_>>().join(", ")
+    );
+    for reader in readers {
         let begun = Instant::now();
         let runs = run(reader, count, seed);
         println!(

@@ -1,12 +1,12 @@
 //! The order of the steps, and the way back to the numbers of the file.
 
 use super::caps::{Capped, capped};
-use super::degenerate::without_degenerate;
+use super::degenerate::{Degenerate, without_degenerate};
 use super::draft::{Draft, DraftFace, FaceOrigin};
 use super::duplicates::without_duplicates;
 use super::handles::{MOST_HANDLES, WithoutHandles, without_handles};
 use super::joining::joined;
-use super::options::{Handles, RepairOptions};
+use super::options::{Handles, Parts, RepairOptions};
 use super::orientation::oriented;
 use super::parts::{DroppedParts, largest};
 use super::refusal::RepairRefusal;
@@ -15,7 +15,7 @@ use super::sheets::{Sheets, apart};
 use crate::mesh::check::{CheckedMesh, Elements, MeshFault, RepairedFaces, closed_genus_zero, triangulated};
 use crate::mesh::soup::PolygonSoup;
 use crate::mesh::{FaceId, FileFrame, VertexId};
-use crate::monitor::{Monitor, Step};
+use crate::monitor::{Cancelled, Monitor, Step};
 use typed_index_collections::TiVec;
 
 /// A mesh that can be mapped, and how it came to be.
@@ -93,20 +93,9 @@ fn steps(
     if draft.faces.is_empty() {
         return Err(RepairRefusal::NothingLeft);
     }
-    monitor.step(Step::default())?;
-    let (draft, sheets) = apart(oriented(draft)?);
-    monitor.step(Step::default())?;
-    let (draft, dropped) = largest(oriented(draft)?, options.parts)?;
-    monitor.step(Step::default())?;
-    let (draft, caps) = capped(draft)?;
-    monitor.step(Step::default())?;
-    // A corner on an edge without a face between leaves a hole without area, whose cap goes as such faces do.
-    let (draft, closed) = without_degenerate(draft);
+    let Closed { draft, sheets, dropped, caps, degenerate: closed, mut cap_share } =
+        closed(draft, options.parts, monitor)?;
     let mut degenerate = degenerate.and(closed);
-    let mut cap_share = caps.as_ref().map_or(0.0, |caps| caps.area_share);
-    if cap_share > MOST_CAP {
-        return Err(RepairRefusal::OpenSheet { cap_share });
-    }
     let mut handles = None;
     let checked = match checked(soup, &draft, in_file) {
         Err(MeshFault::Genus { genus }) => {
@@ -145,6 +134,60 @@ fn steps(
     changes.extend(told_of_all(soup, &checked));
     changes.retain(|change| change.count() > 0);
     Ok(RepairedMesh { checked, report: RepairReport { fault: Some(fault), changes, cap_share } })
+}
+
+/// A surface without holes, whose handles are not looked for yet.
+struct Closed {
+    draft: Draft,
+    sheets: Sheets,
+    dropped: Option<DroppedParts>,
+    caps: Option<Capped>,
+    /// Caps of holes without area.
+    degenerate: Degenerate,
+    /// Share of the area that is caps.
+    cap_share: f64,
+}
+
+/// Turns, takes apart and closes a draft that has neither faces without area nor double ones.
+fn closed(draft: Draft, parts: Parts, monitor: &mut dyn Monitor) -> Result<Closed, RepairRefusal> {
+    monitor.step(Step::default())?;
+    let (draft, sheets) = apart(oriented(draft)?);
+    monitor.step(Step::default())?;
+    let (draft, dropped) = largest(oriented(draft)?, parts)?;
+    monitor.step(Step::default())?;
+    let (draft, caps) = capped(draft)?;
+    monitor.step(Step::default())?;
+    // A corner on an edge without a face between leaves a hole without area, whose cap goes as such faces do.
+    let (draft, degenerate) = without_degenerate(draft);
+    let cap_share = caps.as_ref().map_or(0.0, |caps| caps.area_share);
+    if cap_share > MOST_CAP {
+        return Err(RepairRefusal::OpenSheet { cap_share });
+    }
+    Ok(Closed { draft, sheets, dropped, caps, degenerate, cap_share })
+}
+
+/// The handles of the largest part of such a draft, made of a soup with so many triangles; none where it cannot be closed.
+pub(super) fn handles_of(
+    draft: Draft,
+    soup: &PolygonSoup,
+    in_file: usize,
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<Handle>, Cancelled> {
+    if draft.faces.is_empty() {
+        return Ok(Vec::new());
+    }
+    let refusal = || -> Result<(), RepairRefusal> {
+        let Closed { draft, .. } = closed(draft, Parts::LargestAlone, monitor)?;
+        match checked(soup, &draft, in_file) {
+            Err(MeshFault::Genus { genus }) => cut_handles(draft, genus, Handles::Refused, monitor).map(drop),
+            _ => Ok(()),
+        }
+    };
+    match refusal() {
+        Err(RepairRefusal::Handles(handles)) => Ok(handles),
+        Err(RepairRefusal::Stopped(stop)) => Err(stop),
+        _ => Ok(Vec::new()),
+    }
 }
 
 /// The draft without its handles, where they may be cut.
