@@ -4,10 +4,10 @@
 //! `curve,face,b0,b1,b2` with or without more columns; lines that follow each other with one name are one curve, closed where its
 //! last point is its first. JSON: `{"curves": [{"name"?, "closed"?, "points": [vertex or {"face", "barycentric"}]}]}`.
 
-use super::MAX_BYTES;
 use super::landmark_file::LandmarkPoint;
 use super::problem::{Place, Problem};
-use super::reading::{number, text};
+use super::reading::{content_lines, number, text};
+use super::{MAX_BYTES, obj};
 use serde::Deserialize;
 
 /// A curve as a file gives it.
@@ -20,6 +20,9 @@ pub struct Curve {
     /// Its points, in the mesh file's numbers; not checked against the mesh.
     pub points: Vec<LandmarkPoint>,
 }
+
+/// First words of OBJ files in which curves are; tables have commas.
+const OBJ_WORDS: [&str; 11] = ["v", "vn", "vt", "l", "f", "o", "g", "s", "mtllib", "usemtl", "p"];
 
 /// More points than this are refused.
 pub const MAX_POINTS: usize = 1_000_000;
@@ -50,14 +53,10 @@ pub fn read(bytes: &[u8], vertices: usize) -> Result<Vec<Curve>, CurveFileError>
         return Err(CurveFileError { place: Place::Header, problem });
     }
     let text = text(bytes)?;
-    let words = |line: &str| line.split_whitespace().next().map(str::to_owned);
-    let is_obj = |word: String| {
-        ["v", "vn", "vt", "l", "f", "o", "g", "s", "mtllib", "usemtl", "p"].contains(&word.as_str())
-    };
-    let content = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
-    let curves = match text.lines().find(content) {
-        Some(line) if line.trim_start().starts_with('{') => json(&text)?,
-        Some(line) if words(line).is_some_and(is_obj) => obj(&text, vertices)?,
+    let is_obj = |line: &str| line.split_whitespace().next().is_some_and(|word| OBJ_WORDS.contains(&word));
+    let curves = match content_lines(&text).next() {
+        Some((_, line)) if line.starts_with('{') => json(&text)?,
+        Some((_, line)) if is_obj(line) => obj(&text, vertices)?,
         _ => table(&text)?,
     };
     let curves: Vec<Curve> = curves.into_iter().map(closed_at_its_end).collect();
@@ -86,18 +85,16 @@ fn check_count(count: usize, line: usize) -> Result<(), Problem> {
 
 fn obj(text: &str, vertices: usize) -> Result<Vec<Curve>, Problem> {
     let (mut curves, mut count, mut own, mut group) = (Vec::new(), 0, 0_usize, None);
-    for (index, content) in text.lines().enumerate() {
-        let line = index + 1;
-        let mut words = content.split_whitespace();
-        match words.next() {
-            Some("v") => own += 1,
-            Some("o" | "g") => group = words.next().map(str::to_owned),
-            Some("l") => {
+    for line in obj::whole_lines(text) {
+        match line.kind {
+            "v" => own += 1,
+            "o" | "g" => group = line.words().next().map(str::to_owned),
+            "l" => {
                 let mut points = Vec::new();
-                for word in words {
+                for word in line.words() {
                     count += 1;
-                    check_count(count, line)?;
-                    points.push(LandmarkPoint::Vertex(vertex(word, own, line)?));
+                    check_count(count, line.number)?;
+                    points.push(LandmarkPoint::Vertex(obj::vertex(word, own, line.number)?));
                 }
                 let name = group.clone().unwrap_or_else(|| (curves.len() + 1).to_string());
                 curves.push(Curve { name, is_closed: false, points });
@@ -114,24 +111,14 @@ fn obj(text: &str, vertices: usize) -> Result<Vec<Curve>, Problem> {
     Ok(curves)
 }
 
-/// The vertex of a word `v` or `v/t`; negative numbers count back from the last vertex so far.
-fn vertex(word: &str, own: usize, line: usize) -> Result<u32, Problem> {
-    let value: i64 = number(word.split('/').next(), line, "a vertex number")?;
-    let index = if value < 0 { (own as i64).checked_add(value) } else { value.checked_sub(1) };
-    let index = index.and_then(|index| u32::try_from(index).ok());
-    index.ok_or_else(|| (Place::Line(line), format!("there is no vertex {value}")))
-}
-
 fn table(text: &str) -> Result<Vec<Curve>, Problem> {
     let mut curves: Vec<Curve> = Vec::new();
     let mut count = 0;
-    for (index, content) in text.lines().enumerate() {
-        let line = index + 1;
-        let content = content.split('#').next().unwrap_or_default().trim();
+    for (line, content) in content_lines(text) {
         let fields: Vec<&str> = content.split(',').take(6).map(str::trim).collect();
         let is_heading =
             count == 0 && fields.get(1).is_some_and(|field| field.starts_with(char::is_alphabetic));
-        if content.is_empty() || is_heading {
+        if is_heading {
             continue;
         }
         count += 1;
@@ -171,6 +158,10 @@ fn json(text: &str) -> Result<Vec<Curve>, Problem> {
         #[serde(default)]
         closed: bool,
         points: Vec<LandmarkPoint>,
+    }
+    // A point has four commas at most, within it and behind it, and names have some.
+    if text.bytes().filter(|b| *b == b',').count() > 8 * MAX_POINTS {
+        check_count(usize::MAX, 1)?;
     }
     let file: File = serde_json::from_str(text).map_err(|e| {
         let words = e.to_string();
@@ -213,6 +204,22 @@ mod tests {
         let on_face = LandmarkPoint::OnFace { face: 3, barycentric: [0.5, 0.5, 0.0] };
         let mixed = curves("a,3,0.5,0.5,0,1,2,3\na,4\n").unwrap();
         assert_eq!(mixed[0].points, [on_face, LandmarkPoint::Vertex(4)]);
+    }
+
+    #[test]
+    fn lines_are_those_of_every_obj_file() {
+        let vertices = "v 0 0 \\\r 0\r".repeat(8);
+        let found = curves(&format!("{vertices}g belt\rl 1 2 \\\r3 1 # 4\rg C:\\\rl -1 \\\r\r")).unwrap();
+        assert_eq!(found, [over("belt", true, &[0, 1, 2]), over("C:\\", false, &[7])]);
+        assert_eq!(curves("\u{feff}a,1\ra,2\r").unwrap(), [over("a", false, &[1, 2])]);
+        assert_eq!(curves("a,1\ra,x\r"), Err("line 2: \"x\" should be a vertex number".to_owned()));
+        assert_eq!(curves("l 1 2\rl \\\r1 0\r"), Err("line 2: there is no vertex 0".to_owned()));
+    }
+
+    #[test]
+    fn very_many_points_are_refused_before_they_are_read() {
+        let many = format!("{{\"curves\": [{{\"points\": [{}x", "0,".repeat(8 * MAX_POINTS + 1));
+        assert_eq!(curves(&many), Err(format!("line 1: there are more than {MAX_POINTS} points of curves")));
     }
 
     #[test]

@@ -5,14 +5,12 @@
 //! checked by [`super::gltf_document`] before it is followed. Nodes are placed in f64, so that a shape far from the origin
 //! keeps the digits that its file has.
 
+use super::data_uri;
 use super::gltf_container::{self, Container};
 use super::gltf_document::{Buffer, Document, Node, Primitive};
 use super::problem::{Place, Problem};
 use super::reading::weld;
 use crate::mesh::soup::PolygonSoup;
-use base64::Engine;
-use base64::alphabet;
-use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use glam::{DMat4, DQuat, DVec3};
 use gltf::Accessor;
 use gltf::accessor::{DataType, Dimensions};
@@ -74,9 +72,6 @@ fn placement(node: &Node) -> Option<DMat4> {
 
 /// The contents of the buffers, cut to the lengths that the file tells; `None` for one without data, as some extensions have it.
 fn buffers<'a>(buffers: &[Buffer], binary: Option<&'a [u8]>) -> Result<Vec<Option<Cow<'a, [u8]>>>, String> {
-    let lenient = GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent);
-    let [standard, of_urls] =
-        [&alphabet::STANDARD, &alphabet::URL_SAFE].map(|a| GeneralPurpose::new(a, lenient));
     let load = |(number, buffer): (usize, &Buffer)| {
         let mut content: Cow<'a, [u8]> = match &buffer.uri {
             // Only the first may be the binary part.
@@ -85,12 +80,10 @@ fn buffers<'a>(buffers: &[Buffer], binary: Option<&'a [u8]>) -> Result<Vec<Optio
                 None => return Ok(None),
             },
             Some(uri) => {
-                let code = uri.strip_prefix("data:").and_then(|rest| rest.split_once(";base64,"));
-                let (_, code) = code.ok_or_else(|| {
+                let decoded = data_uri::data(uri).ok_or_else(|| {
                     let short: String = uri.chars().take(40).filter(|c| !c.is_control()).collect();
                     format!("its data is in another file ({short}): give that file too, or export it as GLB")
                 })?;
-                let decoded = standard.decode(code).or_else(|e| of_urls.decode(code).map_err(|_| e));
                 decoded.map_err(|e| format!("its embedded buffer is damaged: {e}"))?.into()
             }
         };

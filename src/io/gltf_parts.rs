@@ -1,5 +1,6 @@
 //! glTF files whose buffers and textures are files of their own: the names of these files, and all of them packed into one GLB.
 
+use super::data_uri;
 use super::reading::unmarked;
 use super::{Format, MAX_BYTES, Place, ReadError, detect};
 use serde_json::{Map, Value, json};
@@ -125,10 +126,8 @@ fn decoded(uri: &str) -> String {
 
 /// The contents of a buffer that is in the file itself.
 fn embedded(buffer: &Value) -> Result<Vec<u8>, String> {
-    use base64::Engine;
     let uri = buffer.get("uri").and_then(Value::as_str).ok_or("a buffer has no data")?;
-    let (_, code) = uri.split_once(";base64,").ok_or("an embedded buffer is not in base64")?;
-    let decoded = base64::engine::general_purpose::STANDARD.decode(code);
+    let decoded = data_uri::data(uri).ok_or("an embedded buffer is not in base64")?;
     decoded.map_err(|e| format!("its embedded buffer is damaged: {e}"))
 }
 
@@ -266,6 +265,18 @@ mod tests {
         // What needs nothing names nothing.
         assert!(parts_of(&file.bytes).is_empty());
         assert!(parts_of(b"OFF\n4 4 6\n").is_empty());
+    }
+
+    #[test]
+    fn embedded_buffers_are_packed_as_they_are_read() {
+        let (text, positions, indices) = parts();
+        use base64::Engine;
+        let engine = base64::engine::general_purpose::URL_SAFE_NO_PAD;
+        let uri = format!("data:application/octet-stream;base64,{}", engine.encode(&indices));
+        let text = text.replace("a/indices.bin", &uri);
+        let find = |name: &str| (name == "positions.bin").then_some(&positions[..]);
+        let file = packed(text.as_bytes(), find).unwrap();
+        assert_eq!(read_mesh(&file.bytes).unwrap().polygons.len(), 4);
     }
 
     #[test]

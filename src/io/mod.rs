@@ -3,6 +3,7 @@
 //! Everything is hostile until checked: sizes are compared with the file before anything is allocated.
 
 pub mod curve_file;
+mod data_uri;
 mod detection;
 mod format;
 mod gltf_container;
@@ -22,6 +23,7 @@ mod reading;
 mod stl;
 pub mod texture_coordinates;
 pub mod vertex_table;
+mod written_text;
 
 pub use detection::detect;
 pub use format::Format;

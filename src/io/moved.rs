@@ -1,11 +1,15 @@
 //! Text of a mesh file with its vertices at other places: all else stays byte for byte.
 //!
-//! Of an OBJ file only the three coordinates of its `v` lines change, of an OFF file those of its vertices. What follows them on the
-//! line, as colours do, stays, and so do order, comments, spaces and line ends.
+//! Of an OBJ file only the three coordinates of its `v` lines change, of an OFF file those of its vertices (a fourth one, by which
+//! they are divided, becomes 1). What follows them on the line, as colours do, stays, and so do order, comments, spaces, line ends
+//! and the encoding. Where coordinates stand is told by the readers of both formats, and what is written is read again: a file
+//! that would be read otherwise is refused.
 
-use super::{Format, detect};
+use super::problem::Place;
+use super::written_text::{Replacing, WrittenText};
+use super::{Format, ReadError, detect, obj, off, read_mesh};
+use crate::mesh::soup::PolygonSoup;
 use glam::DVec3;
-use std::fmt::Write;
 
 /// What becomes of the normals in an OBJ file: they are those of the old places.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,9 +31,20 @@ pub enum MoveError {
         .0.map_or("none of them".to_owned(), |format| format!("a file in the format {format}"))
     )]
     Format(Option<Format>),
+    /// It is a binary file.
+    #[error(
+        "lines can be kept of text files only, and this is a binary OFF file: save the mesh as OBJ first"
+    )]
+    Binary,
     /// It is not text.
-    #[error("the file holds bytes that are not text: it may be damaged")]
+    #[error("the file holds bytes that are not text: it may be damaged; save the mesh anew as OBJ")]
     NotText,
+    /// It cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// It could not be read with other places, or without its normals.
+    #[error("what would be written cannot be read ({0}): save the mesh anew as OBJ")]
+    Unreadable(ReadError),
     /// It has another number of vertices.
     #[error("the file has {found} vertices, but there are places for {places}")]
     Count {
@@ -38,126 +53,121 @@ pub enum MoveError {
         /// Places that were given.
         places: usize,
     },
+    /// With other places it is another mesh.
+    #[error(
+        "with its vertices at other places the file is read otherwise, at {0}: save the mesh anew as OBJ"
+    )]
+    ReadsOtherwise(Place),
 }
 
-/// The file with its vertices, in their order, at other places.
+/// The file with its vertices, in their order, at other places; it reads back as these places and the polygons as they were.
 ///
 /// # Errors
 /// [`MoveError`].
 pub fn with_positions(bytes: &[u8], places: &[DVec3], normals: Normals) -> Result<Vec<u8>, MoveError> {
-    let format = detect(bytes);
-    let text = std::str::from_utf8(bytes).map_err(|_| MoveError::NotText);
-    let (moved, found) = match format {
-        Some(Format::Obj) => obj(text?, places, normals),
-        Some(Format::Off) => off(text?, places),
-        other => return Err(MoveError::Format(other)),
-    };
-    if found == places.len() {
-        Ok(moved.into_bytes())
-    } else {
-        Err(MoveError::Count { found, places: places.len() })
-    }
+    moved(bytes, &read_mesh(bytes)?, places, normals)
 }
 
-/// Whether a file's format has lines that can be kept.
+/// Whether a file can be written with other places: it is tried with its own ones, and with these moved.
 ///
 /// # Errors
-/// [`MoveError::Format`].
-pub fn check_format(bytes: &[u8]) -> Result<(), MoveError> {
-    match detect(bytes) {
-        Some(Format::Obj | Format::Off) => Ok(()),
-        other => Err(MoveError::Format(other)),
+/// [`MoveError`].
+pub fn check(bytes: &[u8], normals: Normals) -> Result<(), MoveError> {
+    let format = detect(bytes);
+    if !matches!(format, Some(Format::Obj | Format::Off)) {
+        return Err(MoveError::Format(format));
     }
+    let soup = read_mesh(bytes)?;
+    moved(bytes, &soup, &soup.positions, normals)?;
+    // Smaller by a third and moved, so that all words become others, of another length.
+    let size = soup.positions.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    let shift = DVec3::new(size + 1.0, -size, size) / 3.0;
+    let others: Vec<DVec3> = soup.positions.iter().map(|p| *p / 3.0 + shift).collect();
+    moved(bytes, &soup, &others, normals).map(drop)
 }
 
-/// Whether an OBJ file holds normals.
+/// Whether a file holds normals.
 pub fn has_normals(bytes: &[u8]) -> bool {
-    let is_normal = |line: &[u8]| line.trim_ascii_start().starts_with(b"vn");
-    detect(bytes) == Some(Format::Obj) && bytes.split(|b| *b == b'\n').any(is_normal)
+    let Some(written) = WrittenText::of(bytes) else { return false };
+    match detect(bytes) {
+        Some(Format::Obj) => obj::whole_lines(&written.text).any(|line| line.kind == "vn"),
+        Some(Format::Off) => off::has_normals(&written.text),
+        _ => false,
+    }
 }
 
-/// The first word of a line.
-fn first_word(line: &str) -> Option<&str> {
-    line.trim_start_matches('\u{feff}').split_whitespace().next()
+fn moved(bytes: &[u8], soup: &PolygonSoup, places: &[DVec3], normals: Normals) -> Result<Vec<u8>, MoveError> {
+    let format = detect(bytes);
+    if soup.positions.len() != places.len() {
+        return Err(MoveError::Count { found: soup.positions.len(), places: places.len() });
+    }
+    if format == Some(Format::Off) && off::is_binary(bytes) {
+        return Err(MoveError::Binary);
+    }
+    let rewritten = match format {
+        Some(Format::Obj) => rewritten_obj,
+        Some(Format::Off) => rewritten_off,
+        other => return Err(MoveError::Format(other)),
+    };
+    let written = WrittenText::of(bytes).ok_or(MoveError::NotText)?;
+    let moved = written.encoded(&rewritten(&written.text, places, normals));
+    let again = read_mesh(&moved).map_err(MoveError::Unreadable)?;
+    match other_place(soup, places, &again) {
+        Some(place) => Err(MoveError::ReadsOtherwise(place)),
+        None => Ok(moved),
+    }
 }
 
-fn obj(text: &str, places: &[DVec3], normals: Normals) -> (String, usize) {
-    let mut moved = String::with_capacity(2 * text.len());
-    let mut found = 0;
-    for line in text.split_inclusive('\n') {
-        match (first_word(line), normals) {
-            (Some("v"), _) => {
-                write_moved(&mut moved, line, 1, places.get(found));
-                found += 1;
+/// Where a mesh is another one than it should be: these places, and the polygons of that one.
+fn other_place(soup: &PolygonSoup, places: &[DVec3], found: &PolygonSoup) -> Option<Place> {
+    let shorter = places.len().min(found.positions.len());
+    let vertex = (0..shorter).find(|&v| places[v] != found.positions[v]);
+    let vertex = vertex.or((places.len() != found.positions.len()).then_some(shorter));
+    let shorter = soup.polygons.len().min(found.polygons.len());
+    let face = || (0..shorter).find(|&f| soup.polygons[f] != found.polygons[f]);
+    let face = || face().or((soup.polygons.len() != found.polygons.len()).then_some(shorter));
+    vertex.map(Place::Vertex).or_else(|| face().map(Place::Face))
+}
+
+fn rewritten_obj(text: &str, places: &[DVec3], normals: Normals) -> String {
+    let mut replacing = Replacing::new(text);
+    let mut places = places.iter();
+    for line in obj::whole_lines(text) {
+        match (line.kind, normals) {
+            ("v", _) => {
+                let words = obj::coordinate_words(&line).into_iter().flatten();
+                let place = places.next().into_iter().flat_map(|place| place.to_array());
+                words.zip(place).for_each(|(word, x)| replacing.replace(word, x));
             }
-            (Some("vn"), Normals::Dropped) => {}
-            (Some("f"), Normals::Dropped) => write_without_normals(&mut moved, line),
-            _ => moved.push_str(line),
+            ("vn", Normals::Dropped) => line.parts().for_each(|part| replacing.leave_out_line(part)),
+            ("f", Normals::Dropped) => {
+                line.words().for_each(|corner| replacing.replace(corner, without_normal(corner)));
+            }
+            _ => {}
         }
     }
-    (moved, found)
+    replacing.finish()
 }
 
-fn off(text: &str, places: &[DVec3]) -> (String, usize) {
-    let mut moved = String::with_capacity(2 * text.len());
-    let mut found = 0;
-    // The format's name, then the counts, which may stand on one line.
-    let mut header = 2;
-    for line in text.split_inclusive('\n') {
-        let content = line.trim_start_matches('\u{feff}').split('#').next().unwrap_or_default();
-        let words = content.split_whitespace().count();
-        if words == 0 {
-            moved.push_str(line);
-        } else if header > 0 {
-            moved.push_str(line);
-            header = if header == 2 && words == 1 { 1 } else { 0 };
-        } else if found < places.len() {
-            write_moved(&mut moved, line, 0, places.get(found));
-            found += 1;
-        } else {
-            moved.push_str(line);
-        }
-    }
-    (moved, found)
+/// A corner `v/t/n` as `v/t`, and `v//n` as `v`.
+fn without_normal(corner: &str) -> &str {
+    corner
+        .rsplit_once('/')
+        .filter(|(rest, _)| rest.contains('/'))
+        .map_or(corner, |(rest, _)| rest.trim_end_matches('/'))
 }
 
-/// A line with three of its words, after the first `skipped`, replaced by the coordinates of a place.
-fn write_moved(moved: &mut String, line: &str, skipped: usize, place: Option<&DVec3>) {
-    let Some(place) = place else { return moved.push_str(line) };
-    let mut rest = line;
-    for word in 0..skipped + 3 {
-        let begin = rest.find(|c: char| !c.is_whitespace()).unwrap_or(rest.len());
-        let (space, from_word) = rest.split_at(begin);
-        let end = from_word.find(|c: char| c.is_whitespace() || c == '#').unwrap_or(from_word.len());
-        let (old, after) = from_word.split_at(end);
-        moved.push_str(space);
-        match word.checked_sub(skipped) {
-            // Writing to a string does not fail.
-            Some(axis) => drop(write!(moved, "{}", place[axis])),
-            None => moved.push_str(old),
-        }
-        rest = after;
-    }
-    moved.push_str(rest);
-}
-
-/// A face's line, its corners `v/t/n` as `v/t` and `v//n` as `v`.
-fn write_without_normals(moved: &mut String, line: &str) {
-    let mut rest = line;
-    while !rest.is_empty() {
-        let begin = rest.find(|c: char| !c.is_whitespace()).unwrap_or(rest.len());
-        let (space, from_word) = rest.split_at(begin);
-        let end = from_word.find(char::is_whitespace).unwrap_or(from_word.len());
-        let (word, after) = from_word.split_at(end);
-        moved.push_str(space);
-        let mut numbers = word.split('/');
-        moved.push_str(numbers.next().unwrap_or_default());
-        if let Some(texture) = numbers.next().filter(|texture| !texture.is_empty()) {
-            moved.push('/');
-            moved.push_str(texture);
-        }
-        rest = after;
-    }
+fn rewritten_off<'a>(text: &'a str, places: &[DVec3], _: Normals) -> String {
+    let mut replacing = Replacing::new(text);
+    let mut places = places.iter();
+    let replace = |words: off::CoordinateWords<'a>| {
+        let Some(place) = places.next() else { return };
+        words.axes.into_iter().zip(place.to_array()).for_each(|(word, x)| replacing.replace(word, x));
+        words.divisor.into_iter().for_each(|word| replacing.replace(word, 1));
+    };
+    // It was read before; where it is not, the result is not what it should be, which is found.
+    let _ = off::each_vertex(text, replace);
+    replacing.finish()
 }
 
 #[cfg(test)]
@@ -179,7 +189,7 @@ mod tests {
         assert!(text.contains("\r\n  v  0.1 -0.000000002\t3 1 0.5 0.25\r\n"), "{text}");
         assert!(text.contains("\r\nv 0.3333333333333333 0 -1 # last\r\n"), "{text}");
         let others = |text: &str| -> Vec<String> {
-            let is_other = |line: &&str| first_word(line) != Some("v");
+            let is_other = |line: &&str| !line.trim_start().starts_with("v ");
             text.split_inclusive('\n').filter(is_other).map(str::to_owned).collect()
         };
         assert_eq!(others(&text), others(OBJ));
@@ -195,14 +205,99 @@ mod tests {
     }
 
     #[test]
-    fn only_the_coordinates_of_an_off_change() {
-        for header in ["COFF\n# counts\n3 1 0\n", "OFF 3 1 0 # in one line\n"] {
-            let text = format!("{header}\n0 0 0 255 0 0\n1 0 0#c\n 0 1 0\n3 0 1 2\n");
-            let moved = with_positions(text.as_bytes(), &places(), Normals::Kept).unwrap();
-            let expected =
-                format!("{header}\n0.1 -0.000000002 3 255 0 0\n7 7 7#c\n 0.3333333333333333 0 -1\n3 0 1 2\n");
-            assert_eq!(String::from_utf8(moved).unwrap(), expected);
+    fn normals_are_dropped_from_lines_of_any_ends_and_not_from_comments() {
+        let obj = "v 0 0 0\rv 1 0 0\rvn 0 0 \\\r 1\rv 0 1 0\rf 1//1 2//1 \\\r3//1 # of 1//1\rvn 0 1 0";
+        let moved = with_positions(obj.as_bytes(), &places(), Normals::Dropped).unwrap();
+        let text = String::from_utf8(moved.clone()).unwrap();
+        assert!(text.ends_with("-1\rf 1 2 \\\r3 # of 1//1\r") && !text.contains("vn"), "{text:?}");
+        assert!(has_normals(obj.as_bytes()) && !has_normals(&moved));
+        let off =
+            |keyword: &str| format!("{keyword}\n3 1 0\n{}3 0 1 2\n", "0 0 0 0 0 1\n".repeat(3)).into_bytes();
+        assert_eq!(
+            ["NOFF", "CNOFF", "OFF", "nOFF"].map(|keyword| has_normals(&off(keyword))),
+            [true, true, false, false]
+        );
+    }
+
+    #[test]
+    fn encodings_continued_lines_and_ends_of_lines_stay() {
+        let obj = "# Größe\rv 0 \\\r0 0 1\rv 1 0 0\\\r\rg C:\\\rv 0 1 0\rf 1 2 3\r";
+        let wanted =
+            "# Größe\rv 0.1 \\\r-0.000000002 3 1\rv 7 7 7\\\r\rg C:\\\rv 0.3333333333333333 0 -1\rf 1 2 3\r";
+        let latin1 = |text: &str| text.chars().map(|c| c as u8).collect::<Vec<_>>();
+        let utf16 = |text: &str, order: fn(u16) -> [u8; 2]| -> Vec<u8> {
+            "\u{feff}".encode_utf16().chain(text.encode_utf16()).flat_map(order).collect()
+        };
+        let written = |text: &str| {
+            [
+                text.as_bytes().to_vec(),
+                latin1(text),
+                utf16(text, u16::to_le_bytes),
+                utf16(text, u16::to_be_bytes),
+            ]
+        };
+        for (given, wanted) in written(obj).into_iter().zip(written(wanted)) {
+            assert_eq!(with_positions(&given, &places(), Normals::Kept), Ok(wanted));
+            assert_eq!(check(&given, Normals::Dropped), Ok(()));
         }
+    }
+
+    #[test]
+    fn only_the_coordinates_of_an_off_change() {
+        let texts = [
+            "COFF\n# counts\n3 1 0\n\n{a} 255 0 0\n{b}#c\n {c}\n3 0 1 2\n",
+            "OFF 3 1 0 # in one line\n{a}\n{b}\n{c}\n3 0 1 2\n",
+            "OFF3 1 0\r{a}\r{b}\r{c}\r3 0 1 2\r",
+            "nOFF\n3\n3 1 0\n{a}\n{b}\n{c}\n3 0 1 2\n",
+            "nOFF 3 3 1 0\n{a}\n{b}\n{c}\n3 0 1 2\n",
+            "NOFF\n# a\n\n3 1 0\n{a} 0 0 1\n{b} 0 0 1\n{c} 0 0 1\n3 0 1 2\n",
+            "STCNOFF\r\n3 1 0\r\n{a} 0 0 1 1 1 1 1 0 0\r\n{b} 0 0 1\r\n{c}\r\n3 0 1 2 # last\r\n",
+            "OFF 3 1 0 {a} {b} {c} 3 0 1 2",
+            "OFF 3 1 0 {a} {b}\n# between\n{c} 3\n0 1 2\n",
+            "NOFF 3 1 0 {a} 0 0 1 {b} 0 0 1 {c} 0 0 1 3 0 1 2",
+            "3 1 0\n{a}\n{b}\n{c}\n3 0 1 2\n",
+            "\u{feff}# no keyword\n3 1\n{a}\n{b}\n{c}\n3 0 1 2\n",
+        ];
+        let with =
+            |text: &str, [a, b, c]: [&str; 3]| text.replace("{a}", a).replace("{b}", b).replace("{c}", c);
+        let moved_to = ["0.1 -0.000000002 3", "7\t7 7", "0.3333333333333333 0 -1"];
+        for text in texts {
+            let given = with(text, ["0 0 0", "1.5\t0 0", "0 1e0 0"]);
+            let moved = with_positions(given.as_bytes(), &places(), Normals::Kept).unwrap();
+            assert_eq!(String::from_utf8(moved).unwrap(), with(text, moved_to));
+            assert_eq!(check(given.as_bytes(), Normals::Kept), Ok(()));
+        }
+    }
+
+    #[test]
+    fn a_fourth_coordinate_becomes_1() {
+        let given = "4OFF\n3 1 0\n0 0 0 2\n1 0 0 -3 255\n0 1 0 0.3\n3 0 1 2\n";
+        let wanted = "4OFF\n3 1 0\n0.1 -0.000000002 3 1\n7 7 7 1 255\n0.3333333333333333 0 -1 1\n3 0 1 2\n";
+        let moved = with_positions(given.as_bytes(), &places(), Normals::Kept).unwrap();
+        assert_eq!(String::from_utf8(moved).unwrap(), wanted);
+        assert_eq!(check(given.as_bytes(), Normals::Kept), Ok(()));
+    }
+
+    #[test]
+    fn what_would_be_read_otherwise_is_refused() {
+        let mut places = places();
+        places[1].y = f64::INFINITY;
+        let error = with_positions(OBJ.as_bytes(), &places, Normals::Kept).unwrap_err();
+        assert!(matches!(error, MoveError::Unreadable(_)), "{error}");
+        let soup = read_mesh(OBJ.as_bytes()).unwrap();
+        let mut other = soup.clone();
+        other.positions[2].z = 1.0;
+        assert_eq!(other_place(&soup, &soup.positions, &other), Some(Place::Vertex(2)));
+        let (mut longer, mut turned) = (soup.clone(), soup.clone());
+        longer.polygons.push(vec![0, 1, 2]);
+        turned.polygons[0].reverse();
+        assert_eq!(other_place(&soup, &soup.positions, &longer), Some(Place::Face(1)));
+        assert_eq!(other_place(&soup, &soup.positions, &turned), Some(Place::Face(0)));
+        assert_eq!(other_place(&soup, &soup.positions, &soup), None);
+        let half = b"\xff\xfev\0 \x000\0 \x000\0 \x000\0\n\0#\0\0";
+        assert_eq!(check(half, Normals::Kept), Err(MoveError::NotText));
+        let binary = [b"OFF BINARY\n".to_vec(), [0, 0, 0].map(u32::to_be_bytes).concat()].concat();
+        assert_eq!(check(&binary, Normals::Kept), Err(MoveError::Binary));
     }
 
     #[test]

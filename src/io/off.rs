@@ -13,6 +13,8 @@ struct Kind {
     is_homogeneous: bool,
     /// The number of coordinates follows the keyword.
     has_dimension: bool,
+    /// A normal is among the numbers that are passed over.
+    has_normals: bool,
     /// Numbers of a vertex that are passed over.
     others: usize,
 }
@@ -38,6 +40,7 @@ impl Kind {
             };
             kind.is_homogeneous |= letters.starts_with('4');
             kind.has_dimension |= letters.starts_with('n');
+            kind.has_normals |= letters.starts_with('N');
             kind.others += others;
             letters = &letters[length..];
         }
@@ -82,8 +85,45 @@ pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
     let unmarked = unmarked(bytes);
     match binary_part(&unmarked) {
         Some((kind, part)) => binary(kind, part),
-        None => read_text(bytes),
+        None => read_text(&text(bytes)?, bytes.len(), &mut |_| {}),
     }
+}
+
+/// Whether a file is binary.
+pub(super) fn is_binary(bytes: &[u8]) -> bool {
+    binary_part(&unmarked(bytes)).is_some()
+}
+
+/// Whether the vertices of a text file have normals.
+pub(super) fn has_normals(text: &str) -> bool {
+    let first = content_lines(text).next().and_then(|(_, line)| line.split_whitespace().next());
+    first.and_then(Kind::of).is_some_and(|(kind, _)| kind.has_normals)
+}
+
+/// The words of the coordinates of a vertex, as they stand in a text.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct CoordinateWords<'a> {
+    /// Of x, y and z, or of what becomes x, y and z.
+    pub axes: [&'a str; 3],
+    /// Of the number by which the others are divided, where there is one.
+    pub divisor: Option<&'a str>,
+}
+
+impl<'a> CoordinateWords<'a> {
+    fn set(&mut self, k: usize, word: &'a str) {
+        match self.axes.get_mut(k) {
+            Some(axis) => *axis = word,
+            None => self.divisor = Some(word),
+        }
+    }
+}
+
+/// Tells the words of each vertex's coordinates in a text, in the order of the vertices.
+pub(super) fn each_vertex<'a>(
+    text: &'a str,
+    mut told: impl FnMut(CoordinateWords<'a>),
+) -> Result<(), Problem> {
+    read_text(text, text.len(), &mut told).map(drop)
 }
 
 /// Elements announced.
@@ -114,9 +154,13 @@ impl Counts {
     }
 }
 
-fn read_text(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
-    let text = text(bytes)?;
-    let mut lines = content_lines(&text);
+/// Reads a text from a file of that many bytes, and tells the words of each vertex's coordinates.
+fn read_text<'a>(
+    text: &'a str,
+    bytes: usize,
+    told: &mut dyn FnMut(CoordinateWords<'a>),
+) -> Result<PolygonSoup, Problem> {
+    let mut lines = content_lines(text);
     let (mut line, first) = lines.next().unwrap_or((1, ""));
     let mut words: Vec<(usize, &str)> = first.split_whitespace().map(|word| (line, word)).collect();
     let mut kind = Kind::default();
@@ -148,41 +192,66 @@ fn read_text(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
         }
     }
     let counts = Counts { vertices: next("the number of vertices")?, faces: next("the number of faces")? };
-    let counts = counts.checked(bytes.len(), [6, 8], Place::Line(line))?;
+    let counts = counts.checked(bytes, [6, 8], Place::Line(line))?;
     let last_line = text.lines().count().max(1);
     let rest: Vec<(usize, &str)> = lines.collect();
+    let announced = Announced { kind, counts, last_line };
     if rest.len() >= counts.vertices + counts.faces || words.len() <= 1 {
-        by_lines(kind, counts, rest.into_iter(), last_line)
+        by_lines(announced, rest.into_iter(), told)
     } else {
         // The number of edges is told and not needed.
         let later = rest
             .into_iter()
             .flat_map(|(line, content)| content.split_whitespace().map(move |word| (line, word)));
-        by_words(kind, counts, words.skip(1).chain(later), last_line)
+        by_words(announced, words.skip(1).chain(later), told)
+    }
+}
+
+/// What the header of a text says.
+#[derive(Clone, Copy)]
+struct Announced {
+    kind: Kind,
+    counts: Counts,
+    /// Of the text.
+    last_line: usize,
+}
+
+impl Announced {
+    /// The position that the next words give, each with its line; the words are told.
+    fn position<'a>(
+        self,
+        mut next: impl FnMut() -> (usize, Option<&'a str>),
+        told: &mut dyn FnMut(CoordinateWords<'a>),
+    ) -> Result<DVec3, Problem> {
+        let (mut p, mut at, mut words) = ([0.0; 4], self.last_line, CoordinateWords::default());
+        for k in 0..self.kind.coordinates() {
+            let (line, word) = next();
+            p[k] = number(word, line, "a coordinate")?;
+            words.set(k, word.unwrap_or_default());
+            at = line;
+        }
+        told(words);
+        self.kind.position(p, Place::Line(at))
     }
 }
 
 /// One line for each element: what follows its own numbers is passed over.
 fn by_lines<'a>(
-    kind: Kind,
-    counts: Counts,
+    announced: Announced,
     mut lines: impl Iterator<Item = (usize, &'a str)>,
-    last_line: usize,
+    told: &mut dyn FnMut(CoordinateWords<'a>),
 ) -> Result<PolygonSoup, Problem> {
-    let mut soup = counts.soup();
-    let Counts { vertices, faces } = counts;
+    let mut soup = announced.counts.soup();
+    let Counts { vertices, faces } = announced.counts;
     let mut next_line = |what: &str, number: usize, of: usize| {
-        let problem = || (Place::Line(last_line), format!("the file ends before {what} {number} of {of}"));
+        let problem =
+            || (Place::Line(announced.last_line), format!("the file ends before {what} {number} of {of}"));
         lines.next().ok_or_else(problem)
     };
     for v in 0..vertices {
         let (line, content) = next_line("vertex", v, vertices)?;
         let mut words = content.split_whitespace();
-        let mut p = [0.0; 4];
-        for x in &mut p[..kind.coordinates()] {
-            *x = number(words.next(), line, "a coordinate")?;
-        }
-        soup.positions.push(kind.position(p, Place::Line(line))?);
+        soup.positions.push(announced.position(|| (line, words.next()), told)?);
     }
     for f in 0..faces {
         let (line, content) = next_line("face", f, faces)?;
@@ -196,26 +265,20 @@ fn by_lines<'a>(
 
 /// Numbers one after another, wherever lines end: then a vertex has all the numbers that the keyword says, and faces no colours.
 fn by_words<'a>(
-    kind: Kind,
-    counts: Counts,
+    announced: Announced,
     mut words: impl Iterator<Item = (usize, &'a str)>,
-    last_line: usize,
+    told: &mut dyn FnMut(CoordinateWords<'a>),
 ) -> Result<PolygonSoup, Problem> {
-    let mut soup = counts.soup();
+    let mut soup = announced.counts.soup();
     let mut next = || {
         let (line, word) = words.next().unzip();
-        (line.unwrap_or(last_line), word)
+        (line.unwrap_or(announced.last_line), word)
     };
-    for _ in 0..counts.vertices {
-        let (mut p, mut at) = ([0.0; 4], last_line);
-        for x in &mut p[..kind.coordinates()] {
-            let (line, word) = next();
-            (*x, at) = (number(word, line, "a coordinate")?, line);
-        }
-        (0..kind.others).for_each(|_| _ = next());
-        soup.positions.push(kind.position(p, Place::Line(at))?);
+    for _ in 0..announced.counts.vertices {
+        soup.positions.push(announced.position(&mut next, told)?);
+        (0..announced.kind.others).for_each(|_| _ = next());
     }
-    for _ in 0..counts.faces {
+    for _ in 0..announced.counts.faces {
         let (line, word) = next();
         let corners: usize = number(word, line, "a number of corners")?;
         let corner = |_| {

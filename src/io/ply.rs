@@ -19,10 +19,7 @@ const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
     let file = File::split(bytes)?;
-    check_names(&file.header)?;
-    let mut reader = Reader::new(file.header.as_bytes().chain(&file.body[..]));
-    let header = Parser::<Passed>::new().read_header(&mut reader);
-    let header = header.map_err(|e| (Place::Header, format!("it cannot be read: {}", short(&e))))?;
+    let (mut reader, header) = file.opened()?;
     check_elements(&header)?;
     check_sizes(&header, bytes.len())?;
     let mut soup = PolygonSoup::default();
@@ -49,10 +46,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
 /// The vertices with their numbers: what is announced of them, and by vertex the values of its properties that are no lists, in order.
 pub(super) fn vertex_rows(bytes: &[u8]) -> Result<(ElementDef, Vec<Vec<f64>>), Problem> {
     let file = File::split(bytes)?;
-    check_names(&file.header)?;
-    let mut reader = Reader::new(file.header.as_bytes().chain(&file.body[..]));
-    let header = Parser::<Passed>::new().read_header(&mut reader);
-    let header = header.map_err(|e| (Place::Header, format!("it cannot be read: {}", short(&e))))?;
+    let (mut reader, header) = file.opened()?;
     check_sizes(&header, bytes.len())?;
     for (name, element) in &header.elements {
         if name == "vertex" {
@@ -115,6 +109,15 @@ impl<'a> File<'a> {
             }
         }
         Err((Place::Header, "it does not end: the line `end_header` is missing".into()))
+    }
+
+    /// What is announced, and a reader of the elements behind it.
+    fn opened(&self) -> Result<(Reader<impl BufRead>, Header), Problem> {
+        check_names(&self.header)?;
+        let mut reader = Reader::new(self.header.as_bytes().chain(&self.body[..]));
+        let header = Parser::<Passed>::new().read_header(&mut reader);
+        let header = header.map_err(|e| (Place::Header, format!("it cannot be read: {}", short(&e))))?;
+        Ok((reader, header))
     }
 }
 

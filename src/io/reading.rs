@@ -58,11 +58,16 @@ pub fn number<T: std::str::FromStr>(token: Option<&str>, line: usize, what: &str
     let token =
         token.ok_or_else(|| (Place::Line(line), format!("{what} is missing: the file may be cut off")))?;
     token.parse().map_err(|_| {
-        let short: String = token.chars().take(20).collect();
+        let short = short(token);
         let has_comma = token.replacen(',', ".", 1).parse::<f64>().is_ok() && token.contains(',');
         let hint = if has_comma { ": write its decimals after a point, not a comma" } else { "" };
         (Place::Line(line), format!("\"{short}\" should be {what}{hint}"))
     })
+}
+
+/// The beginning of a word, to be told.
+pub fn short(word: &str) -> String {
+    word.chars().filter(|c| !c.is_control()).take(20).collect()
 }
 
 /// Polygons name the first of the vertices with exactly equal coordinates; formats without shared vertices need it.

@@ -2,8 +2,9 @@
 //! properties `u`, `v`, or `s`, `t`, or `texture_u`, `texture_v`.
 
 use super::problem::{Place, Problem};
-use super::reading::{number, text};
-use super::{Format, MAX_BYTES, ReadError, detect, read_mesh, vertex_table};
+use super::reading::{number, short, text};
+use super::vertex_table::TableError;
+use super::{Format, MAX_BYTES, ReadError, detect, obj, read_mesh, vertex_table};
 use glam::DVec2;
 
 /// Names of the two vertex properties of PLY files.
@@ -54,21 +55,21 @@ pub fn read(bytes: &[u8]) -> Result<Vec<Vec<DVec2>>, TextureCoordinateError> {
 
 fn obj(bytes: &[u8]) -> Result<Vec<Vec<DVec2>>, TextureCoordinateError> {
     let (mut given, mut polygons) = (Vec::new(), Vec::new());
-    for (index, content) in text(bytes)?.lines().enumerate() {
-        let line = index + 1;
-        let mut words = content.split_whitespace();
-        match words.next() {
-            Some("vt") => {
-                let mut next = || number::<f64>(words.next(), line, "a texture coordinate");
+    for line in obj::whole_lines(&text(bytes)?) {
+        match line.kind {
+            "vt" => {
+                let mut words = line.words();
+                let mut next = || number::<f64>(words.next(), line.number, "a texture coordinate");
                 let uv = DVec2::new(next()?, next()?);
                 if !uv.is_finite() {
-                    return Err((Place::Line(line), format!("{uv} are no usable texture coordinates")).into());
+                    let problem = format!("{uv} are no usable texture coordinates");
+                    return Err((Place::Line(line.number), problem).into());
                 }
                 given.push(uv);
             }
-            Some("f") => {
-                let corner = |word: &str| of_corner(word, &given, line);
-                polygons.push(words.map(corner).collect::<Result<Vec<_>, _>>()?);
+            "f" => {
+                let corner = |word: &str| of_corner(word, &given, line.number);
+                polygons.push(obj::corners(&line)?.map(corner).collect::<Result<_, _>>()?);
             }
             _ => {}
         }
@@ -79,20 +80,21 @@ fn obj(bytes: &[u8]) -> Result<Vec<Vec<DVec2>>, TextureCoordinateError> {
 /// The texture coordinates of a corner `v/t` or `v/t/n`; negative numbers count back from the last ones so far.
 fn of_corner(word: &str, given: &[DVec2], line: usize) -> Result<DVec2, Problem> {
     let token = word.split('/').nth(1).filter(|token| !token.is_empty());
-    let none = || (Place::Line(line), format!("the corner {word} has no texture coordinates"));
+    let none = || (Place::Line(line), format!("the corner {} has no texture coordinates", short(word)));
     let value: i64 = number(Some(token.ok_or_else(none)?), line, "a number of texture coordinates")?;
-    let index = if value < 0 { (given.len() as i64).checked_add(value) } else { value.checked_sub(1) };
-    let known = index.and_then(|index| given.get(usize::try_from(index).ok()?));
+    let known = obj::index(value, given.len()).and_then(|index| given.get(index as usize));
     known.copied().ok_or_else(|| (Place::Line(line), format!("there are no texture coordinates {value}")))
 }
 
 fn ply(bytes: &[u8]) -> Result<Vec<Vec<DVec2>>, TextureCoordinateError> {
     let soup = read_mesh(bytes)?;
-    let table = vertex_table::read(bytes, soup.positions.len()).map_err(|_| TextureCoordinateError::None)?;
+    let table = vertex_table::of_ply(bytes, soup.positions.len())
+        .map_err(|TableError { place, problem }| TextureCoordinateError::Malformed { place, problem })?;
     let column = |name: &str| table.columns.iter().find(|column| column.name == name);
     let found = PROPERTIES.iter().find_map(|[u, v]| column(u).zip(column(v)));
     let (us, vs) = found.ok_or(TextureCoordinateError::None)?;
     let uv = |v: &u32| {
+        // Both columns have a number for each vertex, and the vertices of polygons are there.
         let value = |column: &vertex_table::Column| column.values[*v as usize].unwrap_or(0.0);
         DVec2::new(value(us), value(vs))
     };
@@ -124,5 +126,28 @@ mod tests {
         assert_eq!(told("vt 0 inf\nf 1/1 2/1 3/1\n"), "line 5: [0, inf] are no usable texture coordinates");
         assert_eq!(told("vt 0\n"), "line 5: a texture coordinate is missing: the file may be cut off");
         assert_eq!(read(b"OFF\n4 4 0\n"), Err(TextureCoordinateError::None));
+        assert_eq!(told("vt 0 0\nf 1/1 2/1\n"), "line 6: the face has 2 corners; it needs at least 3");
+        assert!(told("vt 0 0\nf 1/1 2/1 3/-2\n").ends_with("there are no texture coordinates -2"));
+        let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+                   property float u\nproperty float v\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\
+                   0 0 0 0 0\n1 0 0 0.5 1e999\n0 1 0 1 0\n3 0 1 2\n";
+        let told = read(ply.as_bytes()).unwrap_err().to_string();
+        assert_eq!(told, "vertex 1: its \"v\" is not a usable number");
+        let without = ply
+            .replace("property float u\nproperty float v\n", "")
+            .replace(" 0 0\n1 0 0 0.5 1e999\n0 1 0 1 0", "\n1 0 0\n0 1 0");
+        assert_eq!(read(without.as_bytes()), Err(TextureCoordinateError::None));
+    }
+
+    #[test]
+    fn lines_are_those_of_the_mesh() {
+        let text = "v 0 0 0\rv 1 0 0\rv 0 1 \\\r0\rvt 0 \\\r0.5\r# f 1/9\rf 1/1 2/1 \\\r3/-1 # 4/7\r";
+        let uv = DVec2::new(0.0, 0.5);
+        let marked = format!("\u{feff}{text}");
+        let utf16: Vec<u8> = marked.encode_utf16().flat_map(u16::to_le_bytes).collect();
+        for bytes in [text.as_bytes(), marked.as_bytes(), &utf16] {
+            assert_eq!(read(bytes).unwrap(), [[uv; 3]]);
+            assert_eq!(read_mesh(bytes).unwrap().polygons, [[0, 1, 2]]);
+        }
     }
 }

@@ -159,11 +159,12 @@ pub fn match_meshes(
     })
 }
 
-/// Which vertices may be landmarks: those of the file that no cap has; `None` where all may.
+/// Which vertices may be landmarks: those of the file that no cap has, none of given points; `None` where all may.
 fn may_mark(mesh: &CheckedMesh, placed: &Insertion) -> Option<TiVec<VertexId, bool>> {
     let file = mesh.vertex_from_file.len();
     let numbers = mesh.file_from_vertex();
-    let all_in_file = numbers.iter().all(|&number| number < file);
+    let none_inserted = placed.mesh.vertex_count() == numbers.len();
+    let all_in_file = none_inserted && numbers.iter().all(|&number| number < file);
     if all_in_file && !mesh.has_caps() {
         return None;
     }

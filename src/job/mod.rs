@@ -182,7 +182,7 @@ impl Job {
 
     /// Whether its maps have a map file: not those of repaired meshes, whose numbers are not those of their files.
     pub fn has_map_file(&self) -> bool {
-        !self.meshes.iter().any(FileMesh::is_repaired)
+        taken::have_map_file(self.meshes.each_ref())
     }
 
     /// Number of landmark pairs.

@@ -98,6 +98,11 @@ impl OutputKind {
     }
 }
 
+/// Whether maps between two meshes have a map file: not those of repaired meshes, whose numbers are not those of their files.
+pub(super) fn have_map_file(meshes: [&FileMesh; 2]) -> bool {
+    !meshes.into_iter().any(FileMesh::is_repaired)
+}
+
 /// A map with both meshes.
 #[derive(Clone, Copy, Debug)]
 pub struct TakenMap<'a> {
@@ -124,9 +129,9 @@ impl<'a> TakenMap<'a> {
         OutputKind::ALL.into_iter().filter(is_there).collect()
     }
 
-    /// Whether there is a map file: not of repaired meshes, whose numbers are not those of their files.
+    /// Whether there is a map file.
     pub fn has_map_file(&self) -> bool {
-        !self.meshes.iter().any(|mesh| mesh.is_repaired())
+        have_map_file(self.meshes)
     }
 
     /// A file; empty where [`Self::kinds`] does not have it.

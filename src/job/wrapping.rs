@@ -133,7 +133,7 @@ impl TakenMap<'_> {
             return Err(WrapFileError::Mirrored);
         }
         // Told before the work is done.
-        moved::check_format(base_file)?;
+        moved::check(base_file, normals)?;
         let caps = CapFaces { source: base.checked().caps(), target: scan.checked().caps() };
         let map = &self.map().correspondence;
         let input = WrapInput { base: base.mesh(), scan: scan.mesh(), map, caps };
@@ -143,15 +143,15 @@ impl TakenMap<'_> {
         positions.iter_mut().for_each(|p| *p = scan.in_file(*p));
         let laid = base.checked().by_file_vertex(&wrapped.laid.raw);
         let is_extended = |(v, laid): (usize, &Option<Laid>)| (*laid == Some(Laid::Extended)).then_some(v);
+        let bytes = moved::with_positions(base_file, &positions, normals)?;
         let report = WrappedFileReport {
             flipped: wrapped.flipped.iter().map(|&f| base.checked().file_from_face(f).0).collect(),
             extended_vertices: laid.iter().enumerate().filter_map(is_extended).collect(),
             loose_vertices: laid.iter().filter(|laid| laid.is_none()).count(),
             quads: QuadAngles::of(base.polygons(), [before, &positions]),
-            has_old_normals: normals == Normals::Kept && moved::has_normals(base_file),
+            has_old_normals: moved::has_normals(&bytes),
             surface: wrapped.report,
         };
-        let bytes = moved::with_positions(base_file, &positions, normals)?;
         Ok(WrappedFile { bytes, positions, laid, report })
     }
 }

@@ -84,3 +84,28 @@ impl Candidate {
         }
     }
 }
+
+#[cfg(test)]
+impl Candidate {
+    /// A candidate of two same meshes without pairs of marks, with a doubtful score.
+    pub(super) fn of_images(mesh: &SurfaceMesh, target_from_source: TiVec<VertexId, SurfacePoint>) -> Self {
+        Self {
+            pairs: Vec::new(),
+            score: 0.7,
+            mean_log: 0.7,
+            remoteness: 0.0,
+            agreement: 1.0,
+            unmatched: [0; 2],
+            difference: None,
+            picture: CoarsePicture { source: mesh.clone(), target: mesh.clone(), target_from_source },
+            assignment: Assignment {
+                pairs: Vec::new(),
+                cost: 0.0,
+                unmatched_cost: 0.0,
+                agreement: 1.0,
+                unmatched: [0; 2],
+                between: None,
+            },
+        }
+    }
+}

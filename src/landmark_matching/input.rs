@@ -30,4 +30,14 @@ impl<'a> MatchInput<'a> {
     pub fn new(source: &'a SurfaceMesh, target: &'a SurfaceMesh) -> Self {
         Self { source, target, given: &[], may_mark: MayMark::default() }
     }
+
+    /// Source and target.
+    pub(super) fn meshes(&self) -> [&'a SurfaceMesh; 2] {
+        [self.source, self.target]
+    }
+
+    /// Whether a vertex of a side (0 for the source, 1 for the target) may be a landmark.
+    pub(super) fn may(&self, side: usize, v: VertexId) -> bool {
+        [self.may_mark.source, self.may_mark.target][side].is_none_or(|may| may[v])
+    }
 }

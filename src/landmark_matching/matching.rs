@@ -83,13 +83,12 @@ pub fn match_landmarks(
     let mut search = Search { shapes, options, found: Vec::new(), judged: 0 };
     search.first_look(&tables, &mut Portion::new(monitor, LOOKED, JUDGED))?;
     search.improve(&tables, &mut Portion::new(monitor, JUDGED, IMPROVED))?;
-    let meshes = [input.source, input.target];
     let mut candidates = search.found;
     sharpen(input, &mut candidates, &mut Portion::new(monitor, IMPROVED, 1.0))?;
     if let Some((best, others)) = candidates.split_first_mut() {
         others.iter_mut().for_each(|other| other.difference = Some(difference(shapes, best, other)));
     }
-    let verdict = verdict(meshes, shapes, &candidates, &options.limits);
+    let verdict = verdict(input, shapes, &candidates, &options.limits);
     Ok(LandmarkMatch { candidates, verdict })
 }
 

@@ -4,8 +4,8 @@ use super::candidate::Candidate;
 use super::difference::{Difference, DifferenceKind};
 use super::pair::MatchedPair;
 use super::shape::Shape;
+use crate::mesh::SurfacePoint;
 use crate::mesh::surface_index::SurfaceIndex;
-use crate::mesh::{SurfacePoint, VertexId};
 use glam::DVec3;
 
 /// Images farther apart than this, in units of the root of the target's area, are at different places: that many landmarks of SHREC07
@@ -51,10 +51,23 @@ pub(super) fn difference(shapes: [&Shape; 2], best: &Candidate, other: &Candidat
 pub(super) struct Parting {
     /// Share of the source's area whose images are far apart.
     pub(super) share: f64,
-    /// The source's coarse vertex whose images are farthest apart.
-    pub(super) vertex: VertexId,
-    /// Its images in space.
+    /// The places whose images are far apart, the farthest first.
+    pub(super) places: Vec<PartedPlace>,
+}
+
+/// A place that two maps take to different places, in space.
+#[derive(Clone, Copy)]
+pub(super) struct PartedPlace {
+    /// A coarse vertex of the source.
+    pub(super) source: DVec3,
+    /// Its images.
     pub(super) images: [DVec3; 2],
+}
+
+impl PartedPlace {
+    fn apart(&self) -> f64 {
+        self.images[0].distance(self.images[1])
+    }
 }
 
 impl Parting {
@@ -64,25 +77,25 @@ impl Parting {
         let root = a.target.area().sqrt();
         let areas = a.source.vertex_areas();
         let index = SurfaceIndex::new(&b.source);
-        let mut parting = Self { share: 0.0, vertex: VertexId(0), images: [DVec3::ZERO; 2] };
-        let (mut farthest, mut total) = (-1.0, 0.0);
+        let mut parting = Self { share: 0.0, places: Vec::new() };
+        let mut total = 0.0;
         for v in a.source.vertices() {
+            let source = a.source.positions()[v];
             let image = a.target_from_source[v].position(&a.target);
-            let SurfacePoint { face, barycentric } = index.nearest(a.source.positions()[v]).point;
+            let SurfacePoint { face, barycentric } = index.nearest(source).point;
             let corners = b.source.triangles()[face];
             let other: DVec3 =
                 (0..3).map(|k| barycentric[k] * b.target_from_source[corners[k]].position(&b.target)).sum();
-            let apart = image.distance(other) / root;
+            let place = PartedPlace { source, images: [image, other] };
             total += areas[v];
-            if apart > APART {
+            if place.apart() / root > APART {
                 parting.share += areas[v];
-            }
-            if apart > farthest {
-                farthest = apart;
-                parting = Self { vertex: v, images: [image, other], ..parting };
+                parting.places.push(place);
             }
         }
         parting.share /= total;
+        // Stable: of equal ones the first.
+        parting.places.sort_by(|a, b| b.apart().total_cmp(&a.apart()));
         parting
     }
 }

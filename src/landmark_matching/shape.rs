@@ -167,7 +167,8 @@ impl Shape {
         (0..self.marks.len()).map(|a| nearest[a].filter(|&b| nearest[b] == Some(a))).collect()
     }
 
-    /// Three places of the full mesh that tell most where marked: the most persistent tips, then points far from them.
+    /// Three places of the full mesh that tell most where marked: the most persistent tips, then points far from them; fewer where
+    /// no more vertices may be landmarks.
     pub(super) fn far_places(&self) -> Vec<VertexId> {
         let mut places: Vec<VertexId> =
             self.marks[self.given..].iter().take(PLACES).map(|mark| mark.vertex).collect();
@@ -175,7 +176,8 @@ impl Shape {
         let mut seeds: Vec<VertexId> = places.iter().copied().chain(held).collect();
         while places.len() < PLACES {
             let field = distances(&self.level.mesh, &seeds);
-            let far = self.level.mesh.vertices().max_by(|a, b| field[*a].total_cmp(&field[*b]));
+            let may = |v: &VertexId| self.may(*v) && !seeds.contains(v);
+            let far = self.level.mesh.vertices().filter(may).max_by(|a, b| field[*a].total_cmp(&field[*b]));
             let Some(far) = far else { break };
             places.push(far);
             seeds.push(far);
@@ -251,4 +253,28 @@ fn radii(areas: &TiVec<VertexId, f64>, field: &TiVec<VertexId, f64>) -> [f64; SH
         before = [within, field[v]];
     }
     radii
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::generators::icosphere;
+    use crate::monitor::Silent;
+
+    #[test]
+    fn places_that_are_asked_for_may_be_marked() {
+        let mesh = icosphere(3);
+        let given = [VertexId(0)];
+        let places = |may: &dyn Fn(VertexId) -> bool| {
+            let may_mark: TiVec<VertexId, bool> = mesh.vertices().map(may).collect();
+            let body = Body { mesh: &mesh, given: &given, may_mark: Some(&may_mark) };
+            Shape::new(body, &MatchOptions::default(), &mut Silent).unwrap().far_places()
+        };
+        assert_eq!(places(&|_| true).len(), 3);
+        let near = |v: VertexId| mesh.positions()[v].distance(mesh.positions()[given[0]]) < 1.0;
+        assert!(places(&|_| true).iter().any(|&v| !near(v)));
+        let found = places(&near);
+        assert!(found.len() == 3 && found.iter().all(|&v| near(v)), "{found:?}");
+        assert_eq!(places(&|v| v == given[0] || v == VertexId(7)), [VertexId(7)]);
+    }
 }

@@ -36,7 +36,8 @@ pub(super) fn sharpen(
             .collect();
         ends.sort_unstable();
         ends.dedup();
-        let fine = Fine::new(mesh, &ends, may_mark, monitor)?;
+        let half = &mut Portion::new(monitor, 0.5 * side as f64, 0.5 * (side + 1) as f64);
+        let fine = Fine::new(mesh, &ends, may_mark, half)?;
         for candidate in candidates.iter_mut() {
             let before: Vec<VertexId> = (0..candidate.pairs.len()).map(|k| at(candidate, k)).collect();
             let mut after = before.clone();
@@ -97,5 +98,38 @@ impl<'a> Fine<'a> {
         let sum = |v: VertexId| others.iter().map(|field| field[v]).sum::<f64>();
         let near = self.level.mesh.vertices().filter(|&v| may(v));
         near.max_by(|a, b| sum(*a).total_cmp(&sum(*b))).map_or(ends[k], full)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::pair::MatchedPair;
+    use super::*;
+    use crate::mesh::SurfacePoint;
+    use crate::mesh::generators::icosphere;
+
+    /// Keeps the fractions.
+    struct Told(Vec<f64>);
+
+    impl Monitor for Told {
+        fn step(&mut self, step: Step) -> Result<(), Cancelled> {
+            self.0.push(step.fraction);
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn progress_goes_on_over_both_meshes() {
+        let mesh = icosphere(2);
+        let pair =
+            |v: u32| MatchedPair { source: VertexId(v), target: VertexId(v), origin: PairOrigin::Tips };
+        let images = mesh.vertices().map(|v| SurfacePoint::at_vertex(&mesh, v)).collect();
+        let mut candidates =
+            [Candidate { pairs: (0..6).map(pair).collect(), ..Candidate::of_images(&mesh, images) }];
+        let mut told = Told(Vec::new());
+        sharpen(MatchInput::new(&mesh, &mesh), &mut candidates, &mut told).unwrap();
+        assert!(told.0.is_sorted() && told.0[0] < 0.1, "{:?}", told.0);
+        let first_half = told.0.iter().filter(|fraction| **fraction < 0.5).count();
+        assert_eq!(2 * first_half, told.0.len(), "{:?}", told.0);
     }
 }

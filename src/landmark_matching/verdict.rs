@@ -1,13 +1,14 @@
 //! How sure a match is, and the question that settles a doubt.
 
 use super::candidate::Candidate;
+use super::input::MatchInput;
 use super::options::VerdictLimits;
 use super::pair::PairOrigin;
-use super::parting::Parting;
+use super::parting::{PartedPlace, Parting};
 use super::shape::Shape;
 use crate::landmarks::MeshSide;
+use crate::mesh::VertexId;
 use crate::mesh::surface_index::SurfaceIndex;
-use crate::mesh::{SurfaceMesh, VertexId};
 use glam::DVec3;
 
 /// How sure a match is.
@@ -19,7 +20,7 @@ pub enum Verdict {
     Doubtful(Question),
     /// Nothing fits well: pairs at these vertices of the source would help.
     Unknown {
-        /// Three vertices of the source, far from each other.
+        /// Three vertices of the source, far from each other; fewer where no more may be landmarks.
         places: Vec<VertexId>,
     },
 }
@@ -72,7 +73,7 @@ impl Verdict {
 
 /// The verdict on candidates, the best first.
 pub(super) fn verdict(
-    meshes: [&SurfaceMesh; 2],
+    input: MatchInput<'_>,
     shapes: [&Shape; 2],
     candidates: &[Candidate],
     limits: &VerdictLimits,
@@ -82,45 +83,49 @@ pub(super) fn verdict(
         return unknown();
     };
     let parts = |c: &&Candidate| c.difference.as_ref().is_some_and(|d| d.share > limits.parting);
-    let rival = candidates.iter().find(parts);
+    let number = candidates.iter().position(|candidate| parts(&candidate));
+    let rival = number.map(|number| &candidates[number]);
     let near = rival.is_some_and(|rival| rival.score < best.score + limits.margin);
     let clear = best.pairs.iter().filter(|pair| pair.origin != PairOrigin::Between).count();
     let fits = best.score < limits.sure_score && best.agreement >= limits.agreement;
     if fits && !near && clear >= limits.least_pairs {
         return Verdict::Sure;
     }
-    match rival {
-        Some(rival) => Verdict::Doubtful(question(meshes, candidates, best, rival)),
-        None => unknown(),
-    }
+    let question = number.and_then(|number| question(input, candidates, number));
+    question.map_or_else(unknown, Verdict::Doubtful)
 }
 
-fn question(
-    meshes: [&SurfaceMesh; 2],
-    candidates: &[Candidate],
-    best: &Candidate,
-    rival: &Candidate,
-) -> Question {
-    let number = candidates.iter().position(|c| std::ptr::eq(c, rival)).unwrap_or(0);
-    let place = |v: VertexId| meshes[1].positions()[v];
-    let marks = [best, rival].map(|candidate| &candidate.assignment.pairs);
+/// The question that tells the best candidate from a rival; `None` where they part at no places that may be landmarks.
+fn question(input: MatchInput<'_>, candidates: &[Candidate], rival: usize) -> Option<Question> {
+    let (best, other) = (&candidates[0], &candidates[rival]);
+    let may = |question: &Question| {
+        let Question { source, targets, .. } = *question;
+        input.may(0, source) && targets.iter().all(|&v| input.may(1, v)) && targets[0] != targets[1]
+    };
+    let marks = [best, other].map(|candidate| &candidate.assignment.pairs);
     // Both candidates may have the same end at slightly different vertices: marks tell what is the same.
-    let partner = |k: usize| {
+    let of_pair = |k: usize| {
         let [source, target] = marks[0][k];
-        let other = marks[1].iter().position(|mark| mark[0] == source && mark[1] != target)?;
-        Some((best.pairs[k].source, [best.pairs[k].target, rival.pairs[other].target]))
+        let other_k = marks[1].iter().position(|mark| mark[0] == source && mark[1] != target)?;
+        let targets = [best.pairs[k].target, other.pairs[other_k].target];
+        Some(Question { source: best.pairs[k].source, targets, rival }).filter(may)
     };
     // A pair is easier to answer than a place between: the one whose two partners are farthest apart.
-    let pairs = (0..marks[0].len()).filter_map(partner);
-    let apart = |targets: [VertexId; 2]| place(targets[0]).distance(place(targets[1]));
-    if let Some((source, targets)) = pairs.max_by(|a, b| apart(a.1).total_cmp(&apart(b.1))) {
-        return Question { source, targets, rival: number };
+    let apart = |question: &Question| {
+        let [a, b] = question.targets.map(|v| input.target.positions()[v]);
+        a.distance(b)
+    };
+    let of_pairs = (0..marks[0].len()).filter_map(of_pair);
+    if let Some(question) = of_pairs.max_by(|a, b| apart(a).total_cmp(&apart(b))) {
+        return Some(question);
     }
-    let parting = Parting::of(best, rival);
-    let [source, target] = [0, 1].map(|side: usize| SurfaceIndex::new(meshes[side]));
-    let from = best.picture.source.positions()[parting.vertex];
-    let targets = parting.images.map(|image| nearest_vertex(&target, image));
-    Question { source: nearest_vertex(&source, from), targets, rival: number }
+    let [source, target] = input.meshes().map(SurfaceIndex::new);
+    let of_place = |place: &PartedPlace| Question {
+        source: nearest_vertex(&source, place.source),
+        targets: place.images.map(|image| nearest_vertex(&target, image)),
+        rival,
+    };
+    Parting::of(best, other).places.iter().map(of_place).find(may)
 }
 
 fn nearest_vertex(index: &SurfaceIndex<'_>, place: DVec3) -> VertexId {
@@ -128,4 +133,41 @@ fn nearest_vertex(index: &SurfaceIndex<'_>, place: DVec3) -> VertexId {
     let corners = index.mesh().triangles()[point.face];
     let largest = (0..3).max_by(|&a, &b| point.barycentric[a].total_cmp(&point.barycentric[b])).unwrap_or(0);
     corners[largest]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::input::MayMark;
+    use super::*;
+    use crate::mesh::SurfacePoint;
+    use crate::mesh::generators::icosphere;
+    use typed_index_collections::TiVec;
+
+    #[test]
+    fn a_question_is_about_vertices_that_may_be_marked() {
+        let mesh = icosphere(2);
+        let at = |v: VertexId| mesh.positions()[v];
+        let index = SurfaceIndex::new(&mesh);
+        // Half a turn about the last axis: what lies on it stays, what is far from it goes far.
+        let turned = |v: VertexId| nearest_vertex(&index, at(v) * DVec3::new(-1.0, -1.0, 1.0));
+        let images = |image: &dyn Fn(VertexId) -> VertexId| {
+            mesh.vertices().map(|v| SurfacePoint::at_vertex(&mesh, image(v))).collect()
+        };
+        let candidates = [images(&|v| v), images(&turned)].map(|images| Candidate::of_images(&mesh, images));
+        let free = question(MatchInput::new(&mesh, &mesh), &candidates, 1).unwrap();
+        assert_eq!((free.targets, free.rival), ([free.source, turned(free.source)], 1));
+        // Neither the source's vertex there nor the target's on one side of the axis.
+        let of_source: TiVec<VertexId, bool> = mesh.vertices().map(|v| v != free.source).collect();
+        let of_target: TiVec<VertexId, bool> =
+            mesh.vertices().map(|v| at(v).truncate().length() < 0.6).collect();
+        let may_mark = MayMark { source: Some(&of_source), target: Some(&of_target) };
+        let held = MatchInput { may_mark, ..MatchInput::new(&mesh, &mesh) };
+        let asked = question(held, &candidates, 1).unwrap();
+        assert!(asked.source != free.source && asked.targets.iter().all(|&v| of_target[v]), "{asked:?}");
+        assert!(asked.targets[0] != asked.targets[1]);
+        // Where nothing may be marked nothing is asked.
+        let none: TiVec<VertexId, bool> = mesh.vertices().map(|_| false).collect();
+        let may_mark = MayMark { source: None, target: Some(&none) };
+        assert_eq!(question(MatchInput { may_mark, ..held }, &candidates, 1), None);
+    }
 }

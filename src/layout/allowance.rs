@@ -23,13 +23,13 @@ impl<'m> Allowance<'m> {
         self.steps = steps;
     }
 
-    /// One more step of a search; `false` where it must end.
+    /// One more step of a search; `false` where it must end, since nothing is left or the monitor has asked to stop.
     #[inline]
     pub fn step(&mut self) -> bool {
-        if self.steps.is_multiple_of(ASKED_EVERY) && !self.ask() {
+        if !self.is_left() || (self.steps.is_multiple_of(ASKED_EVERY) && !self.ask()) {
             return false;
         }
-        self.steps = self.steps.saturating_sub(1);
+        self.steps -= 1;
         self.steps > 0
     }
 
@@ -64,5 +64,46 @@ impl<'m> Allowance<'m> {
     /// Whether another search may find something.
     pub fn is_left(&self) -> bool {
         self.steps > 0 && self.cancelled.is_none()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Counts how often it is asked, and stops from some time on.
+    struct Asked {
+        count: usize,
+        most: usize,
+    }
+
+    impl Monitor for Asked {
+        fn step(&mut self, _: Step) -> Result<(), Cancelled> {
+            self.count += 1;
+            if self.count > self.most { Err(Cancelled) } else { Ok(()) }
+        }
+    }
+
+    #[test]
+    fn a_used_up_allowance_asks_nobody() {
+        let mut monitor = Asked { count: 0, most: usize::MAX };
+        let mut allowance = Allowance::new(&mut monitor);
+        assert!(!allowance.step());
+        allowance.renew(3);
+        assert_eq!([(); 5].map(|()| allowance.step()), [true, true, false, false, false]);
+        assert!(!allowance.is_left() && allowance.cancelled().is_none());
+        assert_eq!(monitor.count, 0);
+    }
+
+    #[test]
+    fn nothing_is_allowed_after_a_stop() {
+        let mut monitor = Asked { count: 0, most: 1 };
+        let mut allowance = Allowance::new(&mut monitor);
+        allowance.renew(3 * ASKED_EVERY);
+        let steps = (0..).take_while(|_| allowance.step()).count();
+        assert_eq!(steps, ASKED_EVERY);
+        allowance.renew(3 * ASKED_EVERY + 1);
+        assert!(!allowance.step() && !allowance.is_left() && allowance.cancelled().is_some());
+        assert_eq!(monitor.count, 2);
     }
 }

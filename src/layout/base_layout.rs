@@ -1,5 +1,6 @@
 //! The base domain drawn on both meshes, and how straight it is.
 
+use super::bounds::detour;
 use super::drawing::Drawing;
 use super::landmark_distances::LandmarkDistances;
 use crate::base_domain::BaseDomain;
@@ -56,8 +57,7 @@ impl LayoutReport {
         for (path, &ends) in drawing.ends.iter().enumerate() {
             for (side, geodesic) in drawing.sides.iter().zip(distances.between(ends)) {
                 let stretch = side.lengths[path] / geodesic;
-                // 10 % is left to paths over vertices and midpoints for giving way. Chosen by hand.
-                report.detour += (stretch - 1.1).max(0.0);
+                report.detour += detour(stretch);
                 report.worst_stretch = report.worst_stretch.max(stretch);
             }
         }

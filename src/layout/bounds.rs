@@ -28,6 +28,15 @@ const STEPS: usize = 250;
 /// The detour that any layout may have, and what each path may add to it.
 const FREE_DETOUR: f64 = 12.0;
 const DETOUR_OF_PATH: f64 = 0.25;
+/// Length of a path relative to the shortest that is no detour: 10 % is left to paths over vertices and midpoints for giving way.
+/// Chosen by hand.
+const GIVING_WAY: f64 = 1.1;
+
+/// The detour of a path of this length relative to the shortest.
+pub fn detour(stretch: f64) -> f64 {
+    (stretch - GIVING_WAY).max(0.0)
+}
+
 /// Landmarks times vertices of a level, at most: so many distances are kept of each mesh (8 bytes each).
 pub const MOST_DISTANCES: usize = 40_000_000;
 

@@ -102,14 +102,15 @@ impl<'a> Candidates<'a> {
 
     fn draw_batch(&mut self, monitor: &mut dyn Monitor) -> Result<(), LayoutError> {
         let end = (self.next_variant + BATCH).min(VARIANTS.len());
-        let mut all_tangled = true;
+        let (mut drawings, mut tangled) = (0, 0);
         for variant in &VARIANTS[self.next_variant..end] {
             if monitor.wants_result() && !self.ready.is_empty() {
                 break;
             }
             let ground = Ground { empty: &self.empty, distances: &self.distances };
             let drawn = joint::draw(&ground, variant, monitor).and_then(|drawing| self.candidate(drawing));
-            all_tangled &= matches!(drawn, Err(LayoutError::Tangled { .. }));
+            drawings += 1;
+            tangled += usize::from(matches!(drawn, Err(LayoutError::Tangled { .. })));
             match drawn {
                 Ok(candidate) => {
                     let fresh = self.if_new(candidate);
@@ -120,7 +121,7 @@ impl<'a> Candidates<'a> {
             }
         }
         // Where no order but winds, others do, too.
-        self.next_variant = if all_tangled { VARIANTS.len() } else { end };
+        self.next_variant = if drawings > 0 && tangled == drawings { VARIANTS.len() } else { end };
         self.ready.sort_by(|a, b| b.layout.report.detour.total_cmp(&a.layout.report.detour));
         Ok(())
     }

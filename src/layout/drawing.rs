@@ -1,7 +1,7 @@
 //! The growing drawing of one graph on two meshes: the same rotation system at every landmark.
 
 use super::allowance::Allowance;
-use super::bounds::{Bounds, worst};
+use super::bounds::{Bounds, detour, worst};
 use super::drawing_fault::DrawingFault;
 use super::landmark_distances::LandmarkDistances;
 use super::path_search::{Bounded, EndStep, FoundPath, Node, PathSearch, Query, Sector};
@@ -321,8 +321,7 @@ impl Drawing {
     /// By how much a path is longer than the shortest one, on both meshes, in units of the shortest.
     fn detour_of(&self, path: usize, distances: &LandmarkDistances) -> f64 {
         let shortest = distances.between(self.ends[path]);
-        // 10 % is left to paths over vertices and midpoints, as in the report of a layout.
-        (0..2).map(|s| (self.sides[s].lengths[path] / shortest[s] - 1.1).max(0.0)).sum()
+        (0..2).map(|s| detour(self.sides[s].lengths[path] / shortest[s])).sum()
     }
 
     /// The error of a drawing that has become too large, with the landmarks whose paths wind most.

@@ -187,6 +187,7 @@ impl<'a> PairQueue<'a> {
         Self { queue, variant }
     }
 
+    /// The next pair's plan; `None` where there is none, or no search is allowed any more.
     fn next(&mut self, drawing: &Drawing, planner: &mut Planner<'_>) -> Option<Plan> {
         let faces = drawing.faces_by_slot();
         while let Some(Queued { cost: least, key: ends, value: plan }) = self.queue.pop() {
@@ -194,6 +195,9 @@ impl<'a> PairQueue<'a> {
                 && drawing.still_valid(&plan)
             {
                 return Some(plan);
+            }
+            if !planner.may_search() {
+                return None;
             }
             // Without a common face there will never be a path.
             let Some(slots) = common_slots(&faces, ends) else { continue };
@@ -206,7 +210,7 @@ impl<'a> PairQueue<'a> {
             let limit = if raised > 0.0 && raised < NO_LIMIT { raised } else { f64::INFINITY };
             let limits = [0, 1].map(|s| length_limit(limit / factor, geodesics, s));
             let Some(plan) = drawing.plan_within(planner, ends, &slots, limits) else {
-                if limit.is_finite() && planner.may_search() {
+                if limit.is_finite() {
                     self.queue.push(limit, ends, None);
                 }
                 continue;

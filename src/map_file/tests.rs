@@ -8,7 +8,7 @@ use crate::export::obj;
 use crate::io::landmark_file::LandmarkFile;
 use crate::math::random::SplitMix;
 use crate::mesh::generators::icosphere;
-use crate::mesh::{FaceId, HalfedgeId, Place, SurfaceMesh, SurfacePoint};
+use crate::mesh::{FaceId, HalfedgeId, Place, SurfaceMesh, SurfacePoint, VertexId};
 use crate::surface_map::correspondence::{Correspondence, TextureDrawing};
 use crate::surface_map::correspondence::{MappedPiece, PointLocator, TextureVertex};
 use crate::surface_map::flat_layout::FlatDrawing;
@@ -296,6 +296,47 @@ fn remove_piece(map: &mut MapFile, number: usize) {
     }
 }
 
+/// Triangles, one of them with a vertex inside it that is to lie at one of its corners.
+fn with_vertex_in(triangles: &mut Vec<[u32; 3]>, number: usize, new: u32) {
+    let [a, b, c] = triangles[number];
+    triangles[number] = [new, b, c];
+    triangles.extend([[a, b, new], [a, new, c]]);
+}
+
+/// Two maps in one: the whole source goes to one vertex of the target, and one vertex of the source to the whole target. Both are
+/// spheres and touch at two vertices, so that V - E + F = 2; every face is covered once, and no matrix is off by more than rounding.
+/// Beyond the first vertex they touch at one beside it, or the whole side between both is shared.
+fn collapsed(map: &mut MapFile, share_side: bool) {
+    let mesh = icosphere(1);
+    let count = mesh.vertex_count() as u32;
+    let first = mesh.triangles().iter().position(|t| t[0] == VertexId(0)).unwrap();
+    let own: Vec<[u32; 3]> = mesh.triangles().iter().map(|t| t.map(|v| v.0)).collect();
+    let faces: Vec<usize> = (0..own.len()).chain([first; 4]).collect();
+    let mut pieces: Vec<([u32; 3], [usize; 2], f64)> = Vec::new();
+    let mut vertices: Vec<[Place; 2]> =
+        mesh.vertices().map(|v| [Place::Vertex(v), Place::Vertex(VertexId(0))]).collect();
+    let (corner, apart) = ([Place::Vertex(VertexId(0)); 2], count + 1);
+    vertices.extend([corner, corner]);
+    let mut onto_vertex = own.clone();
+    with_vertex_in(&mut onto_vertex, first, count);
+    pieces.extend(onto_vertex.iter().zip(&faces).map(|(t, &f)| (*t, [f, first], 1e-7)));
+    // The second sphere shares the first vertex and the one that was added to the first sphere.
+    let mut from_vertex = own;
+    let added = if share_side { [count, apart] } else { [apart, count] };
+    with_vertex_in(&mut from_vertex, first, added[0]);
+    with_vertex_in(&mut from_vertex, first, added[1]);
+    let second = vertices.len() as u32;
+    vertices.extend(mesh.vertices().skip(1).map(|v| [Place::Vertex(VertexId(0)), Place::Vertex(v)]));
+    let number = |v: u32| if v == 0 || v >= count { v } else { second + v - 1 };
+    pieces.extend(from_vertex.iter().zip(&faces).map(|(t, &f)| (t.map(number), [first, f], 1e7)));
+    map.correspondence = Correspondence { vertices, ..Correspondence::default() };
+    for (ring, faces, scale) in pieces {
+        push_piece(map, FaceId(0), &ring);
+        let piece = map.correspondence.pieces.last_mut().unwrap();
+        (piece.faces, piece.map) = (faces.map(|f| FaceId(f as u32)), DMat2::IDENTITY * scale);
+    }
+}
+
 /// Each attack is refused by this reader and by the independent proof; the kinds are those of the proof.
 #[test]
 fn attacked_maps_are_refused_by_both_certificates() {
@@ -309,7 +350,9 @@ fn attacked_maps_are_refused_by_both_certificates() {
     let proof = prove(&write(&map, meshes.each_ref())).unwrap();
     assert!(proof.is_exact() && proof.pieces == 82 && proof.landmarks.exact == 4, "{proof:?}");
     type Attack = fn(&mut MapFile);
-    let attacks: [(&str, &str, Attack); 8] = [
+    let attacks: [(&str, &str, Attack); 10] = [
+        ("spheres that touch at vertices", "parts", |m| collapsed(m, false)),
+        ("spheres that touch along a side", "overlap", |m| collapsed(m, true)),
         ("a missing cell", "gap", |m| remove_piece(m, 7)),
         ("a cell that is there twice", "overlap", |m| {
             let piece = m.correspondence.pieces[7].clone();

@@ -115,6 +115,15 @@ pub fn files() -> Vec<(&'static str, Vec<u8>)> {
         ("a long line", repeated("solid ", "a", "\nendsolid")),
         ("short vertices", repeated("solid a\n", "vertex 0 0 0\n", "endsolid")),
         ("commas", repeated("name,x,y,z\n", ",", "\n")),
+        ("columns", {
+            let names: Vec<String> = (0..140_000).map(|k| k.to_string()).collect();
+            format!("vertex,{}\n0\n", names.join(",")).into_bytes()
+        }),
+        ("curves of one point", repeated("", "a,1\nb,1\n", "")),
+        ("curves without points", repeated("{\"curves\":[{\"points\":[1,2]}", ",{\"points\":[]}", "]}")),
+        ("points of a curve", repeated("{\"curves\":[{\"points\":[1,2", ",3", "]}]}")),
+        ("lines of two vertices", repeated("", "l 1 2\n", "")),
+        ("corners without texture coordinates", repeated("v 0 0 0\nvt 0 0\n", "f 1/1 1/1 1/1\n", "")),
         ("pairs", repeated("{\"pairs\":[[0,0]", ",[1,1]", "]}")),
         ("labels", repeated("{\"pairs\":[[0,0]],\"labels\":[\"\"", ",\"\"", "]}")),
         ("open lists", repeated("", "[", "")),

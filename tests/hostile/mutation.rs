@@ -151,3 +151,25 @@ fn restore_container(bytes: &mut [u8], after_json: usize) {
     bytes[12..16].copy_from_slice(&(json as u32).to_le_bytes());
     bytes[16..20].copy_from_slice(b"JSON");
 }
+
+/// A map file with none of its sections packed, so that changes reach what is in them.
+pub fn unpacked(map: &[u8]) -> Vec<u8> {
+    let length = u32::from_le_bytes(map[12..16].try_into().unwrap()) as usize;
+    let (text, sections) = map[16..].split_at(length);
+    let mut header: serde_json::Value = serde_json::from_slice(text).unwrap();
+    let mut data = Vec::new();
+    for entry in header["sections"].as_array_mut().unwrap() {
+        let [offset, bytes] = ["offset", "bytes"].map(|key| entry[key].as_u64().unwrap() as usize);
+        let mut content = sections[offset..offset + bytes].to_vec();
+        if entry["packing"] == "deflate" {
+            content = miniz_oxide::inflate::decompress_to_vec_zlib(&content).unwrap();
+        }
+        entry["packing"] = "none".into();
+        (entry["offset"], entry["bytes"]) = (data.len().into(), content.len().into());
+        data.extend(content);
+        data.resize(data.len().next_multiple_of(8), 0);
+    }
+    let mut text = serde_json::to_vec(&header).unwrap();
+    text.resize(text.len().next_multiple_of(8), b' ');
+    [&map[..12], &(text.len() as u32).to_le_bytes(), &text, &data].concat()
+}

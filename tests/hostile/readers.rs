@@ -1,7 +1,8 @@
 //! Everything that reads bytes which a user gives, and what it says to them.
 
 use conemap::io::landmark_formats::{self, LandmarkFormat};
-use conemap::io::{Format, detect, gltf_parts, read_mesh};
+use conemap::io::moved::{self, MoveError, Normals};
+use conemap::io::{Format, curve_file, detect, gltf_parts, read_mesh, texture_coordinates, vertex_table};
 use conemap::map_file::{self, FileMesh};
 use conemap::mesh::check::closed_genus_zero;
 use std::sync::LazyLock;
@@ -13,20 +14,46 @@ pub enum Reader {
     Mesh(Format),
     /// A landmark file of one format.
     Landmarks(LandmarkFormat),
+    /// Values at the vertices of a mesh.
+    VertexTable,
+    /// Curves on a mesh.
+    Curves,
+    /// Texture coordinates of a mesh file.
+    TextureCoordinates,
+    /// A mesh file whose vertices are moved.
+    Moved,
     /// A map file.
     Map,
 }
 
-/// The mesh that map files are read with.
-static TETRAHEDRON: LazyLock<FileMesh> = LazyLock::new(|| {
-    FileMesh::read(b"OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n").unwrap()
+/// The mesh with which map files, tables and curves are read: an octahedron.
+pub static MESH: LazyLock<FileMesh> = LazyLock::new(|| {
+    let file =
+        b"OFF\n6 8 12\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n\
+                 3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n";
+    FileMesh::read(file).unwrap()
 });
 
 impl Reader {
     /// All of them.
     pub fn all() -> Vec<Self> {
         let meshes = Format::ALL.into_iter().map(Self::Mesh);
-        meshes.chain(LandmarkFormat::ALL.into_iter().map(Self::Landmarks)).chain([Self::Map]).collect()
+        let others = [Self::VertexTable, Self::Curves, Self::TextureCoordinates, Self::Moved, Self::Map];
+        meshes.chain(LandmarkFormat::ALL.into_iter().map(Self::Landmarks)).chain(others).collect()
+    }
+
+    /// Those that read any large file: formats of meshes are told by content, so that one stands for all.
+    pub fn of_large_files() -> Vec<Self> {
+        let landmarks = Self::Landmarks(LandmarkFormat::Conemap);
+        vec![
+            Self::Mesh(Format::Obj),
+            landmarks,
+            Self::VertexTable,
+            Self::Curves,
+            Self::TextureCoordinates,
+            Self::Moved,
+            Self::Map,
+        ]
     }
 
     /// Its name.
@@ -34,6 +61,10 @@ impl Reader {
         match self {
             Self::Mesh(format) => format.to_string(),
             Self::Landmarks(format) => format!("landmarks {}", format.id()),
+            Self::VertexTable => "vertex table".to_owned(),
+            Self::Curves => "curves".to_owned(),
+            Self::TextureCoordinates => "texture coordinates".to_owned(),
+            Self::Moved => "moved".to_owned(),
             Self::Map => "map file".to_owned(),
         }
     }
@@ -43,6 +74,10 @@ impl Reader {
         match self {
             Self::Mesh(format) => detect(bytes) == Some(format),
             Self::Landmarks(format) => landmark_formats::detect(name, bytes) == Some(format),
+            Self::VertexTable => name.starts_with("table"),
+            Self::Curves => name.starts_with("curves"),
+            Self::TextureCoordinates => name.starts_with("texture"),
+            Self::Moved => matches!(detect(bytes), Some(Format::Obj | Format::Off)),
             Self::Map => bytes.starts_with(b"CONEMAP\0"),
         }
     }
@@ -57,10 +92,20 @@ impl Reader {
                 mesh(bytes)
             }
             Self::Landmarks(format) => landmarks(&format!("a.{}", format.ending()), bytes),
-            Self::Map => match map_file::read(bytes, [&TETRAHEDRON; 2]) {
-                Ok(map) => format!("{} pieces", map.correspondence.pieces.len()),
+            Self::VertexTable => match vertex_table::read(bytes, MESH.file_vertices()) {
+                Ok(table) => format!("{} columns", table.columns.len()),
                 Err(error) => error.to_string(),
             },
+            Self::Curves => match curve_file::read(bytes, MESH.file_vertices()) {
+                Ok(curves) => format!("{} curves", curves.len()),
+                Err(error) => error.to_string(),
+            },
+            Self::TextureCoordinates => match texture_coordinates::read(bytes) {
+                Ok(corners) => format!("{} polygons with texture coordinates", corners.len()),
+                Err(error) => error.to_string(),
+            },
+            Self::Moved => moved(bytes),
+            Self::Map => map(bytes),
         }
     }
 }
@@ -76,6 +121,25 @@ pub fn mesh(bytes: &[u8]) -> String {
             format!("{} vertices, {} faces", checked.mesh.vertex_count(), checked.mesh.face_count())
         }
         Err(fault) => fault.to_string(),
+    }
+}
+
+/// Moves the vertices of a mesh file, or says why that cannot be. Where they stand is known of every file that is read, so that
+/// nothing but a place may change; without its normals a file may look like one of another format.
+fn moved(bytes: &[u8]) -> String {
+    let [kept, dropped] = [Normals::Kept, Normals::Dropped].map(|normals| moved::check(bytes, normals));
+    assert!(!matches!(kept, Err(MoveError::ReadsOtherwise(_) | MoveError::Unreadable(_))), "{kept:?}");
+    match kept.and(dropped) {
+        Ok(()) => "can be moved".to_owned(),
+        Err(error) => error.to_string(),
+    }
+}
+
+/// Reads a map of the octahedron onto itself.
+fn map(bytes: &[u8]) -> String {
+    match map_file::read(bytes, [&MESH; 2]) {
+        Ok(map) => format!("{} pieces", map.correspondence.pieces.len()),
+        Err(error) => error.to_string(),
     }
 }
 

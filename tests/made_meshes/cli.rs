@@ -596,7 +596,9 @@ fn wrap<'a>([base, scan, pairs]: [&'a Path; 3], out: &'a Path, flags: &[&'a str]
 fn a_base_is_laid_onto_a_scan() {
     let folder = folder("a_base_is_laid_onto_a_scan");
     let [base, scan, pairs] = write_bodies(&folder);
-    let text = obj_with_quads(&octasphere(), |_| true);
+    // In an old encoding, with old ends of lines.
+    let mut text = [b"# b\xe4r\n".to_vec(), obj_with_quads(&octasphere(), |_| true)].concat();
+    text.iter_mut().filter(|byte| **byte == b'\n').for_each(|byte| *byte = b'\r');
     std::fs::write(&base, &text).unwrap();
     let (out, report) = (folder.join("new/wrapped.obj"), folder.join("report.json"));
     let flags = ["--drop-normals", &format!("--report={}", report.display())];
@@ -606,9 +608,10 @@ fn a_base_is_laid_onto_a_scan() {
         assert!(errors(&output).contains(words), "{words}: {}", errors(&output));
     }
     assert!(!errors(&output).contains("normals"), "{}", errors(&output));
-    let wrapped = std::fs::read_to_string(&out).unwrap();
-    assert!(!wrapped.contains("vn ") && wrapped.contains("usemtl skin0"));
-    let [before, after] = [&text[..], wrapped.as_bytes()].map(|bytes| io::read_mesh(bytes).unwrap());
+    let wrapped = std::fs::read(&out).unwrap();
+    let has = |word: &[u8]| wrapped.windows(word.len()).any(|part| part == word);
+    assert!(wrapped.starts_with(b"# b\xe4r\r") && !has(b"vn ") && !has(b"\n") && has(b"\rusemtl skin0\r"));
+    let [before, after] = [&text[..], &wrapped[..]].map(|bytes| io::read_mesh(bytes).unwrap());
     assert_eq!(before.polygons, after.polygons);
     // On the egg, whose vertices are farther apart than those of the ball.
     let off = |p: &DVec3| ((*p / DVec3::new(1.0, 1.3, 0.9)).length() - 1.0).abs();
@@ -633,6 +636,9 @@ fn a_base_without_lines_to_keep_is_refused_before_the_work() {
         assert!(!folder.join(out).exists());
     };
     refused(&ply, "out.ply", "base.ply: lines can be kept of OBJ and OFF files only");
+    let off = folder.join("base.off");
+    std::fs::write(&off, [b"OFF BINARY\n".to_vec(), vec![0; 12]].concat()).unwrap();
+    refused(&off, "out.off", "base.off: lines can be kept of text files only");
     refused(&base, "out.off", "its name must end in .obj");
 }
 
@@ -698,6 +704,9 @@ fn landmarks_that_nobody_gave_are_found_or_asked_for() {
     let demo = conemap::demo::build("horse-cat").unwrap();
     let first = &demo.landmarks[..1];
     let [source, target, given] = write_files(&folder, [&demo.source, &demo.target], first);
+    let named = landmark_file::read(&std::fs::read(&given).unwrap()).unwrap();
+    let named = landmark_file::LandmarkFile { target: Some("zebra.off".to_owned()), ..named };
+    std::fs::write(&given, landmark_file::write(&named)).unwrap();
     let [found, told, report] = ["found.json", "told.json", "report.json"].map(|name| folder.join(name));
     let [with, out, to] = ["--landmarks", "--out", "--report"].map(OsStr::new);
     let meshes = [source.as_os_str(), target.as_os_str()];
@@ -705,6 +714,8 @@ fn landmarks_that_nobody_gave_are_found_or_asked_for() {
     let held = [with, given, out, pairs, to, told.as_os_str()];
     let output = conemap([OsStr::new("match")].into_iter().chain(meshes).chain(held));
     assert!(output.status.success(), "{}", errors(&output));
+    // Another mesh than the file's is told.
+    assert!(errors(&output).contains("zebra.off"), "{}", errors(&output));
     let file = landmark_file::read(&std::fs::read(&found).unwrap()).unwrap();
     assert_eq!(file.pairs[0], first[0].map(landmark_file::LandmarkPoint::Vertex));
     assert!(file.pairs.len() >= 5, "{file:?}");

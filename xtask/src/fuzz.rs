@@ -2,7 +2,7 @@
 
 use crate::run::{cargo, run_with};
 
-/// Runs every reader on many changed files: `--runs` of each, all from one `--seed`.
+/// Runs every reader on many changed files, or the one of a name: `--runs` of each, all from one `--seed`.
 pub fn fuzz(rest: &[String]) -> Result<(), String> {
     const TEST: [&str; 8] = [
         "test",
@@ -16,13 +16,16 @@ pub fn fuzz(rest: &[String]) -> Result<(), String> {
     ];
     let mut variables = Vec::new();
     for pair in rest.chunks(2) {
-        let (variable, number) = match pair {
-            [name, number] if name == "--runs" => ("CONEMAP_FUZZ_RUNS", number),
-            [name, number] if name == "--seed" => ("CONEMAP_FUZZ_SEED", number),
-            _ => return Err("cargo xtask fuzz [--runs N] [--seed S]".to_owned()),
+        let whole = |number: &str| {
+            number.parse::<u64>().map(drop).map_err(|_| format!("{number}: a whole number is needed"))
         };
-        number.parse::<u64>().map_err(|_| format!("{number}: a whole number is needed"))?;
-        variables.push((variable, number.as_str()));
+        let (variable, value) = match pair {
+            [name, number] if name == "--runs" => whole(number).map(|()| ("CONEMAP_FUZZ_RUNS", number))?,
+            [name, number] if name == "--seed" => whole(number).map(|()| ("CONEMAP_FUZZ_SEED", number))?,
+            [name, reader] if name == "--reader" => ("CONEMAP_FUZZ_READER", reader),
+            _ => return Err("cargo xtask fuzz [--runs N] [--seed S] [--reader NAME]".to_owned()),
+        };
+        variables.push((variable, value.as_str()));
     }
     run_with(&cargo(), &TEST, &variables)
 }

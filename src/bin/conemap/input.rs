@@ -5,7 +5,7 @@ use crate::told::say;
 use conemap::export::MeshFormat;
 use conemap::io::{self, gltf_parts};
 use conemap::job::{ReadMesh, read_mesh};
-use conemap::landmark_exchange::GivenFile;
+use conemap::landmark_exchange::{GivenFile, PairLandmarks, Surface, compare_names, read_pairs};
 use conemap::mesh::check::CheckedMesh;
 use conemap::mesh::soup::PolygonSoup;
 use conemap::monitor::Silent;
@@ -97,4 +97,20 @@ impl NamedFiles {
     pub fn given(&self) -> Vec<GivenFile<'_>> {
         self.0.iter().map(|(name, bytes)| GivenFile { name, bytes }).collect()
     }
+}
+
+/// Reads landmark files of two meshes onto them; a fault is told with the file's name. Remarks tell, too, where files name other
+/// meshes than `meshes`.
+pub fn landmarks<P: AsRef<Path>>(
+    paths: &[P],
+    meshes: [&Path; 2],
+    surfaces: [Surface<'_>; 2],
+) -> Result<PairLandmarks, Failure> {
+    let mut landmarks = read_pairs(&NamedFiles::read(paths)?.given(), surfaces).map_err(|error| {
+        let file = error.file().and_then(|number| paths.get(number));
+        file.map_or_else(|| error.to_string(), |path| format!("{}: {error}", path.as_ref().display()))
+    })?;
+    let names = meshes.map(|path| path.to_string_lossy());
+    landmarks.remarks.extend(compare_names(&landmarks.file, names.each_ref().map(|name| &**name)));
+    Ok(landmarks)
 }

@@ -1,13 +1,11 @@
 //! `conemap landmarks`.
 
 use crate::arguments::{FaultArguments, LandmarksArguments};
-use crate::input::{self, Failure, NamedFiles};
+use crate::input::{self, Failure};
 use crate::outputs;
 use crate::told::print;
 use conemap::io::landmark_formats::{LandmarkFormat, Space};
-use conemap::landmark_exchange::{
-    PairLandmarks, Surface, compare_names, read_pairs, write_pairs, write_side,
-};
+use conemap::landmark_exchange::{PairLandmarks, Surface, write_pairs, write_side};
 use conemap::landmarks::{MeshSide, check_side};
 use conemap::mesh::check::CheckedMesh;
 use serde_json::json;
@@ -21,16 +19,10 @@ pub fn run(arguments: &LandmarksArguments) -> Result<(), Failure> {
     outputs::check(paths.into_iter().chain(&arguments.inputs), arguments.outputs.clone())?;
     let (source, target) = (mesh(paths[0], arguments.faults)?, mesh(paths[1], arguments.faults)?);
     let surfaces = [&source, &target].map(|(mesh, space)| Surface { mesh, space: *space });
-    let files = NamedFiles::read(&arguments.inputs)?;
-    let mut landmarks = read_pairs(&files.given(), surfaces).map_err(|error| {
-        let file = error.file().and_then(|number| arguments.inputs.get(number));
-        file.map_or_else(|| error.to_string(), |path| format!("{}: {error}", path.display()))
-    })?;
+    let mut landmarks = input::landmarks(&arguments.inputs, paths.map(|path| &**path), surfaces)?;
     for (surface, side) in surfaces.into_iter().zip(SIDES) {
         check_side(surface.mesh, side, &landmarks.file.pairs)?;
     }
-    let names = paths.map(|path| path.to_string_lossy());
-    landmarks.remarks.extend(compare_names(&landmarks.file, names.each_ref().map(|name| &**name)));
     let [source_name, target_name] =
         paths.map(|path| path.file_name().map(|name| name.to_string_lossy().into()));
     landmarks.file.source = landmarks.file.source.or(source_name);

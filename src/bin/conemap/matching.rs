@@ -8,7 +8,7 @@ use crate::told::say;
 use conemap::io::landmark_file::{self, LandmarkFile};
 use conemap::io::landmark_formats::Space;
 use conemap::job::{MatchReport, match_meshes};
-use conemap::landmark_exchange::{Surface, read_pairs};
+use conemap::landmark_exchange::Surface;
 use conemap::landmark_matching::MatchOptions;
 use conemap::monitor::Stage;
 
@@ -42,11 +42,7 @@ fn given(arguments: &MatchArguments, surfaces: [Surface<'_>; 2]) -> Result<Landm
     if paths.is_empty() {
         return Ok(LandmarkFile::default());
     }
-    let files = input::NamedFiles::read(&paths)?;
-    let landmarks = read_pairs(&files.given(), surfaces).map_err(|error| {
-        let file = error.file().and_then(|number| paths.get(number));
-        file.map_or_else(|| error.to_string(), |path| format!("{}: {error}", path.display()))
-    })?;
+    let landmarks = input::landmarks(&paths, [&arguments.source, &arguments.target], surfaces)?;
     landmarks.remarks.iter().for_each(|remark| say(format_args!("landmarks: {remark}")));
     Ok(landmarks.file)
 }

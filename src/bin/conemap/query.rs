@@ -2,7 +2,8 @@
 
 use crate::arguments::QueryArguments;
 use crate::input::{self, Failure};
-use crate::{outputs, saved};
+use crate::outputs;
+use crate::saved::{SavedFiles, write_or_print};
 use conemap::export::vertex_image::{self, Direction};
 use conemap::map_file::FileMesh;
 use conemap::mesh::{FaceId, SurfacePoint};
@@ -11,7 +12,7 @@ use std::path::Path;
 /// Answers images of points or of all vertices.
 pub fn run(arguments: &QueryArguments) -> Result<(), Failure> {
     outputs::check(arguments.saved.files().into_iter().chain(&arguments.points), arguments.out.clone())?;
-    let open = saved::open(&arguments.saved)?;
+    let open = SavedFiles::read(&arguments.saved)?.open()?;
     let direction = if arguments.inverse { Direction::TargetToSource } else { Direction::SourceToTarget };
     let map = open.taken();
     let text = match &arguments.points {
@@ -22,7 +23,7 @@ pub fn run(arguments: &QueryArguments) -> Result<(), Failure> {
         }
         None => vertex_image::csv(direction, &map.vertex_images(direction)),
     };
-    saved::write_or_print(arguments.out.as_deref(), &text)
+    write_or_print(arguments.out.as_deref(), &text)
 }
 
 /// Reads lines `face,b0,b1,b2` or `vertex`; a first line of words and what follows `#` is left out.

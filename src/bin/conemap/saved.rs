@@ -7,26 +7,48 @@ use crate::told::print;
 use conemap::job::{MapFiles, OpenMap};
 use conemap::landmarks::MeshSide;
 use serde_json::json;
+use std::fmt::Display;
 use std::path::Path;
 
-/// Opens a map file with its meshes; a fault is told with the file's name.
-pub fn open(arguments: &SavedMapArguments) -> Result<OpenMap, Failure> {
-    let [map, source, target] = [&arguments.map, &arguments.source, &arguments.target];
-    let bytes = [input::bytes(map)?, input::mesh_bytes(source)?, input::mesh_bytes(target)?];
-    OpenMap::read(MapFiles { map: &bytes[0], source: &bytes[1], target: &bytes[2] }).map_err(|error| {
-        let file = match error.side() {
-            Some(MeshSide::Source) => source,
-            Some(MeshSide::Target) => target,
-            None => map,
+/// A saved map's file and those of its meshes, as they were read.
+pub struct SavedFiles<'a> {
+    paths: &'a SavedMapArguments,
+    map: Vec<u8>,
+    meshes: [Vec<u8>; 2],
+}
+
+impl<'a> SavedFiles<'a> {
+    /// Reads the files.
+    pub fn read(paths: &'a SavedMapArguments) -> Result<Self, Failure> {
+        let meshes = [input::mesh_bytes(&paths.source)?, input::mesh_bytes(&paths.target)?];
+        Ok(Self { paths, map: input::bytes(&paths.map)?, meshes })
+    }
+
+    /// The bytes of all three.
+    pub fn bytes(&self) -> MapFiles<'_> {
+        MapFiles { map: &self.map, source: &self.meshes[0], target: &self.meshes[1] }
+    }
+
+    /// Opens the map; a fault is told with the file's name.
+    pub fn open(&self) -> Result<OpenMap, Failure> {
+        OpenMap::read(self.bytes()).map_err(|error| self.told(error.side(), &error))
+    }
+
+    /// A sentence on a mesh's file, or on the map's where it is about neither.
+    pub fn told(&self, side: Option<MeshSide>, error: &dyn Display) -> Failure {
+        let file = match side {
+            Some(MeshSide::Source) => &self.paths.source,
+            Some(MeshSide::Target) => &self.paths.target,
+            None => &self.paths.map,
         };
         format!("{}: {error}", file.display()).into()
-    })
+    }
 }
 
 /// Measures the map from its pieces and tells it as JSON.
 pub fn report(arguments: &ReportArguments) -> Result<(), Failure> {
     outputs::check(arguments.saved.files(), arguments.out.clone())?;
-    let open = open(&arguments.saved)?;
+    let open = SavedFiles::read(&arguments.saved)?.open()?;
     let map = open.taken();
     let [source, target] = map.surfaces().map(|mesh| mesh.face_count());
     let value = json!({
@@ -42,7 +64,7 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Failure> {
 /// Writes all files of the map.
 pub fn export(arguments: &ExportArguments) -> Result<(), Failure> {
     outputs::check(arguments.saved.files(), outputs::of_folder(&arguments.out))?;
-    let open = open(&arguments.saved)?;
+    let open = SavedFiles::read(&arguments.saved)?.open()?;
     let map = open.taken();
     let files = map.kinds().into_iter().map(|kind| Ok((kind.file_name(), map.output(kind)?)));
     outputs::write_all(&arguments.out, files)

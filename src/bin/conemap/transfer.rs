@@ -3,12 +3,14 @@
 use crate::arguments::TransferArguments;
 use crate::clock::Clock;
 use crate::input::{self, Failure};
+use crate::outputs;
+use crate::saved::SavedFiles;
 use crate::told::say;
-use crate::{outputs, saved};
 use conemap::export::vertex_image::Direction;
 use conemap::export::{self, ply};
 use conemap::io::{curve_file, picture, texture_coordinates, vertex_table};
 use conemap::job::{OpenMap, OutputKind};
+use conemap::landmarks::MeshSide;
 use conemap::map_file::FileMesh;
 use conemap::monitor::Stage;
 use conemap::transfer::attributes::{AttributeOptions, attributes};
@@ -39,8 +41,9 @@ pub fn run(arguments: &TransferArguments) -> Result<(), Failure> {
         _ => "",
     };
     outputs::check(inputs(arguments), outputs_of(arguments))?;
-    let open = saved::open(&arguments.saved)?;
-    let transfer = Transfer { arguments, open: &open, direction: arguments.from.into() };
+    let files = SavedFiles::read(&arguments.saved)?;
+    let open = files.open()?;
+    let transfer = Transfer { arguments, files: &files, open: &open, direction: arguments.from.into() };
     if let Some(path) = &arguments.attributes {
         transfer.attributes(path, format)
     } else if let Some(path) = &arguments.curves {
@@ -90,6 +93,7 @@ fn of_file(path: &Path, error: &dyn std::fmt::Display) -> Failure {
 /// A saved map, and what is to be brought over by it.
 struct Transfer<'a> {
     arguments: &'a TransferArguments,
+    files: &'a SavedFiles<'a>,
     open: &'a OpenMap,
     direction: Direction,
 }
@@ -135,13 +139,14 @@ impl<'a> Transfer<'a> {
 
     fn texture(&self, path: &Path) -> Result<(), Failure> {
         let picture = picture::read(&input::bytes(path)?).map_err(|e| of_file(path, &e))?;
-        let files = self.open.meshes();
-        let saved = &self.arguments.saved;
-        let uvs = |mesh: &FileMesh, path: &Path| -> Result<_, Failure> {
-            let corners = texture_coordinates::read(&input::bytes(path)?).map_err(|e| of_file(path, &e))?;
-            texture::face_uvs(mesh, &corners).map_err(|e| of_file(path, &e))
+        let [source, target] = self.open.meshes();
+        let files = self.files.bytes();
+        let uvs = |mesh: &FileMesh, bytes: &[u8], side: MeshSide| -> Result<_, Failure> {
+            let corners = texture_coordinates::read(bytes).map_err(|e| self.files.told(Some(side), &e))?;
+            texture::face_uvs(mesh, &corners).map_err(|e| self.files.told(Some(side), &e))
         };
-        let uvs = [uvs(files[0], &saved.source)?, uvs(files[1], &saved.target)?];
+        let uvs =
+            [uvs(source, files.source, MeshSide::Source)?, uvs(target, files.target, MeshSide::Target)?];
         let given = GivenTexture { uvs: uvs.each_ref(), picture: &picture };
         let options = BakeOptions {
             direction: self.direction,

@@ -1,11 +1,11 @@
 //! `conemap verify`.
 
 use crate::arguments::VerifyArguments;
-use crate::input::{self, Failure};
+use crate::input::Failure;
 use crate::outputs;
+use crate::saved::SavedFiles;
 use crate::told::print;
-use conemap::job::{MapFiles, Proof, ProofReport, prove};
-use conemap::landmarks::MeshSide;
+use conemap::job::{Proof, ProofReport, prove};
 use serde::Serialize;
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -14,10 +14,8 @@ use std::time::Instant;
 pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
     outputs::check(arguments.saved.files(), arguments.report.clone())?;
     let begun = Instant::now();
-    let [map, source, target] = [&arguments.saved.map, &arguments.saved.source, &arguments.saved.target];
-    let bytes = [input::bytes(map)?, input::mesh_bytes(source)?, input::mesh_bytes(target)?];
-    let files = MapFiles { map: &bytes[0], source: &bytes[1], target: &bytes[2] };
-    let outcome = prove(files, &mut |_| ControlFlow::Continue(()));
+    let files = SavedFiles::read(&arguments.saved)?;
+    let outcome = prove(files.bytes(), &mut |_| ControlFlow::Continue(()));
     if let Some(path) = &arguments.report {
         let report = Told { proof: ProofReport::of(&outcome), seconds: begun.elapsed().as_secs_f64() };
         outputs::write(path, &serde_json::to_vec_pretty(&report)?)?;
@@ -25,20 +23,9 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
     match outcome {
         Ok(proof) => {
             tell(&proof)?;
-            if proof.is_exact() {
-                Ok(())
-            } else {
-                Err(format!("{}: the map is not proved", map.display()).into())
-            }
+            if proof.is_exact() { Ok(()) } else { Err(files.told(None, &"the map is not proved")) }
         }
-        Err(error) => {
-            let file = match error.side() {
-                Some(MeshSide::Source) => source,
-                Some(MeshSide::Target) => target,
-                None => map,
-            };
-            Err(format!("{}: {error}", file.display()).into())
-        }
+        Err(error) => Err(files.told(error.side(), &error)),
     }
 }
 

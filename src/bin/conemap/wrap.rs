@@ -15,7 +15,8 @@ use serde_json::json;
 pub fn run(arguments: &WrapArguments) -> Result<(), Failure> {
     let base = input::bytes(&arguments.base)?;
     // Asked before the work is done.
-    check_files(arguments, &base)?;
+    let normals = if arguments.drop_normals { Normals::Dropped } else { Normals::Kept };
+    check_files(arguments, &base, normals)?;
     let WrapArguments { base: file, scan, scan_landmarks, landmarks, out, report, .. } = arguments;
     let inputs = [file, scan, landmarks].into_iter().chain(scan_landmarks);
     outputs::check(inputs, report.iter().chain([out]).cloned())?;
@@ -34,7 +35,6 @@ pub fn run(arguments: &WrapArguments) -> Result<(), Failure> {
     let map = map.ok_or(
         "a base is laid on by a map with pieces (not by the method `thesis`, and not without an overlay)",
     )?;
-    let normals = if arguments.drop_normals { Normals::Dropped } else { Normals::Kept };
     let wrapped = job.taken(&map).wrapped(&base, normals, &mut clock)?;
     result.report.set_seconds(clock.stop());
     map::tell(&result);
@@ -47,9 +47,9 @@ pub fn run(arguments: &WrapArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Whether the base's lines can be kept, and the name of the result has its format's ending.
-fn check_files(arguments: &WrapArguments, base: &[u8]) -> Result<(), Failure> {
-    moved::check_format(base).map_err(|error| format!("{}: {error}", arguments.base.display()))?;
+/// Whether the base can be written with other places, and the name of the result has its format's ending.
+fn check_files(arguments: &WrapArguments, base: &[u8], normals: Normals) -> Result<(), Failure> {
+    moved::check(base, normals).map_err(|error| format!("{}: {error}", arguments.base.display()))?;
     let endings = detect(base).map_or(&[][..], |format| format.endings());
     let ending = arguments.out.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     if endings.iter().any(|known| known.eq_ignore_ascii_case(ending)) {
@@ -91,8 +91,8 @@ fn tell(report: &WrappedFileReport) {
     }
     if report.has_old_normals {
         say(format_args!(
-            "warning: the normals in the file are those of the base as given: let the program that opens it make new ones, or \
-             leave them out by --drop-normals"
+            "warning: the normals in the file are those of the base as given: let the program that opens it make new ones, or, \
+             of an OBJ file, leave them out by --drop-normals"
         ));
     }
 }

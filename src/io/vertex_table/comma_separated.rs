@@ -5,22 +5,20 @@
 use super::content::{Column, Heading, Rows, VertexTable};
 use super::number_type::NumberType;
 use crate::io::problem::{Place, Problem};
-use crate::io::reading::{number, text};
+use crate::io::reading::{content_lines, number, text};
 
 /// The longest line in bytes.
 const MAX_LINE: usize = 1 << 20;
+
+/// Values in all, whether a line of the table gives them or not.
+const MAX_VALUES: usize = 1 << 27;
 
 /// Names of a column of vertex numbers.
 const NUMBERS: [&str; 3] = ["vertex", "source_vertex", "target_vertex"];
 
 pub(super) fn read(bytes: &[u8], vertices: usize) -> Result<VertexTable, Problem> {
     let text = text(bytes)?;
-    let mut lines = text
-        .lines()
-        .enumerate()
-        .map(|(index, line)| (index + 1, line.split('#').next().unwrap_or_default().trim()))
-        .filter(|(_, line)| !line.is_empty())
-        .peekable();
+    let mut lines = content_lines(&text).peekable();
     let Some(&(first, line)) = lines.peek() else {
         return Err((Place::Line(1), "the table is empty".to_owned()));
     };
@@ -39,6 +37,11 @@ pub(super) fn read(bytes: &[u8], vertices: usize) -> Result<VertexTable, Problem
         names = (1..=names.len()).map(|k| k.to_string()).collect();
         Rows::InOrder { heading: Heading::Missing }
     };
+    if names.len().saturating_mul(vertices) > MAX_VALUES {
+        let problem =
+            format!("{} columns for {vertices} vertices are more than {MAX_VALUES} values", names.len());
+        return Err((Place::Line(first), problem));
+    }
     let mut filling = Filling::new(names, vertices);
     for (row, (line, content)) in lines.enumerate() {
         check_length(line, content)?;

@@ -10,4 +10,4 @@ mod tests;
 
 pub use content::{Column, Heading, Rows, TableError, VertexTable};
 pub use number_type::NumberType;
-pub use reading::read;
+pub use reading::{of_ply, read};

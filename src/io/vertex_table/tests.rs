@@ -1,6 +1,7 @@
 //! Tables that are read, and the sentences of those that are not.
 
 use super::*;
+use crate::io::Place;
 
 fn csv(text: &str, vertices: usize) -> Result<VertexTable, String> {
     read(text.as_bytes(), vertices).map_err(|e| e.to_string())
@@ -53,6 +54,30 @@ fn faults_are_told_with_their_line() {
     let long = format!("a\n{}\n", "1,".repeat(1 << 20));
     assert!(csv(&long, 2).unwrap_err().starts_with("line 2: it has 2097152 bytes"), "a long line");
     assert!(read(b"a\n\xff\n", 1).is_err());
+}
+
+#[test]
+fn marks_and_ends_of_lines_are_those_of_every_file() {
+    let wanted = vec![vec![Some(1.5), Some(-2.0)]];
+    let head = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float heat\nend_header\n1.5\n-2\n";
+    for text in ["vertex,heat\r1,-2\r# a\r0,1.5", head] {
+        let marked = format!("\u{feff}{text}");
+        let utf16: Vec<u8> = marked.encode_utf16().flat_map(u16::to_be_bytes).collect();
+        for bytes in [text.as_bytes(), marked.as_bytes(), &utf16] {
+            assert_eq!(values(&read(bytes, 2).unwrap()), wanted, "{text}");
+        }
+    }
+    assert_eq!(read(b"vertex,a\r0,1\r\r0,2\r", 2).unwrap_err().place, Place::Line(4));
+    // A table may have a column of that name.
+    assert_eq!(csv("ply,heat\n1,2\n3,4\n", 2).unwrap().columns.len(), 2);
+}
+
+#[test]
+fn a_heading_does_not_ask_for_much_memory() {
+    let names: Vec<String> = (0..100_000).map(|k| k.to_string()).collect();
+    let table = format!("vertex,{}\n", names.join(","));
+    let told = csv(&table, 1_000_000).unwrap_err();
+    assert_eq!(told, "line 1: 100000 columns for 1000000 vertices are more than 134217728 values");
 }
 
 #[test]

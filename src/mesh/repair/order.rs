@@ -1,21 +1,21 @@
 //! The order of the steps, and the way back to the numbers of the file.
 
 use super::caps::{Capped, capped};
-use super::degenerate::without_degenerate;
+use super::degenerate::{Degenerate, without_degenerate};
 use super::draft::{Draft, DraftFace, FaceOrigin};
 use super::duplicates::without_duplicates;
 use super::handles::{MOST_HANDLES, WithoutHandles, without_handles};
 use super::joining::joined;
-use super::options::{Handles, RepairOptions};
+use super::options::{Handles, Parts, RepairOptions};
 use super::orientation::oriented;
 use super::parts::{DroppedParts, largest};
 use super::refusal::RepairRefusal;
-use super::report::{Change, RepairReport};
+use super::report::{Change, Handle, RepairReport};
 use super::sheets::{Sheets, apart};
 use crate::mesh::check::{CheckedMesh, Elements, MeshFault, RepairedFaces, closed_genus_zero, triangulated};
 use crate::mesh::soup::PolygonSoup;
 use crate::mesh::{FaceId, FileFrame, VertexId};
-use crate::monitor::{Monitor, Step};
+use crate::monitor::{Cancelled, Monitor, Step};
 use typed_index_collections::TiVec;
 
 /// A mesh that can be mapped, and how it came to be.
@@ -41,8 +41,25 @@ pub fn repaired(
 ) -> Result<RepairedMesh, RepairRefusal> {
     let frame = FileFrame::of(soup);
     let options = RepairOptions { join_within: options.join_within / frame.scale(), ..*options };
-    let repaired = repaired_usual(&frame.soup(soup), &options, monitor)?;
+    let mut repaired =
+        repaired_usual(&frame.soup(soup), &options, monitor).map_err(|refusal| match refusal {
+            RepairRefusal::Handles(mut handles) => {
+                to_file(&mut handles, &frame);
+                RepairRefusal::Handles(handles)
+            }
+            other => other,
+        })?;
+    for change in &mut repaired.report.changes {
+        if let Change::CutHandles { handles, .. } = change {
+            to_file(&mut handles.first, &frame);
+        }
+    }
     Ok(RepairedMesh { checked: CheckedMesh { frame, ..repaired.checked }, ..repaired })
+}
+
+/// Tells the places of handles in the file's coordinates.
+fn to_file(handles: &mut [Handle], frame: &FileFrame) {
+    handles.iter_mut().flat_map(|handle| &mut handle.places).for_each(|place| *place = frame.in_file(*place));
 }
 
 /// Repairs a soup of usual coordinates.
@@ -76,20 +93,9 @@ fn steps(
     if draft.faces.is_empty() {
         return Err(RepairRefusal::NothingLeft);
     }
-    monitor.step(Step::default())?;
-    let (draft, sheets) = apart(oriented(draft)?);
-    monitor.step(Step::default())?;
-    let (draft, dropped) = largest(oriented(draft)?, options.parts)?;
-    monitor.step(Step::default())?;
-    let (draft, caps) = capped(draft)?;
-    monitor.step(Step::default())?;
-    // A corner on an edge without a face between leaves a hole without area, whose cap goes as such faces do.
-    let (draft, closed) = without_degenerate(draft);
+    let Closed { draft, sheets, dropped, caps, degenerate: closed, mut cap_share } =
+        closed(draft, options.parts, monitor)?;
     let mut degenerate = degenerate.and(closed);
-    let mut cap_share = caps.as_ref().map_or(0.0, |caps| caps.area_share);
-    if cap_share > MOST_CAP {
-        return Err(RepairRefusal::OpenSheet { cap_share });
-    }
     let mut handles = None;
     let checked = match checked(soup, &draft, in_file) {
         Err(MeshFault::Genus { genus }) => {
@@ -128,6 +134,60 @@ fn steps(
     changes.extend(told_of_all(soup, &checked));
     changes.retain(|change| change.count() > 0);
     Ok(RepairedMesh { checked, report: RepairReport { fault: Some(fault), changes, cap_share } })
+}
+
+/// A surface without holes, whose handles are not looked for yet.
+struct Closed {
+    draft: Draft,
+    sheets: Sheets,
+    dropped: Option<DroppedParts>,
+    caps: Option<Capped>,
+    /// Caps of holes without area.
+    degenerate: Degenerate,
+    /// Share of the area that is caps.
+    cap_share: f64,
+}
+
+/// Turns, takes apart and closes a draft that has neither faces without area nor double ones.
+fn closed(draft: Draft, parts: Parts, monitor: &mut dyn Monitor) -> Result<Closed, RepairRefusal> {
+    monitor.step(Step::default())?;
+    let (draft, sheets) = apart(oriented(draft)?);
+    monitor.step(Step::default())?;
+    let (draft, dropped) = largest(oriented(draft)?, parts)?;
+    monitor.step(Step::default())?;
+    let (draft, caps) = capped(draft)?;
+    monitor.step(Step::default())?;
+    // A corner on an edge without a face between leaves a hole without area, whose cap goes as such faces do.
+    let (draft, degenerate) = without_degenerate(draft);
+    let cap_share = caps.as_ref().map_or(0.0, |caps| caps.area_share);
+    if cap_share > MOST_CAP {
+        return Err(RepairRefusal::OpenSheet { cap_share });
+    }
+    Ok(Closed { draft, sheets, dropped, caps, degenerate, cap_share })
+}
+
+/// The handles of the largest part of such a draft, made of a soup with so many triangles; none where it cannot be closed.
+pub(super) fn handles_of(
+    draft: Draft,
+    soup: &PolygonSoup,
+    in_file: usize,
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<Handle>, Cancelled> {
+    if draft.faces.is_empty() {
+        return Ok(Vec::new());
+    }
+    let refusal = || -> Result<(), RepairRefusal> {
+        let Closed { draft, .. } = closed(draft, Parts::LargestAlone, monitor)?;
+        match checked(soup, &draft, in_file) {
+            Err(MeshFault::Genus { genus }) => cut_handles(draft, genus, Handles::Refused, monitor).map(drop),
+            _ => Ok(()),
+        }
+    };
+    match refusal() {
+        Err(RepairRefusal::Handles(handles)) => Ok(handles),
+        Err(RepairRefusal::Stopped(stop)) => Err(stop),
+        _ => Ok(Vec::new()),
+    }
 }
 
 /// The draft without its handles, where they may be cut.

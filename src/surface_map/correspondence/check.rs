@@ -1,14 +1,15 @@
 //! Whether pieces are a map: what is read from a file is not trusted.
 //!
-//! The pieces must be a sphere (every side of a piece has a partner that runs the other way, and V - E + F = 2), lie in their
-//! faces, be turned the right way, cover every face of both meshes once, and have matrices that carry their corners. Then every
-//! point of either mesh has an image.
+//! The pieces must be a sphere (every side of a piece is run once the other way by another piece, the pieces hang together across
+//! sides, and V - E + F = 2), lie in their faces, be turned the right way, cover every face of both meshes once, and have matrices
+//! that carry their corners. Then every point of either mesh has an image. Without the first, one sphere of pieces could cover the
+//! source and shrink to a point of the target, and another the other way round.
 
 use super::pieces::{Correspondence, share};
 use crate::landmarks::MeshSide;
+use crate::math::disjoint_sets::DisjointSets;
 use crate::mesh::{FaceId, SurfaceMesh};
 use glam::{DMat2, DVec2};
-use rustc_hash::FxHashMap;
 use typed_index_collections::{TiVec, ti_vec};
 
 /// What of a face the pieces in it may miss or cover twice. Pieces share their corners, so that only the sum rounds.
@@ -45,11 +46,19 @@ pub enum CorrespondenceFault {
         /// The vertex.
         vertex: usize,
     },
-    /// A side that only one piece has.
+    /// A side that only one piece has, or more than two.
     #[error("the pieces do not fit together at the side between overlay vertices {} and {}", side[0], side[1])]
     Side {
         /// Its ends.
         side: [u32; 2],
+    },
+    /// Pieces in several parts.
+    #[error("the pieces do not hang together: {reached} of {pieces} are joined across their sides")]
+    Parts {
+        /// Pieces that are joined with the first one.
+        reached: usize,
+        /// All pieces.
+        pieces: usize,
     },
     /// Not a sphere.
     #[error("the pieces have Euler characteristic {euler} instead of 2")]
@@ -126,32 +135,55 @@ pub fn check(meshes: [&SurfaceMesh; 2], map: &Correspondence) -> Result<(), Corr
 
 /// Whether the pieces are a closed surface of genus 0.
 fn check_sphere(map: &Correspondence) -> Result<(), CorrespondenceFault> {
-    // By side of a piece, its smaller end first, how often it is run forwards more than backwards.
-    let mut balance: FxHashMap<[u32; 2], i32> = FxHashMap::default();
-    balance.reserve(map.corners.len() / 2);
     let mut is_used = vec![false; map.vertices.len()];
     for (number, piece) in map.pieces.iter().enumerate() {
         let ring = &map.corners[piece.corners.clone()];
         if ring.len() < 2 {
             return Err(CorrespondenceFault::Corners { piece: number, corners: ring.len() });
         }
-        for (k, &a) in ring.iter().enumerate() {
-            let b = ring[(k + 1) % ring.len()];
-            is_used[a as usize] = true;
-            *balance.entry([a.min(b), a.max(b)]).or_default() += if a < b { 1 } else { -1 };
-        }
+        ring.iter().for_each(|&v| is_used[v as usize] = true);
     }
     if let Some(vertex) = is_used.iter().position(|used| !used) {
         return Err(CorrespondenceFault::Unused { vertex });
     }
-    // The least of the sides at fault: no result depends on the order of a hash map.
-    let lone = balance.into_iter().filter(|(_, sum)| *sum != 0).map(|(side, _)| side).min();
-    if let Some(side) = lone {
-        return Err(CorrespondenceFault::Side { side });
-    }
+    check_parts(map)?;
+    // The surface that the sides join has at most 2, as it is connected. A vertex where several fans of pieces only touch makes V
+    // smaller than that surface's, so that there is none. A piece of two corners adds a side and itself.
     let edges = map.corners.len() as i64 / 2;
     let euler = map.vertices.len() as i64 - edges + map.pieces.len() as i64;
     if euler == 2 { Ok(()) } else { Err(CorrespondenceFault::NotASphere { euler }) }
+}
+
+/// Whether every side is run once in each direction, and all pieces hang together across sides. A piece of two corners lies along
+/// a side of others, which meet there as if it were not.
+fn check_parts(map: &Correspondence) -> Result<(), CorrespondenceFault> {
+    let ring = |number: usize| &map.corners[map.pieces[number].corners.clone()];
+    let wrong = |[a, b]: [u32; 2]| CorrespondenceFault::Side { side: [a.min(b), a.max(b)] };
+    let mut runs: Vec<([u32; 2], usize)> = Vec::with_capacity(map.corners.len());
+    for number in (0..map.pieces.len()).filter(|&number| ring(number).len() > 2) {
+        let ends = ring(number).iter().zip(ring(number).iter().cycle().skip(1));
+        runs.extend(ends.map(|(&a, &b)| ([a, b], number)));
+    }
+    runs.sort_unstable();
+    if let Some(twice) = runs.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+        return Err(wrong(twice[0].0));
+    }
+    let on_side = |side: [u32; 2]| {
+        let found = runs.binary_search_by_key(&side, |run| run.0);
+        found.map(|k| runs[k].1).map_err(|_| wrong(side))
+    };
+    let mut sets = DisjointSets::new(map.pieces.len());
+    for &([a, b], number) in &runs {
+        sets.join(number, on_side([b, a])?);
+    }
+    for number in 0..map.pieces.len() {
+        if let &[a, b] = ring(number) {
+            sets.join(number, on_side([a, b])?);
+        }
+    }
+    let pieces = map.pieces.len();
+    let reached = (0..pieces).filter(|&number| sets.root(number) == sets.root(0)).count();
+    if reached == pieces { Ok(()) } else { Err(CorrespondenceFault::Parts { reached, pieces }) }
 }
 
 /// Whether a matrix is invertible, keeps the orientation, and carries the corners of a piece from one face to the other.

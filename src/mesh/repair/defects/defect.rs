@@ -1,5 +1,6 @@
 //! What is wrong with a mesh, by kind.
 
+use crate::mesh::FileFrame;
 use crate::mesh::check::Triangle;
 use glam::DVec3;
 use serde::Serialize;
@@ -106,6 +107,8 @@ impl fmt::Display for DefectGroup {
 /// What is wrong with a mesh, with what is needed to show it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Defects {
+    /// From the positions to the file's coordinates; that of the mesh which a repair makes of the file.
+    pub frame: FileFrame,
     /// The file's vertices by their numbers there, then vertices of caps.
     pub positions: Vec<DVec3>,
     /// The triangulated file's faces by their numbers there, with vertices at one place joined and turned until neighbours agree

@@ -4,8 +4,8 @@ use super::super::degenerate::without_degenerate;
 use super::super::draft::{Draft, DraftFace, Edge, NONE, across, edges, parts};
 use super::super::duplicates::without_duplicates;
 use super::super::joining::joined;
-use super::super::options::{Handles, Parts, RepairOptions};
-use super::super::order::{drafted, repaired};
+use super::super::options::RepairOptions;
+use super::super::order::{drafted, handles_of};
 use super::super::orientation::{Turns, oriented, turns};
 use super::super::parts::areas;
 use super::super::refusal::RepairRefusal;
@@ -14,9 +14,10 @@ use super::super::sheets::apart;
 use super::chains::chains;
 use super::defect::{Defect, DefectKind, Defects};
 use crate::math::disjoint_sets::DisjointSets;
+use crate::mesh::FileFrame;
 use crate::mesh::check::is_degenerate;
 use crate::mesh::soup::PolygonSoup;
-use crate::monitor::{Cancelled, Monitor};
+use crate::monitor::Monitor;
 use glam::DVec3;
 use rustc_hash::FxHashSet;
 
@@ -29,8 +30,11 @@ pub fn defects(
     options: &RepairOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Defects, RepairRefusal> {
-    let draft = joined(drafted(soup)?, options.join_within);
+    let frame = FileFrame::of(soup);
+    let soup = &*frame.soup(soup);
+    let draft = joined(drafted(soup)?, options.join_within / frame.scale());
     let mut found = Defects {
+        frame,
         positions: soup.positions.clone(),
         triangles: draft.faces.iter().map(|face| face.corners).collect(),
         file_vertices: soup.positions.len(),
@@ -55,8 +59,12 @@ pub fn defects(
     found.add(DefectKind::OneSidedSeam, lines(&edges, |edge| torn.contains(&edge.ends)));
     found.add(DefectKind::TurnedPatch, patches(&draft, &edges, &turns));
     let pinched = pinched_vertices(&draft, &edges);
+    let handles = if torn.is_empty() {
+        handles_of(draft.clone(), soup, found.triangles.len(), monitor)?
+    } else {
+        Vec::new()
+    };
     found.add(DefectKind::LoosePart, loose_parts(draft));
-    let handles = if torn.is_empty() { handles(soup, options, monitor)? } else { Vec::new() };
     let loops = handles.iter().map(|handle| loop_of(&mut found, handle)).collect();
     found.add(DefectKind::HandleLoop, loops);
     found.add(DefectKind::PinchedVertex, pinched);
@@ -180,20 +188,6 @@ fn loose_parts(draft: Draft) -> Vec<Defect> {
     order.sort_by(|&a, &b| areas[b].total_cmp(&areas[a]));
     let loose = order.into_iter().skip(1);
     loose.map(|p| Defect { lines: Vec::new(), faces: std::mem::take(&mut faces[p]) }).collect()
-}
-
-/// The handles that a repair would have to cut; none where it does not get as far.
-fn handles(
-    soup: &PolygonSoup,
-    options: &RepairOptions,
-    monitor: &mut dyn Monitor,
-) -> Result<Vec<Handle>, Cancelled> {
-    let uncut = RepairOptions { parts: Parts::LargestAlone, handles: Handles::Refused, ..*options };
-    match repaired(soup, &uncut, monitor) {
-        Err(RepairRefusal::Handles(handles)) => Ok(handles),
-        Err(RepairRefusal::Stopped(stop)) => Err(stop),
-        _ => Ok(Vec::new()),
-    }
 }
 
 /// The loop of a handle; where it passes over a cap, its vertices become positions.

@@ -1,7 +1,7 @@
 use super::*;
 use crate::math::scalar::{cos, sin};
 use crate::mesh::generators::{icosphere, torus};
-use crate::mesh::repair::{RepairOptions, repaired};
+use crate::mesh::repair::{Change, Handle, Handles, Parts, RepairOptions, RepairRefusal, repaired};
 use crate::mesh::soup::PolygonSoup;
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::Silent;
@@ -227,4 +227,60 @@ fn of_very_many_defects_the_first_are_given_and_all_are_counted() {
     let long = DefectGroup::new(DefectKind::OpenRim, vec![line(MOST_POINTS + 10), line(5)]).unwrap();
     let drawn: Vec<usize> = long.defects.iter().map(|defect| defect.lines[0].len()).collect();
     assert_eq!((drawn, long.count), (vec![MOST_POINTS, 0], 2));
+}
+
+/// A soup with every kind of defect at other places and of another size; all numbers stay exact.
+fn placed(soup: &PolygonSoup, factor: f64, shift: DVec3) -> PolygonSoup {
+    let grid = 1048576.0;
+    let at = |p: &DVec3| (*p * grid).round() / grid * factor + shift;
+    PolygonSoup { positions: soup.positions.iter().map(at).collect(), ..soup.clone() }
+}
+
+#[test]
+fn the_same_is_found_of_meshes_of_any_size_and_far_from_the_origin() {
+    let mut soup = beside(&soup_of(&torus(16, 7)), &soup_of(&icosphere(1)), DVec3::X * 9.0);
+    soup.polygons[20].reverse();
+    let [a, b] = [soup.polygons[5][0], soup.polygons[5][1]];
+    soup.polygons.extend([vec![a, b, a], soup.polygons[9].clone()]);
+    let usual = placed(&soup, 1.0, DVec3::ZERO);
+    let expected = found(&usual);
+    assert!(
+        expected.of(DefectKind::HandleLoop).is_some() && expected.groups.len() == 5,
+        "{:?}",
+        kinds(&expected)
+    );
+    let uncut = RepairOptions { parts: Parts::LargestAlone, ..RepairOptions::default() };
+    let cut = RepairOptions { handles: Handles::Cut, ..uncut };
+    for (factor, shift) in [
+        (1.0, DVec3::new(1e8, -3e7, 0.0)),
+        (power_of_two(200), DVec3::ZERO),
+        (power_of_two(-200), DVec3::ZERO),
+        (power_of_two(320), DVec3::ZERO),
+    ] {
+        let soup = placed(&soup, factor, shift);
+        let found = found(&soup);
+        assert_eq!((&found.groups, &found.triangles), (&expected.groups, &expected.triangles));
+        let in_file: Vec<DVec3> = found.positions.iter().map(|p| found.frame.in_file(*p)).collect();
+        assert_eq!(in_file, soup.positions);
+        for group in &found.groups {
+            let [here, there] =
+                [&found, &expected].map(|of| of.outlook(&group.defects[0], &of.normals()).unwrap());
+            assert!(here.normal.distance(there.normal) < 1e-6, "{:?}: {here:?} {there:?}", group.kind);
+        }
+        // Places of handles are the file's, in a refusal and in a report.
+        let places_of =
+            |handle: &Handle| -> Vec<DVec3> { handle.vertices.iter().map(|&v| soup.positions[v]).collect() };
+        let Err(RepairRefusal::Handles(handles)) = repaired(&soup, &uncut, &mut Silent) else { panic!() };
+        assert!(handles.iter().all(|handle| handle.places == places_of(handle)), "{handles:?}");
+        let report = repaired(&soup, &cut, &mut Silent).unwrap().report;
+        let told = report.changes.iter().find_map(|change| match change {
+            Change::CutHandles { handles, .. } => Some(&handles.first),
+            _ => None,
+        });
+        assert!(told.unwrap().iter().all(|handle| handle.places == places_of(handle)), "{told:?}");
+    }
+}
+
+fn power_of_two(exponent: i32) -> f64 {
+    2.0_f64.powi(exponent)
 }
