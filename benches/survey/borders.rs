@@ -4,19 +4,15 @@
 use crate::arguments::Arguments;
 use crate::case::Limit;
 use crate::common::{self, Pair};
-use crate::cutting::{CutMesh, Cuts, Kept, Plane};
+use crate::cutting::{Cuts, Kept, Open, Plane, rim_distances};
 use conemap::geodesic::distances;
 use conemap::landmarks::Landmarks;
-use conemap::mesh::check::CheckedMesh;
-use conemap::mesh::repair::{RepairOptions, repaired};
-use conemap::mesh::{FaceId, SurfaceMesh, VertexId};
-use conemap::monitor::Silent;
+use conemap::mesh::{FaceId, VertexId};
 use conemap::pipeline::{
     BorderCase, Borders, CapFaces, GroundTruth, MapInput, MapResult, PipelineOptions, run,
 };
 use conemap::surface_map::correspondence;
 use cpu_time::ThreadTime;
-use glam::DVec3;
 use typed_index_collections::TiVec;
 
 /// A cut by a plane through vertices of a source, with the end that it cuts off.
@@ -83,12 +79,6 @@ const VARIANTS: [Variant; 6] = [
     Variant { name: "neck, limb", limb: true, ..USUAL },
 ];
 
-/// A mesh that was cut and capped.
-struct Open {
-    cut: CutMesh,
-    checked: CheckedMesh,
-}
-
 /// Distances in units of the root of the area of the mesh on which they are.
 struct Reached {
     certified: bool,
@@ -110,7 +100,16 @@ struct Reached {
 pub fn cut(arguments: &Arguments) {
     println!(
         "{:14} {:11} {:13} {:13} {:>8} {:>8} {:>15} {:>15} {:>8} {:>7}  misfit",
-        "pair", "cut", "borders", "case", "E", "closed", "rim %: mean max", "near % closed", "hidden %", "cpu s"
+        "pair",
+        "cut",
+        "borders",
+        "case",
+        "E",
+        "closed",
+        "rim %: mean max",
+        "near % closed",
+        "hidden %",
+        "cpu s"
     );
     let wanted = |list: &[String], name: &str| list.is_empty() || list.iter().any(|n| n == name);
     let places: std::collections::VecDeque<&Places> =
@@ -124,7 +123,8 @@ pub fn cut(arguments: &Arguments) {
                     let Some(places) = next else { break };
                     let pair = common::read_pair(&arguments.data, places.pair);
                     let closed = closed_map(arguments, &pair);
-                    for variant in VARIANTS.iter().filter(|variant| wanted(&arguments.variants, variant.name)) {
+                    for variant in VARIANTS.iter().filter(|variant| wanted(&arguments.variants, variant.name))
+                    {
                         of_variant(arguments, (&pair, places), &closed, variant);
                     }
                 }
@@ -148,9 +148,7 @@ fn of_variant(
     let cuts = cuts(pair, places, closed, variant);
     let sides = [0, 1].map(|k| {
         let mesh = [&pair.source, &pair.target][k];
-        let cut = cuts[k].cut(mesh, variant.kept, if k == 0 { 1 } else { variant.parts });
-        let repaired = repaired(&cut.soup, &RepairOptions::default(), &mut Silent);
-        Open { checked: repaired.expect("a cut mesh can be capped").checked, cut }
+        Open::new(cuts[k].cut(mesh, variant.kept, if k == 0 { 1 } else { variant.parts }))
     });
     let is_left = |k: usize, v: u32| cuts[k].is_beyond(VertexId(v)) == (variant.kept == Kept::Ends);
     let mut pairs = common::vertex_pairs(&pair.file);
@@ -166,7 +164,13 @@ fn of_variant(
         let result = map(&sides, &pairs, &options, arguments.time_limit);
         let seconds = begun.elapsed().as_secs_f64();
         let reached = result.map(|result| measured(pair, &cuts, &sides, [&result, closed], variant));
-        println!("{:14} {:11} {:13} {}", pair.name, variant.name, format!("{borders:?}"), line(&reached, seconds));
+        println!(
+            "{:14} {:11} {:13} {}",
+            pair.name,
+            variant.name,
+            format!("{borders:?}"),
+            line(&reached, seconds)
+        );
         if borders == Borders::Guess && reached.is_ok_and(|r| r.case == BorderCase::Corresponding) {
             break;
         }
@@ -195,7 +199,7 @@ fn cuts(pair: &Pair, places: &Places, closed: &MapResult, variant: &Variant) -> 
     let mut on_target = Vec::new();
     for (number, plane) in planes(0.0).into_iter().enumerate() {
         let cut = Cuts::new(&pair.source, &[plane]);
-        let rim: Vec<DVec3> = cut.edges().map(|([a, b], share)| image(a).lerp(image(b), share)).collect();
+        let rim = cut.rim_under(image);
         let end = vertex_pairs.iter().find(|[s, _]| VertexId(*s) == plane.1).expect("ends are landmarks")[1];
         let moved = if number == 0 { variant.moved * unit } else { 0.0 };
         let end = VertexId(end);
@@ -244,33 +248,12 @@ fn measured(
     Reached {
         certified: report.certificate.as_ref().is_some_and(|c| c.bijective),
         energy: [report.distortion.energy, on_skin.energy],
-        rims: rims(sides, result),
+        rims: rim_distances(sides, result),
         errors: errors(pair, sides, [result, closed]),
         hidden: report.coverage.as_ref().map_or(f64::NAN, |coverage| coverage.hidden),
         case: borders.case,
         misfits: borders.rims.iter().map(|pair| pair.misfit).collect(),
     }
-}
-
-/// Mean and largest distance of rims' images to the other mesh' rims, the worse of both directions.
-fn rims(sides: &[Open; 2], result: &MapResult) -> [f64; 2] {
-    let map = result.correspondence.as_ref().expect("a map of two meshes has pieces");
-    let meshes: [&SurfaceMesh; 2] = [&sides[0].checked.mesh, &sides[1].checked.mesh];
-    let mut worst = [0.0_f64; 2];
-    for k in 0..2 {
-        let (own, other) = (&sides[k], &sides[1 - k]);
-        let images = map.vertex_images(meshes, k);
-        let unit = 1.0 / meshes[1 - k].area().sqrt();
-        let far = own.cut.rim_vertices().into_iter().map(|v| {
-            let v = own.checked.vertex_from_file[v as usize].expect("rims are there");
-            let image = images[v].expect("every vertex has an image");
-            unit * other.cut.distance_to_rim(image.position(meshes[1 - k]))
-        });
-        let far: Vec<f64> = far.collect();
-        let mean = far.iter().sum::<f64>() / far.len() as f64;
-        worst = [worst[0].max(mean), worst[1].max(far.iter().copied().fold(0.0, f64::max))];
-    }
-    worst
 }
 
 /// Mean distance from the truth of the source's vertices near its rims, cut and closed.

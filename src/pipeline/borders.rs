@@ -24,7 +24,7 @@ const LARGE: f64 = 0.15;
 const SOFTENING: f64 = 0.08;
 /// Rims correspond up to this mean absolute log ratio of the landmarks' distances; those of two animals cut at their necks have up to
 /// 0.15, those of different limbs more than 0.5.
-const FITTING: f64 = 0.25;
+const FITTING: f64 = 0.15;
 /// Rims correspond up to this log ratio of their lengths. Chosen by hand.
 const ALIKE: f64 = 0.8;
 
@@ -234,4 +234,82 @@ fn corresponding([source, target]: [&Borderline; 2], borders: Borders) -> Vec<Ri
         }
     }
     taken
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::landmarks::Landmarks;
+    use crate::mesh::generators::icosphere;
+    use crate::monitor::Silent;
+    use crate::pipeline::{CapFaces, GroundTruth};
+    use glam::DVec3;
+
+    /// A ball with caps around points, each within a cosine.
+    fn caps(ball: &SurfaceMesh, around: &[(DVec3, f64)]) -> TiVec<FaceId, bool> {
+        let middle = |f: FaceId| ball.corners(f).iter().sum::<DVec3>().normalize();
+        ball.faces().map(|f| around.iter().any(|(p, cosine)| middle(f).dot(*p) > *cosine)).collect()
+    }
+
+    /// The borders of two balls with caps, and the tolls of their faces that are not 0, as shares of all faces.
+    fn told(
+        ball: &SurfaceMesh,
+        is_cap: [&TiVec<FaceId, bool>; 2],
+        borders: Borders,
+    ) -> (BordersReport, [f64; 2]) {
+        let around = |p: DVec3| {
+            let nearest = |a: &VertexId, b: &VertexId| {
+                ball.positions()[*a].dot(p).total_cmp(&ball.positions()[*b].dot(p))
+            };
+            ball.vertices().max_by(nearest).unwrap().0
+        };
+        let pairs: Vec<[u32; 2]> = (0..12)
+            .map(|k| around(crate::math::golden::direction(k).extend(0.1 * (k % 5) as f64)))
+            .map(|v| [v, v])
+            .collect();
+        let landmarks = Landmarks::from_vertices(ball, ball, &pairs).unwrap();
+        let input = MapInput {
+            source: ball,
+            target: ball,
+            landmarks: &landmarks,
+            ground_truth: GroundTruth::Unknown,
+            caps: CapFaces { source: Some(is_cap[0]), target: Some(is_cap[1]) },
+        };
+        let options = PipelineOptions { borders, ..PipelineOptions::default() };
+        let CountedCaps { weights, report } = counted_caps(input, &options, &mut Silent).unwrap();
+        let tolled = weights.map(|weights| {
+            let weights = weights.unwrap();
+            assert!(weights.iter().all(|w| w.toll == 0.0 || w.toll == options.multilevel.border_toll));
+            weights.iter().filter(|w| w.toll > 0.0).count() as f64 / weights.len() as f64
+        });
+        (report.unwrap(), tolled)
+    }
+
+    #[test]
+    fn large_rims_with_landmarks_that_agree_are_guessed_to_correspond() {
+        let ball = icosphere(4);
+        let (above, small) = ((DVec3::Z, 0.8), (DVec3::NEG_Z, 0.998));
+        let both = caps(&ball, &[above, small]);
+        let (report, tolled) = told(&ball, [&both, &both], Borders::Guess);
+        assert_eq!((report.case, report.rims.len()), (BorderCase::Corresponding, 1));
+        assert!(report.rims[0].misfit < 1e-12 && report.rims[0].source.length > LARGE);
+        // The cap above: a tenth of the ball.
+        assert!(tolled.iter().all(|share| (0.08..0.12).contains(share)), "{tolled:?}");
+        // Small ones that fit count where the user says so.
+        let (report, more) = told(&ball, [&both, &both], Borders::Corresponding);
+        assert!(report.rims.len() == 2 && more[0] > tolled[0], "{report:?}");
+        let (report, none) = told(&ball, [&both, &both], Borders::Missing);
+        assert_eq!((report.case, none), (BorderCase::Missing, [0.0; 2]));
+    }
+
+    #[test]
+    fn rims_at_different_places_correspond_only_where_the_user_says_so() {
+        let ball = icosphere(4);
+        let (above, beside) = (caps(&ball, &[(DVec3::Z, 0.8)]), caps(&ball, &[(DVec3::X, 0.8)]));
+        let (report, tolled) = told(&ball, [&above, &beside], Borders::Guess);
+        assert_eq!((report.case, tolled), (BorderCase::Missing, [0.0; 2]));
+        let (report, _) = told(&ball, [&above, &beside], Borders::Corresponding);
+        assert_eq!((report.case, report.rims.len()), (BorderCase::Corresponding, 1));
+        assert!(report.rims[0].misfit > 2.0 * FITTING, "{report:?}");
+    }
 }

@@ -243,6 +243,23 @@ mod tests {
     use super::*;
 
     #[test]
+    fn borders_are_told_where_they_are_not_what_the_user_said() {
+        let of = |case, asked| Warning::of_borders(&BordersReport { case, asked, rims: Vec::new() });
+        let (missing, corresponding) = (BorderCase::Missing, BorderCase::Corresponding);
+        assert_eq!(of(corresponding, Borders::Guess), Some(Warning::GuessedBorders { rims: 0 }));
+        assert_eq!(of(missing, Borders::Corresponding), Some(Warning::NoCorrespondingBorders));
+        assert_eq!(of(missing, Borders::Guess), None);
+        assert_eq!(of(missing, Borders::Missing), None);
+        assert_eq!(of(corresponding, Borders::Corresponding), None);
+        let value = serde_json::to_value(Warning::GuessedBorders { rims: 2 }).unwrap();
+        assert_eq!((&value["kind"], &value["value"]), (&"guessed_borders".into(), &2.0.into()));
+        assert!(
+            value["sentence"].as_str().unwrap().starts_with("2 large holes of each mesh have"),
+            "{value}"
+        );
+    }
+
+    #[test]
     fn reports_tell_kind_sentence_and_numbers() {
         let value = serde_json::to_value(Warning::RivalClass { ratio: 1.02 }).unwrap();
         assert_eq!((&value["kind"], &value["value"]), (&"rival_class".into(), &1.02.into()));

@@ -1,8 +1,13 @@
 //! Meshes cut by planes, as at a neck.
 #![allow(dead_code, reason = "every test binary uses another part")]
 
+use conemap::math::scalar::{cos, sin};
+use conemap::mesh::check::CheckedMesh;
+use conemap::mesh::repair::{RepairOptions, repaired};
 use conemap::mesh::soup::PolygonSoup;
 use conemap::mesh::{FaceId, SurfaceMesh, VertexId};
+use conemap::monitor::Silent;
+use conemap::pipeline::MapResult;
 use glam::DVec3;
 use std::collections::BTreeMap;
 use typed_index_collections::TiVec;
@@ -34,12 +39,12 @@ impl Plane {
     pub fn nearest(points: &[DVec3], end: DVec3) -> Self {
         let point = points.iter().sum::<DVec3>() / points.len() as f64;
         let mut normal = DVec3::ZERO;
-        // The axis of the loop that the points make in order of their angle is not known; the least spread is found by turning.
+        // The least spread among directions all around.
         let mut least = f64::INFINITY;
         for k in 0..20_000 {
             let z = 1.0 - (k as f64 + 0.5) / 10_000.0;
             let (around, round) = (2.399_963_229_728_653 * k as f64, (1.0 - z * z).max(0.0).sqrt());
-            let axis = DVec3::new(round * around.cos(), round * around.sin(), z);
+            let axis = DVec3::new(round * cos(around), round * sin(around), z);
             let spread: f64 = points.iter().map(|p| (*p - point).dot(axis).powi(2)).sum();
             if spread < least {
                 (least, normal) = (spread, axis);
@@ -68,6 +73,12 @@ pub struct CutMesh {
     pub soup: PolygonSoup,
     /// By edge of the rims its vertices.
     pub rim: Vec<[u32; 2]>,
+}
+
+/// A mesh that was cut, and capped.
+pub struct Open {
+    pub cut: CutMesh,
+    pub checked: CheckedMesh,
 }
 
 /// What is kept of a mesh that is cut.
@@ -111,9 +122,9 @@ impl Cuts {
         Self { beyond, shares }
     }
 
-    /// The edges that are cut, the smaller vertex first, each with the share of the way from there to the cut.
-    pub fn edges(&self) -> impl Iterator<Item = ([VertexId; 2], f64)> + '_ {
-        self.shares.iter().map(|(ends, &share)| (*ends, share))
+    /// Where the rims' vertices go by a map of the vertices, as if it were linear along the edges that are cut.
+    pub fn rim_under(&self, image: impl Fn(VertexId) -> DVec3) -> Vec<DVec3> {
+        self.shares.iter().map(|([a, b], &share)| image(*a).lerp(image(*b), share)).collect()
     }
 
     pub fn is_beyond(&self, v: VertexId) -> bool {
@@ -202,4 +213,43 @@ impl CutMesh {
         };
         self.rim.iter().map(to_edge).fold(f64::INFINITY, f64::min)
     }
+}
+
+impl Open {
+    pub fn new(cut: CutMesh) -> Self {
+        let repaired = repaired(&cut.soup, &RepairOptions::default(), &mut Silent);
+        Self { checked: repaired.expect("a cut mesh can be capped").checked, cut }
+    }
+
+    /// The vertex of the capped mesh that a vertex of the cut one is.
+    pub fn vertex(&self, v: u32) -> VertexId {
+        self.checked.vertex_from_file[v as usize].expect("the vertex was not cut off")
+    }
+}
+
+/// Mean along the rims, and largest, distance of their images to the other mesh's rims, in units of the root of its area; the worse of both
+/// directions.
+pub fn rim_distances(sides: &[Open; 2], result: &MapResult) -> [f64; 2] {
+    let map = result.correspondence.as_ref().expect("a map of two meshes has pieces");
+    let meshes: [&SurfaceMesh; 2] = [&sides[0].checked.mesh, &sides[1].checked.mesh];
+    let mut worst = [0.0_f64; 2];
+    for k in 0..2 {
+        let (own, other) = (&sides[k], &sides[1 - k]);
+        let images = map.vertex_images(meshes, k);
+        let unit = 1.0 / meshes[1 - k].area().sqrt();
+        let far = |v: u32| {
+            let image = images[own.vertex(v)].expect("every vertex has an image");
+            unit * other.cut.distance_to_rim(image.position(meshes[1 - k]))
+        };
+        let (mut sum, mut length, mut largest) = (0.0, 0.0, 0.0_f64);
+        for ends in &own.cut.rim {
+            let [a, b] = ends.map(|v| own.cut.soup.positions[v as usize]);
+            let [from, to] = ends.map(far);
+            sum += 0.5 * (from + to) * a.distance(b);
+            length += a.distance(b);
+            largest = largest.max(from).max(to);
+        }
+        worst = [worst[0].max(sum / length), worst[1].max(largest)];
+    }
+    worst
 }

@@ -14,6 +14,8 @@ mod classes;
 mod command_line;
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/cutting.rs"]
+mod cutting;
 #[path = "../common/distance_bounds.rs"]
 mod distance_bounds;
 #[path = "../common/fit.rs"]
@@ -40,6 +42,7 @@ macro_rules! tests {
 
 mod bad_input;
 mod base;
+mod borders;
 #[cfg(feature = "cli")]
 mod cli;
 mod clicks;
@@ -68,6 +71,7 @@ type Test = fn(&Path);
 fn modules() -> Vec<(&'static str, Vec<(&'static str, Test)>)> {
     vec![
         ("base", base::tests()),
+        ("borders", borders::tests()),
         ("landmark_fit", landmark_fit::tests()),
         ("landmark_matching", landmark_matching::tests()),
         ("pipeline", pipeline::tests()),

@@ -113,8 +113,9 @@ mod tests {
     fn a_toll_is_paid_for_the_area_on_both_meshes() {
         for energy in KINDS {
             for j in samples() {
-                let density =
-                    |toll: f64| WeightedEnergy { energy, counted: PieceWeight { weight: 0.3, toll } }.density(&j);
+                let density = |toll: f64| {
+                    WeightedEnergy { energy, counted: PieceWeight { weight: 0.3, toll } }.density(&j)
+                };
                 let paid = density(0.5) - density(0.0);
                 let areas = 1.0 + j.determinant();
                 assert!((paid - 0.25 * energy.isometry() * areas).abs() < 1e-12 * density(0.5), "{paid}");

@@ -2,7 +2,7 @@
 
 use crate::math::quantile::{Weighted, quantile, sort_by_value};
 use crate::math::rigid2;
-use crate::math::scalar::ln;
+use crate::math::scalar::{ln, min};
 use crate::math::triangle::hat_gradients;
 use crate::mesh::face_weights::{FaceWeights, PieceWeight, piece_weight};
 use crate::mesh::{FaceId, VertexId};
@@ -110,24 +110,28 @@ impl Evaluation {
         part.sum()
     }
 
-    /// Half the sum of the weighted means of the density's logarithm over both surfaces. A piece that pays a toll counts by it, as what
-    /// costs one and a half times an isometry: that is an isometry with a toll of 1.
+    /// Half the sum of the weighted means of the density's logarithm over both surfaces. What its weight takes from a piece that pays a
+    /// toll t counts as what an isometry with that toll costs: 1 + t / 2 times an isometry.
     pub fn mean_log(&self) -> f64 {
         let (mut sums, mut areas) = ([0.0; 2], [0.0; 2]);
         let pieces = self.overlay.pieces().iter().zip(&self.onto_rest).zip(&self.weights);
-        let of_toll = ln(1.5);
         for ((piece, c), counted) in pieces {
             let a = &self.jacobians[piece.source_face.index()];
             let j = *c * *a;
             let whole = piece.area / a.determinant();
             // With equal areas the distortion is the density.
             let log = ln(MapEnergy::POSES.distortion(&j));
-            for (weight, log) in [(counted.weight, log), (counted.toll, of_toll)] {
+            let PieceWeight { weight, toll } = *counted;
+            let mut add = |weight: f64, log: f64| {
                 let area = weight * whole;
                 for (k, area) in [area, area * j.determinant()].into_iter().enumerate() {
                     sums[k] += log * area;
                     areas[k] += area;
                 }
+            };
+            add(weight, log);
+            if toll > 0.0 {
+                add((1.0 - weight) * min(toll, 1.0), ln(1.0 + 0.5 * toll));
             }
         }
         0.5 * (sums[0] / areas[0] + sums[1] / areas[1])
