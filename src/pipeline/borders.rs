@@ -22,8 +22,8 @@ const MOST_RIMS: usize = 12;
 const LARGE: f64 = 0.15;
 /// Added to distances before ratios are taken, in units of the root of the area: nearer landmarks say little.
 const SOFTENING: f64 = 0.08;
-/// Rims correspond up to this mean absolute log ratio of the landmarks' distances; those of two animals cut at their necks have up to
-/// 0.15, those of different limbs more than 0.5.
+/// Rims are guessed to correspond up to this mean absolute log ratio of the landmarks' distances. Two animals cut at the same place of
+/// the neck have 0.06 to 0.11, two poses of one 0.02 to 0.04; cuts that are 4 % of the root of the area apart have 0.14 to 0.24.
 const FITTING: f64 = 0.15;
 /// Rims correspond up to this log ratio of their lengths. Chosen by hand.
 const ALIKE: f64 = 0.8;
