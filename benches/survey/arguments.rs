@@ -87,6 +87,7 @@ impl Arguments {
                 "--relief-strength" => arguments.options.multilevel.rigid_patches.strength = number(),
                 "--relief-radius" => arguments.options.multilevel.rigid_patches.radii[1] = number(),
                 "--cap-weight" => arguments.options.multilevel.cap_weight = number(),
+                "--toll" => arguments.options.multilevel.border_toll = number(),
                 "--rim-vertices" => arguments.options.multilevel.rims.each = number() as usize,
                 "--growth" => arguments.options.multilevel.growth = number(),
                 "--own" => arguments.options.own_cones.count = number() as usize,

@@ -8,12 +8,15 @@
 
 #[path = "../../tests/common/mod.rs"]
 mod common;
+#[path = "../../tests/common/cutting.rs"]
+mod cutting;
 #[path = "../../tests/common/punching.rs"]
 mod punching;
 #[path = "../../tests/common/quads.rs"]
 mod quads;
 
 mod arguments;
+mod borders;
 mod case;
 mod classes;
 mod clicks;
@@ -80,6 +83,11 @@ const SURVEYS: &[Survey] = &[
         name: "holes",
         about: "poses with holes punched and capped, against the closed pairs; --variants 'foot 0.5','limb 10',... --cap-weight 1 counts caps like skin",
         run: holes::punched,
+    },
+    Survey {
+        name: "borders",
+        about: "both meshes cut at the neck: rim to rim, errors beside it, against the closed pair; --variants head,'neck, limb',... --toll 0.5",
+        run: borders::cut,
     },
     Survey {
         name: "wrap",

@@ -1,7 +1,7 @@
 //! A mesh of area 1 with its landmarks and room for a layout around them.
 
 use crate::landmarks::LandmarkId;
-use crate::mesh::face_weights::FaceWeights;
+use crate::mesh::face_weights::{FaceWeight, FaceWeights};
 use crate::mesh::{FaceId, MeshError, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
 use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
 use typed_index_collections::{TiSlice, TiVec};
@@ -21,13 +21,13 @@ pub struct LandmarkedMesh {
 #[derive(Clone)]
 struct Weights {
     /// By face of the input mesh.
-    of_input: TiVec<FaceId, f64>,
+    of_input: TiVec<FaceId, FaceWeight>,
     /// By face of the refined mesh.
-    of_refined: TiVec<FaceId, f64>,
+    of_refined: TiVec<FaceId, FaceWeight>,
 }
 
 impl Weights {
-    fn new(of_input: TiVec<FaceId, f64>, refined: &RefinedMesh) -> Self {
+    fn new(of_input: TiVec<FaceId, FaceWeight>, refined: &RefinedMesh) -> Self {
         let of_refined = refined.face_origin.iter().map(|&f| of_input[f]).collect();
         Self { of_input, of_refined }
     }
@@ -53,14 +53,10 @@ impl LandmarkedMesh {
         Ok(Self { refined, landmarks: landmarks.iter().copied().collect(), weights: None })
     }
 
-    /// The same mesh with caps, by face of the input mesh, that count by a weight from 0 to 1.
+    /// The same mesh with the weights of the faces of the input mesh; `None` where all are skin.
     #[must_use]
-    pub fn with_caps(self, is_cap: Option<&TiSlice<FaceId, bool>>, weight: f64) -> Self {
-        let is_cap = is_cap.filter(|is_cap| weight < 1.0 && is_cap.raw.contains(&true));
-        let of_input = |is_cap: &TiSlice<FaceId, bool>| {
-            is_cap.iter().map(|&is_cap| if is_cap { weight } else { 1.0 }).collect()
-        };
-        Self { weights: is_cap.map(|is_cap| Weights::new(of_input(is_cap), &self.refined)), ..self }
+    pub fn with_weights(self, of_input: Option<TiVec<FaceId, FaceWeight>>) -> Self {
+        Self { weights: of_input.map(|of_input| Weights::new(of_input, &self.refined)), ..self }
     }
 
     /// The same mesh, `factor` times as large.
@@ -75,7 +71,7 @@ impl LandmarkedMesh {
     }
 
     /// The weights of the faces of the refined mesh; `None` where all are skin.
-    pub(super) fn weights_by_face(&self) -> Option<&TiSlice<FaceId, f64>> {
+    pub(super) fn weights_by_face(&self) -> Option<&TiSlice<FaceId, FaceWeight>> {
         self.weights.as_ref().map(|weights| weights.of_refined.as_slice())
     }
 

@@ -12,7 +12,7 @@ use super::skin::Skin;
 use crate::landmarks::LandmarkId;
 use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::coarsening::Level;
-use crate::mesh::face_weights::FaceWeights;
+use crate::mesh::face_weights::{FaceWeight, FaceWeights};
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, PreviewOf, Step};
 use crate::registration::patch_fit::OrientedSurface;
@@ -347,7 +347,7 @@ struct PresentLevel {
     landmarks: TiVec<LandmarkId, VertexId>,
     embedding: Embedding,
     /// How much its faces count; `None` where all are skin.
-    weights: Option<TiVec<FaceId, f64>>,
+    weights: Option<TiVec<FaceId, FaceWeight>>,
 }
 
 impl PresentLevel {
@@ -380,7 +380,7 @@ pub struct LevelImages {
     /// Source and target level.
     pub levels: [Level; 2],
     /// How much the faces of each count; `None` where all are skin.
-    weights: [Option<TiVec<FaceId, f64>>; 2],
+    weights: [Option<TiVec<FaceId, FaceWeight>>; 2],
     /// The point of the target level that belongs to each vertex of the source level.
     pub target_from_source: TiVec<VertexId, SurfacePoint>,
 }

@@ -36,6 +36,8 @@ pub struct MultilevelOptions {
     pub coarse: MapRelaxationOptions,
     /// How much caps over holes count in the energies of the map, from 0 to 1; skin counts 1.
     pub cap_weight: f64,
+    /// What it costs where skin lies over a cap whose rim corresponds to one of the other mesh, per unit of area; an isometry costs 2.
+    pub border_toll: f64,
     /// How many vertices of the rims of caps the coarse level keeps.
     pub rims: RimOptions,
     /// A coarse map with a median distortion below this is between two poses of one body: it is relaxed by
@@ -92,6 +94,8 @@ impl Default for MultilevelOptions {
             },
             // Of 0.1, 0.01 and 0.001 the best on poses with punched holes (prototype; see docs/experiments.md).
             cap_weight: 0.01,
+            // Of 1, 2, 4 and 10 the least that brings rim to rim on horse-camel (see docs/experiments.md).
+            border_toll: 4.0,
             // An octagon leaves a tenth of a disc outside. Both numbers: chosen by hand.
             rims: RimOptions { each: 8, share: 0.25 },
             // Chosen by hand between the test pairs that are two poses of one body and the others, which would pay 5 to

@@ -3,10 +3,9 @@
 //! A small cap would vanish on a coarse level, and what belongs under it would be mapped onto skin: it slides over the rim and
 //! hardly comes back on finer levels. So some vertices of each rim stay, about as far from each other along it as they can.
 
-use crate::math::disjoint_sets::DisjointSets;
 use crate::mesh::face_weights::FaceWeights;
-use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
-use std::collections::BTreeMap;
+use crate::mesh::rims::rims;
+use crate::mesh::{SurfaceMesh, VertexId};
 
 /// How many vertices of rims stay on a coarse level.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,40 +24,14 @@ pub fn kept_of_rims(
     vertices: usize,
 ) -> Vec<VertexId> {
     let most = (options.share * vertices as f64) as usize;
-    let is_rim = |h: HalfedgeId| weights.is_skin(h.face()) && !weights.is_skin(mesh.twin(h).face());
-    let mut sets = DisjointSets::new(mesh.vertex_count());
-    let mut is_on_rim = vec![false; mesh.vertex_count()];
-    let mut edges = Vec::new();
-    for h in mesh.halfedges().filter(|&h| is_rim(h)) {
-        let (a, b) = (mesh.tail(h), mesh.head(h));
-        sets.join(a.index(), b.index());
-        (is_on_rim[a.index()], is_on_rim[b.index()]) = (true, true);
-        edges.push((a, mesh.length(h)));
-    }
-    let mut rims: BTreeMap<usize, Rim> = BTreeMap::new();
-    for v in mesh.vertices().filter(|v| is_on_rim[v.index()]) {
-        rims.entry(sets.root(v.index())).or_default().vertices.push(v);
-    }
-    for (v, length) in edges {
-        rims.entry(sets.root(v.index())).or_default().length += length;
-    }
-    let mut rims: Vec<Rim> = rims.into_values().collect();
-    rims.sort_by(|a, b| b.length.total_cmp(&a.length));
     let mut kept = Vec::new();
-    for rim in rims {
+    for rim in rims(mesh, |f| !weights.is_skin(f)) {
         if kept.len() + options.each > most {
             break;
         }
         kept.extend(spread(mesh, &rim.vertices, options.each));
     }
     kept
-}
-
-/// One connected rim.
-#[derive(Default)]
-struct Rim {
-    vertices: Vec<VertexId>,
-    length: f64,
 }
 
 /// Some of the vertices, by farthest points in space.
@@ -84,6 +57,7 @@ fn spread(mesh: &SurfaceMesh, vertices: &[VertexId], most: usize) -> Vec<VertexI
 mod tests {
     use super::*;
     use crate::mesh::FaceId;
+    use crate::mesh::face_weights::FaceWeight;
     use crate::mesh::generators::icosphere;
     use typed_index_collections::TiVec;
 
@@ -94,7 +68,9 @@ mod tests {
             let middle = ball.corners(f).iter().sum::<glam::DVec3>() / 3.0;
             middle.z > 0.9 || middle.z < -0.7
         };
-        let weights: TiVec<FaceId, f64> = ball.faces().map(|f| if is_cap(f) { 0.01 } else { 1.0 }).collect();
+        let of_cap = FaceWeight { weight: 0.01, toll: 0.0 };
+        let weights: TiVec<FaceId, FaceWeight> =
+            ball.faces().map(|f| if is_cap(f) { of_cap } else { FaceWeight::SKIN }).collect();
         let weights = FaceWeights::new(Some(&weights));
         let options = RimOptions { each: 8, share: 0.25 };
         let kept = kept_of_rims(&ball, weights, options, 400);

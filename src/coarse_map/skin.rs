@@ -1,6 +1,7 @@
 //! How much the faces of a level count, where the full mesh has caps.
 
 use crate::mesh::coarsening::Level;
+use crate::mesh::face_weights::FaceWeight;
 use crate::mesh::surface_index::SurfaceIndex;
 use crate::mesh::{FaceId, SurfaceMesh};
 use glam::DVec3;
@@ -8,7 +9,7 @@ use typed_index_collections::{TiSlice, TiVec};
 
 /// A full mesh with caps.
 pub struct Skin<'a> {
-    weights: &'a TiSlice<FaceId, f64>,
+    weights: &'a TiSlice<FaceId, FaceWeight>,
     index: SurfaceIndex<'a>,
 }
 
@@ -26,12 +27,12 @@ const SAMPLES: [[f64; 3]; 4] = {
 
 impl<'a> Skin<'a> {
     /// A mesh with the weights of its faces.
-    pub fn new(mesh: &'a SurfaceMesh, weights: &'a TiSlice<FaceId, f64>) -> Self {
+    pub fn new(mesh: &'a SurfaceMesh, weights: &'a TiSlice<FaceId, FaceWeight>) -> Self {
         Self { weights, index: SurfaceIndex::new(mesh) }
     }
 
     /// The weights of a level's faces: each the mean of the nearest full faces at four places.
-    pub fn on_level(&self, level: &Level) -> TiVec<FaceId, f64> {
+    pub fn on_level(&self, level: &Level) -> TiVec<FaceId, FaceWeight> {
         if level.mesh.face_count() == self.weights.len() {
             return level.faces.iter().map(|&f| self.weights[f]).collect();
         }
@@ -42,7 +43,9 @@ impl<'a> Skin<'a> {
                 let place = a * u + b * v + c * w;
                 self.weights[self.index.nearest_facing(place, normal, level.faces[f]).point.face]
             };
-            0.25 * SAMPLES.map(at).iter().sum::<f64>()
+            let seen = SAMPLES.map(at);
+            let mean = |of: fn(&FaceWeight) -> f64| 0.25 * seen.iter().map(of).sum::<f64>();
+            FaceWeight { weight: mean(|w| w.weight), toll: mean(|w| w.toll) }
         };
         level.mesh.faces().map(weight).collect()
     }
@@ -58,21 +61,25 @@ mod tests {
     fn coarse_faces_count_by_what_lies_under_them() {
         let ball = icosphere(4);
         let is_cap = |f: FaceId| ball.corners(f).iter().all(|p| p.z > 0.7);
-        let weights: TiVec<FaceId, f64> = ball.faces().map(|f| if is_cap(f) { 0.01 } else { 1.0 }).collect();
+        let of_cap = FaceWeight { weight: 0.01, toll: 2.0 };
+        let weights: TiVec<FaceId, FaceWeight> =
+            ball.faces().map(|f| if is_cap(f) { of_cap } else { FaceWeight::SKIN }).collect();
         let skin = Skin::new(&ball, &weights);
         let level = Level::coarse(&ball, &[], 300, &mut Silent).unwrap();
         let coarse = skin.on_level(&level);
         let area = |f: FaceId| level.mesh.face_area(f);
-        let share = |mesh: &SurfaceMesh, weights: &TiVec<FaceId, f64>| {
-            mesh.faces().map(|f| (1.0 - weights[f]) * mesh.face_area(f)).sum::<f64>() / mesh.area()
+        let share = |mesh: &SurfaceMesh, weights: &TiVec<FaceId, FaceWeight>| {
+            mesh.faces().map(|f| (1.0 - weights[f].weight) * mesh.face_area(f)).sum::<f64>() / mesh.area()
         };
         assert!(level.mesh.face_count() < 700);
         let [whole, seen] = [share(&ball, &weights), share(&level.mesh, &coarse)];
         assert!((seen / whole - 1.0).abs() < 0.1, "{seen} {whole}");
         for f in level.mesh.faces().filter(|&f| area(f) > 0.0) {
             let heights = level.mesh.corners(f).map(|p| p.z);
-            assert!(heights.iter().any(|z| *z > 0.6) || coarse[f] == 1.0);
-            assert!(heights.iter().any(|z| *z < 0.75) || coarse[f] < 0.02);
+            assert!(heights.iter().any(|z| *z > 0.6) || coarse[f] == FaceWeight::SKIN);
+            assert!(heights.iter().any(|z| *z < 0.75) || coarse[f].weight < 0.02);
+            // The same share of both.
+            assert!(((1.0 - coarse[f].weight) / 0.99 - coarse[f].toll / 2.0).abs() < 1e-12);
         }
         let full = Level::coarse(&ball, &[], ball.vertex_count(), &mut Silent).unwrap();
         assert_eq!(skin.on_level(&full), weights);

@@ -216,11 +216,10 @@ impl Job {
     /// # Errors
     /// [`Cancelled`].
     pub fn findings(&self, monitor: &mut dyn Monitor) -> Result<Vec<FindingReport>, Cancelled> {
-        let numbers = self.meshes.each_ref().map(|mesh| mesh.checked().file_from_vertex());
-        let number = |side: usize, v: usize| numbers[side].get(v).copied().unwrap_or(v);
+        let number = self.file_numbers();
         let labels = self.landmarks.labels.as_deref().unwrap_or_default();
         let found = findings(self.input(), labels, monitor)?;
-        Ok(found.into_iter().map(|finding| finding.renumbered(number)).collect())
+        Ok(found.into_iter().map(|finding| finding.renumbered(&number)).collect())
     }
 
     /// Makes the map. The places in its report are those of the files; its other fields refer to the meshes with their
@@ -237,6 +236,8 @@ impl Job {
         let on_files: [&dyn Fn(SurfacePoint) -> SurfacePoint; 2] =
             [&|p| self.on_source_file(p), &|p| self.on_target_file(p)];
         result.report.distortion.replace_worst(on_files);
+        let borders = result.report.borders.take();
+        result.report.borders = borders.map(|borders| borders.renumbered(self.file_numbers()));
         let warnings = std::mem::take(&mut result.report.warnings);
         result.report.warnings =
             self.repair_warnings().into_iter().chain(self.landmark_warnings()).chain(warnings).collect();
@@ -272,6 +273,13 @@ impl Job {
             .iter()
             .filter(is_doubtful)
             .map(|remark| Warning::LandmarkFile { remark: remark.to_string() })
+    }
+
+    /// The number in its file of a vertex of the source (side 0) or of the target as they are mapped; one that was made for a landmark
+    /// keeps its number.
+    fn file_numbers(&self) -> impl Fn(usize, usize) -> usize + use<> {
+        let numbers = self.meshes.each_ref().map(|mesh| mesh.checked().file_from_vertex());
+        move |side, v| numbers[side].get(v).copied().unwrap_or(v)
     }
 
     fn input(&self) -> MapInput<'_> {

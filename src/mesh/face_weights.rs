@@ -4,16 +4,51 @@ use super::{FaceId, SurfaceMesh, VertexId};
 use crate::math::scalar::min;
 use typed_index_collections::TiSlice;
 
-/// The weights of the faces of a mesh, from 0 to 1: skin has 1.
+/// How much a face counts in an energy of maps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FaceWeight {
+    /// From 0 to 1: skin has 1.
+    pub weight: f64,
+    /// What it costs per unit of area to lie over a face that has no toll, not negative; half the cost of an isometry is 1. Skin has
+    /// none, nor has a cap under which nothing is known; a cap whose rim corresponds to a rim of the other mesh has one.
+    pub toll: f64,
+}
+
+impl FaceWeight {
+    /// The weight of skin.
+    pub const SKIN: Self = Self { weight: 1.0, toll: 0.0 };
+}
+
+/// How much a piece of the overlay of two meshes counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PieceWeight {
+    /// From 0 to 1, the smaller one of both faces: 1 where both are skin.
+    pub weight: f64,
+    /// What it costs that the faces do not belong together, per unit of area: the difference of their tolls.
+    pub toll: f64,
+}
+
+impl PieceWeight {
+    /// Of a piece that is skin on both meshes.
+    pub const SKIN: Self = Self { weight: 1.0, toll: 0.0 };
+
+    /// Of a piece of two faces.
+    #[inline]
+    pub fn of([a, b]: [FaceWeight; 2]) -> Self {
+        Self { weight: min(a.weight, b.weight), toll: (a.toll - b.toll).abs() }
+    }
+}
+
+/// The weights of the faces of a mesh.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct FaceWeights<'a>(Option<&'a TiSlice<FaceId, f64>>);
+pub struct FaceWeights<'a>(Option<&'a TiSlice<FaceId, FaceWeight>>);
 
 impl<'a> FaceWeights<'a> {
     /// Of a mesh that is all skin.
     pub const EVEN: Self = Self(None);
 
     /// Given by face; `None` for a mesh that is all skin.
-    pub fn new(weights: Option<&'a TiSlice<FaceId, f64>>) -> Self {
+    pub fn new(weights: Option<&'a TiSlice<FaceId, FaceWeight>>) -> Self {
         Self(weights)
     }
 
@@ -22,14 +57,14 @@ impl<'a> FaceWeights<'a> {
     /// # Panics
     /// When the face does not exist.
     #[inline]
-    pub fn of(self, face: FaceId) -> f64 {
-        self.0.map_or(1.0, |weights| weights[face])
+    pub fn of(self, face: FaceId) -> FaceWeight {
+        self.0.map_or(FaceWeight::SKIN, |weights| weights[face])
     }
 
     /// Whether at least half of a face is skin.
     #[inline]
     pub fn is_skin(self, face: FaceId) -> bool {
-        self.of(face) >= 0.5
+        self.of(face).weight >= 0.5
     }
 
     /// Whether a vertex of the mesh has a face of skin: vertices on rims have.
@@ -38,10 +73,10 @@ impl<'a> FaceWeights<'a> {
     }
 }
 
-/// The weight of a piece of the overlay of two meshes: the smaller one of its faces on both.
+/// The weight of a piece of the overlay of two meshes.
 #[inline]
-pub fn piece_weight(weights: [FaceWeights<'_>; 2], faces: [FaceId; 2]) -> f64 {
-    min(weights[0].of(faces[0]), weights[1].of(faces[1]))
+pub fn piece_weight(weights: [FaceWeights<'_>; 2], faces: [FaceId; 2]) -> PieceWeight {
+    PieceWeight::of([weights[0].of(faces[0]), weights[1].of(faces[1])])
 }
 
 /// Whether a piece of the overlay of two meshes is skin on both.
@@ -60,14 +95,19 @@ mod tests {
     fn a_vertex_is_on_skin_where_one_face_is() {
         let ball = icosphere(1);
         // All faces around vertex 0 are a cap.
-        let mut weights: TiVec<FaceId, f64> = ball.faces().map(|_| 1.0).collect();
-        ball.star(VertexId(0)).for_each(|h| weights[h.face()] = 0.01);
+        let mut weights: TiVec<FaceId, FaceWeight> = ball.faces().map(|_| FaceWeight::SKIN).collect();
+        let of_cap = FaceWeight { weight: 0.01, toll: 0.5 };
+        ball.star(VertexId(0)).for_each(|h| weights[h.face()] = of_cap);
         let counted = FaceWeights::new(Some(&weights));
         let off: Vec<VertexId> = ball.vertices().filter(|&v| !counted.is_on_skin(&ball, v)).collect();
         assert_eq!(off, [VertexId(0)]);
         assert!(ball.vertices().all(|v| FaceWeights::EVEN.is_on_skin(&ball, v)));
         let cap = ball.outgoing(VertexId(0)).face();
-        assert_eq!(piece_weight([FaceWeights::EVEN, counted], [FaceId(0), cap]), 0.01);
+        let over_skin = PieceWeight { weight: 0.01, toll: 0.5 };
+        assert_eq!(piece_weight([FaceWeights::EVEN, counted], [FaceId(0), cap]), over_skin);
+        assert_eq!(piece_weight([counted, FaceWeights::EVEN], [cap, FaceId(0)]), over_skin);
+        assert_eq!(piece_weight([counted; 2], [cap; 2]), PieceWeight { weight: 0.01, toll: 0.0 });
+        assert_eq!(piece_weight([FaceWeights::EVEN; 2], [cap; 2]), PieceWeight::SKIN);
         assert!(!is_skin_on_both([counted, FaceWeights::EVEN], [cap, FaceId(0)]));
         assert!(is_skin_on_both([FaceWeights::EVEN; 2], [cap, cap]));
     }

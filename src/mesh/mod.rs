@@ -17,6 +17,7 @@ mod place;
 mod polygon;
 mod refined;
 pub mod repair;
+pub mod rims;
 pub mod soup;
 pub mod surface_index;
 mod surface_mesh;

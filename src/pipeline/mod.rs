@@ -1,5 +1,6 @@
 //! Options, the order of the stages, the report: the only place that knows the whole way.
 
+mod borders;
 mod error;
 mod findings;
 mod flows;
@@ -15,10 +16,11 @@ mod stages;
 mod thesis;
 mod warning;
 
+pub use borders::{BorderCase, BordersReport, RimPairReport, RimReport};
 pub use error::PipelineError;
 pub use findings::{FindingKind, FindingReport, RepairKind, findings};
 pub use input::{CapFaces, GroundTruth, MapInput};
-pub use options::{Base, Choices, ClassChoice, Cones, Method, OwnConeOptions, PipelineOptions};
+pub use options::{Base, Borders, Choices, ClassChoice, Cones, Method, OwnConeOptions, PipelineOptions};
 pub use report::{
     BaseDomainReport, CertificateReport, ConeMetricReport, ConeMetricsReport, CoverageReport,
     DistortionReport, FacesReport, GroundTruthReport, LayoutSearchReport, PlaceReport, Report,

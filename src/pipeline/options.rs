@@ -46,6 +46,21 @@ pub enum Cones {
     Uniform,
 }
 
+/// What the rims of holes are that both meshes have.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
+#[serde(rename_all = "kebab-case")]
+pub enum Borders {
+    /// Large rims correspond where the landmarks around them agree; else data is missing.
+    #[default]
+    Guess,
+    /// Both surfaces end there, as two bodies cut at the neck: rim goes to rim.
+    Corresponding,
+    /// Data is missing: what lies under the caps is unknown.
+    Missing,
+}
+
 /// What a user chooses of a run, on the command line and in the page alike. A name or a value that is not known is an error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(clap::Args))]
@@ -68,14 +83,17 @@ pub struct Choices {
     /// nothing is said.
     #[cfg_attr(feature = "cli", arg(long, value_name = "N"))]
     pub own_cones: Option<usize>,
+    /// What the rims of holes are that both meshes have.
+    #[cfg_attr(feature = "cli", arg(long, value_enum, default_value_t))]
+    pub borders: Borders,
 }
 
 impl From<Choices> for PipelineOptions {
     fn from(choices: Choices) -> Self {
-        let Choices { method, base, cones, class, own_cones } = choices;
+        let Choices { method, base, cones, class, own_cones, borders } = choices;
         let usual = OwnConeOptions::default();
         let own_cones = OwnConeOptions { count: own_cones.unwrap_or(usual.count), ..usual };
-        Self { method, base, cones, class, own_cones, ..Self::default() }
+        Self { method, base, cones, class, own_cones, borders, ..Self::default() }
     }
 }
 
@@ -100,4 +118,6 @@ pub struct PipelineOptions {
     pub multilevel: MultilevelOptions,
     /// Cones of the program's own where the landmarks are few.
     pub own_cones: OwnConeOptions,
+    /// What the rims of holes are that both meshes have.
+    pub borders: Borders,
 }

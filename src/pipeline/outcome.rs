@@ -173,6 +173,7 @@ impl Outcome<'_> {
             certificate: Some(certificate_report(map)),
             distortion,
             coverage: measured.coverage.as_ref().map(CoverageReport::from),
+            borders: map.borders.clone(),
             stopped_early: map.stopped_early,
             ..Report::of_inputs(input, &map.layout.base, self.flows)
         }
@@ -204,7 +205,8 @@ fn warnings(map: &Parametrisation, measured: &Distortion) -> Vec<Warning> {
     let stretch = map.layout.report.worst_stretch;
     let long = (stretch > LONG_PATH).then_some(Warning::LongPath { stretch });
     let distorted = (measured.p95 > DISTORTED).then_some(Warning::Distorted { p95: measured.p95 });
-    [early, rival, long, distorted].into_iter().flatten().collect()
+    let borders = map.borders.as_ref().and_then(Warning::of_borders);
+    [borders, early, rival, long, distorted].into_iter().flatten().collect()
 }
 
 /// Which faces of a refined mesh are caps.

@@ -1,5 +1,6 @@
 //! The certified parametrisations of both meshes: class search, own cones, refinement, certificate.
 
+use super::borders::{BordersReport, CountedCaps, counted_caps};
 use super::{Base, MapInput, PipelineError, PipelineOptions};
 use crate::base_domain;
 use crate::coarse_map::class_search::{Chosen, ClassSearchOptions, choose_class};
@@ -23,6 +24,8 @@ pub(super) struct Parametrisation {
     embeddings: [Embedding; 2],
     pub(super) certificate: Certificate,
     pub(super) stopped_early: bool,
+    /// What became of the rims of holes; `None` where not both meshes have any.
+    pub(super) borders: Option<BordersReport>,
 }
 
 impl Parametrisation {
@@ -32,6 +35,7 @@ impl Parametrisation {
         std::mem::swap(source, target);
         self.sides.reverse();
         self.embeddings.reverse();
+        self.borders = self.borders.map(BordersReport::exchanged);
         self
     }
 
@@ -97,10 +101,11 @@ pub(super) fn parametrise(
     monitor: &mut dyn Monitor,
 ) -> Result<Parametrisation, PipelineError> {
     let Landmarks { source, target } = input.landmarks;
-    let weight = options.multilevel.cap_weight;
+    let CountedCaps { weights: [on_source, on_target], report: borders } =
+        counted_caps(input, options, monitor)?;
     let full = [
-        LandmarkedMesh::new(input.source, source)?.with_caps(input.caps.source, weight),
-        LandmarkedMesh::new(input.target, target)?.with_caps(input.caps.target, weight),
+        LandmarkedMesh::new(input.source, source)?.with_weights(on_source),
+        LandmarkedMesh::new(input.target, target)?.with_weights(on_target),
     ];
     let most = full.iter().map(|mesh| mesh.refined.mesh.vertex_count()).max().unwrap_or(0);
     let vertices = first_level(input.landmarks.len(), options);
@@ -132,7 +137,8 @@ pub(super) fn parametrise(
     if !certificate.bijective {
         return Err(PipelineError::NotCertified(certificate));
     }
-    Ok(Parametrisation { layout, search, surface, sides: full, embeddings, certificate, stopped_early })
+    let sides = full;
+    Ok(Parametrisation { layout, search, surface, sides, embeddings, certificate, stopped_early, borders })
 }
 
 /// Both parametrisations before they are certified.

@@ -1,7 +1,7 @@
 //! The numbers of a run, stable as JSON.
 
 use super::flows::Flows;
-use super::{FindingReport, MapInput, Warning};
+use super::{BordersReport, FindingReport, MapInput, Warning};
 use crate::base_domain::BaseDomain;
 use crate::cone_metric::FlowReport;
 use crate::mesh::SurfacePoint;
@@ -31,6 +31,10 @@ pub struct Report {
     /// How much of the skin has a partner, where holes were closed by caps; `null` where no mesh has caps, and where there is no
     /// overlay.
     pub coverage: Option<CoverageReport>,
+    /// What the rims of holes were taken for; `null` where not both meshes have holes, unless rims were said to correspond, and for
+    /// the thesis' method.
+    #[cfg_attr(all(feature = "web", target_arch = "wasm32"), tsify(optional))]
+    pub borders: Option<BordersReport>,
     /// Share of the source's vertices without an image; 0 for the relaxed map.
     pub unmapped_share: f64,
     /// Distance to the true images in units of sqrt(target area), where the truth is known.

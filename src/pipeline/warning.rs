@@ -1,5 +1,6 @@
 //! What a user should know about a result.
 
+use super::{BorderCase, Borders, BordersReport};
 use crate::landmarks::MeshSide;
 use serde::Serialize;
 use std::fmt;
@@ -23,6 +24,13 @@ pub enum Warning {
         /// Share of the mapped surface's area that is caps.
         share: f64,
     },
+    /// Rims of both meshes were guessed to correspond.
+    GuessedBorders {
+        /// How many of each mesh.
+        rims: usize,
+    },
+    /// No rims of both meshes correspond, though that was said.
+    NoCorrespondingBorders,
     /// The landmark file may not belong to the meshes.
     LandmarkFile {
         /// What makes it doubtful.
@@ -77,11 +85,24 @@ pub enum Warning {
 }
 
 impl Warning {
+    /// What is to be known of the borders of both meshes; `None` where they are what the user said.
+    pub(super) fn of_borders(report: &BordersReport) -> Option<Self> {
+        match (report.asked, report.case) {
+            (Borders::Guess, BorderCase::Corresponding) => {
+                Some(Self::GuessedBorders { rims: report.rims.len() })
+            }
+            (Borders::Corresponding, BorderCase::Missing) => Some(Self::NoCorrespondingBorders),
+            _ => None,
+        }
+    }
+
     /// A stable name for programs.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Repaired { .. } => "repaired",
             Self::Capped { .. } => "capped",
+            Self::GuessedBorders { .. } => "guessed_borders",
+            Self::NoCorrespondingBorders => "no_corresponding_borders",
             Self::LandmarkFile { .. } => "landmark_file",
             Self::FinishedEarly { .. } => "finished_early",
             Self::RivalClass { .. } => "rival_class",
@@ -110,6 +131,19 @@ impl fmt::Display for Warning {
                 "{:.2} % of the {side} are caps over its holes: made-up surface. The certificate holds for the surface with its \
                  caps; they count little in the map, and measures are those of skin onto skin.",
                 100.0 * share
+            ),
+            Self::GuessedBorders { rims } => {
+                let holes = if *rims == 1 { "One large hole".to_owned() } else { format!("{rims} large holes") };
+                write!(
+                    f,
+                    "{holes} of each mesh have landmarks around them that agree, so both surfaces were taken to end there: rim \
+                     goes to rim, and skin under a cap costs. If one of them lacks data there, the option --borders missing \
+                     lets its skin go under the cap."
+                )
+            }
+            Self::NoCorrespondingBorders => f.write_str(
+                "Borders were said to correspond, but there are no holes on both meshes that could belong to each other; what \
+                 lies under caps was taken for unknown.",
             ),
             Self::LandmarkFile { remark } => {
                 write!(f, "The landmark file may not fit these meshes: {remark}.")
@@ -191,9 +225,11 @@ impl From<Warning> for WarningReport {
             | Warning::LongPath { stretch: x }
             | Warning::Distorted { p95: x }
             | Warning::Unmapped { share: x } => value = Some(x),
+            Warning::GuessedBorders { rims } => value = Some(rims as f64),
             Warning::NoConeMetric { side: of, .. } | Warning::Repaired { side: of, .. } => side = Some(of),
             Warning::Capped { side: of, share } => (value, side) = (Some(share), Some(of)),
-            Warning::LandmarkFile { .. }
+            Warning::NoCorrespondingBorders
+            | Warning::LandmarkFile { .. }
             | Warning::NoOverlay { .. }
             | Warning::NoBijection
             | Warning::InvertedPatches { .. } => {}
@@ -205,6 +241,23 @@ impl From<Warning> for WarningReport {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn borders_are_told_where_they_are_not_what_the_user_said() {
+        let of = |case, asked| Warning::of_borders(&BordersReport { case, asked, rims: Vec::new() });
+        let (missing, corresponding) = (BorderCase::Missing, BorderCase::Corresponding);
+        assert_eq!(of(corresponding, Borders::Guess), Some(Warning::GuessedBorders { rims: 0 }));
+        assert_eq!(of(missing, Borders::Corresponding), Some(Warning::NoCorrespondingBorders));
+        assert_eq!(of(missing, Borders::Guess), None);
+        assert_eq!(of(missing, Borders::Missing), None);
+        assert_eq!(of(corresponding, Borders::Corresponding), None);
+        let value = serde_json::to_value(Warning::GuessedBorders { rims: 2 }).unwrap();
+        assert_eq!((&value["kind"], &value["value"]), (&"guessed_borders".into(), &2.0.into()));
+        assert!(
+            value["sentence"].as_str().unwrap().starts_with("2 large holes of each mesh have"),
+            "{value}"
+        );
+    }
 
     #[test]
     fn reports_tell_kind_sentence_and_numbers() {

@@ -129,9 +129,10 @@ pub fn json_fields(value: &serde_json::Value) -> Vec<String> {
 }
 
 /// The fields of the report of a map, `ground_truth` and `seconds` unopened.
-pub const REPORT_FIELDS: [&str; 43] = [
+pub const REPORT_FIELDS: [&str; 44] = [
     "base_domain.faces",
     "base_domain.vertices",
+    "borders",
     "certificate.bijective",
     "certificate.flipped_triangles",
     "certificate.max_angle_sum_error",

@@ -10,7 +10,7 @@ use conemap::landmark_exchange::GivenFile;
 use conemap::landmarks::MeshSide;
 use conemap::mesh::SurfaceMesh;
 use conemap::monitor::{Cancelled, Monitor, Progress, Silent, Stage, Step};
-use conemap::pipeline::{Base, Choices, MapResult, Method, PipelineOptions, Warning};
+use conemap::pipeline::{Base, Borders, Choices, MapResult, Method, PipelineOptions, Warning};
 
 /// Files of a job.
 pub struct Files {
@@ -188,8 +188,11 @@ fn faults_name_their_file() {
 fn unknown_choices_are_errors() {
     let read = |json: &str| serde_json::from_str::<Choices>(json);
     assert_eq!(read("{}").unwrap(), Choices::default());
-    let chosen = read(r#"{"method": "thesis", "class": "runner-up", "ownCones": 7}"#).unwrap();
-    assert_eq!((chosen.method, chosen.own_cones), (Method::Thesis, Some(7)));
+    let chosen = read(r#"{"method": "thesis", "ownCones": 7, "borders": "missing"}"#).unwrap();
+    assert_eq!(
+        (chosen.method, chosen.own_cones, chosen.borders),
+        (Method::Thesis, Some(7), Borders::Missing)
+    );
     for json in
         [r#"{"method": "best"}"#, r#"{"metod": "thesis"}"#, r#"{"ownCones": -1}"#, r#"{"base": 1}"#, "[]x"]
     {

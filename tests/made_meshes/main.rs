@@ -8,6 +8,8 @@ mod classes;
 mod command_line;
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/cutting.rs"]
+mod cutting;
 #[path = "../common/distance_bounds.rs"]
 mod distance_bounds;
 #[path = "../common/fit.rs"]
@@ -27,6 +29,7 @@ mod rough_meshes;
 
 mod agreement;
 mod base;
+mod borders;
 mod bounds;
 #[cfg(feature = "cli")]
 mod cli;

@@ -15,6 +15,8 @@ mod classes;
 mod command_line;
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/cutting.rs"]
+mod cutting;
 #[path = "../common/distance_bounds.rs"]
 mod distance_bounds;
 #[path = "../common/fit.rs"]
@@ -45,6 +47,7 @@ macro_rules! tests {
 
 mod bad_input;
 mod base;
+mod borders;
 #[cfg(feature = "cli")]
 mod cli;
 mod clicks;
@@ -87,6 +90,7 @@ pub enum Length {
 fn modules() -> Vec<(&'static str, Vec<Test>)> {
     vec![
         ("base", base::tests()),
+        ("borders", borders::tests()),
         ("landmark_fit", landmark_fit::tests()),
         ("landmark_matching", landmark_matching::tests()),
         ("pipeline", pipeline::tests()),

@@ -7,10 +7,15 @@
 //!
 //! Summed over the map, the last part is c times both areas less what the weights leave out of it: with w the weighted sum of
 //! h - c (1 + q), to which the energy of an isometry of the whole is added back. So the energy of a map is never below that.
+//!
+//! Where the rim of one mesh corresponds to one of the other, skin over a cap is wrong, and a piece of it pays a toll t for its area
+//! on both meshes: u t (1 + q), u = c / 2. A larger weight could not do that: a slide without distortion would still be free. What the
+//! toll asks of the rims is the jump of this density over them, which the pieces' moving borders bring along.
 
 use super::density::{Density, HessianTerm};
 use super::map_energy::MapEnergy;
 use crate::math::matrix2::cofactor;
+use crate::mesh::face_weights::PieceWeight;
 use glam::DMat2;
 
 /// The energy of a piece of a map, per unit of source area.
@@ -18,26 +23,33 @@ use glam::DMat2;
 pub struct WeightedEnergy {
     /// The energy where the weight is 1.
     pub energy: MapEnergy,
-    /// The weight, from 0 to 1.
-    pub weight: f64,
+    /// How much the piece counts.
+    pub counted: PieceWeight,
+}
+
+impl WeightedEnergy {
+    /// What the piece costs whatever its distortion, per unit of both areas: what the weight takes from an isometry, and the toll.
+    #[inline]
+    fn still(&self) -> f64 {
+        let PieceWeight { weight, toll } = self.counted;
+        (1.0 - weight) * self.energy.isometry() + toll * self.energy.unit()
+    }
 }
 
 impl Density for WeightedEnergy {
     #[inline]
     fn density(&self, j: &DMat2) -> f64 {
-        let still = (1.0 - self.weight) * self.energy.isometry();
-        self.weight * self.energy.density(j) + still * (1.0 + j.determinant())
+        self.counted.weight * self.energy.density(j) + self.still() * (1.0 + j.determinant())
     }
 
     #[inline]
     fn gradient(&self, j: &DMat2) -> DMat2 {
-        let still = (1.0 - self.weight) * self.energy.isometry();
-        self.energy.gradient(j) * self.weight + cofactor(j) * still
+        self.energy.gradient(j) * self.counted.weight + cofactor(j) * self.still()
     }
 
     /// Of the weighted part only: that of the area is indefinite, and is left out as where the weight is 1.
     fn hessian(&self, j: &DMat2) -> impl IntoIterator<Item = HessianTerm> {
-        self.energy.hessian(j).into_iter().map(|term| term.scaled(self.weight))
+        self.energy.hessian(j).into_iter().map(|term| term.scaled(self.counted.weight))
     }
 }
 
@@ -51,8 +63,9 @@ mod tests {
 
     #[test]
     fn the_gradient_is_the_difference_quotient() {
-        for (energy, weight) in KINDS.into_iter().zip([0.01, 0.3, 0.0, 1.0]) {
-            let weighted = WeightedEnergy { energy, weight };
+        let counted = [[0.01, 1.0], [0.3, 0.0], [0.0, 0.7], [1.0, 0.2]];
+        for (energy, [weight, toll]) in KINDS.into_iter().zip(counted) {
+            let weighted = WeightedEnergy { energy, counted: PieceWeight { weight, toll } };
             for j in samples() {
                 for k in 0..4 {
                     let mut unit = [0.0; 4];
@@ -69,7 +82,7 @@ mod tests {
     #[test]
     fn skin_counts_exactly_as_without_weights() {
         for energy in KINDS {
-            let skin = WeightedEnergy { energy, weight: 1.0 };
+            let skin = WeightedEnergy { energy, counted: PieceWeight::SKIN };
             for j in samples() {
                 assert_eq!(skin.density(&j).to_bits(), energy.density(&j).to_bits());
                 assert_eq!(skin.gradient(&j), energy.gradient(&j));
@@ -86,11 +99,27 @@ mod tests {
     fn an_isometry_costs_the_same_whatever_the_weight_and_a_shear_costs_its_share() {
         let shear = DMat2::from_cols_array(&[1.5, 0.0, 0.0, 1.0 / 1.5]);
         for energy in KINDS {
-            let density = |weight: f64, j: &DMat2| WeightedEnergy { energy, weight }.density(j);
+            let density = |weight: f64, j: &DMat2| {
+                WeightedEnergy { energy, counted: PieceWeight { weight, toll: 0.0 } }.density(j)
+            };
             let turn = DMat2::from_angle(0.7);
             assert!((density(0.01, &turn) - density(1.0, &turn)).abs() < 1e-13);
             let beyond = |weight: f64| density(weight, &shear) - density(weight, &turn);
             assert!((beyond(0.01) - 0.01 * beyond(1.0)).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn a_toll_is_paid_for_the_area_on_both_meshes() {
+        for energy in KINDS {
+            for j in samples() {
+                let density = |toll: f64| {
+                    WeightedEnergy { energy, counted: PieceWeight { weight: 0.3, toll } }.density(&j)
+                };
+                let paid = density(0.5) - density(0.0);
+                let areas = 1.0 + j.determinant();
+                assert!((paid - 0.25 * energy.isometry() * areas).abs() < 1e-12 * density(0.5), "{paid}");
+            }
         }
     }
 }

@@ -10,6 +10,7 @@ use crate::math::matrix2::{SymmetricEigen, symmetric_eigen};
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::{ln, max, min};
 use crate::math::triangle::signed_double_area;
+use crate::mesh::face_weights::{FaceWeight, PieceWeight};
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::surface_map::overlay::Overlay;
 use crate::surface_map::parametrisation::embedding::Parametrised;
@@ -43,7 +44,7 @@ pub struct Ray {
     /// Gradients of the hat functions in the rest plane, that of the star's vertex first.
     pub hats: [DVec2; 3],
     /// How much the face counts.
-    pub weight: f64,
+    pub weight: FaceWeight,
 }
 
 /// A triangle of the other side over a star.
@@ -55,7 +56,7 @@ pub struct Cover {
     /// From the star's plane to the rest plane.
     pub onto_rest: DMat2,
     /// How much the face counts.
-    pub weight: f64,
+    pub weight: FaceWeight,
 }
 
 /// A vertex with the triangles around it and those over them, in a plane whose origin is the vertex.
@@ -178,8 +179,8 @@ impl CoveredStar {
             for cover in &self.covers {
                 let area = own.overlap(&cover.triangle);
                 if area > 0.0 {
-                    let weight = min(ray.weight, cover.weight);
-                    cost += area * scale * energy.density(&(cover.onto_rest * jacobian), weight);
+                    let counted = PieceWeight::of([ray.weight, cover.weight]);
+                    cost += area * scale * energy.density(&(cover.onto_rest * jacobian), counted);
                 }
             }
         }

@@ -1,5 +1,6 @@
 //! The energy by which dents are healed: that of the map, and a steep cost of large densities.
 
+use crate::mesh::face_weights::PieceWeight;
 use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::energy::weighted_energy::WeightedEnergy;
@@ -20,13 +21,13 @@ impl DentEnergy {
     /// sixth power.
     const DEAR: f64 = 2.5;
 
-    /// The energy per unit of source area of a piece that counts by a weight.
+    /// The energy per unit of source area of a piece.
     #[inline]
-    pub(super) fn density(&self, j: &DMat2, weight: f64) -> f64 {
+    pub(super) fn density(&self, j: &DMat2, counted: PieceWeight) -> f64 {
         let local = LocalDistortion::of(j);
         let excess = local.density / (Self::DEAR * self.brink);
         let cube = excess * excess * excess;
-        let map = WeightedEnergy { energy: self.energy, weight };
-        map.density(j) + weight * ((1.0 + local.area) * cube * cube)
+        let map = WeightedEnergy { energy: self.energy, counted };
+        map.density(j) + counted.weight * ((1.0 + local.area) * cube * cube)
     }
 }

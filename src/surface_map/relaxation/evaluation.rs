@@ -2,9 +2,9 @@
 
 use crate::math::quantile::{Weighted, quantile, sort_by_value};
 use crate::math::rigid2;
-use crate::math::scalar::ln;
+use crate::math::scalar::{ln, min};
 use crate::math::triangle::hat_gradients;
-use crate::mesh::face_weights::{FaceWeights, piece_weight};
+use crate::mesh::face_weights::{FaceWeights, PieceWeight, piece_weight};
 use crate::mesh::{FaceId, VertexId};
 use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
@@ -35,7 +35,7 @@ pub struct Evaluation {
     /// Of each piece the Jacobian from the plane of the moving face to the rest plane of the fixed face.
     pub onto_rest: Vec<DMat2>,
     /// How much each piece counts.
-    pub weights: Vec<f64>,
+    pub weights: Vec<PieceWeight>,
     /// The energy of the map, without the barrier and the constraints.
     pub energy: f64,
     /// The energy of the constraints.
@@ -103,26 +103,35 @@ impl Evaluation {
 
     fn integral(&self, energy: MapEnergy) -> f64 {
         let pieces = self.overlay.pieces().iter().zip(&self.onto_rest).zip(&self.weights);
-        let part = pieces.map(|((piece, c), &weight)| {
+        let part = pieces.map(|((piece, c), &counted)| {
             let a = &self.jacobians[piece.source_face.index()];
-            piece.area / a.determinant() * WeightedEnergy { energy, weight }.density(&(*c * *a))
+            piece.area / a.determinant() * WeightedEnergy { energy, counted }.density(&(*c * *a))
         });
         part.sum()
     }
 
-    /// Half the sum of the weighted means of the density's logarithm over both surfaces.
+    /// Half the sum of the weighted means of the density's logarithm over both surfaces. What its weight takes from a piece that pays a
+    /// toll t counts as what an isometry with that toll costs: 1 + t / 2 times an isometry.
     pub fn mean_log(&self) -> f64 {
         let (mut sums, mut areas) = ([0.0; 2], [0.0; 2]);
         let pieces = self.overlay.pieces().iter().zip(&self.onto_rest).zip(&self.weights);
-        for ((piece, c), weight) in pieces {
+        for ((piece, c), counted) in pieces {
             let a = &self.jacobians[piece.source_face.index()];
             let j = *c * *a;
-            let area = weight * (piece.area / a.determinant());
+            let whole = piece.area / a.determinant();
             // With equal areas the distortion is the density.
             let log = ln(MapEnergy::POSES.distortion(&j));
-            for (k, area) in [area, area * j.determinant()].into_iter().enumerate() {
-                sums[k] += log * area;
-                areas[k] += area;
+            let PieceWeight { weight, toll } = *counted;
+            let mut add = |weight: f64, log: f64| {
+                let area = weight * whole;
+                for (k, area) in [area, area * j.determinant()].into_iter().enumerate() {
+                    sums[k] += log * area;
+                    areas[k] += area;
+                }
+            };
+            add(weight, log);
+            if toll > 0.0 {
+                add((1.0 - weight) * min(toll, 1.0), ln(1.0 + 0.5 * toll));
             }
         }
         0.5 * (sums[0] / areas[0] + sums[1] / areas[1])
@@ -132,7 +141,7 @@ impl Evaluation {
     pub fn skin_areas(&self) -> [f64; 2] {
         let mut areas = [0.0; 2];
         let pieces = self.overlay.pieces().iter().zip(&self.onto_rest).zip(&self.weights);
-        for ((piece, c), _) in pieces.filter(|(_, weight)| **weight >= 0.5) {
+        for ((piece, c), _) in pieces.filter(|(_, counted)| counted.weight >= 0.5) {
             areas[0] += piece.area / self.jacobians[piece.source_face.index()].determinant();
             areas[1] += piece.area * c.determinant();
         }
@@ -142,10 +151,10 @@ impl Evaluation {
     /// The median distortion, each piece counted by its weight and its areas on both surfaces.
     pub fn median(&self, map_energy: MapEnergy) -> f64 {
         let pieces = self.overlay.pieces().iter().zip(&self.onto_rest).zip(&self.weights);
-        let local = pieces.map(|((piece, c), weight)| {
+        let local = pieces.map(|((piece, c), counted)| {
             let a = &self.jacobians[piece.source_face.index()];
             let j = *c * *a;
-            let weight = weight * (piece.area / a.determinant() * (1.0 + j.determinant()));
+            let weight = counted.weight * (piece.area / a.determinant() * (1.0 + j.determinant()));
             Weighted { value: map_energy.distortion(&j), weight }
         });
         let mut local: Vec<Weighted> = local.collect();

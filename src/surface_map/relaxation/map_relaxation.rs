@@ -394,8 +394,8 @@ impl<'a> Relaxation<'a> {
         let Evaluation { overlay, jacobians, onto_rest, weights, .. } = &self.present;
         let mut faces = vec![FaceDerivatives::ZERO; jacobians.len()];
         let mut densities = Vec::with_capacity(onto_rest.len());
-        for ((piece, c), &weight) in overlay.pieces().iter().zip(onto_rest).zip(weights) {
-            let energy = WeightedEnergy { energy: self.map_energy, weight };
+        for ((piece, c), &counted) in overlay.pieces().iter().zip(onto_rest).zip(weights) {
+            let energy = WeightedEnergy { energy: self.map_energy, counted };
             let t = piece.source_face.index();
             let a = &jacobians[t];
             let (det, j) = (a.determinant(), *c * *a);
@@ -428,8 +428,8 @@ impl<'a> Relaxation<'a> {
     fn hessians(&self) -> Vec<FaceHessian> {
         let Evaluation { overlay, jacobians, onto_rest, weights, .. } = &self.present;
         let mut hessians = vec![FaceHessian::ZERO; jacobians.len()];
-        for ((piece, c), &weight) in overlay.pieces().iter().zip(onto_rest).zip(weights) {
-            let energy = WeightedEnergy { energy: self.map_energy, weight };
+        for ((piece, c), &counted) in overlay.pieces().iter().zip(onto_rest).zip(weights) {
+            let energy = WeightedEnergy { energy: self.map_energy, counted };
             let t = piece.source_face.index();
             let area = piece.area / jacobians[t].determinant();
             for term in energy.hessian(&(*c * jacobians[t])) {
@@ -447,7 +447,7 @@ pub(super) mod tests {
     use crate::layout::{self, BaseLayout, LayoutOptions};
     use crate::math::scalar::sin;
     use crate::mesh::SurfaceMesh;
-    use crate::mesh::face_weights::FaceWeights;
+    use crate::mesh::face_weights::{FaceWeight, FaceWeights};
     use crate::mesh::generators::icosphere;
     use crate::monitor::Silent;
     use crate::surface_map::certify;
@@ -487,10 +487,14 @@ pub(super) mod tests {
             energy: MapEnergy { balance: 0.1, knee: 0.2 },
             ..MapRelaxationOptions::default()
         };
-        // All skin; then caps on both, so that weights jump over edges of either mesh.
-        let caps = |mesh: &SurfaceMesh, axis: DVec3| -> TiVec<FaceId, f64> {
-            let is_cap = |f| mesh.corners(f).iter().all(|p| p.dot(axis) > 0.0);
-            mesh.faces().map(|f| if is_cap(f) { 0.01 } else { 1.0 }).collect()
+        // All skin; then caps on both, so that weights jump over edges of either mesh, and tolls at the same edges and at others.
+        let caps = |mesh: &SurfaceMesh, axis: DVec3| -> TiVec<FaceId, FaceWeight> {
+            let of = |f| {
+                let within = |limit: f64| mesh.corners(f).iter().all(|p| p.dot(axis) > limit);
+                let toll = [within(0.0), within(0.3)].map(|is_within| if is_within { 0.6 } else { 0.0 });
+                FaceWeight { weight: if within(0.0) { 0.01 } else { 1.0 }, toll: toll[0] + toll[1] }
+            };
+            mesh.faces().map(of).collect()
         };
         let weights = [caps(&layout.source.mesh, DVec3::X), caps(&layout.target.mesh, DVec3::Y)];
         let [source, target] = sides(&layout, &embeddings);

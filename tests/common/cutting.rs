@@ -1,0 +1,255 @@
+//! Meshes cut by planes, as at a neck.
+#![allow(dead_code, reason = "every test binary uses another part")]
+
+use conemap::math::scalar::{cos, sin};
+use conemap::mesh::check::CheckedMesh;
+use conemap::mesh::repair::{RepairOptions, repaired};
+use conemap::mesh::soup::PolygonSoup;
+use conemap::mesh::{FaceId, SurfaceMesh, VertexId};
+use conemap::monitor::Silent;
+use conemap::pipeline::MapResult;
+use glam::DVec3;
+use std::collections::BTreeMap;
+use typed_index_collections::TiVec;
+
+/// A plane; what lies on the side of its normal is beyond it.
+#[derive(Clone, Copy, Debug)]
+pub struct Plane {
+    pub point: DVec3,
+    pub normal: DVec3,
+}
+
+impl Plane {
+    /// Through the first vertex and the middle of the others, as square as can be to the way from there to the end; through the only
+    /// vertex, square to that way.
+    pub fn across(mesh: &SurfaceMesh, through: &[u32], end: u32) -> Self {
+        let place = |v: u32| mesh.positions()[VertexId(v)];
+        let first = place(through[0]);
+        let others = &through[1..];
+        if others.is_empty() {
+            return Self { point: first, normal: (place(end) - first).normalize() };
+        }
+        let last = others.iter().map(|&v| place(v)).sum::<DVec3>() / others.len() as f64;
+        let (point, along) = ((first + last) / 2.0, (last - first).normalize());
+        let way = place(end) - point;
+        Self { point, normal: (way - along * way.dot(along)).normalize() }
+    }
+
+    /// The plane nearest to some points by least squares, its normal on the side of `end`.
+    pub fn nearest(points: &[DVec3], end: DVec3) -> Self {
+        let point = points.iter().sum::<DVec3>() / points.len() as f64;
+        let mut normal = DVec3::ZERO;
+        // The least spread among directions all around.
+        let mut least = f64::INFINITY;
+        for k in 0..20_000 {
+            let z = 1.0 - (k as f64 + 0.5) / 10_000.0;
+            let (around, round) = (2.399_963_229_728_653 * k as f64, (1.0 - z * z).max(0.0).sqrt());
+            let axis = DVec3::new(round * cos(around), round * sin(around), z);
+            let spread: f64 = points.iter().map(|p| (*p - point).dot(axis).powi(2)).sum();
+            if spread < least {
+                (least, normal) = (spread, axis);
+            }
+        }
+        Self { point, normal: if (end - point).dot(normal) < 0.0 { -normal } else { normal } }
+    }
+
+    /// The same, moved along its normal.
+    pub fn moved(self, distance: f64) -> Self {
+        Self { point: self.point + self.normal * distance, ..self }
+    }
+}
+
+/// Which parts of a mesh are cut off: of each cut the connected part beyond its plane that holds its end.
+pub struct Cuts {
+    /// By vertex the cut that it is beyond.
+    beyond: TiVec<VertexId, Option<usize>>,
+    /// By edge that is cut: the share of the way from its smaller vertex to the cut.
+    shares: BTreeMap<[VertexId; 2], f64>,
+}
+
+/// A mesh that was cut.
+pub struct CutMesh {
+    /// The vertices of the mesh, unused ones too, and after them those of the rims.
+    pub soup: PolygonSoup,
+    /// By edge of the rims its vertices.
+    pub rim: Vec<[u32; 2]>,
+}
+
+/// A mesh that was cut, and capped.
+pub struct Open {
+    pub cut: CutMesh,
+    pub checked: CheckedMesh,
+}
+
+/// What is kept of a mesh that is cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kept {
+    Body,
+    Ends,
+}
+
+impl Cuts {
+    /// Of planes, each with a vertex beyond it.
+    pub fn new(mesh: &SurfaceMesh, planes: &[(Plane, VertexId)]) -> Self {
+        let mut beyond: TiVec<VertexId, Option<usize>> = mesh.vertices().map(|_| None).collect();
+        for (number, (plane, end)) in planes.iter().enumerate() {
+            let height = |v: VertexId| (mesh.positions()[v] - plane.point).dot(plane.normal);
+            assert!(height(*end) > 0.0, "the end lies beyond its plane");
+            let mut stack = vec![*end];
+            beyond[*end] = Some(number);
+            while let Some(v) = stack.pop() {
+                for w in mesh.star(v).map(|h| mesh.head(h)) {
+                    if beyond[w].is_none() && height(w) > 0.0 {
+                        beyond[w] = Some(number);
+                        stack.push(w);
+                    }
+                }
+            }
+        }
+        let mut shares = BTreeMap::new();
+        for h in mesh.edges() {
+            let mut ends = [mesh.tail(h), mesh.head(h)];
+            ends.sort_unstable();
+            let cut = match ends.map(|v| beyond[v]) {
+                [Some(cut), None] | [None, Some(cut)] => cut,
+                _ => continue,
+            };
+            let (plane, _) = planes[cut];
+            let [a, b] = ends.map(|v| (mesh.positions()[v] - plane.point).dot(plane.normal));
+            // No needles.
+            shares.insert(ends, (a / (a - b)).clamp(0.05, 0.95));
+        }
+        Self { beyond, shares }
+    }
+
+    /// Where the rims' vertices go by a map of the vertices, as if it were linear along the edges that are cut.
+    pub fn rim_under(&self, image: impl Fn(VertexId) -> DVec3) -> Vec<DVec3> {
+        self.shares.iter().map(|([a, b], &share)| image(*a).lerp(image(*b), share)).collect()
+    }
+
+    pub fn is_beyond(&self, v: VertexId) -> bool {
+        self.beyond[v].is_some()
+    }
+
+    /// Whether any corner of a face is beyond.
+    pub fn touches(&self, mesh: &SurfaceMesh, f: FaceId) -> bool {
+        mesh.triangles()[f].iter().any(|&v| self.is_beyond(v))
+    }
+
+    /// Cuts a mesh with the connectivity of the one that the cuts were made for, each edge of a rim in `parts`.
+    pub fn cut(&self, mesh: &SurfaceMesh, kept: Kept, parts: u32) -> CutMesh {
+        let mut positions: Vec<DVec3> = mesh.positions().iter().copied().collect();
+        let mut numbers = BTreeMap::new();
+        for (ends, &share) in &self.shares {
+            let [a, b] = ends.map(|v| mesh.positions()[v]);
+            numbers.insert(*ends, positions.len() as u32);
+            positions.push(a.lerp(b, share));
+        }
+        let is_kept = |v: VertexId| self.is_beyond(v) == (kept == Kept::Ends);
+        let (mut polygons, mut rim) = (Vec::new(), Vec::new());
+        for corners in mesh.triangles() {
+            let mut ring: Vec<u32> = Vec::new();
+            for k in 0..3 {
+                let (v, w) = (corners[k], corners[(k + 1) % 3]);
+                if is_kept(v) {
+                    ring.push(v.0);
+                }
+                if is_kept(v) != is_kept(w) {
+                    let mut ends = [v, w];
+                    ends.sort_unstable();
+                    ring.push(numbers[&ends]);
+                }
+            }
+            if ring.len() < 3 {
+                continue;
+            }
+            let is_new = |v: u32| v as usize >= mesh.vertex_count();
+            let edge = (0..ring.len()).find(|&k| is_new(ring[k]) && is_new(ring[(k + 1) % ring.len()]));
+            let Some(edge) = edge else {
+                polygons.push(ring);
+                continue;
+            };
+            // The edge of the rim from the last vertex to the first.
+            let turn = (edge + 1) % ring.len();
+            ring.rotate_left(turn);
+            let (first, last) = (ring[0], ring[ring.len() - 1]);
+            let mut line = vec![last];
+            for k in 1..parts {
+                let [a, b] = [last, first].map(|v| positions[v as usize]);
+                line.push(positions.len() as u32);
+                positions.push(a.lerp(b, f64::from(k) / f64::from(parts)));
+            }
+            line.push(first);
+            rim.extend(line.windows(2).map(|ends| [ends[0], ends[1]]));
+            if parts == 1 {
+                polygons.push(ring);
+                continue;
+            }
+            let apex = ring[1];
+            polygons.extend(line.windows(2).map(|ends| vec![apex, ends[0], ends[1]]));
+            if ring.len() > 3 {
+                polygons.push(ring[1..].to_vec());
+            }
+        }
+        CutMesh { soup: PolygonSoup { positions, polygons, joined_with: Vec::new() }, rim }
+    }
+}
+
+impl CutMesh {
+    /// The vertices of the rims.
+    pub fn rim_vertices(&self) -> Vec<u32> {
+        let mut vertices: Vec<u32> = self.rim.iter().flatten().copied().collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        vertices
+    }
+
+    /// Distance of a point to the nearest place of the rims.
+    pub fn distance_to_rim(&self, p: DVec3) -> f64 {
+        let to_edge = |ends: &[u32; 2]| {
+            let [a, b] = ends.map(|v| self.soup.positions[v as usize]);
+            let share = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+            p.distance(a.lerp(b, share))
+        };
+        self.rim.iter().map(to_edge).fold(f64::INFINITY, f64::min)
+    }
+}
+
+impl Open {
+    pub fn new(cut: CutMesh) -> Self {
+        let repaired = repaired(&cut.soup, &RepairOptions::default(), &mut Silent);
+        Self { checked: repaired.expect("a cut mesh can be capped").checked, cut }
+    }
+
+    /// The vertex of the capped mesh that a vertex of the cut one is.
+    pub fn vertex(&self, v: u32) -> VertexId {
+        self.checked.vertex_from_file[v as usize].expect("the vertex was not cut off")
+    }
+}
+
+/// Mean along the rims, and largest, distance of their images to the other mesh's rims, in units of the root of its area; the worse of both
+/// directions.
+pub fn rim_distances(sides: &[Open; 2], result: &MapResult) -> [f64; 2] {
+    let map = result.correspondence.as_ref().expect("a map of two meshes has pieces");
+    let meshes: [&SurfaceMesh; 2] = [&sides[0].checked.mesh, &sides[1].checked.mesh];
+    let mut worst = [0.0_f64; 2];
+    for k in 0..2 {
+        let (own, other) = (&sides[k], &sides[1 - k]);
+        let images = map.vertex_images(meshes, k);
+        let unit = 1.0 / meshes[1 - k].area().sqrt();
+        let far = |v: u32| {
+            let image = images[own.vertex(v)].expect("every vertex has an image");
+            unit * other.cut.distance_to_rim(image.position(meshes[1 - k]))
+        };
+        let (mut sum, mut length, mut largest) = (0.0, 0.0, 0.0_f64);
+        for ends in &own.cut.rim {
+            let [a, b] = ends.map(|v| own.cut.soup.positions[v as usize]);
+            let [from, to] = ends.map(far);
+            sum += 0.5 * (from + to) * a.distance(b);
+            length += a.distance(b);
+            largest = largest.max(from).max(to);
+        }
+        worst = [worst[0].max(sum / length), worst[1].max(largest)];
+    }
+    worst
+}

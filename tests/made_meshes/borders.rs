@@ -1,0 +1,106 @@
+//! Meshes that both end at a cut: a known bend of a body, a leg cut off both, against what is unknown under caps.
+
+use crate::common::farthest_points;
+use crate::cutting::{Cuts, Kept, Open, Plane, rim_distances};
+use conemap::landmarks::Landmarks;
+use conemap::math::scalar::{cos, sin};
+use conemap::mesh::{SurfaceMesh, VertexId};
+use conemap::monitor::Silent;
+use conemap::pipeline::{
+    BorderCase, Borders, CapFaces, GroundTruth, MapInput, MapResult, PipelineOptions, Warning, run,
+};
+use glam::DVec3;
+
+/// A horse and the same horse bent sideways along its length, vertex i being vertex i.
+struct Poses {
+    meshes: [SurfaceMesh; 2],
+    leg: Cuts,
+    head: Cuts,
+    /// Vertices far from each other that no cut takes away.
+    landmarks: Vec<VertexId>,
+}
+
+impl Poses {
+    fn new() -> Self {
+        let horse = conemap::demo::build("horse-cat").unwrap().source;
+        let bend = |p: &DVec3| {
+            let (angle, radius) = (0.25 * p.x, 4.0 - p.z);
+            DVec3::new(radius * sin(angle), p.y, 4.0 - radius * cos(angle))
+        };
+        let bent = horse.with_positions(horse.positions().iter().map(bend).collect());
+        let height = |v: &VertexId| horse.positions()[*v].y;
+        let end = |upwards: f64| {
+            horse.vertices().max_by(|a, b| (upwards * height(a)).total_cmp(&(upwards * height(b)))).unwrap()
+        };
+        let cut = |upwards: f64| {
+            let end = end(upwards);
+            let normal = DVec3::Y * upwards;
+            Cuts::new(&horse, &[(Plane { point: horse.positions()[end] - 0.5 * normal, normal }, end)])
+        };
+        let (leg, head) = (cut(-1.0), cut(1.0));
+        let is_left = |v: &VertexId| !leg.is_beyond(*v) && !head.is_beyond(*v);
+        let landmarks = farthest_points(&horse, 24).into_iter().filter(is_left).collect();
+        Self { meshes: [horse, bent], leg, head, landmarks }
+    }
+
+    fn cut(&self, cuts: [&Cuts; 2]) -> [Open; 2] {
+        [0, 1].map(|k| Open::new(cuts[k].cut(&self.meshes[k], Kept::Body, 1)))
+    }
+
+    fn map(&self, sides: [&Open; 2], borders: Borders) -> MapResult {
+        let on = |side: &Open| self.landmarks.iter().map(|v| side.vertex(v.0)).collect();
+        let landmarks = Landmarks { source: on(sides[0]), target: on(sides[1]) };
+        let input = MapInput {
+            source: &sides[0].checked.mesh,
+            target: &sides[1].checked.mesh,
+            landmarks: &landmarks,
+            ground_truth: GroundTruth::Unknown,
+            caps: CapFaces { source: sides[0].checked.caps(), target: sides[1].checked.caps() },
+        };
+        let result =
+            run(input, &PipelineOptions { borders, ..PipelineOptions::default() }, &mut Silent).unwrap();
+        assert!(result.report.certificate.as_ref().unwrap().bijective);
+        result
+    }
+}
+
+#[test]
+fn rim_goes_to_rim_where_both_meshes_end_there() {
+    let poses = Poses::new();
+    let sides = poses.cut([&poses.leg; 2]);
+    let [source, target] = &sides;
+    let unknown = poses.map([source, target], Borders::Missing);
+    let guessed = poses.map([source, target], Borders::Guess);
+    let [without, with] = [&unknown, &guessed].map(|result| rim_distances(&sides, result));
+    assert!(with[0] < 0.003 && with[0] < 0.5 * without[0], "{with:?} {without:?}");
+    let hidden = |result: &MapResult| result.report.coverage.as_ref().unwrap().hidden;
+    assert!(hidden(&guessed) < 0.3 * hidden(&unknown), "{} {}", hidden(&guessed), hidden(&unknown));
+    let [energy, free] = [&guessed, &unknown].map(|result| result.report.distortion.energy);
+    assert!(energy < 1.02 * free, "{energy} {free}");
+
+    // What was taken for what, and that it was guessed.
+    let told = unknown.report.borders.as_ref().unwrap();
+    assert_eq!((told.case, told.asked, told.rims.len()), (BorderCase::Missing, Borders::Missing, 0));
+    let told = guessed.report.borders.as_ref().unwrap();
+    assert_eq!((told.case, told.asked, told.rims.len()), (BorderCase::Corresponding, Borders::Guess, 1));
+    assert!(told.rims[0].misfit < 0.03, "{told:?}");
+    assert_eq!(told.rims[0].source.vertices, source.cut.rim.len());
+    let is_warning = |w: &Warning| matches!(w, Warning::GuessedBorders { rims: 1 });
+    assert!(guessed.report.warnings.iter().any(is_warning), "{:?}", guessed.report.warnings);
+    assert!(!unknown.report.warnings.iter().any(is_warning));
+
+    // Exchanged meshes give the inverse map.
+    let back = poses.map([target, source], Borders::Guess).report;
+    assert!((back.distortion.energy / energy - 1.0).abs() < 1e-9);
+    let exchanged = back.borders.as_ref().unwrap();
+    assert_eq!(exchanged.rims[0].source, told.rims[0].target);
+    assert_eq!(exchanged.rims[0].target, told.rims[0].source);
+}
+
+#[test]
+fn cuts_at_different_limbs_are_not_guessed_to_correspond() {
+    let poses = Poses::new();
+    let sides = poses.cut([&poses.leg, &poses.head]);
+    let told = poses.map([&sides[0], &sides[1]], Borders::Guess).report.borders.unwrap();
+    assert_eq!((told.case, told.rims.len()), (BorderCase::Missing, 0));
+}
