@@ -49,6 +49,8 @@ pub(super) struct Grip {
     pub curl: [[f64; 3]; 4],
     /// Joints and tip of the thumb: towards the thumb's side, along the hand, out of the palm.
     pub thumb: [[f64; 3]; 4],
+    /// Of the fingers' radii.
+    pub fullness: f64,
 }
 
 /// All fingers spread.
@@ -56,6 +58,7 @@ pub(super) const OPEN: Grip = Grip {
     spread: [0.20, 0.05, -0.11, -0.30],
     curl: [[0.06, 0.10, 0.08], [0.03, 0.10, 0.08], [0.05, 0.12, 0.10], [0.08, 0.15, 0.10]],
     thumb: [[0.12, 0.13, 0.02], [0.27, 0.27, 0.05], [0.385, 0.405, 0.06], [0.46, 0.515, 0.055]],
+    fullness: 1.0,
 };
 
 /// As if around a ball.
@@ -63,13 +66,15 @@ pub(super) const GRASP: Grip = Grip {
     spread: [0.16, 0.04, -0.09, -0.24],
     curl: [[0.45, 0.60, 0.40], [0.60, 0.70, 0.45], [0.68, 0.75, 0.45], [0.70, 0.75, 0.45]],
     thumb: [[0.11, 0.13, 0.05], [0.22, 0.27, 0.17], [0.25, 0.38, 0.30], [0.24, 0.49, 0.385]],
+    fullness: 1.0,
 };
 
 /// Fingers side by side, as a figure's small hands have them: there is no room between them that a mesh could show.
 pub(super) const TOGETHER: Grip = Grip {
-    spread: [-0.05, -0.02, 0.03, 0.12],
+    spread: [-0.06, -0.02, 0.03, 0.10],
     curl: [[0.20, 0.25, 0.15]; 4],
     thumb: [[0.12, 0.13, 0.03], [0.25, 0.27, 0.09], [0.37, 0.38, 0.12], [0.45, 0.49, 0.13]],
+    fullness: 1.2,
 };
 
 /// Towards the thumb and along the hand, where fingers begin.
@@ -113,7 +118,7 @@ pub(super) fn parts(wrist: &Wrist, grip: &Grip, edge: f64) -> Vec<Part> {
     parts.push(ball([-0.10, 0.10, 0.035], [-0.14, 0.34, 0.035], 0.07));
     for k in 0..4 {
         let (joints, _) = finger(wrist, grip, k);
-        let radii = RADII[k].map(|r| r * scale);
+        let radii = RADII[k].map(|r| r * scale * grip.fullness);
         let root = joints[0] - (joints[1] - joints[0]) * 0.25;
         let mut nodes = vec![Node { side: wrist.thumb, ..Node::round(root, radii[0]) }];
         for i in 0..3 {

@@ -228,9 +228,9 @@ pub(super) fn camel(pose: &Pose) -> (Body, Vec<Mark>) {
     let mut s = Sculpture::new(&CAMEL, pose);
     let (head, torso) = (s.head, s.torso);
     let hump = torso.tube(&[
-        [-0.06, 1.50, 0.0, 0.38, 0.20],
-        [-0.07, 1.74, 0.0, 0.25, 0.155],
-        [-0.09, 1.93, 0.0, 0.13, 0.10],
+        [-0.06, 1.50, 0.0, 0.44, 0.22],
+        [-0.07, 1.76, 0.0, 0.29, 0.165],
+        [-0.09, 1.97, 0.0, 0.14, 0.10],
     ]);
     s.parts.push(Part::join(hump, 0.12, 0.030));
     // The callus below the chest, brows, and the lips.
@@ -336,7 +336,7 @@ pub(super) fn cow(pose: &Pose) -> (Body, Vec<Mark>) {
     let (head, torso) = (s.head, s.torso);
     // Hip bones, dewlap, udder with teats.
     for side in [1.0, -1.0] {
-        s.parts.push(Part::join(vec![torso.ball(at(-0.50, 1.375, side * 0.20), 0.055)], 0.12, 0.034));
+        s.parts.push(Part::join(vec![torso.ball(at(-0.50, 1.36, side * 0.20), 0.05)], 0.16, 0.034));
     }
     let dewlap = torso.ellipsoid(at(0.80, 0.98, 0.0), at(0.22, 0.13, 0.032), 0.55);
     s.parts.push(Part::join(vec![dewlap], 0.08, 0.030));

@@ -50,9 +50,9 @@ pub(super) fn standing() -> (Body, Vec<Mark>) {
 /// Running.
 pub(super) fn running() -> (Body, Vec<Mark>) {
     let left = Limbs {
-        upper_arm: at(0.42, -0.70, -0.58),
-        forearm: at(0.20, -0.45, 0.87),
-        hand: at(0.05, -0.30, 0.95),
+        upper_arm: at(0.55, -0.66, -0.58),
+        forearm: at(0.22, -0.30, 0.90),
+        hand: at(0.08, -0.10, 0.98),
         palm: at(-1.0, 0.0, 0.0),
         thigh: at(0.08, -0.52, 0.85),
         shin: at(0.02, -0.92, -0.38),
@@ -89,7 +89,7 @@ fn figure(limbs: [Limbs; 2]) -> (Body, Vec<Mark>) {
     let body = Body::new(parts.clone());
     for side in [1.0, -1.0] {
         let place = Mark::new("", at(side * 0.031, 1.696, 0.04), DVec3::Z).place(&body);
-        parts.extend(eye(&body, place, 0.0145));
+        parts.extend(eye(&body, place, 0.0135));
     }
     (Body::new(parts), marks)
 }
@@ -134,15 +134,15 @@ fn head() -> Vec<Part> {
     for side in [1.0, -1.0] {
         let jaw = [Node::round(at(side * 0.050, 1.655, 0.005), 0.022), Node::round(at(side * 0.018, 1.608, 0.062), 0.018)];
         parts.push(Part::join(tube(&jaw), 0.03, edge));
-        parts.push(blob(at(side * 0.030, 1.714, 0.083), at(0.030, 0.009, 0.014), 0.016, 0.8 * edge));
-        parts.push(blob(at(side * 0.042, 1.668, 0.066), at(0.022, 0.018, 0.020), 0.02, edge));
+        parts.push(blob(at(side * 0.030, 1.715, 0.079), at(0.032, 0.010, 0.014), 0.024, 0.8 * edge));
+        parts.push(blob(at(side * 0.043, 1.668, 0.058), at(0.024, 0.024, 0.022), 0.04, edge));
         parts.push(blob(at(side * 0.0135, 1.668, 0.100), at(0.0085, 0.0085, 0.011), 0.008, 0.7 * edge));
         let ear = Ellipsoid {
             centre: at(side * 0.080, 1.692, -0.006),
             axes: [at(side * 0.88, 0.0, -0.474_973_683_481_516_7), DVec3::Y, at(0.474_973_683_481_516_7, 0.0, side * 0.88)],
-            radii: at(0.010, 0.034, 0.021),
+            radii: at(0.013, 0.036, 0.023),
         };
-        let hollow = Ellipsoid { centre: at(side * 0.095, 1.694, 0.004), radii: at(0.012, 0.022, 0.012), ..ear };
+        let hollow = Ellipsoid { centre: at(side * 0.099, 1.694, 0.003), radii: at(0.012, 0.022, 0.012), ..ear };
         let ear = Part::join(vec![Solid::Ellipsoid(ear)], 0.008, 0.7 * edge);
         parts.push(ear.without(Solid::Ellipsoid(hollow), 0.005));
     }
@@ -237,7 +237,7 @@ fn add_arm(limbs: &Limbs, side: f64, parts: &mut Vec<Part>, marks: &mut Vec<Mark
     let palm = limbs.palm;
     let along = limbs.hand.normalize();
     // The palm of a left hand that points down looks right when its thumb is in front.
-    let thumb = along.cross(palm) * side;
+    let thumb = palm.cross(along) * side;
     let wrist = Wrist::new(end + along * 0.008, along, thumb, palm, HAND);
     let on_upper = |t: f64, r: f64| Node::round(shoulder + upper * (t * UPPER_ARM), r);
     let on_lower = |t: f64, height: f64, width: f64| Node { centre: elbow + lower * (t * FOREARM), height, width, side: wrist.thumb };

@@ -4,7 +4,7 @@
 //! collapsed, edges flipped to Delaunay's, and vertices moved to the middle of their neighbours and back onto the surface.
 
 use super::body::Body;
-use crate::math::scalar::max;
+use crate::math::scalar::{max, min};
 use crate::mesh::collapsible::{CollapsibleMesh, ShapeLimits};
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec3;
@@ -18,8 +18,8 @@ const TETRAHEDRA: [[usize; 4]; 6] =
 const BLOCK: usize = 4;
 /// A block whose middle is farther from the surface than this, in units of its half diagonal, is left out.
 const CAUTION: f64 = 1.3;
-/// Rounds of collapses, flips and smoothing.
-const ROUNDS: usize = 3;
+/// How often the mesh is smoothed in each round of collapses, splits and flips.
+const SMOOTHINGS: [usize; 3] = [1, 1, 3];
 
 /// Where the cells lie and how large they are.
 #[derive(Clone, Copy, Debug)]
@@ -39,10 +39,10 @@ pub(super) fn skin(body: &Body, cells: &Cells) -> SurfaceMesh {
     let faces = grid.faces.iter().map(|t| t.map(VertexId)).collect();
     let raw = SurfaceMesh::from_triangles(grid.positions.into(), faces);
     let mut mesh = raw.expect("marching tetrahedra give a closed manifold");
-    for round in 0..ROUNDS {
+    for times in SMOOTHINGS {
         let lengths = wanted_lengths(&mesh, body, cells.coarseness);
         mesh = with_even_edges(&mesh, &lengths);
-        mesh = smoothed(&mesh, body, if round + 1 == ROUNDS { 3 } else { 1 });
+        mesh = smoothed(&mesh, body, times);
     }
     mesh
 }
@@ -289,32 +289,32 @@ fn of_level(
     SurfaceMesh::from_triangles(places, faces).expect("collapses and flips keep a closed manifold")
 }
 
-/// Moves every vertex towards the mean of its neighbours and back onto the surface, so many times.
+/// Moves every vertex towards the mean of its neighbours and back near the surface, so many times, and at last onto it.
 fn smoothed(mesh: &SurfaceMesh, body: &Body, times: usize) -> SurfaceMesh {
     let mut positions: TiVec<VertexId, DVec3> = mesh.positions().iter().copied().collect();
     for _ in 0..times {
         let moved = |v: VertexId| {
-            let (mut sum, mut n, mut reach) = (DVec3::ZERO, 0.0, f64::INFINITY);
+            let (mut sum, mut n, mut normal, mut reach) = (DVec3::ZERO, 0.0, DVec3::ZERO, f64::INFINITY);
+            let at = positions[v];
             for h in mesh.star(v) {
-                let q = positions[mesh.head(h)];
-                (sum, n, reach) = (sum + q, n + 1.0, reach.min(q.distance(positions[v])));
+                let [p, q] = [mesh.head(h), mesh.tail(h.prev())].map(|w| positions[w]);
+                (sum, n, reach) = (sum + p, n + 1.0, min(reach, p.distance_squared(at)));
+                normal += (p - at).cross(q - at);
             }
-            projected(positions[v].lerp(sum / n, 0.6), body, 0.5 * reach)
+            let (goal, reach) = (at.lerp(sum / n, 0.6), 0.5 * reach.sqrt());
+            goal - normal.normalize_or_zero() * body.value(goal).clamp(-reach, reach)
         };
         positions = mesh.vertices().map(moved).collect();
     }
-    mesh.with_positions(positions)
+    mesh.with_positions(positions.iter().map(|p| projected(*p, body)).collect())
 }
 
-/// Newton steps along the gradient onto the surface, each at most `reach` long.
-fn projected(mut p: DVec3, body: &Body, reach: f64) -> DVec3 {
+/// A Newton step along the gradient onto the surface.
+fn projected(p: DVec3, body: &Body) -> DVec3 {
     let h = 1e-5;
-    for _ in 0..1 {
-        let v = body.value(p);
-        let slope = |axis: DVec3| (body.value(p + axis * h) - v) / h;
-        let gradient = DVec3::new(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z));
-        let step = gradient * (v / gradient.length_squared().max(0.1));
-        p -= step.clamp_length_max(reach);
-    }
-    p
+    let v = body.value(p);
+    let slope = |axis: DVec3| (body.value(p + axis * h) - v) / h;
+    let gradient = DVec3::new(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z));
+    let step = gradient * (v / max(gradient.length_squared(), 0.1));
+    p - step.clamp_length_max(0.01)
 }
