@@ -97,7 +97,10 @@ pub(super) enum Solid {
     Section(Section),
     Ellipsoid(Ellipsoid),
     /// The side of a plane away from its normal; only to take away.
-    Beyond { point: DVec3, normal: DVec3 },
+    Beyond {
+        point: DVec3,
+        normal: DVec3,
+    },
 }
 
 impl Solid {
@@ -163,7 +166,9 @@ impl Part {
 
     /// What the least of its solids' values becomes by what is taken away from it.
     fn trimmed(&self, value: f64, p: DVec3) -> f64 {
-        self.without.iter().fold(value, |value, (solid, round)| smooth_maximum(value, -solid.value(p, FAR), *round))
+        self.without
+            .iter()
+            .fold(value, |value, (solid, round)| smooth_maximum(value, -solid.value(p, FAR), *round))
     }
 }
 

@@ -81,10 +81,18 @@ pub(super) fn wolf(pose: &Pose) -> (Body, Vec<Mark>) {
     let head = s.head;
     // The ruff of the cheeks and the neck, brows, the lower jaw, the nose.
     s.on_both_sides(|head, side| {
-        Part::join(vec![head.ellipsoid(at(0.99, 1.52, side * 0.105), at(0.10, 0.13, 0.055), 0.5)], 0.05, 0.022)
+        Part::join(
+            vec![head.ellipsoid(at(0.99, 1.52, side * 0.105), at(0.10, 0.13, 0.055), 0.5)],
+            0.05,
+            0.022,
+        )
     });
     s.on_both_sides(|head, side| {
-        Part::join(vec![head.ellipsoid(at(1.13, 1.672, side * 0.066), at(0.05, 0.024, 0.034), -0.4)], 0.025, 0.017)
+        Part::join(
+            vec![head.ellipsoid(at(1.13, 1.672, side * 0.066), at(0.05, 0.024, 0.034), -0.4)],
+            0.025,
+            0.017,
+        )
     });
     let jaw = head.tube(&[
         [1.06, 1.50, 0.0, 0.060, 0.080],
@@ -93,7 +101,11 @@ pub(super) fn wolf(pose: &Pose) -> (Body, Vec<Mark>) {
         [1.42, 1.430, 0.0, 0.026, 0.034],
     ]);
     s.parts.push(Part::join(jaw, 0.010, 0.016));
-    s.parts.push(Part::join(vec![head.ellipsoid(at(1.488, 1.512, 0.0), at(0.030, 0.028, 0.034), 0.0)], 0.010, 0.013));
+    s.parts.push(Part::join(
+        vec![head.ellipsoid(at(1.488, 1.512, 0.0), at(0.030, 0.028, 0.034), 0.0)],
+        0.010,
+        0.013,
+    ));
     s.eyes(at(1.150, 1.625, 0.085), 0.027);
     s.nostrils(at(1.516, 1.510, 0.020), at(0.016, 0.010, 0.010), 0.3);
     s.ears(&Ear {
@@ -178,14 +190,34 @@ pub(super) fn cat(pose: &Pose) -> (Body, Vec<Mark>) {
     let head = s.head;
     // Cheeks, the pads of the whiskers, chin, bridge and tip of the nose.
     s.on_both_sides(|head, side| {
-        Part::join(vec![head.ellipsoid(at(0.88, 1.185, side * 0.12), at(0.09, 0.075, 0.065), 0.0)], 0.05, 0.020)
+        Part::join(
+            vec![head.ellipsoid(at(0.88, 1.185, side * 0.12), at(0.09, 0.075, 0.065), 0.0)],
+            0.05,
+            0.020,
+        )
     });
     s.on_both_sides(|head, side| {
-        Part::join(vec![head.ellipsoid(at(1.050, 1.150, side * 0.042), at(0.052, 0.046, 0.052), 0.0)], 0.026, 0.015)
+        Part::join(
+            vec![head.ellipsoid(at(1.050, 1.150, side * 0.042), at(0.052, 0.046, 0.052), 0.0)],
+            0.026,
+            0.015,
+        )
     });
-    s.parts.push(Part::join(vec![head.ellipsoid(at(1.015, 1.098, 0.0), at(0.056, 0.036, 0.044), 0.2)], 0.012, 0.015));
-    s.parts.push(Part::join(vec![head.ellipsoid(at(1.02, 1.232, 0.0), at(0.085, 0.032, 0.036), -0.6)], 0.03, 0.016));
-    s.parts.push(Part::join(vec![head.ellipsoid(at(1.090, 1.186, 0.0), at(0.022, 0.020, 0.026), -0.3)], 0.008, 0.011));
+    s.parts.push(Part::join(
+        vec![head.ellipsoid(at(1.015, 1.098, 0.0), at(0.056, 0.036, 0.044), 0.2)],
+        0.012,
+        0.015,
+    ));
+    s.parts.push(Part::join(
+        vec![head.ellipsoid(at(1.02, 1.232, 0.0), at(0.085, 0.032, 0.036), -0.6)],
+        0.03,
+        0.016,
+    ));
+    s.parts.push(Part::join(
+        vec![head.ellipsoid(at(1.090, 1.186, 0.0), at(0.022, 0.020, 0.026), -0.3)],
+        0.008,
+        0.011,
+    ));
     s.eyes(at(0.985, 1.262, 0.16), 0.036);
     s.ears(&Ear {
         base: at(0.80, 1.385, 0.105),
@@ -285,24 +317,52 @@ fn tuft([behind, reach, turn]: [f64; 3], k: usize) -> [[f64; 5]; 3] {
 pub(super) fn lion(pose: &Pose) -> (Body, Vec<Mark>) {
     let mut s = Sculpture::new(&LION, pose);
     let head = s.head;
-    let below = head.tube(&[[0.66, 1.22, 0.0, 0.34, 0.27], [0.80, 1.34, 0.0, 0.32, 0.26], [0.93, 1.44, 0.0, 0.22, 0.20]]);
+    let below = head.tube(&[
+        [0.66, 1.22, 0.0, 0.34, 0.27],
+        [0.80, 1.34, 0.0, 0.32, 0.26],
+        [0.93, 1.44, 0.0, 0.22, 0.20],
+    ]);
     s.parts.push(Part::join(below, 0.05, 0.030));
     for ring in RINGS {
         s.parts.extend((0..TUFTS).map(|k| Part::join(head.tube(&tuft(ring, k)), 0.022, 0.022)));
     }
     // The mane goes on down the chest.
     let torso = s.torso;
-    let chest = torso.tube(&[[0.66, 1.20, 0.0, 0.22, 0.20], [0.66, 0.96, 0.0, 0.14, 0.14], [0.63, 0.74, 0.0, 0.05, 0.05]]);
+    let chest = torso.tube(&[
+        [0.66, 1.20, 0.0, 0.22, 0.20],
+        [0.66, 0.96, 0.0, 0.14, 0.14],
+        [0.63, 0.74, 0.0, 0.05, 0.05],
+    ]);
     s.parts.push(Part::join(chest, 0.06, 0.028));
     s.on_both_sides(|head, side| {
-        Part::join(vec![head.ellipsoid(at(1.14, 1.545, side * 0.070), at(0.06, 0.028, 0.04), -0.35)], 0.03, 0.019)
+        Part::join(
+            vec![head.ellipsoid(at(1.14, 1.545, side * 0.070), at(0.06, 0.028, 0.04), -0.35)],
+            0.03,
+            0.019,
+        )
     });
     s.on_both_sides(|head, side| {
-        Part::join(vec![head.ellipsoid(at(1.315, 1.345, side * 0.048), at(0.068, 0.062, 0.062), 0.0)], 0.032, 0.018)
+        Part::join(
+            vec![head.ellipsoid(at(1.315, 1.345, side * 0.048), at(0.068, 0.062, 0.062), 0.0)],
+            0.032,
+            0.018,
+        )
     });
-    s.parts.push(Part::join(vec![head.ellipsoid(at(1.27, 1.270, 0.0), at(0.090, 0.055, 0.068), 0.1)], 0.012, 0.018));
-    s.parts.push(Part::join(vec![head.ellipsoid(at(1.25, 1.455, 0.0), at(0.13, 0.045, 0.060), -0.5)], 0.04, 0.019));
-    s.parts.push(Part::join(vec![head.ellipsoid(at(1.362, 1.398, 0.0), at(0.030, 0.030, 0.046), -0.4)], 0.010, 0.014));
+    s.parts.push(Part::join(
+        vec![head.ellipsoid(at(1.27, 1.270, 0.0), at(0.090, 0.055, 0.068), 0.1)],
+        0.012,
+        0.018,
+    ));
+    s.parts.push(Part::join(
+        vec![head.ellipsoid(at(1.25, 1.455, 0.0), at(0.13, 0.045, 0.060), -0.5)],
+        0.04,
+        0.019,
+    ));
+    s.parts.push(Part::join(
+        vec![head.ellipsoid(at(1.362, 1.398, 0.0), at(0.030, 0.030, 0.046), -0.4)],
+        0.010,
+        0.014,
+    ));
     s.eyes(at(1.19, 1.495, 0.15), 0.030);
     s.nostrils(at(1.388, 1.392, 0.028), at(0.016, 0.010, 0.014), 0.4);
     s.ears(&Ear {

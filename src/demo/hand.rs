@@ -36,7 +36,12 @@ impl Wrist {
 
     fn node(&self, centre: [f64; 3], height: f64, width: f64) -> Node {
         let [x, y, z] = centre;
-        Node { centre: self.at(x, y, z), height: height * self.scale, width: width * self.scale, side: self.thumb }
+        Node {
+            centre: self.at(x, y, z),
+            height: height * self.scale,
+            width: width * self.scale,
+            side: self.thumb,
+        }
     }
 }
 
@@ -82,8 +87,12 @@ const KNUCKLES: [[f64; 2]; 4] = [[0.170, 0.50], [0.058, 0.525], [-0.057, 0.51], 
 const PHALANGES: [[f64; 3]; 4] =
     [[0.235, 0.145, 0.085], [0.265, 0.165, 0.09], [0.245, 0.15, 0.09], [0.185, 0.11, 0.08]];
 /// Radii of the fingers at their knuckles, between and at the tips.
-const RADII: [[f64; 4]; 4] =
-    [[0.060, 0.052, 0.047, 0.038], [0.062, 0.053, 0.048, 0.039], [0.059, 0.051, 0.046, 0.037], [0.052, 0.044, 0.040, 0.033]];
+const RADII: [[f64; 4]; 4] = [
+    [0.060, 0.052, 0.047, 0.038],
+    [0.062, 0.053, 0.048, 0.039],
+    [0.059, 0.051, 0.046, 0.037],
+    [0.052, 0.044, 0.040, 0.033],
+];
 
 /// Joints of a finger, its tip last, and the direction of its back at the tip.
 fn finger(wrist: &Wrist, grip: &Grip, k: usize) -> ([DVec3; 4], DVec3) {
@@ -113,7 +122,11 @@ pub(super) fn parts(wrist: &Wrist, grip: &Grip, edge: f64) -> Vec<Part> {
     let mut parts = vec![Part::join(palm, 0.06 * scale, 1.25 * edge)];
     // The balls of the thumb and of the little finger.
     let ball = |from: [f64; 3], to: [f64; 3], size: f64| {
-        Part::join(tube(&[wrist.node(from, size, size), wrist.node(to, 0.75 * size, 0.75 * size)]), 0.06 * scale, 1.2 * edge)
+        Part::join(
+            tube(&[wrist.node(from, size, size), wrist.node(to, 0.75 * size, 0.75 * size)]),
+            0.06 * scale,
+            1.2 * edge,
+        )
     };
     parts.push(ball([-0.10, 0.10, 0.035], [-0.14, 0.34, 0.035], 0.07));
     for k in 0..4 {
@@ -125,16 +138,27 @@ pub(super) fn parts(wrist: &Wrist, grip: &Grip, edge: f64) -> Vec<Part> {
             // Joints are thicker than the bones between them.
             let middle = joints[i].midpoint(joints[i + 1]);
             nodes.push(Node { side: wrist.thumb, ..Node::round(joints[i], radii[i]) });
-            nodes.push(Node { side: wrist.thumb, ..Node::round(middle, 0.5 * (radii[i] + radii[i + 1]) * 0.93) });
+            nodes.push(Node {
+                side: wrist.thumb,
+                ..Node::round(middle, 0.5 * (radii[i] + radii[i + 1]) * 0.93)
+            });
         }
         nodes.push(Node { side: wrist.thumb, ..Node::round(joints[3], radii[3]) });
         parts.push(Part::join(tube(&nodes), 0.026 * scale, edge));
         // The knuckle, seen on the back of the hand.
         let knuckle = joints[0] - wrist.palm * (0.022 * scale);
-        parts.push(Part::join(tube(&[Node::round(knuckle, 0.9 * radii[0]), Node::round(knuckle + wrist.along * (0.03 * scale), 0.85 * radii[0])]), 0.03 * scale, edge));
+        parts.push(Part::join(
+            tube(&[
+                Node::round(knuckle, 0.9 * radii[0]),
+                Node::round(knuckle + wrist.along * (0.03 * scale), 0.85 * radii[0]),
+            ]),
+            0.03 * scale,
+            edge,
+        ));
     }
     let thumb = grip.thumb.map(|[x, y, z]| wrist.at(x, y, z));
-    let nodes: Vec<Node> = thumb.into_iter().zip([0.095, 0.072, 0.062, 0.046]).map(|(p, r)| Node::round(p, r * scale)).collect();
+    let nodes: Vec<Node> =
+        thumb.into_iter().zip([0.095, 0.072, 0.062, 0.046]).map(|(p, r)| Node::round(p, r * scale)).collect();
     parts.push(Part::join(tube(&nodes), 0.05 * scale, edge));
     parts
 }
@@ -158,7 +182,8 @@ fn nails(wrist: &Wrist, grip: &Grip, edge: f64) -> Vec<Part> {
 fn nail([joint, tip]: [DVec3; 2], back: DVec3, side: DVec3, radius: f64, edge: f64) -> Part {
     let along = (tip - joint).normalize();
     let at = |t: f64| tip + along * (t * radius) + back * (0.92 * radius);
-    let node = |t: f64, share: f64| Node { centre: at(t), height: 0.30 * radius, width: share * radius, side };
+    let node =
+        |t: f64, share: f64| Node { centre: at(t), height: 0.30 * radius, width: share * radius, side };
     Part::join(tube(&[node(-0.55, 0.70), node(0.1, 0.74), node(0.65, 0.62)]), 0.10 * radius, 0.75 * edge)
 }
 
@@ -212,5 +237,8 @@ pub(super) fn hand(grip: &Grip) -> (Body, Vec<Mark>) {
 pub(super) fn tips(wrist: &Wrist, grip: &Grip, names: [&'static str; 2]) -> [Mark; 2] {
     let thumb = grip.thumb.map(|[x, y, z]| wrist.at(x, y, z));
     let (joints, _) = finger(wrist, grip, 1);
-    [Mark::new(names[0], thumb[2], thumb[3] - thumb[2]), Mark::new(names[1], joints[2], joints[3] - joints[2])]
+    [
+        Mark::new(names[0], thumb[2], thumb[3] - thumb[2]),
+        Mark::new(names[1], joints[2], joints[3] - joints[2]),
+    ]
 }

@@ -111,7 +111,7 @@ pub(super) const REAR: Pose = Pose {
     pitch: 0.80,
     neck: 0.15,
     head: -0.45,
-    fore: [[0.35, 0.65, -1.50, -0.5], [0.10, 0.85, -1.85, -0.5]],
+    fore: [[0.35, 0.65, -1.35, -0.4], [0.10, 0.85, -1.50, -0.4]],
     hind: [[-0.45, -0.30, 0.10, -0.2], [-0.25, -0.45, 0.0, -0.15]],
     tail: 0.95,
 };
@@ -122,10 +122,18 @@ pub(super) fn horse(pose: &Pose) -> (Body, Vec<Mark>) {
     let head = s.head;
     // Cheeks, brows and the lower lip.
     s.on_both_sides(|head, side| {
-        Part::join(vec![head.ellipsoid(at(1.11, 1.785, side * 0.05), at(0.12, 0.105, 0.045), -0.7)], 0.03, 0.022)
+        Part::join(
+            vec![head.ellipsoid(at(1.11, 1.785, side * 0.05), at(0.12, 0.105, 0.045), -0.7)],
+            0.03,
+            0.022,
+        )
     });
     s.on_both_sides(|head, side| {
-        Part::join(vec![head.ellipsoid(at(1.165, 1.895, side * 0.075), at(0.05, 0.024, 0.03), -0.6)], 0.03, 0.018)
+        Part::join(
+            vec![head.ellipsoid(at(1.165, 1.895, side * 0.075), at(0.05, 0.024, 0.03), -0.6)],
+            0.03,
+            0.018,
+        )
     });
     let lip = head.ellipsoid(at(1.37, 1.425, 0.0), at(0.07, 0.036, 0.045), -0.8);
     s.parts.push(Part::join(vec![lip], 0.010, 0.015));
@@ -139,7 +147,11 @@ pub(super) fn horse(pose: &Pose) -> (Body, Vec<Mark>) {
         outline: Outline::Leaf,
     });
     s.crest(0.05);
-    let forelock = head.tube(&[[1.03, 2.06, 0.0, 0.05, 0.045], [1.10, 2.02, 0.0, 0.035, 0.05], [1.19, 1.90, 0.0, 0.02, 0.02]]);
+    let forelock = head.tube(&[
+        [1.03, 2.06, 0.0, 0.05, 0.045],
+        [1.10, 2.02, 0.0, 0.035, 0.05],
+        [1.19, 1.90, 0.0, 0.02, 0.02],
+    ]);
     s.parts.push(Part::join(forelock, 0.02, 0.018));
     s.mark("forehead", head, at(1.13, 1.84, 0.0), at(0.8, 0.62, 0.0));
     s.finished()
@@ -228,15 +240,23 @@ pub(super) fn camel(pose: &Pose) -> (Body, Vec<Mark>) {
     let mut s = Sculpture::new(&CAMEL, pose);
     let (head, torso) = (s.head, s.torso);
     let hump = torso.tube(&[
-        [-0.06, 1.50, 0.0, 0.44, 0.22],
-        [-0.07, 1.76, 0.0, 0.29, 0.165],
-        [-0.09, 1.97, 0.0, 0.14, 0.10],
+        [-0.06, 1.50, 0.0, 0.38, 0.20],
+        [-0.07, 1.74, 0.0, 0.25, 0.155],
+        [-0.09, 1.93, 0.0, 0.13, 0.10],
     ]);
     s.parts.push(Part::join(hump, 0.12, 0.030));
     // The callus below the chest, brows, and the lips.
-    s.parts.push(Part::join(vec![torso.ellipsoid(at(0.40, 1.00, 0.0), at(0.11, 0.07, 0.09), 0.2)], 0.06, 0.028));
+    s.parts.push(Part::join(
+        vec![torso.ellipsoid(at(0.40, 1.00, 0.0), at(0.11, 0.07, 0.09), 0.2)],
+        0.06,
+        0.028,
+    ));
     s.on_both_sides(|head, side| {
-        Part::join(vec![head.ellipsoid(at(1.37, 2.075, side * 0.075), at(0.055, 0.022, 0.030), -0.2)], 0.03, 0.018)
+        Part::join(
+            vec![head.ellipsoid(at(1.37, 2.075, side * 0.075), at(0.055, 0.022, 0.030), -0.2)],
+            0.03,
+            0.018,
+        )
     });
     let lip = head.ellipsoid(at(1.64, 1.825, 0.0), at(0.075, 0.034, 0.046), -0.35);
     s.parts.push(Part::join(vec![lip], 0.010, 0.015));
@@ -340,18 +360,34 @@ pub(super) fn cow(pose: &Pose) -> (Body, Vec<Mark>) {
     }
     let dewlap = torso.ellipsoid(at(0.80, 0.98, 0.0), at(0.22, 0.13, 0.032), 0.55);
     s.parts.push(Part::join(vec![dewlap], 0.08, 0.030));
-    s.parts.push(Part::join(vec![torso.ellipsoid(at(-0.42, 0.74, 0.0), at(0.17, 0.13, 0.15), 0.25)], 0.05, 0.030));
+    s.parts.push(Part::join(
+        vec![torso.ellipsoid(at(-0.42, 0.74, 0.0), at(0.17, 0.13, 0.15), 0.25)],
+        0.05,
+        0.030,
+    ));
     for (x, side) in [(-0.34, 1.0), (-0.34, -1.0), (-0.46, 1.0), (-0.46, -1.0)] {
         let teat = torso.ellipsoid(at(x, 0.62, side * 0.065), at(0.026, 0.062, 0.026), 0.0);
         s.parts.push(Part::join(vec![teat], 0.02, 0.018));
     }
     // The poll, the muzzle and its lower lip, cheeks.
-    s.parts.push(Part::join(vec![head.ellipsoid(at(1.08, 1.58, 0.0), at(0.06, 0.06, 0.10), 0.0)], 0.06, 0.022));
-    s.parts.push(Part::join(vec![head.ellipsoid(at(1.43, 1.085, 0.0), at(0.062, 0.085, 0.108), -0.9)], 0.025, 0.020));
+    s.parts.push(Part::join(
+        vec![head.ellipsoid(at(1.08, 1.58, 0.0), at(0.06, 0.06, 0.10), 0.0)],
+        0.06,
+        0.022,
+    ));
+    s.parts.push(Part::join(
+        vec![head.ellipsoid(at(1.43, 1.085, 0.0), at(0.062, 0.085, 0.108), -0.9)],
+        0.025,
+        0.020,
+    ));
     let lip = head.ellipsoid(at(1.375, 1.01, 0.0), at(0.085, 0.042, 0.072), -0.8);
     s.parts.push(Part::join(vec![lip], 0.010, 0.016));
     s.on_both_sides(|head, side| {
-        Part::join(vec![head.ellipsoid(at(1.19, 1.49, side * 0.10), at(0.055, 0.030, 0.04), -0.7)], 0.03, 0.020)
+        Part::join(
+            vec![head.ellipsoid(at(1.19, 1.49, side * 0.10), at(0.055, 0.030, 0.04), -0.7)],
+            0.03,
+            0.020,
+        )
     });
     s.eyes(at(1.20, 1.455, 0.120), 0.034);
     s.nostrils(at(1.475, 1.095, 0.062), at(0.034, 0.018, 0.026), -0.7);

@@ -1,8 +1,8 @@
 //! A figure with face, hands and feet in two poses. It looks along +z; its left side is +x, up is +y.
 
 use super::body::{Body, Ellipsoid, Part, Solid};
+use super::eye::eye;
 use super::hand::{self, TOGETHER, Wrist};
-use super::quadruped::eye;
 use super::shape::Mark;
 use super::tube::{Node, tube};
 use glam::DVec3;
@@ -96,7 +96,8 @@ fn figure(limbs: [Limbs; 2]) -> (Body, Vec<Mark>) {
 
 fn trunk() -> Vec<Part> {
     let edge = EDGES[0];
-    let node = |[y, z, depth, width]: [f64; 4]| Node { centre: at(0.0, y, z), height: depth, width, side: DVec3::X };
+    let node =
+        |[y, z, depth, width]: [f64; 4]| Node { centre: at(0.0, y, z), height: depth, width, side: DVec3::X };
     let trunk = [
         [0.875, -0.005, 0.080, 0.120],
         [0.95, -0.005, 0.100, 0.160],
@@ -117,7 +118,10 @@ fn trunk() -> Vec<Part> {
         parts.push(blob(at(side * 0.075, 1.375, 0.066), at(0.085, 0.060, 0.036), 0.05, edge));
         // Shoulder blades, and the muscles from the neck to the shoulders.
         parts.push(blob(at(side * 0.085, 1.36, -0.075), at(0.060, 0.080, 0.034), 0.04, edge));
-        let trapezius = [Node::round(at(side * 0.035, 1.545, -0.025), 0.030), Node::round(at(side * 0.155, 1.465, -0.015), 0.034)];
+        let trapezius = [
+            Node::round(at(side * 0.035, 1.545, -0.025), 0.030),
+            Node::round(at(side * 0.155, 1.465, -0.015), 0.034),
+        ];
         parts.push(Part::join(tube(&trapezius), 0.05, edge));
     }
     parts
@@ -129,20 +133,32 @@ fn head() -> Vec<Part> {
         blob(at(0.0, 1.725, -0.005), at(0.076, 0.092, 0.096), 0.03, 1.3 * edge),
         blob(at(0.0, 1.675, 0.030), at(0.058, 0.085, 0.066), 0.03, edge),
         blob(at(0.0, 1.612, 0.068), at(0.028, 0.024, 0.026), 0.035, edge),
-        Part::join(tube(&[Node::round(at(0.0, 1.712, 0.092), 0.009), Node::round(at(0.0, 1.672, 0.110), 0.0135)]), 0.014, 0.8 * edge),
+        Part::join(
+            tube(&[Node::round(at(0.0, 1.712, 0.092), 0.009), Node::round(at(0.0, 1.672, 0.110), 0.0135)]),
+            0.014,
+            0.8 * edge,
+        ),
     ];
     for side in [1.0, -1.0] {
-        let jaw = [Node::round(at(side * 0.050, 1.655, 0.005), 0.022), Node::round(at(side * 0.018, 1.608, 0.062), 0.018)];
+        let jaw = [
+            Node::round(at(side * 0.050, 1.655, 0.005), 0.022),
+            Node::round(at(side * 0.018, 1.608, 0.062), 0.018),
+        ];
         parts.push(Part::join(tube(&jaw), 0.03, edge));
         parts.push(blob(at(side * 0.030, 1.715, 0.079), at(0.032, 0.010, 0.014), 0.024, 0.8 * edge));
         parts.push(blob(at(side * 0.043, 1.668, 0.058), at(0.024, 0.024, 0.022), 0.04, edge));
         parts.push(blob(at(side * 0.0135, 1.668, 0.100), at(0.0085, 0.0085, 0.011), 0.008, 0.7 * edge));
         let ear = Ellipsoid {
             centre: at(side * 0.080, 1.692, -0.006),
-            axes: [at(side * 0.88, 0.0, -0.474_973_683_481_516_7), DVec3::Y, at(0.474_973_683_481_516_7, 0.0, side * 0.88)],
+            axes: [
+                at(side * 0.88, 0.0, -0.474_973_683_481_516_7),
+                DVec3::Y,
+                at(0.474_973_683_481_516_7, 0.0, side * 0.88),
+            ],
             radii: at(0.013, 0.036, 0.023),
         };
-        let hollow = Ellipsoid { centre: at(side * 0.099, 1.694, 0.003), radii: at(0.012, 0.022, 0.012), ..ear };
+        let hollow =
+            Ellipsoid { centre: at(side * 0.099, 1.694, 0.003), radii: at(0.012, 0.022, 0.012), ..ear };
         let ear = Part::join(vec![Solid::Ellipsoid(ear)], 0.008, 0.7 * edge);
         parts.push(ear.without(Solid::Ellipsoid(hollow), 0.005));
     }
@@ -179,8 +195,10 @@ fn add_leg(limbs: &Limbs, side: f64, parts: &mut Vec<Part>, marks: &mut Vec<Mark
     let ankle = knee + shin * SHIN;
     let front = (thigh - shin + DVec3::Z * 0.15).normalize();
     let front_of = |bone: DVec3| (front - bone * front.dot(bone)).normalize();
-    let on_thigh = |t: f64, forward: f64, r: f64| Node::round(hip + thigh * (t * THIGH) + front_of(thigh) * forward, r);
-    let on_shin = |t: f64, forward: f64, r: f64| Node::round(knee + shin * (t * SHIN) + front_of(shin) * forward, r);
+    let on_thigh =
+        |t: f64, forward: f64, r: f64| Node::round(hip + thigh * (t * THIGH) + front_of(thigh) * forward, r);
+    let on_shin =
+        |t: f64, forward: f64, r: f64| Node::round(knee + shin * (t * SHIN) + front_of(shin) * forward, r);
     let leg = [
         on_thigh(-0.05, 0.0, 0.088),
         on_thigh(0.20, 0.006, 0.087),
@@ -200,7 +218,12 @@ fn add_leg(limbs: &Limbs, side: f64, parts: &mut Vec<Part>, marks: &mut Vec<Mark
     let across = shin.cross(toes).normalize();
     let down = toes.cross(across) * toes.cross(across).dot(shin).signum();
     let place = |forward: f64, below: f64, out: f64| ankle + toes * forward + down * below + across * out;
-    let node = |forward: f64, below: f64, height: f64, width: f64| Node { centre: place(forward, below, 0.0), height, width, side: across };
+    let node = |forward: f64, below: f64, height: f64, width: f64| Node {
+        centre: place(forward, below, 0.0),
+        height,
+        width,
+        side: across,
+    };
     let foot = [
         node(-0.040, 0.048, 0.026, 0.027),
         node(-0.010, 0.040, 0.036, 0.033),
@@ -240,7 +263,12 @@ fn add_arm(limbs: &Limbs, side: f64, parts: &mut Vec<Part>, marks: &mut Vec<Mark
     let thumb = palm.cross(along) * side;
     let wrist = Wrist::new(end + along * 0.008, along, thumb, palm, HAND);
     let on_upper = |t: f64, r: f64| Node::round(shoulder + upper * (t * UPPER_ARM), r);
-    let on_lower = |t: f64, height: f64, width: f64| Node { centre: elbow + lower * (t * FOREARM), height, width, side: wrist.thumb };
+    let on_lower = |t: f64, height: f64, width: f64| Node {
+        centre: elbow + lower * (t * FOREARM),
+        height,
+        width,
+        side: wrist.thumb,
+    };
     let arm = [
         on_upper(-0.08, 0.056),
         on_upper(0.18, 0.056),

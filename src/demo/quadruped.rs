@@ -4,11 +4,12 @@
 //! profile. Sections on a bone go with the bone.
 
 use super::body::{Body, Ellipsoid, Part, Solid};
+use super::eye::eye;
 use super::shape::Mark;
 use super::tube::{Node, tube};
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::{cos, sin};
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
 /// A section at rest: x, y, z of its middle, half its height in the profile, half its width.
 pub(super) type Profile = [f64; 5];
@@ -32,11 +33,15 @@ pub(super) enum Foot {
 
 /// A species at rest.
 pub(super) struct Build {
+    /// From the chest to the rump.
     pub torso: &'static [Profile],
+    /// From the torso to the poll.
     pub neck: &'static [Profile],
+    /// From the poll to the nose.
     pub head: &'static [Profile],
     pub fore: Leg,
     pub hind: Leg,
+    /// From the torso to the tip.
     pub tail: &'static [Profile],
     /// Over which distance torso, neck and legs go over into each other.
     pub blend: f64,
@@ -49,6 +54,7 @@ pub(super) struct Build {
 pub(super) struct Pose {
     /// The whole body around the hips.
     pub pitch: f64,
+    /// Of the whole neck, and of the head at its end.
     pub neck: f64,
     pub head: f64,
     /// Fore left and right.
@@ -130,6 +136,7 @@ impl Outline {
 pub(super) struct Sculpture {
     pub parts: Vec<Part>,
     pub marks: Vec<Mark>,
+    /// Where torso and head have come to.
     pub torso: Placement,
     pub head: Placement,
     /// Sections of the neck as they lie.
@@ -145,8 +152,14 @@ impl Sculpture {
         let hips = build.hind.sections[0];
         let rest = Placement(Rigid2::IDENTITY);
         let torso = rest.turned(DVec2::new(hips[0], hips[1]), pose.pitch);
-        let mut sculpture =
-            Self { parts: Vec::new(), marks: Vec::new(), torso, head: torso, neck: Vec::new(), edges: build.edges };
+        let mut sculpture = Self {
+            parts: Vec::new(),
+            marks: Vec::new(),
+            torso,
+            head: torso,
+            neck: Vec::new(),
+            edges: build.edges,
+        };
         sculpture.parts.push(Part::join(torso.tube(build.torso), build.blend, build.edges[0]));
         sculpture.neck_and_head(build, pose);
         for (k, side) in SIDES.into_iter().enumerate() {
@@ -165,7 +178,8 @@ impl Sculpture {
         for (k, section) in build.neck.iter().enumerate() {
             nodes.push(placement.node(*section));
             if k + 1 < count {
-                placement = placement.turned(DVec2::new(section[0], section[1]), pose.neck / (count - 1) as f64);
+                placement =
+                    placement.turned(DVec2::new(section[0], section[1]), pose.neck / (count - 1) as f64);
             }
         }
         self.parts.push(Part::join(tube(&nodes), build.blend, 0.5 * (build.edges[0] + build.edges[1])));
@@ -191,8 +205,11 @@ impl Sculpture {
             nodes.push(placement.node(section));
             if joint < 4 && leg.joints[joint] == k {
                 placement = placement.turned(DVec2::new(section[0], section[1]), angles[joint]);
-                let backwards = if joint == 1 { hind < 0.5 } else { hind > 0.5 };
-                let out = if backwards { -DVec3::X } else { DVec3::X };
+                // Elbow and stifle lie at the torso, which is left sideways; knees look forward and hocks back.
+                let out = match joint {
+                    1 => DVec3::Z * side,
+                    _ => DVec3::X * (1.0 - 2.0 * hind),
+                };
                 let place = DVec3::new(section[0], section[1], section[2]);
                 match joint {
                     0 => marks.push((names[0], self.torso, place, DVec3::Z * side)),
@@ -212,10 +229,12 @@ impl Sculpture {
 
     fn foot(&mut self, foot: Foot, placement: Placement, side: f64, name: &'static str) {
         let edge = self.edges[1];
-        let ground = Solid::Beyond { point: placement.point(DVec3::ZERO), normal: placement.direction(DVec3::Y) };
+        let ground =
+            Solid::Beyond { point: placement.point(DVec3::ZERO), normal: placement.direction(DVec3::Y) };
         match foot {
             Foot::Hoof(sections) => {
-                let sections: Vec<_> = sections.iter().map(|s| [s[0], s[1], side * s[2], s[3], s[4]]).collect();
+                let sections: Vec<_> =
+                    sections.iter().map(|s| [s[0], s[1], side * s[2], s[3], s[4]]).collect();
                 self.parts.push(Part::join(placement.tube(&sections), 0.012, edge).without(ground, 0.02));
                 let [x, y, z, height, _] = sections[sections.len() - 1];
                 self.mark(name, placement, DVec3::new(x, y.max(0.03), z), DVec3::new(height, 0.0, 0.0));
@@ -227,7 +246,11 @@ impl Sculpture {
                 for (k, across) in [-0.72, -0.26, 0.26, 0.72].into_iter().enumerate() {
                     let forward = if k == 0 || k == 3 { 0.5 } else { 0.72 };
                     let at = middle + DVec3::new(size.x * forward, -0.12 * size.y, size.z * across);
-                    let toe = placement.ellipsoid(at, DVec3::new(0.46 * size.x, 0.74 * size.y, 0.31 * size.z), -0.15);
+                    let toe = placement.ellipsoid(
+                        at,
+                        DVec3::new(0.46 * size.x, 0.74 * size.y, 0.31 * size.z),
+                        -0.15,
+                    );
                     self.parts.push(Part::join(vec![toe], 0.01, edge).without(ground, 0.015));
                 }
                 self.mark(name, placement, middle, DVec3::X);
@@ -246,7 +269,11 @@ impl Sculpture {
         }
         let (last, before) = (nodes[nodes.len() - 1], nodes[nodes.len() - 2]);
         self.marks.push(Mark::new("tail tip", last.centre, last.centre - before.centre));
-        self.marks.push(Mark::new("tail root", nodes[0].centre, self.torso.direction(DVec3::new(-0.5, 1.0, 0.0))));
+        self.marks.push(Mark::new(
+            "tail root",
+            nodes[0].centre,
+            self.torso.direction(DVec3::new(-0.5, 1.0, 0.0)),
+        ));
         self.parts.push(Part::join(tube(&nodes), 0.3 * build.blend, self.edges[1]));
     }
 
@@ -295,11 +322,12 @@ impl Sculpture {
                 width: width * share,
                 side: head.direction(broad),
             };
-            let nodes: Vec<_> = ear.outline.widths().into_iter().enumerate().map(|(k, w)| node(k, w)).collect();
+            let nodes: Vec<_> =
+                ear.outline.widths().into_iter().enumerate().map(|(k, w)| node(k, w)).collect();
             let hollow = Solid::Ellipsoid(Ellipsoid {
                 centre: head.point(base + along * 0.44 + facing * thick * 1.45),
                 axes: [axis, broad, facing].map(|d| head.direction(d)),
-                radii: DVec3::new(0.36 * along.length(), 0.62 * width, 1.35 * thick),
+                radii: DVec3::new(0.36 * along.length(), 0.62 * width, 1.1 * thick),
             });
             self.parts.push(Part::join(tube(&nodes), 0.035, 0.8 * self.edges[1]).without(hollow, 0.012));
             self.mark(name, head, base + along * 0.9, along);
@@ -320,17 +348,29 @@ impl Sculpture {
     /// Cuts nostrils: ellipsoids turned upwards by an angle.
     pub fn nostrils(&mut self, centre: DVec3, radii: DVec3, angle: f64) {
         let edge = 0.65 * self.edges[1];
-        let of = |head: &Placement, side: f64| head.ellipsoid(DVec3::new(centre.x, centre.y, side * centre.z), radii, angle);
+        let of = |head: &Placement, side: f64| {
+            head.ellipsoid(DVec3::new(centre.x, centre.y, side * centre.z), radii, angle)
+        };
         self.on_both_sides(|head, side| Part::cut(vec![of(head, side)], 0.015, edge));
     }
 
     /// Adds a thin mane along the back of the neck, so high above it.
     pub fn crest(&mut self, height: f64) {
-        let nodes: Vec<Node> = self.neck.iter().zip(self.neck.windows(2).chain(self.neck.windows(2).last())).map(|(node, ends)| {
-            let along = (ends[1].centre - ends[0].centre).normalize();
-            let up = DVec3::Z.cross(along);
-            Node { centre: node.centre + up * (node.height + 0.15 * height), height: 1.3 * height, width: 0.75 * height, side: DVec3::Z }
-        }).collect();
+        let nodes: Vec<Node> = self
+            .neck
+            .iter()
+            .zip(self.neck.windows(2).chain(self.neck.windows(2).last()))
+            .map(|(node, ends)| {
+                let along = (ends[1].centre - ends[0].centre).normalize();
+                let up = DVec3::Z.cross(along);
+                Node {
+                    centre: node.centre + up * (node.height + 0.15 * height),
+                    height: 1.3 * height,
+                    width: 0.75 * height,
+                    side: DVec3::Z,
+                }
+            })
+            .collect();
         self.parts.push(Part::join(tube(&nodes), 0.02, self.edges[1]));
     }
 
@@ -338,16 +378,6 @@ impl Sculpture {
     pub fn finished(self) -> (Body, Vec<Mark>) {
         (Body::new(self.parts), self.marks)
     }
-}
-
-/// The socket and the ball of an eye at a place of the skin.
-pub(super) fn eye(body: &Body, place: DVec3, radius: f64) -> [Part; 2] {
-    let out = body.normal(place);
-    let ball = |depth: f64, share: f64| {
-        Solid::Ellipsoid(Ellipsoid { centre: place + out * (depth * radius), axes: DMat3::IDENTITY.to_cols_array_2d().map(DVec3::from_array), radii: DVec3::splat(share * radius) })
-    };
-    let edge = 0.42 * radius;
-    [Part::cut(vec![ball(0.55, 1.35)], 0.5 * radius, edge), Part::join(vec![ball(-0.42, 1.0)], 0.06 * radius, edge)]
 }
 
 /// Names of marks on a leg: fore left, fore right, hind left, hind right.

@@ -261,7 +261,8 @@ fn flip_to_delaunay(mesh: &mut CollapsibleMesh, positions: &TiSlice<VertexId, DV
             continue;
         }
         let [a, b, c, d] = [h, t, h.prev(), t.prev()].map(|g| positions[mesh.tail(g)]);
-        let normals = [(b - a).cross(c - a), (d - a).cross(b - a), (d - c).cross(b - c), (a - c).cross(d - c)];
+        let normals =
+            [(b - a).cross(c - a), (d - a).cross(b - a), (d - c).cross(b - c), (a - c).cross(d - c)];
         let [n0, n1, m0, m1] = normals.map(DVec3::normalize_or_zero);
         let is_flat = n0.dot(n1) > 0.9 && m0.dot(m1) > 0.9 && m0.dot(n0) > 0.8 && m1.dot(n1) > 0.8;
         if is_flat && cotangent(c, a, b) + cotangent(d, a, b) < -1e-6 {
@@ -276,10 +277,7 @@ fn cotangent(p: DVec3, q: DVec3, r: DVec3) -> f64 {
 }
 
 /// The level as a mesh of its own.
-fn of_level(
-    level: &CollapsibleMesh,
-    positions: &TiSlice<VertexId, DVec3>,
-) -> SurfaceMesh {
+fn of_level(level: &CollapsibleMesh, positions: &TiSlice<VertexId, DVec3>) -> SurfaceMesh {
     let mut number: TiVec<VertexId, VertexId> = ti_vec![VertexId(u32::MAX); positions.len()];
     let mut places = TiVec::new();
     for v in level.vertices() {
@@ -317,4 +315,53 @@ fn projected(p: DVec3, body: &Body) -> DVec3 {
     let gradient = DVec3::new(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z));
     let step = gradient * (v / max(gradient.length_squared(), 0.1));
     p - step.clamp_length_max(0.01)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::demo::body::{Ellipsoid, Part, Solid};
+
+    fn ball(centre: DVec3, radius: f64) -> Solid {
+        Solid::Ellipsoid(Ellipsoid {
+            centre,
+            axes: [DVec3::X, DVec3::Y, DVec3::Z],
+            radii: DVec3::splat(radius),
+        })
+    }
+
+    #[test]
+    fn the_skin_of_a_ball_is_a_sphere_with_edges_as_wanted() {
+        let body = Body::new(vec![Part::join(vec![ball(DVec3::ONE, 0.5)], 0.05, 0.06)]);
+        let cells = Cells { size: 0.04, offset: DVec3::splat(0.3), coarseness: 1.0 };
+        let mesh = skin(&body, &cells);
+        assert_eq!(mesh.euler_characteristic(), 2);
+        assert!(mesh.positions().iter().all(|p| (p.distance(DVec3::ONE) - 0.5).abs() < 1e-4));
+        let lengths: Vec<f64> = mesh.edges().map(|h| mesh.length(h) / 0.06).collect();
+        let fitting = lengths.iter().filter(|l| (0.6..1.6).contains(*l)).count();
+        assert!(fitting as f64 > 0.97 * lengths.len() as f64, "{fitting} of {}", lengths.len());
+    }
+
+    #[test]
+    fn edges_are_short_where_that_is_wanted() {
+        let fine = Part::join(vec![ball(DVec3::X * 0.5, 0.15)], 0.03, 0.015);
+        let body = Body::new(vec![Part::join(vec![ball(DVec3::ZERO, 0.5)], 0.05, 0.06), fine]);
+        let mesh = skin(&body, &Cells { size: 0.04, offset: DVec3::ZERO, coarseness: 1.0 });
+        assert_eq!(mesh.euler_characteristic(), 2);
+        let mean = |near: &dyn Fn(DVec3) -> bool| {
+            let edges: Vec<_> = mesh.edges().filter(|&h| near(mesh.positions()[mesh.tail(h)])).collect();
+            edges.iter().map(|&h| mesh.length(h)).sum::<f64>() / edges.len() as f64
+        };
+        assert!(mean(&|p| p.x > 0.58) < 0.03);
+        assert!(mean(&|p| p.x < 0.0) > 0.045);
+    }
+
+    #[test]
+    fn a_cut_part_leaves_a_dent() {
+        let [whole, cut] = [ball(DVec3::ZERO, 0.5), ball(DVec3::Y * 0.55, 0.2)];
+        let body = Body::new(vec![Part::join(vec![whole], 0.05, 0.05), Part::cut(vec![cut], 0.02, 0.03)]);
+        assert!(body.value(DVec3::Y * 0.45) > 0.05);
+        assert!(body.value(DVec3::X * 0.45) < -0.04);
+        assert!((body.normal(DVec3::X * 0.5) - DVec3::X).length() < 1e-3);
+    }
 }

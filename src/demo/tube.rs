@@ -43,7 +43,8 @@ pub(super) fn tube(nodes: &[Node]) -> Vec<Solid> {
 fn piece(a: Node, b: Node) -> Solid {
     let axis = (b.centre - a.centre).normalize();
     let side = a.side + b.side;
-    let across = (side - axis * side.dot(axis)).try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector());
+    let across =
+        (side - axis * side.dot(axis)).try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector());
     let sizes = [a, b].map(|node| DVec2::new(node.width, node.height));
     Solid::Section(Section::new([a.centre, b.centre], sizes, across))
 }
@@ -66,5 +67,28 @@ fn between(nodes: [Node; 4], t: f64) -> Node {
         height: number(|n| n.height),
         width: number(|n| n.width),
         side: nodes[1].side.lerp(nodes[2].side, t),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::demo::body::{Body, Part};
+
+    #[test]
+    fn a_tube_has_its_nodes_sections() {
+        let node = |x: f64, y: f64, height: f64, width: f64| Node {
+            centre: DVec3::new(x, y, 0.0),
+            height,
+            width,
+            side: DVec3::Z,
+        };
+        let nodes = [node(0.0, 0.0, 0.2, 0.1), node(0.5, 0.2, 0.15, 0.2), node(1.0, 0.0, 0.1, 0.1)];
+        let body = Body::new(vec![Part::join(tube(&nodes), 0.05, 0.03)]);
+        // The tube is level at its middle node.
+        for (direction, reach) in [(DVec3::Y, 0.15), (-DVec3::Y, 0.15), (DVec3::Z, 0.2), (-DVec3::Z, 0.2)] {
+            let value = body.value(nodes[1].centre + direction * reach);
+            assert!(value.abs() < 0.004, "{direction}: {value}");
+        }
     }
 }
