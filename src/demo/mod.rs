@@ -1,15 +1,30 @@
 //! Demos: procedural closed shapes of genus 0, different connectivity on both sides, landmarks known.
+//!
+//! Animals, a figure and hands are soft parts around a skeleton (`body`, `tube`), whose skin is meshed (`skin`). Of three older
+//! demos, pairs of tubes and of balls (`implicit`, `polygonise`), others hold the numbers: they keep their bits.
 
 mod animal;
+mod body;
+mod clawed;
+mod eye;
 mod figure;
+mod hand;
+mod hoofed;
+mod human;
 mod implicit;
 mod polygonise;
+mod quadruped;
 mod round;
 mod shape;
+mod skin;
+mod tube;
 
 use crate::mesh::{SurfaceMesh, VertexId};
+use body::Body;
 use glam::DVec3;
-use shape::Shape;
+use quadruped::Pose;
+use shape::{Mark, Shape, skinned};
+use skin::Cells;
 
 /// A demo that can be built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +50,35 @@ pub struct Demo {
     pub labels: Vec<String>,
 }
 
-const DEMOS: [DemoInfo; 3] = [
+/// The first is what a stranger sees first; the last is mapped quickest.
+const DEMOS: [DemoInfo; 10] = [
+    DemoInfo {
+        id: "horse-camel",
+        title: "Horse and camel",
+        sentence: "Two animals with hooves; one has a hump and a bent neck",
+    },
+    DemoInfo {
+        id: "wolf-cow",
+        title: "Wolf and cow",
+        sentence: "Paws and hooves, a bushy tail and a tuft, horns on one side",
+    },
+    DemoInfo { id: "cat-lion", title: "Cat and lion", sentence: "Two cats; one has a mane" },
+    DemoInfo {
+        id: "horse-gallop",
+        title: "Galloping horse",
+        sentence: "One horse standing and galloping, meshed twice",
+    },
+    DemoInfo {
+        id: "horse-rearing",
+        title: "Rearing horse",
+        sentence: "One horse grazing and on its hind legs, meshed twice",
+    },
+    DemoInfo {
+        id: "figure-running",
+        title: "Runner",
+        sentence: "One figure standing and running, meshed twice",
+    },
+    DemoInfo { id: "hands", title: "Two hands", sentence: "One hand open and grasping, meshed twice" },
     DemoInfo {
         id: "horse-cat",
         title: "Horse and cat",
@@ -54,14 +97,33 @@ pub fn list() -> &'static [DemoInfo] {
     &DEMOS
 }
 
+/// Sizes of the cells in which the two sides are meshed: of animals, about 2 long, of a figure 1.8 high, of a hand 1 long.
+const ANIMAL: [f64; 2] = [0.0225, 0.0235];
+const FIGURE: [f64; 2] = [0.0105, 0.0110];
+const HAND: [f64; 2] = [0.0145, 0.0152];
+
 /// Builds a demo by its id.
 pub fn build(id: &str) -> Option<Demo> {
-    match id {
-        "horse-cat" => Some(pair(animal::horse(), animal::cat())),
-        "poses" => Some(pair(figure::standing(), figure::dancing())),
-        "sphere-tetrahedron" => Some(pair(round::sphere(), round::tetrahedron())),
-        _ => None,
-    }
+    let rest = Pose::default();
+    Some(match id {
+        "horse-camel" => meshed([hoofed::horse(&rest), hoofed::camel(&rest)], ANIMAL),
+        "wolf-cow" => meshed([clawed::wolf(&rest), hoofed::cow(&rest)], ANIMAL),
+        "cat-lion" => meshed([clawed::cat(&rest), clawed::lion(&rest)], ANIMAL),
+        "horse-gallop" => meshed([hoofed::horse(&rest), hoofed::horse(&hoofed::GALLOP)], ANIMAL),
+        "horse-rearing" => meshed([hoofed::horse(&hoofed::GRAZE), hoofed::horse(&hoofed::REAR)], ANIMAL),
+        "figure-running" => meshed([human::standing(), human::running()], FIGURE),
+        "hands" => meshed([hand::hand(&hand::OPEN), hand::hand(&hand::GRASP)], HAND),
+        "horse-cat" => pair(animal::horse(), animal::cat()),
+        "poses" => pair(figure::standing(), figure::dancing()),
+        "sphere-tetrahedron" => pair(round::sphere(), round::tetrahedron()),
+        _ => return None,
+    })
+}
+
+/// The skins of two bodies, in cells of different sizes and places.
+fn meshed([source, target]: [(Body, Vec<Mark>); 2], sizes: [f64; 2]) -> Demo {
+    let cells = |k: usize| Cells { size: sizes[k], offset: DVec3::splat(0.4 * k as f64), coarseness: 0.9 };
+    pair(skinned(&source, &cells(0)), skinned(&target, &cells(1)))
 }
 
 /// Pairs the points of equal place in both lists.
@@ -87,19 +149,137 @@ fn nearest_vertices(mesh: &SurfaceMesh, points: &[(&'static str, DVec3)]) -> Vec
 mod tests {
     use super::*;
 
-    #[test]
-    fn every_demo_is_two_spheres_with_distinct_landmarks() {
-        for info in list() {
-            let demo = build(info.id).unwrap();
-            for (mesh, side) in [(&demo.source, 0), (&demo.target, 1)] {
-                assert_eq!(mesh.euler_characteristic(), 2, "{}", info.id);
-                assert!((1500..15000).contains(&mesh.face_count()), "{}: {}", info.id, mesh.face_count());
-                let mut vertices: Vec<_> = demo.landmarks.iter().map(|p| p[side]).collect();
-                vertices.sort_unstable();
-                vertices.dedup();
-                assert_eq!(vertices.len(), demo.labels.len());
-            }
-            assert_ne!(demo.source.triangles(), demo.target.triangles());
+    const SMALL: [&str; 3] = ["horse-cat", "poses", "sphere-tetrahedron"];
+
+    /// The places of one side's landmarks, by their names.
+    struct Places<'a> {
+        demo: &'a Demo,
+        side: usize,
+    }
+
+    impl Places<'_> {
+        fn of(&self, name: &str) -> DVec3 {
+            let k = self.demo.labels.iter().position(|label| label == name).unwrap();
+            self.mesh().positions()[VertexId(self.demo.landmarks[k][self.side])]
         }
+
+        fn mesh(&self) -> &SurfaceMesh {
+            [&self.demo.source, &self.demo.target][self.side]
+        }
+    }
+
+    fn check(id: &str) -> Demo {
+        let demo = build(id).unwrap();
+        let [faces, marks] =
+            if SMALL.contains(&id) { [1500..15_000, 10..22] } else { [20_000..40_000, 21..34] };
+        for (mesh, side) in [(&demo.source, 0), (&demo.target, 1)] {
+            assert_eq!(mesh.euler_characteristic(), 2, "{id}");
+            assert!(is_connected(mesh), "{id}");
+            assert!(faces.contains(&mesh.face_count()), "{id}: {}", mesh.face_count());
+            let mut vertices: Vec<_> = demo.landmarks.iter().map(|p| p[side]).collect();
+            vertices.sort_unstable();
+            vertices.dedup();
+            assert_eq!(vertices.len(), demo.labels.len(), "{id}");
+        }
+        assert!(marks.contains(&demo.labels.len()), "{id}: {}", demo.labels.len());
+        assert_ne!(demo.source.triangles(), demo.target.triangles());
+        demo
+    }
+
+    fn is_connected(mesh: &SurfaceMesh) -> bool {
+        let mut seen = vec![false; mesh.vertex_count()];
+        let mut open = vec![VertexId(0)];
+        while let Some(v) = open.pop() {
+            if !std::mem::replace(&mut seen[v.index()], true) {
+                open.extend(mesh.star(v).map(|h| mesh.head(h)));
+            }
+        }
+        seen.into_iter().all(|b| b)
+    }
+
+    /// What is left is as far from the middle as what is right, and at the same height: at rest bodies are symmetric.
+    fn is_symmetric(places: &Places) {
+        for name in places.demo.labels.iter().filter_map(|label| label.strip_prefix("left ")) {
+            let [left, right] = ["left", "right"].map(|side| places.of(&format!("{side} {name}")));
+            assert!(left.z > 0.03, "{name}: {left}");
+            assert!(left.distance(right * DVec3::new(1.0, 1.0, -1.0)) < 0.06, "{name}: {left} {right}");
+        }
+    }
+
+    /// An animal at rest stands on its feet, its nose in front and its tail behind.
+    fn stands(places: &Places) {
+        let all = places.mesh().positions();
+        let lowest = all.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
+        for foot in ["left fore foot", "right fore foot", "left hind foot", "right hind foot"] {
+            assert!(places.of(foot).y - lowest < 0.16, "{foot}");
+        }
+        let foremost = all.iter().map(|p| p.x).fold(f64::NEG_INFINITY, f64::max);
+        assert!(foremost - places.of("nose").x < 0.06);
+        assert!(places.of("tail root").x < places.of("left hip").x);
+        assert!(places.of("left ear").y > places.of("left eye").y);
+        assert!(places.of("left hock").x < places.of("left stifle").x, "a hock bends backwards");
+        assert!(places.of("withers").y - places.of("belly").y > 0.35);
+    }
+
+    #[test]
+    fn small_demos_are_two_spheres_with_distinct_landmarks() {
+        for id in SMALL {
+            check(id);
+        }
+    }
+
+    #[test]
+    fn species_stand_and_have_what_one_knows_them_by() {
+        for id in ["horse-camel", "wolf-cow", "cat-lion"] {
+            let demo = check(id);
+            for side in [0, 1] {
+                let places = Places { demo: &demo, side };
+                stands(&places);
+                is_symmetric(&places);
+            }
+            if id == "horse-camel" {
+                let hump = |side| {
+                    let places = Places { demo: &demo, side };
+                    places.of("back").y - places.of("withers").y.max(places.of("croup").y)
+                };
+                assert!(hump(0) < 0.0 && hump(1) > 0.25, "{} {}", hump(0), hump(1));
+            }
+        }
+    }
+
+    #[test]
+    fn poses_are_the_poses() {
+        let demo = check("horse-gallop");
+        let [rest, gallop] = [0, 1].map(|side| Places { demo: &demo, side });
+        let reach = |p: &Places| p.of("left fore foot").x - p.of("left hind foot").x;
+        assert!(reach(&gallop) > reach(&rest) + 0.5);
+        let demo = check("horse-rearing");
+        let [graze, rear] = [0, 1].map(|side| Places { demo: &demo, side });
+        assert!(graze.of("nose").y < graze.of("left elbow").y);
+        assert!(rear.of("left fore foot").y > rear.of("left hind foot").y + 0.6);
+        let demo = check("figure-running");
+        let [stand, run] = [0, 1].map(|side| Places { demo: &demo, side });
+        assert!((stand.of("left heel").y - stand.of("right heel").y).abs() < 0.01);
+        assert!(run.of("left toes").z - run.of("right toes").z > 0.5);
+        let demo = check("hands");
+        let [open, grasp] = [0, 1].map(|side| Places { demo: &demo, side });
+        let gap = |p: &Places| p.of("thumb tip").distance(p.of("middle tip"));
+        assert!(gap(&grasp) < 0.7 * gap(&open), "{} {}", gap(&grasp), gap(&open));
+    }
+
+    #[test]
+    fn every_demo_of_the_list_is_checked_and_no_other_is_built() {
+        let known = [
+            "horse-camel",
+            "wolf-cow",
+            "cat-lion",
+            "horse-gallop",
+            "horse-rearing",
+            "figure-running",
+            "hands",
+        ];
+        let ids: Vec<_> = list().iter().map(|info| info.id).collect();
+        assert_eq!(ids, [&known[..], &SMALL[..]].concat());
+        assert!(build("teapot").is_none());
     }
 }

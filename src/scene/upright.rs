@@ -98,13 +98,13 @@ mod tests {
 
     #[test]
     fn animals_of_the_demos_stand_on_their_feet_however_they_lie() {
-        for info in demo::list().iter().filter(|info| info.id.contains("horse")) {
-            let built = demo::build(info.id).unwrap();
+        for id in ["horse-camel", "wolf-cow", "horse-cat"] {
+            let built = demo::build(id).unwrap();
             for mesh in [built.source, built.target] {
                 for up in UpAxis::ALL {
                     let turn = up.basis().as_dquat();
                     let turned = mesh.positions().iter().map(|p| turn * *p).collect();
-                    assert_eq!(proposed_up(&mesh.with_positions(turned)), Some(up), "{}", info.id);
+                    assert_eq!(proposed_up(&mesh.with_positions(turned)), Some(up), "{id}");
                 }
             }
         }

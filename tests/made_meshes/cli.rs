@@ -224,10 +224,11 @@ fn every_corner_of_an_stl_file_has_its_row() {
 }
 
 #[test]
-fn maps_every_demo() {
-    for info in conemap::demo::list() {
-        let folder = folder(&format!("maps_every_demo/{}", info.id));
-        let demo = conemap::demo::build(info.id).unwrap();
+fn maps_the_first_demo_and_the_small_ones() {
+    let first = conemap::demo::list()[0].id;
+    for id in [first, "horse-cat", "poses", "sphere-tetrahedron"] {
+        let folder = folder(&format!("maps_the_first_demo_and_the_small_ones/{id}"));
+        let demo = conemap::demo::build(id).unwrap();
         let files = write_files(&folder, [&demo.source, &demo.target], &demo.landmarks);
         map_and_check(files.each_ref().map(PathBuf::as_path), &folder);
     }

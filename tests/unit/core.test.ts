@@ -16,7 +16,7 @@ test('the demo with the smallest meshes, whose map warms the core, is the last o
     expect(files, id).toBeDefined();
     return (files?.source().length ?? 0) + (files?.target().length ?? 0);
   });
-  expect(sizes.length).toBeGreaterThanOrEqual(3);
+  expect(sizes.length).toBeGreaterThanOrEqual(10);
   expect(Math.min(...sizes)).toBe(sizes.at(-1));
 });
 

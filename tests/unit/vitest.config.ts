@@ -8,7 +8,7 @@ export default defineConfig({
     environment: 'node',
     restoreMocks: true,
     unstubGlobals: true,
-    // A busy machine builds every demo in 12 s; what hangs is still ended.
+    // A busy machine builds every demo in half a minute; what hangs is still ended.
     testTimeout: 120_000,
   },
 });

@@ -197,19 +197,22 @@ test('the views come back after a lost graphics context', async ({ page }) => {
   }
 });
 
-test('each demo opens by its link and maps', { tag: '@long' }, async ({ page }) => {
+test('each demo opens by its link; the first one, and those with small meshes, map', { tag: '@long' }, async ({ page }) => {
   test.setTimeout(900_000);
   await openDemo(page, '');
   await openStep(page, 'meshes');
   const ids = await page
     .locator('[data-demo-id]')
     .evaluateAll((buttons) => buttons.map((button) => (button as HTMLButtonElement).dataset['demoId'] ?? ''));
-  expect(ids.length).toBeGreaterThanOrEqual(3);
+  expect(ids.length).toBeGreaterThanOrEqual(10);
+  const mapped = [ids[0], 'horse-cat', 'poses', 'sphere-tetrahedron'];
   for (const id of ids) {
     await page.goto('about:blank');
     await open(page, `#demo=${encodeURIComponent(id)}`);
     await expect(page.locator('body')).toHaveAttribute('data-demo', id, { timeout: 60_000 });
-    await runMap(page);
+    if (mapped.includes(id)) {
+      await runMap(page);
+    }
     await page.waitForTimeout(1500);
     await page.screenshot({ path: `${ROOT}test-results/demo-${id}.png` });
     for (const half of await readHalves(page)) {

@@ -11,7 +11,7 @@ async function energyOf(page: Page): Promise<number> {
 }
 
 test('Finish now gives a certified map that is marked as finished early', async ({ page }) => {
-  await openDemo(page, '');
+  await openDemo(page);
   await page.locator('#run').click();
   await page.locator('#finish').click();
   await expect(page.locator('#finish')).toBeHidden();

@@ -6,6 +6,13 @@ import { IconButton } from './controls.tsx';
 
 /** What to see in a demo, by its id; `npm run thumbnails` draws a picture of each. */
 const SIGHTS: Readonly<Record<string, string>> = {
+  'horse-camel': 'See where the hump comes from, and how the horse’s neck takes the camel’s bend.',
+  'wolf-cow': 'See paws become hooves, a bushy tail a thin one, and where the skin for the horns is found.',
+  'cat-lion': 'See the mane: every tuft has its place on the cat’s smooth neck.',
+  'horse-gallop': 'See how the skin keeps its size while every leg bends: the two meshes share no triangle.',
+  'horse-rearing': 'See one horse from its nose in the grass to its forelegs in the air.',
+  'figure-running': 'See knees and elbows: the stretch gathers where a body bends, and nowhere else.',
+  hands: 'See every finger find its own, down to the nails.',
   'horse-cat': 'See how the pattern keeps its squares from the cat’s short legs to the horse’s long ones.',
   poses: 'See how the skin keeps its size while arms and legs bend: the two meshes share no triangle.',
   'sphere-tetrahedron': 'See how a ball spreads over corners, and where the stretch gathers.',

@@ -1,0 +1,367 @@
+//! The skin of a body as a closed mesh with well-shaped triangles, smaller where the body asks for it.
+//!
+//! Marching tetrahedra (six to a cube) in the cells near the surface always give a closed manifold. Then short edges are
+//! collapsed, edges flipped to Delaunay's, and vertices moved to the middle of their neighbours and back onto the surface.
+
+use super::body::Body;
+use crate::math::scalar::{max, min};
+use crate::mesh::collapsible::{CollapsibleMesh, ShapeLimits};
+use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
+
+/// The six tetrahedra of a cube around its diagonal 0-7; corner k is at (k & 1, k >> 1 & 1, k >> 2).
+const TETRAHEDRA: [[usize; 4]; 6] =
+    [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]];
+/// Cells to the side of a block.
+const BLOCK: usize = 4;
+/// A block whose middle is farther from the surface than this, in units of its half diagonal, is left out.
+const CAUTION: f64 = 1.3;
+/// How often the mesh is smoothed in each round of collapses, splits and flips.
+const SMOOTHINGS: [usize; 3] = [1, 1, 3];
+
+/// Where the cells lie and how large they are.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cells {
+    /// Length of a cell's side.
+    pub size: f64,
+    /// Place of the cells, in cells.
+    pub offset: DVec3,
+    /// All lengths of edges that the body wants are multiplied by this.
+    pub coarseness: f64,
+}
+
+/// The closed skin of a body.
+pub(super) fn skin(body: &Body, cells: &Cells) -> SurfaceMesh {
+    let mut grid = Grid::new(body, cells);
+    grid.march();
+    let faces = grid.faces.iter().map(|t| t.map(VertexId)).collect();
+    let raw = SurfaceMesh::from_triangles(grid.positions.into(), faces);
+    let mut mesh = raw.expect("marching tetrahedra give a closed manifold");
+    for times in SMOOTHINGS {
+        let lengths = wanted_lengths(&mesh, body, cells.coarseness);
+        mesh = with_even_edges(&mesh, &lengths);
+        mesh = smoothed(&mesh, body, times);
+    }
+    mesh
+}
+
+struct Grid {
+    values: Vec<f64>,
+    size: [usize; 3],
+    low: DVec3,
+    cell: f64,
+    /// Surface vertex on each grid edge that is crossed.
+    crossings: FxHashMap<[u32; 2], u32>,
+    positions: Vec<DVec3>,
+    faces: Vec<[u32; 3]>,
+}
+
+impl Grid {
+    fn new(body: &Body, cells: &Cells) -> Self {
+        let [low, high] = body.bounds();
+        let (cell, low) = (cells.size, low - (DVec3::ONE + cells.offset) * cells.size);
+        let size = ((high - low) / cell).ceil().to_array().map(|n| n as usize + 2);
+        let mut grid = Self {
+            values: vec![1.0; size[0] * size[1] * size[2]],
+            size,
+            low,
+            cell,
+            crossings: FxHashMap::default(),
+            positions: Vec::new(),
+            faces: Vec::new(),
+        };
+        for z in (0..size[2]).step_by(BLOCK) {
+            for y in (0..size[1]).step_by(BLOCK) {
+                for x in (0..size[0]).step_by(BLOCK) {
+                    grid.fill(body, [x, y, z]);
+                }
+            }
+        }
+        grid
+    }
+
+    /// Sets the values of a block, all alike where the surface is far.
+    fn fill(&mut self, body: &Body, start: [usize; 3]) {
+        let at = |[x, y, z]: [usize; 3]| self.low + DVec3::new(x as f64, y as f64, z as f64) * self.cell;
+        let half = 0.5 * (BLOCK - 1) as f64 * self.cell;
+        let middle = body.value(at(start) + DVec3::splat(half));
+        let is_far = middle.abs() > CAUTION * 3_f64.sqrt() * half;
+        let end = [0, 1, 2].map(|k| (start[k] + BLOCK).min(self.size[k]));
+        for z in start[2]..end[2] {
+            for y in start[1]..end[1] {
+                for x in start[0]..end[0] {
+                    let value = if is_far {
+                        middle
+                    } else {
+                        body.value(self.low + DVec3::new(x as f64, y as f64, z as f64) * self.cell)
+                    };
+                    // A corner on the surface would make vertices coincide.
+                    let least = 0.03 * self.cell;
+                    let clear = if value < 0.0 { value.min(-least) } else { max(value, least) };
+                    self.values[(z * self.size[1] + y) * self.size[0] + x] = clear;
+                }
+            }
+        }
+    }
+
+    fn march(&mut self) {
+        let [nx, ny, nz] = self.size;
+        let steps = [0, 1, nx, nx + 1, nx * ny, nx * ny + 1, nx * ny + nx, nx * ny + nx + 1];
+        for z in 0..nz - 1 {
+            for y in 0..ny - 1 {
+                for x in 0..nx - 1 {
+                    let corners = steps.map(|step| (z * ny + y) * nx + x + step);
+                    let inside = corners.iter().filter(|&&c| self.values[c] < 0.0).count();
+                    if inside != 0 && inside != 8 {
+                        for tetrahedron in TETRAHEDRA {
+                            self.cut(tetrahedron.map(|k| corners[k]));
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds the triangles of one positively oriented tetrahedron, facing away from the inside.
+    fn cut(&mut self, corners: [usize; 4]) {
+        let is_inside = corners.map(|c| self.values[c] < 0.0);
+        let (mut order, mut inside) = ([0; 4], 0);
+        for k in (0..4).filter(|&k| is_inside[k]).chain((0..4).filter(|&k| !is_inside[k])) {
+            order[inside] = corners[k];
+            inside += 1;
+        }
+        let inside = is_inside.iter().filter(|b| **b).count();
+        let [a, b, c, d] = order;
+        let mut at = |a: usize, b: usize| self.crossing(a, b);
+        let (first, second) = match inside {
+            1 => ([at(a, b), at(a, c), at(a, d)], None),
+            2 => {
+                let [ac, ad, bc, bd] = [at(a, c), at(a, d), at(b, c), at(b, d)];
+                ([ac, ad, bd], Some([ac, bd, bc]))
+            }
+            3 => ([at(d, a), at(d, b), at(d, c)], None),
+            _ => return,
+        };
+        let outwards = self.place(d) - self.place(a);
+        for mut t in std::iter::once(first).chain(second) {
+            let [p, q, r] = t.map(|v| self.positions[v as usize]);
+            if (q - p).cross(r - p).dot(outwards) < 0.0 {
+                t.swap(1, 2);
+            }
+            self.faces.push(t);
+        }
+    }
+
+    fn place(&self, corner: usize) -> DVec3 {
+        let [nx, ny, _] = self.size;
+        let place = DVec3::new((corner % nx) as f64, (corner / nx % ny) as f64, (corner / (nx * ny)) as f64);
+        self.low + place * self.cell
+    }
+
+    fn crossing(&mut self, a: usize, b: usize) -> u32 {
+        let (a, b) = (a.min(b), a.max(b));
+        let next = self.positions.len() as u32;
+        let index = *self.crossings.entry([a as u32, b as u32]).or_insert(next);
+        if index == next {
+            let (va, vb) = (self.values[a], self.values[b]);
+            self.positions.push(self.place(a).lerp(self.place(b), va / (va - vb)));
+        }
+        index
+    }
+}
+
+/// The length of the edges wanted at each vertex, changing slowly.
+fn wanted_lengths(mesh: &SurfaceMesh, body: &Body, coarseness: f64) -> TiVec<VertexId, f64> {
+    let mut lengths: TiVec<VertexId, f64> =
+        mesh.positions().iter().map(|&p| coarseness * body.edge(p)).collect();
+    for _ in 0..6 {
+        let mean = |v: VertexId| {
+            let (sum, n) = mesh.star(v).fold((0.0, 0.0), |(s, n), h| (s + lengths[mesh.head(h)], n + 1.0));
+            0.5 * (lengths[v] + sum / n)
+        };
+        lengths = mesh.vertices().map(mean).collect();
+    }
+    lengths
+}
+
+/// Collapses the short edges where the mesh keeps its shape, and flips edges to Delaunay's.
+fn with_even_edges(mesh: &SurfaceMesh, lengths: &TiVec<VertexId, f64>) -> SurfaceMesh {
+    let limits = ShapeLimits { normal_cosine: 0.8, double_area: 0.1 };
+    let relative = |h: HalfedgeId| mesh.length(h) / (0.5 * (lengths[mesh.tail(h)] + lengths[mesh.head(h)]));
+    let mut short: Vec<_> = mesh.edges().map(|h| (relative(h), h)).filter(|e| e.0 < SHORT).collect();
+    short.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let mut coarse = CollapsibleMesh::new(mesh);
+    let mut touched: TiVec<VertexId, bool> = ti_vec![false; mesh.vertex_count()];
+    for (_, edge) in short {
+        // The edge may have vanished or moved with an earlier collapse.
+        for h in [edge, mesh.twin(edge)] {
+            let (a, b) = (mesh.tail(h), mesh.head(h));
+            let same = coarse.is_alive(a) && coarse.is_alive(b) && !touched[a];
+            let Some(h) = same.then(|| coarse.star(a).find(|&g| coarse.head(g) == b)).flatten() else {
+                continue;
+            };
+            let fits = |g: HalfedgeId| {
+                let c = coarse.head(g);
+                mesh.positions()[c].distance(mesh.positions()[b]) < LONG * lengths[c]
+            };
+            if coarse.star(a).all(fits)
+                && coarse.link_condition(h)
+                && coarse.keeps_shape(h, mesh.positions(), &limits)
+            {
+                touched[b] = true;
+                coarse.collapse(h);
+                break;
+            }
+        }
+    }
+    let mut positions: TiVec<VertexId, DVec3> = mesh.positions().iter().copied().collect();
+    split_long_edges(&mut coarse, &mut positions, lengths.clone());
+    for _ in 0..2 {
+        flip_to_delaunay(&mut coarse, &positions);
+    }
+    of_level(&coarse, &positions)
+}
+
+/// Splits the edges that are long for what is wanted, the longest first.
+fn split_long_edges(
+    mesh: &mut CollapsibleMesh,
+    positions: &mut TiVec<VertexId, DVec3>,
+    mut lengths: TiVec<VertexId, f64>,
+) {
+    let mut long = Vec::new();
+    for h in mesh.faces().flat_map(FaceId::halfedges).filter(|&h| h < mesh.twin(h)) {
+        let (a, b) = (mesh.tail(h), mesh.head(h));
+        let relative = positions[a].distance(positions[b]) / (0.5 * (lengths[a] + lengths[b]));
+        if relative > LONG {
+            long.push((relative, h));
+        }
+    }
+    long.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    for (_, h) in long {
+        // A half of an edge that was split keeps its number only where it begins: no edge is split twice.
+        let (a, b) = (mesh.tail(h), mesh.head(h));
+        positions.push(positions[a].midpoint(positions[b]));
+        lengths.push(0.5 * (lengths[a] + lengths[b]));
+        mesh.split(h);
+    }
+}
+
+/// Edges shorter than this, in units of the wanted length, are collapsed.
+const SHORT: f64 = 0.75;
+/// No collapse makes an edge longer than this, in units of the wanted length, and longer ones are split.
+const LONG: f64 = 1.45;
+
+fn flip_to_delaunay(mesh: &mut CollapsibleMesh, positions: &TiSlice<VertexId, DVec3>) {
+    let edges: Vec<HalfedgeId> = mesh.faces().flat_map(FaceId::halfedges).collect();
+    for h in edges {
+        let t = mesh.twin(h);
+        if t < h {
+            continue;
+        }
+        let [a, b, c, d] = [h, t, h.prev(), t.prev()].map(|g| positions[mesh.tail(g)]);
+        let normals =
+            [(b - a).cross(c - a), (d - a).cross(b - a), (d - c).cross(b - c), (a - c).cross(d - c)];
+        let [n0, n1, m0, m1] = normals.map(DVec3::normalize_or_zero);
+        let is_flat = n0.dot(n1) > 0.9 && m0.dot(m1) > 0.9 && m0.dot(n0) > 0.8 && m1.dot(n1) > 0.8;
+        if is_flat && cotangent(c, a, b) + cotangent(d, a, b) < -1e-6 {
+            mesh.flip(h);
+        }
+    }
+}
+
+/// The cotangent of the angle at `p` of the triangle p, q, r.
+fn cotangent(p: DVec3, q: DVec3, r: DVec3) -> f64 {
+    (q - p).dot(r - p) / max((q - p).cross(r - p).length(), 1e-300)
+}
+
+/// The level as a mesh of its own.
+fn of_level(level: &CollapsibleMesh, positions: &TiSlice<VertexId, DVec3>) -> SurfaceMesh {
+    let mut number: TiVec<VertexId, VertexId> = ti_vec![VertexId(u32::MAX); positions.len()];
+    let mut places = TiVec::new();
+    for v in level.vertices() {
+        number[v] = places.push_and_get_key(positions[v]);
+    }
+    let faces: TiVec<FaceId, _> = level.faces().map(|f| level.corners(f).map(|v| number[v])).collect();
+    SurfaceMesh::from_triangles(places, faces).expect("collapses and flips keep a closed manifold")
+}
+
+/// Moves every vertex towards the mean of its neighbours and back near the surface, so many times, and at last onto it.
+fn smoothed(mesh: &SurfaceMesh, body: &Body, times: usize) -> SurfaceMesh {
+    let mut positions: TiVec<VertexId, DVec3> = mesh.positions().iter().copied().collect();
+    for _ in 0..times {
+        let moved = |v: VertexId| {
+            let (mut sum, mut n, mut normal, mut reach) = (DVec3::ZERO, 0.0, DVec3::ZERO, f64::INFINITY);
+            let at = positions[v];
+            for h in mesh.star(v) {
+                let [p, q] = [mesh.head(h), mesh.tail(h.prev())].map(|w| positions[w]);
+                (sum, n, reach) = (sum + p, n + 1.0, min(reach, p.distance_squared(at)));
+                normal += (p - at).cross(q - at);
+            }
+            let (goal, reach) = (at.lerp(sum / n, 0.6), 0.5 * reach.sqrt());
+            goal - normal.normalize_or_zero() * body.value(goal).clamp(-reach, reach)
+        };
+        positions = mesh.vertices().map(moved).collect();
+    }
+    mesh.with_positions(positions.iter().map(|p| projected(*p, body)).collect())
+}
+
+/// A Newton step along the gradient onto the surface.
+fn projected(p: DVec3, body: &Body) -> DVec3 {
+    let h = 1e-5;
+    let v = body.value(p);
+    let slope = |axis: DVec3| (body.value(p + axis * h) - v) / h;
+    let gradient = DVec3::new(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z));
+    let step = gradient * (v / max(gradient.length_squared(), 0.1));
+    p - step.clamp_length_max(0.01)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::demo::body::{Ellipsoid, Part, Solid};
+
+    fn ball(centre: DVec3, radius: f64) -> Solid {
+        Solid::Ellipsoid(Ellipsoid {
+            centre,
+            axes: [DVec3::X, DVec3::Y, DVec3::Z],
+            radii: DVec3::splat(radius),
+        })
+    }
+
+    #[test]
+    fn the_skin_of_a_ball_is_a_sphere_with_edges_as_wanted() {
+        let body = Body::new(vec![Part::join(vec![ball(DVec3::ONE, 0.5)], 0.05, 0.06)]);
+        let cells = Cells { size: 0.04, offset: DVec3::splat(0.3), coarseness: 1.0 };
+        let mesh = skin(&body, &cells);
+        assert_eq!(mesh.euler_characteristic(), 2);
+        assert!(mesh.positions().iter().all(|p| (p.distance(DVec3::ONE) - 0.5).abs() < 1e-4));
+        let lengths: Vec<f64> = mesh.edges().map(|h| mesh.length(h) / 0.06).collect();
+        let fitting = lengths.iter().filter(|l| (0.6..1.6).contains(*l)).count();
+        assert!(fitting as f64 > 0.97 * lengths.len() as f64, "{fitting} of {}", lengths.len());
+    }
+
+    #[test]
+    fn edges_are_short_where_that_is_wanted() {
+        let fine = Part::join(vec![ball(DVec3::X * 0.5, 0.15)], 0.03, 0.015);
+        let body = Body::new(vec![Part::join(vec![ball(DVec3::ZERO, 0.5)], 0.05, 0.06), fine]);
+        let mesh = skin(&body, &Cells { size: 0.04, offset: DVec3::ZERO, coarseness: 1.0 });
+        assert_eq!(mesh.euler_characteristic(), 2);
+        let mean = |near: &dyn Fn(DVec3) -> bool| {
+            let edges: Vec<_> = mesh.edges().filter(|&h| near(mesh.positions()[mesh.tail(h)])).collect();
+            edges.iter().map(|&h| mesh.length(h)).sum::<f64>() / edges.len() as f64
+        };
+        assert!(mean(&|p| p.x > 0.58) < 0.03);
+        assert!(mean(&|p| p.x < 0.0) > 0.045);
+    }
+
+    #[test]
+    fn a_cut_part_leaves_a_dent() {
+        let [whole, cut] = [ball(DVec3::ZERO, 0.5), ball(DVec3::Y * 0.55, 0.2)];
+        let body = Body::new(vec![Part::join(vec![whole], 0.05, 0.05), Part::cut(vec![cut], 0.02, 0.03)]);
+        assert!(body.value(DVec3::Y * 0.45) > 0.05);
+        assert!(body.value(DVec3::X * 0.45) < -0.04);
+        assert!((body.normal(DVec3::X * 0.5) - DVec3::X).length() < 1e-3);
+    }
+}

@@ -1,0 +1,94 @@
+//! Smooth tubes with elliptic sections through given nodes.
+
+use super::body::{Section, Solid};
+use crate::math::scalar::max;
+use glam::{DVec2, DVec3};
+
+/// Straight pieces from node to node are about so long, in units of the tube's radius there.
+const PIECE: f64 = 0.10;
+
+/// A section of a tube.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    pub centre: DVec3,
+    /// Half the height across `side` and the tube.
+    pub height: f64,
+    /// Half the width along `side`.
+    pub width: f64,
+    /// Direction of the width; what of it is along the tube does not count.
+    pub side: DVec3,
+}
+
+impl Node {
+    /// A round section.
+    pub fn round(centre: DVec3, radius: f64) -> Self {
+        Self { centre, height: radius, width: radius, side: DVec3::Z }
+    }
+}
+
+/// The tube through nodes (Catmull-Rom), in straight pieces.
+pub(super) fn tube(nodes: &[Node]) -> Vec<Solid> {
+    let mut sampled = Vec::new();
+    for k in 0..nodes.len() - 1 {
+        let around = [k.saturating_sub(1), k, k + 1, (k + 2).min(nodes.len() - 1)].map(|i| nodes[i]);
+        let [_, a, b, _] = around;
+        let pieces = a.centre.distance(b.centre) / (PIECE * (a.height + b.height));
+        let pieces = pieces.ceil().clamp(2.0, 10.0) as usize;
+        sampled.extend((0..pieces).map(|i| between(around, i as f64 / pieces as f64)));
+    }
+    sampled.extend(nodes.last().copied());
+    sampled.windows(2).map(|ends| piece(ends[0], ends[1])).collect()
+}
+
+fn piece(a: Node, b: Node) -> Solid {
+    let axis = (b.centre - a.centre).normalize();
+    let side = a.side + b.side;
+    let across =
+        (side - axis * side.dot(axis)).try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector());
+    let sizes = [a, b].map(|node| DVec2::new(node.width, node.height));
+    Solid::Section(Section::new([a.centre, b.centre], sizes, across))
+}
+
+/// The section between the middle two of four nodes.
+fn between(nodes: [Node; 4], t: f64) -> Node {
+    let weights = [
+        0.5 * t * (-1.0 + t * (2.0 - t)),
+        0.5 * (2.0 + t * t * (-5.0 + 3.0 * t)),
+        0.5 * t * (1.0 + t * (4.0 - 3.0 * t)),
+        0.5 * t * t * (t - 1.0),
+    ];
+    let mean = |of: fn(&Node) -> DVec3| nodes.iter().zip(weights).map(|(n, w)| of(n) * w).sum::<DVec3>();
+    let number = |of: fn(&Node) -> f64| {
+        let least = 0.5 * nodes[1..3].iter().map(of).fold(f64::INFINITY, f64::min);
+        max(nodes.iter().zip(weights).map(|(n, w)| of(n) * w).sum(), least)
+    };
+    Node {
+        centre: mean(|n| n.centre),
+        height: number(|n| n.height),
+        width: number(|n| n.width),
+        side: nodes[1].side.lerp(nodes[2].side, t),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::demo::body::{Body, Part};
+
+    #[test]
+    fn a_tube_has_its_nodes_sections() {
+        let node = |x: f64, y: f64, height: f64, width: f64| Node {
+            centre: DVec3::new(x, y, 0.0),
+            height,
+            width,
+            side: DVec3::Z,
+        };
+        let nodes = [node(0.0, 0.0, 0.2, 0.1), node(0.5, 0.2, 0.15, 0.2), node(1.0, 0.0, 0.1, 0.1)];
+        let body = Body::new(vec![Part::join(tube(&nodes), 0.05, 0.03)]);
+        // The tube is level at its middle node.
+        for (direction, reach) in [(DVec3::Y, 0.15), (-DVec3::Y, 0.15), (DVec3::Z, 0.2), (-DVec3::Z, 0.2)] {
+            let value = body.value(nodes[1].centre + direction * reach);
+            assert!(value.abs() < 0.004, "{direction}: {value}");
+        }
+    }
+}
