@@ -4,6 +4,7 @@
 //! collapsed, edges flipped to Delaunay's, and vertices moved to the middle of their neighbours and back onto the surface.
 
 use super::body::Body;
+use crate::math::disjoint_sets::DisjointSets;
 use crate::math::scalar::{max, min};
 use crate::mesh::collapsible::{CollapsibleMesh, ShapeLimits};
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
@@ -36,8 +37,8 @@ pub(super) struct Cells {
 pub(super) fn skin(body: &Body, cells: &Cells) -> SurfaceMesh {
     let mut grid = Grid::new(body, cells);
     grid.march();
-    let faces = grid.faces.iter().map(|t| t.map(VertexId)).collect();
-    let raw = SurfaceMesh::from_triangles(grid.positions.into(), faces);
+    let (positions, faces) = largest_part(&grid.positions, &grid.faces);
+    let raw = SurfaceMesh::from_triangles(positions, faces);
     let mut mesh = raw.expect("marching tetrahedra give a closed manifold");
     for times in SMOOTHINGS {
         let lengths = wanted_lengths(&mesh, body, cells.coarseness);
@@ -45,6 +46,31 @@ pub(super) fn skin(body: &Body, cells: &Cells) -> SurfaceMesh {
         mesh = smoothed(&mesh, body, times);
     }
     mesh
+}
+
+/// The vertices and faces of the largest connected part: cells cut off specks where a tip is thin.
+fn largest_part(
+    positions: &[DVec3],
+    faces: &[[u32; 3]],
+) -> (TiVec<VertexId, DVec3>, TiVec<FaceId, [VertexId; 3]>) {
+    let mut parts = DisjointSets::new(positions.len());
+    for &[a, b, c] in faces {
+        parts.join(a as usize, b as usize);
+        parts.join(b as usize, c as usize);
+    }
+    let roots: Vec<usize> = (0..positions.len()).map(|v| parts.root(v)).collect();
+    let mut sizes = vec![0; positions.len()];
+    for &root in &roots {
+        sizes[root] += 1;
+    }
+    let largest = (0..sizes.len()).max_by_key(|&root| sizes[root]);
+    let mut number = vec![VertexId(u32::MAX); positions.len()];
+    let mut kept = TiVec::new();
+    for v in (0..positions.len()).filter(|&v| Some(roots[v]) == largest) {
+        number[v] = kept.push_and_get_key(positions[v]);
+    }
+    let faces = faces.iter().filter(|t| Some(roots[t[0] as usize]) == largest);
+    (kept, faces.map(|t| t.map(|v| number[v as usize])).collect())
 }
 
 struct Grid {
