@@ -21,5 +21,5 @@ export type RepairOffer =
   /** To keep the largest of its parts, which has this share of the area. */
   | { readonly kind: 'keep-largest'; readonly parts: number; readonly share: number };
 
-/** What is chosen of a run, with nothing left out but what the page leaves to the core: which rims of holes correspond. */
-export type RunOptions = Readonly<Required<Omit<Choices, 'borders'>>>;
+/** What is chosen of a run, with nothing left out. */
+export type RunOptions = Readonly<Required<Choices>>;

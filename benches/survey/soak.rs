@@ -11,10 +11,10 @@ const RUNS: u64 = 200;
 /// After as many the memory should stay.
 const WARM: u64 = 10;
 
-/// Maps the demos in turn, and tells what the process holds after each tenth of the runs.
+/// Maps the small demos in turn, and tells what the process holds after each tenth of the runs.
 pub fn table(arguments: &Arguments) {
     let runs = if arguments.seeds > 1 { arguments.seeds } else { RUNS };
-    let cases: Vec<Case> = demo::list().iter().take(3).map(|info| of_demo(info.id)).collect();
+    let cases = ["horse-cat", "poses", "sphere-tetrahedron"].map(of_demo);
     let mut warm = None;
     println!("{:>6} {:>12}  of {} demos in turn", "maps", "MiB held", cases.len());
     for count in 1..=runs {

@@ -24,7 +24,7 @@ interface Case<K extends Event['kind']> {
 const TASK = { sentence: 'Reading the files…' };
 const PROGRESS = { stage: 'relaxation', sentence: 'Relaxing the map', share: 0.5, residual: null, energy: 5 };
 const [HORSE, A, B] = [mesh('horse.stl'), suggestion(5, 'A'), suggestion(6, 'B')];
-const OPTIONS: RunOptions = { method: 'thesis', base: 'qem', cones: 'uniform', class: 'runner-up', ownCones: 10 };
+const OPTIONS: RunOptions = { method: 'thesis', base: 'qem', cones: 'uniform', class: 'runner-up', ownCones: 10, borders: 'missing' };
 const STYLE: Style = { surface: 'colours', patchLines: false, cones: false, markers: false, morph: 0.25, wipe: 0.75 };
 const OFFER: Offer = { session: 'a', names: ['cat.off', 'lion.off'], pairs: 12, saved: 1 };
 const [CAT, LION] = READY.meshes;

@@ -8,7 +8,7 @@ import { hasItsCones, isCurrent, shownResult, staleness } from '../../www/store/
 import type { State } from '../../www/store/state.ts';
 import { after, DONE, DOUBT, mesh, OUTPUT, READY, REPORT, SWAPPED } from './fixtures.ts';
 
-const OTHER: RunOptions = { method: 'thesis', base: 'qem', cones: 'uniform', class: 'runner-up', ownCones: 0 };
+const OTHER: RunOptions = { method: 'thesis', base: 'qem', cones: 'uniform', class: 'runner-up', ownCones: 0, borders: 'missing' };
 const PICKS: readonly Event[] = [
   { kind: 'point-picked', side: 0, point: 7 },
   { kind: 'point-picked', side: 1, point: 17 },

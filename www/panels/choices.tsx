@@ -29,6 +29,12 @@ const OWN_CONES: readonly Choice<string>[] = [
   { value: '40', text: 'Up to 40' },
 ];
 
+const BORDERS: readonly Choice<RunOptions['borders']>[] = [
+  { value: 'guess', text: 'As the landmarks tell' },
+  { value: 'corresponding', text: 'Ends of both bodies' },
+  { value: 'missing', text: 'Missing data' },
+];
+
 /** The choices. */
 export function Choices({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
   const { options } = state;
@@ -60,6 +66,16 @@ export function Choices({ state, actions }: Pick<PartProps, 'state' | 'actions'>
         disabled={running || thesis}
         onChoice={(value) => {
           set({ ownCones: value === 'usual' ? null : Number(value) });
+        }}
+      />
+      <Select
+        label="Rims of holes"
+        title="Whether large holes of both meshes are where both bodies end, so that rim goes to rim, or places that a scan has missed"
+        value={options.borders}
+        choices={BORDERS}
+        disabled={running || thesis}
+        onChoice={(borders) => {
+          set({ borders });
         }}
       />
     </div>

@@ -27,7 +27,10 @@ export const Options = v.object({
   cones: v.picklist(['base-domain', 'uniform']),
   class: v.picklist(['best', 'runner-up']),
   ownCones: v.nullable(v.pipe(Index, v.maxValue(MOST_OWN_CONES))),
-}) satisfies v.GenericSchema<RunOptions>;
+  // Links and maps of before it was a choice do not tell it.
+  borders: v.optional(v.picklist(['guess', 'corresponding', 'missing']), 'guess'),
+}) satisfies v.GenericSchema<unknown, RunOptions>;
+
 /** The options in a text; `null` where there are none. */
 export function optionsIn(text: string): RunOptions | null {
   try {

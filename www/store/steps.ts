@@ -37,6 +37,7 @@ const OPTION_NAMES = {
   cones: 'cone angles',
   class: 'class',
   ownCones: 'own cones',
+  borders: 'rims of holes',
 } as const;
 
 const NAMES: Names = {

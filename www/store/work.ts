@@ -52,7 +52,7 @@ export const NO_WORK: Work = {
   pairs: [],
   named: [null, null],
   groundTruth: null,
-  options: { method: 'relaxed', base: 'joint', cones: 'base-domain', class: 'best', ownCones: null },
+  options: { method: 'relaxed', base: 'joint', cones: 'base-domain', class: 'best', ownCones: null, borders: 'guess' },
 };
 
 /** The work alone, of a state that has more. */

@@ -109,7 +109,7 @@ describe('a link of version 1 from another day', () => {
         ],
         up: ['y', '-z'],
         groundTruth: 'same',
-        options: { method: 'relaxed', base: 'joint', cones: 'base-domain', class: 'best', ownCones: null },
+        options: { method: 'relaxed', base: 'joint', cones: 'base-domain', class: 'best', ownCones: null, borders: 'guess' },
         cameras: [[1, 2], null],
         style: { surface: 'shaded', patchLines: true, cones: true, markers: true, morph: 0, wipe: null },
       },

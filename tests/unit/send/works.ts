@@ -66,6 +66,7 @@ export function anyWork(random: Random): SentWork {
       cones: random.of(['base-domain', 'uniform']),
       class: random.of(['best', 'runner-up']),
       ownCones: random.of([null, 0, 20]),
+      borders: random.of(['guess', 'corresponding', 'missing']),
     },
     cameras: [random.of([null, camera(random)]), random.of([null, camera(random)])],
     style: {
