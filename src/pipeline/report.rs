@@ -33,7 +33,6 @@ pub struct Report {
     pub coverage: Option<CoverageReport>,
     /// What the rims of holes were taken for; `null` where not both meshes have holes, unless rims were said to correspond, and for
     /// the thesis' method.
-    #[cfg_attr(all(feature = "web", target_arch = "wasm32"), tsify(optional))]
     pub borders: Option<BordersReport>,
     /// Share of the source's vertices without an image; 0 for the relaxed map.
     pub unmapped_share: f64,

@@ -13,7 +13,7 @@ import { pack, unpack } from './packing.ts';
 import { areSound } from './schema.ts';
 import type { SentPair, SentWork } from './schema.ts';
 import { surfacePoint, VERSION, WireLink, wirePoint } from './wire.ts';
-import type { WireFile, WirePoint } from './wire.ts';
+import type { WireFile, WirePoint, WrittenLink } from './wire.ts';
 
 /** In characters, of all behind the `#`. */
 export const LONGEST_LINK = 65_536;
@@ -195,8 +195,9 @@ function wireCamera(camera: Camera | null): number[] | null {
   return camera?.map((value) => Number(value.toPrecision(CAMERA_FIGURES))) ?? null;
 }
 
-function wireLink(link: Link, work: SentWork): WireLink {
+function wireLink(link: Link, work: SentWork): WrittenLink {
   const { pairs } = work;
+  const { borders, ...options } = work.options;
   const points = (side: Side): WirePoint[] => pairs.map((pair) => wirePoint(pair.points[side]));
   const labels = pairs.map(({ label }) => label);
   const locked = pairs.flatMap((pair, index) => (pair.locked ? [index] : []));
@@ -208,7 +209,8 @@ function wireLink(link: Link, work: SentWork): WireLink {
     ...(locked.length === 0 ? {} : { x: locked }),
     ...(work.groundTruth === null ? {} : { g: work.groundTruth }),
     u: [...work.up],
-    o: work.options,
+    // The usual choice is left out, as it was before there was one.
+    o: borders === 'guess' ? options : work.options,
     c: [wireCamera(work.cameras[0]), wireCamera(work.cameras[1])],
     s: work.style,
   };

@@ -17,6 +17,7 @@ const ConeMetric = v.object({
   residuals: v.array(Figure),
   seconds: Figure,
 });
+const Rim = v.object({ vertex: Index, vertices: Index, length: Figure });
 const Finding = v.object({
   kind: v.picklist(['mirrored', 'swapped', 'misplaced', 'unmarked_limbs']),
   pairs: v.array(Index),
@@ -47,6 +48,16 @@ export const ReportSchema = v.object({
   cone_metric: v.object({ source: v.nullable(ConeMetric), target: v.nullable(ConeMetric) }),
   // Files of before it was measured have none.
   coverage: v.optional(v.nullable(v.object({ source: Figure, target: Figure, hidden: Figure })), null),
+  borders: v.optional(
+    v.nullable(
+      v.object({
+        case: v.picklist(['missing', 'corresponding']),
+        asked: v.picklist(['guess', 'corresponding', 'missing']),
+        rims: v.array(v.object({ source: Rim, target: Rim, misfit: Figure })),
+      }),
+    ),
+    null,
+  ),
   certificate: v.nullable(
     v.object({
       bijective: v.boolean(),

@@ -67,6 +67,8 @@ export const WireLink = v.object({
 });
 
 export type WireLink = v.InferOutput<typeof WireLink>;
+/** What usual choices may be left out of. */
+export type WrittenLink = v.InferInput<typeof WireLink>;
 export type WirePoint = v.InferOutput<typeof WirePoint>;
 export type WireFile = v.InferOutput<typeof WireFile>;
 
