@@ -223,15 +223,27 @@ fn every_corner_of_an_stl_file_has_its_row() {
     }
 }
 
-#[test]
-fn maps_the_first_demo_and_the_small_ones() {
-    let first = conemap::demo::list()[0].id;
-    for id in [first, "horse-cat", "poses", "sphere-tetrahedron"] {
-        let folder = folder(&format!("maps_the_first_demo_and_the_small_ones/{id}"));
+/// Maps demos by the command line.
+fn map_demos(ids: &[&str]) {
+    for id in ids {
+        let folder = folder(&format!("map_demos/{id}"));
         let demo = conemap::demo::build(id).unwrap();
         let files = write_files(&folder, [&demo.source, &demo.target], &demo.landmarks);
         map_and_check(files.each_ref().map(PathBuf::as_path), &folder);
     }
+}
+
+#[test]
+fn maps_small_demos() {
+    map_demos(&["horse-cat", "poses", "sphere-tetrahedron"]);
+}
+
+#[test]
+#[ignore = "long: run by `cargo xtask test --all`"]
+fn maps_the_other_demos() {
+    let small = ["horse-cat", "poses", "sphere-tetrahedron"];
+    let others = conemap::demo::list().iter().map(|info| info.id).filter(|id| !small.contains(id));
+    map_demos(&others.collect::<Vec<_>>());
 }
 
 /// Runs `map` on a demo with a limit of time; the report.

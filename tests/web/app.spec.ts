@@ -160,7 +160,7 @@ test('both views are drawn with several samples a pixel', async ({ page }) => {
       return typeof value === 'string' && /swiftshader/i.test(value) ? 'a graphics card' : value;
     });
   });
-  await openDemo(page, '');
+  await openDemo(page);
   for (const half of await readHalves(page)) {
     expect(half.covered).toBeGreaterThan(0.03);
     expect(half.colours).toBeGreaterThan(20);
@@ -168,7 +168,7 @@ test('both views are drawn with several samples a pixel', async ({ page }) => {
 });
 
 test('a run can be cancelled and nothing is lost', async ({ page }) => {
-  await openDemo(page, '');
+  await openDemo(page);
   await openStep(page, 'landmarks');
   const count = await pairs(page).count();
   await page.evaluate(() => {
@@ -182,7 +182,7 @@ test('a run can be cancelled and nothing is lost', async ({ page }) => {
 });
 
 test('the views come back after a lost graphics context', async ({ page }) => {
-  await openDemo(page, '');
+  await openDemo(page);
   const lose = await page.evaluateHandle(() =>
     document.querySelector<HTMLCanvasElement>('#canvas')?.getContext('webgl2')?.getExtension('WEBGL_lose_context'),
   );

@@ -1,45 +1,9 @@
 /** Nothing is lost: steps taken back and made again, reloads, new visits, and two tabs. */
-import { readFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
 import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
-import { buildDemo, initSync } from '../../www/wasm/conemap.js';
+import type { Upload } from './own-files.ts';
+import { ownFiles, upload } from './own-files.ts';
 import { dropContents } from './page.ts';
-
-interface Upload {
-  readonly name: string;
-  readonly mimeType: string;
-  readonly buffer: Buffer;
-}
-
-function upload(name: string, data: string | Uint8Array): Upload {
-  return { name, mimeType: 'application/octet-stream', buffer: Buffer.from(data) };
-}
-
-/** The mirror image of an OBJ file: x turned, and every triangle with it. */
-function mirrored(obj: string): string {
-  return obj
-    .replace(/^v (\S+)/gm, (_, x: string) => `v ${-Number(x)}`)
-    .replace(/^f (\S+) (\S+) (\S+)/gm, 'f $1 $3 $2');
-}
-
-/** The files of a demo, as a user's own. */
-function ownFiles(): { readonly horse: Upload; readonly cat: Upload; readonly turned: Upload; readonly landmarks: Upload; readonly pairs: number } {
-  initSync({ module: readFileSync(fileURLToPath(new URL('../../www/wasm/conemap_bg.wasm', import.meta.url))) });
-  const demo = buildDemo('horse-cat');
-  if (demo === undefined) {
-    throw new Error('there is no demo horse-cat');
-  }
-  const text = (bytes: Uint8Array): string => new TextDecoder().decode(bytes);
-  const landmarks = JSON.parse(text(demo.landmarks())) as { pairs: unknown[] };
-  return {
-    horse: upload('horse.obj', demo.source()),
-    cat: upload('cat.obj', demo.target()),
-    turned: upload('cat.obj', mirrored(text(demo.target()))),
-    landmarks: upload('horse-cat.json', JSON.stringify({ ...landmarks, source: 'horse.obj', target: 'cat.obj' })),
-    pairs: landmarks.pairs.length,
-  };
-}
 
 async function open(page: Page, hash = ''): Promise<void> {
   await page.goto(`/${hash}`);

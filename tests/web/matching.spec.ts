@@ -1,5 +1,6 @@
 /** Landmarks that the program finds: from no pair to a certified map, and back by one step. */
 import { expect, test } from '@playwright/test';
+import { ownFiles } from './own-files.ts';
 import { openDemo, openStep, pairs, ROOT, runMap } from './page.ts';
 
 test('landmarks are found for meshes without any, and the map goes through them', async ({ page }) => {
@@ -18,9 +19,14 @@ test('landmarks are found for meshes without any, and the map goes through them'
   await expect(progress).toBeHidden();
   await expect(pairs(page)).toHaveCount(0);
 
-  // One that goes to its end brings pairs and says how sure they are; the page opens their list.
+  // Where both meshes are the user's it begins by itself, and a click on one of them would end it. Gone to its end it brings pairs
+  // and says how sure they are; the page opens their list.
+  const { horse, cat } = ownFiles();
   await openStep(page, 'meshes');
-  await find.click();
+  await page.locator('#source-file').setInputFiles(horse);
+  await expect(page.locator('#view-source')).toContainText('horse.obj');
+  await expect(page.locator('.searching')).toHaveCount(0);
+  await page.locator('#target-file').setInputFiles(cat);
   const told = page.locator('.matched .told');
   await expect(told).toHaveText(/^(Sure|Doubtful)\. /, { timeout: 120_000 });
   await expect(page.locator('#step-landmarks')).toHaveAttribute('aria-current', 'step');

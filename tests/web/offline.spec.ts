@@ -43,7 +43,7 @@ test('after the first visit the page works without a network, from any folder', 
   await runMap(page);
 });
 
-test('a new build tells the open page of itself and comes with a reload', async ({ page }) => {
+test('a new build tells the open page of itself and comes with a reload', { tag: '@long' }, async ({ page }) => {
   const folder = mkdtempSync(join(tmpdir(), 'conemap-'));
   cpSync(DIST, folder, { recursive: true });
   const host = await staticHost(DIST, '/');

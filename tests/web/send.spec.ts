@@ -181,7 +181,7 @@ test('a link to another host brings its meshes after one click, without a word a
   expectSame(linkIn((await share(page)).url), linkIn(url));
 });
 
-test('what cannot be loaded is said in a sentence', async ({ page }) => {
+test('what cannot be loaded is said in a sentence', { tag: '@long' }, async ({ page }) => {
   await otherHost(page);
   const error = page.locator('#error');
   const loading = async (hash: string): Promise<void> => {
