@@ -104,7 +104,7 @@ async function saved(page: Page, plot: string, format: string): Promise<Buffer> 
   return readFileSync(await file.path());
 }
 
-test('a map is plotted, read by keys, saved, and compared with the one before it', async ({ page }) => {
+test('a map is plotted, read by keys, saved, and compared with the one before it', { tag: '@long' }, async ({ page }) => {
   const errors = errorsOf(page);
   await openDemo(page, '#demo=sphere-tetrahedron');
   await runMap(page);
