@@ -12,6 +12,7 @@ mod hand;
 mod hoofed;
 mod human;
 mod implicit;
+mod marching;
 mod polygonise;
 mod quadruped;
 mod round;

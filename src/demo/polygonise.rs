@@ -3,19 +3,16 @@
 //! Marching tetrahedra (six to a cube) always give a closed manifold; short edges are then collapsed and vertices moved
 //! towards the middle of their neighbours and back onto the surface.
 
+use super::marching::Grid;
+use super::skin::of_level;
 use crate::mesh::collapsible::{CollapsibleMesh, ShapeLimits};
-use crate::mesh::{FaceId, SurfaceMesh, VertexId};
+use crate::mesh::{SurfaceMesh, VertexId};
 use glam::DVec3;
-use rustc_hash::FxHashMap;
 use typed_index_collections::TiVec;
 
-/// The six tetrahedra of a cube around its diagonal 0-7; corner k is at (k & 1, k >> 1 & 1, k >> 2).
-const TETRAHEDRA: [[usize; 4]; 6] =
-    [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]];
-
 /// The surface where `value` is 0 (negative inside) in a box, on a grid of the given cell size.
-pub(super) fn polygonise(value: impl Fn(DVec3) -> f64, [low, high]: [DVec3; 2], cell: f64) -> SurfaceMesh {
-    let mut grid = Grid::new(&value, low, high, cell);
+pub(super) fn polygonise(value: impl Fn(DVec3) -> f64, bounds: [DVec3; 2], cell: f64) -> SurfaceMesh {
+    let mut grid = sampled(&value, bounds, cell);
     grid.march();
     let faces = grid.faces.iter().map(|t| t.map(VertexId)).collect();
     let raw = SurfaceMesh::from_triangles(grid.positions.into(), faces);
@@ -27,98 +24,21 @@ pub(super) fn polygonise(value: impl Fn(DVec3) -> f64, [low, high]: [DVec3; 2], 
     mesh
 }
 
-struct Grid {
-    values: Vec<f64>,
-    size: [usize; 3],
-    low: DVec3,
-    cell: f64,
-    /// Surface vertex on each grid edge that is crossed.
-    crossings: FxHashMap<[u32; 2], u32>,
-    positions: Vec<DVec3>,
-    faces: Vec<[u32; 3]>,
-}
-
-impl Grid {
-    fn new(value: &impl Fn(DVec3) -> f64, low: DVec3, high: DVec3, cell: f64) -> Self {
-        let size = ((high - low) / cell).ceil().to_array().map(|n| n as usize + 2);
-        let mut values = Vec::with_capacity(size[0] * size[1] * size[2]);
-        for z in 0..size[2] {
-            for y in 0..size[1] {
-                for x in 0..size[0] {
-                    let v = value(low + DVec3::new(x as f64, y as f64, z as f64) * cell);
-                    // A corner exactly on the surface would make vertices coincide.
-                    values.push(if v.abs() < 1e-3 * cell { 1e-3 * cell } else { v });
-                }
-            }
-        }
-        Self {
-            values,
-            size,
-            low,
-            cell,
-            crossings: FxHashMap::default(),
-            positions: Vec::new(),
-            faces: Vec::new(),
-        }
-    }
-
-    fn march(&mut self) {
-        let [nx, ny, nz] = self.size;
-        for z in 0..nz - 1 {
-            for y in 0..ny - 1 {
-                for x in 0..nx - 1 {
-                    let corner = |k: usize| ((z + (k >> 2)) * ny + y + (k >> 1 & 1)) * nx + x + (k & 1);
-                    for tetrahedron in TETRAHEDRA {
-                        self.cut(tetrahedron.map(corner));
-                    }
-                }
+/// The values of a function in a box.
+fn sampled(value: &impl Fn(DVec3) -> f64, bounds: [DVec3; 2], cell: f64) -> Grid {
+    let mut grid = Grid::new(bounds, cell);
+    let [nx, ny, nz] = grid.size;
+    for z in 0..nz {
+        for y in 0..ny {
+            for x in 0..nx {
+                let v = value(grid.at([x, y, z]));
+                let corner = grid.number([x, y, z]);
+                // A corner exactly on the surface would make vertices coincide.
+                grid.values[corner] = if v.abs() < 1e-3 * cell { 1e-3 * cell } else { v };
             }
         }
     }
-
-    /// Adds the triangles of one positively oriented tetrahedron, facing away from the inside.
-    fn cut(&mut self, corners: [usize; 4]) {
-        let inside: Vec<usize> = (0..4).filter(|&k| self.values[corners[k]] < 0.0).collect();
-        let outside: Vec<usize> = (0..4).filter(|&k| self.values[corners[k]] >= 0.0).collect();
-        let mut at = |a: usize, b: usize| self.crossing(corners[a], corners[b]);
-        let triangles = match (&inside[..], &outside[..]) {
-            (&[a], &[b, c, d]) => vec![[at(a, b), at(a, c), at(a, d)]],
-            (&[b, c, d], &[a]) => vec![[at(a, b), at(a, c), at(a, d)]],
-            (&[a, b], &[c, d]) => {
-                let [ac, ad, bc, bd] = [at(a, c), at(a, d), at(b, c), at(b, d)];
-                vec![[ac, ad, bd], [ac, bd, bc]]
-            }
-            _ => return,
-        };
-        let place = |k: usize| self.place(corners[k]);
-        let outwards = place(outside[0]) - place(inside[0]);
-        for mut t in triangles {
-            let [p, q, r] = t.map(|v| self.positions[v as usize]);
-            if (q - p).cross(r - p).dot(outwards) < 0.0 {
-                t.swap(1, 2);
-            }
-            self.faces.push(t);
-        }
-    }
-
-    fn place(&self, corner: usize) -> DVec3 {
-        let [nx, ny, _] = self.size;
-        self.low
-            + DVec3::new((corner % nx) as f64, (corner / nx % ny) as f64, (corner / (nx * ny)) as f64)
-                * self.cell
-    }
-
-    fn crossing(&mut self, a: usize, b: usize) -> u32 {
-        let (a, b) = (a.min(b), a.max(b));
-        let (p, q) = (self.place(a), self.place(b));
-        let (va, vb) = (self.values[a], self.values[b]);
-        let next = self.positions.len() as u32;
-        let index = *self.crossings.entry([a as u32, b as u32]).or_insert(next);
-        if index == next {
-            self.positions.push(p.lerp(q, va / (va - vb)));
-        }
-        index
-    }
+    grid
 }
 
 /// Collapses edges shorter than `least` where the mesh stays a manifold of good shape.
@@ -141,13 +61,7 @@ fn without_short_edges(mesh: &SurfaceMesh, least: f64) -> SurfaceMesh {
             }
         }
     }
-    let mut number: TiVec<VertexId, VertexId> = mesh.vertices().collect();
-    let mut positions = TiVec::new();
-    for v in coarse.vertices() {
-        number[v] = positions.push_and_get_key(mesh.positions()[v]);
-    }
-    let faces: TiVec<FaceId, _> = coarse.faces().map(|f| coarse.corners(f).map(|v| number[v])).collect();
-    SurfaceMesh::from_triangles(positions, faces).expect("collapses keep a closed manifold")
+    of_level(&coarse, mesh.positions())
 }
 
 /// Moves every vertex towards the mean of its neighbours and back onto the surface, a few times.

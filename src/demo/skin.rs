@@ -4,17 +4,14 @@
 //! collapsed, edges flipped to Delaunay's, and vertices moved to the middle of their neighbours and back onto the surface.
 
 use super::body::Body;
+use super::marching::Grid;
 use crate::math::disjoint_sets::DisjointSets;
 use crate::math::scalar::{max, min};
 use crate::mesh::collapsible::{CollapsibleMesh, ShapeLimits};
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec3;
-use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-/// The six tetrahedra of a cube around its diagonal 0-7; corner k is at (k & 1, k >> 1 & 1, k >> 2).
-const TETRAHEDRA: [[usize; 4]; 6] =
-    [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]];
 /// Cells to the side of a block.
 const BLOCK: usize = 4;
 /// A block whose middle is farther from the surface than this, in units of its half diagonal, is left out.
@@ -35,7 +32,7 @@ pub(super) struct Cells {
 
 /// The closed skin of a body.
 pub(super) fn skin(body: &Body, cells: &Cells) -> SurfaceMesh {
-    let mut grid = Grid::new(body, cells);
+    let mut grid = sampled(body, cells);
     grid.march();
     let (positions, faces) = largest_part(&grid.positions, &grid.faces);
     let raw = SurfaceMesh::from_triangles(positions, faces);
@@ -73,128 +70,37 @@ fn largest_part(
     (kept, faces.map(|t| t.map(|v| number[v as usize])).collect())
 }
 
-struct Grid {
-    values: Vec<f64>,
-    size: [usize; 3],
-    low: DVec3,
-    cell: f64,
-    /// Surface vertex on each grid edge that is crossed.
-    crossings: FxHashMap<[u32; 2], u32>,
-    positions: Vec<DVec3>,
-    faces: Vec<[u32; 3]>,
+/// The body's values in the cells around it.
+fn sampled(body: &Body, cells: &Cells) -> Grid {
+    let [low, high] = body.bounds();
+    let mut grid = Grid::new([low - (DVec3::ONE + cells.offset) * cells.size, high], cells.size);
+    let size = grid.size;
+    for z in (0..size[2]).step_by(BLOCK) {
+        for y in (0..size[1]).step_by(BLOCK) {
+            for x in (0..size[0]).step_by(BLOCK) {
+                fill(&mut grid, body, cells.size, [x, y, z]);
+            }
+        }
+    }
+    grid
 }
 
-impl Grid {
-    fn new(body: &Body, cells: &Cells) -> Self {
-        let [low, high] = body.bounds();
-        let (cell, low) = (cells.size, low - (DVec3::ONE + cells.offset) * cells.size);
-        let size = ((high - low) / cell).ceil().to_array().map(|n| n as usize + 2);
-        let mut grid = Self {
-            values: vec![1.0; size[0] * size[1] * size[2]],
-            size,
-            low,
-            cell,
-            crossings: FxHashMap::default(),
-            positions: Vec::new(),
-            faces: Vec::new(),
-        };
-        for z in (0..size[2]).step_by(BLOCK) {
-            for y in (0..size[1]).step_by(BLOCK) {
-                for x in (0..size[0]).step_by(BLOCK) {
-                    grid.fill(body, [x, y, z]);
-                }
+/// Sets the values of a block, all alike where the surface is far.
+fn fill(grid: &mut Grid, body: &Body, cell: f64, start: [usize; 3]) {
+    let half = 0.5 * (BLOCK - 1) as f64 * cell;
+    let middle = body.value(grid.at(start) + DVec3::splat(half));
+    let is_far = middle.abs() > CAUTION * 3_f64.sqrt() * half;
+    let end = [0, 1, 2].map(|k| (start[k] + BLOCK).min(grid.size[k]));
+    for z in start[2]..end[2] {
+        for y in start[1]..end[1] {
+            for x in start[0]..end[0] {
+                let value = if is_far { middle } else { body.value(grid.at([x, y, z])) };
+                // A corner on the surface would make vertices coincide.
+                let least = 0.03 * cell;
+                let corner = grid.number([x, y, z]);
+                grid.values[corner] = if value < 0.0 { min(value, -least) } else { max(value, least) };
             }
         }
-        grid
-    }
-
-    /// Sets the values of a block, all alike where the surface is far.
-    fn fill(&mut self, body: &Body, start: [usize; 3]) {
-        let at = |[x, y, z]: [usize; 3]| self.low + DVec3::new(x as f64, y as f64, z as f64) * self.cell;
-        let half = 0.5 * (BLOCK - 1) as f64 * self.cell;
-        let middle = body.value(at(start) + DVec3::splat(half));
-        let is_far = middle.abs() > CAUTION * 3_f64.sqrt() * half;
-        let end = [0, 1, 2].map(|k| (start[k] + BLOCK).min(self.size[k]));
-        for z in start[2]..end[2] {
-            for y in start[1]..end[1] {
-                for x in start[0]..end[0] {
-                    let value = if is_far {
-                        middle
-                    } else {
-                        body.value(self.low + DVec3::new(x as f64, y as f64, z as f64) * self.cell)
-                    };
-                    // A corner on the surface would make vertices coincide.
-                    let least = 0.03 * self.cell;
-                    let clear = if value < 0.0 { value.min(-least) } else { max(value, least) };
-                    self.values[(z * self.size[1] + y) * self.size[0] + x] = clear;
-                }
-            }
-        }
-    }
-
-    fn march(&mut self) {
-        let [nx, ny, nz] = self.size;
-        let steps = [0, 1, nx, nx + 1, nx * ny, nx * ny + 1, nx * ny + nx, nx * ny + nx + 1];
-        for z in 0..nz - 1 {
-            for y in 0..ny - 1 {
-                for x in 0..nx - 1 {
-                    let corners = steps.map(|step| (z * ny + y) * nx + x + step);
-                    let inside = corners.iter().filter(|&&c| self.values[c] < 0.0).count();
-                    if inside != 0 && inside != 8 {
-                        for tetrahedron in TETRAHEDRA {
-                            self.cut(tetrahedron.map(|k| corners[k]));
-                        }
-                    }
-                }
-            }
-        }
-    }
-
-    /// Adds the triangles of one positively oriented tetrahedron, facing away from the inside.
-    fn cut(&mut self, corners: [usize; 4]) {
-        let is_inside = corners.map(|c| self.values[c] < 0.0);
-        let (mut order, mut inside) = ([0; 4], 0);
-        for k in (0..4).filter(|&k| is_inside[k]).chain((0..4).filter(|&k| !is_inside[k])) {
-            order[inside] = corners[k];
-            inside += 1;
-        }
-        let inside = is_inside.iter().filter(|b| **b).count();
-        let [a, b, c, d] = order;
-        let mut at = |a: usize, b: usize| self.crossing(a, b);
-        let (first, second) = match inside {
-            1 => ([at(a, b), at(a, c), at(a, d)], None),
-            2 => {
-                let [ac, ad, bc, bd] = [at(a, c), at(a, d), at(b, c), at(b, d)];
-                ([ac, ad, bd], Some([ac, bd, bc]))
-            }
-            3 => ([at(d, a), at(d, b), at(d, c)], None),
-            _ => return,
-        };
-        let outwards = self.place(d) - self.place(a);
-        for mut t in std::iter::once(first).chain(second) {
-            let [p, q, r] = t.map(|v| self.positions[v as usize]);
-            if (q - p).cross(r - p).dot(outwards) < 0.0 {
-                t.swap(1, 2);
-            }
-            self.faces.push(t);
-        }
-    }
-
-    fn place(&self, corner: usize) -> DVec3 {
-        let [nx, ny, _] = self.size;
-        let place = DVec3::new((corner % nx) as f64, (corner / nx % ny) as f64, (corner / (nx * ny)) as f64);
-        self.low + place * self.cell
-    }
-
-    fn crossing(&mut self, a: usize, b: usize) -> u32 {
-        let (a, b) = (a.min(b), a.max(b));
-        let next = self.positions.len() as u32;
-        let index = *self.crossings.entry([a as u32, b as u32]).or_insert(next);
-        if index == next {
-            let (va, vb) = (self.values[a], self.values[b]);
-            self.positions.push(self.place(a).lerp(self.place(b), va / (va - vb)));
-        }
-        index
     }
 }
 
@@ -303,7 +209,7 @@ fn cotangent(p: DVec3, q: DVec3, r: DVec3) -> f64 {
 }
 
 /// The level as a mesh of its own.
-fn of_level(level: &CollapsibleMesh, positions: &TiSlice<VertexId, DVec3>) -> SurfaceMesh {
+pub(super) fn of_level(level: &CollapsibleMesh, positions: &TiSlice<VertexId, DVec3>) -> SurfaceMesh {
     let mut number: TiVec<VertexId, VertexId> = ti_vec![VertexId(u32::MAX); positions.len()];
     let mut places = TiVec::new();
     for v in level.vertices() {

@@ -2,8 +2,8 @@
 
 use crate::common::farthest_points;
 use crate::cutting::{Cuts, Kept, Open, Plane, rim_distances};
+use crate::fixtures;
 use conemap::landmarks::Landmarks;
-use conemap::math::scalar::{cos, sin};
 use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::Silent;
 use conemap::pipeline::{
@@ -23,11 +23,7 @@ struct Poses {
 impl Poses {
     fn new() -> Self {
         let horse = conemap::demo::build("horse-cat").unwrap().source;
-        let bend = |p: &DVec3| {
-            let (angle, radius) = (0.25 * p.x, 4.0 - p.z);
-            DVec3::new(radius * sin(angle), p.y, 4.0 - radius * cos(angle))
-        };
-        let bent = horse.with_positions(horse.positions().iter().map(bend).collect());
+        let bent = fixtures::bent(&horse);
         let height = |v: &VertexId| horse.positions()[*v].y;
         let end = |upwards: f64| {
             horse.vertices().max_by(|a, b| (upwards * height(a)).total_cmp(&(upwards * height(b)))).unwrap()

@@ -29,6 +29,15 @@ pub fn demos() -> Vec<Case> {
     ["horse-cat", "poses", "sphere-tetrahedron"].map(demo).into()
 }
 
+/// The mesh bent sideways along its length, vertex i being vertex i.
+pub fn bent(mesh: &SurfaceMesh) -> SurfaceMesh {
+    let bend = |p: &DVec3| {
+        let (angle, radius) = (0.25 * p.x, 4.0 - p.z);
+        DVec3::new(radius * sin(angle), p.y, 4.0 - radius * cos(angle))
+    };
+    mesh.with_positions(mesh.positions().iter().map(bend).collect())
+}
+
 /// The surface with other triangles, and the vertices nearest to the given ones, each taken once.
 fn remeshed(mesh: &SurfaceMesh, faces: usize, vertices: &[VertexId]) -> (SurfaceMesh, Vec<VertexId>) {
     let new = remesh(mesh, &Options::to_faces(faces), &mut Silent).unwrap().mesh;

@@ -1,15 +1,14 @@
 //! Meshes with holes: a known bend of a body, punched and capped, against the closed pair.
 
 use crate::common::farthest_points;
+use crate::fixtures;
 use conemap::landmarks::Landmarks;
-use conemap::math::scalar::{cos, sin};
 use conemap::mesh::check::CheckedMesh;
 use conemap::mesh::repair::{RepairOptions, repaired};
 use conemap::mesh::soup::PolygonSoup;
 use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::Silent;
 use conemap::pipeline::{CapFaces, GroundTruth, MapInput, MapResult, PipelineOptions, run};
-use glam::DVec3;
 
 /// A horse and the same horse bent sideways along its length, vertex i being vertex i, with the hole that one of them gets.
 struct Poses {
@@ -26,11 +25,7 @@ struct Poses {
 impl Poses {
     fn new() -> Self {
         let horse = conemap::demo::build("horse-cat").unwrap().source;
-        let bend = |p: &DVec3| {
-            let (angle, radius) = (0.25 * p.x, 4.0 - p.z);
-            DVec3::new(radius * sin(angle), p.y, 4.0 - radius * cos(angle))
-        };
-        let bent = horse.with_positions(horse.positions().iter().map(bend).collect());
+        let bent = fixtures::bent(&horse);
         let lowest = horse.positions().iter().copied().reduce(|p, q| if q.y < p.y { q } else { p }).unwrap();
         let is_gone: Vec<bool> = horse.positions().iter().map(|p| p.distance(lowest) < 0.4).collect();
         let landmarks = farthest_points(&horse, 24).into_iter().filter(|v| !is_gone[v.index()]).collect();
