@@ -182,9 +182,9 @@ const views = new Views(store.state, {
       fail(sentence);
     });
   },
-  recovered: () => {
+  undrawn: (sentence) => {
     queueMicrotask(() => {
-      store.dispatch({ kind: 'error-closed' });
+      store.dispatch({ kind: 'undrawn', sentence });
     });
   },
   probed: page.probed,

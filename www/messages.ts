@@ -136,7 +136,7 @@ export function clearedSentence(deleted: number, locked: number): string {
 
 export const SENTENCES = {
   noWebGl:
-    'This browser gives no WebGL 2, which the views need. Turn on hardware acceleration or use a current browser.',
+    'This browser gives no WebGL 2, so the meshes cannot be drawn; files are read and maps made all the same. Turn on hardware acceleration or use a current browser.',
   noCore: 'The program could not be loaded. Reload the page; if that does not help, use a current browser.',
   contextLost: 'The graphics card took the views away. They come back as soon as it answers.',
   contextGone: 'The views could not be rebuilt after the graphics card was lost. Reload the page.',

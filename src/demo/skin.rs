@@ -37,12 +37,13 @@ pub(super) fn skin(body: &Body, cells: &Cells) -> SurfaceMesh {
     let (positions, faces) = largest_part(&grid.positions, &grid.faces);
     let raw = SurfaceMesh::from_triangles(positions, faces);
     let mut mesh = raw.expect("marching tetrahedra give a closed manifold");
+    let mut lengths = wanted_lengths(&mesh, body, cells.coarseness);
     for times in SMOOTHINGS {
-        let lengths = wanted_lengths(&mesh, body, cells.coarseness);
-        mesh = with_even_edges(&mesh, &lengths);
+        (mesh, lengths) = with_even_edges(&mesh, lengths);
         mesh = smoothed(&mesh, body, times);
     }
-    mesh
+    let onto = mesh.positions().iter().map(|p| projected(*p, body)).collect();
+    mesh.with_positions(onto)
 }
 
 /// The vertices and faces of the largest connected part: cells cut off specks where a tip is thin.
@@ -119,7 +120,10 @@ fn wanted_lengths(mesh: &SurfaceMesh, body: &Body, coarseness: f64) -> TiVec<Ver
 }
 
 /// Collapses the short edges where the mesh keeps its shape, and flips edges to Delaunay's.
-fn with_even_edges(mesh: &SurfaceMesh, lengths: &TiVec<VertexId, f64>) -> SurfaceMesh {
+fn with_even_edges(
+    mesh: &SurfaceMesh,
+    mut lengths: TiVec<VertexId, f64>,
+) -> (SurfaceMesh, TiVec<VertexId, f64>) {
     let limits = ShapeLimits { normal_cosine: 0.8, double_area: 0.1 };
     let relative = |h: HalfedgeId| mesh.length(h) / (0.5 * (lengths[mesh.tail(h)] + lengths[mesh.head(h)]));
     let mut short: Vec<_> = mesh.edges().map(|h| (relative(h), h)).filter(|e| e.0 < SHORT).collect();
@@ -149,18 +153,19 @@ fn with_even_edges(mesh: &SurfaceMesh, lengths: &TiVec<VertexId, f64>) -> Surfac
         }
     }
     let mut positions: TiVec<VertexId, DVec3> = mesh.positions().iter().copied().collect();
-    split_long_edges(&mut coarse, &mut positions, lengths.clone());
+    split_long_edges(&mut coarse, &mut positions, &mut lengths);
     for _ in 0..2 {
         flip_to_delaunay(&mut coarse, &positions);
     }
-    of_level(&coarse, &positions)
+    let kept = coarse.vertices().map(|v| lengths[v]).collect();
+    (of_level(&coarse, &positions), kept)
 }
 
 /// Splits the edges that are long for what is wanted, the longest first.
 fn split_long_edges(
     mesh: &mut CollapsibleMesh,
     positions: &mut TiVec<VertexId, DVec3>,
-    mut lengths: TiVec<VertexId, f64>,
+    lengths: &mut TiVec<VertexId, f64>,
 ) {
     let mut long = Vec::new();
     for h in mesh.faces().flat_map(FaceId::halfedges).filter(|&h| h < mesh.twin(h)) {
@@ -193,11 +198,13 @@ fn flip_to_delaunay(mesh: &mut CollapsibleMesh, positions: &TiSlice<VertexId, DV
             continue;
         }
         let [a, b, c, d] = [h, t, h.prev(), t.prev()].map(|g| positions[mesh.tail(g)]);
+        if cotangent(c, a, b) + cotangent(d, a, b) >= -1e-6 {
+            continue;
+        }
         let normals =
             [(b - a).cross(c - a), (d - a).cross(b - a), (d - c).cross(b - c), (a - c).cross(d - c)];
         let [n0, n1, m0, m1] = normals.map(DVec3::normalize_or_zero);
-        let is_flat = n0.dot(n1) > 0.9 && m0.dot(m1) > 0.9 && m0.dot(n0) > 0.8 && m1.dot(n1) > 0.8;
-        if is_flat && cotangent(c, a, b) + cotangent(d, a, b) < -1e-6 {
+        if n0.dot(n1) > 0.9 && m0.dot(m1) > 0.9 && m0.dot(n0) > 0.8 && m1.dot(n1) > 0.8 {
             mesh.flip(h);
         }
     }
@@ -236,7 +243,7 @@ fn smoothed(mesh: &SurfaceMesh, body: &Body, times: usize) -> SurfaceMesh {
         };
         positions = mesh.vertices().map(moved).collect();
     }
-    mesh.with_positions(positions.iter().map(|p| projected(*p, body)).collect())
+    mesh.with_positions(positions)
 }
 
 /// A Newton step along the gradient onto the surface.

@@ -558,6 +558,12 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     step: null,
     changes: { isOutdated: true },
   },
+  undrawn: {
+    before: READY,
+    event: { sentence: 'There is no WebGL 2.' },
+    step: null,
+    changes: { undrawn: 'There is no WebGL 2.' },
+  },
   error: {
     before: READY,
     event: { sentence: 'Something failed.' },

@@ -187,9 +187,10 @@ test('the views come back after a lost graphics context', async ({ page }) => {
     document.querySelector<HTMLCanvasElement>('#canvas')?.getContext('webgl2')?.getExtension('WEBGL_lose_context'),
   );
   await lose.evaluate((extension) => extension?.loseContext());
-  await expect(page.locator('#error')).toContainText('graphics card');
+  await expect(page.locator('#undrawn')).toContainText('graphics card');
   await page.waitForTimeout(300);
   await lose.evaluate((extension) => extension?.restoreContext());
+  await expect(page.locator('#undrawn')).toHaveCount(0);
   await expect(page.locator('#error')).toBeHidden();
   for (const half of await readHalves(page)) {
     expect(half.covered).toBeGreaterThan(0.03);

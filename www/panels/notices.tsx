@@ -113,6 +113,11 @@ export function Notices({ state, actions }: Pick<PartProps, 'state' | 'actions'>
       {state.refused?.meshes.map((mesh) => (
         <RefusedNotice key={mesh.side} mesh={mesh} state={state} actions={actions} />
       ))}
+      {state.undrawn !== null && (
+        <div class="notice" id="undrawn">
+          <p>{state.undrawn}</p>
+        </div>
+      )}
       {state.isOutdated && (
         <div class="notice" id="new-version">
           <p>{SENTENCES.newVersion}</p>

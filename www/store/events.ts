@@ -136,6 +136,8 @@ export type Event =
   | { readonly kind: 'refused-closed'; readonly side: Side }
   /** There is a newer build of the page. */
   | { readonly kind: 'outdated' }
+  /** The views cannot be drawn, for this reason, or can again. */
+  | { readonly kind: 'undrawn'; readonly sentence: string | null }
   /** Work of an earlier visit can be continued. */
   | { readonly kind: 'offered'; readonly offer: Offer }
   /** The offer was answered. */

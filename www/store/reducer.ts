@@ -225,6 +225,8 @@ export function update(state: State, event: Event): State {
       return withoutRefused(state, event.side);
     case 'outdated':
       return { ...state, isOutdated: true };
+    case 'undrawn':
+      return patched(state, { undrawn: event.sentence });
     case 'offered':
       return { ...state, offer: event.offer };
     case 'offer-closed':

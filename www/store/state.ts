@@ -148,6 +148,8 @@ export interface State extends Work {
   readonly examined: readonly [Examined | null, Examined | null];
   /** Whether a newer build of the page waits for a reload. */
   readonly isOutdated: boolean;
+  /** Why the views cannot be drawn; `null` where they can. */
+  readonly undrawn: string | null;
   readonly offer: Offer | null;
   readonly error: string | null;
 }
@@ -183,6 +185,7 @@ export const INITIAL: State = {
   refused: null,
   examined: [null, null],
   isOutdated: false,
+  undrawn: null,
   offer: null,
   error: null,
 };

@@ -28,8 +28,8 @@ import { fitCanvas, fitViewer, samplesOf, whenResized } from './screen.ts';
 export interface ViewListener {
   dispatch(event: Event): void;
   failed(sentence: string): void;
-  /** The views are back: what they said is void. */
-  recovered(): void;
+  /** The views cannot be drawn, for this reason, or can again. */
+  undrawn(sentence: string | null): void;
   /** What the map says of the place under the mouse; `null` when the mouse has left. */
   probed(probe: Probe | null): void;
 }
@@ -405,7 +405,7 @@ export class Views {
     } catch (thrown) {
       console.error(thrown);
       this.#viewer = null;
-      this.#listener.failed(SENTENCES.contextGone);
+      this.#listener.undrawn(SENTENCES.contextGone);
       return false;
     }
   }
@@ -483,7 +483,7 @@ export class Views {
     this.#canvas.addEventListener('webglcontextlost', (event) => {
       event.preventDefault();
       this.#lost = true;
-      this.#listener.failed(SENTENCES.contextLost);
+      this.#listener.undrawn(SENTENCES.contextLost);
     });
     this.#canvas.addEventListener('webglcontextrestored', () => {
       this.#lost = false;
@@ -501,7 +501,7 @@ export class Views {
       return 'made';
     } catch (thrown) {
       console.error(thrown);
-      this.#listener.failed(otherwise);
+      this.#listener.undrawn(otherwise);
       return 'failed';
     }
   }
@@ -524,7 +524,7 @@ export class Views {
       for (const side of SIDES) {
         this.#cameras.restore(side, cameras[side] ?? null);
       }
-      this.#listener.recovered();
+      this.#listener.undrawn(null);
     }
   }
 }

@@ -1,6 +1,7 @@
-//! Build helper of the project: `cargo xtask serve | build | test | compare | survey | fuzz | wasm`.
+//! Build helper of the project: `cargo xtask serve | build | test | browsers | compare | survey | fuzz | wasm`.
 
 mod browser;
+mod browsers;
 mod compare;
 mod fuzz;
 mod page;
@@ -15,6 +16,7 @@ const USAGE: &str = "cargo xtask COMMAND
   serve   build the app, serve it and print its address
   build   build the app into dist/, to be put on any static web server
   test    run the tests: formatting, lints, documentation, core, page, browser; with --all the long ones, too
+  browsers visit the page in Chromium, Firefox and WebKit, which are installed where that is possible
   compare time whole maps, wasm in a browser against native: [--runs N] [PAIR.json ...], the demos without files
   survey  tables of many maps on the meshes of ../shared/data: TABLE [--pairs NAME,NAME] [--seeds N]; lists them without a name
   fuzz    read changed files by every reader: [--runs N] of each, from one [--seed S]
@@ -29,6 +31,7 @@ fn main() -> ExitCode {
         "build" => page::build(),
         "test" if rest == ["--all"] => suite::test(suite::Extent::All),
         "test" if rest.is_empty() => suite::test(suite::Extent::Usual),
+        "browsers" if rest.is_empty() => browsers::build_and_visit(),
         "compare" => compare::compare(&rest),
         "survey" => survey::survey(&rest),
         "fuzz" => fuzz::fuzz(&rest),

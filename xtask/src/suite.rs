@@ -1,7 +1,7 @@
 //! The tests of the project.
 
 use crate::run::{cargo, run, run_with};
-use crate::{browser, page, wasm};
+use crate::{browser, browsers, page, wasm};
 use std::time::Instant;
 
 type Task<'a> = Box<dyn FnOnce() -> Outcome + 'a>;
@@ -36,11 +36,12 @@ pub fn test(extent: Extent) -> Outcome {
             ("core", Box::new(move || core(extent))),
             ("page", Box::new(move || built().and_then(|()| checks()))),
             ("browser", Box::new(move || browser::test(extent))),
+            ("other browsers", Box::new(browsers::visit_others)),
         ])
     })
 }
 
-fn all(tasks: [(&str, Task<'_>); 7]) -> Outcome {
+fn all(tasks: [(&str, Task<'_>); 8]) -> Outcome {
     let count = tasks.len();
     let mut failed = Vec::new();
     for (name, task) in tasks {
