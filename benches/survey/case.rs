@@ -2,9 +2,10 @@
 
 use crate::arguments::Arguments;
 use crate::common;
+use conemap::demo;
 use conemap::landmarks::{Landmarks, PlacedLandmarks};
 use conemap::mesh::insertion::insert;
-use conemap::mesh::{SurfaceMesh, SurfacePoint};
+use conemap::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use conemap::monitor::{Cancelled, Monitor, Stage, Step};
 use conemap::pipeline::{CapFaces, GroundTruth, MapInput, MapResult, PipelineOptions, findings, run};
 use cpu_time::ThreadTime;
@@ -70,6 +71,20 @@ impl Monitor for Limit {
 }
 
 impl Case {
+    /// A demo with its landmarks.
+    ///
+    /// # Panics
+    /// Where there is no demo of this name.
+    pub fn of_demo(id: &str) -> Self {
+        let demo = demo::build(id).expect("a demo of the list");
+        let meshes = [demo.source, demo.target];
+        let points = [0, 1].map(|side| {
+            let at = |pair: &[u32; 2]| SurfacePoint::at_vertex(&meshes[side], VertexId(pair[side]));
+            demo.landmarks.iter().map(at).collect()
+        });
+        Self { name: id.to_owned(), variant: String::new(), meshes, points, truth: None }
+    }
+
     /// A pair of the data folder as it is, its landmarks thinned where that is asked for.
     pub fn of_pair(arguments: &Arguments, name: &str) -> Self {
         let pair = common::read_pair(&arguments.data, name);

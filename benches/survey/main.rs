@@ -99,6 +99,7 @@ const SURVEYS: &[Survey] = &[
         about: "files with faults, after the repairs that are offered, onto a partner or a remeshed, bent copy; --pairs NAME,...",
         run: repaired::files,
     },
+    Survey { name: "demos", about: "each demo with its landmarks; --pairs NAME,...", run: pairs::demos },
     Survey {
         name: "stages",
         about: "the share of each stage, measured and told; --landmarks 12 for few landmarks",

@@ -2,8 +2,6 @@
 
 use crate::arguments::Arguments;
 use crate::case::Case;
-use conemap::demo;
-use conemap::mesh::{SurfacePoint, VertexId};
 use conemap::monitor::Silent;
 
 /// Maps where nothing else is asked for (`--seeds`).
@@ -14,7 +12,7 @@ const WARM: u64 = 10;
 /// Maps the small demos in turn, and tells what the process holds after each tenth of the runs.
 pub fn table(arguments: &Arguments) {
     let runs = if arguments.seeds > 1 { arguments.seeds } else { RUNS };
-    let cases = ["horse-cat", "poses", "sphere-tetrahedron"].map(of_demo);
+    let cases = ["horse-cat", "poses", "sphere-tetrahedron"].map(Case::of_demo);
     let mut warm = None;
     println!("{:>6} {:>12}  of {} demos in turn", "maps", "MiB held", cases.len());
     for count in 1..=runs {
@@ -40,16 +38,6 @@ pub fn table(arguments: &Arguments) {
             100.0 * (held / warm - 1.0)
         );
     }
-}
-
-fn of_demo(id: &str) -> Case {
-    let demo = demo::build(id).expect("a demo of the list");
-    let meshes = [demo.source, demo.target];
-    let points = [0, 1].map(|side| {
-        let at = |pair: &[u32; 2]| SurfacePoint::at_vertex(&meshes[side], VertexId(pair[side]));
-        demo.landmarks.iter().map(at).collect()
-    });
-    Case { name: id.to_owned(), variant: String::new(), meshes, points, truth: None }
 }
 
 /// What this process holds in memory; `None` where the system does not tell.

@@ -1,5 +1,5 @@
 //! The command line: `conemap check`, `map`, `match`, `wrap`, `query`, `report`, `verify`, `export`, `transfer`, `suggest`, `flow`,
-//! `landmarks` and `remesh`.
+//! `landmarks`, `remesh` and `demo`.
 //!
 //! Progress and errors go to standard error; the exit code is 0 only for a converged, certified result.
 
@@ -11,6 +11,8 @@ mod check;
 mod clock;
 #[path = "conemap/deadline.rs"]
 mod deadline;
+#[path = "conemap/demo.rs"]
+mod demo;
 #[path = "conemap/flow.rs"]
 mod flow;
 #[path = "conemap/input.rs"]
@@ -61,6 +63,7 @@ fn main() -> ExitCode {
         arguments::Command::Flow(options) => flow::run(options),
         arguments::Command::Landmarks(options) => landmarks::run(options),
         arguments::Command::Remesh(options) => remesh::run(options),
+        arguments::Command::Demo(options) => demo::run(options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

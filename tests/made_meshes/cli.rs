@@ -304,6 +304,31 @@ fn an_interrupt_finishes_with_a_certified_map() {
 }
 
 #[test]
+fn writes_demos_that_can_be_mapped() {
+    let folder = folder("writes_demos_that_can_be_mapped");
+    let listed = String::from_utf8(conemap(["demo"]).stdout).unwrap();
+    let ids: Vec<&str> = listed.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    assert_eq!(ids, conemap::demo::list().iter().map(|info| info.id).collect::<Vec<_>>());
+    let id = "sphere-tetrahedron";
+    assert!(
+        conemap([OsStr::new("demo"), OsStr::new(id), OsStr::new("--out"), folder.as_os_str()])
+            .status
+            .success()
+    );
+    let built = conemap::demo::build(id).unwrap();
+    let file = landmark_file::read(&std::fs::read(folder.join(format!("{id}.json"))).unwrap()).unwrap();
+    for (mesh, side, name) in [(&built.source, 0, file.source), (&built.target, 1, file.target)] {
+        let soup = io::read_mesh(&std::fs::read(folder.join(name.unwrap())).unwrap()).unwrap();
+        let read = closed_genus_zero(&soup).unwrap().mesh;
+        assert_eq!(read.triangles(), mesh.triangles());
+        for (pair, known) in file.pairs.iter().zip(&built.landmarks) {
+            assert_eq!(pair[side], landmark_file::LandmarkPoint::Vertex(known[side]));
+        }
+    }
+    assert!(errors(&conemap(["demo", "teapot"])).contains("there is no demo “teapot”"));
+}
+
+#[test]
 fn suggests_vertices_as_json() {
     let folder = folder("suggests_vertices_as_json");
     let demo = conemap::demo::build("horse-cat").unwrap();

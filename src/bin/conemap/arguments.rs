@@ -50,6 +50,8 @@ pub enum Command {
     Landmarks(LandmarksArguments),
     /// Give a mesh even triangles, as many as wanted, with vertices on its surface.
     Remesh(RemeshArguments),
+    /// Write two meshes with landmarks to try things on, or list them.
+    Demo(DemoArguments),
 }
 
 /// `conemap check`.
@@ -396,6 +398,16 @@ pub struct SuggestArguments {
     /// What becomes of a mesh with faults.
     #[command(flatten)]
     pub faults: FaultArguments,
+}
+
+/// `conemap demo`.
+#[derive(Debug, Args)]
+pub struct DemoArguments {
+    /// Name of the demo; without one all are listed.
+    pub id: Option<String>,
+    /// Folder for the meshes (OBJ) and the landmarks (JSON).
+    #[arg(long, value_name = "FOLDER", default_value = ".")]
+    pub out: PathBuf,
 }
 
 /// `conemap landmarks`.
