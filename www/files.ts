@@ -1,81 +1,68 @@
-/** Mesh files that are read, and whether landmarks fit their meshes. */
+/** Meshes that were read as files of the page, and whether landmarks fit them. */
 import { failureOf } from './compute/messages.ts';
 import type { Failure } from './compute/messages.ts';
-import type { Pair } from './landmarks.ts';
+import type { Pair, SurfacePoint } from './landmarks.ts';
 import { SIDES } from './landmarks.ts';
 import { landmarkFile } from './landmark-files.ts';
 import { fileSentence, SENTENCES } from './messages.ts';
 import type { NamedBytes } from './named-file.ts';
 import { FileRefused } from './named-file.ts';
+import type { MirroredMesh, Question, ReadFile } from './reading/messages.ts';
 import type { Event } from './store/events.ts';
 import { landmarkFileOf } from './store/landmark-file.ts';
 import { wholePairs } from './store/order.ts';
 import type { DefectGroup, Examined } from './store/defects.ts';
-import type { Allowed } from './store/refused.ts';
 import { update } from './store/reducer.ts';
 import type { MeshFile, State } from './store/state.ts';
-import type { MeshDefects } from './wasm/conemap.js';
-import { checkLandmarks, meshDefects, mirrorTarget, repairedDefects, repairMesh } from './wasm/conemap.js';
+import { checkLandmarks, unpackDefects, unpackMesh } from './wasm/conemap.js';
 
 export type { NamedBytes } from './named-file.ts';
 export { FileRefused } from './named-file.ts';
 export { landmarkFile } from './landmark-files.ts';
 
-/** Reads a mesh, and repairs what does not change its shape and what is allowed beyond. Throws {@link FileRefused}. */
-export function meshFile(file: NamedBytes, allowed: Allowed = {}): MeshFile {
-  try {
-    const report = repairMesh(file.bytes, JSON.stringify(allowed));
-    const mesh = report.mesh();
-    const repairs = report.sentence();
-    report.free();
-    return {
-      name: file.name,
-      bytes: file.bytes,
-      ...(file.address === undefined ? {} : { address: file.address }),
-      mesh,
-      vertexCount: mesh.vertexCount,
-      faceCount: mesh.faceCount,
-      turnedFaces: mesh.turnedFaces,
-      repairs,
-    };
-  } catch (thrown) {
-    const failure = failureOf(thrown);
-    throw new FileRefused(fileSentence(file.name, failure), failure.offer ?? null, failure.code === 'mesh' ? 'mesh' : 'file');
+/** A mesh of the page. Throws {@link FileRefused} where it was refused. */
+export function meshFile({ file, reading }: ReadFile): MeshFile {
+  if (reading.kind === 'bad') {
+    throw new FileRefused(reading.sentence, reading.offer, reading.what);
   }
+  const mesh = unpackMesh(reading.packed);
+  return {
+    name: file.name,
+    bytes: file.bytes,
+    ...(file.address === undefined ? {} : { address: file.address }),
+    mesh,
+    vertexCount: mesh.vertexCount,
+    faceCount: mesh.faceCount,
+    turnedFaces: mesh.turnedFaces,
+    repairs: reading.repairs,
+  };
 }
 
-function examinedOf(found: MeshDefects): Examined {
+/** What was found wrong with a mesh, as the reader has packed it. */
+export function examinedOf(packed: Uint8Array): Examined {
+  const found = unpackDefects(packed);
   return { found, groups: JSON.parse(found.list()) as DefectGroup[], faceCount: found.faceCount };
 }
 
-/** What is wrong with a mesh that was refused; `null` where there is nothing to be seen of it. */
-export function examinedMesh(file: NamedBytes, allowed: Allowed): Examined | null {
-  try {
-    return examinedOf(meshDefects(file.bytes, JSON.stringify(allowed)));
-  } catch (thrown) {
-    if (failureOf(thrown).code === 'mesh') {
-      return null;
-    }
-    throw thrown;
-  }
+/** The points that pairs have on the target, with the places of the pairs. */
+function markedOnTarget(pairs: readonly Pair[]): (readonly [number, SurfacePoint])[] {
+  return pairs.flatMap(({ points: [, point] }, index) => (point === null ? [] : [[index, point] as const]));
 }
 
-/** What was wrong with a mesh that was repaired. */
-export function examinedRepair({ bytes, mesh }: MeshFile): Examined {
-  return examinedOf(repairedDefects(bytes, mesh));
-}
-
-/** The event that puts a target's mirror image in its place, with the points of these pairs on it. */
-export function mirroredTarget(target: MeshFile, pairs: readonly Pair[]): Event {
+/** What the reader is asked for the mirror image of a target with the points of these pairs on it. */
+export function mirrorQuestion(target: MeshFile, pairs: readonly Pair[]): Extract<Question, { kind: 'mirror' }> {
   // The core mirrors the second points of a file; the first ones may be missing, and are not looked at.
-  const marked = pairs.flatMap(({ points: [, point] }, index) => (point === null ? [] : [[index, point] as const]));
-  const mirrored = mirrorTarget(target.mesh, new TextEncoder().encode(JSON.stringify({ pairs: marked })));
+  const landmarks = new TextEncoder().encode(JSON.stringify({ pairs: markedOnTarget(pairs) }));
   const name = `${target.name.replace(/( \(mirrored\))?\.[^.]*$/, '')} (mirrored).obj`;
-  const file = meshFile({ name, bytes: mirrored.mesh() });
-  const images = landmarkFile({ name: 'landmarks', bytes: mirrored.landmarks() }).pairs;
-  mirrored.free();
+  return { kind: 'mirror', mesh: target.mesh.packed(), landmarks, name };
+}
+
+/** The event that puts a target's mirror image in its place, with the points of the pairs that were asked about. */
+export function mirroredEvent({ mesh, landmarks }: MirroredMesh, pairs: readonly Pair[]): Event {
+  const images = landmarkFile({ name: 'landmarks', bytes: landmarks }).pairs;
+  const marked = markedOnTarget(pairs);
   const points = pairs.map((_, index) => images[marked.findIndex(([of]) => of === index)]?.[1] ?? null);
-  return { kind: 'mirrored', file, points };
+  return { kind: 'mirrored', file: meshFile(mesh), points };
 }
 
 /** Why the landmarks of a state are no different points of its meshes; `null` where they are. */

@@ -2,7 +2,7 @@
 import { openDropped } from './app/dropped.ts';
 import { Finder } from './app/find.ts';
 import { findUnasked } from './app/find-unasked.ts';
-import { BROWSER, Keeper } from './app/keep.ts';
+import { browserWith, Keeper } from './app/keep.ts';
 import { listenForProposal, listenForUndo } from './app/keys.ts';
 import { saveLandmarks } from './app/landmarks.ts';
 import { mark } from './app/mark.ts';
@@ -24,6 +24,7 @@ import { keepOffline } from './offline/register.ts';
 import type { Side } from './landmarks.ts';
 import type { Actions, CameraCommand } from './panels/actions.ts';
 import { mountPage } from './panels/page.tsx';
+import { Reader } from './reading/reader.ts';
 import { guideSection } from './send/guide-link.ts';
 import type { Demo, State } from './store/state.ts';
 import { Store } from './store/store.ts';
@@ -34,18 +35,20 @@ import init, { demoList } from './wasm/conemap.js';
 const PICTURE_SCALE = 2;
 
 const store = new Store();
+// Its worker is fetched and started while the core is.
+const reader = new Reader();
 const runner = new Runner(store);
-const links = new Links(store);
+const links = new Links(store, reader);
 const maps = new Maps(store, () => runner.core);
 const finder = new Finder(store, () => runner.core);
 /** Reloads the page into its newer build, when there is one. */
 let reload = (): void => undefined;
-const keeper = new Keeper(store, BROWSER);
+const keeper = new Keeper(store, browserWith(reader));
 
 const actions: Actions = {
   dispatch: store.dispatch,
   openFiles: (files, side) => {
-    void openDropped(store, { links, maps }, files, side);
+    void openDropped(store, { links, reader, maps }, files, side);
   },
   acceptLink: links.accept,
   cancelLink: () => {
@@ -88,13 +91,13 @@ const actions: Actions = {
     reload();
   },
   openDemo: (id) => {
-    void openDemo(store, id);
+    void openDemo(store, reader, id);
   },
   findLandmarks: () => {
     finder.start();
   },
   suggest: (side) => {
-    void suggest(store, side);
+    void suggest(store, reader, side);
   },
   run: () => {
     runner.start();
@@ -105,14 +108,20 @@ const actions: Actions = {
   cancel: () => {
     runner.cancel();
   },
+  leaveTask: () => {
+    const { job } = store.state;
+    if (job.kind === 'busy') {
+      store.dispatch({ kind: 'task-ended', task: job.task });
+    }
+  },
   repair: (finding) => {
-    repair(store, runner, showPair, finding);
+    repair(store, { runner, reader, lookAtPair: showPair }, finding);
   },
   repairMesh: (mesh) => {
-    void repairMesh(store, mesh);
+    void repairMesh(store, reader, mesh);
   },
   showRepairs: (side, shown) => {
-    void showRepairs(store, side, shown);
+    void showRepairs(store, reader, side, shown);
   },
   lookAtDefect: (side, examined, group, index) => {
     showOwnShape();
@@ -231,7 +240,13 @@ function isEmpty({ meshes, receiving, job }: State): boolean {
 /** Opens the demo that a stranger sees first; whether it has come. */
 async function openFirst(demos: readonly Demo[]): Promise<boolean> {
   const [first] = demos;
-  return first !== undefined && openDemo(store, first.id);
+  return first !== undefined && openDemo(store, reader, first.id);
+}
+
+/** The demo that the address names, or the first one where it names nothing; `null` where something else is to come. */
+function expectedDemo(demos: readonly Demo[]): Demo | null {
+  const { named } = links;
+  return (named === null ? demos[0] : demos.find(({ id }) => id === named)) ?? null;
 }
 
 /** Opens the guide where the address asks for it, and takes the wish out of the address again; whether it did. */
@@ -250,6 +265,7 @@ async function start(): Promise<void> {
   const finding = keeper.find(links.named);
   try {
     const core = await compileCore();
+    reader.use(core);
     await init({ module_or_path: core });
     runner.use(core);
   } catch (thrown) {
@@ -257,10 +273,16 @@ async function start(): Promise<void> {
     fail(SENTENCES.noCore);
     return;
   }
-  await views.start();
   const demos = JSON.parse(demoList()) as Demo[];
+  const found = await finding;
+  // The demo is built while the views start.
+  const expected = found.own === null ? expectedDemo(demos) : null;
+  if (expected !== null) {
+    reader.foresee(expected.id);
+  }
+  await views.start();
   store.dispatch({ kind: 'ready', demos });
-  if (!(await keeper.resume(await finding))) {
+  if (!(await keeper.resume(found))) {
     await showFirst(demos);
   }
   // The core lists its quickest demo last.

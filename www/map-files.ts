@@ -19,11 +19,6 @@ export function isMapFile({ bytes }: Pick<NamedBytes, 'bytes'>): boolean {
   return isMap(bytes.subarray(0, 8));
 }
 
-/** The map files among some, and the others. */
-export function mapsAmong(files: readonly NamedBytes[]): { readonly maps: readonly NamedBytes[]; readonly others: readonly NamedBytes[] } {
-  return { maps: files.filter(isMapFile), others: files.filter((file) => !isMapFile(file)) };
-}
-
 const hashes = new WeakMap<MeshFile, string>();
 
 /** What tells a mesh from others; a mesh never changes. */

@@ -1,18 +1,17 @@
-/** What given files mean: tells meshes, landmark files and maps from each other, and finds each mesh's side. */
-import { checkFit, examinedMesh, meshFile, misfit } from './files.ts';
+/** What files mean that were read: finds each mesh's side, and brings landmarks and maps to their meshes. */
+import { checkFit, examinedOf, meshFile, misfit } from './files.ts';
 import type { LandmarkFile, Side } from './landmarks.ts';
 import { otherSide, SIDES } from './landmarks.ts';
-import { contentOf, landmarkFile, pairsRead, sideCalledLike, sideRead } from './landmark-files.ts';
-import type { LandmarkContent } from './landmark-files.ts';
-import { checkMeshes, headOf, mapsAmong, sideIn } from './map-files.ts';
-import { gathered } from './mesh-sets.ts';
+import { landmarkFile, pairsRead, sideCalledLike, sideRead } from './landmark-files.ts';
+import { checkMeshes, headOf, sideIn } from './map-files.ts';
 import { failureSentence, remarksSentence, repairedSentence, SENTENCES } from './messages.ts';
 import type { NamedBytes } from './named-file.ts';
 import { FileRefused } from './named-file.ts';
+import type { BadMesh, MeshReading, ReadFile, SortedFile } from './reading/messages.ts';
 import type { AwaitedMap } from './store/awaited.ts';
 import type { Event } from './store/events.ts';
 import { baseName } from './store/landmark-file.ts';
-import type { RefusedMesh } from './store/refused.ts';
+import type { GivenMarks, RefusedMesh } from './store/refused.ts';
 import { allowedBy } from './store/refused.ts';
 import { update } from './store/reducer.ts';
 import type { MeshFile, State } from './store/state.ts';
@@ -91,13 +90,13 @@ function sideEvents(file: NamedBytes, over: Side | null, meshes: State['meshes']
 }
 
 /** The landmark files that were given, one or one for each mesh; `null` for none. */
-function landmarksOf(files: readonly NamedBytes[], contents: readonly LandmarkContent[], over: Side | null): Landmarks | null {
+function landmarksOf(files: readonly GivenMarks[], over: Side | null): Landmarks | null {
   const [first, second] = files;
   if (first === undefined) {
     return null;
   }
   if (second !== undefined) {
-    if (files.length > 2 || contents.some((content) => content !== 'one')) {
+    if (files.length > 2 || files.some(({ content }) => content !== 'one')) {
       throw new FileRefused(SENTENCES.twoLandmarkFiles);
     }
     const ordered = (meshes: State['meshes']): NamedBytes[] => {
@@ -107,11 +106,11 @@ function landmarksOf(files: readonly NamedBytes[], contents: readonly LandmarkCo
     };
     return { events: (meshes) => pairEvents(ordered(meshes), meshes), file: first, pairs: null };
   }
-  if (contents[0] === 'pairs') {
+  if (first.content === 'pairs') {
     const pairs = landmarkFile(first);
     return { events: () => [{ kind: 'landmarks', file: pairs }], file: first, pairs };
   }
-  const isWhole = contents[0] === 'both';
+  const isWhole = first.content === 'both';
   const events = (meshes: State['meshes']): Event[] => (isWhole ? pairEvents([first], meshes) : sideEvents(first, over, meshes));
   return { events, file: first, pairs: null };
 }
@@ -135,17 +134,48 @@ export interface Opening {
   readonly map: AwaitedMap | null;
 }
 
-/** What these files mean. Throws {@link FileRefused}. */
-export function openingOf(given: readonly NamedBytes[], over: Side | null, state: State): Opening {
-  const { maps, others } = mapsAmong(gathered(given));
-  const [first] = maps;
-  if (maps.length > 1) {
+/** Files that were read. */
+export interface Arrivals {
+  readonly maps: readonly NamedBytes[];
+  readonly meshes: readonly ReadFile[];
+  readonly landmarks: readonly GivenMarks[];
+}
+
+/** The mesh files among some that are to be read: none where they are more than the page takes. Throws {@link FileRefused}. */
+export function meshesAmong(files: readonly SortedFile[]): readonly SortedFile[] {
+  const meshes = files.filter(({ content }) => content === 'mesh');
+  if (files.filter(({ content }) => content === 'map').length > 1) {
     throw new FileRefused(SENTENCES.oneMap);
   }
+  if (meshes.length > 2) {
+    throw new FileRefused(SENTENCES.tooManyMeshes);
+  }
+  return meshes;
+}
+
+/** Files with what became of the meshes among them, in their order. */
+export function arrivalsOf(files: readonly SortedFile[], readings: readonly MeshReading[]): Arrivals {
+  const meshes = files.filter(({ content }) => content === 'mesh');
+  return {
+    maps: files.filter(({ content }) => content === 'map'),
+    meshes: readings.flatMap((reading, index) => {
+      const file = meshes[index];
+      return file === undefined ? [] : [{ file: { name: file.name, bytes: file.bytes }, reading }];
+    }),
+    landmarks: files.flatMap(({ name, bytes, content }) => (content === 'mesh' || content === 'map' ? [] : [{ name, bytes, content }])),
+  };
+}
+
+/** What these files mean: a bad mesh leaves the good ones; of all else all or none. Throws {@link FileRefused}. */
+export function openingOf({ maps, meshes, landmarks }: Arrivals, over: Side | null, state: State): Opening {
+  const [first] = maps;
   const map = first === undefined ? null : headOf(first);
   // A mesh that was put on a view goes there, whatever waits for it.
   const wanting = map ?? (over === null ? state.awaited : null);
-  return { events: eventsOf(others, over, state, { map, wanting }), map };
+  const marks = landmarksOf(landmarks, over);
+  const sides = sidesOf(meshes.map(({ file }) => file), marks?.pairs ?? null, over, state);
+  const read = seated(metMeshes(meshes, sides), wanting);
+  return { events: eventsOfRead(read, { landmarkFiles: landmarks, landmarks: marks, map }, state), map };
 }
 
 /** The meshes among some files that were read, and what became of the others. */
@@ -168,33 +198,27 @@ function free({ loaded, refused }: ReadMeshes): void {
 }
 
 /** A mesh that was refused, with what is wrong with it; `null` where the file has no mesh to be seen. */
-function refusedMesh(given: Pick<RefusedMesh, 'side' | 'file' | 'allowed'>, refusal: FileRefused): RefusedMesh | null {
-  const examined = refusal.what === 'mesh' ? examinedMesh(given.file, given.allowed) : null;
-  return examined === null ? null : { ...given, offer: refusal.offer, sentence: refusal.message, examined };
+function refusedMesh(given: Pick<RefusedMesh, 'side' | 'file' | 'allowed'>, { sentence, offer, defects }: BadMesh): RefusedMesh | null {
+  return defects === null ? null : { ...given, offer, sentence, examined: examinedOf(defects) };
 }
 
-/** Reads meshes, each by itself: a good one is not given up for a bad one. */
-function readMeshes(files: readonly NamedBytes[], sides: readonly Side[]): ReadMeshes {
+/** Meshes for these sides, each by itself: a good one is not given up for a bad one. */
+function metMeshes(meshes: readonly ReadFile[], sides: readonly Side[]): ReadMeshes {
   const [loaded, refused, faults]: [{ side: Side; file: MeshFile }[], RefusedMesh[], FileRefused[]] = [[], [], []];
-  const readOne = (file: NamedBytes, side: Side): void => {
-    try {
-      loaded.push({ side, file: meshFile(file) });
-    } catch (thrown) {
-      if (!(thrown instanceof FileRefused)) {
-        throw thrown;
+  const read = { loaded, refused, faults };
+  try {
+    meshes.forEach(({ file, reading }, index) => {
+      const side = sides[index] ?? 0;
+      if (reading.kind === 'good') {
+        loaded.push({ side, file: meshFile({ file, reading }) });
+        return;
       }
-      const mesh = refusedMesh({ side, file, allowed: {} }, thrown);
+      const mesh = refusedMesh({ side, file, allowed: {} }, reading);
       if (mesh === null) {
-        faults.push(thrown);
+        faults.push(new FileRefused(reading.sentence, reading.offer, reading.what));
       } else {
         refused.push(mesh);
       }
-    }
-  };
-  const read = { loaded, refused, faults };
-  try {
-    files.forEach((file, index) => {
-      readOne(file, sides[index] ?? 0);
     });
   } catch (thrown) {
     free(read);
@@ -216,13 +240,13 @@ function seated(read: ReadMeshes, wanting: AwaitedMap | null): ReadMeshes {
 
 /** What came with meshes. */
 interface Companions {
-  readonly landmarkFiles: readonly NamedBytes[];
+  readonly landmarkFiles: readonly GivenMarks[];
   readonly landmarks: Landmarks | null;
   readonly map: AwaitedMap | null;
 }
 
 /** The events of good meshes that came with bad ones; `landmarks` came with them, too, and wait for these. */
-function eventsBesideBad(read: ReadMeshes, landmarks: readonly NamedBytes[], state: State): Event[] {
+function eventsBesideBad(read: ReadMeshes, landmarks: readonly GivenMarks[], state: State): Event[] {
   const meshes = read.loaded.map((mesh): Event => ({ kind: 'mesh', ...mesh }));
   const refused: Event[] = read.refused.length === 0 ? [] : [{ kind: 'refused', refused: { meshes: read.refused, landmarks } }];
   const leftOut = landmarks.length > 0 && read.refused.length === 0 ? ` ${SENTENCES.landmarksLeftOut}` : '';
@@ -240,34 +264,12 @@ function withLandmarkFiles(events: readonly Event[], landmarks: Landmarks | null
   return all;
 }
 
-/**
- * The events of meshes and landmark files: a bad mesh leaves the good ones; of all else all or none. `map` comes with them, and
- * `wanting` tells the sides of its meshes. Throws {@link FileRefused}.
- */
-function eventsOf(
-  given: readonly NamedBytes[],
-  over: Side | null,
-  state: State,
-  { map, wanting }: { readonly map: AwaitedMap | null; readonly wanting: AwaitedMap | null },
-): Event[] {
-  const files = given.map((file) => ({ file, content: contentOf(file) }));
-  const meshFiles = files.flatMap(({ file, content }) => (content === null ? [file] : []));
-  const marked = files.flatMap(({ file, content }) => (content === null ? [] : [{ file, content }]));
-  if (meshFiles.length > 2) {
-    throw new FileRefused(SENTENCES.tooManyMeshes);
-  }
-  const landmarkFiles = marked.map(({ file }) => file);
-  const landmarks = landmarksOf(landmarkFiles, marked.map(({ content }) => content), over);
-  const read = readMeshes(meshFiles, sidesOf(meshFiles, landmarks?.pairs ?? null, over, state));
-  return eventsOfRead(seated(read, wanting), { landmarkFiles, landmarks, map }, state);
-}
-
-/** The events of meshes whose sides are known, and of a file of pairs for them. As {@link eventsOf}. */
-export function eventsOfSides(meshes: readonly [NamedBytes | null, NamedBytes | null], pairs: NamedBytes | null, state: State): Event[] {
+/** The events of meshes whose sides are known, and of a file of pairs for them. As {@link openingOf}. */
+export function eventsOfSides(meshes: readonly [ReadFile | null, ReadFile | null], pairs: NamedBytes | null, state: State): Event[] {
   const sides = SIDES.filter((side) => meshes[side] !== null);
-  const landmarkFiles = pairs === null ? [] : [pairs];
-  const landmarks = landmarksOf(landmarkFiles, ['pairs'], null);
-  const read = readMeshes(meshes.filter((mesh) => mesh !== null), sides);
+  const landmarkFiles = pairs === null ? [] : [{ ...pairs, content: 'pairs' as const }];
+  const landmarks = landmarksOf(landmarkFiles, null);
+  const read = metMeshes(meshes.filter((mesh) => mesh !== null), sides);
   return eventsOfRead(read, { landmarkFiles, landmarks, map: null }, state);
 }
 
@@ -293,9 +295,9 @@ function eventsOfRead(read: ReadMeshes, { landmarkFiles, landmarks, map }: Compa
 }
 
 /** The landmark files that waited for a mesh which is there now, beside its event. */
-function withWaiting(mesh: Event, side: Side, waiting: readonly NamedBytes[], state: State): Event[] {
+function withWaiting(mesh: Event, side: Side, waiting: readonly GivenMarks[], state: State): Event[] {
   try {
-    return withLandmarkFiles([mesh], landmarksOf(waiting, waiting.map((file) => contentOf(file) ?? 'one'), side), state);
+    return withLandmarkFiles([mesh], landmarksOf(waiting, side), state);
   } catch (thrown) {
     if (!(thrown instanceof FileRefused)) {
       throw thrown;
@@ -304,25 +306,20 @@ function withWaiting(mesh: Event, side: Side, waiting: readonly NamedBytes[], st
   }
 }
 
-/** The events of a refused mesh that is repaired as it was offered; with the last one come the landmarks that waited. */
-export function repairedEvents(mesh: RefusedMesh, state: State): Event[] {
+/** The events of a refused mesh that was read anew, with what its offer allows; with the last one come the landmarks that waited. */
+export function repairedEvents(mesh: RefusedMesh, reading: MeshReading, state: State): Event[] {
   const { side, file } = mesh;
-  const allowed = allowedBy(mesh);
   const others = state.refused?.meshes.filter((other) => other !== mesh) ?? [];
   const waiting = state.refused?.landmarks ?? [];
-  try {
-    const repaired = meshFile(file, allowed);
+  if (reading.kind === 'good') {
+    const repaired = meshFile({ file, reading });
     const event: Event = { kind: 'mesh', side, file: repaired };
     const sentence = repairedSentence(file.name, repaired.repairs);
     return [...withWaiting(event, side, others.length === 0 ? waiting : [], state), { kind: 'toast', sentence, undo: true }];
-  } catch (thrown) {
-    if (!(thrown instanceof FileRefused)) {
-      throw thrown;
-    }
-    const next = refusedMesh({ side, file, allowed }, thrown);
-    if (next === null) {
-      return [{ kind: 'refused-closed', side }, { kind: 'error', sentence: thrown.message }];
-    }
-    return [{ kind: 'refused', refused: { meshes: [...others, next], landmarks: waiting } }];
   }
+  const next = refusedMesh({ side, file, allowed: allowedBy(mesh) }, reading);
+  if (next === null) {
+    return [{ kind: 'refused-closed', side }, { kind: 'error', sentence: reading.sentence }];
+  }
+  return [{ kind: 'refused', refused: { meshes: [...others, next], landmarks: waiting } }];
 }

@@ -31,6 +31,11 @@ const USUAL_SIZE: f64 = (1 << 20) as f64;
 const USUAL_DISTANCE: f64 = 1024.0;
 
 impl FileFrame {
+    /// The frame with this scale, a power of two, and this origin.
+    pub(super) fn new(scale: f64, origin: DVec3) -> Self {
+        Self { scale, origin }
+    }
+
     /// The frame of the vertices that polygons use.
     pub(super) fn of(soup: &PolygonSoup) -> Self {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);

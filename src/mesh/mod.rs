@@ -13,6 +13,8 @@ mod ids;
 pub mod insertion;
 pub mod mirror;
 pub mod normals;
+mod packed;
+pub mod packing;
 mod place;
 mod polygon;
 mod refined;

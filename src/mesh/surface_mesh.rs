@@ -62,6 +62,21 @@ impl SurfaceMesh {
         Ok(Self { positions, faces, twins, outgoing })
     }
 
+    /// A mesh whose twins are known: they are checked, which is quicker than to find them.
+    ///
+    /// # Errors
+    /// As [`Self::from_triangles`].
+    pub(super) fn from_twins(
+        positions: TiVec<VertexId, DVec3>,
+        faces: TiVec<FaceId, [VertexId; 3]>,
+        twins: TiVec<HalfedgeId, HalfedgeId>,
+    ) -> Result<Self, MeshError> {
+        check_vertex_numbers(positions.len(), &faces)?;
+        check_twins(&faces, &twins)?;
+        let outgoing = outgoing(positions.len(), &faces, &twins)?;
+        Ok(Self { positions, faces, twins, outgoing })
+    }
+
     /// A mesh whose connectivity is known to be closed and manifold; every vertex has a face.
     pub(super) fn from_parts(
         positions: TiVec<VertexId, DVec3>,
@@ -230,6 +245,26 @@ fn twins(faces: &TiSlice<FaceId, [VertexId; 3]>) -> Result<TiVec<HalfedgeId, Hal
         }
     }
     Ok(twins)
+}
+
+/// Each halfedge has one twin, whose twin it is, and both go the same edge in opposite directions.
+fn check_twins(
+    faces: &TiSlice<FaceId, [VertexId; 3]>,
+    twins: &TiSlice<HalfedgeId, HalfedgeId>,
+) -> Result<(), MeshError> {
+    let ends = |h: HalfedgeId| {
+        let corners = faces[h.face()];
+        [corners[h.corner()], corners[(h.corner() + 1) % 3]]
+    };
+    for h in (0..faces.len() * 3).map(HalfedgeId::from) {
+        let [tail, head] = ends(h);
+        let known = twins.get(h).filter(|_| twins.len() == faces.len() * 3);
+        let is_twin = known.is_some_and(|t| twins.get(*t) == Some(&h) && ends(*t) == [head, tail]);
+        if tail == head || !is_twin {
+            return Err(MeshError::Edge { edge: [tail.index(), head.index()] });
+        }
+    }
+    Ok(())
 }
 
 fn outgoing(

@@ -1,8 +1,7 @@
 //! Vertex data, centred and scaled to radius 1.
 
-use super::hollows::hollows;
+use super::shading::Shading;
 use crate::mesh::generators::icosphere;
-use crate::mesh::normals::vertex_normals;
 use crate::mesh::{SurfaceMesh, VertexId};
 use glam::{DVec3, Vec3};
 
@@ -101,12 +100,10 @@ impl Frame {
 }
 
 /// Vertices and indices of a plain mesh with smooth normals; each vertex is its own image.
-pub fn surface(mesh: &SurfaceMesh, frame: &Frame) -> (Vec<SurfaceVertex>, Vec<u32>) {
-    let normals = vertex_normals(mesh);
-    let hollows = hollows(mesh, &normals);
+pub fn surface(mesh: &SurfaceMesh, shading: &Shading, frame: &Frame) -> (Vec<SurfaceVertex>, Vec<u32>) {
     let vertex = |v: VertexId| {
         let position = frame.place(mesh.positions()[v]).to_array();
-        let normal = normals[v].as_vec3().to_array();
+        let normal = shading.normals[v.index()];
         SurfaceVertex {
             position,
             normal,
@@ -114,7 +111,7 @@ pub fn surface(mesh: &SurfaceMesh, frame: &Frame) -> (Vec<SurfaceVertex>, Vec<u3
             distortion: 1.0,
             image: position,
             image_normal: normal,
-            hollow: hollows[v] as f32,
+            hollow: shading.hollows[v.index()],
         }
     };
     let vertices = mesh.vertices().map(vertex).collect();
@@ -157,7 +154,7 @@ mod tests {
             assert!(placed.length() <= 1.0 + 1e-6);
             assert!(frame.unplace(placed).distance(*p) < 1e-4);
         }
-        let (vertices, indices) = surface(&moved, &frame);
+        let (vertices, indices) = surface(&moved, &Shading::of(&moved), &frame);
         assert_eq!((vertices.len(), indices.len()), (162, 960));
     }
 

@@ -241,22 +241,9 @@ mod tests {
     use crate::mesh::soup::PolygonSoup;
     use crate::monitor::Silent;
 
-    const KINDS: [DefectKind; 10] = [
-        DefectKind::OpenRim,
-        DefectKind::CrowdedEdges,
-        DefectKind::OneSidedSeam,
-        DefectKind::TurnedPatch,
-        DefectKind::LoosePart,
-        DefectKind::HandleLoop,
-        DefectKind::PinchedVertex,
-        DefectKind::FaceWithoutArea,
-        DefectKind::DoubleFace,
-        DefectKind::Cap,
-    ];
-
     #[test]
     fn no_two_kinds_look_alike_even_without_colours() {
-        let looks = KINDS.map(Look::of);
+        let looks = DefectKind::ALL.map(Look::of);
         for (k, a) in looks.iter().enumerate() {
             for b in &looks[k + 1..] {
                 assert_ne!((a.stroke, a.fill, a.sign), (b.stroke, b.fill, b.sign));

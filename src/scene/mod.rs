@@ -11,6 +11,7 @@ pub mod morph;
 pub mod picking;
 pub mod pins;
 pub mod pose;
+pub mod shading;
 pub mod up_axis;
 pub mod upright;
 
@@ -20,4 +21,5 @@ pub use glide::Glide;
 pub use map_picking::{MapPicker, MapPlace};
 pub use picking::Picker;
 pub use pose::{Pose, Ray};
+pub use shading::Shading;
 pub use up_axis::UpAxis;

@@ -1,39 +1,88 @@
-//! The surface point under a ray, by a bounding volume hierarchy, in f64.
+//! The surface point under a ray, by bounding volume hierarchies, in f64.
+//!
+//! A hierarchy of a large mesh takes a while to build, in which nothing else could be done. So the faces are parted, in their own
+//! order, and each part has a hierarchy of its own.
 
 use crate::mesh::closest_point::closest_in_triangle;
-use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint};
+use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use glam::DVec3;
 use parry3d_f64::query::{PointQueryWithLocation, Ray, RayCast};
 use parry3d_f64::shape::TriMesh;
+use rustc_hash::FxHashMap;
 
-/// A surface that can be picked.
+/// Faces of a part.
+const PART: usize = 10_000;
+/// A mesh of so many parts at most is ready from the beginning.
+const FEW_PARTS: usize = 6;
+
+/// A surface that can be picked, once it is ready.
 pub struct Picker {
-    shape: TriMesh,
+    /// Of the first faces, [`PART`] each; the last one may have fewer.
+    parts: Vec<TriMesh>,
+    /// How many there will be.
+    count: usize,
 }
 
 impl Picker {
-    /// Builds the hierarchy; `None` for a mesh without triangles.
-    pub fn new(mesh: &SurfaceMesh) -> Option<Self> {
-        let vertices = mesh.positions().iter().map(|p| p.to_array().into()).collect();
-        let triangles = mesh.triangles().iter().map(|t| t.map(|v| v.0)).collect();
-        Some(Self { shape: TriMesh::new(vertices, triangles).ok()? })
+    /// Begins with a mesh; a small one is ready at once. `None` for a mesh without triangles.
+    pub fn begun(mesh: &SurfaceMesh) -> Option<Self> {
+        let count = mesh.face_count().div_ceil(PART);
+        let mut picker = Self { parts: Vec::new(), count };
+        while count <= FEW_PARTS && !picker.is_ready() {
+            picker.grow(mesh)?;
+        }
+        (count > 0).then_some(picker)
+    }
+
+    /// Whether all of it is there; before, nothing is picked.
+    pub fn is_ready(&self) -> bool {
+        self.parts.len() >= self.count
+    }
+
+    /// Builds the next part; `None` where there is nothing to pick in it.
+    pub fn grow(&mut self, mesh: &SurfaceMesh) -> Option<()> {
+        let first = PART * self.parts.len();
+        let faces = mesh.triangles().raw.get(first..(first + PART).min(mesh.face_count()))?;
+        let mut places = Vec::new();
+        let mut numbers: FxHashMap<VertexId, u32> = FxHashMap::default();
+        let mut number = |v: VertexId| {
+            *numbers.entry(v).or_insert_with(|| {
+                places.push(mesh.positions()[v].to_array().into());
+                places.len() as u32 - 1
+            })
+        };
+        let triangles = faces.iter().map(|corners| corners.map(&mut number)).collect();
+        self.parts.push(TriMesh::new(places, triangles).ok()?);
+        Some(())
     }
 
     /// The first point of the mesh on the ray.
     pub fn pick(&self, mesh: &SurfaceMesh, origin: DVec3, direction: DVec3) -> Option<SurfacePoint> {
         let ray = Ray::new(origin.to_array().into(), direction.to_array().into());
-        let hit = self.shape.cast_local_ray_and_get_normal(&ray, f64::MAX, false)?;
-        let id = hit.subshape as usize;
-        let point = origin + direction * hit.time_of_impact;
-        let face = FaceId::from(id);
-        Some(SurfacePoint::clamped(face, shares(mesh.corners(face), point)))
+        let hit = |(part, shape): (usize, &TriMesh)| {
+            let hit = shape.cast_local_ray_and_get_normal(&ray, f64::MAX, false)?;
+            Some((hit.time_of_impact, FaceId::from(PART * part + hit.subshape as usize)))
+        };
+        let hits = self.ready_parts()?.iter().enumerate().filter_map(hit);
+        let (time, face) = hits.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(SurfacePoint::clamped(face, shares(mesh.corners(face), origin + direction * time)))
     }
 
     /// The point of the mesh nearest to a point in space.
-    pub fn nearest(&self, mesh: &SurfaceMesh, point: DVec3) -> SurfacePoint {
-        let (_, (face, _)) = self.shape.project_local_point_and_get_location(point.to_array().into(), false);
-        let face = FaceId(face);
-        SurfacePoint { face, barycentric: closest_in_triangle(point, mesh.corners(face)) }
+    pub fn nearest(&self, mesh: &SurfaceMesh, point: DVec3) -> Option<SurfacePoint> {
+        let nearest = |(part, shape): (usize, &TriMesh)| {
+            let (found, (face, _)) =
+                shape.project_local_point_and_get_location(point.to_array().into(), false);
+            let place: [f64; 3] = found.point.into();
+            (DVec3::from_array(place).distance_squared(point), FaceId::from(PART * part + face as usize))
+        };
+        let all = self.ready_parts()?.iter().enumerate().map(nearest);
+        let (_, face) = all.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(SurfacePoint { face, barycentric: closest_in_triangle(point, mesh.corners(face)) })
+    }
+
+    fn ready_parts(&self) -> Option<&[TriMesh]> {
+        self.is_ready().then_some(&self.parts)
     }
 }
 
@@ -52,16 +101,41 @@ mod tests {
     #[test]
     fn rays_to_the_centre_meet_the_sphere_where_they_come_from() {
         let sphere = icosphere(3);
-        let picker = Picker::new(&sphere).unwrap();
+        let picker = Picker::begun(&sphere).unwrap();
         for k in 0..100 {
             let direction =
                 DVec3::new(f64::from(k % 7) - 3.1, f64::from(k % 11) - 5.2, f64::from(k % 5) - 2.3)
                     .normalize();
             let hit = picker.pick(&sphere, direction * 3.0, -direction).unwrap();
             assert!(hit.position(&sphere).normalize().distance(direction) < 1e-9);
-            let nearest = picker.nearest(&sphere, hit.position(&sphere) * 1.001);
+            let nearest = picker.nearest(&sphere, hit.position(&sphere) * 1.001).unwrap();
             assert!(nearest.position(&sphere).distance(hit.position(&sphere)) < 1e-3);
         }
         assert!(picker.pick(&sphere, DVec3::splat(3.0), DVec3::X).is_none());
+    }
+
+    #[test]
+    fn a_large_surface_is_picked_when_its_last_part_is_there_and_then_like_a_small_one() {
+        let sphere = icosphere(6);
+        assert!(sphere.face_count() > FEW_PARTS * PART && !sphere.face_count().is_multiple_of(PART));
+        let mut picker = Picker::begun(&sphere).unwrap();
+        let ways = || {
+            (0..40).map(|k| {
+                DVec3::new(f64::from(k % 7) - 3.1, f64::from(k % 11) - 5.2, f64::from(k % 5) - 2.3)
+                    .normalize()
+            })
+        };
+        while !picker.is_ready() {
+            assert!(picker.pick(&sphere, DVec3::X * 3.0, DVec3::NEG_X).is_none());
+            assert!(picker.nearest(&sphere, DVec3::X).is_none());
+            picker.grow(&sphere).unwrap();
+        }
+        assert_eq!(picker.parts.len(), picker.count);
+        for way in ways() {
+            let hit = picker.pick(&sphere, way * 3.0, -way).unwrap().position(&sphere);
+            assert!(hit.normalize().distance(way) < 1e-9 && hit.dot(way) > 0.99);
+            let nearest = picker.nearest(&sphere, way * 2.0).unwrap().position(&sphere);
+            assert!(nearest.distance(way) < 0.05);
+        }
     }
 }

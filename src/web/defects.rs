@@ -1,8 +1,9 @@
 //! What is wrong with a mesh, for the page: a list, and what the views draw of it.
 
 use super::failure;
-use super::files::LoadedMesh;
+use super::loaded_mesh::LoadedMesh;
 use crate::io;
+use crate::mesh::packing::{PackedError, Packer, Unpacker};
 use crate::mesh::repair::{DefectGroup, Defects, RepairOptions, defects};
 use crate::monitor::Silent;
 use crate::scene::defects::Look;
@@ -24,6 +25,13 @@ pub struct MeshDefects {
 impl MeshDefects {
     fn new(defects: Defects) -> Self {
         Self { normals: defects.normals(), defects }
+    }
+
+    fn unpacked(bytes: &[u8]) -> Result<Self, PackedError> {
+        let mut unpacker = Unpacker::new(bytes);
+        let defects = Defects::unpack(&mut unpacker)?;
+        unpacker.end()?;
+        Ok(Self::new(defects))
     }
 }
 
@@ -58,6 +66,22 @@ impl MeshDefects {
         };
         Value::from(self.defects.groups.iter().map(group).collect::<Vec<_>>()).to_string()
     }
+
+    /// All of it as bytes, of which `unpackDefects` of the same build makes it again.
+    pub fn packed(&self) -> Vec<u8> {
+        let mut packer = Packer::default();
+        self.defects.pack(&mut packer);
+        packer.into_bytes()
+    }
+}
+
+/// The defects that another instance of this build has packed.
+///
+/// # Errors
+/// `{"code": "packed", "message"}` where the bytes are no such thing.
+#[wasm_bindgen(js_name = unpackDefects)]
+pub fn unpack_defects(bytes: &[u8]) -> Result<MeshDefects, JsValue> {
+    MeshDefects::unpacked(bytes).map_err(|e| failure("packed", e))
 }
 
 /// What is wrong with a mesh file. `allowed` is as for `repairMesh`: parts that may go and handles that may be cut are told all the

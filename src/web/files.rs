@@ -1,13 +1,11 @@
 //! Mesh files, landmark files and demos.
 
 use super::failure;
+use super::loaded_mesh::LoadedMesh;
 use crate::io::gltf_parts::{self, GltfParts};
 use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
-use crate::io::landmark_formats::Space;
-use crate::landmark_exchange::Surface;
 use crate::landmark_suggestion::{Suggestion, kept, suggest};
 use crate::landmarks::{self, MeshSide};
-use crate::map_file::Hash;
 use crate::mesh::check::CheckedMesh;
 use crate::mesh::mirror::mirrored;
 use crate::mesh::{FaceId, SurfacePoint, VertexId};
@@ -15,48 +13,6 @@ use crate::monitor::Silent;
 use crate::{demo, export, io};
 use serde_json::json;
 use wasm_bindgen::prelude::*;
-
-/// A mesh that was read and checked.
-#[wasm_bindgen]
-pub struct LoadedMesh {
-    pub(super) checked: CheckedMesh,
-    /// The coordinate system that its file names.
-    pub(super) space: Space,
-}
-
-impl LoadedMesh {
-    /// The mesh as landmark files are brought onto it.
-    pub(super) fn surface(&self) -> Surface<'_> {
-        Surface { mesh: &self.checked, space: self.space }
-    }
-}
-
-#[wasm_bindgen]
-impl LoadedMesh {
-    /// Number of vertices.
-    #[wasm_bindgen(getter, js_name = vertexCount)]
-    pub fn vertex_count(&self) -> usize {
-        self.checked.mesh.vertex_count()
-    }
-
-    /// Number of triangles.
-    #[wasm_bindgen(getter, js_name = faceCount)]
-    pub fn face_count(&self) -> usize {
-        self.checked.mesh.face_count()
-    }
-
-    /// What tells the mesh from others, as a map file has it, in hexadecimal digits.
-    #[wasm_bindgen(js_name = checkedHash)]
-    pub fn checked_hash(&self) -> String {
-        Hash::of_checked(&self.checked).to_string()
-    }
-
-    /// Faces whose orientation was turned.
-    #[wasm_bindgen(getter, js_name = turnedFaces)]
-    pub fn turned_faces(&self) -> usize {
-        self.checked.turned_faces()
-    }
-}
 
 /// The files that a mesh file names and needs beside it: buffers, and pictures of textures.
 #[wasm_bindgen]
@@ -147,7 +103,7 @@ pub fn check_landmarks(mesh: &LoadedMesh, side: usize, bytes: &[u8]) -> Result<(
 #[wasm_bindgen(js_name = suggestLandmarks)]
 pub fn suggest_landmarks(loaded: &LoadedMesh, landmarks: &str, count: usize) -> Result<String, JsValue> {
     let points: Vec<LandmarkPoint> = serde_json::from_str(landmarks).map_err(|e| failure("landmarks", e))?;
-    let checked = &loaded.checked;
+    let checked: &CheckedMesh = &loaded.checked;
     let CheckedMesh { mesh, vertex_from_file, .. } = checked;
     let nearest = |point: LandmarkPoint| match point {
         LandmarkPoint::Vertex(v) => vertex_from_file.get(v as usize).copied().flatten(),
@@ -162,7 +118,7 @@ pub fn suggest_landmarks(loaded: &LoadedMesh, landmarks: &str, count: usize) -> 
     marked.dedup();
     let numbers = checked.file_from_vertex();
     let entry = |s: &Suggestion| json!({ "point": numbers[s.vertex.index()], "reason": s.reason, "partner": s.partner });
-    // The page asks outside of a worker, where nobody could ask to stop.
+    // Who has enough of it ends the worker.
     let suggestions = suggest(mesh, &marked, count, &mut Silent).map_err(|e| failure("cancelled", e))?;
     // What a repair made up has no number in the file, and takes no landmark.
     let suggestions = kept(&suggestions, |v| numbers[v.index()] < vertex_from_file.len());

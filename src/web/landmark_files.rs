@@ -1,7 +1,7 @@
 //! Landmark files of many programs, onto the meshes of the page and back.
 
 use super::failure;
-use super::files::LoadedMesh;
+use super::loaded_mesh::LoadedMesh;
 use crate::io;
 use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 use crate::io::landmark_formats::{self, Content, Holds, LandmarkFormat, detect};

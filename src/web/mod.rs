@@ -4,6 +4,7 @@ mod compute;
 mod defects;
 mod files;
 mod landmark_files;
+mod loaded_mesh;
 mod matching;
 mod output_file;
 mod repair;

@@ -1,10 +1,11 @@
 //! Meshes as they come, repaired.
 
 use super::failure;
-use super::files::LoadedMesh;
+use super::loaded_mesh::LoadedMesh;
 use crate::io;
 use crate::io::landmark_formats::Space;
-use crate::mesh::repair::{ChangeReport, RepairOptions, RepairRefusal, RepairedMesh, repaired};
+use crate::mesh::check::CheckedMesh;
+use crate::mesh::repair::{ChangeReport, RepairOptions, RepairRefusal, RepairReport, RepairedMesh, repaired};
 use crate::monitor::Silent;
 use serde_json::{Value, json};
 use wasm_bindgen::prelude::*;
@@ -12,29 +13,35 @@ use wasm_bindgen::prelude::*;
 /// A mesh file that was read and, where it had to be, repaired.
 #[wasm_bindgen]
 pub struct MeshReport {
-    mesh: RepairedMesh,
+    checked: Option<CheckedMesh>,
+    report: RepairReport,
     /// The coordinate system that its file names.
     space: Space,
 }
 
 #[wasm_bindgen]
 impl MeshReport {
-    /// The mesh.
-    pub fn mesh(&self) -> LoadedMesh {
-        LoadedMesh { checked: self.mesh.checked.clone(), space: self.space }
+    /// The mesh; it can be taken once, and leaves the report's sentences.
+    ///
+    /// # Errors
+    /// `{"code": "mesh", "message"}` the second time.
+    #[wasm_bindgen(js_name = takeMesh)]
+    pub fn take_mesh(&mut self) -> Result<LoadedMesh, JsValue> {
+        let checked = self.checked.take().ok_or_else(|| failure("mesh", "the mesh was taken before"))?;
+        Ok(LoadedMesh::new(checked, self.space))
     }
 
     /// What was repaired, in a sentence without a full stop ("2 holes were capped (0.4 % of the area), 13 duplicate vertices were
     /// joined"); empty where the mesh was good as given.
     pub fn sentence(&self) -> String {
-        let report = &self.mesh.report;
+        let report = &self.report;
         if report.fault.is_some() { report.sentence() } else { String::new() }
     }
 
     /// The report as JSON `{"fault": {"kind", "sentence"} | null, "changes": [...], "capShare"}`; a change has `kind`, `sentence`,
     /// `count`, the first `vertices`, `edges`, `faces`, `holes` or `handles` by their numbers in the file, and `area_share`.
     pub fn report(&self) -> String {
-        let report = &self.mesh.report;
+        let report = &self.report;
         let fault =
             report.fault.as_ref().map(|fault| json!({ "kind": fault.kind(), "sentence": fault.to_string() }));
         let changes: Vec<ChangeReport> = report.changes.iter().cloned().map(ChangeReport::from).collect();
@@ -58,7 +65,8 @@ pub fn repair_mesh(bytes: &[u8], allowed: &str) -> Result<MeshReport, JsValue> {
         let value = json!({ "code": "mesh", "message": refusal.to_string(), "offer": offer(&refusal) });
         JsValue::from_str(&value.to_string())
     })?;
-    Ok(MeshReport { mesh, space: Space::of_mesh(bytes) })
+    let RepairedMesh { checked, report } = mesh;
+    Ok(MeshReport { checked: Some(checked), report, space: Space::of_mesh(bytes) })
 }
 
 /// The repair that would help.

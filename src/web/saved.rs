@@ -72,7 +72,7 @@ pub fn is_map_file(bytes: &[u8]) -> bool {
 }
 
 /// The source and the target that a map file was made with, by its header alone: JSON, two of `{"name", "checked"}`. `name` is what
-/// the landmarks call the mesh, or `null`; `checked` is the [`LoadedMesh::checked_hash`](super::files::LoadedMesh::checked_hash) of the right one.
+/// the landmarks call the mesh, or `null`; `checked` is the [`LoadedMesh::checked_hash`](super::loaded_mesh::LoadedMesh::checked_hash) of the right one.
 ///
 /// # Errors
 /// `{"code": "map-file" | "map-version", "message"}`.

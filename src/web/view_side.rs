@@ -2,6 +2,7 @@
 
 use super::defects::MeshDefects;
 use super::failure;
+use super::loaded_mesh::LoadedMesh;
 use crate::gpu::{Mesh, Renderer};
 use crate::io::landmark_file::LandmarkPoint;
 use crate::mesh::check::CheckedMesh;
@@ -12,11 +13,12 @@ use crate::scene::colours::landmark_colour;
 use crate::scene::defects::{DefectBuffers, painted, surface_as_read};
 use crate::scene::hollows::carried;
 use crate::scene::pins::{Pin, STEM, Stand, distance_to_pin};
-use crate::scene::{Camera, Glide, Picker, PinInstance, Pose, Ray, SurfaceVertex, UpAxis};
+use crate::scene::{Camera, Glide, Picker, PinInstance, Pose, Ray, Shading, SurfaceVertex, UpAxis};
 use glam::{DVec3, Vec2, Vec3};
 use rustc_hash::FxHashMap;
 use serde::Deserialize;
 use serde_json::json;
+use std::rc::Rc;
 use wasm_bindgen::prelude::*;
 
 /// Share of the view that a mesh fills at first.
@@ -87,7 +89,7 @@ impl Preview {
     pub fn new(last: Option<Self>, own: &SideMesh, places: &[Vec3], renderer: &Renderer) -> Self {
         let (mut vertices, indices) = match last {
             Some(last) => (last.vertices, last.indices),
-            None => surface(&own.checked.mesh, &own.frame),
+            None => surface(&own.checked.mesh, &own.shading, &own.frame),
         };
         vertices.iter_mut().zip(places).for_each(|(vertex, place)| vertex.image = place.to_array());
         Self { mesh: renderer.surface_mesh(&vertices, &indices), vertices, indices }
@@ -122,12 +124,11 @@ struct RefusedSurface {
 
 /// A mesh that is shown.
 pub(super) struct SideMesh {
-    pub checked: CheckedMesh,
+    pub checked: Rc<CheckedMesh>,
+    shading: Rc<Shading>,
     pub frame: Frame,
     pub picker: Option<Picker>,
     pub surface: Mesh,
-    /// How much each vertex lies in a hollow, by the bits of its position in single precision.
-    pub hollows: FxHashMap<[u32; 3], f32>,
 }
 
 impl Side {
@@ -317,7 +318,7 @@ impl Side {
         let pixel = pose.height_at(base, self.aspect()) * pixel_ratio / self.rectangle[3].max(1.0);
         let moved = base + (pose.right() * by.x + pose.up() * by.y) * pixel;
         let mesh = self.mesh.as_ref()?;
-        Some(mesh.picker.as_ref()?.nearest(&mesh.checked.mesh, mesh.frame.unplace(moved)))
+        mesh.picker.as_ref()?.nearest(&mesh.checked.mesh, mesh.frame.unplace(moved))
     }
 
     /// The number of the pin under the pointer, among those that the body does not hide.
@@ -397,22 +398,31 @@ impl ShownDefects {
 
 impl SideMesh {
     /// A mesh, and its vertices as they are drawn.
-    pub fn new(checked: CheckedMesh, renderer: &Renderer) -> Self {
+    pub fn new(loaded: &LoadedMesh, renderer: &Renderer) -> Self {
+        let LoadedMesh { checked, shading, .. } = loaded;
         let frame = Frame::of(&checked.mesh);
-        let (vertices, indices) = surface(&checked.mesh, &frame);
+        let (vertices, indices) = surface(&checked.mesh, shading, &frame);
         let surface = renderer.surface_mesh(&vertices, &indices);
-        let bits = |p: &DVec3| p.as_vec3().to_array().map(f32::to_bits);
-        let hollows =
-            checked.mesh.positions().iter().map(bits).zip(vertices.iter().map(|v| v.hollow)).collect();
-        let picker = Picker::new(&checked.mesh);
-        Self { checked, frame, picker, surface, hollows }
+        let picker = Picker::begun(&checked.mesh);
+        Self { checked: checked.clone(), shading: shading.clone(), frame, picker, surface }
+    }
+
+    /// Goes on with what takes long for a large mesh; whether there is more to do.
+    pub fn prepare(&mut self) -> bool {
+        let Some(picker) = self.picker.as_mut().filter(|picker| !picker.is_ready()) else { return false };
+        if picker.grow(&self.checked.mesh).is_none() {
+            self.picker = None;
+        }
+        true
     }
 
     /// How much points of a finer triangulation lie in hollows; `positions` are in input coordinates, three numbers a point.
     pub fn hollows_at(&self, positions: &[f32], triangles: &[u32]) -> Vec<f32> {
-        let bits = |p: &[f32]| [p[0], p[1], p[2]].map(f32::to_bits);
-        let known: Vec<Option<f32>> =
-            positions.chunks_exact(3).map(|p| self.hollows.get(&bits(p)).copied()).collect();
+        let bits = |p: [f32; 3]| p.map(f32::to_bits);
+        let places = self.checked.mesh.positions().iter().map(|p| bits(p.as_vec3().to_array()));
+        let hollows: FxHashMap<[u32; 3], f32> = places.zip(self.shading.hollows.iter().copied()).collect();
+        let (points, _) = positions.as_chunks();
+        let known: Vec<Option<f32>> = points.iter().map(|p| hollows.get(&bits(*p)).copied()).collect();
         carried(&known, triangles)
     }
 

@@ -74,10 +74,13 @@ class Tab {
       newId: () => `session-${ids++}`,
       now: () => clock++,
       hash: async (bytes) => Buffer.from(await crypto.subtle.digest('SHA-256', bytes)).toString('base64url'),
-      read: ({ name, bytes }) => {
-        const file = { ...mesh(name), bytes };
-        this.made.push(file);
-        return file;
+      read: async ({ name, bytes }) => {
+        await Promise.resolve();
+        return () => {
+          const file = { ...mesh(name), bytes };
+          this.made.push(file);
+          return file;
+        };
       },
       delay: DELAY,
       ...around,

@@ -3,16 +3,15 @@ import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { zipSync } from 'fflate';
 import { beforeAll, describe, expect, test } from 'vitest';
-import { meshFile } from '../../www/files.ts';
 import type { NamedBytes } from '../../www/files.ts';
 import { contentOf, filesOf, formatList, landmarkFile, pairsRead, sideCalledLike, sideRead } from '../../www/landmark-files.ts';
 import type { LandmarkFile } from '../../www/landmarks.ts';
 import { gathered } from '../../www/mesh-sets.ts';
 import type { MeshFile, State } from '../../www/store/state.ts';
-import { openingOf } from '../../www/opening.ts';
 import { INITIAL } from '../../www/store/state.ts';
 import { buildDemo, initSync, landmarkEndings } from '../../www/wasm/conemap.js';
 import { after } from './fixtures.ts';
+import { meshFile, openingOf } from './reading.ts';
 import { refusal } from './refusal.ts';
 import { tetrahedron } from './tetrahedron.ts';
 

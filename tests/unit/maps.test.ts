@@ -8,7 +8,7 @@ import { failureOf } from '../../www/compute/messages.ts';
 import type { SavedMapHandle } from '../../www/compute/saved-client.ts';
 import type { SavedFiles } from '../../www/compute/saved-messages.ts';
 import { openedOf, viewBuffers } from '../../www/compute/view-buffers.ts';
-import { landmarkFile, meshFile } from '../../www/files.ts';
+import { landmarkFile } from '../../www/files.ts';
 import type { NamedBytes } from '../../www/files.ts';
 import { headOf, isMapFile } from '../../www/map-files.ts';
 import type { Report } from '../../www/report.ts';
@@ -20,6 +20,7 @@ import { INITIAL } from '../../www/store/state.ts';
 import { Store } from '../../www/store/store.ts';
 import { buildDemo, demoList, initSync, openMap, runMap } from '../../www/wasm/conemap.js';
 import { after } from './fixtures.ts';
+import { meshFile, READER } from './reading.ts';
 import { refusal } from './refusal.ts';
 
 vi.mock('../../www/compute/saved-client.ts', async (original) => {
@@ -82,7 +83,7 @@ beforeEach(() => {
 async function drop(...files: readonly NamedBytes[]): Promise<void> {
   await openFiles(
     store,
-    maps,
+    { reader: READER, maps },
     files.map(({ name, bytes }) => new File([bytes.slice()], name)),
     null,
   );

@@ -7,6 +7,7 @@ import type { Demo } from '../../www/store/state.ts';
 import { Store } from '../../www/store/store.ts';
 import { demoList, initSync } from '../../www/wasm/conemap.js';
 import { mesh } from './fixtures.ts';
+import { READER } from './reading.ts';
 
 let demos: Demo[];
 let store: Store;
@@ -28,7 +29,7 @@ beforeEach(() => {
 
 test('a demo is one step, with its meshes and landmarks', async () => {
   const demo = demos.at(-1);
-  expect(await openDemo(store, demo?.id ?? '')).toBe(true);
+  expect(await openDemo(store, READER, demo?.id ?? '')).toBe(true);
   expect(store.state.demo).toBe(demo);
   expect(store.state.pairs.length).toBeGreaterThan(3);
   expect(store.state.pairs.map(({ number }) => number)).toEqual(store.state.pairs.map((_, index) => index + 1));
@@ -37,7 +38,7 @@ test('a demo is one step, with its meshes and landmarks', async () => {
 });
 
 test('a demo gives way to a file that came meanwhile', async () => {
-  const opened = openDemo(store, demos.at(-1)?.id ?? '');
+  const opened = openDemo(store, READER, demos.at(-1)?.id ?? '');
   const task = { sentence: 'Reading the files…' };
   store.dispatch({ kind: 'task-begun', task }, { kind: 'mesh', side: 0, file: mesh('cow.off') }, { kind: 'task-ended', task });
   expect(await opened).toBe(false);
@@ -45,9 +46,9 @@ test('a demo gives way to a file that came meanwhile', async () => {
 });
 
 test('a demo that there is not is named, and during a run none comes', async () => {
-  expect(await openDemo(store, 'teapot')).toBe(false);
+  expect(await openDemo(store, READER, 'teapot')).toBe(false);
   expect(store.state.error).toMatch(/no demo/);
   store.dispatch({ kind: 'run-started' });
-  expect(await openDemo(store, demos[0]?.id ?? '')).toBe(false);
+  expect(await openDemo(store, READER, demos[0]?.id ?? '')).toBe(false);
   expect(store.state.error).toMatch(/being computed/);
 });

@@ -2,7 +2,7 @@
 import type { NamedBytes } from '../../www/files.ts';
 import { FileRefused } from '../../www/files.ts';
 import type { Side } from '../../www/landmarks.ts';
-import { openingOf } from '../../www/opening.ts';
+import { openingOf } from './reading.ts';
 import type { State } from '../../www/store/state.ts';
 
 /** The sentence that refuses these files; they must be refused. */

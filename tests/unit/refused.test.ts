@@ -3,8 +3,6 @@ import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { beforeAll, expect, test, vi } from 'vitest';
 import { freeExamined } from '../../www/app/repair-mesh.ts';
-import { examinedRepair, meshFile } from '../../www/files.ts';
-import { eventsOfSides, openingOf, repairedEvents } from '../../www/opening.ts';
 import type { NamedBytes } from '../../www/files.ts';
 import { repairCommand } from '../../www/messages.ts';
 import type { Report } from '../../www/report.ts';
@@ -17,6 +15,7 @@ import { INITIAL } from '../../www/store/state.ts';
 import { workOf } from '../../www/store/work.ts';
 import { initSync, runMap } from '../../www/wasm/conemap.js';
 import { after, mesh, READY } from './fixtures.ts';
+import { eventsOfSides, examinedRepair, meshFile, openingOf, repairedEvents } from './reading.ts';
 
 beforeAll(() => {
   const path = fileURLToPath(new URL('../../www/wasm/conemap_bg.wasm', import.meta.url));

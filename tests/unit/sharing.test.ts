@@ -5,13 +5,14 @@ import { afterEach, beforeAll, beforeEach, describe, expect, test, vi } from 'vi
 import { Links } from '../../www/app/links.ts';
 import { place, sentWorkOf, withMeshes } from '../../www/app/sent-work.ts';
 import { sharedLink } from '../../www/app/sharing.ts';
-import { meshFile } from '../../www/files.ts';
 import type { Link } from '../../www/send/link.ts';
 import { readLink } from '../../www/send/link.ts';
+import type { NamedBytes } from '../../www/named-file.ts';
 import type { SentWork } from '../../www/send/schema.ts';
 import { Store } from '../../www/store/store.ts';
 import { initSync } from '../../www/wasm/conemap.js';
 import { Random } from './random.ts';
+import { meshFile, READER, readFile } from './reading.ts';
 
 const BASE = 'https://maps.example/conemap/';
 
@@ -113,7 +114,7 @@ describe('a link', () => {
     const receiver = page();
     receiver.dispatch({ kind: 'pairs-cleared' });
     const before = sentWorkOf(receiver.state);
-    const links = new Links(receiver);
+    const links = new Links(receiver, READER);
     address.hash = hash;
     expect(await links.follow()).toBe('followed');
     expect(receiver.state.receiving).toMatchObject({ kind: 'files' });
@@ -142,7 +143,7 @@ describe('a link', () => {
     const { hash } = await linkOf(sender);
     const receiver = new Store();
     receiver.dispatch({ kind: 'ready', demos: [] });
-    const links = new Links(receiver);
+    const links = new Links(receiver, READER);
     address.hash = hash;
     await links.follow();
     expect(receiver.state.receiving).toEqual({ kind: 'click', hosts: [{ host: 'data.example', names: ['cat.obj', 'lion.obj'] }] });
@@ -159,7 +160,7 @@ describe('a link', () => {
     );
     const store = new Store();
     store.dispatch({ kind: 'ready', demos: [] });
-    const links = new Links(store);
+    const links = new Links(store, READER);
     address.hash = '#source=a.obj&target=b.obj&landmarks=c.json';
     await links.follow();
     await until(() => store.state.pairs.length === 4);
@@ -176,7 +177,7 @@ describe('a link', () => {
 
   test('that is refused says why and changes nothing', async () => {
     const store = page();
-    const links = new Links(store);
+    const links = new Links(store, READER);
     const before = store.state.pairs;
     for (const [hash, sentence] of [
       ['#s=2.AAAA', 'newer version'],
@@ -195,12 +196,12 @@ describe('a link', () => {
 });
 
 describe('work that was sent', () => {
-  const meshes = [1, 2].map((height) => ({ name: `${height}.obj`, bytes: octahedron(height), address: null }));
+  const file = (height: number): NamedBytes => ({ name: `${height}.obj`, bytes: octahedron(height) });
 
   function placed(change: Partial<SentWork>): string {
     const store = new Store();
     try {
-      withMeshes(meshes, (loaded) => {
+      withMeshes([readFile(file(1)), readFile(file(2))], (loaded) => {
         place(store, 'The link', { ...sentWorkOf(page().state), ...change }, loaded, null);
       });
       return `${store.state.pairs.length} pairs`;

@@ -3,7 +3,7 @@ import type { Side } from '../landmarks.ts';
 import { isProject } from '../send/project.ts';
 import type { Store } from '../store/store.ts';
 import type { Links } from './links.ts';
-import type { Maps } from './maps.ts';
+import type { Openers } from './open.ts';
 import { bytesOf, openFiles } from './open.ts';
 import { openProject } from './projects.ts';
 import { sentenceOf } from './task.ts';
@@ -13,7 +13,7 @@ const PROJECT = /\.zip$/i;
 /** Brings files where they belong; `side` is the view they were dropped on or chosen for. */
 export async function openDropped(
   store: Store,
-  { links, maps }: { readonly links: Links; readonly maps: Maps },
+  { links, ...openers }: { readonly links: Links } & Openers,
   files: readonly File[],
   side: Side | null,
 ): Promise<void> {
@@ -24,7 +24,7 @@ export async function openDropped(
     return;
   }
   if (job.kind === 'running' || (!isForLink && !(files.length === 1 && PROJECT.test(first.name)))) {
-    await openFiles(store, maps, files, side);
+    await openFiles(store, openers, files, side);
     return;
   }
   try {
@@ -32,11 +32,11 @@ export async function openDropped(
     const [only] = named;
     if (only !== undefined && named.length === 1 && isProject(only.bytes)) {
       links.cancel();
-      await openProject(store, maps, only);
+      await openProject(store, openers, only);
     } else if (isForLink) {
       await links.take(named);
     } else {
-      await openFiles(store, maps, files, side);
+      await openFiles(store, openers, files, side);
     }
   } catch (thrown) {
     store.dispatch({ kind: 'error', sentence: sentenceOf(thrown) });

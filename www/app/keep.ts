@@ -9,6 +9,8 @@ import { keptOf, meshesOf, meshKey, readSession, recordOf, workFrom } from '../k
 import type { Tabs } from '../keep/tabs.ts';
 import { browserTabs } from '../keep/tabs.ts';
 import { SENTENCES } from '../messages.ts';
+import type { FileReader } from '../reading/reader.ts';
+import { readMesh } from '../reading/reader.ts';
 import { hashOf } from '../send/hash.ts';
 import { heldMeshes, NO_HISTORY } from '../store/history.ts';
 import { ALL_ALLOWED } from '../store/refused.ts';
@@ -30,23 +32,28 @@ export interface Surroundings {
   readonly now: () => number;
   /** The hash of bytes; `null` where the browser gives none. */
   readonly hash: (bytes: Uint8Array<ArrayBuffer>) => Promise<string | null>;
-  /** Reads and checks a mesh. Throws `FileRefused`. */
-  readonly read: (file: NamedBytes) => MeshFile;
+  /** Reads and checks a mesh; what comes of it takes it into the page's memory, and throws `FileRefused` where it was refused. */
+  readonly read: (file: NamedBytes, signal: AbortSignal) => Promise<() => MeshFile>;
   /** How long changes are gathered before they are written, in ms. */
   readonly delay: number;
 }
 
 /** The browser that the page is in. */
-export const BROWSER: Surroundings = {
-  open: (closed) => Database.open(closed),
-  tabs: () => browserTabs(navigator.locks),
-  memory: () => sessionStorage,
-  newId: () => crypto.randomUUID(),
-  now: () => Date.now(),
-  hash: hashOf,
-  read: (file) => meshFile(file, ALL_ALLOWED),
-  delay: 400,
-};
+export function browserWith(reader: FileReader): Surroundings {
+  return {
+    open: (closed) => Database.open(closed),
+    tabs: () => browserTabs(navigator.locks),
+    memory: () => sessionStorage,
+    newId: () => crypto.randomUUID(),
+    now: () => Date.now(),
+    hash: hashOf,
+    read: async (file, signal) => {
+      const reading = await readMesh(reader, file, ALL_ALLOWED, signal);
+      return () => meshFile({ file, reading });
+    },
+    delay: 400,
+  };
+}
 
 /** What was kept for this tab, and what can be offered. */
 export interface Found {
@@ -253,9 +260,9 @@ export class Keeper {
     const outcome = await perform(
       this.#store,
       SENTENCES.bringingBack,
-      () => this.#bytesOf(meshesOf(record)),
-      (named) => {
-        const files = this.#read(named);
+      (signal) => this.#read(meshesOf(record), signal),
+      (read) => {
+        const files = this.#taken(read);
         try {
           const { work, history } = workFrom(record, files, this.#store.state.demos);
           if (!areMarksGood(work)) {
@@ -274,26 +281,28 @@ export class Keeper {
     return outcome === 'done';
   }
 
-  async #bytesOf(meshes: readonly MeshRecord[]): Promise<ReadonlyMap<string, NamedBytes>> {
-    const named = await Promise.all(
-      meshes.map(async (mesh): Promise<readonly [string, NamedBytes]> => {
+  /** The meshes by key, read and not yet in the page's memory. */
+  async #read(meshes: readonly MeshRecord[], signal: AbortSignal): Promise<ReadonlyMap<string, () => MeshFile>> {
+    const read = await Promise.all(
+      meshes.map(async (mesh): Promise<readonly [string, () => MeshFile]> => {
         const bytes = (await this.#database?.mesh(mesh.hash)) ?? null;
         if (bytes === null) {
           throw new FileRefused(SENTENCES.keptUnreadable);
         }
         const { name, address } = mesh;
-        return [meshKey(mesh), { name, bytes, ...(address === undefined ? {} : { address }) }];
+        const file = { name, bytes, ...(address === undefined ? {} : { address }) };
+        return [meshKey(mesh), await this.#around.read(file, signal)];
       }),
     );
-    return new Map(named);
+    return new Map(read);
   }
 
   /** The meshes by key; all or none. */
-  #read(named: ReadonlyMap<string, NamedBytes>): ReadonlyMap<string, MeshFile> {
+  #taken(read: ReadonlyMap<string, () => MeshFile>): ReadonlyMap<string, MeshFile> {
     const files = new Map<string, MeshFile>();
     try {
-      for (const [key, file] of named) {
-        files.set(key, this.#around.read(file));
+      for (const [key, take] of read) {
+        files.set(key, take());
       }
       return files;
     } catch (thrown) {

@@ -6,11 +6,14 @@ import type { Link } from '../send/link.ts';
 import { readLink } from '../send/link.ts';
 import type { Delivery } from '../send/receiver.ts';
 import { Receiver } from '../send/receiver.ts';
+import type { FileReader } from '../reading/reader.ts';
 import type { Event } from '../store/events.ts';
+import { ALL_ALLOWED } from '../store/refused.ts';
 import type { MeshFile, Work } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
-import { demoEvents, openDemo } from './open.ts';
-import { named, place, withMeshes } from './sent-work.ts';
+import { buildDemo, demoEvents, openDemo } from './open.ts';
+import type { ArrivingMesh } from './sent-work.ts';
+import { place, readArriving, withMeshes } from './sent-work.ts';
 import { perform } from './task.ts';
 
 const ORIGIN = 'The link';
@@ -23,10 +26,12 @@ function forget(): void {
 /** Follows links. */
 export class Links {
   readonly #store: Store;
+  readonly #reader: FileReader;
   readonly #receiver: Receiver;
 
-  constructor(store: Store) {
+  constructor(store: Store, reader: FileReader) {
     this.#store = store;
+    this.#reader = reader;
     this.#receiver = new Receiver({
       changed: (receiving) => {
         store.dispatch({ kind: 'receiving', receiving });
@@ -111,7 +116,7 @@ export class Links {
       await this.#openDemoWork(demo, work);
       return false;
     }
-    return demo !== this.#store.state.demo?.id && openDemo(this.#store, demo);
+    return demo !== this.#store.state.demo?.id && openDemo(this.#store, this.#reader, demo);
   }
 
   async #openDemoWork(id: string, work: NonNullable<Link['work']>): Promise<void> {
@@ -124,9 +129,9 @@ export class Links {
     await perform(
       this.#store,
       'Opening the link…',
-      () => demo,
-      () => {
-        const meshes = demoMeshes(demoEvents(demo));
+      (signal) => buildDemo(this.#reader, demo, signal),
+      (built) => {
+        const meshes = demoMeshes(demoEvents(demo, built));
         try {
           place(this.#store, ORIGIN, work, meshes, demo);
         } catch (thrown) {
@@ -140,18 +145,19 @@ export class Links {
   async #open({ link, meshes, landmarks }: Delivery): Promise<void> {
     forget();
     const { work } = link;
-    const arriving = meshes.map((mesh) => mesh && { ...mesh, address: mesh.address?.url ?? null });
+    const arriving = (mesh: Delivery['meshes'][0]): ArrivingMesh | null => mesh && { ...mesh, address: mesh.address?.url ?? null };
+    const both = [arriving(meshes[0]), arriving(meshes[1])] as const;
     await perform(
       this.#store,
       'Opening the link…',
-      () => link,
-      () => {
+      // A link without work is like files that are dropped: nobody has agreed to a repair.
+      (signal) => readArriving(this.#reader, both, work === null ? {} : ALL_ALLOWED, signal),
+      (read) => {
         if (work === null) {
-          const [source = null, target = null] = arriving.map((mesh) => mesh && named(mesh));
-          this.#store.dispatch(...eventsOfSides([source, target], landmarks, this.#store.state));
+          this.#store.dispatch(...eventsOfSides(read, landmarks, this.#store.state));
           return;
         }
-        withMeshes(arriving, (loaded) => {
+        withMeshes(read, (loaded) => {
           place(this.#store, ORIGIN, work, loaded, null);
         });
       },
@@ -159,6 +165,7 @@ export class Links {
   }
 }
 
+/** The meshes of a demo's events. */
 function demoMeshes(events: readonly Event[]): Work['meshes'] {
   const meshes: [MeshFile | null, MeshFile | null] = [null, null];
   for (const event of events) {

@@ -2,14 +2,17 @@
 import type { NamedBytes } from '../files.ts';
 import type { Opening } from '../opening.ts';
 import { FileRefused, landmarkFile, meshFile } from '../files.ts';
-import { openingOf } from '../opening.ts';
+import type { Arrivals } from '../opening.ts';
+import { arrivalsOf, meshesAmong, openingOf } from '../opening.ts';
 import type { Side } from '../landmarks.ts';
 import { SENTENCES } from '../messages.ts';
+import type { DemoFiles } from '../reading/messages.ts';
+import type { FileReader } from '../reading/reader.ts';
+import { readMesh } from '../reading/reader.ts';
 import type { Event } from '../store/events.ts';
 import { heldMeshes } from '../store/history.ts';
 import type { Demo, State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
-import { buildDemo } from '../wasm/conemap.js';
 import type { Maps } from './maps.ts';
 import { perform } from './task.ts';
 
@@ -31,8 +34,22 @@ export async function bytesOf(file: File): Promise<NamedBytes> {
   }
 }
 
+/** Reads files, and finds out which they are. Throws {@link FileRefused}. */
+async function arrivals(reader: FileReader, files: readonly NamedBytes[], signal: AbortSignal): Promise<Arrivals> {
+  const sorted = await reader.ask({ kind: 'sort', files }, signal);
+  const meshes = meshesAmong(sorted);
+  const readings = await Promise.all(meshes.map((file) => readMesh(reader, file, {}, signal)));
+  return arrivalsOf(sorted, readings);
+}
+
+/** What files are brought to the page with. */
+export interface Openers {
+  readonly reader: FileReader;
+  readonly maps: Maps;
+}
+
 /** Opens files; `side` is the view they were dropped on or chosen for. */
-export async function openFiles(store: Store, maps: Maps, files: readonly File[], side: Side | null): Promise<void> {
+export async function openFiles(store: Store, { reader, maps }: Openers, files: readonly File[], side: Side | null): Promise<void> {
   const { ready, job } = store.state;
   if (!ready) {
     return;
@@ -46,9 +63,9 @@ export async function openFiles(store: Store, maps: Maps, files: readonly File[]
   await perform(
     store,
     'Reading the files…',
-    () => Promise.all(files.map(bytesOf)),
-    (named) => {
-      const opening = openingOf(named, side, store.state);
+    async (signal) => arrivals(reader, await Promise.all(files.map(bytesOf)), signal),
+    (arrived) => {
+      const opening = openingOf(arrived, side, store.state);
       store.dispatch(...opening.events);
       later.map = opening.map;
     },
@@ -58,16 +75,19 @@ export async function openFiles(store: Store, maps: Maps, files: readonly File[]
   }
 }
 
-/** The events that bring a demo onto the page. */
-export function demoEvents(demo: Demo): Event[] {
-  const built = buildDemo(demo.id);
-  if (built === undefined) {
+/** Builds a demo. Throws {@link FileRefused} where there is none. */
+export async function buildDemo(reader: FileReader, { id }: Demo, signal: AbortSignal): Promise<DemoFiles> {
+  const built = await reader.ask({ kind: 'demo', id }, signal);
+  if (built === null) {
     throw new FileRefused(SENTENCES.noDemo);
   }
-  const source = meshFile({ name: `${demo.id}-source.obj`, bytes: built.source() });
-  const target = meshFile({ name: `${demo.id}-target.obj`, bytes: built.target() });
-  const landmarks = landmarkFile({ name: `${demo.id}.json`, bytes: built.landmarks() });
-  built.free();
+  return built;
+}
+
+/** The events that bring a demo onto the page. */
+export function demoEvents(demo: Demo, built: DemoFiles): Event[] {
+  const [source, target] = [meshFile(built.meshes[0]), meshFile(built.meshes[1])];
+  const landmarks = landmarkFile(built.landmarks);
   return [
     { kind: 'mesh', side: 0, file: source },
     { kind: 'mesh', side: 1, file: target },
@@ -77,7 +97,7 @@ export function demoEvents(demo: Demo): Event[] {
 }
 
 /** Opens a demo; `false` where it does not come onto the page, because there is none or because of something else that came. */
-export async function openDemo(store: Store, id: string): Promise<boolean> {
+export async function openDemo(store: Store, reader: FileReader, id: string): Promise<boolean> {
   const demo = store.state.demos.find((candidate) => candidate.id === id);
   if (demo === undefined) {
     store.dispatch({ kind: 'error', sentence: SENTENCES.noDemo });
@@ -90,9 +110,9 @@ export async function openDemo(store: Store, id: string): Promise<boolean> {
   const outcome = await perform(
     store,
     `Building the demo “${demo.title}”…`,
-    () => demo,
-    () => {
-      store.dispatch(...demoEvents(demo));
+    (signal) => buildDemo(reader, demo, signal),
+    (built) => {
+      store.dispatch(...demoEvents(demo, built));
     },
   );
   return outcome === 'done';

@@ -7,12 +7,13 @@ import { inWorker } from '../send/archiving.ts';
 import type { Project, ProjectMesh } from '../send/project.ts';
 import { PROJECT_ENDING, ProjectRefused, readProject, writeProject } from '../send/project.ts';
 import { landmarkFileOf } from '../store/landmark-file.ts';
+import { ALL_ALLOWED } from '../store/refused.ts';
 import { shownResult } from '../store/staleness.ts';
 import type { MeshFile, State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { workName } from '../store/work.ts';
-import type { Maps } from './maps.ts';
-import { place, sentWorkOf, withMeshes } from './sent-work.ts';
+import type { Openers } from './open.ts';
+import { place, readArriving, sentWorkOf, withMeshes } from './sent-work.ts';
 import { perform } from './task.ts';
 
 function projectMesh(file: MeshFile | null): ProjectMesh | null {
@@ -51,14 +52,17 @@ async function projectIn({ name, bytes }: NamedBytes): Promise<Project> {
 }
 
 /** Brings a project onto the page, as one step, and then its map. */
-export async function openProject(store: Store, maps: Maps, file: NamedBytes): Promise<void> {
+export async function openProject(store: Store, { reader, maps }: Openers, file: NamedBytes): Promise<void> {
   const later: { map: Uint8Array | null } = { map: null };
   const outcome = await perform(
     store,
     'Unpacking the project…',
-    () => projectIn(file),
-    ({ meshes, work, result }) => {
-      withMeshes(meshes, (loaded) => {
+    async (signal) => {
+      const project = await projectIn(file);
+      return { ...project, read: await readArriving(reader, project.meshes, ALL_ALLOWED, signal) };
+    },
+    ({ read, work, result }) => {
+      withMeshes(read, (loaded) => {
         place(store, file.name, work, loaded, null);
       });
       later.map = result?.map ?? null;

@@ -1,15 +1,18 @@
 /** Repairs a mesh that was refused, as it was offered, and shows where one was repaired. */
 import { repairedEvents } from '../opening.ts';
-import { examinedRepair } from '../files.ts';
+import { examinedOf } from '../files.ts';
 import type { Side } from '../landmarks.ts';
+import type { FileReader } from '../reading/reader.ts';
+import { readMesh } from '../reading/reader.ts';
 import type { Examined } from '../store/defects.ts';
 import type { RefusedMesh } from '../store/refused.ts';
+import { allowedBy } from '../store/refused.ts';
 import type { State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { perform } from './task.ts';
 
 /** Repairs a mesh and puts it in its place. */
-export async function repairMesh(store: Store, mesh: RefusedMesh): Promise<void> {
+export async function repairMesh(store: Store, reader: FileReader, mesh: RefusedMesh): Promise<void> {
   const { kind } = store.state.job;
   if (kind === 'running' || kind === 'busy') {
     return;
@@ -18,17 +21,17 @@ export async function repairMesh(store: Store, mesh: RefusedMesh): Promise<void>
   await perform(
     store,
     `Repairing ${mesh.file.name}…`,
-    () => mesh,
-    () => {
+    (signal) => readMesh(reader, mesh.file, allowedBy(mesh), signal),
+    (reading) => {
       if (store.state.refused?.meshes.includes(mesh) === true) {
-        store.dispatch(...repairedEvents(mesh, store.state));
+        store.dispatch(...repairedEvents(mesh, reading, store.state));
       }
     },
   );
 }
 
 /** Shows what was wrong with the mesh of a side before it was repaired, or no more. */
-export async function showRepairs(store: Store, side: Side, shown: 'shown' | 'hidden'): Promise<void> {
+export async function showRepairs(store: Store, reader: FileReader, side: Side, shown: 'shown' | 'hidden'): Promise<void> {
   const file = store.state.meshes[side];
   if (shown === 'hidden' || file === null) {
     store.dispatch({ kind: 'examined', side, examined: null });
@@ -37,10 +40,10 @@ export async function showRepairs(store: Store, side: Side, shown: 'shown' | 'hi
   await perform(
     store,
     `Looking at ${file.name}…`,
-    () => file,
-    () => {
+    (signal) => reader.ask({ kind: 'repairs', bytes: file.bytes, mesh: file.mesh.packed() }, signal),
+    (found) => {
       if (store.state.meshes[side] === file) {
-        store.dispatch({ kind: 'examined', side, examined: examinedRepair(file) });
+        store.dispatch({ kind: 'examined', side, examined: examinedOf(found) });
       }
     },
   );

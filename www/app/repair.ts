@@ -1,43 +1,63 @@
 /** Does what a finding about the landmarks asks for. */
-import { mirroredTarget } from '../files.ts';
+import { mirroredEvent, mirrorQuestion } from '../files.ts';
+import type { FileReader } from '../reading/reader.ts';
 import type { Doubt } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import type { Runner } from './run.ts';
 import { lettered } from './suggest.ts';
-import { sentenceOf } from './task.ts';
+import { perform } from './task.ts';
 
-/** Repairs; a run with the old pairs ends. `lookAtPair` brings a pair before the user's eyes. */
-export function repair(store: Store, runner: Runner, lookAtPair: (id: number) => void, finding: Doubt): void {
-  const { state, dispatch } = store;
-  try {
-    switch (finding.repair) {
-      case 'swap':
-        runner.cancel();
-        dispatch({ kind: 'targets-exchanged', ids: finding.ids });
-        break;
-      case 'mirror_target': {
-        const target = state.meshes[1];
-        if (target !== null) {
-          const event = mirroredTarget(target, state.pairs);
-          runner.cancel();
-          dispatch(event);
-        }
-        break;
+/** What a repair acts on. */
+export interface RepairTools {
+  readonly runner: Runner;
+  readonly reader: FileReader;
+  /** Brings a pair before the user's eyes. */
+  readonly lookAtPair: (id: number) => void;
+}
+
+/** Puts the target's mirror image in its place, with its points; a run with the old ones ends. */
+async function mirror(store: Store, { runner, reader }: RepairTools): Promise<void> {
+  const { pairs, meshes } = store.state;
+  const target = meshes[1];
+  if (target === null) {
+    return;
+  }
+  runner.cancel();
+  await perform(
+    store,
+    `Mirroring ${target.name}…`,
+    (signal) => reader.ask(mirrorQuestion(target, pairs), signal),
+    (mirrored) => {
+      // Points that were placed meanwhile are not on the image.
+      if (store.state.meshes[1] === target && store.state.pairs === pairs) {
+        store.dispatch(mirroredEvent(mirrored, pairs));
       }
-      case 'mark':
-        if (finding.side !== null) {
-          const ends = finding.vertices.map((point) => ({ point, reason: 'tip' as const, partner: null }));
-          dispatch({ kind: 'suggested', side: finding.side, suggestions: lettered(ends) });
-        }
-        break;
-      case 'check':
-        if (finding.ids[0] !== undefined) {
-          dispatch({ kind: 'pair-selected', id: finding.ids[0] });
-          lookAtPair(finding.ids[0]);
-        }
-        break;
-    }
-  } catch (thrown) {
-    dispatch({ kind: 'error', sentence: sentenceOf(thrown) });
+    },
+  );
+}
+
+/** Repairs; a run with the old pairs ends. */
+export function repair(store: Store, tools: RepairTools, finding: Doubt): void {
+  const { dispatch } = store;
+  switch (finding.repair) {
+    case 'swap':
+      tools.runner.cancel();
+      dispatch({ kind: 'targets-exchanged', ids: finding.ids });
+      break;
+    case 'mirror_target':
+      void mirror(store, tools);
+      break;
+    case 'mark':
+      if (finding.side !== null) {
+        const ends = finding.vertices.map((point) => ({ point, reason: 'tip' as const, partner: null }));
+        dispatch({ kind: 'suggested', side: finding.side, suggestions: lettered(ends) });
+      }
+      break;
+    case 'check':
+      if (finding.ids[0] !== undefined) {
+        dispatch({ kind: 'pair-selected', id: finding.ids[0] });
+        tools.lookAtPair(finding.ids[0]);
+      }
+      break;
   }
 }

@@ -3,9 +3,12 @@ import type { NamedBytes } from '../files.ts';
 import { areMarksGood, checkFit, FileRefused, meshFile } from '../files.ts';
 import { SENTENCES } from '../messages.ts';
 import type { SentWork } from '../send/schema.ts';
+import type { ReadFile } from '../reading/messages.ts';
+import type { FileReader } from '../reading/reader.ts';
+import { readMesh } from '../reading/reader.ts';
 import type { Event } from '../store/events.ts';
 import { NO_HISTORY } from '../store/history.ts';
-import { ALL_ALLOWED } from '../store/refused.ts';
+import type { Allowed } from '../store/refused.ts';
 import type { Demo, MeshFile, State, Work } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 
@@ -30,19 +33,30 @@ export function sentWorkOf({ pairs, up, groundTruth, options, ui }: State): Sent
 }
 
 /** An arriving mesh as a file. */
-export function named({ name, bytes, address }: ArrivingMesh): NamedBytes {
+function named({ name, bytes, address }: ArrivingMesh): NamedBytes {
   return { name, bytes, ...(address === null ? {} : { address }) };
 }
 
-/**
- * Does something with the meshes of work that was on a page, and so with every repair allowed that they were given there; where
- * it fails, the core's memory of them is given back.
- */
-export function withMeshes<T>(arriving: readonly (ArrivingMesh | null)[], work: (meshes: Work['meshes']) => T): T {
+/** Reads arriving meshes. Those of work that was on a page are allowed every repair that they were given there. */
+export async function readArriving(
+  reader: FileReader,
+  [source, target]: readonly [ArrivingMesh | null, ArrivingMesh | null],
+  allowed: Allowed,
+  signal: AbortSignal,
+): Promise<readonly [ReadFile | null, ReadFile | null]> {
+  const read = async (mesh: ArrivingMesh | null): Promise<ReadFile | null> => {
+    const file = mesh && named(mesh);
+    return file && { file, reading: await readMesh(reader, file, allowed, signal) };
+  };
+  return Promise.all([read(source), read(target)]);
+}
+
+/** Does something with meshes that were read; where it fails, the core's memory of them is given back. */
+export function withMeshes<T>(read: readonly [ReadFile | null, ReadFile | null], work: (meshes: Work['meshes']) => T): T {
   const loaded: (MeshFile | null)[] = [];
   try {
-    for (const mesh of arriving) {
-      loaded.push(mesh === null ? null : meshFile(named(mesh), ALL_ALLOWED));
+    for (const mesh of read) {
+      loaded.push(mesh && meshFile(mesh));
     }
     return work([loaded[0] ?? null, loaded[1] ?? null]);
   } catch (thrown) {

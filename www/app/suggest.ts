@@ -1,9 +1,9 @@
 /** Marks places of a mesh that are worth a landmark. */
 import type { Side, Suggestion } from '../landmarks.ts';
 import { SENTENCES } from '../messages.ts';
+import type { FileReader } from '../reading/reader.ts';
 import { pointsOf } from '../store/points.ts';
 import type { Store } from '../store/store.ts';
-import { suggestLandmarks } from '../wasm/conemap.js';
 import { perform } from './task.ts';
 
 /** A suggestion as the core gives it; `partner` is a number in the list. */
@@ -28,7 +28,7 @@ export function lettered(found: readonly Found[]): Suggestion[] {
 }
 
 /** Marks places of one mesh, away from the landmarks that there are. */
-export async function suggest(store: Store, side: Side): Promise<void> {
+export async function suggest(store: Store, reader: FileReader, side: Side): Promise<void> {
   const { job, meshes } = store.state;
   const file = meshes[side];
   // A mesh that is being read is not given up for suggestions.
@@ -39,14 +39,14 @@ export async function suggest(store: Store, side: Side): Promise<void> {
   await perform(
     store,
     'Looking for places that are worth a landmark…',
-    () => file,
-    () => {
-      const { state } = store;
-      if (file !== state.meshes[side]) {
+    (signal) => {
+      const marked = JSON.stringify(pointsOf(store.state, side).filter((point) => point !== null));
+      return reader.ask({ kind: 'suggest', mesh: file.mesh.packed(), marked, count: SUGGESTIONS }, signal);
+    },
+    (json) => {
+      if (file !== store.state.meshes[side]) {
         return;
       }
-      const marked = pointsOf(state, side).filter((point) => point !== null);
-      const json = suggestLandmarks(file.mesh, JSON.stringify(marked), SUGGESTIONS);
       const suggestions = lettered(JSON.parse(json) as Found[]);
       store.dispatch({ kind: 'suggested', side, suggestions });
       if (suggestions.length === 0) {

@@ -28,20 +28,26 @@ export function sentenceOf(thrown: unknown): string {
 export type Outcome = 'done' | 'failed' | 'left-out';
 
 /**
- * Prepares something, then works on it. The sentence is there to read before the work holds the page up. Where another
- * task has begun meanwhile the work is left out, so that a slow one does not overwrite a later one.
+ * Prepares something, then works on it. The sentence is there to read before the work holds the page up. Where another task has
+ * begun meanwhile, or the user has had enough of this one, the signal tells its preparation and the work is left out, so that a
+ * slow one does not overwrite a later one.
  */
 export async function perform<T>(
   store: Store,
   sentence: string,
-  prepare: () => Promise<T> | T,
+  prepare: (signal: AbortSignal) => Promise<T> | T,
   work: (prepared: T) => void,
 ): Promise<Outcome> {
   const task: Task = { sentence };
+  const leaving = new AbortController();
   store.dispatch({ kind: 'task-begun', task });
+  const unsubscribe = store.subscribe(({ job }) => {
+    if (job.kind !== 'busy' || job.task !== task) {
+      leaving.abort();
+    }
+  });
   try {
-    const prepared = await prepare();
-    await painted();
+    const [prepared] = await Promise.all([prepare(leaving.signal), painted()]);
     const { job } = store.state;
     if (job.kind !== 'busy' || job.task !== task) {
       return 'left-out';
@@ -49,9 +55,13 @@ export async function perform<T>(
     work(prepared);
     return 'done';
   } catch (thrown) {
+    if (leaving.signal.aborted) {
+      return 'left-out';
+    }
     store.dispatch({ kind: 'error', sentence: sentenceOf(thrown) });
     return 'failed';
   } finally {
+    unsubscribe();
     store.dispatch({ kind: 'task-ended', task });
   }
 }

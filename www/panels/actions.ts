@@ -54,6 +54,8 @@ export interface Actions {
   /** Asks the run for its result. */
   readonly finish: () => void;
   readonly cancel: () => void;
+  /** Leaves what the page is busy with: nothing of it comes onto the page. */
+  readonly leaveTask: () => void;
   readonly repair: (finding: Doubt) => void;
   /** Repairs a mesh that was refused. */
   readonly repairMesh: (mesh: RefusedMesh) => void;

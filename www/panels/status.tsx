@@ -106,6 +106,23 @@ function Progress({ job }: { readonly job: Running }): VNode {
   );
 }
 
+/** Ends what the page is busy with; it comes only where that takes a while. */
+function LeaveButton({ leave }: { readonly leave: () => void }): VNode {
+  return (
+    <button
+      type="button"
+      id="leave-task"
+      onClick={() => {
+        leave();
+        // The button has gone, and the keyboard's place with it.
+        document.getElementById('run')?.focus();
+      }}
+    >
+      Cancel
+    </button>
+  );
+}
+
 /** The line. */
 export function StatusLine({ state, actions, shell }: PartProps): VNode {
   const job = state.job.kind === 'running' ? state.job : null;
@@ -121,6 +138,7 @@ export function StatusLine({ state, actions, shell }: PartProps): VNode {
         </p>
         {job !== null && <Progress job={job} />}
         <RunButtons job={job} actions={actions} />
+        {state.job.kind === 'busy' && <LeaveButton key={state.job.task.sentence} leave={actions.leaveTask} />}
       </div>
     </footer>
   );

@@ -22,6 +22,12 @@ export interface GivenFile {
   readonly address?: string;
 }
 
+/** A landmark file as it was given. */
+export interface GivenMarks extends GivenFile {
+  /** Landmarks of one mesh, of both, or pairs in the meshes' own numbers. */
+  readonly content: 'one' | 'both' | 'pairs';
+}
+
 /** A mesh that was refused. */
 export interface RefusedMesh {
   /** Where it was to come. */
@@ -42,7 +48,7 @@ export interface Refused {
   /** At least one, each for another side. */
   readonly meshes: readonly RefusedMesh[];
   /** Landmark files that were given with them. */
-  readonly landmarks: readonly GivenFile[];
+  readonly landmarks: readonly GivenMarks[];
 }
 
 /** The options that an offer allows beside those that there are. */

@@ -9,15 +9,18 @@ export type Listener = (state: State, previous: State) => void;
 
 export class Store {
   #state = INITIAL;
-  readonly #listeners: Listener[] = [];
+  #listeners: readonly Listener[] = [];
 
   get state(): State {
     return this.#state;
   }
 
-  /** From now on the listener hears of every change, after those that came before it. */
-  subscribe(listener: Listener): void {
-    this.#listeners.push(listener);
+  /** From now on the listener hears of every change, after those that came before it, until the returned function is called. */
+  subscribe(listener: Listener): () => void {
+    this.#listeners = [...this.#listeners, listener];
+    return () => {
+      this.#listeners = this.#listeners.filter((other) => other !== listener);
+    };
   }
 
   /** Changes the state; events that come together are one change and one step. */

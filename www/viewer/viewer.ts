@@ -62,6 +62,8 @@ export class Views {
   /** Where the cameras were when the page was last told. */
   #told: [Camera | null, Camera | null] = [null, null];
   #rest = 0;
+  #preparing = 0;
+  #isPreparing = false;
 
   constructor(state: State, listener: ViewListener) {
     const canvas = byId('canvas');
@@ -297,6 +299,25 @@ export class Views {
         viewer.setMesh(side, file.mesh);
       }
     }
+    this.#prepare();
+  }
+
+  /** Has large meshes made ready to be pointed at, bit by bit, so that frames go on. */
+  #prepare(): void {
+    clearTimeout(this.#preparing);
+    this.#preparing = window.setTimeout(() => {
+      if (this.#viewer === null || this.#lost) {
+        return;
+      }
+      if (this.#viewer.prepare()) {
+        this.#isPreparing = true;
+        this.#prepare();
+      } else if (this.#isPreparing) {
+        // Now it is known which pins the body hides.
+        this.#isPreparing = false;
+        this.#requestFrame();
+      }
+    }, 0);
   }
 
   /** A mesh that comes stands as it should at once; one that is there is turned before one's eyes. */

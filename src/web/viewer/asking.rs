@@ -90,7 +90,7 @@ impl Viewer {
         let (mesh, other) = (mesh?, other?);
         let point = mesh.surface_point(serde_json::from_str(point).ok()?)?;
         let place = self.map.as_mut()?.nearest(side, point.position(&mesh.checked.mesh))?;
-        other.on_skin(other.picker.as_ref()?.nearest(&other.checked.mesh, place.positions[1 - side]))
+        other.on_skin(other.picker.as_ref()?.nearest(&other.checked.mesh, place.positions[1 - side])?)
     }
 
     /// Takes the rings away; whether there were any.
@@ -107,7 +107,7 @@ impl Viewer {
         let mut points = Vec::new();
         for (side, position) in self.sides.iter_mut().zip(place.positions) {
             let mesh = side.mesh.as_ref()?;
-            let point = mesh.picker.as_ref()?.nearest(&mesh.checked.mesh, position);
+            let point = mesh.picker.as_ref()?.nearest(&mesh.checked.mesh, position)?;
             points.push(mesh.in_file(point));
             side.probe = Some(mesh.frame.place(position));
         }

@@ -1,7 +1,7 @@
 //! The canvas with two views: what is shown on each.
 
 use super::super::failure;
-use super::super::files::LoadedMesh;
+use super::super::loaded_mesh::LoadedMesh;
 use super::super::view_side::{Look, Side, SideMesh};
 use super::reading::parsed;
 use crate::gpu::{Paint, Renderer};
@@ -116,7 +116,7 @@ impl Viewer {
     /// Shows a mesh; its landmarks and result go.
     #[wasm_bindgen(js_name = setMesh)]
     pub fn set_mesh(&mut self, side: usize, mesh: &LoadedMesh) {
-        let shown = SideMesh::new(mesh.checked.clone(), &self.renderer);
+        let shown = SideMesh::new(mesh, &self.renderer);
         self.clear_result();
         let side = self.side_mut(side);
         side.uncover();
@@ -125,6 +125,11 @@ impl Viewer {
         side.clear_marks();
         side.glide = None;
         side.first_look();
+    }
+
+    /// Goes on with what a large mesh needs before it can be pointed at, for some milliseconds; whether there is more to do.
+    pub fn prepare(&mut self) -> bool {
+        self.sides.iter_mut().filter_map(|side| side.mesh.as_mut()).any(SideMesh::prepare)
     }
 
     /// Empties a view.

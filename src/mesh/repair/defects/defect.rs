@@ -40,6 +40,20 @@ pub enum DefectKind {
 }
 
 impl DefectKind {
+    /// All kinds, in their order.
+    pub const ALL: [Self; 10] = [
+        Self::OpenRim,
+        Self::CrowdedEdges,
+        Self::OneSidedSeam,
+        Self::TurnedPatch,
+        Self::LoosePart,
+        Self::HandleLoop,
+        Self::PinchedVertex,
+        Self::FaceWithoutArea,
+        Self::DoubleFace,
+        Self::Cap,
+    ];
+
     /// One and several, in words.
     fn words(self) -> [&'static str; 2] {
         match self {

@@ -13,6 +13,7 @@ mod chains;
 mod defect;
 mod finding;
 mod outlook;
+mod packed;
 #[cfg(test)]
 mod tests;
 

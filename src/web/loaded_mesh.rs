@@ -1,0 +1,86 @@
+//! A mesh of the page: read and checked in a worker, handed over as bytes, shown here.
+
+use super::failure;
+use crate::io::landmark_formats::Space;
+use crate::landmark_exchange::Surface;
+use crate::map_file::Hash;
+use crate::mesh::check::CheckedMesh;
+use crate::mesh::packing::{PackedError, Packer, Unpacker};
+use crate::scene::Shading;
+use std::rc::Rc;
+use wasm_bindgen::prelude::*;
+
+/// A mesh that was read and checked.
+#[wasm_bindgen]
+pub struct LoadedMesh {
+    pub(super) checked: Rc<CheckedMesh>,
+    pub(super) shading: Rc<Shading>,
+    /// The coordinate system that its file names.
+    pub(super) space: Space,
+}
+
+impl LoadedMesh {
+    /// A checked mesh, ready to be shown.
+    pub(super) fn new(checked: CheckedMesh, space: Space) -> Self {
+        Self { shading: Rc::new(Shading::of(&checked.mesh)), checked: Rc::new(checked), space }
+    }
+
+    /// The mesh as landmark files are brought onto it.
+    pub(super) fn surface(&self) -> Surface<'_> {
+        Surface { mesh: &self.checked, space: self.space }
+    }
+
+    fn unpacked(bytes: &[u8]) -> Result<Self, PackedError> {
+        let mut unpacker = Unpacker::new(bytes);
+        let space = if unpacker.count()? == 0 { Space::Lps } else { Space::Ras };
+        let checked = CheckedMesh::unpack(&mut unpacker)?;
+        let shading = Shading::unpack(&mut unpacker, checked.mesh.vertex_count())?;
+        unpacker.end()?;
+        Ok(Self { checked: Rc::new(checked), shading: Rc::new(shading), space })
+    }
+}
+
+#[wasm_bindgen]
+impl LoadedMesh {
+    /// Number of vertices.
+    #[wasm_bindgen(getter, js_name = vertexCount)]
+    pub fn vertex_count(&self) -> usize {
+        self.checked.mesh.vertex_count()
+    }
+
+    /// Number of triangles.
+    #[wasm_bindgen(getter, js_name = faceCount)]
+    pub fn face_count(&self) -> usize {
+        self.checked.mesh.face_count()
+    }
+
+    /// What tells the mesh from others, as a map file has it, in hexadecimal digits.
+    #[wasm_bindgen(js_name = checkedHash)]
+    pub fn checked_hash(&self) -> String {
+        Hash::of_checked(&self.checked).to_string()
+    }
+
+    /// Faces whose orientation was turned.
+    #[wasm_bindgen(getter, js_name = turnedFaces)]
+    pub fn turned_faces(&self) -> usize {
+        self.checked.turned_faces()
+    }
+
+    /// All of it as bytes, of which `unpackMesh` of the same build makes it again.
+    pub fn packed(&self) -> Vec<u8> {
+        let mut packer = Packer::default();
+        packer.count(usize::from(self.space == Space::Ras));
+        self.checked.pack(&mut packer);
+        self.shading.pack(&mut packer);
+        packer.into_bytes()
+    }
+}
+
+/// The mesh that another instance of this build has packed.
+///
+/// # Errors
+/// `{"code": "packed", "message"}` where the bytes are no such mesh.
+#[wasm_bindgen(js_name = unpackMesh)]
+pub fn unpack_mesh(bytes: &[u8]) -> Result<LoadedMesh, JsValue> {
+    LoadedMesh::unpacked(bytes).map_err(|e| failure("packed", e))
+}

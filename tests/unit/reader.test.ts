@@ -1,0 +1,140 @@
+/** The page's reader with a worker that only listens. */
+import { beforeEach, expect, test, vi } from 'vitest';
+import type { Question, ReaderAnswer, ReaderRequest } from '../../www/reading/messages.ts';
+import { Reader, ReaderBroken, readMesh } from '../../www/reading/reader.ts';
+import { fakeWorkers } from './fake-worker.ts';
+
+const FakeWorker = fakeWorkers<ReaderAnswer>();
+type FakeWorker = InstanceType<typeof FakeWorker>;
+
+const CORE = {} as WebAssembly.Module;
+const FEW = 2 ** 20;
+const SUGGEST: Extract<Question, { kind: 'suggest' }> = { kind: 'suggest', mesh: new Uint8Array(), marked: '[]', count: 3 };
+const TRAP = { code: 'trap', message: 'unreachable' };
+const file = (name: string): { name: string; bytes: Uint8Array } => ({ name, bytes: new Uint8Array([1]) });
+let reader: Reader;
+
+beforeEach(() => {
+  FakeWorker.made = [];
+  vi.stubGlobal('Worker', FakeWorker);
+  reader = new Reader();
+  reader.use(CORE);
+});
+
+function last(): FakeWorker {
+  const worker = FakeWorker.made.at(-1);
+  if (worker === undefined) {
+    throw new Error('no worker was made');
+  }
+  return worker;
+}
+
+/** The questions that a worker was asked, with their numbers. */
+function asked(worker: FakeWorker): Extract<ReaderRequest, { kind: 'question' }>[] {
+  return (worker.posted as ReaderRequest[]).filter((request) => request.kind === 'question');
+}
+
+const kinds = (worker: FakeWorker): string[] => asked(worker).map(({ question }) => question.kind);
+const idOf = (worker: FakeWorker, place: number): number => asked(worker)[place]?.id ?? -1;
+
+test('answers come to whoever asked, in whatever order', async () => {
+  const first = reader.ask(SUGGEST, null);
+  const second = reader.ask({ kind: 'demo', id: 'hands' }, null);
+  expect(FakeWorker.made).toHaveLength(1);
+  expect(last().posted[0]).toEqual({ kind: 'core', module: CORE });
+  last().says({ kind: 'answer', id: idOf(last(), 1), memory: FEW, answer: null });
+  last().says({ kind: 'answer', id: idOf(last(), 0), memory: FEW, answer: '[7]' });
+  expect([await first, await second]).toEqual(['[7]', null]);
+  expect(last().ended).toBe(false);
+});
+
+test('a refusal is a sentence, and the worker goes on', async () => {
+  const answer = reader.ask(SUGGEST, null);
+  const offer = { kind: 'keep-largest', parts: 2, share: 0.6 } as const;
+  last().says({ kind: 'refused', id: idOf(last(), 0), memory: FEW, refusal: { sentence: 'Two parts.', offer, what: 'mesh' } });
+  await expect(answer).rejects.toMatchObject({ message: 'Two parts.', offer, what: 'mesh' });
+  expect(last().ended).toBe(false);
+});
+
+test('a worker that breaks off fails its question alone: a fresh one goes on with the others', async () => {
+  const broken = reader.ask(SUGGEST, null);
+  const other = reader.ask({ kind: 'sort', files: [] }, null);
+  const [first] = FakeWorker.made;
+  first?.says({ kind: 'failed', id: idOf(last(), 0), memory: FEW, failure: TRAP });
+  await expect(broken).rejects.toThrow(ReaderBroken);
+  await expect(broken).rejects.toThrow(/^The computation stopped unexpectedly, perhaps for want of memory/);
+  expect(first?.ended).toBe(true);
+  expect([last().posted[0], kinds(last())]).toEqual([{ kind: 'core', module: CORE }, ['sort']]);
+  last().says({ kind: 'answer', id: idOf(last(), 0), memory: FEW, answer: [] });
+  expect(await other).toEqual([]);
+});
+
+test('an error of the worker itself fails what it was doing', async () => {
+  const doing = reader.ask(SUGGEST, null);
+  const later = reader.ask({ kind: 'sort', files: [] }, null);
+  last().dispatchEvent(Object.assign(new Event('error', { cancelable: true }), { message: 'no memory' }));
+  await expect(doing).rejects.toThrow(/could not be started or broke off/);
+  expect(kinds(last())).toEqual(['sort']);
+  last().says({ kind: 'answer', id: idOf(last(), 0), memory: FEW, answer: [] });
+  await later;
+});
+
+test('what is left ends the worker, which hears nothing while it reads, and nothing else', async () => {
+  const leaving = new AbortController();
+  const left = reader.ask(SUGGEST, leaving.signal);
+  const kept = reader.ask({ kind: 'sort', files: [] }, new AbortController().signal);
+  const [first] = FakeWorker.made;
+  leaving.abort();
+  await expect(left).rejects.toThrow('left');
+  expect(first?.ended).toBe(true);
+  expect(kinds(last())).toEqual(['sort']);
+  // What the first one had on its way comes to nobody.
+  first?.says({ kind: 'answer', id: 1, memory: FEW, answer: [file('x') as never] });
+  last().says({ kind: 'answer', id: idOf(last(), 0), memory: FEW, answer: [] });
+  expect(await kept).toEqual([]);
+  leaving.abort();
+  expect(last().ended).toBe(false);
+  await expect(reader.ask(SUGGEST, leaving.signal)).rejects.toThrow('left');
+});
+
+test('a worker with much memory is let go when it has nothing to do, and the next question has a fresh one', async () => {
+  const both = [reader.ask(SUGGEST, null), reader.ask(SUGGEST, null)];
+  last().says({ kind: 'answer', id: idOf(last(), 0), memory: 2 ** 30, answer: 'a' });
+  expect(last().ended).toBe(false);
+  last().says({ kind: 'answer', id: idOf(last(), 1), memory: 2 ** 30, answer: 'b' });
+  expect(await Promise.all(both)).toEqual(['a', 'b']);
+  expect([FakeWorker.made.length, last().ended]).toEqual([1, true]);
+  void reader.ask(SUGGEST, null);
+  expect([FakeWorker.made.length, kinds(last())]).toEqual([2, ['suggest']]);
+});
+
+test('a foreseen demo is begun once, and gives way to any other question', async () => {
+  reader.foresee('hands');
+  const demo = reader.ask({ kind: 'demo', id: 'hands' }, null);
+  expect(kinds(last())).toEqual(['demo']);
+  last().says({ kind: 'answer', id: idOf(last(), 0), memory: FEW, answer: null });
+  expect(await demo).toBeNull();
+  reader.foresee('poses');
+  void reader.ask({ kind: 'sort', files: [] }, null);
+  expect([FakeWorker.made.length, kinds(last())]).toEqual([2, ['sort']]);
+});
+
+test('a foreseen demo that is left ends, too', async () => {
+  const leaving = new AbortController();
+  reader.foresee('hands');
+  const demo = reader.ask({ kind: 'demo', id: 'hands' }, leaving.signal);
+  leaving.abort();
+  await expect(demo).rejects.toThrow('left');
+  expect(last().ended).toBe(true);
+});
+
+test('a mesh that breaks the reader is refused by its name, and one that is left is not', async () => {
+  const { signal } = new AbortController();
+  const reading = readMesh(reader, file('big.obj'), {}, signal);
+  last().says({ kind: 'failed', id: idOf(last(), 0), memory: FEW, failure: TRAP });
+  expect(await reading).toMatchObject({ kind: 'bad', what: 'file', defects: null, sentence: expect.stringMatching(/^big\.obj: The computation stopped/) as string });
+  const leaving = new AbortController();
+  const left = readMesh(reader, file('big.obj'), {}, leaving.signal);
+  leaving.abort();
+  await expect(left).rejects.toThrow('left');
+});

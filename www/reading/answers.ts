@@ -1,0 +1,125 @@
+/** Answers about files, by the core of whoever asks: in the page that is the worker's alone. */
+import { failureOf } from '../compute/messages.ts';
+import { contentOf } from '../landmark-files.ts';
+import { isMapFile } from '../map-files.ts';
+import { gathered } from '../mesh-sets.ts';
+import { fileSentence } from '../messages.ts';
+import type { NamedBytes } from '../named-file.ts';
+import type { Allowed } from '../store/refused.ts';
+import {
+  buildDemo,
+  meshDefects,
+  mirrorTarget,
+  repairedDefects,
+  repairMesh,
+  suggestLandmarks,
+  unpackMesh,
+} from '../wasm/conemap.js';
+import type { Answers, DemoFiles, MeshReading, MirroredMesh, OwnBytes, Question, ReadFile, SortedFile } from './messages.ts';
+
+/** The files by what they hold. Throws `FileRefused` for those that belong to nothing, and for bad landmark files. */
+function sorted(files: readonly NamedBytes[]): SortedFile[] {
+  return gathered(files).map(({ name, bytes }) => {
+    const content = isMapFile({ bytes }) ? 'map' : (contentOf({ name, bytes }) ?? 'mesh');
+    return { name, bytes, content };
+  });
+}
+
+/** What is wrong with a mesh that was refused; `null` where there is nothing to be seen of it. */
+function defectsOf(bytes: Uint8Array, allowed: string): OwnBytes | null {
+  try {
+    const found = meshDefects(bytes, allowed);
+    const packed = found.packed() as OwnBytes;
+    found.free();
+    return packed;
+  } catch (thrown) {
+    if (typeof thrown === 'string' && failureOf(thrown).code === 'mesh') {
+      return null;
+    }
+    throw thrown;
+  }
+}
+
+/** Reads a mesh, and repairs what does not change its shape and what is allowed beyond. Throws where the core breaks off. */
+export function meshReading(file: NamedBytes, allowed: Allowed): MeshReading {
+  const choices = JSON.stringify(allowed);
+  try {
+    const report = repairMesh(file.bytes, choices);
+    const repairs = report.sentence();
+    const mesh = report.takeMesh();
+    report.free();
+    const packed = mesh.packed() as OwnBytes;
+    mesh.free();
+    return { kind: 'good', packed, repairs };
+  } catch (thrown) {
+    // What the core throws itself is a string; everything else broke it.
+    if (typeof thrown !== 'string') {
+      throw thrown;
+    }
+    const failure = failureOf(thrown);
+    const what = failure.code === 'mesh' ? 'mesh' : 'file';
+    const defects = what === 'mesh' ? defectsOf(file.bytes, choices) : null;
+    return { kind: 'bad', sentence: fileSentence(file.name, failure), offer: failure.offer ?? null, what, defects };
+  }
+}
+
+function readFile(name: string, bytes: Uint8Array): ReadFile {
+  const file = { name, bytes };
+  return { file, reading: meshReading(file, {}) };
+}
+
+function repairs(bytes: Uint8Array, packed: Uint8Array): OwnBytes {
+  const mesh = unpackMesh(packed);
+  const found = repairedDefects(bytes, mesh);
+  mesh.free();
+  const answer = found.packed() as OwnBytes;
+  found.free();
+  return answer;
+}
+
+function mirrored(packed: Uint8Array, landmarks: Uint8Array, name: string): MirroredMesh {
+  const target = unpackMesh(packed);
+  const image = mirrorTarget(target, landmarks);
+  target.free();
+  const answer = { mesh: readFile(name, image.mesh()), landmarks: image.landmarks() as OwnBytes };
+  image.free();
+  return answer;
+}
+
+function suggestions(packed: Uint8Array, marked: string, count: number): string {
+  const mesh = unpackMesh(packed);
+  const answer = suggestLandmarks(mesh, marked, count);
+  mesh.free();
+  return answer;
+}
+
+function demo(id: string): DemoFiles | null {
+  const built = buildDemo(id);
+  if (built === undefined) {
+    return null;
+  }
+  const [source, target, landmarks] = [built.source(), built.target(), built.landmarks()];
+  built.free();
+  return {
+    meshes: [readFile(`${id}-source.obj`, source), readFile(`${id}-target.obj`, target)],
+    landmarks: { name: `${id}.json`, bytes: landmarks },
+  };
+}
+
+/** The answer to a question. Throws `FileRefused`, and what the core throws where it breaks off. */
+export function answerTo(question: Question): Answers[keyof Answers] {
+  switch (question.kind) {
+    case 'sort':
+      return sorted(question.files);
+    case 'mesh':
+      return meshReading(question.file, question.allowed);
+    case 'repairs':
+      return repairs(question.bytes, question.mesh);
+    case 'mirror':
+      return mirrored(question.mesh, question.landmarks, question.name);
+    case 'suggest':
+      return suggestions(question.mesh, question.marked, question.count);
+    case 'demo':
+      return demo(question.id);
+  }
+}

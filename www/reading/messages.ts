@@ -1,0 +1,99 @@
+/** What the page and the worker that reads files say to each other. */
+import type { Failure } from '../compute/messages.ts';
+import type { LandmarkContent } from '../landmark-files.ts';
+import type { NamedBytes } from '../named-file.ts';
+import type { RepairOffer } from '../report.ts';
+import type { Allowed } from '../store/refused.ts';
+
+/** Bytes that can be handed over. */
+export type OwnBytes = Uint8Array<ArrayBuffer>;
+
+/** A mesh that was read, and repaired where it had to be. */
+export interface GoodMesh {
+  readonly kind: 'good';
+  /** As the core packs it. */
+  readonly packed: OwnBytes;
+  /** What was repaired, in a sentence without a full stop; empty where the mesh was good as given. */
+  readonly repairs: string;
+}
+
+/** A reason to refuse a file. */
+export interface Refusal {
+  readonly sentence: string;
+  readonly offer: RepairOffer | null;
+  readonly what: 'file' | 'mesh';
+}
+
+/** A mesh that was refused. */
+export interface BadMesh extends Refusal {
+  readonly kind: 'bad';
+  /** What is wrong with it, as the core packs it; `null` where there is nothing to be seen. */
+  readonly defects: OwnBytes | null;
+}
+
+/** What became of a mesh file. */
+export type MeshReading = GoodMesh | BadMesh;
+
+/** A mesh file with what became of it. */
+export interface ReadFile {
+  readonly file: NamedBytes;
+  readonly reading: MeshReading;
+}
+
+/** A file by what it holds. */
+export interface SortedFile {
+  readonly name: string;
+  readonly bytes: Uint8Array;
+  readonly content: 'mesh' | 'map' | LandmarkContent;
+}
+
+/** A demo as files. */
+export interface DemoFiles {
+  readonly meshes: readonly [ReadFile, ReadFile];
+  readonly landmarks: NamedBytes;
+}
+
+/** The mirror image of a target. */
+export interface MirroredMesh {
+  readonly mesh: ReadFile;
+  /** A landmark file with the points carried along. */
+  readonly landmarks: OwnBytes;
+}
+
+/** What the worker is asked; meshes of the page go to it as the core packs them. */
+export type Question =
+  /** Which files there are when zips are unpacked and the parts of meshes packed into them, and what each holds. */
+  | { readonly kind: 'sort'; readonly files: readonly NamedBytes[] }
+  | { readonly kind: 'mesh'; readonly file: NamedBytes; readonly allowed: Allowed }
+  /** What was wrong with a file whose mesh was repaired. */
+  | { readonly kind: 'repairs'; readonly bytes: Uint8Array; readonly mesh: Uint8Array }
+  /** `landmarks` is a landmark file, whose second points are the target's; `name` is the image's. */
+  | { readonly kind: 'mirror'; readonly mesh: Uint8Array; readonly landmarks: Uint8Array; readonly name: string }
+  /** At most `count` places that are worth a landmark beside the `marked` ones, a JSON array of points. */
+  | { readonly kind: 'suggest'; readonly mesh: Uint8Array; readonly marked: string; readonly count: number }
+  | { readonly kind: 'demo'; readonly id: string };
+
+/** To the worker: the core first, then questions. */
+export type ReaderRequest =
+  | { readonly kind: 'core'; readonly module: WebAssembly.Module }
+  | { readonly kind: 'question'; readonly id: number; readonly question: Question };
+
+/** What is answered to each kind of question. */
+export interface Answers {
+  readonly sort: readonly SortedFile[];
+  readonly mesh: MeshReading;
+  readonly repairs: OwnBytes;
+  readonly mirror: MirroredMesh;
+  /** JSON, as the core gives it. */
+  readonly suggest: string;
+  /** `null` where there is no such demo. */
+  readonly demo: DemoFiles | null;
+}
+
+/** From the worker: what became of the question of the same number, and how much memory its core has in bytes. */
+export type ReaderAnswer = { readonly id: number; readonly memory: number } & (
+  | { readonly kind: 'answer'; readonly answer: Answers[keyof Answers] }
+  | { readonly kind: 'refused'; readonly refusal: Refusal }
+  /** The worker is not to be asked again. */
+  | { readonly kind: 'failed'; readonly failure: Failure }
+);
