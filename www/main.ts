@@ -3,6 +3,7 @@ import { openDropped } from './app/dropped.ts';
 import { Finder } from './app/find.ts';
 import { findUnasked } from './app/find-unasked.ts';
 import { BROWSER, Keeper } from './app/keep.ts';
+import { startFlow } from './app/flow.ts';
 import { listenForProposal, listenForUndo } from './app/keys.ts';
 import { saveLandmarks } from './app/landmarks.ts';
 import { mark } from './app/mark.ts';
@@ -123,6 +124,22 @@ const actions: Actions = {
   },
   morph: (share) => {
     views.morph(share);
+  },
+  baseView: {
+    open: (turned) => views.openBase(turned),
+    axes: (side) => views.axes(side),
+    orbit: (side, dx, dy, way) => {
+      views.orbit(side, dx, dy, way);
+    },
+    light: (part) => {
+      views.light(part);
+    },
+  },
+  flow: {
+    start: (listener) => startFlow(store, runner.core, listener),
+    show: (frame) => {
+      views.showFlow(frame);
+    },
   },
   proposedUp: (side) => views.proposedUp(side),
   lookAtPair: (id) => {

@@ -19,6 +19,7 @@ mod warning;
 pub use borders::{BorderCase, BordersReport, RimPairReport, RimReport};
 pub use error::PipelineError;
 pub use findings::{FindingKind, FindingReport, RepairKind, findings};
+pub use flows::recorded_flows;
 pub use input::{CapFaces, GroundTruth, MapInput};
 pub use options::{Base, Borders, Choices, ClassChoice, Cones, Method, OwnConeOptions, PipelineOptions};
 pub use report::{
@@ -28,6 +29,8 @@ pub use report::{
 };
 pub use result::{MapResult, TriangleDistortion};
 pub use warning::{Warning, WarningReport};
+
+pub use crate::cone_metric::{FlowMoment, FlowRecord};
 
 use crate::monitor::Monitor;
 

@@ -1,8 +1,10 @@
 //! The wasm boundary: typed arrays in and out, errors as JSON with a stable code and a sentence.
 
+mod base_output;
 mod compute;
 mod defects;
 mod files;
+mod flows;
 mod landmark_files;
 mod matching;
 mod output_file;
