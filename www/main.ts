@@ -3,7 +3,6 @@ import { openDropped } from './app/dropped.ts';
 import { Finder } from './app/find.ts';
 import { findUnasked } from './app/find-unasked.ts';
 import { BROWSER, Keeper } from './app/keep.ts';
-import { startFlow } from './app/flow.ts';
 import { listenForProposal, listenForUndo } from './app/keys.ts';
 import { saveLandmarks } from './app/landmarks.ts';
 import { mark } from './app/mark.ts';
@@ -18,6 +17,7 @@ import { freeExamined, repairMesh, showRepairs } from './app/repair-mesh.ts';
 import { Runner } from './app/run.ts';
 import { sharedLink } from './app/sharing.ts';
 import { suggest } from './app/suggest.ts';
+import { startWatching } from './app/watch.ts';
 import { compileCore } from './compute/client.ts';
 import { SENTENCES } from './messages.ts';
 import { download } from './dom.ts';
@@ -136,9 +136,15 @@ const actions: Actions = {
     },
   },
   flow: {
-    start: (listener) => startFlow(store, runner.core, listener),
+    start: (listener) => startWatching(store, runner.core, 'flows', listener),
     show: (frame) => {
       views.showFlow(frame);
+    },
+  },
+  simplification: {
+    start: (listener) => startWatching(store, runner.core, 'simplifications', listener),
+    show: (frame) => {
+      views.showStage(frame);
     },
   },
   proposedUp: (side) => views.proposedUp(side),

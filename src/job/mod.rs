@@ -48,8 +48,9 @@ use crate::mesh::{FaceId, SurfacePoint};
 use crate::monitor::{Cancelled, Monitor, Portion, Stage};
 use crate::pipeline::{
     self, CapFaces, FindingReport, FlowRecord, GroundTruth, MapInput, MapResult, PipelineError,
-    PipelineOptions, Report, Warning, findings,
+    PipelineOptions, Report, SimplificationStage, Warning, findings,
 };
+use glam::DVec3;
 use serde::Serialize;
 use typed_index_collections::TiVec;
 
@@ -258,6 +259,24 @@ impl Job {
         monitor: &mut dyn Monitor,
     ) -> Result<[FlowRecord; 2], PipelineError> {
         pipeline::recorded_flows(self.input(), cones, options, monitor)
+    }
+
+    /// Both meshes on their way to their landmarks, in stages.
+    ///
+    /// # Errors
+    /// As [`pipeline::simplifications`].
+    pub fn simplifications(
+        &self,
+        monitor: &mut dyn Monitor,
+    ) -> Result<[Vec<SimplificationStage>; 2], PipelineError> {
+        pipeline::simplifications(self.input(), monitor)
+    }
+
+    /// Where the vertices of the mapped meshes are, in the coordinates of the checked ones, whose vertices are the first: those of landmarks
+    /// inside faces follow.
+    pub fn positions(&self) -> [Vec<DVec3>; 2] {
+        let placed = [&self.placed.source, &self.placed.target];
+        [0, 1].map(|k| placed[k].mesh.positions().iter().map(|&p| self.meshes[k].as_given(p)).collect())
     }
 
     /// Vertices of the checked source and of the checked target.

@@ -12,6 +12,7 @@ mod previews;
 mod relaxed;
 mod report;
 mod result;
+mod simplification;
 mod stages;
 mod thesis;
 mod warning;
@@ -28,8 +29,10 @@ pub use report::{
     WorstPieceReport,
 };
 pub use result::{MapResult, TriangleDistortion};
+pub use simplification::simplifications;
 pub use warning::{Warning, WarningReport};
 
+pub use crate::base_domain::SimplificationStage;
 pub use crate::cone_metric::{FlowMoment, FlowRecord};
 
 use crate::monitor::Monitor;

@@ -33,17 +33,26 @@ pub fn record_flows(
     let mut messenger = Messenger::new(listener);
     let planned = |stage| PlannedStage { stage, time: 1.0 };
     messenger.plan(vec![planned(Stage::SourceConeMetric), planned(Stage::TargetConeMetric)]);
+    let job = read_job([source, target], landmarks, &mut messenger)?;
     let failed = |error: JobError| failure(error.code(), error);
+    let records = job
+        .recorded_flows(cones, &PipelineOptions::default(), &mut messenger)
+        .map_err(|error| failed(error.into()))?;
+    Ok(RecordedFlows { records, vertices: job.vertex_counts() })
+}
+
+/// The job of a map on the page.
+pub(super) fn read_job(
+    [source, target]: [&[u8]; 2],
+    landmarks: &str,
+    messenger: &mut Messenger<'_>,
+) -> Result<Job, JsValue> {
     let landmarks = [GivenFile { name: "landmarks.json", bytes: landmarks.as_bytes() }];
     let files = JobFiles { source, target, landmarks: &landmarks };
     // Meshes that are on the page were allowed what they needed.
     let mesh_faults = MeshFaults::Repaired(RepairOptions::everything());
     let options = ReadOptions { mesh_faults, ..ReadOptions::default() };
-    let job = Job::read(files, options, &mut messenger).map_err(failed)?;
-    let records = job
-        .recorded_flows(cones, &PipelineOptions::default(), &mut messenger)
-        .map_err(|error| failed(error.into()))?;
-    Ok(RecordedFlows { records, vertices: job.vertex_counts() })
+    Job::read(files, options, messenger).map_err(|error| failure(error.code(), error))
 }
 
 #[wasm_bindgen]

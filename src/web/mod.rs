@@ -10,6 +10,7 @@ mod matching;
 mod output_file;
 mod repair;
 mod saved;
+mod simplification;
 mod view_side;
 mod viewer;
 

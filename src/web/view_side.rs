@@ -68,6 +68,8 @@ pub(super) struct Side {
     pub lit: Lit,
     /// The mesh in colours of a flow, while one is shown.
     pub factors: Option<Factors>,
+    /// The mesh on its way to its landmarks, while that is shown.
+    pub stage: Option<CoarseStage>,
     /// In pair order; `None` where not picked yet.
     pub landmarks: Vec<Option<Landmark>>,
     /// Points that the page marks itself.
@@ -98,6 +100,13 @@ impl Preview {
         vertices.iter_mut().zip(places).for_each(|(vertex, place)| vertex.image = place.to_array());
         Self { mesh: renderer.surface_mesh(&vertices, &indices), vertices, indices }
     }
+}
+
+/// A mesh some collapses on.
+pub(super) struct CoarseStage {
+    pub surface: Mesh,
+    /// `None` where they would lie too close to be told apart.
+    pub edges: Option<Mesh>,
 }
 
 /// A mesh in colours of factors of length.
@@ -270,6 +279,7 @@ impl Side {
         self.patches = None;
         self.lit = Lit::default();
         self.factors = None;
+        self.stage = None;
         self.probe = None;
     }
 

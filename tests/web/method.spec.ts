@@ -1,4 +1,4 @@
-/** The step Method: the base domain turned with the views, asked, lit up on the meshes and from them, saved; the flows played on them. */
+/** The step Method: the base domain turned with the views, asked, lit up on the meshes and from them, saved; flows and simplification played on them. */
 import { readFileSync } from 'node:fs';
 import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
@@ -210,11 +210,41 @@ test('the flow is played on both meshes, its error falls, and the picture comes 
   expect(after.equals(before)).toBe(true);
 });
 
+test('both meshes are simplified to their landmarks, and come back', async () => {
+  const view = async (): Promise<Buffer> => page.screenshot({ clip: (await page.locator('#view-source').boundingBox()) ?? fail('no view') });
+  const before = await view();
+  await page.locator('#watch-simplification').click();
+  const slider = page.getByRole('slider', { name: 'Step of the simplification' });
+  await expect(slider).toBeVisible();
+  const words = page.locator('.stage-words');
+  await expect(words).toHaveText('5,114 triangles on the source, 4,574 on the target');
+  await page.locator('#play-simplification').click();
+  await expect(page.locator('#play-simplification')).toHaveText('Play', { timeout: 60_000 });
+  // Two less than twice the vertices, as many on both meshes.
+  const [, source = '', target = ''] = /^(\d+) triangles on the source, (\d+) on the target$/.exec((await words.textContent()) ?? '') ?? fail('no counts');
+  expect(source).toBe(target);
+  expect(Number(source)).toBe(2 * (await page.locator('#view-source .labels span').count()) - 4);
+  await page.waitForTimeout(300);
+  expect((await view()).equals(before)).toBe(false);
+  await page.screenshot({ path: `${ROOT}test-results/simplification.png` });
+  await slider.focus();
+  await page.keyboard.press('Home');
+  for (let k = 0; k < 12; k += 1) {
+    await page.keyboard.press('ArrowRight');
+  }
+  await page.waitForTimeout(300);
+  await page.screenshot({ path: `${ROOT}test-results/simplification-middle.png` });
+  await page.locator('#close-simplification').click();
+  await page.mouse.move(5, 5);
+  await page.waitForTimeout(300);
+  expect((await view()).equals(before)).toBe(true);
+});
+
 test('where motion is not wanted the flow goes step by step', async () => {
   await page.emulateMedia({ reducedMotion: 'reduce' });
   await page.locator('#watch-flow').click();
   const now = page.locator('.flow-residuals .now');
-  await expect(now).toBeVisible();
+  await expect(now).toBeAttached();
   const seen = new Set<string>();
   await page.locator('#play-flow').click();
   while ((await page.locator('#play-flow').textContent()) === 'Pause') {

@@ -1,5 +1,5 @@
 /** Conformal factors as places on a scale of colours. */
-import type { Flows, SideFlow } from '../compute/flow-messages.ts';
+import type { Flows, SideFlow } from '../compute/watch-messages.ts';
 import type { FactorPlaces, FlowFrame } from './hands.ts';
 
 /** This share of the vertices lies within the scale; the few beyond, at sharp cones, have its last colour. */

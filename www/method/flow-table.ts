@@ -1,5 +1,5 @@
 /** The numbers of flows. */
-import type { FlowMoment, Flows, SideFlow } from '../compute/flow-messages.ts';
+import type { FlowMoment, Flows, SideFlow } from '../compute/watch-messages.ts';
 
 const NO_MOMENT: FlowMoment = { step: 0, residual: 0, cgIterations: 0, edgeFlips: 0 };
 

@@ -1,7 +1,7 @@
 /** The flows of both meshes to their flat metrics, played: the conformal factor as colour, the curvature error falling. */
 import type { VNode } from 'preact';
-import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
-import type { FlowMoment, Flows } from '../compute/flow-messages.ts';
+import { useEffect, useMemo } from 'preact/hooks';
+import type { FlowMoment, Flows } from '../compute/watch-messages.ts';
 import { download } from '../dom.ts';
 import { figure, integer } from '../numbers.ts';
 import { logMarks, markText } from '../plots/chart.ts';
@@ -9,21 +9,18 @@ import { factorScale } from '../wasm/conemap.js';
 import { momentCount, placesAt, scaleEnd } from './factors.ts';
 import './flow.css';
 import { flowCsv, momentAt, residualRange } from './flow-table.ts';
-import type { FlowHands } from './hands.ts';
+import type { WatchHands } from './hands.ts';
+import { usePlayed } from './played.ts';
+import { Computed, Transport } from './watched.tsx';
 
 export interface FlowPlayerProps {
-  readonly hands: FlowHands;
+  readonly hands: WatchHands<'flows'>;
   /** Leaves the flows. */
   readonly onClose: () => void;
 }
 
 /** From one Newton step to the next, in ms. */
 const STEP_TIME = 1100;
-
-type Computed =
-  | { readonly kind: 'running'; readonly share: number }
-  | { readonly kind: 'failed'; readonly sentence: string }
-  | { readonly kind: 'there'; readonly flows: Flows };
 
 const SIDES = [
   ['Source', 0, 'first'],
@@ -33,43 +30,6 @@ const SIDES = [
 /** Slow at both ends. */
 function eased(share: number): number {
   return (1 - Math.cos(Math.PI * share)) / 2;
-}
-
-/** A time in steps that plays to the last one, and what begins and ends it. */
-function usePlayed(last: number): readonly [number, boolean, (time: number) => void, () => void] {
-  const [time, setTime] = useState(0);
-  const [isPlaying, setPlaying] = useState(false);
-  const still = window.matchMedia('(prefers-reduced-motion: reduce)');
-  const from = useRef(0);
-  useEffect(() => {
-    if (!isPlaying) {
-      return undefined;
-    }
-    let begin: number | null = null;
-    const tick = (now: number): void => {
-      begin ??= now;
-      const next = Math.min(last, from.current + (now - begin) / STEP_TIME);
-      setTime(still.matches ? Math.floor(next) : next);
-      if (next < last) {
-        frame = requestAnimationFrame(tick);
-      } else {
-        setPlaying(false);
-      }
-    };
-    let frame = requestAnimationFrame(tick);
-    return () => {
-      cancelAnimationFrame(frame);
-    };
-  }, [isPlaying, last]);
-  const rest = (at: number): void => {
-    setPlaying(false);
-    setTime(at);
-  };
-  const toggle = (): void => {
-    from.current = time >= last ? 0 : time;
-    setPlaying(!isPlaying);
-  };
-  return [time, isPlaying, rest, toggle];
 }
 
 /** The colours of the scale as a gradient. */
@@ -169,7 +129,7 @@ function Numbers({ flows, moment }: { readonly flows: Flows; readonly moment: nu
 
 function Player({ flows, hands, onClose }: FlowPlayerProps & { readonly flows: Flows }): VNode {
   const last = momentCount(flows) - 1;
-  const [time, isPlaying, rest, toggle] = usePlayed(last);
+  const { time, isPlaying, rest, toggle } = usePlayed(last, STEP_TIME);
   const end = useMemo(() => scaleEnd(flows), [flows]);
   const moment = Math.min(Math.floor(time), last);
   const places = useMemo(() => placesAt(flows, moment, end), [flows, moment, end]);
@@ -183,30 +143,15 @@ function Player({ flows, hands, onClose }: FlowPlayerProps & { readonly flows: F
     [],
   );
   const stopped = flows.some(({ converged }) => !converged);
+  const words = `step ${momentAt(flows[0], Math.round(time)).step} of the source, ${momentAt(flows[1], Math.round(time)).step} of the target`;
   return (
-    <div class="flow-player">
+    <div class="watched">
       <Scale end={end} />
-      <div class="flow-row">
-        <button type="button" id="play-flow" onClick={toggle} aria-label={isPlaying ? 'Stop the flow here' : 'Play the flow'}>
-          {isPlaying ? 'Pause' : 'Play'}
-        </button>
-        <input
-          type="range"
-          name="flow"
-          min={0}
-          max={last}
-          value={Math.round(time)}
-          aria-label="Step of the flow"
-          aria-valuetext={`step ${momentAt(flows[0], Math.round(time)).step} of the source, ${momentAt(flows[1], Math.round(time)).step} of the target`}
-          onInput={(event) => {
-            rest(Number(event.currentTarget.value));
-          }}
-        />
-      </div>
+      <Transport name="flow" {...{ last, time, isPlaying, words, rest, toggle }} />
       <Residuals flows={flows} time={time} />
       <Numbers flows={flows} moment={moment} />
       {stopped && <p class="quiet small">A flow has stopped before it had the curvatures that were asked for.</p>}
-      <div class="flow-row">
+      <div class="watched-row">
         <button
           type="button"
           aria-label="Save the steps of the flows as CSV"
@@ -225,47 +170,10 @@ function Player({ flows, hands, onClose }: FlowPlayerProps & { readonly flows: F
 }
 
 /** The flows, once they are computed. */
-export default function FlowPlayer(props: FlowPlayerProps): VNode {
-  const { hands, onClose } = props;
-  const [computed, setComputed] = useState<Computed>({ kind: 'running', share: 0 });
-  useEffect(
-    () =>
-      hands.start({
-        progress: (share) => {
-          setComputed({ kind: 'running', share });
-        },
-        done: (flows) => {
-          setComputed({ kind: 'there', flows });
-        },
-        failed: (sentence) => {
-          setComputed({ kind: 'failed', sentence });
-        },
-      }),
-    [],
+export default function FlowPlayer({ hands, onClose }: FlowPlayerProps): VNode {
+  return (
+    <Computed hands={hands} sentence="Computing both flows again, step by step…" onClose={onClose}>
+      {(flows) => <Player hands={hands} onClose={onClose} flows={flows} />}
+    </Computed>
   );
-  switch (computed.kind) {
-    case 'there':
-      return <Player {...props} flows={computed.flows} />;
-    case 'failed':
-      return (
-        <div role="alert">
-          <p>{computed.sentence}</p>
-          <button type="button" onClick={onClose}>
-            Close
-          </button>
-        </div>
-      );
-    case 'running':
-      return (
-        <div class="flow-player">
-          <p role="status">Computing both flows again, step by step…</p>
-          <progress value={computed.share} aria-label="Share of the flows that is done" />
-          <div class="flow-row">
-            <button type="button" onClick={onClose}>
-              Cancel
-            </button>
-          </div>
-        </div>
-      );
-  }
 }

@@ -1,5 +1,5 @@
 /** What the page lends to the picture of the base domain. */
-import type { Flows } from '../compute/flow-messages.ts';
+import type { Watchable, Watched } from '../compute/watch-messages.ts';
 import type { Side } from '../landmarks.ts';
 import type { Axes } from './axes.ts';
 import type { BasePart } from './parts.ts';
@@ -29,15 +29,33 @@ export interface FactorPlaces {
   readonly to: Float32Array;
 }
 
-/** What the page lends to the flows. */
-export interface FlowHands {
-  /** Computes the flows of the map on the page; returns what ends that. */
+/** One stage of the way of both meshes to their landmarks. */
+export interface StageFrame {
+  /** By side the places of the vertices, and the triangles of the stage. */
+  readonly sides: readonly [StageTriangles, StageTriangles];
+}
+
+/** Triangles of points. */
+export interface StageTriangles {
+  readonly positions: Float32Array;
+  readonly triangles: Uint32Array;
+}
+
+/** What each part of the method shows on the meshes. */
+interface Frames {
+  readonly flows: FlowFrame;
+  readonly simplifications: StageFrame;
+}
+
+/** What the page lends to a part of the method that is watched. */
+export interface WatchHands<W extends Watchable> {
+  /** Computes it for the map on the page; returns what ends that. */
   readonly start: (listener: {
     readonly progress: (share: number) => void;
-    readonly done: (flows: Flows) => void;
+    readonly done: (answer: Watched[W]) => void;
     /** In a sentence for the user. */
     readonly failed: (sentence: string) => void;
   }) => () => void;
   /** Shows a frame on the meshes; `null` for the meshes as before. */
-  readonly show: (frame: FlowFrame | null) => void;
+  readonly show: (frame: Frames[W] | null) => void;
 }

@@ -4,10 +4,10 @@ import { integer } from '../numbers.ts';
 import type { Report } from '../report.ts';
 import type { PartProps } from './actions.ts';
 import { BaseView } from './base-view.tsx';
-import { FlowView } from './flow-view.tsx';
 import { Icon } from './icons.tsx';
 import { LineChoice } from './picture-bar.tsx';
 import { PlotsButton } from './plots-dialog.tsx';
+import { WatchView } from './watch-view.tsx';
 
 interface Stage {
   readonly name: string;
@@ -52,7 +52,7 @@ export function MethodPanel(props: PartProps): VNode {
   return (
     <div class="content">
       <BaseView {...props} />
-      <FlowView {...props} />
+      <WatchView {...props} />
       <section>
         <h3>On the meshes</h3>
         <LineChoice state={state} actions={actions} />

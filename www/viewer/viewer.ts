@@ -6,7 +6,7 @@ import { SIDES } from '../landmarks.ts';
 import { failureSentence, SENTENCES } from '../messages.ts';
 import type { Axes } from '../method/axes.ts';
 import { axesOf } from '../method/axes.ts';
-import type { FlowFrame } from '../method/hands.ts';
+import type { FlowFrame, StageFrame } from '../method/hands.ts';
 import type { BasePart } from '../method/parts.ts';
 import type { Examined } from '../store/defects.ts';
 import type { Event } from '../store/events.ts';
@@ -18,7 +18,7 @@ import type { Direction } from './cameras.ts';
 import { cameraOf, Cameras } from './cameras.ts';
 import type { Box } from './gestures.ts';
 import { Hands } from './hands.ts';
-import { showDefects, showPreview } from './instead.ts';
+import { showDefects, showPreview, showStage } from './instead.ts';
 import { HELP } from './keys.ts';
 import { Labels } from './labels.ts';
 import { Picture } from './picture.ts';
@@ -254,6 +254,13 @@ export class Views {
   showFlow(frame: FlowFrame | null): void {
     this.#with((viewer) => {
       this.#picture.showFlow(viewer, frame);
+    });
+  }
+
+  /** Shows both meshes on their way to their landmarks; `null` for the meshes as before. */
+  showStage(frame: StageFrame | null): void {
+    this.#with((viewer) => {
+      showStage(viewer, frame);
     });
   }
 

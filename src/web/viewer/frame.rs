@@ -70,6 +70,12 @@ impl Viewer {
             let surface = if k == 0 { Some(&preview.mesh) } else { own };
             return ViewDraw { paint: Paint::Pattern, surface, ..bare };
         }
+        if let Some(stage) = side.stage.as_ref().filter(|_| !self.is_morphed(k)) {
+            let palette = Palette { line: [0.03, 0.03, 0.03], ..self.palette() };
+            let line_half_width = 0.55 * self.pixel_ratio;
+            let lines = stage.edges.as_ref();
+            return ViewDraw { palette, line_half_width, surface: Some(&stage.surface), lines, ..bare };
+        }
         if let Some(factors) = &side.factors
             && !self.is_morphed(k)
         {

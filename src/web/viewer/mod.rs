@@ -11,3 +11,4 @@ mod maps;
 mod patches;
 mod preview;
 mod reading;
+mod stages;

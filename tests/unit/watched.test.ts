@@ -1,13 +1,14 @@
-/** The flows that are watched: those of the run, on a scale that holds them, as numbers and as a table. */
+/** What is watched: the flows of the run, on a scale that holds them, as numbers and as a table; the simplification, stage by stage. */
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { beforeAll, describe, expect, test } from 'vitest';
-import type { Flows, SideFlow } from '../../www/compute/flow-messages.ts';
+import type { Flows, SideFlow, Simplification } from '../../www/compute/watch-messages.ts';
 import { momentCount, placeOf, placesAt, scaleEnd } from '../../www/method/factors.ts';
 import { flowCsv, momentAt, residualRange } from '../../www/method/flow-table.ts';
+import { countAt, stageAt, stageCount } from '../../www/method/stages.ts';
 import type { Report } from '../../www/report.ts';
-import type { MapOutput, RecordedFlows } from '../../www/wasm/conemap.js';
-import { buildDemo, factorScale, initSync, recordFlows, runMap } from '../../www/wasm/conemap.js';
+import type { MapOutput, RecordedFlows, Simplifications } from '../../www/wasm/conemap.js';
+import { buildDemo, factorScale, initSync, recordFlows, recordSimplifications, runMap } from '../../www/wasm/conemap.js';
 
 const nothing = (): void => undefined;
 const LISTENER = { relaxes: nothing, progress: nothing, preview: nothing, found: nothing, wantsResult: (): boolean => false };
@@ -16,6 +17,7 @@ describe('the flows of a map', () => {
   let output: MapOutput;
   let flows: RecordedFlows;
   let vertices: number;
+  let stages: Simplifications;
 
   beforeAll(() => {
     initSync({ module: readFileSync(fileURLToPath(new URL('../../www/wasm/conemap_bg.wasm', import.meta.url))) });
@@ -26,8 +28,10 @@ describe('the flows of a map', () => {
     const landmarks = new TextDecoder().decode(demo.landmarks());
     output = runMap(demo.source(), demo.target(), landmarks, '{}', LISTENER);
     flows = recordFlows(demo.source(), demo.target(), landmarks, output.cones(), LISTENER);
+    stages = recordSimplifications(demo.source(), demo.target(), landmarks, LISTENER);
     vertices = new TextDecoder().decode(demo.source()).match(/^v /gm)?.length ?? 0;
-  });
+    // A map is made first, maybe on a busy machine.
+  }, 120_000);
 
   test('are those of its report, step by step', () => {
     const { cone_metric: told } = JSON.parse(output.report()) as Report;
@@ -48,6 +52,16 @@ describe('the flows of a map', () => {
     const last = factors.subarray(factors.length - vertices);
     expect(Math.max(...last)).toBeGreaterThan(0.1);
     expect(Math.min(...last)).toBeLessThan(0);
+  });
+
+  test('have a simplification that ends at the base domain', () => {
+    const { base_domain: base } = JSON.parse(output.report()) as Report;
+    const found: Simplification = { positions: stages.positions(0), triangles: stages.triangles(0), counts: stages.counts(0) };
+    expect(found.positions.length).toBe(3 * vertices);
+    expect(found.counts[0]).toBe(2 * vertices - 4);
+    expect(found.counts.at(-1)).toBe(base.faces);
+    expect(found.triangles.length).toBe(3 * found.counts.reduce((sum, count) => sum + count, 0));
+    expect(new Set(stageAt(found, 1, 1).triangles).size).toBe(base.vertices);
   });
 
   test('refuse curvatures that no closed surface has', () => {
@@ -113,5 +127,27 @@ describe('the numbers', () => {
       'target,1,0,10,3',
       '',
     ]);
+  });
+});
+
+describe('the stages', () => {
+  const stages = (...counts: readonly number[]): Simplification => ({
+    positions: new Float32Array(),
+    triangles: Uint32Array.from({ length: 3 * counts.reduce((sum, count) => sum + count, 0) }, (_, k) => k),
+    counts: Uint32Array.from(counts),
+  });
+
+  test('of both meshes begin and end together', () => {
+    const [long, short] = [stages(9, 7, 6, 5, 4), stages(8, 6, 4)];
+    expect(stageCount([long, short])).toBe(5);
+    expect([0, 1, 2, 3, 4].map((stage) => countAt(long, stage, 4))).toEqual([9, 7, 6, 5, 4]);
+    expect([0, 1, 2, 3, 4].map((stage) => countAt(short, stage, 4))).toEqual([8, 6, 6, 4, 4]);
+    expect(countAt(short, 0, 0)).toBe(8);
+  });
+
+  test('are their own triangles', () => {
+    const found = stages(3, 2, 1);
+    expect([...stageAt(found, 1, 2).triangles]).toEqual([9, 10, 11, 12, 13, 14]);
+    expect([...stageAt(found, 2, 2).triangles]).toEqual([15, 16, 17]);
   });
 });

@@ -1,18 +1,18 @@
-/** Runs the flows of both meshes in a worker. */
-import type { FlowMessage, FlowRequest, Flows } from './flow-messages.ts';
+/** Does parts of the method again in a worker, to be watched. */
 import type { Failure } from './messages.ts';
 import { failureOf } from './messages.ts';
+import type { Watchable, Watched, WatchMessage, WatchRequest } from './watch-messages.ts';
 
-/** What is told while the flows run and when they end. */
-export interface FlowListener {
-  progress(share: number): void;
-  done(flows: Flows): void;
-  failed(failure: Failure): void;
+/** What is told meanwhile and at the end. */
+export interface WatchListener<W extends Watchable> {
+  readonly progress: (share: number) => void;
+  readonly done: (answer: Watched[W]) => void;
+  readonly failed: (failure: Failure) => void;
 }
 
-/** Starts both flows; the returned function ends them at once, and the listener hears nothing more. */
-export function startFlows(request: FlowRequest, listener: FlowListener): () => void {
-  const worker = new Worker(new URL('./flow-worker.ts', import.meta.url), { type: 'module' });
+/** Starts it; the returned function ends it at once, and the listener hears nothing more. */
+export function startWatched<W extends Watchable>(request: WatchRequest & { readonly wanted: W }, listener: WatchListener<W>): () => void {
+  const worker = new Worker(new URL('./watch-worker.ts', import.meta.url), { type: 'module' });
   let over = false;
   const end = (): boolean => {
     const first = !over;
@@ -25,7 +25,7 @@ export function startFlows(request: FlowRequest, listener: FlowListener): () => 
       listener.failed(failure);
     }
   };
-  worker.addEventListener('message', ({ data }: MessageEvent<FlowMessage>) => {
+  worker.addEventListener('message', ({ data }: MessageEvent<WatchMessage>) => {
     if (over) {
       return;
     }
@@ -35,7 +35,8 @@ export function startFlows(request: FlowRequest, listener: FlowListener): () => 
         break;
       case 'done':
         end();
-        listener.done(data.flows);
+        // The worker answers what it was asked.
+        listener.done(data.answer as Watched[W]);
         break;
       case 'failed':
         fail(data.failure);

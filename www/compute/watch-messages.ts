@@ -1,8 +1,12 @@
-/** What the page and the worker that runs the flows of both meshes say to each other. */
+/** What the page and the worker that does parts of the method again, to be watched, say to each other. */
 import type { Failure } from './messages.ts';
 
-/** What flows. */
-export interface FlowRequest {
+/** What can be watched: the flows of both meshes to their flat metrics, and how both are simplified to their landmarks. */
+export type Watchable = 'flows' | 'simplifications';
+
+/** What is wanted of a map. */
+export interface WatchRequest {
+  readonly wanted: Watchable;
   readonly module: WebAssembly.Module;
   readonly source: Uint8Array;
   readonly target: Uint8Array;
@@ -34,9 +38,29 @@ export interface SideFlow {
 /** The flows of the source and of the target. */
 export type Flows = readonly [SideFlow, SideFlow];
 
+/** One mesh on its way to its landmarks; its vertices do not move. */
+export interface Simplification {
+  /** Where its vertices are, three numbers each. */
+  readonly positions: Float32Array;
+  /** The triangles of all stages, one stage after the other, the whole mesh first. */
+  readonly triangles: Uint32Array;
+  /** How many triangles each stage has. */
+  readonly counts: Uint32Array;
+}
+
+/** The source and the target on their way. */
+export type Simplifications = readonly [Simplification, Simplification];
+
+/** What each wish is answered with. */
+export interface Watched {
+  readonly flows: Flows;
+  readonly simplifications: Simplifications;
+}
+
 /** From the worker. */
-export type FlowMessage =
+export type WatchMessage =
   /** The share that is done, 0 to 1. */
   | { readonly kind: 'progress'; readonly share: number }
-  | { readonly kind: 'done'; readonly flows: Flows }
+  /** The answer is that of the wish. */
+  | { readonly kind: 'done'; readonly answer: Flows | Simplifications }
   | { readonly kind: 'failed'; readonly failure: Failure };
