@@ -17,6 +17,7 @@ import { freeExamined, repairMesh, showRepairs } from './app/repair-mesh.ts';
 import { Runner } from './app/run.ts';
 import { sharedLink } from './app/sharing.ts';
 import { suggest } from './app/suggest.ts';
+import { startWatching } from './app/watch.ts';
 import { compileCore } from './compute/client.ts';
 import { SENTENCES } from './messages.ts';
 import { download } from './dom.ts';
@@ -132,6 +133,28 @@ const actions: Actions = {
   },
   morph: (share) => {
     views.morph(share);
+  },
+  baseView: {
+    open: (turned) => views.openBase(turned),
+    axes: (side) => views.axes(side),
+    orbit: (side, dx, dy, way) => {
+      views.orbit(side, dx, dy, way);
+    },
+    light: (part) => {
+      views.light(part);
+    },
+  },
+  flow: {
+    start: (listener) => startWatching(store, runner.core, 'flows', listener),
+    show: (frame) => {
+      views.showFlow(frame);
+    },
+  },
+  simplification: {
+    start: (listener) => startWatching(store, runner.core, 'simplifications', listener),
+    show: (frame) => {
+      views.showStage(frame);
+    },
   },
   proposedUp: (side) => views.proposedUp(side),
   lookAtPair: (id) => {

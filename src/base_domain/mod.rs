@@ -4,6 +4,8 @@
 
 mod domain;
 mod simplify;
+mod stages;
 
 pub use domain::BaseDomain;
-pub use simplify::{SimplifyError, simplify};
+pub use simplify::{SimplifyError, simplification_stages, simplify};
+pub use stages::SimplificationStage;

@@ -1,6 +1,7 @@
 //! Quadric error simplification down to exactly the protected vertices.
 
 use super::domain::BaseDomain;
+use super::stages::{SimplificationStage, Stages};
 use crate::math::min_queue::Queued;
 use crate::math::quadric::Quadric;
 use crate::mesh::coarsening::CollapseQueue;
@@ -44,14 +45,25 @@ pub fn simplify(
     landmarks: &[VertexId],
     monitor: &mut dyn Monitor,
 ) -> Result<BaseDomain, SimplifyError> {
-    if landmarks.len() < 4 {
-        return Err(SimplifyError::TooFew { count: landmarks.len() });
-    }
-    let mut simplification = Simplification::new(mesh, landmarks);
-    simplification.round(Some(&STRICT), monitor)?;
-    simplification.round(None, monitor)?;
-    simplification.remove_blocked();
+    let mut simplification = Simplification::new(mesh, landmarks)?;
+    simplification.run(monitor)?;
     simplification.base(landmarks)
+}
+
+/// The same collapses from the whole mesh to its landmarks, in stages.
+///
+/// # Errors
+/// [`SimplifyError`].
+pub fn simplification_stages(
+    mesh: &SurfaceMesh,
+    landmarks: &[VertexId],
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<SimplificationStage>, SimplifyError> {
+    let mut simplification = Simplification::new(mesh, landmarks)?;
+    simplification.stages = Some(Stages::new(&simplification.mesh));
+    simplification.run(monitor)?;
+    let Simplification { stages, mesh, .. } = simplification;
+    Ok(stages.map(|stages| stages.ended(&mesh)).unwrap_or_default())
 }
 
 /// A collapse that waits for its turn.
@@ -62,10 +74,15 @@ struct Simplification<'a> {
     mesh: CollapsibleMesh,
     protected: TiVec<VertexId, bool>,
     quadrics: TiVec<VertexId, Quadric>,
+    /// Where somebody looks on.
+    stages: Option<Stages>,
 }
 
 impl<'a> Simplification<'a> {
-    fn new(input: &'a SurfaceMesh, landmarks: &[VertexId]) -> Self {
+    fn new(input: &'a SurfaceMesh, landmarks: &[VertexId]) -> Result<Self, SimplifyError> {
+        if landmarks.len() < 4 {
+            return Err(SimplifyError::TooFew { count: landmarks.len() });
+        }
         let mut quadrics = ti_vec![Quadric::ZERO; input.vertex_count()];
         for f in input.faces() {
             let plane = Quadric::of_triangle(input.corners(f));
@@ -73,7 +90,21 @@ impl<'a> Simplification<'a> {
         }
         let mut protected = ti_vec![false; input.vertex_count()];
         landmarks.iter().for_each(|&v| protected[v] = true);
-        Self { input, mesh: CollapsibleMesh::new(input), protected, quadrics }
+        Ok(Self { input, mesh: CollapsibleMesh::new(input), protected, quadrics, stages: None })
+    }
+
+    fn run(&mut self, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
+        self.round(Some(&STRICT), monitor)?;
+        self.round(None, monitor)?;
+        self.remove_blocked();
+        Ok(())
+    }
+
+    fn collapse(&mut self, halfedge: HalfedgeId) {
+        self.mesh.collapse(halfedge);
+        if let Some(stages) = &mut self.stages {
+            stages.collapsed(&self.mesh);
+        }
     }
 
     fn round(&mut self, limits: Option<&ShapeLimits>, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
@@ -93,7 +124,7 @@ impl<'a> Simplification<'a> {
             let kept = self.mesh.head(halfedge);
             let absorbed = self.quadrics[vertex];
             self.quadrics[kept].add(&absorbed);
-            self.mesh.collapse(halfedge);
+            self.collapse(halfedge);
             touched.clear();
             touched.push(kept);
             touched.extend(self.mesh.star(kept).map(|h| self.mesh.head(h)));
@@ -139,7 +170,7 @@ impl<'a> Simplification<'a> {
             }
             let collapse = self.mesh.star(v).find(|&h| self.mesh.link_condition(h));
             if let Some(h) = collapse {
-                self.mesh.collapse(h);
+                self.collapse(h);
             }
         }
     }
@@ -172,6 +203,29 @@ mod tests {
             let defects: f64 = base.cone_angles().iter().map(|angle| 2.0 * PI - angle).sum();
             assert!((defects - 4.0 * PI).abs() < 1e-10, "Gauss-Bonnet");
         }
+    }
+
+    #[test]
+    fn the_stages_are_closed_spheres_from_the_mesh_to_its_base_domain() {
+        let sphere = icosphere(3);
+        let landmarks: Vec<_> = (0..12).map(|k| VertexId(k * 97 % 642)).collect();
+        let base = simplify(&sphere, &landmarks, &mut Silent).unwrap();
+        let stages = simplification_stages(&sphere, &landmarks, &mut Silent).unwrap();
+        assert_eq!(stages[0].triangles, sphere.triangles().raw);
+        for stage in &stages {
+            assert_eq!(stage.triangles.len(), 2 * stage.vertices - 4, "Euler's formula");
+            let mut corners: Vec<_> = stage.triangles.iter().flatten().collect();
+            corners.sort_unstable();
+            corners.dedup();
+            assert_eq!(corners.len(), stage.vertices);
+            assert!(landmarks.iter().all(|v| corners.contains(&v)));
+        }
+        let counts: Vec<usize> = stages.iter().map(|stage| stage.vertices).collect();
+        assert!(counts.windows(2).all(|w| w[1] < w[0] && 8 * w[1] + 8 >= 7 * w[0]), "{counts:?}");
+        let last = &stages[stages.len() - 1];
+        let number = |v: &VertexId| landmarks.iter().position(|l| l == v).map(VertexId::from).unwrap();
+        let named: Vec<[VertexId; 3]> = last.triangles.iter().map(|t| t.each_ref().map(number)).collect();
+        assert_eq!(named, base.mesh.triangles().raw);
     }
 
     #[test]

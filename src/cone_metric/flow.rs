@@ -1,6 +1,7 @@
 //! The discrete Ricci flow, solved by Newton with conjugate gradients.
 
 use super::metric::{ConeMetric, FlipQueue, FlowState};
+use super::record::{FlowMoment, FlowRecord, Recorder};
 use super::scheme::Scheme;
 use super::target::{self, TargetError};
 use crate::mesh::{SurfaceMesh, VertexId};
@@ -88,6 +89,28 @@ pub fn flow(
     Newton::new(metric, target_curvature, options).run(monitor)
 }
 
+/// The same flow from step to step, also where it does not converge.
+///
+/// # Errors
+/// [`FlowError::Target`] before anything is computed, and the wish to stop.
+pub fn recorded_flow(
+    mesh: &SurfaceMesh,
+    target_curvature: &TiVec<VertexId, f64>,
+    options: &FlowOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<FlowRecord, FlowError> {
+    target::check(target_curvature)?;
+    let metric = ConeMetric::of_mesh(mesh, options.scheme, options.radii_scale);
+    let mut recorder = Recorder::new(metric.log_radii.clone());
+    let mut newton = Newton::new(metric, target_curvature, options);
+    newton.recorder = Some(&mut recorder);
+    match newton.run(monitor) {
+        Ok(_) => Ok(recorder.record(true)),
+        Err(FlowError::NotConverged { .. }) => Ok(recorder.record(false)),
+        Err(error) => Err(error),
+    }
+}
+
 /// Conjugate gradient iterations of one Newton step, at most.
 const LINEAR_ITERATIONS: usize = 1000;
 
@@ -98,6 +121,8 @@ struct Newton<'a> {
     state: FlowState,
     queue: FlipQueue,
     report: FlowReport,
+    /// Who looks on, if anybody.
+    recorder: Option<&'a mut Recorder>,
 }
 
 impl<'a> Newton<'a> {
@@ -109,6 +134,16 @@ impl<'a> Newton<'a> {
             state: FlowState::default(),
             queue: FlipQueue::default(),
             report: FlowReport::default(),
+            recorder: None,
+        }
+    }
+
+    /// Shows the present state to who looks on.
+    fn tell(&mut self, residual: f64) {
+        let FlowReport { newton_steps: step, cg_iterations, edge_flips, .. } = self.report;
+        if let Some(recorder) = &mut self.recorder {
+            let moment = FlowMoment { step, residual, cg_iterations, edge_flips, log_factors: TiVec::new() };
+            recorder.take(moment, &self.metric.log_radii);
         }
     }
 
@@ -119,6 +154,7 @@ impl<'a> Newton<'a> {
         self.update();
         let mut error = self.residual(&mut residual);
         self.report.residuals.push(error);
+        self.tell(error);
         while error >= self.options.tolerance && self.report.newton_steps < self.options.max_steps {
             monitor.step(Step { fraction: self.fraction(error), residual: Some(error) })?;
             self.metric.hessian(&self.state, &mut graph);
@@ -156,6 +192,7 @@ impl<'a> Newton<'a> {
             error = self.residual(&mut residual);
             self.report.newton_steps += 1;
             self.report.residuals.push(error);
+            self.tell(error);
         }
         self.report.max_curvature_error = error;
         if error < self.options.tolerance {
@@ -381,6 +418,44 @@ mod tests {
                 assert!((found / regular - 1.0).abs() < 1e-9, "{scheme:?}: {a} to {b}: {found}, {regular}");
             }
         }
+    }
+
+    /// What is recorded is the flow itself: its residuals, and at the end its metric.
+    #[test]
+    fn the_record_is_the_flow() {
+        let sphere = blown_up_tetrahedron();
+        let landmarks: Vec<_> = (0..4).map(VertexId).collect();
+        let target = uniform_curvature(sphere.vertex_count(), &landmarks);
+        for scheme in [Scheme::InversiveDistance, Scheme::VertexScaling] {
+            let options = FlowOptions { scheme, ..FlowOptions::default() };
+            let start = ConeMetric::of_mesh(&sphere, scheme, options.radii_scale);
+            let (metric, report) = flow(&sphere, &target, &options, &mut Silent).unwrap();
+            let record = recorded_flow(&sphere, &target, &options, &mut Silent).unwrap();
+            assert!(record.converged);
+            let residuals: Vec<f64> = record.moments.iter().map(|moment| moment.residual).collect();
+            assert_eq!(residuals, report.residuals);
+            let last = &record.moments[record.moments.len() - 1];
+            assert_eq!((last.cg_iterations, last.edge_flips), (report.cg_iterations, report.edge_flips));
+            for v in sphere.vertices() {
+                assert_eq!(last.log_factors[v], metric.log_radii[v] - start.log_radii[v]);
+                assert_eq!(record.moments[0].log_factors[v], 0.0);
+            }
+            // The corners are drawn out of the sphere: lengths grow there.
+            let centred = record.centred(&sphere.vertex_areas());
+            let last = &centred.moments[centred.moments.len() - 1].log_factors;
+            assert!(landmarks.iter().all(|&v| last[v] > 0.1), "{scheme:?}");
+        }
+    }
+
+    #[test]
+    fn a_flow_that_does_not_converge_is_recorded_as_far_as_it_came() {
+        let sphere = blown_up_tetrahedron();
+        let landmarks: Vec<_> = (0..4).map(VertexId).collect();
+        let target = uniform_curvature(sphere.vertex_count(), &landmarks);
+        let options = FlowOptions { max_steps: 1, ..FlowOptions::default() };
+        let record = recorded_flow(&sphere, &target, &options, &mut Silent).unwrap();
+        assert!(!record.converged);
+        assert_eq!(record.moments.iter().map(|moment| moment.step).collect::<Vec<_>>(), [0, 1]);
     }
 
     #[test]

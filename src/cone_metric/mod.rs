@@ -7,10 +7,12 @@
 pub mod atlas;
 mod flow;
 mod metric;
+mod record;
 mod scheme;
 pub mod target;
 
-pub use flow::{FlowError, FlowOptions, FlowReport, flow};
+pub use flow::{FlowError, FlowOptions, FlowReport, flow, recorded_flow};
 pub use metric::ConeMetric;
+pub use record::{FlowMoment, FlowRecord};
 pub use scheme::Scheme;
 pub use target::{TargetError, base_domain_curvature, listed_curvature, uniform_curvature};

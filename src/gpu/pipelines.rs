@@ -57,6 +57,8 @@ pub(super) struct Pipelines {
     pub mark: wgpu::RenderPipeline,
     /// Such lines behind it.
     pub hidden_mark: wgpu::RenderPipeline,
+    /// Faces in one colour each, through which the surface is seen.
+    pub tint: wgpu::RenderPipeline,
     pub ball: wgpu::RenderPipeline,
     pub pin: wgpu::RenderPipeline,
     pub view_layout: wgpu::BindGroupLayout,
@@ -172,6 +174,7 @@ impl Pipelines {
         let pin = [Some(stepping(wgpu::VertexStepMode::Instance, size_of::<PinInstance>(), &pin))];
         Self {
             surface: workshop.pipeline(["surface_vertex", "surface_fragment"], Layer::Solid, &surface),
+            tint: workshop.pipeline(["surface_vertex", "tint_fragment"], Layer::Over, &surface),
             line: workshop.pipeline(["line_vertex", "line_fragment"], Layer::Over, &line),
             hidden_line: workshop.pipeline(["line_vertex", "hidden_line_fragment"], Layer::Through, &line),
             mark: workshop.pipeline(["mark_vertex", "mark_fragment"], Layer::Over, &mark),

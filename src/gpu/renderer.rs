@@ -2,7 +2,7 @@
 
 use super::pipelines::{DEPTH, Pipelines, ViewUniform};
 use crate::scene::buffers::unit_ball;
-use crate::scene::colours::{SCALE_END, distortion_scale};
+use crate::scene::colours::{SCALE_END, distortion_scale, factor_scale};
 use crate::scene::defects::MarkedLineVertex;
 use crate::scene::{LineVertex, MarkerInstance, PinInstance, Pose, SurfaceVertex};
 use glam::Mat4;
@@ -45,6 +45,9 @@ pub enum Paint {
     Pattern,
     /// Faint and hatched: a mesh that is not accepted.
     Refused,
+    /// A place on a scale from what shrinks to what grows: between the two texture coordinates of each vertex, this share of the way
+    /// from the first to the second.
+    Factors(f32),
 }
 
 /// Colours of both views, linear RGB.
@@ -86,6 +89,10 @@ pub struct ViewDraw<'a> {
     pub under: Option<&'a Mesh>,
     /// Faces painted in colours of their own, over the surface.
     pub painted: Option<&'a Mesh>,
+    /// Faces that lie over the surface as a veil.
+    pub tinted: Option<&'a Mesh>,
+    /// Ribbons with colours of their own around them.
+    pub traced: Option<&'a Mesh>,
     /// Ribbons.
     pub lines: Option<&'a Mesh>,
     /// Ribbons with colours and strokes of their own.
@@ -243,7 +250,7 @@ impl Renderer {
             if view.under.is_some() {
                 self.queue.write_buffer(&uniform.under.0, 0, &self.under_uniform(view).bytes());
             }
-            if view.painted.is_some() {
+            if view.painted.is_some() || view.tinted.is_some() {
                 self.queue.write_buffer(&uniform.painted.0, 0, &self.painted_uniform(view).bytes());
             }
         }
@@ -296,6 +303,11 @@ impl Renderer {
             Paint::Distortion => 3.0,
             Paint::Pattern => 4.0,
             Paint::Refused => 5.0,
+            Paint::Factors(_) => 7.0,
+        };
+        let (share, scale) = match view.paint {
+            Paint::Factors(share) => (share, factor_scale()),
+            _ => (0.0, distortion_scale()),
         };
         ViewUniform {
             clip_from_world: pose.view_projection(width / height.max(1.0)).to_cols_array_2d(),
@@ -310,8 +322,8 @@ impl Renderer {
             pattern_light: with_alpha(palette.pattern[0]),
             pattern_dark: with_alpha(palette.pattern[1]),
             rim: with_alpha(palette.rim),
-            wipe: [left + view.wipe * width, view.dash, 0.0, 0.0],
-            scale: distortion_scale().map(with_alpha),
+            wipe: [left + view.wipe * width, view.dash, share, 0.0],
+            scale: scale.map(with_alpha),
         }
     }
 
@@ -366,7 +378,8 @@ impl Renderer {
         pass.set_viewport(x, y, width, height, 0.0, 1.0);
         pass.set_scissor_rect(x as u32, y as u32, width as u32, height as u32);
         let ViewUniforms { front, painted, under } = &self.uniforms[k];
-        let Pipelines { surface, line, hidden_line, mark, hidden_mark, ball, pin, .. } = &self.pipelines;
+        let Pipelines { surface, tint, line, hidden_line, mark, hidden_mark, ball, pin, .. } =
+            &self.pipelines;
         let draw = |pass: &mut wgpu::RenderPass<'_>, mesh: &Mesh, pipeline: &wgpu::RenderPipeline| {
             pass.set_pipeline(pipeline);
             pass.set_vertex_buffer(0, mesh.vertices.slice(..));
@@ -386,6 +399,11 @@ impl Renderer {
             draw(pass, mesh, surface);
             pass.set_bind_group(0, &front.1, &[]);
         }
+        if let Some(mesh) = view.tinted {
+            pass.set_bind_group(0, &painted.1, &[]);
+            draw(pass, mesh, tint);
+            pass.set_bind_group(0, &front.1, &[]);
+        }
         if let Some(balls) = &instances.balls {
             pass.set_pipeline(ball);
             pass.set_vertex_buffer(0, self.ball.vertices.slice(..));
@@ -397,7 +415,7 @@ impl Renderer {
             draw(pass, mesh, hidden_line);
             draw(pass, mesh, line);
         }
-        if let Some(mesh) = view.marks {
+        for mesh in [view.traced, view.marks].into_iter().flatten() {
             draw(pass, mesh, hidden_mark);
             draw(pass, mesh, mark);
         }

@@ -13,7 +13,7 @@ struct View {
     up: vec4<f32>,
     // xy: size of the view in pixels; z: surface style (-1 plain and a little behind, 0 plain, 1 checkerboard of the flat metric,
     // 2 colours of the place on the target, 3 distortion, 4 solid pattern, 5 faint and hatched, 6 faces in their own colours, a
-    // little in front); w: half width of lines in pixels.
+    // little in front, 7 a scale of factors); w: half width of lines in pixels.
     size_and_style: vec4<f32>,
     // x: share of the way that every vertex has gone to its image; y: how strongly hollows are darkened;
     // z: opacity of lines behind the surface; w: the distortion at the end of the scale.
@@ -28,9 +28,10 @@ struct View {
     // rgb: the border of pins.
     rim: vec4<f32>,
     // x: from the left of the canvas to where the map's colours and lines begin, in pixels; before it the surface is plain;
-    // y: length of a dash with its gap, in the world.
+    // y: length of a dash with its gap, in the world; z: share of the way from the first texture coordinate, a place on the scale of
+    // factors, to the second.
     wipe: vec4<f32>,
-    // rgb: the colours of the distortion.
+    // rgb: the colours of the distortion, or of factors.
     scale: array<vec4<f32>, 10>,
 };
 
@@ -61,7 +62,7 @@ fn surface_vertex(
     let end_normal = (view.world_from_image * vec4<f32>(image_normal, 0.0)).xyz;
     var out: SurfaceOut;
     out.world = mix(position, end, way);
-    if view.size_and_style.z > 5.5 {
+    if view.size_and_style.z > 5.5 && view.size_and_style.z < 6.5 {
         out.world = mix(out.world, view.eye.xyz, 0.0012);
     }
     out.clip = view.clip_from_world * vec4<f32>(out.world, 1.0);
@@ -128,6 +129,13 @@ fn distortion_colour(value: f32) -> vec3<f32> {
     return mix(view.scale[below].rgb, view.scale[below + 1].rgb, place - f32(below));
 }
 
+// Colours of the scale by a place from 0 to 1.
+fn scale_colour(place: f32) -> vec3<f32> {
+    let at = 9.0 * clamp(place, 0.0, 1.0);
+    let below = min(i32(at), 8);
+    return mix(view.scale[below].rgb, view.scale[below + 1].rgb, at - f32(below));
+}
+
 // One colour for every place of the target.
 fn place_colour(image: vec3<f32>) -> vec3<f32> {
     return 0.06 + 0.8 * smoothstep(vec3<f32>(-0.75), vec3<f32>(0.75), image);
@@ -162,7 +170,9 @@ fn surface_fragment(in: SurfaceOut) -> @location(0) vec4<f32> {
     let dark = view.pattern_dark.rgb;
     var colour = view.surface.rgb;
     let unit = view.size_and_style.w / 0.9;
-    if style > 5.5 {
+    if style > 6.5 {
+        colour = scale_colour(mix(in.uv.x, in.uv.y, view.wipe.z));
+    } else if style > 5.5 {
         let stroke = filling(in.uv.x, in.clip.xy, 1.2 * unit);
         colour = mix(mix(in.image, vec3<f32>(0.75), 0.55), in.image, stroke);
     } else if style > 4.5 {
@@ -181,6 +191,12 @@ fn surface_fragment(in: SurfaceOut) -> @location(0) vec4<f32> {
         colour = mix(dark, light, board);
     }
     return vec4<f32>(lit(colour, in.world, in.normal, in.values.y), 1.0);
+}
+
+// A veil of the faces' own colours over the surface, which keeps its light.
+@fragment
+fn tint_fragment(in: SurfaceOut) -> @location(0) vec4<f32> {
+    return vec4<f32>(in.image, 0.55);
 }
 
 struct LineOut {

@@ -5,6 +5,7 @@
 //! other bindings go through it. What is taken away is made of a map file's content, whether it was just computed or read
 //! ([`TakenMap`]).
 
+mod base_picture;
 mod error;
 mod matching;
 mod mesh_file;
@@ -17,6 +18,7 @@ mod wrapping;
 
 pub use crate::io::moved::Normals;
 pub use crate::mesh::mirror::TargetImage;
+pub use base_picture::{BasePicture, BaseShape};
 pub use conemap_verify::Proof;
 pub use error::{JobError, JobFile};
 pub use matching::{
@@ -45,9 +47,10 @@ use crate::mesh::repair::RepairReport;
 use crate::mesh::{FaceId, SurfacePoint};
 use crate::monitor::{Cancelled, Monitor, Portion, Stage};
 use crate::pipeline::{
-    self, CapFaces, FindingReport, GroundTruth, MapInput, MapResult, PipelineError, PipelineOptions, Report,
-    Warning, findings,
+    self, CapFaces, FindingReport, FlowRecord, GroundTruth, MapInput, MapResult, PipelineError,
+    PipelineOptions, Report, SimplificationStage, Warning, findings,
 };
+use glam::DVec3;
 use serde::Serialize;
 use typed_index_collections::TiVec;
 
@@ -242,6 +245,43 @@ impl Job {
         result.report.warnings =
             self.repair_warnings().into_iter().chain(self.landmark_warnings()).chain(warnings).collect();
         Ok(result)
+    }
+
+    /// The flows of both meshes from step to step, with these curvatures of the landmarks' cones, in radians: those of a result of this job.
+    /// The first vertices are those of the checked meshes.
+    ///
+    /// # Errors
+    /// As [`pipeline::recorded_flows`].
+    pub fn recorded_flows(
+        &self,
+        cones: &[f64],
+        options: &PipelineOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<[FlowRecord; 2], PipelineError> {
+        pipeline::recorded_flows(self.input(), cones, options, monitor)
+    }
+
+    /// Both meshes on their way to their landmarks, in stages.
+    ///
+    /// # Errors
+    /// As [`pipeline::simplifications`].
+    pub fn simplifications(
+        &self,
+        monitor: &mut dyn Monitor,
+    ) -> Result<[Vec<SimplificationStage>; 2], PipelineError> {
+        pipeline::simplifications(self.input(), monitor)
+    }
+
+    /// Where the vertices of the mapped meshes are, in the coordinates of the checked ones, whose vertices are the first: those of landmarks
+    /// inside faces follow.
+    pub fn positions(&self) -> [Vec<DVec3>; 2] {
+        let placed = [&self.placed.source, &self.placed.target];
+        [0, 1].map(|k| placed[k].mesh.positions().iter().map(|&p| self.meshes[k].as_given(p)).collect())
+    }
+
+    /// Vertices of the checked source and of the checked target.
+    pub fn vertex_counts(&self) -> [usize; 2] {
+        self.meshes.each_ref().map(|mesh| mesh.mesh().vertex_count())
     }
 
     /// What the user should know of the repairs; nothing of a mesh that was good as given.

@@ -3,8 +3,11 @@
 use super::{Cones, MapInput, PipelineError, PipelineOptions, Warning};
 use crate::base_domain::BaseDomain;
 use crate::cone_metric::atlas::{FlatAtlas, flat_atlas};
-use crate::cone_metric::{ConeMetric, FlowError, FlowReport, base_domain_curvature, flow, uniform_curvature};
-use crate::landmarks::MeshSide;
+use crate::cone_metric::{
+    ConeMetric, FlowError, FlowRecord, FlowReport, base_domain_curvature, flow, recorded_flow,
+    uniform_curvature,
+};
+use crate::landmarks::{Landmarks, MeshSide};
 use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Stage};
 use glam::DVec2;
@@ -92,6 +95,33 @@ impl Flows {
     pub fn l2_stretch(&self) -> Option<f64> {
         self.target_atlas.as_ref().map(|atlas| atlas.l2_stretch)
     }
+}
+
+/// The flows of both meshes from step to step, with these curvatures at the landmarks, in radians. Log factors have mean 0 by area.
+///
+/// # Errors
+/// [`PipelineError::SourceFlow`] or [`PipelineError::TargetFlow`] where no metric has these curvatures, or cancellation. A flow that does not
+/// converge is recorded as far as it came.
+pub fn recorded_flows(
+    input: MapInput<'_>,
+    cones: &[f64],
+    options: &PipelineOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<[FlowRecord; 2], PipelineError> {
+    let mut recorded = |stage, mesh: &SurfaceMesh, landmarks: &[VertexId]| {
+        monitor.enter(stage);
+        let mut curvature: TiVec<VertexId, f64> = ti_vec![0.0; mesh.vertex_count()];
+        for (&v, &cone) in landmarks.iter().zip(cones) {
+            curvature[v] = cone;
+        }
+        let record = recorded_flow(mesh, &curvature, &options.flow, monitor)?;
+        Ok::<_, FlowError>(record.centred(&mesh.vertex_areas()))
+    };
+    let Landmarks { source, target } = input.landmarks;
+    Ok([
+        recorded(Stage::SourceConeMetric, input.source, source).map_err(PipelineError::source_flow)?,
+        recorded(Stage::TargetConeMetric, input.target, target).map_err(PipelineError::target_flow)?,
+    ])
 }
 
 /// The flat cone metric of one of both meshes.

@@ -3,7 +3,7 @@
 use super::flows::{Flows, cone_metric};
 use super::report::{DistortionReport, GroundTruthReport};
 use super::{Base, GroundTruth, MapInput, MapResult, PipelineError, PipelineOptions, Report, Warning};
-use crate::base_domain;
+use crate::base_domain::{self, BaseDomain};
 use crate::layout::{self, BaseLayout, PatchedMesh};
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Monitor, Portion, Stage};
@@ -77,7 +77,8 @@ fn result(input: MapInput<'_>, layout: BaseLayout, flows: &Flows, map: Patchwise
     MapResult {
         cone_curvatures: flows.cones.clone(),
         common: mapped_mesh(input.source, input.target, images, &flows.texture()),
-        patch_lines: [patch_lines(&layout.source, input.source), patch_lines(&layout.target, input.target)],
+        patch_lines: [(&layout.source, input.source), (&layout.target, input.target)]
+            .map(|(side, input)| patch_lines(&layout.base, side, input)),
         vertex_distortion: TiVec::new(),
         triangle_distortion: Vec::new(),
         correspondence: None,
@@ -89,12 +90,10 @@ fn result(input: MapInput<'_>, layout: BaseLayout, flows: &Flows, map: Patchwise
     }
 }
 
-/// The paths that the base domain was drawn along.
-fn patch_lines(side: &PatchedMesh, input: &SurfaceMesh) -> Vec<Vec<DVec3>> {
+/// The paths that the base domain was drawn along, one for each of its edges.
+fn patch_lines(base: &BaseDomain, side: &PatchedMesh, input: &SurfaceMesh) -> Vec<Vec<DVec3>> {
     let place = |v: &VertexId| side.vertex_origin[*v].position(input);
-    // Every path occurs in both directions; one is enough.
-    let once = side.paths.iter().filter(|p| p[0] < p[p.len() - 1]);
-    once.map(|path| path.iter().map(place).collect()).collect()
+    base.mesh.edges().map(|h| side.paths[h].iter().map(place).collect()).collect()
 }
 
 fn warnings(map: &PatchwiseMap) -> Vec<Warning> {

@@ -118,6 +118,30 @@ pub fn surface(mesh: &SurfaceMesh, shading: &Shading, frame: &Frame) -> (Vec<Sur
     (vertices, mesh.triangles().iter().flatten().map(|v| v.0).collect())
 }
 
+/// Triangles of points, each in its own light.
+pub fn facets(points: &[Vec3], triangles: &[[u32; 3]]) -> (Vec<SurfaceVertex>, Vec<u32>) {
+    let corners = |triangle: &[u32; 3]| {
+        let [p, q, r] = triangle.map(|v| points[v as usize]);
+        let normal = (q - p).cross(r - p).normalize_or(Vec3::Z).to_array();
+        [p, q, r].map(|position| SurfaceVertex {
+            position: position.to_array(),
+            normal,
+            distortion: 1.0,
+            ..SurfaceVertex::default()
+        })
+    };
+    let vertices: Vec<SurfaceVertex> = triangles.iter().flat_map(corners).collect();
+    let indices = (0..vertices.len() as u32).collect();
+    (vertices, indices)
+}
+
+/// The edges of a closed mesh, each once.
+pub fn edges(points: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec<Vec3>> {
+    let sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    // On a closed mesh each edge is run once in either direction.
+    sides.filter(|[a, b]| a < b).map(|side| side.map(|v| points[v as usize]).to_vec()).collect()
+}
+
 /// Ribbons along line strips: four vertices and six indices a segment.
 pub fn ribbons(strips: &[Vec<Vec3>]) -> (Vec<LineVertex>, Vec<u32>) {
     let (mut vertices, mut indices) = (Vec::new(), Vec::new());
@@ -156,6 +180,20 @@ mod tests {
         }
         let (vertices, indices) = surface(&moved, &Shading::of(&moved), &frame);
         assert_eq!((vertices.len(), indices.len()), (162, 960));
+    }
+
+    #[test]
+    fn facets_are_the_triangles_and_edges_their_sides() {
+        let sphere = icosphere(2);
+        let points: Vec<Vec3> = sphere.positions().iter().map(|p| p.as_vec3()).collect();
+        let triangles: Vec<[u32; 3]> = sphere.triangles().iter().map(|t| t.map(|v| v.0)).collect();
+        let (vertices, indices) = facets(&points, &triangles);
+        assert_eq!((vertices.len(), indices.len()), (960, 960));
+        for corner in &vertices {
+            // The normal of a small triangle of the unit ball is nearly its place.
+            assert!(Vec3::from_array(corner.normal).dot(Vec3::from_array(corner.position)) > 0.95);
+        }
+        assert_eq!(edges(&points, &triangles).len(), 480);
     }
 
     #[test]

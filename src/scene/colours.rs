@@ -18,6 +18,10 @@ const LANDMARKS: [Hex; 40] = [
 const CIVIDIS: [Hex; 10] =
     [0xffea46, 0xe4cf5b, 0xc4b56c, 0xa69d75, 0x8a8779, 0x707173, 0x575c6d, 0x39486b, 0x00336f, 0x00204d];
 
+/// The map `PuOr` at ten even places, reversed: from what shrinks to what grows (ColorBrewer), told apart also by the colour-blind.
+const SHRINKING_TO_GROWING: [Hex; SCALE_COLOURS] =
+    [0x2d004b, 0x542788, 0x8073ac, 0xb2abd2, 0xd8daeb, 0xfee0b6, 0xfdb863, 0xe08214, 0xb35806, 0x7f3b08];
+
 /// Number of colours on the scale of the distortion.
 pub const SCALE_COLOURS: usize = CIVIDIS.len();
 
@@ -32,6 +36,11 @@ pub fn landmark_colour(k: usize) -> [f32; 3] {
 /// Colours of the distortion, at even steps of its logarithm from 1 to [`SCALE_END`].
 pub fn distortion_scale() -> [[f32; 3]; SCALE_COLOURS] {
     CIVIDIS.map(linear)
+}
+
+/// Colours of factors of length, at even steps of the logarithm: from those that shrink to those that grow.
+pub fn factor_scale() -> [[f32; 3]; SCALE_COLOURS] {
+    SHRINKING_TO_GROWING.map(linear)
 }
 
 /// The standard's transfer function (IEC 61966-2-1) undone.
@@ -63,6 +72,14 @@ mod tests {
         let light = distortion_scale().map(|[r, g, b]| (0.2126 * r + 0.7152 * g + 0.0722 * b).cbrt());
         let steps: Vec<f32> = light.windows(2).map(|w| w[0] - w[1]).collect();
         assert!(steps.iter().all(|step| (0.02..0.12).contains(step)), "{steps:?}");
+    }
+
+    #[test]
+    fn factors_are_lightest_in_the_middle_and_warm_where_they_grow() {
+        let light = factor_scale().map(|[r, g, b]| 0.2126 * r + 0.7152 * g + 0.0722 * b);
+        assert!(light[..5].is_sorted() && light[5..].iter().rev().is_sorted(), "{light:?}");
+        assert!(factor_scale()[..5].iter().all(|[r, _, b]| b > r));
+        assert!(factor_scale()[5..].iter().all(|[r, _, b]| r > b));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The pipeline in the worker.
 
 use super::{failure, output_file};
-use crate::job::{Job, JobError, JobFiles, MeshFaults, OutputKind, ReadOptions};
+use crate::job::{BasePicture, Job, JobError, JobFiles, MeshFaults, OutputKind, ReadOptions};
 use crate::landmark_exchange::GivenFile;
 use crate::mesh::repair::RepairOptions;
 use crate::monitor::{Cancelled, MapPreview, Monitor, PlannedStage, PreviewOf, Progress, Stage, Step};
@@ -180,6 +180,8 @@ pub(super) struct Shown {
     pub patch_lines: [Vec<Vec<DVec3>>; 2],
     /// Curvature of each landmark's cone, in radians.
     pub cones: Vec<f64>,
+    /// `None` where the map does not tell how the base domain lies on the meshes.
+    pub base: Option<BasePicture>,
     /// JSON.
     pub report: String,
 }
@@ -210,9 +212,15 @@ impl MapOutput {
             common: result.common.clone(),
             patch_lines: std::mem::take(&mut result.patch_lines),
             cones: result.cone_curvatures.clone(),
+            base: Some(job.base_picture(&result)),
             report: serde_json::to_string_pretty(&result.report).unwrap_or_default(),
         };
         Self { shown, run: Some(FinishedRun { job, result, choices }) }
+    }
+
+    /// What the views show of it.
+    pub(super) fn shown(&self) -> &Shown {
+        &self.shown
     }
 
     fn run(&self) -> Result<&FinishedRun, JsValue> {
@@ -257,7 +265,8 @@ pub fn run_map(
     Ok(MapOutput::of_run(job, result, choices))
 }
 
-fn flat3(points: &[DVec3]) -> Vec<f32> {
+/// Coordinates of points in single precision, one after the other.
+pub(super) fn flat3(points: &[DVec3]) -> Vec<f32> {
     points.iter().flat_map(|p| p.as_vec3().to_array()).collect()
 }
 

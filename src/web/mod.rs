@@ -1,14 +1,17 @@
 //! The wasm boundary: typed arrays in and out, errors as JSON with a stable code and a sentence.
 
+mod base_output;
 mod compute;
 mod defects;
 mod files;
+mod flows;
 mod landmark_files;
 mod loaded_mesh;
 mod matching;
 mod output_file;
 mod repair;
 mod saved;
+mod simplification;
 mod view_side;
 mod viewer;
 

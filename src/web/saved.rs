@@ -103,6 +103,7 @@ impl SavedMap {
             common,
             patch_lines: map.patch_lines(),
             cones: map.map().cones.clone(),
+            base: map.base_picture(),
             report: serde_json::to_string_pretty(&report).unwrap_or_default(),
         }))
     }

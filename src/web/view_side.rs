@@ -13,7 +13,7 @@ use crate::scene::colours::landmark_colour;
 use crate::scene::defects::{DefectBuffers, painted, surface_as_read};
 use crate::scene::hollows::carried;
 use crate::scene::pins::{Pin, STEM, Stand, distance_to_pin};
-use crate::scene::{Camera, Glide, Picker, PinInstance, Pose, Ray, Shading, SurfaceVertex, UpAxis};
+use crate::scene::{Camera, Glide, Patches, Picker, PinInstance, Pose, Ray, Shading, SurfaceVertex, UpAxis};
 use glam::{DVec3, Vec2, Vec3};
 use rustc_hash::FxHashMap;
 use serde::Deserialize;
@@ -64,6 +64,14 @@ pub(super) struct Side {
     pub lines: Option<Mesh>,
     /// The mesh with the places to which a map that is being made takes its vertices.
     pub preview: Option<Preview>,
+    /// The patches of the result, where they are asked for.
+    pub patches: Option<Patches>,
+    /// What of them is lit up.
+    pub lit: Lit,
+    /// The mesh in colours of a flow, while one is shown.
+    pub factors: Option<Factors>,
+    /// The mesh on its way to its landmarks, while that is shown.
+    pub stage: Option<CoarseStage>,
     /// In pair order; `None` where not picked yet.
     pub landmarks: Vec<Option<Landmark>>,
     /// Points that the page marks itself.
@@ -94,6 +102,41 @@ impl Preview {
         vertices.iter_mut().zip(places).for_each(|(vertex, place)| vertex.image = place.to_array());
         Self { mesh: renderer.surface_mesh(&vertices, &indices), vertices, indices }
     }
+}
+
+/// A mesh some collapses on.
+pub(super) struct CoarseStage {
+    pub surface: Mesh,
+    /// `None` where they would lie too close to be told apart.
+    pub edges: Option<Mesh>,
+}
+
+/// A mesh in colours of factors of length.
+pub(super) struct Factors {
+    vertices: Vec<SurfaceVertex>,
+    indices: Vec<u32>,
+    pub mesh: Mesh,
+}
+
+impl Factors {
+    /// A mesh with two places on the scale of factors for each vertex, between which it is shown; what the last one of the same mesh has
+    /// made is used again.
+    pub fn new(last: Option<Self>, own: &SideMesh, places: [&[f32]; 2], renderer: &Renderer) -> Self {
+        let (mut vertices, indices) = match last {
+            Some(last) => (last.vertices, last.indices),
+            None => surface(&own.checked.mesh, &own.frame),
+        };
+        let uvs = places[0].iter().zip(places[1]).map(|(from, to)| [*from, *to]);
+        vertices.iter_mut().zip(uvs).for_each(|(vertex, uv)| vertex.uv = uv);
+        Self { mesh: renderer.surface_mesh(&vertices, &indices), vertices, indices }
+    }
+}
+
+/// Parts of a map that are lit up on a mesh.
+#[derive(Default)]
+pub(super) struct Lit {
+    pub surface: Option<Mesh>,
+    pub lines: Option<Mesh>,
 }
 
 /// How a mesh was looked at.
@@ -234,6 +277,10 @@ impl Side {
     pub fn clear_result(&mut self) {
         self.overlay = None;
         self.lines = None;
+        self.patches = None;
+        self.lit = Lit::default();
+        self.factors = None;
+        self.stage = None;
         self.probe = None;
     }
 

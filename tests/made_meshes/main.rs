@@ -29,6 +29,7 @@ mod rough_meshes;
 
 mod agreement;
 mod base;
+mod base_picture;
 mod borders;
 mod bounds;
 #[cfg(feature = "cli")]

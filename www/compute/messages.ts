@@ -28,6 +28,30 @@ export interface SideOutput {
   readonly lineStarts: Uint32Array;
 }
 
+/** The base domain of a map. */
+export interface BaseOutput {
+  /** Its triangles, three cones each. The first cones are the landmarks, the others the program's own. */
+  readonly triangles: Uint32Array;
+  /** By triangle and corner k the number of the patch line from corner k to k + 1. */
+  readonly sides: Uint32Array;
+  /** In the shape of the source and of the target. */
+  readonly shapes: readonly [BaseShape, BaseShape];
+}
+
+/** The base domain on one mesh. */
+export interface BaseShape {
+  /** Where the cones are, three numbers each. */
+  readonly cones: Float32Array;
+  /** Angle defect at each cone, in radians. */
+  readonly curvatures: Float64Array;
+  /** Corners of the mesh's parts, three numbers a point. */
+  readonly patchPoints: Float32Array;
+  /** Those parts as triangles, patch after patch in the order of the base triangles; none where they are not known. */
+  readonly patchTriangles: Uint32Array;
+  /** Where each patch starts among the triangles, and one past the end. */
+  readonly patchStarts: Uint32Array;
+}
+
 /** A finished map. */
 export interface RunOutput {
   readonly sides: readonly [SideOutput, SideOutput];
@@ -36,6 +60,8 @@ export interface RunOutput {
   readonly distortion: Float32Array;
   readonly triangles: Uint32Array;
   readonly cones: Float64Array;
+  /** `null` where it is not known how it lies on the meshes. */
+  readonly base: BaseOutput | null;
   /** JSON. */
   readonly report: string;
   /** The map file, from which every other file can be made; `null` where the map has no pieces, or a mesh was repaired. */

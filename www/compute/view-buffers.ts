@@ -1,6 +1,6 @@
 /** A map of the core as arrays that can be sent. */
 import type { MapOutput, SavedMap } from '../wasm/conemap.js';
-import type { SideOutput } from './messages.ts';
+import type { BaseOutput, BaseShape, SideOutput } from './messages.ts';
 import type { MapBuffers, OpenedMap } from './saved-messages.ts';
 
 function sideOf(output: MapOutput, side: number): SideOutput {
@@ -12,6 +12,25 @@ function sideOf(output: MapOutput, side: number): SideOutput {
   };
 }
 
+function shapeOf(output: MapOutput, side: number): BaseShape {
+  return {
+    cones: output.baseCones(side),
+    curvatures: output.baseCurvatures(side),
+    patchPoints: output.patchPoints(side),
+    patchTriangles: output.patchTriangles(side),
+    patchStarts: output.patchStarts(side),
+  };
+}
+
+function baseOf(output: MapOutput): BaseOutput | null {
+  const triangles = output.baseTriangles();
+  return triangles.length === 0 ? null : { triangles, sides: output.baseSides(), shapes: [shapeOf(output, 0), shapeOf(output, 1)] };
+}
+
+function arraysOf(base: BaseOutput): readonly ArrayBufferView[] {
+  return [base.triangles, base.sides, ...base.shapes.flatMap((shape) => Object.values(shape) as readonly ArrayBufferView[])];
+}
+
 /** What the views show of a map. */
 export function viewBuffers(output: MapOutput): MapBuffers {
   return {
@@ -20,6 +39,7 @@ export function viewBuffers(output: MapOutput): MapBuffers {
     distortion: output.distortion(),
     triangles: output.triangles(),
     cones: output.cones(),
+    base: baseOf(output),
     report: output.report(),
   };
 }
@@ -40,6 +60,7 @@ export function transferable(buffers: MapBuffers, files: readonly Uint8Array[]):
     buffers.distortion,
     buffers.triangles,
     buffers.cones,
+    ...(buffers.base === null ? [] : arraysOf(buffers.base)),
     ...files,
   ];
   return [...new Set(arrays.map((array) => array.buffer))].filter((buffer) => buffer instanceof ArrayBuffer);

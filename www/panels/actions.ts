@@ -1,5 +1,6 @@
 /** What the page's parts ask for, and what each of them is given. */
 import type { Side, SurfacePoint } from '../landmarks.ts';
+import type { BaseHands, WatchHands } from '../method/hands.ts';
 import type { prospectSentence } from '../messages.ts';
 import type { Event } from '../store/events.ts';
 import type { Examined } from '../store/defects.ts';
@@ -67,6 +68,12 @@ export interface Actions {
   readonly camera: (side: Side, command: CameraCommand) => void;
   /** Shows the source on its way to the target's shape until the style changes: 0 is the source's shape, 1 the target's. */
   readonly morph: (share: number) => void;
+  /** What the picture of the base domain needs of the views. */
+  readonly baseView: BaseHands;
+  /** What the flows that are watched need of the page. */
+  readonly flow: WatchHands<'flows'>;
+  /** Likewise the simplification. */
+  readonly simplification: WatchHands<'simplifications'>;
   /** The axis of a mesh that seems to point up by its shape; `null` where the shape does not tell. */
   readonly proposedUp: (side: Side) => Axis | null;
   /** Turns both views to a pair's points. */

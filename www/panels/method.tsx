@@ -3,9 +3,11 @@ import type { VNode } from 'preact';
 import { integer } from '../numbers.ts';
 import type { Report } from '../report.ts';
 import type { PartProps } from './actions.ts';
+import { BaseView } from './base-view.tsx';
 import { Icon } from './icons.tsx';
 import { LineChoice } from './picture-bar.tsx';
 import { PlotsButton } from './plots-dialog.tsx';
+import { WatchView } from './watch-view.tsx';
 
 interface Stage {
   readonly name: string;
@@ -44,10 +46,13 @@ const STAGES: readonly Stage[] = [
 ];
 
 /** The panel's content. */
-export function MethodPanel({ state, actions, shell }: PartProps): VNode {
+export function MethodPanel(props: PartProps): VNode {
+  const { state, actions, shell } = props;
   const { result } = state;
   return (
     <div class="content">
+      <BaseView {...props} />
+      <WatchView {...props} />
       <section>
         <h3>On the meshes</h3>
         <LineChoice state={state} actions={actions} />

@@ -7,6 +7,8 @@ export type Theme = State['ui']['theme'];
 export interface Probe {
   /** The distortion there, 1 for none; `null` where it is not known. */
   readonly distortion: number | null;
+  /** The base triangle in whose patch it lies; `null` where nobody looks at the base domain. */
+  readonly patch: number | null;
 }
 
 /** The first steps and keys; the guide, from a section on (empty for its beginning); the plots of the last map. */

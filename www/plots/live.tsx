@@ -3,6 +3,7 @@ import type { VNode } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
+import { useDarkness } from '../darkness.ts';
 import type { Axis, Chart, Curve } from './chart.ts';
 import { indexAt, markText, reading } from './chart.ts';
 import { FAINT } from './files.ts';
@@ -86,22 +87,6 @@ function draw(element: HTMLElement, chart: Chart, asked: (index: number | null) 
   return new uPlot(options, [[...chart.at], ...chart.curves.map(({ values }) => [...values])], element);
 }
 
-/** Draws anew when the page turns light or dark. */
-function useDarkness(): boolean {
-  const query = window.matchMedia('(prefers-color-scheme: dark)');
-  const [isDark, setDark] = useState(query.matches);
-  useEffect(() => {
-    const told = (): void => {
-      setDark(query.matches);
-    };
-    query.addEventListener('change', told);
-    return () => {
-      query.removeEventListener('change', told);
-    };
-  }, []);
-  return isDark;
-}
-
 interface LiveProps {
   readonly chart: Chart;
   /** The page's theme; another one has other colours. */
@@ -113,7 +98,7 @@ export function LivePlot({ chart, theme }: LiveProps): VNode {
   const root = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot | null>(null);
   const [index, setIndex] = useState<number | null>(null);
-  const isDark = useDarkness();
+  const isDark = useDarkness(theme);
   useEffect(() => {
     const element = root.current;
     if (element === null) {

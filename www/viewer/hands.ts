@@ -249,8 +249,11 @@ export class Hands {
     }
     // Rings that somebody else asked for go, too.
     const shown = viewer.clearProbe();
+    this.#bench.picture.bringPatches(viewer);
     const probe = probeOf(side, viewer.probe(side, at.x, at.y));
-    if (probe !== null || shown || this.#probed) {
+    const patch = probe?.patch ?? null;
+    const lit = this.#bench.picture.light(viewer, patch === null ? null : { kind: 'face', index: patch });
+    if (probe !== null || shown || lit || this.#probed) {
       this.#probed = probe !== null;
       this.#bench.act(() => undefined);
       this.#bench.probed(probe);
@@ -268,6 +271,7 @@ export class Hands {
       this.#probed = false;
       this.#bench.act((viewer) => {
         viewer.clearProbe();
+        this.#bench.picture.light(viewer, null);
       });
       this.#bench.probed(null);
     }

@@ -1,5 +1,6 @@
-/** What the views show in the place of the meshes as they are: refused meshes, defects, a map in the making. */
+/** What the views show in the place of the meshes as they are: refused meshes, defects, a map in the making, coarser meshes. */
 import { SIDES } from '../landmarks.ts';
+import type { StageFrame } from '../method/hands.ts';
 import { shownDefects } from '../store/defects.ts';
 import { shownPreview } from '../store/job.ts';
 import type { State } from '../store/state.ts';
@@ -32,5 +33,16 @@ export function showPreview(viewer: Viewer, state: State): void {
     viewer.clearPreview();
   } else {
     viewer.setPreview(preview);
+  }
+}
+
+/** Both meshes on their way to their landmarks, or as they are. */
+export function showStage(viewer: Viewer, frame: StageFrame | null): void {
+  if (frame === null) {
+    viewer.clearStages();
+    return;
+  }
+  for (const side of SIDES) {
+    viewer.setStage(side, frame.sides[side].positions, frame.sides[side].triangles);
   }
 }

@@ -1,6 +1,9 @@
 /** What a map brings to the picture: each of its buffers goes to the renderer when the picture needs it, and not before. */
 import type { Side } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
+import type { FlowFrame } from '../method/hands.ts';
+import type { BasePart } from '../method/parts.ts';
+import { litBy } from '../method/parts.ts';
 import type { Result, Style } from '../store/state.ts';
 import type { Viewer } from '../wasm/conemap.js';
 
@@ -20,7 +23,12 @@ export class Picture {
   #overlays = new Set<Side>();
   #lines = false;
   #map = false;
+  #patches = false;
+  #lit: BasePart | null = null;
   #isMorphed = false;
+  #moment: FlowFrame['places'] | null = null;
+  /** Whether somebody looks at the base domain, whose parts light up on the meshes. */
+  wantsPatches = false;
 
   /** Whether the source is shown in another shape than its own: nothing on it is where its mesh has it. */
   get isMorphed(): boolean {
@@ -34,7 +42,10 @@ export class Picture {
     this.#overlays = new Set();
     this.#lines = false;
     this.#map = false;
+    this.#patches = false;
+    this.#lit = null;
     this.#isMorphed = false;
+    this.#moment = null;
   }
 
   /** Brings the map's triangles on one side; whether there is a map. */
@@ -82,5 +93,56 @@ export class Picture {
       this.#map = true;
     }
     return this.#map;
+  }
+
+  /** Brings the patches where somebody wants them; whether there are any. */
+  bringPatches(viewer: Viewer): boolean {
+    const base = this.#result?.output.base ?? null;
+    if (this.#result !== null && base !== null && this.wantsPatches && !this.#patches) {
+      for (const side of SIDES) {
+        const { patchPoints, patchTriangles, patchStarts } = base.shapes[side];
+        const { linePoints, lineStarts } = this.#result.output.sides[side];
+        viewer.setPatches(side, patchPoints, patchTriangles, patchStarts, linePoints, lineStarts);
+      }
+      this.#patches = true;
+    }
+    return this.#patches;
+  }
+
+  /** Lights up what a part of the base domain is on both meshes, in the place of what was lit up; whether that is another part. */
+  light(viewer: Viewer, part: BasePart | null): boolean {
+    const isOther = this.#lit?.kind !== part?.kind || this.#lit?.index !== part?.index;
+    const base = this.#result?.output.base ?? null;
+    if (!isOther || base === null || !this.bringPatches(viewer)) {
+      return false;
+    }
+    this.#lit = part;
+    const { patch, lines } = litBy(base, part);
+    viewer.light(patch ?? undefined, Uint32Array.from(lines));
+    return true;
+  }
+
+  /** Shows the flows on both meshes in the place of the style's picture; `null` for that again. */
+  showFlow(viewer: Viewer, frame: FlowFrame | null): void {
+    if (frame === null) {
+      viewer.clearFactors();
+      this.#moment = null;
+      return;
+    }
+    if (this.#moment !== frame.places) {
+      for (const side of SIDES) {
+        viewer.setFactors(side, frame.places[side].from, frame.places[side].to);
+      }
+      this.#moment = frame.places;
+    }
+    viewer.blendFactors(frame.share);
+  }
+
+  /** Nobody looks at the base domain any more. */
+  leavePatches(viewer: Viewer): void {
+    this.wantsPatches = false;
+    this.#patches = false;
+    this.#lit = null;
+    viewer.clearPatches();
   }
 }

@@ -14,6 +14,8 @@ export interface Probe {
   readonly positions: readonly [Position, Position];
   /** Distortion of the map there, 1 for none; `null` where it is not known. */
   readonly distortion: number | null;
+  /** The base triangle in whose patch the place lies; `null` where nobody asks for patches, or there are none. */
+  readonly patch: number | null;
 }
 
 /** What the renderer answers; `null` where there is no answer. */

@@ -4,6 +4,10 @@ import { byId } from '../dom.ts';
 import type { Side, SurfacePoint } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
 import { failureSentence, SENTENCES } from '../messages.ts';
+import type { Axes } from '../method/axes.ts';
+import { axesOf } from '../method/axes.ts';
+import type { FlowFrame, StageFrame } from '../method/hands.ts';
+import type { BasePart } from '../method/parts.ts';
 import type { Examined } from '../store/defects.ts';
 import type { Event } from '../store/events.ts';
 import { shownPreview } from '../store/job.ts';
@@ -14,7 +18,7 @@ import type { Direction } from './cameras.ts';
 import { cameraOf, Cameras } from './cameras.ts';
 import type { Box } from './gestures.ts';
 import { Hands } from './hands.ts';
-import { showDefects, showPreview } from './instead.ts';
+import { showDefects, showPreview, showStage } from './instead.ts';
 import { HELP } from './keys.ts';
 import { Labels } from './labels.ts';
 import { Picture } from './picture.ts';
@@ -64,6 +68,8 @@ export class Views {
   #rest = 0;
   #preparing = 0;
   #isPreparing = false;
+  /** Who looks at the base domain, and how the cameras were turned when they were last told. */
+  #base: { readonly turned: () => void; told: string } | null = null;
 
   constructor(state: State, listener: ViewListener) {
     const canvas = byId('canvas');
@@ -218,6 +224,53 @@ export class Views {
     if (visible < 0.5 || Math.max(Math.abs(x), Math.abs(y)) > IN_SIGHT) {
       this.lookAt(side, point);
     }
+  }
+
+  /** From now on patches light up under the mouse, and `turned` hears when a camera has turned; the returned function ends it. */
+  openBase(turned: () => void): () => void {
+    const base = { turned, told: '' };
+    this.#base = base;
+    this.#picture.wantsPatches = true;
+    return () => {
+      if (this.#base === base) {
+        this.#base = null;
+        this.#with((viewer) => {
+          this.#picture.leavePatches(viewer);
+        });
+      }
+    };
+  }
+
+  /** How the camera of a side is turned; `null` without a renderer. */
+  axes(side: Side): Axes | null {
+    return this.#viewer === null || this.#lost ? null : axesOf(this.#viewer.axes(side));
+  }
+
+  /** Turns a view as a drag does, in units of the view's height, y up. */
+  orbit(side: Side, dx: number, dy: number, way: 'smoothly' | 'at once'): void {
+    this.#cameras.orbit(side, dx, dy, way);
+    this.#moved(side);
+  }
+
+  /** Shows the flows on both meshes; `null` for the meshes as before. */
+  showFlow(frame: FlowFrame | null): void {
+    this.#with((viewer) => {
+      this.#picture.showFlow(viewer, frame);
+    });
+  }
+
+  /** Shows both meshes on their way to their landmarks; `null` for the meshes as before. */
+  showStage(frame: StageFrame | null): void {
+    this.#with((viewer) => {
+      showStage(viewer, frame);
+    });
+  }
+
+  /** Lights up what a part of the base domain is on both meshes. */
+  light(part: BasePart | null): void {
+    this.#with((viewer) => {
+      this.#picture.light(viewer, part);
+    });
   }
 
   #command(side: Side | 'both', action: (side: Side) => void): void {
@@ -422,12 +475,22 @@ export class Views {
       this.#hands.follow(viewer);
       const more = viewer.render(now);
       this.#placeMarks(viewer);
+      this.#tellBase(viewer);
       return more;
     } catch (thrown) {
       console.error(thrown);
       this.#viewer = null;
       this.#listener.undrawn(SENTENCES.contextGone);
       return false;
+    }
+  }
+
+  /** The base domain turns with the views. */
+  #tellBase(viewer: Viewer): void {
+    const turns = this.#base === null ? '' : SIDES.map((side) => viewer.axes(side).join(' ')).join(';');
+    if (this.#base !== null && this.#base.told !== turns) {
+      this.#base.told = turns;
+      this.#base.turned();
     }
   }
 

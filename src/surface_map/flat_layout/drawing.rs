@@ -9,6 +9,7 @@ use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::DVec2;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
+use typed_index_collections::{TiVec, ti_vec};
 
 /// One mesh on the flat triangles of its base domain.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -66,6 +67,37 @@ impl FlatDrawing {
         base.edges().map(line).collect()
     }
 
+    /// The parts of the mesh as triangles, chart after chart, and where each chart starts among them, with one past the end. Corners
+    /// are numbers of vertices; a part is convex, and cut from its first corner.
+    pub fn triangles_by_chart(&self, charts: usize) -> TrianglesByChart {
+        let mut by_chart: Vec<Vec<[u32; 3]>> = vec![Vec::new(); charts];
+        for polygon in &self.polygons {
+            let corners = &self.corners[polygon.corners.clone()];
+            let fan = corners.windows(2).skip(1).map(|side| [corners[0], side[0], side[1]]);
+            by_chart[polygon.chart.index()].extend(fan);
+        }
+        let mut starts = vec![0];
+        starts.extend(by_chart.iter().scan(0, |end, chart| {
+            *end += chart.len();
+            Some(*end)
+        }));
+        TrianglesByChart { triangles: by_chart.concat(), starts }
+    }
+
+    /// Where each vertex of the base domain lies on the mesh; `None` for one that the drawing does not have.
+    pub fn cones(&self, base: &SurfaceMesh) -> TiVec<VertexId, Option<Place>> {
+        let mut cones = ti_vec![None; base.vertex_count()];
+        for polygon in &self.polygons {
+            for &v in &self.corners[polygon.corners.clone()] {
+                let FlatVertex { place, weights } = self.vertices[v as usize];
+                if let Some(corner) = weights.iter().position(|&weight| weight == 1.0) {
+                    cones[base.triangles()[polygon.chart][corner]] = Some(place);
+                }
+            }
+        }
+        cones
+    }
+
     /// The same drawing told of the mesh that its mesh refines.
     #[must_use]
     pub fn carried(&self, carrier: Carrier<'_>) -> Self {
@@ -77,6 +109,15 @@ impl FlatDrawing {
             corners: self.corners.clone(),
         }
     }
+}
+
+/// The parts of a mesh, sorted by the chart that they lie in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TrianglesByChart {
+    /// Three corners each.
+    pub triangles: Vec<[u32; 3]>,
+    /// By chart, and one past the end.
+    pub starts: Vec<usize>,
 }
 
 /// A chart as seen from the plane of a face.

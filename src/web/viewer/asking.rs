@@ -56,7 +56,8 @@ impl Viewer {
     }
 
     /// Asks the map at a place of a view, and marks the place and its partner with rings: JSON `{"points", "positions",
-    /// "distortion"}`, the first two by side, the last null where it is not known. `undefined` where there is no map.
+    /// "distortion", "patch"}`, the first two by side, the last two null where they are not known: the patch is that of the source, as
+    /// [`Viewer::set_patches`] numbers it. `undefined` where there is no map.
     pub fn probe(&mut self, side: usize, x: f32, y: f32) -> Option<String> {
         self.clear_probe();
         let side = side.min(1);
@@ -111,7 +112,11 @@ impl Viewer {
             points.push(mesh.in_file(point));
             side.probe = Some(mesh.frame.place(position));
         }
+        let patch = self.sides[0].patches.as_mut().and_then(|patches| patches.nearest(place.positions[0]));
         let positions = place.positions.map(|p| p.to_array());
-        Some(json!({ "points": points, "positions": positions, "distortion": place.distortion }).to_string())
+        let answer = json!({
+            "points": points, "positions": positions, "distortion": place.distortion, "patch": patch,
+        });
+        Some(answer.to_string())
     }
 }

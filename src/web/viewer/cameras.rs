@@ -138,6 +138,13 @@ impl Viewer {
         (!side.is_first_look()).then(|| side.camera.to_numbers().to_vec())
     }
 
+    /// How a view's camera is turned now: right and up on the screen and back to the viewer, in the mesh's coordinates, three numbers
+    /// each.
+    pub fn axes(&self, side: usize) -> Vec<f32> {
+        let pose = self.side(side).pose(self.now);
+        [pose.right(), pose.up(), pose.back()].map(|axis| axis.to_array()).concat()
+    }
+
     /// Puts a camera where one stood.
     ///
     /// # Errors

@@ -68,6 +68,8 @@ pub struct Viewer {
     pub(super) morph: f32,
     /// Lays the target on the source, in scene coordinates.
     pub(super) source_from_target: Mat4,
+    /// Share of the way between the two moments of a flow that is shown.
+    pub(super) factor_share: f32,
     pub(super) pixel_ratio: f32,
     /// The time of the last frame.
     pub(super) now: f64,
@@ -89,6 +91,7 @@ impl Viewer {
             map: None,
             morph: 0.0,
             source_from_target: Mat4::IDENTITY,
+            factor_share: 0.0,
             pixel_ratio: 1.0,
             now: 0.0,
         })

@@ -54,6 +54,8 @@ impl Viewer {
             surface: None,
             under: None,
             painted: defects.and_then(|defects| defects.painted.as_ref()),
+            tinted: None,
+            traced: None,
             lines: None,
             marks: defects.and_then(|defects| defects.lines.as_ref()),
             dash: self.dash(side, pose),
@@ -68,6 +70,19 @@ impl Viewer {
             let surface = if k == 0 { Some(&preview.mesh) } else { own };
             return ViewDraw { paint: Paint::Pattern, surface, ..bare };
         }
+        if let Some(stage) = side.stage.as_ref().filter(|_| !self.is_morphed(k)) {
+            let palette = Palette { line: [0.03, 0.03, 0.03], ..self.palette() };
+            let line_half_width = 0.55 * self.pixel_ratio;
+            let lines = stage.edges.as_ref();
+            return ViewDraw { palette, line_half_width, surface: Some(&stage.surface), lines, ..bare };
+        }
+        if let Some(factors) = &side.factors
+            && !self.is_morphed(k)
+        {
+            let lines = side.lines.as_ref().filter(|_| style.patch_lines);
+            let paint = Paint::Factors(self.factor_share);
+            return ViewDraw { paint, surface: Some(&factors.mesh), lines, ..bare };
+        }
         let paint = style.surface.paint();
         let morph = if k == 0 && side.overlay.is_some() { self.morph } else { 0.0 };
         let shows_own = morph == 0.0 && (paint == Paint::Plain || (k == 1 && style.surface.is_of_places()));
@@ -78,6 +93,8 @@ impl Viewer {
             wipe: style.wipe.filter(|_| k == 0).unwrap_or(0.0),
             surface: overlay.or(own),
             under: own.filter(|_| style.holes && overlay.is_some() && morph == 0.0),
+            tinted: side.lit.surface.as_ref().filter(|_| morph == 0.0),
+            traced: side.lit.lines.as_ref().filter(|_| morph == 0.0),
             lines: side.lines.as_ref().filter(|_| style.patch_lines && morph == 0.0),
             ..bare
         }

@@ -2,7 +2,7 @@
 
 use super::super::view_side::Side;
 use super::canvas::Viewer;
-use super::reading::point;
+use super::reading::{point, strips};
 use crate::scene::buffers::ribbons;
 use crate::scene::morph::laid_on;
 use crate::scene::{MapPicker, SurfaceVertex};
@@ -60,11 +60,9 @@ impl Viewer {
     #[wasm_bindgen(js_name = setLines)]
     pub fn set_lines(&mut self, side: usize, points: &[f32], starts: &[u32]) {
         let Some(mesh) = &self.sides[side.min(1)].mesh else { return };
-        let points: Vec<Vec3> =
-            points.chunks_exact(3).map(|p| mesh.frame.place(point([p[0], p[1], p[2]]))).collect();
-        let strips: Vec<Vec<Vec3>> = starts
-            .windows(2)
-            .filter_map(|w| points.get(w[0] as usize..w[1] as usize).map(<[Vec3]>::to_vec))
+        let strips: Vec<Vec<Vec3>> = strips(points, starts)
+            .into_iter()
+            .map(|strip| strip.into_iter().map(|p| mesh.frame.place(p)).collect())
             .collect();
         let (vertices, indices) = ribbons(&strips);
         let uploaded = self.renderer.line_mesh(&vertices, &indices);

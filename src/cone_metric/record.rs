@@ -1,0 +1,111 @@
+//! A flow from step to step, to be looked at: recorded only where somebody asks.
+
+use crate::mesh::VertexId;
+use typed_index_collections::{TiSlice, TiVec};
+
+/// So many moments are kept at most; of a longer flow every second, fourth, ... step, and the last.
+const MOST_MOMENTS: usize = 24;
+
+/// A flow before its first Newton step and after steps.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FlowRecord {
+    /// In order, the first before the first step.
+    pub moments: Vec<FlowMoment>,
+    /// Whether the last one has the target curvatures, to the tolerance.
+    pub converged: bool,
+}
+
+/// A flow after a Newton step.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FlowMoment {
+    /// Steps so far.
+    pub step: usize,
+    /// max |target - curvature|, in radians.
+    pub residual: f64,
+    /// Conjugate gradient iterations so far.
+    pub cg_iterations: usize,
+    /// Edge flips so far, those of rejected trial steps included.
+    pub edge_flips: usize,
+    /// Logarithm of the factor that lengths at each vertex have grown by.
+    pub log_factors: TiVec<VertexId, f64>,
+}
+
+impl FlowRecord {
+    /// The same with log factors whose mean, by the weights of the vertices, is 0 at every moment: flat metrics differ by a scale alone,
+    /// which means nothing.
+    #[must_use]
+    pub fn centred(mut self, weights: &TiSlice<VertexId, f64>) -> Self {
+        let whole: f64 = weights.iter().sum();
+        for moment in &mut self.moments {
+            let mean = moment.log_factors.iter().zip(weights).map(|(u, w)| u * w).sum::<f64>() / whole;
+            moment.log_factors.iter_mut().for_each(|u| *u -= mean);
+        }
+        self
+    }
+}
+
+/// Takes moments of a flow; memory stays bounded however long it is.
+#[derive(Debug)]
+pub(super) struct Recorder {
+    /// Log radii before the first step.
+    start: TiVec<VertexId, f64>,
+    moments: Vec<FlowMoment>,
+    /// Each so many steps one is kept.
+    every: usize,
+}
+
+impl Recorder {
+    pub fn new(start: TiVec<VertexId, f64>) -> Self {
+        Self { start, moments: Vec::new(), every: 1 }
+    }
+
+    /// Takes a moment with these log radii.
+    pub fn take(&mut self, moment: FlowMoment, log_radii: &TiSlice<VertexId, f64>) {
+        // The last one is of now; it stays only where its step is one of those that are kept.
+        if self.moments.last().is_some_and(|last| last.step % self.every != 0) {
+            self.moments.pop();
+        }
+        if self.moments.len() == MOST_MOMENTS {
+            self.every *= 2;
+            let every = self.every;
+            self.moments.retain(|kept| kept.step % every == 0);
+        }
+        let log_factors = log_radii.iter().zip(&self.start).map(|(u, start)| u - start).collect();
+        self.moments.push(FlowMoment { log_factors, ..moment });
+    }
+
+    pub fn record(self, converged: bool) -> FlowRecord {
+        FlowRecord { moments: self.moments, converged }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use typed_index_collections::ti_vec;
+
+    #[test]
+    fn a_long_flow_is_sampled_evenly_with_its_first_and_last_moment() {
+        for steps in [0, 5, 23, 24, 60, 1000] {
+            let mut recorder = Recorder::new(ti_vec![1.0; 3]);
+            for step in 0..=steps {
+                recorder.take(FlowMoment { step, ..FlowMoment::default() }, &ti_vec![1.0 + step as f64; 3]);
+            }
+            let FlowRecord { moments, .. } = recorder.record(true);
+            let kept: Vec<usize> = moments.iter().map(|moment| moment.step).collect();
+            assert_eq!((kept[0], kept[kept.len() - 1]), (0, steps), "{kept:?}");
+            assert!(kept.len() <= MOST_MOMENTS && kept.len() > steps.min(MOST_MOMENTS) / 2, "{kept:?}");
+            let apart: Vec<usize> = kept.windows(2).map(|w| w[1] - w[0]).collect();
+            assert!(apart.iter().rev().skip(1).all(|&gap| gap == apart[0]), "{kept:?}");
+            assert!(moments.iter().all(|moment| moment.log_factors[VertexId(2)] == moment.step as f64));
+        }
+    }
+
+    #[test]
+    fn centred_factors_have_mean_0_by_weight() {
+        let moment = FlowMoment { log_factors: ti_vec![1.0, 2.0, 4.0], ..FlowMoment::default() };
+        let record = FlowRecord { moments: vec![moment], converged: true };
+        let centred = record.centred(&ti_vec![1.0, 1.0, 2.0]);
+        assert_eq!(centred.moments[0].log_factors.raw, [-1.75, -0.75, 1.25]);
+    }
+}

@@ -1,0 +1,57 @@
+//! The base domain of a finished map, for the page.
+
+use super::compute::{MapOutput, flat3};
+use crate::job::BaseShape;
+use wasm_bindgen::prelude::*;
+
+#[wasm_bindgen]
+impl MapOutput {
+    /// Triangles of the base domain: three cones each; empty where it is not known how it lies on the meshes.
+    #[wasm_bindgen(js_name = baseTriangles)]
+    pub fn base_triangles(&self) -> Vec<u32> {
+        self.shown().base.as_ref().map(|base| base.triangles.concat()).unwrap_or_default()
+    }
+
+    /// By base triangle and corner k the number of the patch line from corner k to k + 1.
+    #[wasm_bindgen(js_name = baseSides)]
+    pub fn base_sides(&self) -> Vec<u32> {
+        self.shown().base.as_ref().map(|base| base.sides.concat()).unwrap_or_default()
+    }
+
+    /// Where the cones are on the source (0) or the target (1), three numbers each.
+    #[wasm_bindgen(js_name = baseCones)]
+    pub fn base_cones(&self, side: usize) -> Vec<f32> {
+        self.base_shape(side).map(|shape| flat3(&shape.cones)).unwrap_or_default()
+    }
+
+    /// Angle defect of the base domain at each cone in the shape of the source (0) or the target (1), in radians.
+    #[wasm_bindgen(js_name = baseCurvatures)]
+    pub fn base_curvatures(&self, side: usize) -> Vec<f64> {
+        self.base_shape(side).map(|shape| shape.curvatures.clone()).unwrap_or_default()
+    }
+
+    /// Corners of the parts of one side's patches, three numbers a point.
+    #[wasm_bindgen(js_name = patchPoints)]
+    pub fn patch_points(&self, side: usize) -> Vec<f32> {
+        self.base_shape(side).map(|shape| flat3(&shape.points)).unwrap_or_default()
+    }
+
+    /// Those parts as triangles, patch after patch in the order of the base triangles.
+    #[wasm_bindgen(js_name = patchTriangles)]
+    pub fn patch_triangles(&self, side: usize) -> Vec<u32> {
+        self.base_shape(side).map(|shape| shape.patches.triangles.concat()).unwrap_or_default()
+    }
+
+    /// Where each patch starts among the triangles, and one past the end.
+    #[wasm_bindgen(js_name = patchStarts)]
+    pub fn patch_starts(&self, side: usize) -> Vec<u32> {
+        let starts = self.base_shape(side).map(|shape| &shape.patches.starts);
+        starts.into_iter().flatten().map(|&start| start as u32).collect()
+    }
+}
+
+impl MapOutput {
+    fn base_shape(&self, side: usize) -> Option<&BaseShape> {
+        Some(&self.shown().base.as_ref()?.shapes[side.min(1)])
+    }
+}

@@ -1,0 +1,55 @@
+//! Both meshes on their way to their landmarks, in a worker of their own.
+
+use super::compute::{Messenger, RunListener, flat3};
+use super::failure;
+use super::flows::read_job;
+use crate::job::JobError;
+use crate::monitor::{PlannedStage, Stage};
+use crate::pipeline::SimplificationStage;
+use glam::DVec3;
+use wasm_bindgen::prelude::*;
+
+/// The stages of both meshes.
+#[wasm_bindgen]
+pub struct Simplifications {
+    stages: [Vec<SimplificationStage>; 2],
+    positions: [Vec<DVec3>; 2],
+}
+
+/// Collapses both meshes to their landmarks.
+///
+/// # Errors
+/// `{"code", "message"}` with the stage's code.
+#[wasm_bindgen(js_name = recordSimplifications)]
+pub fn record_simplifications(
+    source: &[u8],
+    target: &[u8],
+    landmarks: &str,
+    listener: &RunListener,
+) -> Result<Simplifications, JsValue> {
+    let mut messenger = Messenger::new(listener);
+    messenger.plan(vec![PlannedStage { stage: Stage::BaseDomain, time: 1.0 }]);
+    let job = read_job([source, target], landmarks, &mut messenger)?;
+    let failed = |error: JobError| failure(error.code(), error);
+    let stages = job.simplifications(&mut messenger).map_err(|error| failed(error.into()))?;
+    Ok(Simplifications { stages, positions: job.positions() })
+}
+
+#[wasm_bindgen]
+impl Simplifications {
+    /// Where the vertices of the source (0) or the target (1) are, three numbers each.
+    pub fn positions(&self, side: usize) -> Vec<f32> {
+        flat3(&self.positions[side.min(1)])
+    }
+
+    /// The triangles of all stages, one stage after the other, the whole mesh first.
+    pub fn triangles(&self, side: usize) -> Vec<u32> {
+        let stages = self.stages[side.min(1)].iter();
+        stages.flat_map(|stage| stage.triangles.iter().flatten().map(|v| v.0)).collect()
+    }
+
+    /// How many triangles each stage has.
+    pub fn counts(&self, side: usize) -> Vec<u32> {
+        self.stages[side.min(1)].iter().map(|stage| stage.triangles.len() as u32).collect()
+    }
+}

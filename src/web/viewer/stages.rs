@@ -1,0 +1,38 @@
+//! A mesh on its way to its landmarks.
+
+use super::super::view_side::CoarseStage;
+use super::canvas::Viewer;
+use super::reading::point;
+use crate::scene::buffers::{edges, facets, ribbons};
+use glam::Vec3;
+use wasm_bindgen::prelude::*;
+
+/// Edges are drawn of meshes with at most so many triangles.
+const MOST_WITH_EDGES: usize = 30_000;
+
+#[wasm_bindgen]
+impl Viewer {
+    /// Shows triangles of points in the place of one side's mesh; those with corners that are no points are left out.
+    #[wasm_bindgen(js_name = setStage)]
+    pub fn set_stage(&mut self, side: usize, positions: &[f32], triangles: &[u32]) {
+        let side = &mut self.sides[side.min(1)];
+        let Some(mesh) = &side.mesh else { return };
+        let points: Vec<Vec3> =
+            positions.chunks_exact(3).map(|p| mesh.frame.place(point([p[0], p[1], p[2]]))).collect();
+        let is_there = |t: &[u32; 3]| t.iter().all(|&v| (v as usize) < points.len());
+        let triangles: Vec<[u32; 3]> =
+            triangles.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).filter(is_there).collect();
+        let (vertices, indices) = facets(&points, &triangles);
+        let edges = (triangles.len() <= MOST_WITH_EDGES).then(|| {
+            let (vertices, indices) = ribbons(&edges(&points, &triangles));
+            self.renderer.line_mesh(&vertices, &indices)
+        });
+        side.stage = Some(CoarseStage { surface: self.renderer.surface_mesh(&vertices, &indices), edges });
+    }
+
+    /// Both sides look as before.
+    #[wasm_bindgen(js_name = clearStages)]
+    pub fn clear_stages(&mut self) {
+        self.sides.iter_mut().for_each(|side| side.stage = None);
+    }
+}

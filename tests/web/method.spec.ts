@@ -1,0 +1,280 @@
+/** The step Method: the base domain turned with the views, asked, lit up on the meshes and from them, saved; flows and simplification played on them. */
+import { readFileSync } from 'node:fs';
+import { AxeBuilder } from '@axe-core/playwright';
+import type { Page } from '@playwright/test';
+import { expect, test } from '@playwright/test';
+import type { Spot } from './canvas.ts';
+import { SETTLED } from './canvas.ts';
+import { fail, openDemo, openStep, ROOT, runMap } from './page.ts';
+
+const RULES = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
+
+test.describe.configure({ mode: 'serial' });
+
+let page: Page;
+const errors: string[] = [];
+
+test.beforeAll(async ({ browser }) => {
+  page = await (await browser.newContext()).newPage();
+  page.on('pageerror', (error) => {
+    errors.push(error.message);
+  });
+  await openDemo(page);
+  await runMap(page);
+  await openStep(page, 'method');
+  await expect(page.locator('#base-picture circle').first()).toBeVisible();
+  await page.mouse.move(5, 5);
+  await page.waitForTimeout(SETTLED);
+});
+
+test.afterAll(async () => {
+  await page.context().close();
+});
+
+/** How many pixels of a view are of the colour in which parts light up: magenta, over whatever is beneath. Some pins have such, too. */
+async function litPixels(view: string): Promise<number> {
+  const box = (await page.locator(view).boundingBox()) ?? fail(`${view} has no box`);
+  const base64 = (await page.screenshot({ clip: box })).toString('base64');
+  return page.evaluate(async (picture) => {
+    const bytes = Uint8Array.from(atob(picture), (c) => c.charCodeAt(0));
+    const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+    const context = new OffscreenCanvas(image.width, image.height).getContext('2d') ?? undefined;
+    context?.drawImage(image, 0, 0);
+    const data = context?.getImageData(0, 0, image.width, image.height).data ?? new Uint8ClampedArray();
+    let count = 0;
+    for (let at = 0; at < data.length; at += 4) {
+      const [r = 0, g = 0, b = 0] = data.subarray(at, at + 3);
+      count += r > g + 60 && b > g + 30 ? 1 : 0;
+    }
+    return count;
+  }, base64);
+}
+
+async function lit(): Promise<readonly number[]> {
+  await page.waitForTimeout(200);
+  return [await litPixels('#view-source'), await litPixels('#view-target')];
+}
+
+/** Where the picture has its corners, in the order of their numbers. */
+async function corners(): Promise<Spot[]> {
+  return page.locator('#base-picture circle').evaluateAll((circles) =>
+    circles
+      .map((circle) => ({ cone: Number(circle.getAttribute('data-cone')), x: Number(circle.getAttribute('cx')), y: Number(circle.getAttribute('cy')) }))
+      .sort((a, b) => a.cone - b.cone),
+  );
+}
+
+test('it has the corners, sides and triangles of the map, and their curvatures sum to two full turns', async () => {
+  const text = (await page.locator('.base-reading').textContent()) ?? '';
+  const [, vertices = '', sides = '', triangles = ''] = /^(\d+) corners, (\d+) sides, (\d+) triangles/.exec(text) ?? fail(text);
+  // Euler's formula.
+  expect(Number(triangles)).toBe(2 * Number(vertices) - 4);
+  expect(Number(sides)).toBe(3 * Number(vertices) - 6);
+  expect(text).toContain('sum to +720.0°');
+  expect(await page.locator('#base-picture circle').count()).toBe(Number(vertices));
+  const signs = await page.locator('#base-picture circle').evaluateAll((all) => all.map((circle) => circle.classList.contains('positive')));
+  expect(signs).toContain(true);
+  expect(signs).toContain(false);
+  await page.screenshot({ path: `${ROOT}test-results/base-domain.png` });
+});
+
+test('it turns with the views, and they with it', async () => {
+  const before = await corners();
+  await page.locator('#view-target').focus();
+  await page.keyboard.press('ArrowLeft');
+  await page.waitForTimeout(SETTLED);
+  const turned = await corners();
+  expect(Math.max(...turned.map((spot, k) => Math.hypot(spot.x - (before[k]?.x ?? 0), spot.y - (before[k]?.y ?? 0))))).toBeGreaterThan(5);
+
+  // A drag on it turns the pins of the target's view.
+  const heads = (): Promise<string[]> => page.locator('#view-target .labels span').evaluateAll((all) => all.map((span) => (span as HTMLElement).style.transform + (span as HTMLElement).style.cssText));
+  const pins = await heads();
+  const box = (await page.locator('#base-picture').boundingBox()) ?? fail('no picture');
+  await page.mouse.move(box.x + 20, box.y + 20);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 80, box.y + 30, { steps: 4 });
+  await page.mouse.up();
+  await page.mouse.move(5, 5);
+  await page.waitForTimeout(SETTLED);
+  expect(await heads()).not.toEqual(pins);
+  expect(await corners()).not.toEqual(turned);
+});
+
+test('a corner, a side and a triangle light up on both meshes', async () => {
+  const before = await lit();
+  await page.locator('#base-picture').focus();
+  await page.keyboard.press('v');
+  await expect(page.locator('.base-reading')).toContainText(/Corner .*: curvature [+−]\d+\.\d°/);
+  await expect(page.locator('#base-picture .tag')).toContainText(/[+−]\d+\.\d°/);
+  await page.keyboard.press('e');
+  await expect(page.locator('.base-reading')).toContainText(/^Side from /);
+  await page.keyboard.press('f');
+  await expect(page.locator('.base-reading')).toContainText(/^Triangle of /);
+  // Some patch is seen in both views, and much more of it than of a path.
+  const seen: (readonly number[])[] = [];
+  const isSeen = (counts: readonly number[]): boolean => counts.every((count, side) => count > 300 + (before[side] ?? 0));
+  for (let k = 0; k < 8 && !seen.some(isSeen); k += 1) {
+    await page.keyboard.press('f');
+    seen.push(await lit());
+  }
+  expect(seen.some(isSeen)).toBe(true);
+  await page.screenshot({ path: `${ROOT}test-results/base-domain-lit.png` });
+  await page.keyboard.press('Escape');
+  expect(await lit()).toEqual(before);
+});
+
+test('the patch under the mouse on a mesh lights up in it', async () => {
+  const before = await lit();
+  const box = (await page.locator('#view-source').boundingBox()) ?? fail('no view');
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await expect(page.locator('.base-reading')).toContainText(/^Triangle of /);
+  const counts = await lit();
+  expect(counts.some((count, side) => count > 100 + (before[side] ?? 0))).toBe(true);
+  await page.mouse.move(5, 5);
+  await expect(page.locator('.base-reading')).toContainText(/corners, /);
+  expect(await lit()).toEqual(before);
+});
+
+test('it is saved as a drawing that stands alone', async () => {
+  const download = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Save the base domain as SVG' }).click();
+  const file = await download;
+  expect(file.suggestedFilename()).toBe('conemap-base-domain.svg');
+  const svg = readFileSync(await file.path()).toString();
+  expect(svg).toMatch(/^<svg xmlns="http:\/\/www\.w3\.org\/2000\/svg" width="900"/);
+  expect((svg.match(/<circle/g) ?? []).length).toBeGreaterThan(5);
+  expect((svg.match(/<path/g) ?? []).length).toBeGreaterThan(50);
+});
+
+/** How many pixels of a view are warm or violet, as factors that grow or shrink. */
+async function coloured(view: string): Promise<{ readonly warm: number; readonly violet: number }> {
+  const box = (await page.locator(view).boundingBox()) ?? fail(`${view} has no box`);
+  const base64 = (await page.screenshot({ clip: box })).toString('base64');
+  return page.evaluate(async (picture) => {
+    const bytes = Uint8Array.from(atob(picture), (c) => c.charCodeAt(0));
+    const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+    const context = new OffscreenCanvas(image.width, image.height).getContext('2d') ?? undefined;
+    context?.drawImage(image, 0, 0);
+    const data = context?.getImageData(0, 0, image.width, image.height).data ?? new Uint8ClampedArray();
+    let [warm, violet] = [0, 0];
+    for (let at = 0; at < data.length; at += 4) {
+      const [r = 0, g = 0, b = 0] = data.subarray(at, at + 3);
+      warm += r > g + 25 && g > b + 25 ? 1 : 0;
+      violet += b > g + 25 && r > g ? 1 : 0;
+    }
+    return { warm, violet };
+  }, base64);
+}
+
+test('the flow is played on both meshes, its error falls, and the picture comes back', async () => {
+  const before = await page.screenshot({ clip: (await page.locator('#view-source').boundingBox()) ?? fail('no view') });
+  await page.locator('#watch-flow').click();
+  const slider = page.getByRole('slider', { name: 'Step of the flow' });
+  await expect(slider).toBeVisible();
+  const error = async (side: number): Promise<number> => {
+    const text = (await page.locator(`[data-flow="${side}"] td`).nth(1).textContent()) ?? '';
+    const digits = text.replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹]/g, (digit) => String('⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(digit)));
+    return Number(digits.replace(/·10⁻/, 'e-'));
+  };
+  const first = [await error(0), await error(1)];
+  // Before the first step every factor is 1.
+  await page.waitForTimeout(300);
+  const start = await coloured('#view-target');
+  await page.locator('#play-flow').click();
+  await expect(page.locator('#play-flow')).toHaveText('Play', { timeout: 60_000 });
+  expect(await slider.inputValue()).toBe(await slider.getAttribute('max'));
+  const last = [await error(0), await error(1)];
+  for (const side of [0, 1]) {
+    expect(first[side]).toBeGreaterThan(0.01);
+    expect(last[side]).toBeLessThan(1e-8);
+  }
+  await page.waitForTimeout(300);
+  for (const view of ['#view-source', '#view-target']) {
+    const end = await coloured(view);
+    expect(end.warm).toBeGreaterThan(start.warm + 300);
+    expect(end.violet).toBeGreaterThan(start.violet + 300);
+  }
+  await slider.scrollIntoViewIfNeeded();
+  await page.screenshot({ path: `${ROOT}test-results/flow.png` });
+  await slider.focus();
+  await page.keyboard.press('Home');
+  await expect.poll(() => error(0)).toBe(first[0]);
+  const download = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Save the steps of the flows as CSV' }).click();
+  const csv = readFileSync(await (await download).path()).toString();
+  expect(csv).toMatch(/^mesh,Newton step,/);
+  expect(csv.match(/^target,/gm)?.length).toBeGreaterThan(2);
+  await page.locator('#close-flow').click();
+  await page.waitForTimeout(300);
+  const after = await page.screenshot({ clip: (await page.locator('#view-source').boundingBox()) ?? fail('no view') });
+  expect(after.equals(before)).toBe(true);
+});
+
+test('both meshes are simplified to their landmarks, and come back', async () => {
+  const view = async (): Promise<Buffer> => page.screenshot({ clip: (await page.locator('#view-source').boundingBox()) ?? fail('no view') });
+  const before = await view();
+  await page.locator('#watch-simplification').click();
+  const slider = page.getByRole('slider', { name: 'Step of the simplification' });
+  await expect(slider).toBeVisible();
+  const words = page.locator('.stage-words');
+  await expect(words).toHaveText('5,114 triangles on the source, 4,574 on the target');
+  await page.locator('#play-simplification').click();
+  await expect(page.locator('#play-simplification')).toHaveText('Play', { timeout: 60_000 });
+  // Two less than twice the vertices, as many on both meshes.
+  const [, source = '', target = ''] = /^(\d+) triangles on the source, (\d+) on the target$/.exec((await words.textContent()) ?? '') ?? fail('no counts');
+  expect(source).toBe(target);
+  expect(Number(source)).toBe(2 * (await page.locator('#view-source .labels span').count()) - 4);
+  await page.waitForTimeout(300);
+  expect((await view()).equals(before)).toBe(false);
+  await page.screenshot({ path: `${ROOT}test-results/simplification.png` });
+  await slider.focus();
+  await page.keyboard.press('Home');
+  for (let k = 0; k < 12; k += 1) {
+    await page.keyboard.press('ArrowRight');
+  }
+  await page.waitForTimeout(300);
+  await page.screenshot({ path: `${ROOT}test-results/simplification-middle.png` });
+  await page.locator('#close-simplification').click();
+  await page.mouse.move(5, 5);
+  await page.waitForTimeout(300);
+  expect((await view()).equals(before)).toBe(true);
+});
+
+test('where motion is not wanted the flow goes step by step', async () => {
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await page.locator('#watch-flow').click();
+  const now = page.locator('.flow-residuals .now');
+  await expect(now).toBeAttached();
+  const seen = new Set<string>();
+  await page.locator('#play-flow').click();
+  while ((await page.locator('#play-flow').textContent()) === 'Pause') {
+    seen.add((await now.getAttribute('d')) ?? '');
+  }
+  const steps = Number(await page.getByRole('slider', { name: 'Step of the flow' }).getAttribute('max'));
+  expect(seen.size).toBeGreaterThan(1);
+  expect(seen.size).toBeLessThanOrEqual(steps + 1);
+  await page.emulateMedia({ reducedMotion: 'no-preference' });
+});
+
+test('all of it fits a phone and a wide window, light and dark, without findings', async () => {
+  for (const width of [360, 1280]) {
+    await page.setViewportSize({ width, height: 800 });
+    await openStep(page, 'method');
+    const content = page.locator('#panel .content');
+    await expect.poll(() => content.evaluate((element) => element.scrollWidth - element.clientWidth), { message: `at ${width}` }).toBe(0);
+    for (const colorScheme of ['light', 'dark'] as const) {
+      await page.emulateMedia({ colorScheme });
+      await page.locator('#base-picture').scrollIntoViewIfNeeded();
+      await expect(page.locator('.flow-numbers')).toBeAttached();
+      const { violations } = await new AxeBuilder({ page }).include('#panel').withTags(RULES).analyze();
+      expect(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(' ')).join(', ')}`)).toEqual([]);
+      await page.screenshot({ path: `${ROOT}test-results/base-domain-${width}-${colorScheme}.png` });
+    }
+  }
+  await page.getByRole('button', { name: 'Large' }).click();
+  expect((await page.locator('#base-picture').boundingBox())?.width).toBeGreaterThan(500);
+  await page.waitForTimeout(SETTLED);
+  await page.screenshot({ path: `${ROOT}test-results/base-domain-large.png` });
+  await page.getByRole('button', { name: 'Large' }).click();
+  expect(errors).toEqual([]);
+});

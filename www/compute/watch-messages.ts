@@ -1,0 +1,66 @@
+/** What the page and the worker that does parts of the method again, to be watched, say to each other. */
+import type { Failure } from './messages.ts';
+
+/** What can be watched: the flows of both meshes to their flat metrics, and how both are simplified to their landmarks. */
+export type Watchable = 'flows' | 'simplifications';
+
+/** What is wanted of a map. */
+export interface WatchRequest {
+  readonly wanted: Watchable;
+  readonly module: WebAssembly.Module;
+  readonly source: Uint8Array;
+  readonly target: Uint8Array;
+  /** The landmark file of the map. */
+  readonly landmarks: string;
+  /** Curvature of each landmark's cone, in radians. */
+  readonly cones: Float64Array;
+}
+
+/** A flow after a Newton step; the counts are of all steps so far. */
+export interface FlowMoment {
+  readonly step: number;
+  /** Largest curvature error, in radians. */
+  readonly residual: number;
+  readonly cgIterations: number;
+  readonly edgeFlips: number;
+}
+
+/** The flow of one mesh. */
+export interface SideFlow {
+  /** From before the first step on. */
+  readonly moments: readonly FlowMoment[];
+  /** Whether the last moment has the curvatures that were asked for. */
+  readonly converged: boolean;
+  /** Logarithm of the conformal factor, moment after moment, by vertex of the mesh. */
+  readonly logFactors: Float32Array;
+}
+
+/** The flows of the source and of the target. */
+export type Flows = readonly [SideFlow, SideFlow];
+
+/** One mesh on its way to its landmarks; its vertices do not move. */
+export interface Simplification {
+  /** Where its vertices are, three numbers each. */
+  readonly positions: Float32Array;
+  /** The triangles of all stages, one stage after the other, the whole mesh first. */
+  readonly triangles: Uint32Array;
+  /** How many triangles each stage has. */
+  readonly counts: Uint32Array;
+}
+
+/** The source and the target on their way. */
+export type Simplifications = readonly [Simplification, Simplification];
+
+/** What each wish is answered with. */
+export interface Watched {
+  readonly flows: Flows;
+  readonly simplifications: Simplifications;
+}
+
+/** From the worker. */
+export type WatchMessage =
+  /** The share that is done, 0 to 1. */
+  | { readonly kind: 'progress'; readonly share: number }
+  /** The answer is that of the wish. */
+  | { readonly kind: 'done'; readonly answer: Flows | Simplifications }
+  | { readonly kind: 'failed'; readonly failure: Failure };

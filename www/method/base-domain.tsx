@@ -1,0 +1,348 @@
+/** The base domain of the map, to be turned and asked: its parts light up on the meshes, and the patch under the mouse lights up in it. */
+import type { VNode } from 'preact';
+import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
+import type { BaseOutput } from '../compute/messages.ts';
+import { useDarkness } from '../darkness.ts';
+import { download } from '../dom.ts';
+import type { Side } from '../landmarks.ts';
+import type { Axes, Vector } from './axes.ts';
+import { dragged } from './axes.ts';
+import './base-domain.css';
+import type { Palette } from './drawing.ts';
+import { DARK, LIGHT, mixed, outline, pictureSvg, stroke, strokes } from './drawing.ts';
+import type { BaseHands } from './hands.ts';
+import type { BasePart } from './parts.ts';
+import { faceCount } from './parts.ts';
+import type { Ball, Facet, Look, Picture, Solid, Spot } from './picture.ts';
+import { partAt, pictureOf, solidOf } from './picture.ts';
+import { coneName, degrees, reading, summary } from './words.ts';
+
+export interface BaseDomainProps {
+  readonly base: BaseOutput;
+  /** What the landmarks are called, in the order of the run. */
+  readonly names: readonly string[];
+  readonly hands: BaseHands;
+  readonly theme: string;
+  /** Whether it turns with the views; else by itself. */
+  readonly isLinked: boolean;
+  /** By side the axis of the mesh that points up. */
+  readonly up: readonly [Vector, Vector];
+  /** The base triangle in whose patch the mouse is on a mesh; `null` for none. */
+  readonly under: number | null;
+}
+
+/** Size of an exported drawing, in pixels. */
+const EXPORTED = { width: 900, height: 700 };
+/** What an arrow key turns by, in heights of the picture, and a zoom key multiplies by. */
+const KEY_TURN = 0.06;
+const KEY_ZOOM = 1.25;
+const ZOOMS = [1, 12] as const;
+/** How far a pointer may travel and still click, in pixels. */
+const CLICK_SLACK = 4;
+/** From ahead and a little above, while nothing is drawn. */
+const FRONT: Axes = { right: [1, 0, 0], up: [0, 1, 0], back: [0, 0, 1] };
+
+const SHAPES = [['Target', 1], ['Source', 0]] as const;
+
+/** The keys that go from part to part, with Shift backwards. */
+const PART_KEYS: Readonly<Partial<Record<string, BasePart['kind']>>> = { v: 'cone', e: 'side', f: 'face' };
+
+function isPart(part: BasePart | null, kind: BasePart['kind'], index: number): boolean {
+  return part?.kind === kind && part.index === index;
+}
+
+/** The size of an element in pixels, as it changes. */
+function useSize(element: { readonly current: SVGSVGElement | null }): { readonly width: number; readonly height: number } {
+  const [size, setSize] = useState({ width: 288, height: 240 });
+  useEffect(() => {
+    const { current } = element;
+    if (current === null) {
+      return undefined;
+    }
+    const observer = new ResizeObserver(() => {
+      setSize({ width: Math.max(1, current.clientWidth), height: Math.max(1, current.clientHeight) });
+    });
+    observer.observe(current);
+    return () => {
+      observer.disconnect();
+    };
+  }, []);
+  return size;
+}
+
+function FacetPaths({ facet, lit, palette }: { readonly facet: Facet; readonly lit: BasePart | null; readonly palette: Palette }): VNode {
+  const fill = mixed(isPart(lit, 'face', facet.face) ? palette.litFace : palette.face, facet.light);
+  return (
+    <>
+      <path class="facet" data-face={facet.face} d={outline(facet)} fill={fill} stroke={fill} stroke-width="0.6" />
+      <path d={strokes(facet)} stroke={palette.side} fill="none" />
+      {facet.sides
+        .filter(({ side }) => isPart(lit, 'side', side))
+        .map((side) => (
+          <path key={side.side} d={stroke(side)} stroke={palette.lit} stroke-width="4" fill="none" />
+        ))}
+    </>
+  );
+}
+
+function BallCircle({ ball, lit, palette }: { readonly ball: Ball; readonly lit: BasePart | null; readonly palette: Palette }): VNode {
+  const { at, cone, radius, sign, isHidden } = ball;
+  const isLit = isPart(lit, 'cone', cone);
+  return (
+    <circle
+      class={`cone ${sign}${isHidden ? ' hidden-cone' : ''}`}
+      data-cone={cone}
+      cx={at.x}
+      cy={at.y}
+      r={radius}
+      fill={isHidden ? 'none' : palette[sign]}
+      stroke={isLit ? palette.lit : isHidden ? palette[sign] : palette.rim}
+      stroke-width={isLit ? 3 : 1}
+      stroke-opacity={isHidden && !isLit ? 0.35 : 1}
+    />
+  );
+}
+
+/** What is lit up seen through what is in front of it. */
+function Through({ solid, picture, lit, palette }: { readonly solid: Solid; readonly picture: Picture; readonly lit: BasePart | null; readonly palette: Palette }): VNode | null {
+  const spot = (cone: number): Spot => picture.spots[cone] ?? { x: 0, y: 0 };
+  const dashed = (d: string): VNode => <path d={d} stroke={palette.lit} stroke-width="1.5" stroke-dasharray="4 3" fill="none" />;
+  if (lit?.kind === 'side') {
+    const [from, to] = solid.ends[lit.index] ?? [0, 0];
+    return dashed(stroke({ from: spot(from), to: spot(to) }));
+  }
+  if (lit?.kind === 'face') {
+    const [a, b, c] = [0, 1, 2].map((k) => spot(solid.base.triangles[3 * lit.index + k] ?? 0));
+    return a === undefined || b === undefined || c === undefined ? null : dashed(`${stroke({ from: a, to: b })}L${c.x} ${c.y}Z`);
+  }
+  return null;
+}
+
+interface TagProps {
+  readonly at: Spot;
+  readonly text: string;
+  readonly width: number;
+  readonly palette: Palette;
+}
+
+/** A cone's name and curvature beside it. */
+function Tag({ at, text, width, palette }: TagProps): VNode {
+  const isLeft = at.x > width / 2;
+  return (
+    <text
+      class="tag"
+      x={at.x + (isLeft ? -14 : 14)}
+      y={Math.max(14, at.y - 8)}
+      text-anchor={isLeft ? 'end' : 'start'}
+      fill={palette.ink}
+      stroke={palette.ground}
+      stroke-width="4"
+      paint-order="stroke"
+    >
+      {text}
+    </text>
+  );
+}
+
+interface Turning {
+  readonly axes: Axes;
+  readonly turn: (dx: number, dy: number, way: 'smoothly' | 'at once') => void;
+}
+
+/** How the picture is turned: with the view of a side, or by itself. */
+function useTurning({ hands, isLinked, up }: Pick<BaseDomainProps, 'hands' | 'isLinked' | 'up'>, side: Side): Turning {
+  const [, setTurned] = useState(0);
+  const [own, setOwn] = useState<Axes | null>(null);
+  useEffect(
+    () =>
+      hands.open(() => {
+        setTurned((count) => count + 1);
+      }),
+    [],
+  );
+  useEffect(() => {
+    setOwn(isLinked ? null : hands.axes(side));
+  }, [isLinked]);
+  const axes = own ?? hands.axes(side) ?? FRONT;
+  return {
+    axes,
+    turn: (dx, dy, way) => {
+      if (isLinked) {
+        hands.orbit(side, dx, dy, way);
+      } else {
+        setOwn(dragged(axes, up[side], dx, dy));
+      }
+    },
+  };
+}
+
+/** The next or the last part of a kind. */
+function stepped(part: BasePart | null, kind: BasePart['kind'], by: 1 | -1, count: number): BasePart {
+  const index = part?.kind === kind ? part.index + by : by > 0 ? 0 : count - 1;
+  return { kind, index: (index + count) % count };
+}
+
+interface Pointing {
+  /** Where the pointer was last, and how far it has come since it was pressed. */
+  x: number;
+  y: number;
+  travelled: number;
+}
+
+/** All of it. */
+export default function BaseDomain(props: BaseDomainProps): VNode {
+  const { base, names, hands, theme, under } = props;
+  const [side, setSide] = useState<Side>(1);
+  const [zoom, setZoom] = useState(1);
+  const [isLarge, setLarge] = useState(false);
+  const [hovered, setHovered] = useState<BasePart | null>(null);
+  const [held, setHeld] = useState<BasePart | null>(null);
+  const svg = useRef<SVGSVGElement>(null);
+  const pressed = useRef<Pointing | null>(null);
+  const palette = useDarkness(theme) ? DARK : LIGHT;
+  const { width, height } = useSize(svg);
+  const { axes, turn } = useTurning(props, side);
+  const solid = useMemo(() => solidOf(base, side), [base, side]);
+  const look: Look = { axes, width, height, zoom };
+  const picture = pictureOf(solid, look);
+  const chosen = hovered ?? held;
+  const lit: BasePart | null = under === null ? chosen : { kind: 'face', index: under };
+  useEffect(() => {
+    if (under === null) {
+      hands.light(chosen);
+    }
+  }, [chosen?.kind, chosen?.index, under]);
+
+  const spotOf = (event: PointerEvent): Spot => {
+    const box = svg.current?.getBoundingClientRect();
+    return { x: event.clientX - (box?.left ?? 0), y: event.clientY - (box?.top ?? 0) };
+  };
+  const hover = (part: BasePart | null): void => {
+    if (part?.kind !== hovered?.kind || part?.index !== hovered?.index) {
+      setHovered(part);
+    }
+  };
+  const magnify = (factor: number): void => {
+    setZoom(Math.min(ZOOMS[1], Math.max(ZOOMS[0], zoom * factor)));
+  };
+  const counts = { cone: solid.cones.length, side: solid.ends.length, face: faceCount(base) };
+  const press = (event: KeyboardEvent): void => {
+    const by = event.shiftKey ? -1 : 1;
+    const kind = PART_KEYS[event.key.toLowerCase()];
+    const keys: Readonly<Partial<Record<string, () => void>>> = {
+      ArrowLeft: () => { turn(-KEY_TURN, 0, 'smoothly'); },
+      ArrowRight: () => { turn(KEY_TURN, 0, 'smoothly'); },
+      ArrowUp: () => { turn(0, KEY_TURN, 'smoothly'); },
+      ArrowDown: () => { turn(0, -KEY_TURN, 'smoothly'); },
+      '+': () => { magnify(KEY_ZOOM); },
+      '-': () => { magnify(1 / KEY_ZOOM); },
+      '0': () => { setZoom(1); },
+      Escape: () => { setHeld(null); },
+    };
+    const action = kind === undefined ? keys[event.key] : (): void => { setHeld(stepped(held, kind, by, counts[kind])); };
+    if (action !== undefined && !event.ctrlKey && !event.metaKey && !event.altKey) {
+      event.preventDefault();
+      event.stopPropagation();
+      action();
+    }
+  };
+
+  return (
+    <div class={`base-domain${isLarge ? ' large' : ''}`}>
+      <svg
+        ref={svg}
+        id="base-picture"
+        role="group"
+        tabindex={0}
+        aria-label={`The base domain. ${summary(solid)} Arrow keys turn it, plus and minus change its size, v, e and f go to the next corner, side and triangle, with Shift to the last one.`}
+        stroke-linejoin="round"
+        stroke-linecap="round"
+        onKeyDown={press}
+        onPointerDown={(event) => {
+          svg.current?.setPointerCapture(event.pointerId);
+          pressed.current = { x: event.clientX, y: event.clientY, travelled: 0 };
+        }}
+        onPointerMove={(event) => {
+          const from = pressed.current;
+          if (from === null) {
+            hover(partAt(picture, spotOf(event)));
+            return;
+          }
+          const [dx, dy] = [event.clientX - from.x, event.clientY - from.y];
+          pressed.current = { x: event.clientX, y: event.clientY, travelled: from.travelled + Math.hypot(dx, dy) };
+          if (pressed.current.travelled > CLICK_SLACK) {
+            turn(dx / height, -dy / height, 'at once');
+          }
+        }}
+        onPointerUp={(event) => {
+          if ((pressed.current?.travelled ?? Infinity) <= CLICK_SLACK) {
+            const part = partAt(picture, spotOf(event));
+            setHeld(part !== null && isPart(held, part.kind, part.index) ? null : part);
+          }
+          pressed.current = null;
+        }}
+        onPointerCancel={() => {
+          pressed.current = null;
+        }}
+        onPointerLeave={() => {
+          hover(null);
+        }}
+      >
+        {picture.facets.map((facet, k) => (
+          <FacetPaths key={k} facet={facet} lit={lit} palette={palette} />
+        ))}
+        <Through solid={solid} picture={picture} lit={lit} palette={palette} />
+        {picture.balls.map((ball) => (
+          <BallCircle key={ball.cone} ball={ball} lit={lit} palette={palette} />
+        ))}
+        {lit?.kind === 'cone' && (
+          <Tag
+            at={picture.spots[lit.index] ?? { x: 0, y: 0 }}
+            text={`${coneName(names, lit.index)}: ${degrees(solid.curvatures[lit.index] ?? 0)}`}
+            width={width}
+            palette={palette}
+          />
+        )}
+      </svg>
+      <p class="base-reading small" role="status">
+        {lit === null ? summary(solid) : reading(solid, lit, names)}
+      </p>
+      <div class="base-row">
+        <div role="radiogroup" aria-label="Shape of the base domain" class="base-shapes">
+          {SHAPES.map(([text, value]) => (
+            <label class="check" key={value}>
+              <input
+                type="radio"
+                name="base-shape"
+                checked={side === value}
+                onChange={() => {
+                  setSide(value);
+                }}
+              />
+              <span>{text}</span>
+            </label>
+          ))}
+        </div>
+        <button
+          type="button"
+          aria-pressed={isLarge}
+          onClick={() => {
+            setLarge(!isLarge);
+          }}
+        >
+          Large
+        </button>
+        <button
+          type="button"
+          aria-label="Save the base domain as SVG"
+          onClick={() => {
+            const saved = pictureOf(solid, { ...look, ...EXPORTED });
+            download('conemap-base-domain.svg', 'image/svg+xml', pictureSvg(saved, EXPORTED, solid.cones.map((_, cone) => coneName(names, cone))));
+          }}
+        >
+          SVG
+        </button>
+      </div>
+    </div>
+  );
+}

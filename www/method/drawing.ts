@@ -1,0 +1,93 @@
+/** Colours of the base domain, and its picture as a file. */
+import type { Ball, Facet, Picture, Spot } from './picture.ts';
+
+/** Red, green and blue, 0 to 255. */
+type Colour = readonly [number, number, number];
+
+export interface Palette {
+  /** A triangle in the shade and in full light. */
+  readonly face: readonly [Colour, Colour];
+  readonly side: string;
+  readonly rim: string;
+  readonly positive: string;
+  readonly negative: string;
+  /** What is lit up; the meshes have the same. */
+  readonly lit: string;
+  readonly litFace: readonly [Colour, Colour];
+  readonly ink: string;
+  readonly ground: string;
+}
+
+export const LIGHT: Palette = {
+  face: [[128, 122, 112], [232, 226, 215]],
+  side: '#3a3f45',
+  rim: '#ffffff',
+  positive: '#c8402f',
+  negative: '#3556c0',
+  lit: '#c2189b',
+  litFace: [[142, 34, 116], [236, 120, 206]],
+  ink: '#1b2126',
+  ground: '#ffffff',
+};
+
+export const DARK: Palette = {
+  face: [[66, 62, 56], [176, 168, 155]],
+  side: '#14161a',
+  rim: '#14161a',
+  positive: '#ee6b58',
+  negative: '#7f9bf5',
+  lit: '#ff5ccf',
+  litFace: [[122, 24, 98], [240, 110, 205]],
+  ink: '#e9ecef',
+  ground: '#1b1e24',
+};
+
+/** A mixture of two colours: the first at share 0. */
+export function mixed([from, to]: readonly [Colour, Colour], share: number): string {
+  const part = (k: 0 | 1 | 2): number => Math.round(from[k] + share * (to[k] - from[k]));
+  return `rgb(${part(0)} ${part(1)} ${part(2)})`;
+}
+
+function pair({ x, y }: Spot): string {
+  return `${x.toFixed(2)} ${y.toFixed(2)}`;
+}
+
+/** The outline of a facet. */
+export function outline({ corners }: Facet): string {
+  return `M${corners.map(pair).join('L')}Z`;
+}
+
+/** A stroke. */
+export function stroke({ from, to }: { readonly from: Spot; readonly to: Spot }): string {
+  return `M${pair(from)}L${pair(to)}`;
+}
+
+/** The sides that border a facet. */
+export function strokes({ sides }: Facet): string {
+  return sides.map(stroke).join('');
+}
+
+function escaped(text: string): string {
+  return text.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
+}
+
+function ballMarkup({ at, radius, sign, isHidden }: Ball, name: string, palette: Palette): string {
+  if (isHidden) {
+    return '';
+  }
+  const place = `x="${(at.x + radius + 3).toFixed(2)}" y="${(at.y + 4).toFixed(2)}"`;
+  const label = `<text ${place} fill="${palette.ink}" stroke="${palette.ground}" stroke-width="3" paint-order="stroke">${escaped(name)}</text>`;
+  return `<circle cx="${at.x.toFixed(2)}" cy="${at.y.toFixed(2)}" r="${radius.toFixed(2)}" fill="${palette[sign]}" stroke="${palette.rim}"/>${label}`;
+}
+
+/** The picture as a drawing that stands alone, dark on white, with the names of the cones that are seen. */
+export function pictureSvg(picture: Picture, size: { readonly width: number; readonly height: number }, names: readonly string[]): string {
+  const { width, height } = size;
+  const facets = picture.facets.map((facet) => {
+    const fill = mixed(LIGHT.face, facet.light);
+    // A hair of its own colour closes the seam to the next facet.
+    return `<path d="${outline(facet)}" fill="${fill}" stroke="${fill}" stroke-width="0.6"/><path d="${strokes(facet)}" stroke="${LIGHT.side}" fill="none"/>`;
+  });
+  const balls = picture.balls.map((ball) => ballMarkup(ball, names[ball.cone] ?? String(ball.cone + 1), LIGHT));
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="system-ui, sans-serif" font-size="11" stroke-linejoin="round" stroke-linecap="round"><title>Base domain</title><rect width="${width}" height="${height}" fill="${LIGHT.ground}"/>${facets.join('')}${balls.join('')}</svg>\n`;
+}

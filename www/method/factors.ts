@@ -1,0 +1,49 @@
+/** Conformal factors as places on a scale of colours. */
+import type { Flows, SideFlow } from '../compute/watch-messages.ts';
+import type { FactorPlaces, FlowFrame } from './hands.ts';
+
+/** This share of the vertices lies within the scale; the few beyond, at sharp cones, have its last colour. */
+const WITHIN = 0.98;
+
+/** How many vertices a flow tells of. */
+function vertexCount({ moments, logFactors }: SideFlow): number {
+  return moments.length === 0 ? 0 : logFactors.length / moments.length;
+}
+
+function momentOf(flow: SideFlow, moment: number): Float32Array {
+  const count = vertexCount(flow);
+  const at = Math.min(Math.max(0, moment), flow.moments.length - 1);
+  return flow.logFactors.subarray(at * count, (at + 1) * count);
+}
+
+/** How many moments the longer flow has. */
+export function momentCount(flows: Flows): number {
+  return Math.max(...flows.map(({ moments }) => moments.length));
+}
+
+/**
+ * The end of the scale, which goes from its inverse through 1: a power of 2 that holds nearly all vertices of both meshes at the end of the
+ * flows.
+ */
+export function scaleEnd(flows: Flows): number {
+  const sizes = flows.map((flow) => {
+    const sorted = momentOf(flow, flow.moments.length - 1).map(Math.abs).sort();
+    return sorted[Math.min(sorted.length - 1, Math.floor(WITHIN * sorted.length))] ?? 0;
+  });
+  return 2 ** Math.max(1, Math.ceil(Math.max(...sizes) / Math.LN2 - 1e-6));
+}
+
+/** Where the logarithm of a factor lies on the scale: 0 at the inverse of its end, 1/2 at 1, 1 at its end. */
+export function placeOf(logFactor: number, end: number): number {
+  return 0.5 + logFactor / (2 * Math.log(end));
+}
+
+function placesOf(flow: SideFlow, moment: number, end: number): FactorPlaces {
+  const places = (at: number): Float32Array => momentOf(flow, at).map((logFactor) => placeOf(logFactor, end));
+  return { from: places(moment), to: places(moment + 1) };
+}
+
+/** The places of both meshes at a moment and the next one; a flow that has ended stays at its last moment. */
+export function placesAt(flows: Flows, moment: number, end: number): FlowFrame['places'] {
+  return [placesOf(flows[0], moment, end), placesOf(flows[1], moment, end)];
+}

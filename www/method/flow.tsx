@@ -1,0 +1,179 @@
+/** The flows of both meshes to their flat metrics, played: the conformal factor as colour, the curvature error falling. */
+import type { VNode } from 'preact';
+import { useEffect, useMemo } from 'preact/hooks';
+import type { FlowMoment, Flows } from '../compute/watch-messages.ts';
+import { download } from '../dom.ts';
+import { figure, integer } from '../numbers.ts';
+import { logMarks, markText } from '../plots/chart.ts';
+import { factorScale } from '../wasm/conemap.js';
+import { momentCount, placesAt, scaleEnd } from './factors.ts';
+import './flow.css';
+import { flowCsv, momentAt, residualRange } from './flow-table.ts';
+import type { WatchHands } from './hands.ts';
+import { usePlayed } from './played.ts';
+import { Computed, Transport } from './watched.tsx';
+
+export interface FlowPlayerProps {
+  readonly hands: WatchHands<'flows'>;
+  /** Leaves the flows. */
+  readonly onClose: () => void;
+}
+
+/** From one Newton step to the next, in ms. */
+const STEP_TIME = 1100;
+
+const SIDES = [
+  ['Source', 0, 'first'],
+  ['Target', 1, 'second'],
+] as const;
+
+/** Slow at both ends. */
+function eased(share: number): number {
+  return (1 - Math.cos(Math.PI * share)) / 2;
+}
+
+/** The colours of the scale as a gradient. */
+function scaleImage(): string {
+  const colours = factorScale();
+  const stops = Array.from({ length: colours.length / 3 }, (_, k) => `color(srgb-linear ${colours.slice(3 * k, 3 * k + 3).join(' ')})`);
+  return `linear-gradient(90deg, ${stops.join(', ')})`;
+}
+
+function Scale({ end }: { readonly end: number }): VNode {
+  return (
+    <div class="scale" role="img" aria-label={`Colours of the conformal factor: lengths shrink to 1/${end} on the left, stay in the middle, grow by ${end} on the right`}>
+      <div class="bar" style={{ backgroundImage: scaleImage() }} />
+      <div class="ticks">
+        <span>1/{end} of its length</span>
+        <span>1</span>
+        <span>{end} times</span>
+      </div>
+    </div>
+  );
+}
+
+const BOX = { width: 288, height: 120, left: 44, right: 280, top: 8, bottom: 96 };
+
+/** The curvature error by step, with a line where the time is. */
+function Residuals({ flows, time }: { readonly flows: Flows; readonly time: number }): VNode {
+  const [low, high] = residualRange(flows);
+  const last = Math.max(1, ...flows.map(({ moments }) => moments.at(-1)?.step ?? 0));
+  const across = (step: number): number => BOX.left + (step / last) * (BOX.right - BOX.left);
+  const down = (residual: number): number =>
+    BOX.bottom - (Math.log(Math.max(residual, low) / low) / Math.log(high / low)) * (BOX.bottom - BOX.top);
+  // A time counts moments, of which a long flow has fewer than steps.
+  const longer = flows[0].moments.length >= flows[1].moments.length ? flows[0] : flows[1];
+  const [here, next] = [momentAt(longer, Math.floor(time)), momentAt(longer, Math.floor(time) + 1)];
+  const now = across(here.step + (time - Math.floor(time)) * (next.step - here.step));
+  const point = ({ step, residual }: FlowMoment): string => `${across(step).toFixed(1)} ${down(residual).toFixed(1)}`;
+  return (
+    <svg class="flow-residuals" viewBox={`0 0 ${BOX.width} ${BOX.height}`} role="img" aria-label="Largest curvature error in radians over the Newton steps of both flows, falling">
+      {logMarks([low, high], 4).map((mark) => (
+        <g key={mark}>
+          <path class="grid" d={`M${BOX.left} ${down(mark)}H${BOX.right}`} />
+          <text x={BOX.left - 6} y={down(mark) + 4} text-anchor="end">
+            {markText(mark)}
+          </text>
+        </g>
+      ))}
+      <text x={BOX.left} y={BOX.height - 6}>
+        0
+      </text>
+      <text x={BOX.right} y={BOX.height - 6} text-anchor="end">
+        Newton step {last}
+      </text>
+      <path class="now" d={`M${now.toFixed(1)} ${BOX.top}V${BOX.bottom}`} />
+      {SIDES.map(([name, side, colour]) => (
+        <g key={name} class={colour}>
+          <path d={`M${flows[side].moments.map(point).join('L')}`} />
+          {flows[side].moments.map((moment) => (
+            <circle key={moment.step} cx={across(moment.step)} cy={down(moment.residual)} r={2.5} />
+          ))}
+        </g>
+      ))}
+    </svg>
+  );
+}
+
+function Numbers({ flows, moment }: { readonly flows: Flows; readonly moment: number }): VNode {
+  return (
+    <table class="flow-numbers small">
+      <thead>
+        <tr>
+          <th scope="col">Flow</th>
+          <th scope="col">Step</th>
+          <th scope="col">Error (rad)</th>
+          <th scope="col">Iterations</th>
+          <th scope="col">Flips</th>
+        </tr>
+      </thead>
+      <tbody>
+        {SIDES.map(([name, side, colour]) => {
+          const { step, residual, cgIterations, edgeFlips } = momentAt(flows[side], moment);
+          return (
+            <tr key={name} data-flow={side}>
+              <th scope="row" class={colour}>
+                {name}
+              </th>
+              <td>{integer(step)}</td>
+              <td>{figure(residual)}</td>
+              <td>{integer(cgIterations)}</td>
+              <td>{integer(edgeFlips)}</td>
+            </tr>
+          );
+        })}
+      </tbody>
+    </table>
+  );
+}
+
+function Player({ flows, hands, onClose }: FlowPlayerProps & { readonly flows: Flows }): VNode {
+  const last = momentCount(flows) - 1;
+  const { time, isPlaying, rest, toggle } = usePlayed(last, STEP_TIME);
+  const end = useMemo(() => scaleEnd(flows), [flows]);
+  const moment = Math.min(Math.floor(time), last);
+  const places = useMemo(() => placesAt(flows, moment, end), [flows, moment, end]);
+  useEffect(() => {
+    hands.show({ places, share: eased(time - moment) });
+  }, [places, time]);
+  useEffect(
+    () => () => {
+      hands.show(null);
+    },
+    [],
+  );
+  const stopped = flows.some(({ converged }) => !converged);
+  const words = `step ${momentAt(flows[0], Math.round(time)).step} of the source, ${momentAt(flows[1], Math.round(time)).step} of the target`;
+  return (
+    <div class="watched">
+      <Scale end={end} />
+      <Transport name="flow" {...{ last, time, isPlaying, words, rest, toggle }} />
+      <Residuals flows={flows} time={time} />
+      <Numbers flows={flows} moment={moment} />
+      {stopped && <p class="quiet small">A flow has stopped before it had the curvatures that were asked for.</p>}
+      <div class="watched-row">
+        <button
+          type="button"
+          aria-label="Save the steps of the flows as CSV"
+          onClick={() => {
+            download('conemap-flows.csv', 'text/csv', flowCsv(flows));
+          }}
+        >
+          CSV
+        </button>
+        <button type="button" id="close-flow" onClick={onClose}>
+          Back to the picture
+        </button>
+      </div>
+    </div>
+  );
+}
+
+/** The flows, once they are computed. */
+export default function FlowPlayer({ hands, onClose }: FlowPlayerProps): VNode {
+  return (
+    <Computed hands={hands} sentence="Computing both flows again, step by step…" onClose={onClose}>
+      {(flows) => <Player hands={hands} onClose={onClose} flows={flows} />}
+    </Computed>
+  );
+}

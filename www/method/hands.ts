@@ -1,0 +1,61 @@
+/** What the page lends to the picture of the base domain. */
+import type { Watchable, Watched } from '../compute/watch-messages.ts';
+import type { Side } from '../landmarks.ts';
+import type { Axes } from './axes.ts';
+import type { BasePart } from './parts.ts';
+
+export interface BaseHands {
+  /** From now on patches light up under the mouse on the meshes, and `turned` hears when a camera has turned; returns what ends it. */
+  readonly open: (turned: () => void) => () => void;
+  /** How the camera of a side is turned; `null` while nothing is drawn. */
+  readonly axes: (side: Side) => Axes | null;
+  /** Turns the view of a side, and the other one where they are linked, in units of the picture's height, y up. */
+  readonly orbit: (side: Side, dx: number, dy: number, way: 'smoothly' | 'at once') => void;
+  /** Lights up what a part is on both meshes; `null` for nothing. */
+  readonly light: (part: BasePart | null) => void;
+}
+
+/** One frame of the flows on both meshes. */
+export interface FlowFrame {
+  /** By side and vertex the places on the scale, 0 to 1, at a moment and at the next one; the same object as long as these are. */
+  readonly places: readonly [FactorPlaces, FactorPlaces];
+  /** How far it is from the one to the other, 0 to 1. */
+  readonly share: number;
+}
+
+/** Places on the scale by vertex. */
+export interface FactorPlaces {
+  readonly from: Float32Array;
+  readonly to: Float32Array;
+}
+
+/** One stage of the way of both meshes to their landmarks. */
+export interface StageFrame {
+  /** By side the places of the vertices, and the triangles of the stage. */
+  readonly sides: readonly [StageTriangles, StageTriangles];
+}
+
+/** Triangles of points. */
+export interface StageTriangles {
+  readonly positions: Float32Array;
+  readonly triangles: Uint32Array;
+}
+
+/** What each part of the method shows on the meshes. */
+interface Frames {
+  readonly flows: FlowFrame;
+  readonly simplifications: StageFrame;
+}
+
+/** What the page lends to a part of the method that is watched. */
+export interface WatchHands<W extends Watchable> {
+  /** Computes it for the map on the page; returns what ends that. */
+  readonly start: (listener: {
+    readonly progress: (share: number) => void;
+    readonly done: (answer: Watched[W]) => void;
+    /** In a sentence for the user. */
+    readonly failed: (sentence: string) => void;
+  }) => () => void;
+  /** Shows a frame on the meshes; `null` for the meshes as before. */
+  readonly show: (frame: Frames[W] | null) => void;
+}

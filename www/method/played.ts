@@ -1,0 +1,52 @@
+/** A time in steps that plays to its end. */
+import { useEffect, useRef, useState } from 'preact/hooks';
+
+export interface Played {
+  /** In steps; between two of them while it plays, where motion is wanted. */
+  readonly time: number;
+  readonly isPlaying: boolean;
+  /** Stops at a time. */
+  readonly rest: (time: number) => void;
+  /** Plays on, from the beginning where it is at its end, or stops. */
+  readonly toggle: () => void;
+}
+
+/** From 0 to the last step, each taking this time in ms. */
+export function usePlayed(last: number, stepTime: number): Played {
+  const [time, setTime] = useState(0);
+  const [isPlaying, setPlaying] = useState(false);
+  const from = useRef(0);
+  useEffect(() => {
+    if (!isPlaying) {
+      return undefined;
+    }
+    const still = window.matchMedia('(prefers-reduced-motion: reduce)');
+    let begin: number | null = null;
+    const tick = (now: number): void => {
+      begin ??= now;
+      const next = Math.min(last, from.current + (now - begin) / stepTime);
+      setTime(still.matches ? Math.floor(next) : next);
+      if (next < last) {
+        frame = requestAnimationFrame(tick);
+      } else {
+        setPlaying(false);
+      }
+    };
+    let frame = requestAnimationFrame(tick);
+    return () => {
+      cancelAnimationFrame(frame);
+    };
+  }, [isPlaying, last]);
+  return {
+    time,
+    isPlaying,
+    rest: (at) => {
+      setPlaying(false);
+      setTime(at);
+    },
+    toggle: () => {
+      from.current = time >= last ? 0 : time;
+      setPlaying(!isPlaying);
+    },
+  };
+}

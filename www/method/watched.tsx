@@ -1,0 +1,99 @@
+/** What is shown of a part of the method while it is computed, and then. */
+import type { ComponentChildren, VNode } from 'preact';
+import { useEffect, useState } from 'preact/hooks';
+import type { Watchable, Watched } from '../compute/watch-messages.ts';
+import type { WatchHands } from './hands.ts';
+import './watched.css';
+
+interface ComputedProps<W extends Watchable> {
+  readonly hands: WatchHands<W>;
+  /** What is done meanwhile, in words. */
+  readonly sentence: string;
+  readonly onClose: () => void;
+  readonly children: (answer: Watched[W]) => ComponentChildren;
+}
+
+type State<W extends Watchable> =
+  | { readonly kind: 'running'; readonly share: number }
+  | { readonly kind: 'failed'; readonly sentence: string }
+  | { readonly kind: 'there'; readonly answer: Watched[W] };
+
+/** Computes it from when it is drawn until it is drawn no more. */
+export function Computed<W extends Watchable>({ hands, sentence, onClose, children }: ComputedProps<W>): VNode {
+  const [state, setState] = useState<State<W>>({ kind: 'running', share: 0 });
+  useEffect(
+    () =>
+      hands.start({
+        progress: (share) => {
+          setState({ kind: 'running', share });
+        },
+        done: (answer) => {
+          setState({ kind: 'there', answer });
+        },
+        failed: (reason) => {
+          setState({ kind: 'failed', sentence: reason });
+        },
+      }),
+    [],
+  );
+  switch (state.kind) {
+    case 'there':
+      return <>{children(state.answer)}</>;
+    case 'failed':
+      return (
+        <div role="alert">
+          <p>{state.sentence}</p>
+          <button type="button" onClick={onClose}>
+            Close
+          </button>
+        </div>
+      );
+    case 'running':
+      return (
+        <div class="watched">
+          <p role="status">{sentence}</p>
+          <progress value={state.share} aria-label="Share that is done" />
+          <div class="watched-row">
+            <button type="button" onClick={onClose}>
+              Cancel
+            </button>
+          </div>
+        </div>
+      );
+  }
+}
+
+interface TransportProps {
+  /** In the buttons' and the slider's names: `flow`, `simplification`. */
+  readonly name: string;
+  readonly last: number;
+  readonly time: number;
+  readonly isPlaying: boolean;
+  /** What the slider tells of its place. */
+  readonly words: string;
+  readonly rest: (time: number) => void;
+  readonly toggle: () => void;
+}
+
+/** A button that plays, and a slider. */
+export function Transport({ name, last, time, isPlaying, words, rest, toggle }: TransportProps): VNode {
+  return (
+    <div class="watched-row">
+      <button type="button" class="play" id={`play-${name}`} onClick={toggle} aria-label={isPlaying ? `Stop the ${name} here` : `Play the ${name}`}>
+        {isPlaying ? 'Pause' : 'Play'}
+      </button>
+      <input
+        type="range"
+        name={name}
+        min={0}
+        max={last}
+        value={Math.round(time)}
+        aria-label={`Step of the ${name}`}
+        aria-valuetext={words}
+        onInput={(event) => {
+          rest(Number(event.currentTarget.value));
+        }}
+      />
+    </div>
+  );
+}

@@ -1,0 +1,55 @@
+/** Parts of the page that are fetched when they are first wanted. */
+import type { ComponentType, VNode } from 'preact';
+import { useEffect, useState } from 'preact/hooks';
+
+type Content<P extends object> =
+  | { readonly kind: 'waiting' }
+  | { readonly kind: 'failed' }
+  | { readonly kind: 'there'; readonly Component: ComponentType<P> };
+
+interface LateProps<P extends object> {
+  readonly isWanted: boolean;
+  readonly load: () => Promise<ComponentType<P>>;
+  /** What the part is given. */
+  readonly given: P;
+}
+
+/** The part, or why it is not there; nothing of it is drawn while it is not wanted. */
+export function Late<P extends object>({ isWanted, load, given }: LateProps<P>): VNode | null {
+  const [content, setContent] = useState<Content<P>>({ kind: 'waiting' });
+  const bring = (): void => {
+    setContent({ kind: 'waiting' });
+    load().then(
+      (Component) => {
+        setContent({ kind: 'there', Component });
+      },
+      (thrown: unknown) => {
+        console.warn(thrown);
+        setContent({ kind: 'failed' });
+      },
+    );
+  };
+  useEffect(() => {
+    if (isWanted && content.kind !== 'there') {
+      bring();
+    }
+  }, [isWanted]);
+  if (!isWanted) {
+    return null;
+  }
+  switch (content.kind) {
+    case 'waiting':
+      return <p role="status">Loading…</p>;
+    case 'failed':
+      return (
+        <div role="alert">
+          <p>This part of the page could not be fetched. Is the network there?</p>
+          <button type="button" onClick={bring}>
+            Try again
+          </button>
+        </div>
+      );
+    case 'there':
+      return <content.Component {...given} />;
+  }
+}

@@ -1,0 +1,83 @@
+/** Parts of the method that are watched on the meshes, one at a time. */
+import type { ComponentType, VNode } from 'preact';
+import { useState } from 'preact/hooks';
+import type { WatchHands } from '../method/hands.ts';
+import { shownResult } from '../store/staleness.ts';
+import type { PartProps } from './actions.ts';
+import { Icon } from './icons.tsx';
+import { Late } from './late.tsx';
+
+type Part = 'flow' | 'simplification';
+
+interface PlayerProps<W extends 'flows' | 'simplifications'> {
+  readonly hands: WatchHands<W>;
+  readonly onClose: () => void;
+}
+
+const loadFlow = async (): Promise<ComponentType<PlayerProps<'flows'>>> => (await import('../method/flow.tsx')).default;
+const loadSimplification = async (): Promise<ComponentType<PlayerProps<'simplifications'>>> =>
+  (await import('../method/simplification.tsx')).default;
+
+interface ButtonProps {
+  readonly part: Part;
+  readonly about: string;
+  readonly onOpen: () => void;
+}
+
+function WatchButton({ part, about, onOpen }: ButtonProps): VNode {
+  return (
+    <>
+      <p class="quiet">{about}</p>
+      <div class="row">
+        <button type="button" id={`watch-${part}`} onClick={onOpen}>
+          <Icon name="play" />
+          Watch the {part}
+        </button>
+      </div>
+    </>
+  );
+}
+
+function PartsOf({ actions }: Pick<PartProps, 'actions'>): VNode {
+  const [open, setOpen] = useState<Part | null>(null);
+  const close = (): void => {
+    setOpen(null);
+  };
+  const opens = (part: Part) => (): void => {
+    setOpen(part);
+  };
+  return (
+    <>
+      <section id="simplification">
+        <h3>The simplification</h3>
+        {open === 'simplification' ? (
+          <Late isWanted load={loadSimplification} given={{ hands: actions.simplification, onClose: close }} />
+        ) : (
+          <WatchButton
+            part="simplification"
+            about="A base domain in the way of the thesis: edge after edge is collapsed, least change first, until the landmarks are left. By default the map goes over one that is planned on both meshes together."
+            onOpen={opens('simplification')}
+          />
+        )}
+      </section>
+      <section id="flow">
+        <h3>The flow</h3>
+        {open === 'flow' ? (
+          <Late isWanted load={loadFlow} given={{ hands: actions.flow, onClose: close }} />
+        ) : (
+          <WatchButton
+            part="flow"
+            about="Each mesh flows to the flat metric of the texture: circles at its vertices grow and shrink until all curvature is at the cones."
+            onOpen={opens('flow')}
+          />
+        )}
+      </section>
+    </>
+  );
+}
+
+/** What can be watched of the map on the page. */
+export function WatchView({ state, actions }: PartProps): VNode | null {
+  const result = shownResult(state);
+  return result === null ? null : <PartsOf key={result.output.report} actions={actions} />;
+}
