@@ -36,6 +36,36 @@ test('is left out where later work has begun, whichever is ready first', async (
   expect(store.state.job).toEqual({ kind: 'idle' });
 });
 
+test('that is left tells its preparation, and neither works nor says why it failed', async () => {
+  const done: string[] = [];
+  let left: AbortSignal | null = null;
+  const prepare = (signal: AbortSignal): Promise<never> => {
+    left = signal;
+    return new Promise((_, reject) => {
+      signal.addEventListener('abort', () => {
+        reject(new Error('left'));
+      });
+    });
+  };
+  const outcome = perform(store, 'Reading…', prepare, () => done.push('worked'));
+  expect(left).toMatchObject({ aborted: false });
+  const { job } = store.state;
+  if (job.kind !== 'busy') {
+    throw new Error('it is not told');
+  }
+  store.dispatch({ kind: 'task-ended', task: job.task });
+  expect(left).toMatchObject({ aborted: true });
+  expect(await outcome).toBe('left-out');
+  expect([done, store.state.error, store.state.job]).toEqual([[], null, { kind: 'idle' }]);
+});
+
+test('that is over is told of nothing any more', async () => {
+  let signal: AbortSignal | null = null;
+  const outcome = await perform(store, 'Reading…', (given) => (signal = given), () => undefined);
+  store.dispatch({ kind: 'error', sentence: 'Something else.' });
+  expect([outcome, signal]).toEqual(['done', expect.objectContaining({ aborted: false })]);
+});
+
 test('does not end later work', async () => {
   let release = (): void => undefined;
   const early = perform(store, 'Early…', () => null, () => undefined);
