@@ -44,6 +44,9 @@ const FRONT: Axes = { right: [1, 0, 0], up: [0, 1, 0], back: [0, 0, 1] };
 
 const SHAPES = [['Target', 1], ['Source', 0]] as const;
 
+const HELP =
+  'Arrow keys turn it, plus and minus change its size, v, e and f go to the next corner, side and triangle, with Shift to the last one.';
+
 /** The keys that go from part to part, with Shift backwards. */
 const PART_KEYS: Readonly<Partial<Record<string, BasePart['kind']>>> = { v: 'cone', e: 'side', f: 'face' };
 
@@ -182,11 +185,176 @@ function stepped(part: BasePart | null, kind: BasePart['kind'], by: 1 | -1, coun
   return { kind, index: (index + count) % count };
 }
 
+/** What the picture shows and is asked for, and what hands and keys do to it. */
+interface Desk {
+  readonly solid: Solid;
+  readonly picture: Picture;
+  readonly height: number;
+  readonly held: BasePart | null;
+  readonly turn: Turning['turn'];
+  readonly hover: (part: BasePart | null) => void;
+  readonly hold: (part: BasePart | null) => void;
+  /** Multiplies its size; `null` for the whole. */
+  readonly magnify: (factor: number | null) => void;
+}
+
+/** What a key does; `null` where it is not the picture's. */
+function actionOf({ solid, held, turn, hold, magnify }: Desk, { key, shiftKey }: KeyboardEvent): (() => void) | null {
+  const kind = PART_KEYS[key.toLowerCase()];
+  if (kind !== undefined) {
+    const counts = { cone: solid.cones.length, side: solid.ends.length, face: faceCount(solid.base) };
+    return () => {
+      hold(stepped(held, kind, shiftKey ? -1 : 1, counts[kind]));
+    };
+  }
+  const turns: Readonly<Partial<Record<string, readonly [number, number]>>> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+  const way = turns[key];
+  if (way !== undefined) {
+    return () => {
+      turn(KEY_TURN * way[0], KEY_TURN * way[1], 'smoothly');
+    };
+  }
+  const others: Readonly<Partial<Record<string, () => void>>> = {
+    '+': () => { magnify(KEY_ZOOM); },
+    '-': () => { magnify(1 / KEY_ZOOM); },
+    '0': () => { magnify(null); },
+    Escape: () => { hold(null); },
+  };
+  return others[key] ?? null;
+}
+
+function press(desk: Desk, event: KeyboardEvent): void {
+  const action = event.ctrlKey || event.metaKey || event.altKey ? null : actionOf(desk, event);
+  if (action !== null) {
+    event.preventDefault();
+    event.stopPropagation();
+    action();
+  }
+}
+
 interface Pointing {
   /** Where the pointer was last, and how far it has come since it was pressed. */
-  x: number;
-  y: number;
-  travelled: number;
+  readonly x: number;
+  readonly y: number;
+  readonly travelled: number;
+}
+
+type PointerHandlers = Readonly<Record<'onPointerDown' | 'onPointerMove' | 'onPointerUp' | 'onPointerCancel' | 'onPointerLeave', (event: PointerEvent) => void>>;
+
+/** A drag turns the picture, a click holds a part, and what is under the pointer is asked for. */
+function usePointer(svg: { readonly current: SVGSVGElement | null }, { picture, height, held, turn, hover, hold }: Desk): PointerHandlers {
+  const pressed = useRef<Pointing | null>(null);
+  const partUnder = (event: PointerEvent): BasePart | null => {
+    const box = svg.current?.getBoundingClientRect();
+    return partAt(picture, { x: event.clientX - (box?.left ?? 0), y: event.clientY - (box?.top ?? 0) });
+  };
+  return {
+    onPointerDown: (event) => {
+      svg.current?.setPointerCapture(event.pointerId);
+      pressed.current = { x: event.clientX, y: event.clientY, travelled: 0 };
+    },
+    onPointerMove: (event) => {
+      const from = pressed.current;
+      if (from === null) {
+        hover(partUnder(event));
+        return;
+      }
+      const [dx, dy] = [event.clientX - from.x, event.clientY - from.y];
+      const travelled = from.travelled + Math.hypot(dx, dy);
+      pressed.current = { x: event.clientX, y: event.clientY, travelled };
+      if (travelled > CLICK_SLACK) {
+        turn(dx / height, -dy / height, 'at once');
+      }
+    },
+    onPointerUp: (event) => {
+      if ((pressed.current?.travelled ?? Infinity) <= CLICK_SLACK) {
+        const part = partUnder(event);
+        hold(part !== null && isPart(held, part.kind, part.index) ? null : part);
+      }
+      pressed.current = null;
+    },
+    onPointerCancel: () => {
+      pressed.current = null;
+    },
+    onPointerLeave: () => {
+      hover(null);
+    },
+  };
+}
+
+interface RowProps {
+  readonly side: Side;
+  readonly isLarge: boolean;
+  readonly onSide: (side: Side) => void;
+  readonly onLarge: (isLarge: boolean) => void;
+  readonly onSave: () => void;
+}
+
+/** What is below the picture. */
+function Row({ side, isLarge, onSide, onLarge, onSave }: RowProps): VNode {
+  return (
+    <div class="base-row">
+      <div role="radiogroup" aria-label="Shape of the base domain" class="base-shapes">
+        {SHAPES.map(([text, value]) => (
+          <label class="check" key={value}>
+            <input
+              type="radio"
+              name="base-shape"
+              checked={side === value}
+              onChange={() => {
+                onSide(value);
+              }}
+            />
+            <span>{text}</span>
+          </label>
+        ))}
+      </div>
+      <button
+        type="button"
+        aria-pressed={isLarge}
+        onClick={() => {
+          onLarge(!isLarge);
+        }}
+      >
+        Large
+      </button>
+      <button type="button" aria-label="Save the base domain as SVG" onClick={onSave}>
+        SVG
+      </button>
+    </div>
+  );
+}
+
+interface ShapesProps {
+  readonly solid: Solid;
+  readonly picture: Picture;
+  readonly lit: BasePart | null;
+  readonly palette: Palette;
+  readonly names: readonly string[];
+  readonly width: number;
+}
+
+/** What is drawn. */
+function Shapes({ solid, picture, lit, palette, names, width }: ShapesProps): VNode {
+  return (
+    <>
+      {picture.facets.map((facet, k) => (
+        <FacetPaths key={k} facet={facet} lit={lit} palette={palette} />
+      ))}
+      <Through solid={solid} picture={picture} lit={lit} palette={palette} />
+      {picture.balls.map((ball) => (
+        <BallCircle key={ball.cone} ball={ball} lit={lit} palette={palette} />
+      ))}
+      {lit?.kind === 'cone' && (
+        <Tag
+          at={picture.spots[lit.index] ?? { x: 0, y: 0 }}
+          text={`${coneName(names, lit.index)}: ${degrees(solid.curvatures[lit.index] ?? 0)}`}
+          width={width}
+          palette={palette}
+        />
+      )}
+    </>
+  );
 }
 
 /** All of it. */
@@ -198,7 +366,6 @@ export default function BaseDomain(props: BaseDomainProps): VNode {
   const [hovered, setHovered] = useState<BasePart | null>(null);
   const [held, setHeld] = useState<BasePart | null>(null);
   const svg = useRef<SVGSVGElement>(null);
-  const pressed = useRef<Pointing | null>(null);
   const palette = useDarkness(theme) ? DARK : LIGHT;
   const { width, height } = useSize(svg);
   const { axes, turn } = useTurning(props, side);
@@ -212,41 +379,23 @@ export default function BaseDomain(props: BaseDomainProps): VNode {
       hands.light(chosen);
     }
   }, [chosen?.kind, chosen?.index, under]);
-
-  const spotOf = (event: PointerEvent): Spot => {
-    const box = svg.current?.getBoundingClientRect();
-    return { x: event.clientX - (box?.left ?? 0), y: event.clientY - (box?.top ?? 0) };
+  const desk: Desk = {
+    ...{ solid, picture, height, held, turn },
+    hover: (part) => {
+      if (part?.kind !== hovered?.kind || part?.index !== hovered?.index) {
+        setHovered(part);
+      }
+    },
+    hold: setHeld,
+    magnify: (factor) => {
+      setZoom(factor === null ? 1 : Math.min(ZOOMS[1], Math.max(ZOOMS[0], zoom * factor)));
+    },
   };
-  const hover = (part: BasePart | null): void => {
-    if (part?.kind !== hovered?.kind || part?.index !== hovered?.index) {
-      setHovered(part);
-    }
+  const save = (): void => {
+    const saved = pictureOf(solid, { ...look, ...EXPORTED });
+    const labels = solid.cones.map((_, cone) => coneName(names, cone));
+    download('conemap-base-domain.svg', 'image/svg+xml', pictureSvg(saved, EXPORTED, labels));
   };
-  const magnify = (factor: number): void => {
-    setZoom(Math.min(ZOOMS[1], Math.max(ZOOMS[0], zoom * factor)));
-  };
-  const counts = { cone: solid.cones.length, side: solid.ends.length, face: faceCount(base) };
-  const press = (event: KeyboardEvent): void => {
-    const by = event.shiftKey ? -1 : 1;
-    const kind = PART_KEYS[event.key.toLowerCase()];
-    const keys: Readonly<Partial<Record<string, () => void>>> = {
-      ArrowLeft: () => { turn(-KEY_TURN, 0, 'smoothly'); },
-      ArrowRight: () => { turn(KEY_TURN, 0, 'smoothly'); },
-      ArrowUp: () => { turn(0, KEY_TURN, 'smoothly'); },
-      ArrowDown: () => { turn(0, -KEY_TURN, 'smoothly'); },
-      '+': () => { magnify(KEY_ZOOM); },
-      '-': () => { magnify(1 / KEY_ZOOM); },
-      '0': () => { setZoom(1); },
-      Escape: () => { setHeld(null); },
-    };
-    const action = kind === undefined ? keys[event.key] : (): void => { setHeld(stepped(held, kind, by, counts[kind])); };
-    if (action !== undefined && !event.ctrlKey && !event.metaKey && !event.altKey) {
-      event.preventDefault();
-      event.stopPropagation();
-      action();
-    }
-  };
-
   return (
     <div class={`base-domain${isLarge ? ' large' : ''}`}>
       <svg
@@ -254,95 +403,20 @@ export default function BaseDomain(props: BaseDomainProps): VNode {
         id="base-picture"
         role="group"
         tabindex={0}
-        aria-label={`The base domain. ${summary(solid)} Arrow keys turn it, plus and minus change its size, v, e and f go to the next corner, side and triangle, with Shift to the last one.`}
+        aria-label={`The base domain. ${summary(solid)} ${HELP}`}
         stroke-linejoin="round"
         stroke-linecap="round"
-        onKeyDown={press}
-        onPointerDown={(event) => {
-          svg.current?.setPointerCapture(event.pointerId);
-          pressed.current = { x: event.clientX, y: event.clientY, travelled: 0 };
+        onKeyDown={(event) => {
+          press(desk, event);
         }}
-        onPointerMove={(event) => {
-          const from = pressed.current;
-          if (from === null) {
-            hover(partAt(picture, spotOf(event)));
-            return;
-          }
-          const [dx, dy] = [event.clientX - from.x, event.clientY - from.y];
-          pressed.current = { x: event.clientX, y: event.clientY, travelled: from.travelled + Math.hypot(dx, dy) };
-          if (pressed.current.travelled > CLICK_SLACK) {
-            turn(dx / height, -dy / height, 'at once');
-          }
-        }}
-        onPointerUp={(event) => {
-          if ((pressed.current?.travelled ?? Infinity) <= CLICK_SLACK) {
-            const part = partAt(picture, spotOf(event));
-            setHeld(part !== null && isPart(held, part.kind, part.index) ? null : part);
-          }
-          pressed.current = null;
-        }}
-        onPointerCancel={() => {
-          pressed.current = null;
-        }}
-        onPointerLeave={() => {
-          hover(null);
-        }}
+        {...usePointer(svg, desk)}
       >
-        {picture.facets.map((facet, k) => (
-          <FacetPaths key={k} facet={facet} lit={lit} palette={palette} />
-        ))}
-        <Through solid={solid} picture={picture} lit={lit} palette={palette} />
-        {picture.balls.map((ball) => (
-          <BallCircle key={ball.cone} ball={ball} lit={lit} palette={palette} />
-        ))}
-        {lit?.kind === 'cone' && (
-          <Tag
-            at={picture.spots[lit.index] ?? { x: 0, y: 0 }}
-            text={`${coneName(names, lit.index)}: ${degrees(solid.curvatures[lit.index] ?? 0)}`}
-            width={width}
-            palette={palette}
-          />
-        )}
+        <Shapes {...{ solid, picture, lit, palette, names, width }} />
       </svg>
       <p class="base-reading small" role="status">
         {lit === null ? summary(solid) : reading(solid, lit, names)}
       </p>
-      <div class="base-row">
-        <div role="radiogroup" aria-label="Shape of the base domain" class="base-shapes">
-          {SHAPES.map(([text, value]) => (
-            <label class="check" key={value}>
-              <input
-                type="radio"
-                name="base-shape"
-                checked={side === value}
-                onChange={() => {
-                  setSide(value);
-                }}
-              />
-              <span>{text}</span>
-            </label>
-          ))}
-        </div>
-        <button
-          type="button"
-          aria-pressed={isLarge}
-          onClick={() => {
-            setLarge(!isLarge);
-          }}
-        >
-          Large
-        </button>
-        <button
-          type="button"
-          aria-label="Save the base domain as SVG"
-          onClick={() => {
-            const saved = pictureOf(solid, { ...look, ...EXPORTED });
-            download('conemap-base-domain.svg', 'image/svg+xml', pictureSvg(saved, EXPORTED, solid.cones.map((_, cone) => coneName(names, cone))));
-          }}
-        >
-          SVG
-        </button>
-      </div>
+      <Row side={side} isLarge={isLarge} onSide={setSide} onLarge={setLarge} onSave={save} />
     </div>
   );
 }
