@@ -124,7 +124,7 @@ impl Factors {
     pub fn new(last: Option<Self>, own: &SideMesh, places: [&[f32]; 2], renderer: &Renderer) -> Self {
         let (mut vertices, indices) = match last {
             Some(last) => (last.vertices, last.indices),
-            None => surface(&own.checked.mesh, &own.frame),
+            None => surface(&own.checked.mesh, &own.shading, &own.frame),
         };
         let uvs = places[0].iter().zip(places[1]).map(|(from, to)| [*from, *to]);
         vertices.iter_mut().zip(uvs).for_each(|(vertex, uv)| vertex.uv = uv);
