@@ -20,12 +20,13 @@ mod points;
 mod quads;
 #[path = "../common/remeshing.rs"]
 mod remeshing;
+#[path = "../common/rough_meshes.rs"]
+mod rough_meshes;
 #[path = "../common/theorems.rs"]
 mod theorems;
 
 mod exact_geodesics;
 mod fixtures;
-mod rough_meshes;
 
 mod agreement;
 mod base;
