@@ -26,10 +26,12 @@ mod borders;
 mod case;
 mod classes;
 mod clicks;
+mod determinism;
 mod fit;
 mod fit_faults;
 mod holes;
 mod hostile;
+mod job_files;
 mod matched;
 mod pairs;
 mod remesh;
@@ -128,8 +130,13 @@ const SURVEYS: &[Survey] = &[
     },
     Survey {
         name: "silence",
-        about: "how long a run asks its monitor nothing, by stage, on large balls; --pairs for others",
+        about: "how long a run asks its monitor nothing, by stage: --pairs ball-6,cat-lion,single/horse97k.off",
         run: silence::table,
+    },
+    Survey {
+        name: "determinism",
+        about: "the same files twice, with source and target exchanged, with the landmarks in another order",
+        run: determinism::table,
     },
     Survey {
         name: "soak",

@@ -7,7 +7,7 @@
 use crate::rough_meshes::{LIMBS, Random, flipped, limbed, split_edge, split_face};
 use conemap::io::landmark_file::LandmarkPoint;
 use conemap::math::scalar::{cos, pow, sin};
-use conemap::mesh::generators::{icosphere, octahedron};
+use conemap::mesh::generators::icosphere;
 use conemap::mesh::{SurfaceMesh, VertexId};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
@@ -15,7 +15,7 @@ use std::f64::consts::{PI, TAU};
 /// What is hard about a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
-    /// Points put into faces and onto edges, down to 1e-12 of an edge from corners and sides: angles of 1e-6 degrees and less.
+    /// Points put into faces beside a side, down to angles of 1e-6 degrees.
     Slivers,
     /// Stretched up to 1:1000, or one vertex pulled out as far.
     Needles,
@@ -25,7 +25,7 @@ pub enum Kind {
     Noise,
     /// A vertex with up to 1,000 neighbours.
     Hubs,
-    /// Edges turned, points put in, noise, coordinates of 1e-60 and 1e60.
+    /// Edges turned, points put in and put in again, down to what rounding takes for one point, coordinates of 1e-60 and 1e60.
     Rough,
     /// Up to 328,000 faces against 20.
     Unequal,
@@ -166,7 +166,7 @@ fn bodies(kind: Kind, size: Size, random: &mut Random) -> [Body; 2] {
     match kind {
         Kind::Unequal => {
             let levels = match (size, random.below(24)) {
-                (Size::Small, _) => 4,
+                (Size::Small, _) => 3,
                 (_, 0) => 7,
                 (_, 1..=3) => 6,
                 (_, n) => 3 + n % 3,
@@ -184,12 +184,12 @@ fn bodies(kind: Kind, size: Size, random: &mut Random) -> [Body; 2] {
         }
         Kind::Mixed => [(); 2].map(|()| {
             let kinds = [Kind::Slivers, Kind::Needles, Kind::Pancakes, Kind::Noise, Kind::Hubs, Kind::Rough];
-            hard(kinds[random.below(kinds.len())], usual, random)
+            hard(kinds[random.below(kinds.len())], usual, size, random)
         }),
         _ => {
-            let hard_one = hard(kind, usual, random);
+            let hard_one = hard(kind, usual, size, random);
             let other = if random.unit() < 0.5 {
-                hard(kind, usual, random)
+                hard(kind, usual, size, random)
             } else {
                 Body::ball(icosphere(usual)).bent(random)
             };
@@ -205,7 +205,7 @@ fn same_ball(levels: usize, random: &mut Random) -> [Body; 2] {
 }
 
 /// A shape that is hard by itself.
-fn hard(kind: Kind, levels: usize, random: &mut Random) -> Body {
+fn hard(kind: Kind, levels: usize, size: Size, random: &mut Random) -> Body {
     match kind {
         Kind::Slivers => slivers(levels, random),
         Kind::Needles => needle(levels, random),
@@ -214,10 +214,10 @@ fn hard(kind: Kind, levels: usize, random: &mut Random) -> Body {
             Body::ball(icosphere(levels)).moved(|p| DVec3::new(p.x, p.y, flat * p.z))
         }
         Kind::Noise => {
-            let size = pow(10.0, 0.7 - 2.5 * random.unit()) / f64::from(1 << levels);
-            Body::ball(icosphere(levels)).moved(|p| *p + size * anywhere(random))
+            let reach = pow(10.0, 0.7 - 2.5 * random.unit()) / f64::from(1 << levels);
+            Body::ball(icosphere(levels)).moved(|p| *p + reach * anywhere(random))
         }
-        Kind::Hubs => hub(random),
+        Kind::Hubs => hub(size, random),
         _ => rough(levels, random),
     }
 }
@@ -227,12 +227,24 @@ fn anywhere(random: &mut Random) -> DVec3 {
     DVec3::from_array([0; 3].map(|_| 2.0 * random.unit() - 1.0))
 }
 
-/// The octahedron or a ball with as many points put in as it has vertices.
+/// A ball with a point put into some of its faces, as near to a side as angles of 1e-6 degrees are.
 fn slivers(levels: usize, random: &mut Random) -> Body {
-    let mut mesh = if random.unit() < 0.3 { octahedron() } else { icosphere(levels.min(3)) };
-    for _ in 0..mesh.vertex_count().clamp(30, 400) {
-        mesh = if random.unit() < 0.5 { split_face(&mesh, random) } else { split_edge(&mesh, random) };
+    let ball = icosphere(levels);
+    let mut places: Vec<DVec3> = ball.positions().iter().copied().collect();
+    let mut faces = Vec::new();
+    let share = random.unit();
+    for (face, &[a, b, c]) in ball.triangles().iter_enumerated() {
+        if random.unit() >= share {
+            faces.push([a, b, c]);
+            continue;
+        }
+        let (along, height) = (0.2 + 0.6 * random.unit(), pow(10.0, -8.0 * random.unit()));
+        let [p, q, r] = ball.corners(face);
+        let v = VertexId::from(places.len());
+        places.push(p + (1.0 - height) * along * (q - p) + height * (r - p));
+        faces.extend([[a, b, v], [b, c, v], [c, a, v]]);
     }
+    let mesh = SurfaceMesh::from_triangles(places.into(), faces.into()).expect("faces may be split");
     Body::ball(mesh).bent(random)
 }
 
@@ -263,8 +275,11 @@ fn rough(levels: usize, random: &mut Random) -> Body {
 }
 
 /// Two vertices with up to 1,000 neighbours each, and one to three rings between them.
-fn hub(random: &mut Random) -> Body {
-    let (around, rings) = (200 + random.below(801), 1 + random.below(3));
+fn hub(size: Size, random: &mut Random) -> Body {
+    let (around, rings) = match size {
+        Size::Small => (400, 1),
+        Size::Any => (200 + random.below(801), 1 + random.below(3)),
+    };
     let mut places = vec![DVec3::Z, DVec3::NEG_Z];
     for ring in 0..rings {
         let from_pole = PI * (ring + 1) as f64 / (rings + 1) as f64;

@@ -4,7 +4,7 @@
 use crate::hostile_geometry::HostileCase;
 use conemap::export::off;
 use conemap::io::landmark_file::LandmarkFile;
-use conemap::job::{Job, JobError, JobFiles, MapFiles, OpenMap, OutputKind, ReadOptions, prove};
+use conemap::job::{Job, JobError, JobFiles, MapFiles, OpenMap, OutputFile, OutputKind, ReadOptions, prove};
 use conemap::landmark_exchange::GivenFile;
 use conemap::monitor::Monitor;
 use conemap::pipeline::{Choices, MapResult, PipelineOptions, Report};
@@ -91,6 +91,11 @@ impl Mapped {
             Ok(proof) => Outcome::ProvedWithinRounding { triangles: proof.doubtful.triangles },
             Err(error) => Outcome::Wrong(format!("conemap_verify rejects it: {error}")),
         }
+    }
+
+    /// All files of the map, by name.
+    pub fn outputs(&self) -> Vec<OutputFile> {
+        self.job.outputs(&self.result, &Choices::default()).expect("the map has files")
     }
 
     /// The numbers of the map.

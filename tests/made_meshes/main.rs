@@ -14,6 +14,10 @@ mod cutting;
 mod distance_bounds;
 #[path = "../common/fit.rs"]
 mod fit;
+#[path = "../common/hostile_geometry.rs"]
+mod hostile_geometry;
+#[path = "../common/judged_job.rs"]
+mod judged_job;
 #[path = "../common/points.rs"]
 mod points;
 #[path = "../common/quads.rs"]
@@ -54,6 +58,7 @@ mod remesh;
 mod repair;
 mod search;
 mod thesis;
+mod torture;
 #[cfg(feature = "cli")]
 mod transfer;
 mod wrap;

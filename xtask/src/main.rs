@@ -3,6 +3,7 @@
 mod browser;
 mod compare;
 mod fuzz;
+mod licences;
 mod page;
 mod run;
 mod suite;
