@@ -58,8 +58,8 @@ fn cat_to_lion(criterion: &mut Criterion, data: &Path) {
     let [source, target] = [0, 1].map(|k| sides[k].parametrised(&ends[k]));
     criterion.bench_function("cat-lion/composition and overlay", |bencher| {
         bencher.iter(|| {
-            let locations = locate(source, target, &surface).expect("every vertex is found");
-            overlay::overlay(source, target, &locations).expect("an overlay")
+            let locations = locate(source, target, &surface, &mut Silent).expect("every vertex is found");
+            overlay::overlay(source, target, &locations, &mut Silent).expect("an overlay")
         });
     });
 }

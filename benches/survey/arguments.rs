@@ -17,6 +17,10 @@ pub struct Arguments {
     pub variants: Vec<String>,
     /// Random repetitions.
     pub seeds: u64,
+    /// Where random numbers begin.
+    pub seed: u64,
+    /// How long a table without an end of its own goes on.
+    pub minutes: f64,
     /// Maps that are made at once.
     pub jobs: usize,
     /// Processor seconds after which a map is given up.
@@ -35,13 +39,14 @@ impl Arguments {
     /// Those of this process. `--bench`, which cargo adds, is left out.
     pub fn read() -> Self {
         let mut given = std::env::args().skip(1).filter(|argument| argument != "--bench");
-        let data = common::data_folder("the survey").expect("the data folder");
         let mut arguments = Self {
             table: given.next().unwrap_or_default(),
-            data,
+            data: common::data_path(),
             pairs: Vec::new(),
             variants: Vec::new(),
             seeds: 1,
+            seed: 1,
+            minutes: 10.0,
             jobs: std::thread::available_parallelism().map_or(1, usize::from),
             time_limit: 150.0,
             landmarks: 0,
@@ -56,6 +61,8 @@ impl Arguments {
                 "--pairs" => arguments.pairs = value.split(',').map(str::to_owned).collect(),
                 "--variants" => arguments.variants = value.split(',').map(str::to_owned).collect(),
                 "--seeds" => arguments.seeds = number() as u64,
+                "--seed" => arguments.seed = number() as u64,
+                "--minutes" => arguments.minutes = number(),
                 "--jobs" => arguments.jobs = number() as usize,
                 "--time-limit" => arguments.time_limit = number(),
                 "--landmarks" => arguments.landmarks = number() as usize,

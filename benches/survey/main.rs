@@ -10,20 +10,28 @@
 mod common;
 #[path = "../../tests/common/cutting.rs"]
 mod cutting;
+#[path = "../../tests/common/hostile_geometry.rs"]
+mod hostile_geometry;
+#[path = "../../tests/common/judged_job.rs"]
+mod judged_job;
 #[path = "../../tests/common/punching.rs"]
 mod punching;
 #[path = "../../tests/common/quads.rs"]
 mod quads;
+#[path = "../../tests/common/rough_meshes.rs"]
+mod rough_meshes;
 
 mod arguments;
 mod borders;
 mod case;
 mod classes;
 mod clicks;
+mod determinism;
 mod fit;
 mod fit_faults;
 mod holes;
 mod hostile;
+mod job_files;
 mod matched;
 mod pairs;
 mod remesh;
@@ -33,6 +41,7 @@ mod silence;
 mod soak;
 mod stages;
 mod table;
+mod torture;
 mod verify;
 mod watch;
 mod wrap;
@@ -122,13 +131,28 @@ const SURVEYS: &[Survey] = &[
     },
     Survey {
         name: "silence",
-        about: "how long a run asks its monitor nothing, by stage, on large balls; --pairs for others",
+        about: "how long a run asks its monitor nothing, by stage: --pairs ball-6,cat-lion,single/horse97k.off",
         run: silence::table,
+    },
+    Survey {
+        name: "determinism",
+        about: "the same files twice, with source and target exchanged, with the landmarks in another order",
+        run: determinism::table,
     },
     Survey {
         name: "soak",
         about: "what one process holds in memory over 200 maps of the demos (--seeds N: over N)",
         run: soak::table,
+    },
+    Survey {
+        name: "torture",
+        about: "generated hostile geometry for --minutes N, from --seed S; --pairs slivers,hubs for some kinds",
+        run: torture::table,
+    },
+    Survey {
+        name: "torture-case",
+        about: "some of them in this process: --pairs slivers-17,hubs-3",
+        run: torture::cases,
     },
     Survey { name: "hostile-case", about: "one of them in this process, for the table", run: hostile::case },
     Survey {
@@ -138,10 +162,18 @@ const SURVEYS: &[Survey] = &[
     },
 ];
 
+/// Tables of meshes that the project makes itself.
+const NEED_NO_DATA: [&str; 3] = ["soak", "torture", "torture-case"];
+
 fn main() {
     let arguments = Arguments::read();
     match SURVEYS.iter().find(|survey| survey.name == arguments.table) {
-        Some(survey) => (survey.run)(&arguments),
+        Some(survey) => {
+            if !NEED_NO_DATA.contains(&survey.name) {
+                common::data_folder("the survey").expect("the data folder");
+            }
+            (survey.run)(&arguments);
+        }
         None => {
             eprintln!(
                 "cargo xtask survey TABLE [--pairs NAME,NAME] [--seeds N] [--jobs N] [--time-limit SECONDS]"

@@ -1,12 +1,13 @@
-//! A monitor that measures how long nobody asks it.
+//! A monitor that measures how long nobody asks it, in processor time of its thread, so that other programs do not count.
 
 use conemap::monitor::{Cancelled, Monitor, Stage, Step};
+use cpu_time::ThreadTime;
 use std::collections::BTreeMap;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// The silences of a run.
 pub struct Watch {
-    last: Instant,
+    last: ThreadTime,
     stage: Option<Stage>,
     /// By stage the longest silence and the number of questions; without a stage what came before the first.
     pub by_stage: BTreeMap<Option<Stage>, (Duration, usize)>,
@@ -15,7 +16,7 @@ pub struct Watch {
 impl Watch {
     /// From now on.
     pub fn new() -> Self {
-        Self { last: Instant::now(), stage: None, by_stage: BTreeMap::new() }
+        Self { last: ThreadTime::now(), stage: None, by_stage: BTreeMap::new() }
     }
 
     /// The longest silence, with the sentence of its stage; the last one ends now.
@@ -31,7 +32,7 @@ impl Watch {
         let (longest, questions) = self.by_stage.entry(self.stage).or_default();
         *longest = (*longest).max(self.last.elapsed());
         *questions += 1;
-        self.last = Instant::now();
+        self.last = ThreadTime::now();
     }
 }
 

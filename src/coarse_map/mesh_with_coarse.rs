@@ -7,7 +7,7 @@ use crate::landmarks::{LandmarkId, Landmarks};
 use crate::mesh::coarsening::{Held, Level, coarsen_around};
 use crate::mesh::collapsible::CollapsibleMesh;
 use crate::mesh::{SurfaceMesh, VertexId};
-use crate::monitor::{Cancelled, Monitor, Portion};
+use crate::monitor::{Cancelled, Monitor, Portion, Step};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 /// A mesh with its coarse level.
@@ -39,6 +39,7 @@ impl<'a> MeshWithCoarse<'a> {
         let mut is_kept: TiVec<VertexId, bool> = ti_vec![false; full.vertex_count()];
         let on_rims = kept_of_rims(full, landmarked.weights(), rims, goal);
         on_rims.into_iter().for_each(|v| is_kept[v] = true);
+        monitor.step(Step::default())?;
         let mut mesh = CollapsibleMesh::new(full);
         let held = Held { cones: &is_landmark, others: &is_kept };
         coarsen_around(&mut mesh, full.positions(), goal, held, monitor)?;

@@ -14,7 +14,7 @@ use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::coarsening::Level;
 use crate::mesh::face_weights::{FaceWeight, FaceWeights};
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
-use crate::monitor::{Cancelled, Monitor, Portion, PreviewOf, Step};
+use crate::monitor::{Cancelled, Monitor, Portion, PreviewOf, Silent, Step};
 use crate::registration::patch_fit::OrientedSurface;
 use crate::registration::rigid_patches::{self, MappedLevel, RigidPatchOptions, WeightedLevel};
 use crate::surface_map::MapError;
@@ -125,7 +125,7 @@ impl CoarseMap<'_> {
     pub fn images(&self) -> Option<LevelImages> {
         let present = self.present();
         let [source, target] = [0, 1].map(|k| present[k].parametrised());
-        let locations = locate(source, target, &self.surface).ok()?;
+        let locations = locate(source, target, &self.surface, &mut Silent).ok()?;
         let target_from_source =
             locations.by_vertex.iter().map(|at| barycentric(source, target, at)).collect();
         let [source, target] = present;
@@ -141,7 +141,7 @@ impl CoarseMap<'_> {
         };
         let present = self.present();
         let [from, onto] = [k, 1 - k].map(|k| present[k].parametrised());
-        let locations = locate(from, onto, &self.surface).ok()?;
+        let locations = locate(from, onto, &self.surface, &mut Silent).ok()?;
         let image = |at: &Location| barycentric(from, onto, at).position(onto.mesh);
         let images = locations.by_vertex.iter().map(image).collect();
         let [source, target] = present;
@@ -275,9 +275,15 @@ impl CoarseMap<'_> {
         let present = self.present();
         let [source, target] = [0, 1].map(|k| present[k].parametrised());
         monitor.step(Step::default())?;
-        let Ok(locations) = locate(source, target, &self.surface) else { return Ok(()) };
+        let locations = match locate(source, target, &self.surface, monitor) {
+            Ok(locations) => locations,
+            Err(error) => return Ok(error.or_stop().map(drop)?),
+        };
         monitor.step(Step::default())?;
-        let Ok(overlay) = overlay(source, target, &locations) else { return Ok(()) };
+        let overlay = match overlay(source, target, &locations, monitor) {
+            Ok(overlay) => overlay,
+            Err(error) => return Ok(error.or_stop().map(drop)?),
+        };
         let brink = if self.energy == MapEnergy::POSES { options.pose_brink } else { options.brink };
         let energy = DentEnergy { energy: self.energy, brink };
         let healed = dents::heal([source, target], &self.surface, &overlay, options, energy, monitor)?;
@@ -303,7 +309,7 @@ impl CoarseMap<'_> {
         for k in 0..2 {
             let [from, onto] = [k, 1 - k].map(|k| present[k].parametrised());
             let [level, other] = [k, 1 - k].map(|k| present[k].weighted());
-            let Ok(locations) = locate(from, onto, &self.surface) else { continue };
+            let Ok(locations) = locate(from, onto, &self.surface, &mut Silent) else { continue };
             let points = locations.by_vertex.iter().map(|at| barycentric(from, onto, at));
             let seen = MappedLevel::new(level, other, points);
             show(k, &seen, &mut self.constraints[k])?;
@@ -427,5 +433,7 @@ pub fn solve_fine(
         }
     }
     map.heal(&options.dents, &mut Portion::new(monitor, 1.0, 1.0))?;
-    Ok(map.levels.map(|level| level.snapshot().embedding))
+    let source = map.levels[0].snapshot().embedding;
+    monitor.step(Step { fraction: 1.0, residual: None })?;
+    Ok([source, map.levels[1].snapshot().embedding])
 }

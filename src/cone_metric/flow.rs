@@ -85,7 +85,9 @@ pub fn flow(
     monitor: &mut dyn Monitor,
 ) -> Result<(ConeMetric, FlowReport), FlowError> {
     target::check(target_curvature)?;
+    monitor.step(Step::default())?;
     let metric = ConeMetric::of_mesh(mesh, options.scheme, options.radii_scale);
+    monitor.step(Step::default())?;
     Newton::new(metric, target_curvature, options).run(monitor)
 }
 
@@ -155,9 +157,11 @@ impl<'a> Newton<'a> {
         let mut error = self.residual(&mut residual);
         self.report.residuals.push(error);
         self.tell(error);
+        monitor.step(Step::default())?;
         while error >= self.options.tolerance && self.report.newton_steps < self.options.max_steps {
             monitor.step(Step { fraction: self.fraction(error), residual: Some(error) })?;
             self.metric.hessian(&self.state, &mut graph);
+            monitor.step(Step { fraction: self.fraction(error), residual: Some(error) })?;
             let preconditioner = ApproximateCholesky::new(&graph);
             // Inexact Newton: a tolerance that falls with the curvature error (radians) keeps the quadratic convergence. 1000
             // iterations bound what a breakdown costs.
@@ -247,12 +251,12 @@ impl<'a> Newton<'a> {
             for ((u, s), d) in self.metric.log_radii.iter_mut().zip(start).zip(step) {
                 *u = s + t * d;
             }
+            monitor.step(Step { fraction: self.fraction(self.best()), residual: None })?;
             let valid = self.update();
             let error = self.residual(residual);
             if valid && error.is_finite() && slope(residual) >= -0.1 * first {
                 return Ok(true);
             }
-            monitor.step(Step { fraction: self.fraction(self.best()), residual: None })?;
             t *= 0.5;
         }
         self.metric.log_radii.iter_mut().zip(start).for_each(|(u, s)| *u = *s);

@@ -7,6 +7,7 @@
 
 mod base_picture;
 mod error;
+mod held;
 mod matching;
 mod mesh_file;
 mod outputs;
@@ -45,7 +46,7 @@ use crate::mesh::check::CheckedMesh;
 use crate::mesh::insertion::Insertion;
 use crate::mesh::repair::RepairReport;
 use crate::mesh::{FaceId, SurfacePoint};
-use crate::monitor::{Cancelled, Monitor, Portion, Stage};
+use crate::monitor::{Cancelled, Monitor, Portion, Stage, Step};
 use crate::pipeline::{
     self, CapFaces, FindingReport, FlowRecord, GroundTruth, MapInput, MapResult, PipelineError,
     PipelineOptions, Report, SimplificationStage, Warning, findings,
@@ -101,7 +102,7 @@ pub struct Job {
     placed: PlacedLandmarks,
     /// By mesh, source first: which faces of the mesh with its landmarks are caps; `None` where there are none.
     caps: [Option<TiVec<FaceId, bool>>; 2],
-    /// As given, on the files' meshes.
+    /// As given, on the files' meshes; those beside a corner or an edge as they are held.
     landmarks: LandmarkFile,
     remarks: Vec<Remark>,
     ground_truth: GroundTruth,
@@ -159,7 +160,10 @@ impl Job {
         } else {
             None
         };
+        monitor.step(Step { fraction: 1.0, residual: None })?;
         let placed = place([source.checked(), target.checked()], &pairs)?;
+        monitor.step(Step { fraction: 1.0, residual: None })?;
+        held::tell(&mut landmarks, &placed, [&source, &target]);
         let is_same = source.mesh().triangles() == target.mesh().triangles();
         let ground_truth = match landmarks.ground_truth {
             Some(_) if is_same => GroundTruth::SameConnectivity,

@@ -9,6 +9,7 @@ use crate::export::vertex_image::{self, Direction, PointImage};
 use crate::map_file::{FileMesh, MapFile};
 use crate::mesh::mirror::mirrored;
 use crate::mesh::{Carrier, FaceFrame, FaceId};
+use crate::monitor::Silent;
 use crate::pipeline::{Choices, MapResult};
 use crate::surface_map::correspondence::TextureDrawing;
 
@@ -31,9 +32,9 @@ impl Job {
         let carriers =
             [0, 1].map(|k| Carrier { from: &placed[k].mesh, onto: self.meshes[k].mesh(), frame: frames[k] });
         Some(MapFile {
-            correspondence: on_file.carried(carriers),
+            correspondence: on_file.carried(carriers, &mut Silent).ok()?,
             texture: result.texture.as_ref().map(|uvs| TextureDrawing::of_corners(carriers[1], uvs)),
-            layout: result.flat_layout.as_ref().map(|layout| layout.carried(carriers)),
+            layout: result.flat_layout.as_ref().and_then(|layout| layout.carried(carriers, &mut Silent).ok()),
             base: self.base_as_given(result),
             cones: result.cone_curvatures.clone(),
             landmarks: self.landmarks.clone(),

@@ -5,6 +5,7 @@ use crate::landmarks::Landmarks;
 use crate::layout::LandmarkDistances;
 use crate::math::scalar::{exp, ln, max, min};
 use crate::mesh::VertexId;
+use crate::monitor::{Cancelled, Monitor, Step};
 
 /// Added to distances before ratios are taken, in units of the root of the area: nearer landmarks say little.
 const SOFTENING: f64 = 0.08;
@@ -94,7 +95,7 @@ impl<'a> Fit<'a> {
     }
 
     /// The pair of the largest misfit that would be much less at a place far from its target.
-    pub(super) fn worst_misplaced(&self) -> Option<Finding> {
+    pub(super) fn worst_misplaced(&self, monitor: &mut dyn Monitor) -> Result<Option<Finding>, Cancelled> {
         let now = |pair: usize| self.misfit(pair, self.place(pair), usize::MAX);
         let mut doubtful: Vec<(f64, usize)> = (0..self.len())
             .filter(|&pair| !self.left_out[pair])
@@ -102,7 +103,13 @@ impl<'a> Fit<'a> {
             .filter(|(misfit, _)| *misfit > PLACE_GAIN)
             .collect();
         doubtful.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        doubtful.into_iter().find_map(|(misfit, pair)| self.better_place(pair, misfit))
+        for (misfit, pair) in doubtful {
+            monitor.step(Step::default())?;
+            if let Some(finding) = self.better_place(pair, misfit) {
+                return Ok(Some(finding));
+            }
+        }
+        Ok(None)
     }
 
     fn better_place(&self, pair: usize, now: f64) -> Option<Finding> {

@@ -120,13 +120,11 @@ impl<'a> Exchange<'a> {
         monitor: &mut dyn Monitor,
     ) -> Result<Option<Finding>, Cancelled> {
         let clear = clear(fit.target_of.len());
-        let swapped = |pairs| {
+        let called_for = |pairs| {
             let opinion = self.opinion(&fit.target_of, pairs, clear)?;
-            let Opinion { agreement, orders, unanimity } = opinion;
-            // The misfit costs most, so it is asked last.
-            if agreement >= clear {
-                return None;
-            }
+            (opinion.agreement < clear).then_some(opinion)
+        };
+        let swapped = |pairs, Opinion { agreement, orders, unanimity }| {
             let misfit = fit.exchanged(pairs)?;
             let confirmed = orders < REVERSED || unanimity < UNANIMOUS || misfit[1] < LESS * misfit[0];
             confirmed.then_some((agreement, pairs, Finding::Swapped { pairs, agreement, misfit }))
@@ -136,15 +134,25 @@ impl<'a> Exchange<'a> {
         for b in 0..count {
             let fraction = (b * b) as f64 / (count * count) as f64;
             monitor.step(Step { fraction, residual: None })?;
-            found.extend((0..b).filter_map(|a| swapped([a, b])));
+            for pairs in (0..b).map(|a| [a, b]) {
+                // The misfit costs most, so it is asked last.
+                if let Some(opinion) = called_for(pairs) {
+                    monitor.step(Step { fraction, residual: None })?;
+                    found.extend(swapped(pairs, opinion));
+                }
+            }
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         found.truncate(TRIED);
         if found.len() < 2 {
             return Ok(found.pop().map(|(_, _, finding)| finding));
         }
-        let left = found.into_iter().map(|(_, pairs, finding)| (self.doubts(&fit.target_of, pairs), finding));
-        Ok(left.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, finding)| finding))
+        let mut left = Vec::new();
+        for (_, pairs, finding) in found {
+            monitor.step(Step { fraction: 1.0, residual: None })?;
+            left.push((self.doubts(&fit.target_of, pairs), finding));
+        }
+        Ok(left.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, finding)| finding))
     }
 
     /// The sum of doubts that are left when two targets are exchanged.

@@ -49,6 +49,7 @@ pub fn landmark_fit(
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<Finding>, Cancelled> {
     let directions = Directions::new(meshes, landmarks, distances);
+    monitor.step(Step::default())?;
     let mut fit = Fit::new(landmarks, distances);
     let mirrored = |target_of: &[usize]| {
         let orders = orders::agreement(&directions, distances, target_of);
@@ -56,7 +57,9 @@ pub fn landmark_fit(
         let mean = (2.0 * orders + places) / 3.0;
         (landmarks.len() >= LEAST_FOR_ORDERS && mean < MIRRORED).then_some(mean)
     };
+    monitor.step(Step::default())?;
     let as_given = mirrored(&fit.target_of);
+    monitor.step(Step::default())?;
     let ways = Exchange::new(distances, &directions, 1.0);
     let mut findings = exchanges(&mut fit, &ways, &mut Portion::new(monitor, 0.0, 0.4))?;
     // One exchange among few landmarks can reverse most orders: the set is mirrored where it is so without it, too.
@@ -68,7 +71,7 @@ pub fn landmark_fit(
     }
     if landmarks.len() >= LEAST_FOR_PLACES {
         let monitor = &mut Portion::new(monitor, 0.8, 1.0);
-        while let Some(finding) = fit.worst_misplaced() {
+        while let Some(finding) = fit.worst_misplaced(monitor)? {
             let share = fit.left_out.iter().filter(|out| **out).count() as f64 / landmarks.len() as f64;
             monitor.step(Step { fraction: share, residual: None })?;
             let Finding::Misplaced { pair, .. } = finding else { break };

@@ -28,6 +28,7 @@ pub fn coarsen(
     monitor.step(Step::default())?;
     let first = mesh.live_vertices();
     let quadrics = quadrics(mesh, positions);
+    monitor.step(Step::default())?;
     let mut coarsening = Coarsening {
         mesh,
         positions,

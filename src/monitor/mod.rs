@@ -3,11 +3,13 @@
 mod portion;
 mod preview;
 mod progress;
+mod pulse;
 mod stage;
 
 pub use portion::Portion;
 pub use preview::{MapPreview, PreviewOf};
 pub use progress::{PlannedStage, Progress};
+pub use pulse::Pulse;
 pub use stage::Stage;
 
 use std::fmt;
@@ -35,7 +37,8 @@ impl std::error::Error for Cancelled {}
 
 /// Receives progress and may ask to stop, without a result ([`Monitor::step`]) or with one ([`Monitor::wants_result`]).
 ///
-/// Algorithms call [`Monitor::step`] between iterations, never inside an inner loop, and return the error at once.
+/// Algorithms call [`Monitor::step`] between iterations, inside long loops once in so many passes ([`Pulse`]), and return the error
+/// at once.
 pub trait Monitor {
     /// A stage begins.
     fn enter(&mut self, _stage: Stage) {}

@@ -40,7 +40,7 @@ pub enum PipelineError {
     Locate(LocateError),
     /// The common subdivision of source and target does not close.
     #[error("overlay: {0}")]
-    Overlay(#[from] OverlayError),
+    Overlay(OverlayError),
     /// The result is not a bijection; it is not returned as a map.
     #[error("the map is not certified: {0}")]
     NotCertified(Certificate),
@@ -62,6 +62,8 @@ macro_rules! from_stage {
 from_stage!(SimplifyError, BaseDomain);
 from_stage!(LayoutError, Layout);
 from_stage!(MapError, Map);
+from_stage!(OverlayError, Overlay);
+from_stage!(LocateError, Locate);
 
 impl From<CoarseMapError> for PipelineError {
     fn from(error: CoarseMapError) -> Self {
@@ -76,12 +78,6 @@ impl From<CoarseMapError> for PipelineError {
 impl From<Cancelled> for PipelineError {
     fn from(stop: Cancelled) -> Self {
         Self::Cancelled(stop)
-    }
-}
-
-impl From<LocateError> for PipelineError {
-    fn from(error: LocateError) -> Self {
-        Self::Locate(error)
     }
 }
 

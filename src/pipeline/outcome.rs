@@ -106,24 +106,31 @@ impl Outcome<'_> {
 
     /// The map on the pieces of its overlay, where it is affine: exact.
     fn shown_on(&self, overlay: &Overlay, monitor: &mut dyn Monitor) -> Result<Shown, Cancelled> {
-        let mut told = |fraction: f64| monitor.step(Step { fraction, residual: None });
-        told(0.1)?;
+        let told = |fraction: f64| Step { fraction, residual: None };
+        monitor.step(told(0.1))?;
         let sides = self.map.sides();
         let [source, target] = self.surfaces();
         let caps = [(self.input.caps.source, source), (self.input.caps.target, target)]
             .map(|(is_cap, side)| is_cap.map(|is_cap| refined_caps(is_cap, side.refined)));
         let caps = CapFaces { source: caps[0].as_deref(), target: caps[1].as_deref() };
-        let measured = skin_distortion(sides, overlay, caps);
-        told(0.3)?;
+        let measured = skin_distortion(sides, overlay, caps, monitor)?;
+        monitor.step(told(0.3))?;
         let frames: [&dyn Fn(FaceId) -> FaceFrame; 2] =
             [&|f| source.refined.frame(source.input, f), &|f| target.refined.frame(target.input, f)];
         let carriers = [source.carrier(frames[0]), target.carrier(frames[1])];
-        let correspondence = Correspondence::of_overlay(sides, overlay).carried(carriers);
-        told(0.5)?;
-        let flat_layout = FlatLayout::new(sides, &self.map.surface).map(|layout| layout.carried(carriers));
-        told(0.7)?;
-        let common = common_mesh(source, target, overlay, &self.flows.texture());
-        told(0.9)?;
+        let correspondence = Correspondence::of_overlay(sides, overlay, monitor)?;
+        monitor.step(told(0.4))?;
+        let correspondence = correspondence.carried(carriers, monitor)?;
+        monitor.step(told(0.5))?;
+        let flat_layout = FlatLayout::new(sides, &self.map.surface, monitor)?;
+        monitor.step(told(0.6))?;
+        let flat_layout = match flat_layout {
+            Some(layout) => Some(layout.carried(carriers, monitor)?),
+            None => None,
+        };
+        monitor.step(told(0.7))?;
+        let common = common_mesh([source, target], overlay, &self.flows.texture(), monitor)?;
+        monitor.step(told(0.9))?;
         let local = |&piece: &u32| {
             let (number, piece) = (piece as usize, &overlay.pieces[piece as usize]);
             TriangleDistortion {

@@ -103,10 +103,11 @@ pub(super) fn parametrise(
     let Landmarks { source, target } = input.landmarks;
     let CountedCaps { weights: [on_source, on_target], report: borders } =
         counted_caps(input, options, monitor)?;
-    let full = [
-        LandmarkedMesh::new(input.source, source)?.with_weights(on_source),
-        LandmarkedMesh::new(input.target, target)?.with_weights(on_target),
-    ];
+    monitor.step(Step::default())?;
+    let source = LandmarkedMesh::new(input.source, source)?.with_weights(on_source);
+    monitor.step(Step::default())?;
+    let target = LandmarkedMesh::new(input.target, target)?.with_weights(on_target);
+    let full = [source, target];
     let most = full.iter().map(|mesh| mesh.refined.mesh.vertex_count()).max().unwrap_or(0);
     let vertices = first_level(input.landmarks.len(), options);
     let mut attempt = Attempt { vertices, search: options.search, scale: Scale::ByArea };

@@ -8,7 +8,7 @@ use super::{Base, MapInput, MapResult, PipelineError, PipelineOptions};
 use crate::base_domain::BaseDomain;
 use crate::landmarks::Landmarks;
 use crate::mesh::{SurfaceMesh, VertexId};
-use crate::monitor::{Monitor, Stage, Step};
+use crate::monitor::{Cancelled, Monitor, Stage, Step};
 use crate::surface_map::overlay::location::{Locations, locate};
 use crate::surface_map::overlay::{Overlay, OverlayError, overlay};
 use crate::surface_map::{ConeSurface, Parametrised};
@@ -42,9 +42,9 @@ pub(super) fn run(
     monitor.enter(Stage::Composition);
     let [source, target] = map.sides();
     monitor.step(Step::default())?;
-    let locations = locate(source, target, &map.surface)?;
+    let locations = locate(source, target, &map.surface, monitor)?;
     monitor.step(Step { fraction: 0.5, residual: None })?;
-    let overlay = overlaid([source, target], &map.surface, &locations);
+    let overlay = overlaid([source, target], &map.surface, &locations, monitor)?;
     monitor.step(Step { fraction: 1.0, residual: None })?;
     let base = in_input_coordinates(&map.layout.base, input);
     let (flows, missing) = Flows::beside_a_map(input, &base, options, monitor)?;
@@ -56,17 +56,30 @@ pub(super) fn run(
 
 /// The overlay. Where a source edge is lost among target triangles that rounding cannot tell apart, the target's edges are
 /// traced through the source instead: what is tiny on one side is not on the other.
+///
+/// # Errors
+/// [`Cancelled`]; the overlay's own error is no reason to end.
 fn overlaid(
     [source, target]: [Parametrised<'_>; 2],
     surface: &ConeSurface,
     locations: &Locations,
-) -> Result<Overlay, OverlayError> {
-    overlay(source, target, locations).or_else(|lost| {
-        let Ok(locations) = locate(target, source, surface) else { return Err(lost) };
-        let mut inverse = overlay(target, source, &locations).map_err(|_| lost)?;
-        inverse.exchange_roles();
-        Ok(inverse)
-    })
+    monitor: &mut dyn Monitor,
+) -> Result<Result<Overlay, OverlayError>, Cancelled> {
+    let lost = match overlay(source, target, locations, monitor) {
+        Ok(overlay) => return Ok(Ok(overlay)),
+        Err(error) => error.or_stop()?,
+    };
+    let locations = match locate(target, source, surface, monitor) {
+        Ok(locations) => locations,
+        Err(error) => return error.or_stop().map(|_| Err(lost)),
+    };
+    match overlay(target, source, &locations, monitor) {
+        Ok(mut inverse) => {
+            inverse.exchange_roles();
+            Ok(Ok(inverse))
+        }
+        Err(error) => error.or_stop().map(|_| Err(lost)),
+    }
 }
 
 /// How the source is ordered to the target, by what they are and not by which is called the source: sizes, coordinates, triangles,
@@ -114,7 +127,7 @@ mod tests {
 
         let map = parametrise(input, &options, &mut Silent).unwrap();
         let [from, onto] = map.sides();
-        let locations = locate(from, onto, &map.surface).unwrap();
+        let locations = locate(from, onto, &map.surface, &mut Silent).unwrap();
         let base = in_input_coordinates(&map.layout.base, input);
         let (flows, _) = Flows::beside_a_map(input, &base, &options, &mut Silent).unwrap();
         let outcome = Outcome { input, map: &map, base: &base, flows: &flows, locations: &locations };

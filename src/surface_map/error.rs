@@ -30,7 +30,10 @@ pub enum MapError {
         near: Vec<usize>,
     },
     /// A vertex that found no place.
-    #[error("no valid start: the parametrisation got stuck at {vertices} vertices")]
+    #[error(
+        "no valid start: at {vertices} vertices one found no place among triangles that are thinner than rounding tells apart; make \
+         the triangles of both meshes more even, as `conemap remesh` does, or take landmarks further from each other"
+    )]
     NoStart {
         /// Vertices of the level.
         vertices: usize,

@@ -174,9 +174,11 @@ pub fn parametrisations_are_certified(case: &Case) {
     });
     let source = layout.source.parametrised(&source);
     let target = layout.target.parametrised(&target);
-    let locations = location::locate(source, target, &surface).unwrap_or_else(|e| panic!("{name}: {e}"));
-    let overlay = overlay::overlay(source, target, &locations).unwrap_or_else(|e| panic!("{name}: {e}"));
-    let measured = distortion::distortion(source, target, &overlay);
+    let locations =
+        location::locate(source, target, &surface, &mut Silent).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let overlay =
+        overlay::overlay(source, target, &locations, &mut Silent).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let measured = distortion::distortion([source, target], &overlay, &mut Silent).unwrap();
     // The pieces of the overlay cover both surfaces once, face by face.
     assert!(
         overlay.source_area_defect < 1e-9 && overlay.shifts == 0,

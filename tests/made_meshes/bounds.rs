@@ -12,17 +12,18 @@ use glam::DVec3;
 use typed_index_collections::TiVec;
 
 /// Questions to the monitor after which a run is no longer bounded: a usual one of these meshes asks some thousand times.
-const MOST_QUESTIONS: usize = 400_000;
+pub const MOST_QUESTIONS: usize = 400_000;
 
 /// Counts questions; stops a run that asks too many, or at a chosen one.
-struct Counter {
+pub struct Counter {
     asked: usize,
     most: usize,
     stage: Option<Stage>,
 }
 
 impl Counter {
-    fn up_to(most: usize) -> Self {
+    /// Stops after so many.
+    pub fn up_to(most: usize) -> Self {
         Self { asked: 0, most, stage: None }
     }
 }

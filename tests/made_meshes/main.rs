@@ -14,18 +14,23 @@ mod cutting;
 mod distance_bounds;
 #[path = "../common/fit.rs"]
 mod fit;
+#[path = "../common/hostile_geometry.rs"]
+mod hostile_geometry;
+#[path = "../common/judged_job.rs"]
+mod judged_job;
 #[path = "../common/points.rs"]
 mod points;
 #[path = "../common/quads.rs"]
 mod quads;
 #[path = "../common/remeshing.rs"]
 mod remeshing;
+#[path = "../common/rough_meshes.rs"]
+mod rough_meshes;
 #[path = "../common/theorems.rs"]
 mod theorems;
 
 mod exact_geodesics;
 mod fixtures;
-mod rough_meshes;
 
 mod agreement;
 mod base;
@@ -54,6 +59,7 @@ mod remesh;
 mod repair;
 mod search;
 mod thesis;
+mod torture;
 #[cfg(feature = "cli")]
 mod transfer;
 mod wrap;

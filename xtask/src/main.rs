@@ -1,13 +1,15 @@
-//! Build helper of the project: `cargo xtask serve | build | test | browsers | compare | survey | fuzz | wasm`.
+//! Build helper of the project: `cargo xtask serve | build | test | browsers | compare | survey | fuzz | torture | wasm`.
 
 mod browser;
 mod browsers;
 mod compare;
 mod fuzz;
+mod licences;
 mod page;
 mod run;
 mod suite;
 mod survey;
+mod torture;
 mod wasm;
 
 use std::process::ExitCode;
@@ -20,6 +22,7 @@ const USAGE: &str = "cargo xtask COMMAND
   compare time whole maps, wasm in a browser against native: [--runs N] [PAIR.json ...], the demos without files
   survey  tables of many maps on the meshes of ../shared/data: TABLE [--pairs NAME,NAME] [--seeds N]; lists them without a name
   fuzz    read changed files by every reader: [--runs N] of each, from one [--seed S]
+  torture map generated hostile geometry for [--minutes N], from one [--seed S]: the table of outcomes; --case KIND-SEED for one
   wasm    build only the wasm module, into www/wasm/; with --names it keeps the functions' names for profilers";
 
 fn main() -> ExitCode {
@@ -35,6 +38,7 @@ fn main() -> ExitCode {
         "compare" => compare::compare(&rest),
         "survey" => survey::survey(&rest),
         "fuzz" => fuzz::fuzz(&rest),
+        "torture" => torture::torture(&rest),
         "wasm" if rest == ["--names"] => wasm::build(wasm::Names::Kept),
         "wasm" => wasm::build(wasm::Names::Removed),
         _ => Err(USAGE.to_owned()),

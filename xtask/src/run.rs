@@ -23,6 +23,11 @@ pub fn run_with(program: &str, arguments: &[&str], variables: &[(&str, &str)]) -
     run_within(LIMIT, program, arguments, variables)
 }
 
+/// The same with a limit of its own.
+pub fn run_for(limit: Duration, program: &str, arguments: &[&str]) -> Result<(), String> {
+    run_within(limit, program, arguments, &[])
+}
+
 /// Runs a program until it ends or the user ends it.
 pub fn run_server(program: &str, arguments: &[&str]) -> Result<(), String> {
     let (mut command, said) = shown(program, arguments);

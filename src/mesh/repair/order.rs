@@ -110,7 +110,7 @@ fn steps(
             });
             checked(soup, &draft, in_file)?
         }
-        other => other?,
+        other => other.map_err(|left| cause(&fault, left))?,
     };
     let Sheets { edges, split, joined } = sheets;
     let mut changes = vec![
@@ -134,6 +134,14 @@ fn steps(
     changes.extend(told_of_all(soup, &checked));
     changes.retain(|change| change.count() > 0);
     Ok(RepairedMesh { checked, report: RepairReport { fault: Some(fault), changes, cap_share } })
+}
+
+/// What is told where a fault is left: all holes were capped, so what is open was opened by dropping faces without area.
+fn cause(given: &MeshFault, left: MeshFault) -> MeshFault {
+    match (given, left) {
+        (MeshFault::DegenerateFaces(_), MeshFault::OpenEdges(_)) => given.clone(),
+        (_, left) => left,
+    }
 }
 
 /// A surface without holes, whose handles are not looked for yet.

@@ -1,6 +1,7 @@
 //! The pieces of a map between two meshes.
 
 use crate::mesh::{Carrier, FaceId, Place, SurfaceMesh, SurfacePoint, VertexId};
+use crate::monitor::{Cancelled, Monitor, Pulse};
 use crate::surface_map::measures::distortion::is_certain;
 use crate::surface_map::overlay::{Overlay, OverlayPoint, Piece};
 use crate::surface_map::parametrisation::embedding::Parametrised;
@@ -37,9 +38,19 @@ pub struct MappedPiece {
 /// by more than 1e-12.
 const THIN: f64 = 1e-4;
 
+/// Pieces between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 16_384;
+
 impl Correspondence {
     /// The pieces of an overlay, as they lie on the meshes that were overlaid.
-    pub fn of_overlay([source, target]: [Parametrised<'_>; 2], overlay: &Overlay) -> Self {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn of_overlay(
+        [source, target]: [Parametrised<'_>; 2],
+        overlay: &Overlay,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self, Cancelled> {
         let mut places: Vec<Option<[Place; 2]>> = vec![None; overlay.vertex_count];
         let [from, onto] = [source, target].map(|side| {
             side.mesh
@@ -49,7 +60,9 @@ impl Correspondence {
         });
         let mut corners = Vec::with_capacity(overlay.points.len());
         let mut pieces = Vec::with_capacity(overlay.pieces.len());
+        let mut pulse = Pulse::new(monitor, ASKED_EVERY);
         for piece in &overlay.pieces {
+            pulse.beat()?;
             let Piece { source_face, target_face, motion, .. } = piece;
             let begin = corners.len();
             for point in &overlay.points[piece.points.clone()] {
@@ -73,12 +86,14 @@ impl Correspondence {
         }
         // Every vertex of an overlay is a corner of its pieces.
         let vertices = places.into_iter().map(|p| p.unwrap_or([Place::Vertex(VertexId(0)); 2])).collect();
-        Self { vertices, pieces, corners }
+        Ok(Self { vertices, pieces, corners })
     }
 
     /// The same map told of the meshes that its meshes refine.
-    #[must_use]
-    pub fn carried(&self, carriers: [Carrier<'_>; 2]) -> Self {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn carried(&self, carriers: [Carrier<'_>; 2], monitor: &mut dyn Monitor) -> Result<Self, Cancelled> {
         let carry = |places: &[Place; 2]| [carriers[0].place(places[0]), carriers[1].place(places[1])];
         let piece = |piece: &MappedPiece| {
             let [from, onto] = [0, 1].map(|side| (carriers[side].frame)(piece.faces[side]));
@@ -88,11 +103,18 @@ impl Correspondence {
                 ..piece.clone()
             }
         };
-        Self {
-            vertices: self.vertices.iter().map(carry).collect(),
-            pieces: self.pieces.iter().map(piece).collect(),
-            corners: self.corners.clone(),
+        let mut pulse = Pulse::new(monitor, ASKED_EVERY);
+        let mut vertices = Vec::with_capacity(self.vertices.len());
+        for places in &self.vertices {
+            pulse.beat()?;
+            vertices.push(carry(places));
         }
+        let mut pieces = Vec::with_capacity(self.pieces.len());
+        for given in &self.pieces {
+            pulse.beat()?;
+            pieces.push(piece(given));
+        }
+        Ok(Self { vertices, pieces, corners: self.corners.clone() })
     }
 
     /// Weights 1 and 2 of the corners of a piece in its face of one of both meshes; `ring` is filled.

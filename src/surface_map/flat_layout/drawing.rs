@@ -4,6 +4,7 @@ use super::cutting::{Crossing, Cuts, Neighbours, Node, Part, PartOfEdge, SideKin
 use crate::math::barycentric;
 use crate::math::rigid2::Rigid2;
 use crate::mesh::{Carrier, FaceId, HalfedgeId, Place, SurfaceMesh, SurfacePoint, VertexId};
+use crate::monitor::{Cancelled, Monitor, Pulse, Step};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::DVec2;
@@ -99,15 +100,21 @@ impl FlatDrawing {
     }
 
     /// The same drawing told of the mesh that its mesh refines.
-    #[must_use]
-    pub fn carried(&self, carrier: Carrier<'_>) -> Self {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn carried(&self, carrier: Carrier<'_>, monitor: &mut dyn Monitor) -> Result<Self, Cancelled> {
         let vertex = |v: &FlatVertex| FlatVertex { place: carrier.place(v.place), ..*v };
         let polygon = |p: &FlatPolygon| FlatPolygon { face: (carrier.frame)(p.face).face, ..p.clone() };
-        Self {
-            vertices: self.vertices.iter().map(vertex).collect(),
-            polygons: self.polygons.iter().map(polygon).collect(),
-            corners: self.corners.clone(),
+        let mut pulse = Pulse::new(monitor, ASKED_EVERY);
+        let mut vertices = Vec::with_capacity(self.vertices.len());
+        for given in &self.vertices {
+            pulse.beat()?;
+            vertices.push(vertex(given));
         }
+        monitor.step(Step::default())?;
+        let polygons = self.polygons.iter().map(polygon).collect();
+        Ok(Self { vertices, polygons, corners: self.corners.clone() })
     }
 }
 
@@ -128,31 +135,46 @@ struct Seen {
     motion: Rigid2,
 }
 
-/// Draws a mesh; `None` where a base side is lost or crossed.
-pub(super) fn draw(side: Parametrised<'_>, surface: &ConeSurface) -> Option<FlatDrawing> {
-    let mesh = side.mesh;
-    let cuts = Cuts::new(side, surface)?;
-    let mut parts = Vec::new();
-    for f in mesh.faces() {
-        parts.extend(cuts.parts(mesh, &surface.base.mesh, f)?);
-    }
-    let charts = charts_of(&parts, side, surface, &cuts)?;
-    let mut pen =
-        Pen { side, surface, cuts: &cuts, numbers: FxHashMap::default(), drawing: FlatDrawing::default() };
-    for (part, seen) in parts.iter().zip(charts) {
-        pen.draw(part, seen);
-    }
-    Some(pen.drawing)
-}
+/// Faces and parts of faces between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 8192;
 
-/// The chart of each part: known at base sides, handed on across the mesh's edges.
-fn charts_of(
-    parts: &[Part],
+/// Draws a mesh; `None` where a base side is lost or crossed.
+///
+/// # Errors
+/// [`Cancelled`].
+pub(super) fn draw(
     side: Parametrised<'_>,
     surface: &ConeSurface,
-    cuts: &Cuts,
-) -> Option<Vec<Seen>> {
+    monitor: &mut dyn Monitor,
+) -> Result<Option<FlatDrawing>, Cancelled> {
     let mesh = side.mesh;
+    let Some(cuts) = Cuts::new(side, surface) else { return Ok(None) };
+    monitor.step(Step::default())?;
+    let mut parts = Vec::new();
+    let mut pulse = Pulse::new(monitor, ASKED_EVERY);
+    for f in mesh.faces() {
+        pulse.beat()?;
+        let Some(of_face) = cuts.parts(mesh, &surface.base.mesh, f) else { return Ok(None) };
+        parts.extend(of_face);
+    }
+    let neighbours = neighbours_of(&parts, mesh);
+    monitor.step(Step::default())?;
+    let Some(charts) = charts_of(&parts, &neighbours, side, Charts { surface, cuts: &cuts }) else {
+        return Ok(None);
+    };
+    monitor.step(Step::default())?;
+    let mut pen =
+        Pen { side, surface, cuts: &cuts, numbers: FxHashMap::default(), drawing: FlatDrawing::default() };
+    let mut pulse = Pulse::new(monitor, ASKED_EVERY);
+    for (part, seen) in parts.iter().zip(charts) {
+        pulse.beat()?;
+        pen.draw(part, seen);
+    }
+    Ok(Some(pen.drawing))
+}
+
+/// The parts at each part of an edge.
+fn neighbours_of(parts: &[Part], mesh: &SurfaceMesh) -> Neighbours {
     let mut neighbours = Neighbours::default();
     for (k, part) in parts.iter().enumerate() {
         for corner in &part.corners {
@@ -161,6 +183,24 @@ fn charts_of(
             }
         }
     }
+    neighbours
+}
+
+/// The charts and the lines that part them.
+#[derive(Clone, Copy)]
+struct Charts<'a> {
+    surface: &'a ConeSurface,
+    cuts: &'a Cuts,
+}
+
+/// The chart of each part: known at base sides, handed on across the mesh's edges.
+fn charts_of(
+    parts: &[Part],
+    neighbours: &Neighbours,
+    side: Parametrised<'_>,
+    Charts { surface, cuts }: Charts<'_>,
+) -> Option<Vec<Seen>> {
+    let mesh = side.mesh;
     let mut seen: Vec<Option<Seen>> = parts.iter().map(|part| beside_line(part, surface, cuts)).collect();
     let mut stack: Vec<u32> = (0..parts.len() as u32).filter(|&k| seen[k as usize].is_some()).collect();
     while let Some(k) = stack.pop() {

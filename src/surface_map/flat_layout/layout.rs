@@ -3,6 +3,7 @@
 use super::drawing::{self, FlatDrawing};
 use crate::base_domain::BaseDomain;
 use crate::mesh::{Carrier, HalfedgeId};
+use crate::monitor::{Cancelled, Monitor};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use typed_index_collections::TiVec;
@@ -20,19 +21,31 @@ pub struct FlatLayout {
 
 impl FlatLayout {
     /// Draws both meshes; `None` where rounding at coincident points leaves a line lost or crossed.
-    pub fn new(sides: [Parametrised<'_>; 2], surface: &ConeSurface) -> Option<Self> {
-        let [source, target] = sides.map(|side| drawing::draw(side, surface));
-        Some(Self {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn new(
+        [source, target]: [Parametrised<'_>; 2],
+        surface: &ConeSurface,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Option<Self>, Cancelled> {
+        let drawings = [drawing::draw(source, surface, monitor)?, drawing::draw(target, surface, monitor)?];
+        let [Some(source), Some(target)] = drawings else { return Ok(None) };
+        Ok(Some(Self {
             base: surface.base.clone(),
             lengths: surface.lengths.clone(),
-            drawings: [source?, target?],
-        })
+            drawings: [source, target],
+        }))
     }
 
     /// The same drawings told of the meshes that their meshes refine.
-    #[must_use]
-    pub fn carried(&self, carriers: [Carrier<'_>; 2]) -> Self {
-        let drawings = [0, 1].map(|k| self.drawings[k].carried(carriers[k]));
-        Self { base: self.base.clone(), lengths: self.lengths.clone(), drawings }
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn carried(&self, carriers: [Carrier<'_>; 2], monitor: &mut dyn Monitor) -> Result<Self, Cancelled> {
+        let [source, target] = carriers;
+        let drawings =
+            [self.drawings[0].carried(source, monitor)?, self.drawings[1].carried(target, monitor)?];
+        Ok(Self { base: self.base.clone(), lengths: self.lengths.clone(), drawings })
     }
 }

@@ -9,6 +9,7 @@ use crate::math::scalar::{ln, max, min};
 use crate::math::triangle::lay_out;
 use crate::mesh::cap_faces::CapFaces;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
+use crate::monitor::{Cancelled, Monitor, Pulse, Step};
 use crate::surface_map::overlay::{Overlay, OverlayPoint, Piece};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use crate::surface_map::parametrisation::rest_triangle::rest_jacobian;
@@ -102,16 +103,30 @@ pub(in crate::surface_map) fn is_certain(area: f64, triangles: [&[DVec2; 3]; 2])
 }
 
 /// Measures the map on its overlay.
-pub fn distortion(source: Parametrised<'_>, target: Parametrised<'_>, overlay: &Overlay) -> Distortion {
-    skin_distortion([source, target], overlay, CapFaces::default())
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn distortion(
+    sides: [Parametrised<'_>; 2],
+    overlay: &Overlay,
+    monitor: &mut dyn Monitor,
+) -> Result<Distortion, Cancelled> {
+    skin_distortion(sides, overlay, CapFaces::default(), monitor)
 }
 
+/// Pieces measured between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 16_384;
+
 /// Measures the map where both of its sides are skin, and how much that is.
+///
+/// # Errors
+/// [`Cancelled`].
 pub fn skin_distortion(
     [source, target]: [Parametrised<'_>; 2],
     overlay: &Overlay,
     caps: CapFaces<'_>,
-) -> Distortion {
+    monitor: &mut dyn Monitor,
+) -> Result<Distortion, Cancelled> {
     let to_source = |f: FaceId| rest_jacobian(source, f);
     let to_target = |f: FaceId| rest_jacobian(target, f);
     let source_maps: TiVec<FaceId, DMat2> = source.mesh.faces().map(to_source).collect();
@@ -123,8 +138,11 @@ pub fn skin_distortion(
     let is_skin = |piece: &Piece| caps.are_skin([piece.source_face, piece.target_face]);
     let skin =
         caps.any().then(|| SkinAreas::of(overlay.pieces.iter().map(|piece| (is_skin(piece), areas(piece)))));
+    monitor.step(Step::default())?;
     let mut tally = Tally::new(source.mesh, overlay.pieces.len(), skin);
+    let mut pulse = Pulse::new(monitor, ASKED_EVERY);
     for piece in &overlay.pieces {
+        pulse.beat()?;
         let (a, b) = (&source_maps[piece.source_face], &target_inverses[piece.target_face]);
         let rotation = piece.motion.turn();
         let j = *b * rotation * *a;
@@ -133,8 +151,10 @@ pub fn skin_distortion(
             _ => tally.leave_out(&j),
         }
     }
+    monitor.step(Step::default())?;
     let worst = worst_pieces([source, target], overlay, &tally);
-    tally.finish(source.mesh, worst)
+    monitor.step(Step::default())?;
+    Ok(tally.finish(source.mesh, worst))
 }
 
 fn worst_pieces(
@@ -232,11 +252,20 @@ impl Tally {
         is_certain: impl Fn(usize) -> bool,
         middles: impl Fn(usize) -> [SurfacePoint; 2],
     ) -> Vec<WorstPiece> {
-        let mut order: Vec<usize> = (0..self.densities.len()).collect();
-        order.sort_by(|&a, &b| self.densities[b].value.total_cmp(&self.densities[a].value));
-        let is_skin = |k: &usize| self.left_out.binary_search(k).is_err();
-        let worst = order.into_iter().filter(|&k| is_skin(&k) && is_certain(k)).take(WORST);
+        let is_skin = |k: usize| self.left_out.binary_search(&k).is_err();
+        let exceeds =
+            |k: usize, other: usize| self.densities[k].value.total_cmp(&self.densities[other].value).is_gt();
+        // By falling density, equal ones by number.
+        let mut worst: Vec<usize> = Vec::with_capacity(WORST + 1);
+        for k in 0..self.densities.len() {
+            let is_among = worst.len() < WORST || exceeds(k, worst[WORST - 1]);
+            if is_among && is_skin(k) && is_certain(k) {
+                worst.insert(worst.partition_point(|&other| !exceeds(k, other)), k);
+                worst.truncate(WORST);
+            }
+        }
         worst
+            .into_iter()
             .map(|k| {
                 let Weighted { value: density, weight: area } = self.densities[k];
                 let [source, target] = middles(k);

@@ -2,6 +2,7 @@
 
 use crate::mesh::normals::vertex_normals;
 use crate::mesh::{Carrier, FaceFrame, FaceId, HalfedgeId, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
+use crate::monitor::{Cancelled, Monitor, Pulse, Step};
 use crate::surface_map::overlay::Overlay;
 use crate::surface_map::overlay::location::{Locations, barycentric};
 use crate::surface_map::parametrisation::embedding::Parametrised;
@@ -107,23 +108,32 @@ fn face_values(
     }
 }
 
+/// Pieces between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 8192;
+
 /// The overlay as one mesh; a corner is shared by the pieces around it, once per side of a texture seam.
 ///
 /// `target_uvs` are texture coordinates by corner of the target's input mesh.
+///
+/// # Errors
+/// [`Cancelled`].
 pub fn common_mesh(
-    source: Surface<'_>,
-    target: Surface<'_>,
+    [source, target]: [Surface<'_>; 2],
     overlay: &Overlay,
     target_uvs: &TiVec<HalfedgeId, DVec2>,
-) -> CommonMesh {
+    monitor: &mut dyn Monitor,
+) -> Result<CommonMesh, Cancelled> {
     let normals = [vertex_normals(source.input), vertex_normals(target.input)];
     let values = |s: Surface<'_>, n, uvs| s.refined.mesh.faces().map(|f| face_values(s, n, uvs, f)).collect();
     let source_values: TiVec<FaceId, FaceValues> = values(source, &normals[0], None);
+    monitor.step(Step::default())?;
     let target_values: TiVec<FaceId, FaceValues> = values(target, &normals[1], Some(target_uvs));
     let mut shared = FxHashMap::default();
     let mut mesh = CommonMesh::default();
     let mut ring = Vec::new();
+    let mut pulse = Pulse::new(monitor, ASKED_EVERY);
     for (number, piece) in overlay.pieces.iter().enumerate() {
+        pulse.beat()?;
         let (s, t) = (&source_values[piece.source_face], &target_values[piece.target_face]);
         ring.clear();
         for point in &overlay.points[piece.points.clone()] {
@@ -150,7 +160,7 @@ pub fn common_mesh(
             }
         }
     }
-    mesh
+    Ok(mesh)
 }
 
 /// The source's triangles whose corners all have images, with the target's texture at the images.

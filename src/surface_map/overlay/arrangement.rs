@@ -7,6 +7,7 @@ use super::pieces::{OverlayError, SideOf};
 use super::seats::Seats;
 use super::trace::Traced;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::monitor::{Monitor, Step};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::DVec2;
 use typed_index_collections::TiVec;
@@ -63,10 +64,12 @@ pub(super) struct Arrangement {
 
 impl Arrangement {
     /// Sorts the crossings along the target edges, links the darts and merges the stars of the landmarks.
-    pub fn fill(&mut self, traced: Traced<'_>) -> Result<(), OverlayError> {
+    pub fn fill(&mut self, traced: Traced<'_>, monitor: &mut dyn Monitor) -> Result<(), OverlayError> {
         self.sort(traced);
+        monitor.step(Step::default())?;
         self.number(traced);
         self.link(traced);
+        monitor.step(Step::default())?;
         self.merge_stars(traced)
     }
 

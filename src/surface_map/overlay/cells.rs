@@ -7,11 +7,15 @@ use super::trace::Traces;
 use crate::math::barycentric;
 use crate::math::rigid2::Rigid2;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
+use crate::monitor::{Monitor, Pulse, Step};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use crate::surface_map::parametrisation::embedding::triangle;
 use typed_index_collections::TiVec;
 
 const NONE: u32 = u32::MAX;
+
+/// Pieces and halfedges between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 8192;
 
 /// A vertex of one mesh in a face of the other.
 #[derive(Clone, Copy, Debug)]
@@ -49,11 +53,18 @@ pub(super) struct View<'a> {
 
 impl Cells {
     /// Makes the pieces and checks them.
-    pub fn fill(&mut self, view: View<'_>, overlay: &mut Overlay) -> Result<(), OverlayError> {
+    pub fn fill(
+        &mut self,
+        view: View<'_>,
+        overlay: &mut Overlay,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(), OverlayError> {
         let View { source, target, traces, arrangement, .. } = view;
         self.reset(view, overlay);
+        let mut pulse = Pulse::new(monitor, ASKED_EVERY);
         // Source darts in the order of their faces, so that neighbouring pieces have neighbouring numbers; then the rest.
         for h in source.mesh.halfedges() {
+            pulse.beat()?;
             let [begin, end] = traces.ranges[h];
             for part in 0..=end - begin {
                 self.walk(view, arrangement.source_dart(h) + part, overlay)?;
@@ -71,7 +82,8 @@ impl Cells {
         if euler != 2 {
             return Err(OverlayError::NotASphere { euler });
         }
-        self.place(view, overlay)
+        monitor.step(Step::default())?;
+        self.place(view, overlay, monitor)
     }
 
     fn reset(&mut self, view: View<'_>, overlay: &mut Overlay) {
@@ -179,9 +191,16 @@ impl Cells {
     }
 
     /// Coordinates of all corners, areas and their sums.
-    fn place(&mut self, view: View<'_>, overlay: &mut Overlay) -> Result<(), OverlayError> {
+    fn place(
+        &mut self,
+        view: View<'_>,
+        overlay: &mut Overlay,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(), OverlayError> {
         let Overlay { pieces, points, degenerate, .. } = overlay;
+        let mut pulse = Pulse::new(monitor, ASKED_EVERY);
         for piece in pieces.iter_mut() {
+            pulse.beat()?;
             for k in piece.points.clone() {
                 let point = self.point(view, piece, self.darts[k])?;
                 points.push(point);

@@ -10,6 +10,7 @@ use crate::math::predicates::orient2d;
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::max;
 use crate::mesh::{FaceId, HalfedgeId, SurfacePoint, VertexId};
+use crate::monitor::{Cancelled, Monitor, Pulse};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
 use crate::surface_map::parametrisation::embedding::{Anchor, Embedding, Parametrised};
 use crate::surface_map::parametrisation::fan::{Fan, Wedge};
@@ -36,12 +37,41 @@ pub struct Locations {
     pub at_landmarks: Vec<Location>,
 }
 
-/// A walk that did not arrive.
+/// Why not every vertex was located.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("source vertex {vertex} was not found on the target: the walk did not arrive")]
-pub struct LocateError {
-    /// The source vertex of the refined mesh.
-    pub vertex: usize,
+#[non_exhaustive]
+pub enum LocateError {
+    /// A walk did not arrive.
+    #[error("source vertex {vertex} was not found on the target: the walk did not arrive")]
+    Lost {
+        /// The source vertex of the refined mesh.
+        vertex: usize,
+    },
+    /// The user asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl LocateError {
+    /// The error where a vertex is lost.
+    ///
+    /// # Errors
+    /// The stop that was asked for.
+    pub fn or_stop(self) -> Result<Self, Cancelled> {
+        match self {
+            Self::Cancelled(stop) => Err(stop),
+            error @ Self::Lost { .. } => Ok(error),
+        }
+    }
+}
+
+/// Vertices found between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 8192;
+
+/// The landmark from which all others are found.
+struct Seed<'a> {
+    surface: &'a ConeSurface,
+    landmark: LandmarkId,
 }
 
 /// Locates every source vertex on the target; see [`Locator::fill`].
@@ -52,9 +82,10 @@ pub fn locate(
     source: Parametrised<'_>,
     target: Parametrised<'_>,
     surface: &ConeSurface,
+    monitor: &mut dyn Monitor,
 ) -> Result<Locations, LocateError> {
     let mut locations = Locations::default();
-    Locator::default().fill([source, target], surface, &mut locations)?;
+    Locator::default().fill([source, target], surface, &mut locations, monitor)?;
     Ok(locations)
 }
 
@@ -84,16 +115,17 @@ impl Locator {
         [source, target]: [Parametrised<'_>; 2],
         surface: &ConeSurface,
         locations: &mut Locations,
+        monitor: &mut dyn Monitor,
     ) -> Result<(), LocateError> {
         self.apexes.clear();
         self.apexes.resize(source.mesh.vertex_count(), None);
         for (&v, &w) in source.landmark_vertices.iter().zip(target.landmark_vertices) {
             self.apexes[v] = Some(w);
         }
-        let mut result = Err(LocateError { vertex: 0 });
-        for seed in surface.base.landmarks() {
-            result = self.fill_from([source, target], surface, seed, locations);
-            if result.is_ok() {
+        let mut result = Err(LocateError::Lost { vertex: 0 });
+        for landmark in surface.base.landmarks() {
+            result = self.fill_from([source, target], Seed { surface, landmark }, locations, monitor);
+            if matches!(result, Ok(()) | Err(LocateError::Cancelled(_))) {
                 break;
             }
         }
@@ -107,11 +139,12 @@ impl Locator {
     fn fill_from(
         &mut self,
         [source, target]: [Parametrised<'_>; 2],
-        surface: &ConeSurface,
-        seed: LandmarkId,
+        Seed { surface, landmark: seed }: Seed<'_>,
         locations: &mut Locations,
+        monitor: &mut dyn Monitor,
     ) -> Result<(), LocateError> {
         let mesh = source.mesh;
+        let mut pulse = Pulse::new(monitor, ASKED_EVERY);
         let Locations { by_vertex, at_landmarks } = locations;
         by_vertex.clear();
         by_vertex.resize(mesh.vertex_count(), NOWHERE);
@@ -125,8 +158,9 @@ impl Locator {
         let mut next = 0;
         let mut corner = Corners::default();
         loop {
+            pulse.beat()?;
             let (v, at) = found;
-            let lost = LocateError { vertex: v.index() };
+            let lost = LocateError::Lost { vertex: v.index() };
             let begin = at_landmarks.len() as u32;
             if let Some(apex) = self.apexes[v] {
                 turn_around_cone([source, target], at, apex, at_landmarks).ok_or(lost)?;
@@ -144,11 +178,11 @@ impl Locator {
             };
             let Some(from) = onwards else { break };
             let head = mesh.head(from.corner);
-            let arrived = walk(source, target, from).ok_or(LocateError { vertex: head.index() })?;
+            let arrived = walk(source, target, from).ok_or(LocateError::Lost { vertex: head.index() })?;
             found = (head, arrived);
         }
         let missing = by_vertex.iter().position(|at| at.corner == NOWHERE.corner);
-        missing.map_or(Ok(()), |vertex| Err(LocateError { vertex }))
+        missing.map_or(Ok(()), |vertex| Err(LocateError::Lost { vertex }))
     }
 }
 

@@ -11,6 +11,7 @@ use super::seats::Seats;
 use super::trace::{Traced, Traces};
 use crate::math::rigid2::{Rigid2, complex_mul};
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh};
+use crate::monitor::{Monitor, Step};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::DVec2;
 
@@ -73,14 +74,19 @@ impl Measure {
         &mut self,
         [source, target]: [Parametrised<'_>; 2],
         locations: &Locations,
+        monitor: &mut dyn Monitor,
     ) -> Result<(), OverlayError> {
         self.is_exchanged = false;
         let Self { seats, traces, arrangement, .. } = self;
         seats.fill(source, target, locations, 0)?;
-        traces.fill(source, target, seats)?;
-        arrangement.fill(Traced { source, target, seats, traces })?;
+        monitor.step(Step::default())?;
+        traces.fill([source, target], seats, monitor)?;
+        arrangement.fill(Traced { source, target, seats, traces }, monitor)?;
+        monitor.step(Step::default())?;
         self.label(source.mesh, target.mesh)?;
+        monitor.step(Step::default())?;
         self.sweep_source(source, target)?;
+        monitor.step(Step::default())?;
         self.sweep_target(target)?;
         self.spread(target)?;
         let meshes = [source, target].map(|side| side.mesh.vertex_count());

@@ -10,6 +10,7 @@ use super::location::Locations;
 use super::pieces::{Overlay, OverlayError};
 use super::seats::Seats;
 use super::trace::{Traced, Traces};
+use crate::monitor::{Monitor, Step};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 
 /// Attempts at an overlay, all but the first with the source shifted.
@@ -36,32 +37,36 @@ impl Overlayer {
         [source, target]: [Parametrised<'_>; 2],
         locations: &Locations,
         overlay: &mut Overlay,
+        monitor: &mut dyn Monitor,
     ) -> Result<(), OverlayError> {
         let mut result = Ok(());
         for attempt in 0..ATTEMPTS {
-            result = self.attempt([source, target], locations, attempt, overlay);
-            if result.is_ok() {
+            overlay.shifts = attempt;
+            result = self.attempt([source, target], locations, overlay, monitor);
+            if matches!(result, Ok(()) | Err(OverlayError::Cancelled(_))) {
                 break;
             }
         }
         result
     }
 
+    /// With the source shifted as the overlay says.
     fn attempt(
         &mut self,
         [source, target]: [Parametrised<'_>; 2],
         locations: &Locations,
-        attempt: usize,
         overlay: &mut Overlay,
+        monitor: &mut dyn Monitor,
     ) -> Result<(), OverlayError> {
         let Self { seats, traces, arrangement, cells } = self;
-        seats.fill(source, target, locations, attempt)?;
-        traces.fill(source, target, seats)?;
+        seats.fill(source, target, locations, overlay.shifts)?;
+        monitor.step(Step::default())?;
+        traces.fill([source, target], seats, monitor)?;
         let traced = Traced { source, target, seats, traces };
-        arrangement.fill(traced)?;
-        overlay.shifts = attempt;
+        arrangement.fill(traced, monitor)?;
         arrangement.describe(traced);
-        cells.fill(View { source, target, seats, traces, arrangement }, overlay)
+        monitor.step(Step::default())?;
+        cells.fill(View { source, target, seats, traces, arrangement }, overlay, monitor)
     }
 }
 
@@ -73,8 +78,9 @@ pub fn overlay(
     source: Parametrised<'_>,
     target: Parametrised<'_>,
     locations: &Locations,
+    monitor: &mut dyn Monitor,
 ) -> Result<Overlay, OverlayError> {
     let mut overlay = Overlay::default();
-    Overlayer::default().fill([source, target], locations, &mut overlay)?;
+    Overlayer::default().fill([source, target], locations, &mut overlay, monitor)?;
     Ok(overlay)
 }

@@ -3,6 +3,7 @@
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, HalfedgeId};
+use crate::monitor::Cancelled;
 use crate::surface_map::parametrisation::embedding::triangle;
 use glam::DVec2;
 use typed_index_collections::TiSlice;
@@ -121,6 +122,22 @@ pub enum OverlayError {
         /// V - E + F.
         euler: i64,
     },
+    /// The user asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl OverlayError {
+    /// The error where it is one of the overlay.
+    ///
+    /// # Errors
+    /// The stop that was asked for.
+    pub fn or_stop(self) -> Result<Self, Cancelled> {
+        match self {
+            Self::Cancelled(stop) => Err(stop),
+            error => Ok(error),
+        }
+    }
 }
 
 /// The signed area of a face in its plane.

@@ -63,7 +63,7 @@ impl Pair {
     }
 
     fn between(&self, [source, target]: [Parametrised<'_>; 2]) -> Result<Overlay, OverlayError> {
-        overlay(source, target, &locate(source, target, &self.surface).unwrap())
+        overlay(source, target, &locate(source, target, &self.surface, &mut Silent).unwrap(), &mut Silent)
     }
 }
 
@@ -119,7 +119,9 @@ fn pieces_are_a_sphere_and_cover_both_meshes() {
 
 fn measured([source, target]: [Parametrised<'_>; 2], surface: &ConeSurface) -> Measure {
     let mut measure = Measure::default();
-    measure.fill([source, target], &locate(source, target, surface).unwrap()).unwrap();
+    measure
+        .fill([source, target], &locate(source, target, surface, &mut Silent).unwrap(), &mut Silent)
+        .unwrap();
     measure
 }
 
@@ -191,9 +193,9 @@ fn memory_used_again_leaves_no_trace() {
     let (mut overlayer, mut again) = (Overlayer::default(), Overlay::default());
     let mut measure = Measure::default();
     for pair in &pairs {
-        locator.fill(pair.sides(), &pair.surface, &mut locations).unwrap();
-        overlayer.fill(pair.sides(), &locations, &mut again).unwrap();
-        measure.fill(pair.sides(), &locations).unwrap();
+        locator.fill(pair.sides(), &pair.surface, &mut locations, &mut Silent).unwrap();
+        overlayer.fill(pair.sides(), &locations, &mut again, &mut Silent).unwrap();
+        measure.fill(pair.sides(), &locations, &mut Silent).unwrap();
         assert_eq!(again.points, pair.overlay().points);
         assert_eq!(measure.pieces(), measured(pair.sides(), &pair.surface).pieces());
     }
@@ -279,7 +281,7 @@ fn a_parametrisation_that_is_not_one_is_refused() {
     let v = mesh.vertices().find(is_free).unwrap();
     let locations = {
         let [source, target] = pair.sides();
-        locate(source, target, &pair.surface).unwrap()
+        locate(source, target, &pair.surface, &mut Silent).unwrap()
     };
     // Twice as far beyond the edge across as the vertex was on this side: its triangle turns over.
     let h = mesh.outgoing(v);
@@ -293,8 +295,8 @@ fn a_parametrisation_that_is_not_one_is_refused() {
         here = mesh.twin(here.prev());
     }
     let [source, target] = pair.sides();
-    assert!(overlay(source, target, &locations).is_err());
-    assert!(Measure::default().fill([source, target], &locations).is_err());
+    assert!(overlay(source, target, &locations, &mut Silent).is_err());
+    assert!(Measure::default().fill([source, target], &locations, &mut Silent).is_err());
 }
 
 #[test]
@@ -365,15 +367,15 @@ fn edges_between_landmarks_that_coincide_are_told_apart_alike_at_both_ends() {
             Parametrised { embedding: &embeddings[0], ..source },
             Parametrised { embedding: &embeddings[1], ..target },
         ];
-        let locations = locate(sides[0], sides[1], &pair.surface).unwrap();
-        let overlay = overlay(sides[0], sides[1], &locations).unwrap();
+        let locations = locate(sides[0], sides[1], &pair.surface, &mut Silent).unwrap();
+        let overlay = overlay(sides[0], sides[1], &locations, &mut Silent).unwrap();
         assert_is_a_sphere(&overlay);
         assert_covers_both(&overlay);
         assert_eq!(overlay.shifts, 0);
         let pieces = areas(&overlay, false);
         assert_eq!(pieces.len(), octahedron.face_count());
         let mut measure = Measure::default();
-        measure.fill(sides, &locations).unwrap();
+        measure.fill(sides, &locations, &mut Silent).unwrap();
         let large = measure.pieces().iter().filter(|piece| piece.area > 1e-12).count();
         assert_eq!(large, octahedron.face_count());
     }

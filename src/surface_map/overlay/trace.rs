@@ -9,6 +9,7 @@ use crate::math::predicates::orient2d;
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, HalfedgeId};
+use crate::monitor::{Monitor, Pulse};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::DVec2;
 use typed_index_collections::TiVec;
@@ -31,6 +32,9 @@ pub(super) struct Crossing {
     pub along_target: f64,
 }
 
+/// Edges traced between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 4096;
+
 /// The motion of a trace that has not left the plane of its seat.
 const AS_SEATED: u32 = u32::MAX;
 
@@ -49,16 +53,18 @@ impl Traces {
     /// Traces all source edges.
     pub fn fill(
         &mut self,
-        source: Parametrised<'_>,
-        target: Parametrised<'_>,
+        [source, target]: [Parametrised<'_>; 2],
         seats: &Seats,
+        monitor: &mut dyn Monitor,
     ) -> Result<(), OverlayError> {
         let mesh = source.mesh;
+        let mut pulse = Pulse::new(monitor, ASKED_EVERY);
         self.crossings.clear();
         self.motions.clear();
         self.ranges.resize(mesh.face_count() * 3, [0; 2]);
         let tracer = Tracer { source, target, seats, most: target.mesh.face_count() + 1000 };
         for h in mesh.edges() {
+            pulse.beat()?;
             let begin = self.crossings.len() as u32;
             tracer.trace(h, Log { crossings: &mut self.crossings, motions: &mut self.motions })?;
             let range = [begin, self.crossings.len() as u32];

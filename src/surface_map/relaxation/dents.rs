@@ -76,6 +76,7 @@ pub fn heal(
 ) -> Result<Option<[Embedding; 2]>, Cancelled> {
     monitor.step(Step::default())?;
     let mut healer = Healer { sheets: sheets(sides, overlay), energy, at_rest: BTreeSet::new() };
+    monitor.step(Step::default())?;
     let mut faces = dented(sides, overlay, energy.brink);
     let vertices = sides.iter().map(|side| side.mesh.vertex_count()).sum::<usize>();
     let most = ((options.share * vertices as f64) as usize).max(LEAST);
@@ -276,8 +277,9 @@ mod tests {
     const ENERGY: DentEnergy = DentEnergy { energy: MapEnergy::SMOOTH, brink: 20.0 };
 
     fn overlaid(sides: [Parametrised<'_>; 2], surface: &ConeSurface) -> (Overlay, Distortion) {
-        let overlay = overlay(sides[0], sides[1], &locate(sides[0], sides[1], surface).unwrap()).unwrap();
-        let measured = distortion(sides[0], sides[1], &overlay);
+        let locations = locate(sides[0], sides[1], surface, &mut Silent).unwrap();
+        let overlay = overlay(sides[0], sides[1], &locations, &mut Silent).unwrap();
+        let measured = distortion(sides, &overlay, &mut Silent).unwrap();
         (overlay, measured)
     }
 

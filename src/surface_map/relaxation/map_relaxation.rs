@@ -8,7 +8,7 @@
 use super::evaluation::{CountedEnergy, Evaluation};
 use crate::math::matrix2::cofactor;
 use crate::mesh::{FaceId, VertexId};
-use crate::monitor::{Cancelled, Monitor, Portion, Step};
+use crate::monitor::{Cancelled, Monitor, Portion, Pulse, Silent, Step};
 use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::energy::point_constraint::PointConstraint;
@@ -88,6 +88,9 @@ impl Relaxed<'_> {
         self.relaxation.present.median(MapEnergy::POSES)
     }
 }
+
+/// Pieces between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 32_768;
 
 /// Share of the diagonal that is added to the Hessian at first; adapted after every step. Chosen by hand.
 const FIRST_DAMPING: f64 = 0.03;
@@ -270,18 +273,24 @@ impl<'a> Relaxation<'a> {
         let moving = self.moving;
         monitor.step(Step::default())?;
         let Some(flat) = self.problems[moving].energy(z) else { return Ok(false) };
+        monitor.step(Step::default())?;
         self.unknowns[moving].place(z, &mut self.trials[moving].corners);
         let from = Parametrised { embedding: &self.trials[moving], ..self.sides[moving] };
         let onto = Parametrised { embedding: &self.embeddings[1 - moving], ..self.sides[1 - moving] };
-        let located = self.locator.fill([from, onto], self.surface, &mut self.locations);
+        if let Err(error) = self.locator.fill([from, onto], self.surface, &mut self.locations, monitor) {
+            error.or_stop()?;
+            return Ok(false);
+        }
         monitor.step(Step::default())?;
-        if located.is_err() || self.trial.overlay.fill([from, onto], &self.locations).is_err() {
+        if let Err(error) = self.trial.overlay.fill([from, onto], &self.locations, monitor) {
+            error.or_stop()?;
             return Ok(false);
         }
         monitor.step(Step::default())?;
         let counted = self.counted();
         self.trial.measure(&self.problems[moving], z, &self.inverses[1 - moving], counted);
         let (unknowns, constraints) = (&self.unknowns[moving], self.constraints[moving]);
+        monitor.step(Step::default())?;
         self.trial.constrain([from, onto], unknowns, constraints, &self.locations);
         self.trial.total = self.trial.energy + self.trial.constrained + self.options.barrier * flat;
         Ok(true)
@@ -297,9 +306,9 @@ impl<'a> Relaxation<'a> {
     fn step(&mut self, monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
         let moving = self.moving;
         let z = self.unknowns[moving].points(&self.embeddings[moving]);
-        let slope = self.gradient(&z);
+        let slope = self.gradient(&z, monitor)?;
         monitor.step(Step::default())?;
-        let hessians = self.hessians();
+        let hessians = self.hessians(monitor)?;
         monitor.step(Step::default())?;
         let problem = &mut self.problems[moving];
         let derivatives = Derivatives {
@@ -361,7 +370,9 @@ impl<'a> Relaxation<'a> {
         let sides =
             [moving, 1 - moving].map(|k| Parametrised { embedding: &self.embeddings[k], ..self.sides[k] });
         let mut constraints = self.constraints[moving];
-        if !constraints.is_empty() && self.locator.fill(sides, self.surface, &mut self.locations).is_err() {
+        if !constraints.is_empty()
+            && self.locator.fill(sides, self.surface, &mut self.locations, &mut Silent).is_err()
+        {
             constraints = &[];
         }
         self.present.constrain(sides, &self.unknowns[moving], constraints, &self.locations);
@@ -373,13 +384,14 @@ impl<'a> Relaxation<'a> {
     }
 
     /// The gradient of the energy and the barrier.
-    fn gradient(&self, z: &[DVec2]) -> Vec<DVec2> {
+    fn gradient(&self, z: &[DVec2], monitor: &mut dyn Monitor) -> Result<Vec<DVec2>, Cancelled> {
         let problem = &self.problems[self.moving];
         let mut slope = vec![DVec2::ZERO; z.len()];
         problem.gradient(z, &mut slope);
         slope.iter_mut().for_each(|g| *g *= self.options.barrier);
         self.present.constraint_slopes.iter().for_each(|(v, own)| slope[*v as usize] += *own);
-        for (triangle, face) in problem.triangles().iter().zip(self.face_derivatives()) {
+        monitor.step(Step::default())?;
+        for (triangle, face) in problem.triangles().iter().zip(self.face_derivatives(monitor)?) {
             for k in 0..3 {
                 if let Corner::Free(v, motion) = &triangle.corners[k] {
                     let pull = face.by_jacobian * triangle.hats[k] + face.by_corner[k];
@@ -387,14 +399,16 @@ impl<'a> Relaxation<'a> {
                 }
             }
         }
-        slope
+        Ok(slope)
     }
 
-    fn face_derivatives(&self) -> Vec<FaceDerivatives> {
+    fn face_derivatives(&self, monitor: &mut dyn Monitor) -> Result<Vec<FaceDerivatives>, Cancelled> {
         let Evaluation { overlay, jacobians, onto_rest, weights, .. } = &self.present;
         let mut faces = vec![FaceDerivatives::ZERO; jacobians.len()];
         let mut densities = Vec::with_capacity(onto_rest.len());
+        let mut pulse = Pulse::new(monitor, ASKED_EVERY);
         for ((piece, c), &counted) in overlay.pieces().iter().zip(onto_rest).zip(weights) {
+            pulse.beat()?;
             let energy = WeightedEnergy { energy: self.map_energy, counted };
             let t = piece.source_face.index();
             let a = &jacobians[t];
@@ -405,8 +419,9 @@ impl<'a> Relaxation<'a> {
             let own = c.transpose() * energy.gradient(&j);
             faces[t].by_jacobian += (own - cofactor(a) * density) * (piece.area / det);
         }
+        monitor.step(Step::default())?;
         self.add_sweeps(&densities, &mut faces);
-        faces
+        Ok(faces)
     }
 
     /// Adds the derivative of the pieces' areas: the jump of the density over each moving edge, times the area that the edge sweeps
@@ -425,10 +440,12 @@ impl<'a> Relaxation<'a> {
         }
     }
 
-    fn hessians(&self) -> Vec<FaceHessian> {
+    fn hessians(&self, monitor: &mut dyn Monitor) -> Result<Vec<FaceHessian>, Cancelled> {
         let Evaluation { overlay, jacobians, onto_rest, weights, .. } = &self.present;
         let mut hessians = vec![FaceHessian::ZERO; jacobians.len()];
+        let mut pulse = Pulse::new(monitor, ASKED_EVERY);
         for ((piece, c), &counted) in overlay.pieces().iter().zip(onto_rest).zip(weights) {
+            pulse.beat()?;
             let energy = WeightedEnergy { energy: self.map_energy, counted };
             let t = piece.source_face.index();
             let area = piece.area / jacobians[t].determinant();
@@ -436,7 +453,7 @@ impl<'a> Relaxation<'a> {
                 hessians[t].add(area * term.weight, &(c.transpose() * term.matrix()));
             }
         }
-        hessians
+        Ok(hessians)
     }
 }
 
@@ -449,7 +466,6 @@ pub(super) mod tests {
     use crate::mesh::SurfaceMesh;
     use crate::mesh::face_weights::{FaceWeight, FaceWeights};
     use crate::mesh::generators::icosphere;
-    use crate::monitor::Silent;
     use crate::surface_map::certify;
     use crate::surface_map::parametrisation::initial::{self, InitialOptions};
     use glam::DVec3;
@@ -510,7 +526,7 @@ pub(super) mod tests {
     fn gradient_is_quotient(mut relaxation: Relaxation<'_>, moving: &Embedding) {
         assert!(relaxation.begin(&mut Silent).unwrap());
         let z = relaxation.unknowns[0].points(moving);
-        let slope = relaxation.gradient(&z);
+        let slope = relaxation.gradient(&z, &mut Silent).unwrap();
         for seed in 1..6 {
             let wave = |k: usize, phase: f64| 0.02 * sin(f64::from(seed) * 1.7 * k as f64 + phase);
             let direction: Vec<_> = (0..z.len()).map(|k| DVec2::new(wave(k, 0.0), wave(k, 1.0))).collect();

@@ -1,4 +1,5 @@
 //! Closed meshes that no tool would be proud of, by seed: slivers, needles, flipped edges, noise, extreme scales.
+#![allow(dead_code, reason = "every test binary uses another part")]
 
 use conemap::math::random::SplitMix;
 use conemap::math::scalar::pow;
@@ -26,20 +27,27 @@ impl Random {
     }
 
     /// Between 1e-12 and 1/2, every order of size alike.
-    fn small(&mut self) -> f64 {
+    pub fn small(&mut self) -> f64 {
         0.5 * pow(10.0, -11.7 * self.unit())
     }
+}
+
+/// Where [`limbed`] has its limbs.
+pub const LIMBS: [DVec3; 3] = [DVec3::X, DVec3::new(-0.6, 0.8, 0.0), DVec3::new(0.0, -0.6, 0.8)];
+
+/// The place of a point of the unit ball on a ball with three limbs.
+pub fn limbed(p: DVec3) -> DVec3 {
+    p * (1.0 + LIMBS.iter().map(|l| 2.0 * pow(l.dot(p).max(0.0), 8.0)).sum::<f64>())
 }
 
 /// A ball, an ellipsoid, or a ball with three limbs, by seed.
 pub fn body(random: &mut Random) -> SurfaceMesh {
     let (shape, levels) = (random.below(3), 1 + random.below(3));
     let ball = icosphere(levels);
-    let limbs = [DVec3::X, DVec3::new(-0.6, 0.8, 0.0), DVec3::new(0.0, -0.6, 0.8)];
     let place = |p: &DVec3| match shape {
         0 => *p,
         1 => *p * DVec3::new(1.0, 3.0, 0.3),
-        _ => *p * (1.0 + limbs.iter().map(|l| 2.0 * pow(l.dot(*p).max(0.0), 8.0)).sum::<f64>()),
+        _ => limbed(*p),
     };
     ball.with_positions(ball.positions().iter().map(place).collect())
 }
@@ -86,7 +94,7 @@ fn rebuilt(
 }
 
 /// A point in a face, near a corner or a side, or not.
-fn split_face(mesh: &SurfaceMesh, random: &mut Random) -> SurfaceMesh {
+pub fn split_face(mesh: &SurfaceMesh, random: &mut Random) -> SurfaceMesh {
     let face = FaceId::from(random.below(mesh.face_count()));
     let (s, t) = (random.small(), random.small());
     let first = random.below(3);
@@ -103,7 +111,7 @@ fn split_face(mesh: &SurfaceMesh, random: &mut Random) -> SurfaceMesh {
 }
 
 /// A point on an edge, near its start or not.
-fn split_edge(mesh: &SurfaceMesh, random: &mut Random) -> SurfaceMesh {
+pub fn split_edge(mesh: &SurfaceMesh, random: &mut Random) -> SurfaceMesh {
     let h = HalfedgeId::from(random.below(3 * mesh.face_count()));
     let [p, q] = [mesh.tail(h), mesh.head(h)].map(|v| mesh.positions()[v]);
     let point = p + random.small() * (q - p);
@@ -123,7 +131,7 @@ fn split_edge(mesh: &SurfaceMesh, random: &mut Random) -> SurfaceMesh {
 }
 
 /// The other diagonal of two faces, where that is not an edge already.
-fn flipped(mesh: &SurfaceMesh, random: &mut Random) -> SurfaceMesh {
+pub fn flipped(mesh: &SurfaceMesh, random: &mut Random) -> SurfaceMesh {
     let h = HalfedgeId::from(random.below(3 * mesh.face_count()));
     let t = mesh.twin(h);
     let [i, j, k, l] = [mesh.tail(h), mesh.head(h), mesh.tail(h.prev()), mesh.tail(t.prev())];

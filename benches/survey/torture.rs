@@ -1,0 +1,232 @@
+//! Generated hostile geometry: every case ends in a certified map that a stranger proves, or in a typed error, within bounds.
+//!
+//! Each case runs in a process of its own, which ends itself where it takes more than its bounds: processor time and memory by
+//! faces. A panic, a bound and a map that `conemap_verify` rejects are findings, and the command fails.
+
+use crate::arguments::Arguments;
+use crate::hostile_geometry::{Kind, Size, case};
+use crate::judged_job::{Files, Outcome, mapped};
+use crate::watch::Watch;
+use cpu_time::ProcessTime;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// Processor seconds that a case may take, and those that each face adds.
+const SECONDS: [f64; 2] = [120.0, 1e-3];
+/// MiB that a case may take, and those that each face adds.
+const MIB: [f64; 2] = [400.0, 0.01];
+
+/// How a process says that it broke a bound.
+const BROKE_BOUND: i32 = 9;
+
+/// Cases of all kinds in turn, until the time is over; then their outcomes by kind.
+pub fn table(arguments: &Arguments) {
+    let kinds: Vec<Kind> = Kind::ALL.into_iter().filter(|kind| is_asked_for(*kind, arguments)).collect();
+    let begun = Instant::now();
+    let limit = Duration::from_secs_f64(60.0 * arguments.minutes);
+    let mut sums: BTreeMap<Kind, Sum> = BTreeMap::new();
+    let mut findings = Vec::new();
+    let mut errors = BTreeMap::new();
+    'time: for seed in arguments.seed.. {
+        for &kind in &kinds {
+            if begun.elapsed() > limit {
+                break 'time;
+            }
+            let name = format!("{}-{seed}", kind.name());
+            let told = in_a_process(&name);
+            let sum = sums.entry(kind).or_default();
+            sum.add(&told);
+            if told["outcome"] == "error" {
+                let of = |field: &str| told[field].as_str().unwrap_or_default().to_owned();
+                errors.entry(of("error")).or_insert_with(|| (name.clone(), of("sentence")));
+            }
+            if told["outcome"] == "finding" {
+                let line = format!("{name}: {}", told["sentence"].as_str().unwrap_or_default());
+                println!("FINDING {line}");
+                findings.push(line);
+            }
+        }
+    }
+    print_table(&sums, arguments, begun.elapsed());
+    for (error, (name, sentence)) in &errors {
+        println!("{error}: first {name}: {sentence}");
+    }
+    println!(
+        "{} findings; a case may take {} s of processor time and {} ms a face, {} MiB and {} KiB a face",
+        findings.len(),
+        SECONDS[0],
+        1000.0 * SECONDS[1],
+        MIB[0],
+        1024.0 * MIB[1]
+    );
+    if !findings.is_empty() {
+        findings.iter().for_each(|line| println!("FINDING {line}"));
+        println!("one of them again: cargo xtask torture --case NAME");
+        std::process::exit(1);
+    }
+}
+
+fn is_asked_for(kind: Kind, arguments: &Arguments) -> bool {
+    arguments.pairs.is_empty() || arguments.pairs.iter().any(|name| name == kind.name())
+}
+
+/// Cases by name, in this process; each prints a line of JSON.
+pub fn cases(arguments: &Arguments) {
+    for name in &arguments.pairs {
+        let (kind, seed) = name.rsplit_once('-').expect("KIND-SEED");
+        let kind = Kind::of(kind).expect("a known kind");
+        let seed: u64 = seed.parse().expect("a whole number");
+        let files = case(kind, seed, Size::Any);
+        let faces = files.meshes.iter().map(|mesh| mesh.face_count()).sum::<usize>();
+        let files = Files::from(files);
+        std::thread::spawn(move || keep_bounds(faces));
+        let mut watch = Watch::new();
+        let mapped = mapped(&files, &mut watch);
+        let (stage, silence) = watch.longest();
+        let outcome = mapped.map_or_else(|outcome| outcome, |mapped| mapped.judged(&files));
+        let mut told = told_of(&outcome);
+        told["faces"] = json!(faces);
+        told["seconds"] = json!(ProcessTime::now().as_duration().as_secs_f64());
+        told["silence"] = json!(silence.as_secs_f64());
+        told["stage"] = json!(stage);
+        told["mib"] = json!(peak_mib());
+        println!("{told}");
+    }
+}
+
+/// Ends the process where it takes more than a case of so many faces may.
+fn keep_bounds(faces: usize) {
+    let [seconds, mib] = [SECONDS, MIB].map(|[least, each]| least + each * faces as f64);
+    loop {
+        std::thread::sleep(Duration::from_millis(50));
+        let taken = ProcessTime::now().as_duration().as_secs_f64();
+        let held = peak_mib().unwrap_or(0.0);
+        if taken > seconds || held > mib {
+            println!(
+                "{}",
+                json!({
+                    "outcome": "finding",
+                    "sentence": format!("{faces} faces took {taken:.0} s of processor time, {held:.0} MiB"),
+                    "seconds": taken,
+                    "mib": held,
+                })
+            );
+            std::process::exit(BROKE_BOUND);
+        }
+    }
+}
+
+fn told_of(outcome: &Outcome) -> Value {
+    match outcome {
+        Outcome::Proved => json!({ "outcome": "proved" }),
+        Outcome::ProvedWithinRounding { triangles } => {
+            json!({ "outcome": "rounded", "triangles": triangles })
+        }
+        Outcome::Certified { without_file } => json!({ "outcome": without_file }),
+        Outcome::Refused { name, sentence } => {
+            json!({ "outcome": "error", "error": name, "sentence": sentence })
+        }
+        Outcome::Stopped => {
+            json!({ "outcome": "finding", "sentence": "it was stopped, and nobody asked for it" })
+        }
+        Outcome::Wrong(why) => json!({ "outcome": "finding", "sentence": why }),
+    }
+}
+
+/// The most memory that this process has held; `None` where the system does not tell.
+fn peak_mib() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    Some(line.split_whitespace().nth(1)?.parse::<f64>().ok()? / 1024.0)
+}
+
+/// What a case prints in a process of its own; a panic is a finding.
+fn in_a_process(name: &str) -> Value {
+    let program = std::env::current_exe().expect("this program");
+    let output = Command::new(program)
+        .args(["torture-case", "--pairs", name])
+        .stdin(Stdio::null())
+        .output()
+        .expect("a process");
+    let printed = String::from_utf8_lossy(&output.stdout);
+    let told = printed.lines().last().and_then(|line| serde_json::from_str(line).ok());
+    match (told, output.status.code()) {
+        (Some(told), Some(0 | BROKE_BOUND)) => told,
+        _ => {
+            let said = String::from_utf8_lossy(&output.stderr);
+            let said: Vec<&str> = said.lines().filter(|line| !line.is_empty()).take(3).collect();
+            json!({ "outcome": "finding", "sentence": format!("{}: {}", output.status, said.join(" ")) })
+        }
+    }
+}
+
+/// The outcomes of a kind.
+#[derive(Default)]
+struct Sum {
+    count: usize,
+    by_outcome: BTreeMap<String, usize>,
+    errors: BTreeMap<String, usize>,
+    seconds: f64,
+    silence: (f64, String),
+    mib: f64,
+}
+
+impl Sum {
+    fn add(&mut self, told: &Value) {
+        self.count += 1;
+        let text = |field: &str| told[field].as_str().unwrap_or_default().to_owned();
+        *self.by_outcome.entry(text("outcome")).or_default() += 1;
+        if told["outcome"] == "error" {
+            *self.errors.entry(text("error")).or_default() += 1;
+        }
+        let number = |field: &str| told[field].as_f64().unwrap_or(0.0);
+        self.seconds = self.seconds.max(number("seconds"));
+        self.mib = self.mib.max(number("mib"));
+        if number("silence") > self.silence.0 {
+            self.silence = (number("silence"), text("stage"));
+        }
+    }
+
+    fn of(&self, outcome: &str) -> usize {
+        self.by_outcome.get(outcome).copied().unwrap_or(0)
+    }
+}
+
+fn print_table(sums: &BTreeMap<Kind, Sum>, arguments: &Arguments, took: Duration) {
+    println!(
+        "\n{:13} {:>6} {:>7} {:>8} {:>9} {:>11} {:>7} {:>9} {:>10} {:>9}  {:34} errors",
+        "kind",
+        "cases",
+        "proved",
+        "rounded",
+        "repaired",
+        "no overlay",
+        "errors",
+        "longest s",
+        "silence ms",
+        "peak MiB",
+        "longest silence in"
+    );
+    for (kind, sum) in sums {
+        let errors: Vec<String> = sum.errors.iter().map(|(name, count)| format!("{count} {name}")).collect();
+        println!(
+            "{:13} {:6} {:7} {:8} {:9} {:11} {:7} {:9.1} {:10.0} {:9.0}  {:34} {}",
+            kind.name(),
+            sum.count,
+            sum.of("proved"),
+            sum.of("rounded"),
+            sum.of("repaired"),
+            sum.of("no overlay"),
+            sum.of("error"),
+            sum.seconds,
+            1000.0 * sum.silence.0,
+            sum.mib,
+            sum.silence.1,
+            errors.join(", ")
+        );
+    }
+    let (count, minutes) = (sums.values().map(|sum| sum.count).sum::<usize>(), took.as_secs_f64() / 60.0);
+    println!("{count} cases in {minutes:.0} minutes from seed {}", arguments.seed);
+}

@@ -1,0 +1,81 @@
+//! A fixed sample of the hostile geometry that `cargo xtask torture` makes by the thousand: a certified map that a stranger proves,
+//! or a typed error with a sentence, after bounded work.
+
+use crate::bounds::{Counter, MOST_QUESTIONS};
+use crate::hostile_geometry::{Kind, Size, case};
+use crate::judged_job::{Files, Outcome, mapped};
+use crate::rough_meshes::Random;
+use conemap::monitor::Silent;
+
+/// The outcome of a small case, which must be one of those that may be.
+fn outcome(kind: Kind, seed: u64) -> Outcome {
+    let files = Files::from(case(kind, seed, Size::Small));
+    let outcome = match mapped(&files, &mut Counter::up_to(MOST_QUESTIONS)) {
+        Ok(mapped) => mapped.judged(&files),
+        Err(outcome) => outcome,
+    };
+    let name = kind.name();
+    match &outcome {
+        Outcome::Stopped => panic!("{name}-{seed}: more than {MOST_QUESTIONS} questions"),
+        Outcome::Wrong(why) => panic!("{name}-{seed}: {why}"),
+        Outcome::Refused { sentence, .. } => assert!(sentence.len() > 20, "{name}-{seed}: {sentence}"),
+        _ => {}
+    }
+    outcome
+}
+
+fn is_map(outcome: &Outcome) -> bool {
+    !matches!(outcome, Outcome::Refused { .. })
+}
+
+#[test]
+fn hostile_shapes_end_in_a_proved_map_or_a_sentence() {
+    let kinds = [Kind::Slivers, Kind::Needles, Kind::Pancakes, Kind::Noise, Kind::Rough, Kind::Mixed];
+    let outcomes: Vec<Outcome> = kinds.into_iter().map(|kind| outcome(kind, 1)).collect();
+    // Errors alone would be no answer.
+    assert!(outcomes.iter().filter(|outcome| is_map(outcome)).count() >= 3, "{outcomes:?}");
+}
+
+#[test]
+fn meshes_of_very_different_sizes_have_a_map() {
+    for kind in [Kind::Hubs, Kind::Unequal] {
+        assert!(is_map(&outcome(kind, 1)));
+    }
+}
+
+#[test]
+fn hostile_landmarks_end_in_a_proved_map_or_a_sentence() {
+    for kind in [Kind::Adjacent, Kind::Dense, Kind::OneLimb, Kind::BesideEdges] {
+        let outcome = outcome(kind, 1);
+        assert!(is_map(&outcome), "{}: {outcome:?}", kind.name());
+    }
+}
+
+#[test]
+fn generators_make_the_same_files_again() {
+    for kind in Kind::ALL {
+        let [first, again] = [0; 2].map(|_| Files::from(case(kind, 3, Size::Small)));
+        assert!(first.source == again.source && first.target == again.target, "{}", kind.name());
+        assert!(first.landmarks == again.landmarks, "{}", kind.name());
+    }
+    assert!((0..100).all(|_| (0.0..0.5).contains(&Random::new(1).small())));
+}
+
+#[test]
+fn landmarks_beside_edges_are_told_where_they_are_held() {
+    // A corner but for 1e-7, an edge but for 1e-9, and points that stay.
+    let mut files = Files::from(case(Kind::Dense, 1, Size::Small));
+    let on_face =
+        |face: u32, [a, b, c]: [f64; 3]| format!("{{\"face\":{face},\"barycentric\":[{a},{b},{c}]}}");
+    let points = [
+        on_face(3, [1.0 - 2e-7, 1e-7, 1e-7]),
+        on_face(20, [0.5, 0.5 - 1e-9, 1e-9]),
+        on_face(40, [0.25, 0.25, 0.5]),
+        on_face(60, [0.5, 0.25, 0.25]),
+        "5".to_owned(),
+    ];
+    let pairs: Vec<String> = points.iter().map(|point| format!("[{point},{point}]")).collect();
+    files.landmarks = format!("{{\"pairs\":[{}]}}", pairs.join(",")).into_bytes();
+    let outcome = mapped(&files, &mut Silent).map(|mapped| mapped.judged(&files));
+    assert_eq!(outcome.map_err(|error| format!("{error:?}")), Ok(Outcome::Proved));
+}

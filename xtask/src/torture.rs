@@ -1,0 +1,37 @@
+//! Generated hostile geometry.
+
+use crate::run::{cargo, run_for};
+use std::time::Duration;
+
+const USAGE: &str =
+    "cargo xtask torture [--minutes N] [--seed S] [--kinds NAME,NAME], or --case KIND-SEED for one of them";
+
+/// Maps generated hostile cases for some minutes and prints the table of outcomes (`benches/survey/torture.rs`); fails on a panic, a
+/// broken bound and a map that `conemap_verify` rejects. In the profile of the tests, whose assertions find more.
+pub fn torture(rest: &[String]) -> Result<(), String> {
+    let mut arguments = vec!["test", "--bench", "survey", "--"];
+    if let [option, name] = rest
+        && option == "--case"
+    {
+        arguments.extend(["torture-case", "--pairs", name]);
+        return run_for(Duration::from_mins(60), &cargo(), &arguments);
+    }
+    arguments.push("torture");
+    let mut minutes = 10;
+    for pair in rest.chunks(2) {
+        match pair {
+            [option, number] if option == "--minutes" || option == "--seed" => {
+                let whole: u32 =
+                    number.parse().map_err(|_| format!("{option} {number}: a whole number is needed"))?;
+                if option == "--minutes" {
+                    minutes = whole;
+                }
+                arguments.extend([option.as_str(), number]);
+            }
+            [option, names] if option == "--kinds" => arguments.extend(["--pairs", names]),
+            _ => return Err(USAGE.to_owned()),
+        }
+    }
+    // The build and the last case come on top.
+    run_for(Duration::from_mins(u64::from(minutes) + 40), &cargo(), &arguments)
+}
