@@ -21,7 +21,10 @@ test.beforeAll(async ({ browser }) => {
   });
   await openDemo(page);
   await runMap(page);
-  await openStep(page, 'method');
+  // Where the numbers of the map are is a way to it.
+  await openStep(page, 'map');
+  await page.getByText('Details', { exact: true }).click();
+  await page.locator('#show-base-domain').click();
   await expect(page.locator('#base-picture circle').first()).toBeVisible();
   await page.mouse.move(5, 5);
   await page.waitForTimeout(SETTLED);

@@ -113,7 +113,19 @@ export function MapPanel({ state, actions, shell }: PartProps): VNode {
               <h3>All numbers</h3>
               <ReportFacts report={result.report} />
               <ReportTimes report={result.report} />
-              <PlotsButton shell={shell} />
+              <div class="row">
+                <PlotsButton shell={shell} />
+                <button
+                  type="button"
+                  id="show-base-domain"
+                  onClick={() => {
+                    actions.dispatch({ kind: 'ui', ui: { step: 'method', panel: 'open' } });
+                  }}
+                >
+                  <Icon name="method" />
+                  Base domain
+                </button>
+              </div>
             </>
           )}
         </Fold>
