@@ -23,6 +23,7 @@ mod remeshing;
 #[path = "../common/theorems.rs"]
 mod theorems;
 
+mod damage;
 mod exact_geodesics;
 mod fixtures;
 mod rough_meshes;
@@ -31,6 +32,7 @@ mod agreement;
 mod base;
 mod borders;
 mod bounds;
+mod broken_files;
 #[cfg(feature = "cli")]
 mod cli;
 mod clicks;
