@@ -1,5 +1,5 @@
 //! Meshes as they come, after the repairs that are offered: onto a partner where there is one, and otherwise onto an independently
-//! remeshed, bent copy of the repaired surface, whose true map is known.
+//! remeshed, bent copy of the repaired surface, whose true map is known. What cannot be repaired is told with its reason.
 
 use crate::arguments::Arguments;
 use crate::case::Limit;
@@ -10,15 +10,17 @@ use conemap::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 use conemap::io::read_mesh as read_soup;
 use conemap::job::{Job, JobFiles, MeshFaults, ReadMesh, ReadOptions, read_mesh};
 use conemap::landmark_exchange::GivenFile;
+use conemap::math::matrix2::squares;
 use conemap::math::scalar::{cos, sin};
+use conemap::math::triangle;
 use conemap::mesh::repair::{Handles, Parts, RepairOptions};
 use conemap::mesh::surface_index::SurfaceIndex;
-use conemap::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use conemap::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use conemap::monitor::{Monitor, Silent};
 use conemap::pipeline::{Choices, MapResult};
 use conemap::remesh::{Options, carried, remesh};
 use cpu_time::ThreadTime;
-use glam::DVec3;
+use glam::{DMat2, DVec3};
 
 /// What a file is mapped onto.
 enum Partner {
@@ -57,15 +59,29 @@ const LANDMARKS: usize = 12;
 struct Files {
     meshes: [Vec<u8>; 2],
     landmarks: Vec<u8>,
-    /// The true image of each vertex of the source's file, where it is known.
-    truth: Option<Vec<DVec3>>,
+    truth: Option<Truth>,
+}
+
+/// The true map, where it is known.
+struct Truth {
+    /// The image of each vertex of the source's file.
+    images: Vec<DVec3>,
+    /// E of skin, and the share of the target's area that is its image; of copies.
+    skin: Option<Skin>,
+}
+
+/// What the true map does to skin.
+#[derive(Clone, Copy)]
+struct Skin {
+    energy: f64,
+    covered: f64,
 }
 
 /// Each file of `bad` and `open`.
 pub fn files(arguments: &Arguments) {
     println!(
-        "{:24} {:>9} {:>8} {:>17} {:>17} {:>7}  repairs",
-        "file", "certified", "E", "truth % mean 95", "covered % s, t", "cpu s"
+        "{:24} {:>9} {:>8} {:>8} {:>13} {:>13} {:>7} {:>7}  repairs",
+        "file", "certified", "E", "true", "error %, 95 %", "covered s, t", "true", "cpu s"
     );
     let wanted =
         |name: &str| arguments.pairs.is_empty() || arguments.pairs.iter().any(|p| name.contains(p.as_str()));
@@ -109,7 +125,7 @@ fn line(arguments: &Arguments, name: &str, partner: &Partner) -> Result<[String;
     let job = read(&files, &mut limit)?;
     let result = job.run(&arguments.options, &mut limit).map_err(|e| e.to_string())?;
     let repairs = job.repairs().iter().map(|repair| repair.sentence()).filter(|told| !told.is_empty());
-    Ok([figures(&job, &result, files.truth.as_deref()), repairs.collect::<Vec<_>>().join("; ")])
+    Ok([figures(&job, &result, files.truth.as_ref()), repairs.collect::<Vec<_>>().join("; ")])
 }
 
 fn read(files: &Files, monitor: &mut dyn Monitor) -> Result<Job, String> {
@@ -120,7 +136,7 @@ fn read(files: &Files, monitor: &mut dyn Monitor) -> Result<Job, String> {
     Job::read(given, options, monitor).map_err(|e| e.to_string())
 }
 
-/// The files of a pair, one of its meshes replaced.
+/// The files of a pair, one of its meshes replaced. Of two poses the true images are those of the closed mesh.
 fn of_pair(
     arguments: &Arguments,
     pair: &str,
@@ -135,9 +151,12 @@ fn of_pair(
         ends.map(LandmarkPoint::Vertex)
     });
     let file = LandmarkFile { pairs: pairs.collect(), ..LandmarkFile::default() };
+    let is_poses = pair.file.ground_truth.is_some() && side == 0;
+    let images = || pair.target.positions().iter().copied().collect();
+    let truth = is_poses.then(|| Truth { images: images(), skin: None });
     let mut meshes = [obj::mesh(&pair.source), obj::mesh(&pair.target)];
     meshes[side] = bytes;
-    Files { meshes, landmarks: landmark_file::write(&file), truth: None }
+    Files { meshes, landmarks: landmark_file::write(&file), truth }
 }
 
 /// A file and the bent copy of its repaired surface, in triangles of its own.
@@ -166,9 +185,28 @@ fn copy(bytes: Vec<u8>) -> Result<Files, String> {
     let file =
         LandmarkFile { pairs: chosen.iter().zip(&places).map(pair).collect(), ..LandmarkFile::default() };
     let soup = read_soup(&bytes).map_err(|e| e.to_string())?;
-    let truth = soup.positions.iter().map(|p| bend(*p)).collect();
+    let images = soup.positions.iter().map(|p| bend(*p)).collect();
+    let skin = skin([&checked.mesh, &bent], |f| checked.is_cap(f));
     let meshes = [bytes, obj::mesh(&remeshed)];
-    Ok(Files { meshes, landmarks: landmark_file::write(&file), truth: Some(truth) })
+    let truth = Some(Truth { images, skin: Some(skin) });
+    Ok(Files { meshes, landmarks: landmark_file::write(&file), truth })
+}
+
+/// What a change of a mesh' places does to its faces without caps, both sides of these scaled to area 1.
+fn skin([from, to]: [&SurfaceMesh; 2], is_cap: impl Fn(FaceId) -> bool) -> Skin {
+    let faces = || from.faces().filter(|&f| !is_cap(f));
+    let [areas, images] = [from, to].map(|mesh| faces().map(|f| mesh.face_area(f)).sum::<f64>());
+    let edges = |mesh: &SurfaceMesh, f: FaceId| {
+        let [a, b, c] = mesh.corners(f);
+        let [p, q, r] = triangle::lay_out([a.distance(b), b.distance(c), c.distance(a)]);
+        DMat2::from_cols(q - p, r - p)
+    };
+    let energy = |f: FaceId| {
+        let [before, after] = [edges(from, f), edges(to, f)];
+        let [there, back] = [after * before.inverse(), before * after.inverse()];
+        squares(&there) * from.face_area(f) / images + squares(&back) * to.face_area(f) / areas
+    };
+    Skin { energy: faces().map(energy).sum(), covered: images / to.area() }
 }
 
 /// A bend along the longest side of the box around a mesh: by half a radian in all.
@@ -196,10 +234,11 @@ fn bend_of(mesh: &SurfaceMesh) -> impl Fn(DVec3) -> DVec3 + use<> {
     }
 }
 
-fn figures(job: &Job, result: &MapResult, truth: Option<&[DVec3]>) -> String {
+fn figures(job: &Job, result: &MapResult, truth: Option<&Truth>) -> String {
     let report = &result.report;
     let is_certified = report.certificate.as_ref().is_some_and(|c| c.bijective);
-    let errors = truth.and_then(|truth| errors(job, result, truth));
+    let certified = if is_certified { "yes" } else { "NO" };
+    let errors = truth.and_then(|truth| errors(job, result, &truth.images));
     let errors = errors.map_or(String::new(), |errors| {
         let [mean, p95] = errors.map(|share| 100.0 * share);
         format!("{mean:.3} {p95:.3}")
@@ -207,8 +246,14 @@ fn figures(job: &Job, result: &MapResult, truth: Option<&[DVec3]>) -> String {
     let coverage = report.coverage.as_ref().map_or(String::new(), |coverage| {
         format!("{:.2} {:.2}", 100.0 * coverage.source, 100.0 * coverage.target)
     });
-    let certified = if is_certified { "yes" } else { "NO" };
-    format!("{certified:>9} {:8.4} {errors:>17} {coverage:>17}", report.distortion.energy)
+    let skin = truth.and_then(|truth| truth.skin);
+    let [energy, covered] = skin.map_or([String::new(), String::new()], |skin| {
+        [format!("{:.4}", skin.energy), format!("{:.2}", 100.0 * skin.covered)]
+    });
+    format!(
+        "{certified:>9} {:8.4} {energy:>8} {errors:>13} {coverage:>13} {covered:>7}",
+        report.distortion.energy
+    )
 }
 
 /// Mean and 95 % quantile of the distance of images of the file's vertices to the true ones, along straight lines, in units of the root of

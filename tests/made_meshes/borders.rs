@@ -4,12 +4,13 @@ use crate::common::farthest_points;
 use crate::cutting::{Cuts, Kept, Open, Plane, rim_distances};
 use crate::fixtures;
 use conemap::landmarks::Landmarks;
-use conemap::mesh::{SurfaceMesh, VertexId};
+use conemap::mesh::{FaceId, SurfaceMesh, VertexId};
 use conemap::monitor::Silent;
 use conemap::pipeline::{
     BorderCase, Borders, CapFaces, GroundTruth, MapInput, MapResult, PipelineOptions, Warning, run,
 };
 use glam::DVec3;
+use typed_index_collections::TiVec;
 
 /// A horse and the same horse bent sideways along its length, vertex i being vertex i.
 struct Poses {
@@ -99,4 +100,28 @@ fn cuts_at_different_limbs_are_not_guessed_to_correspond() {
     let sides = poses.cut([&poses.leg, &poses.head]);
     let told = poses.map([&sides[0], &sides[1]], Borders::Guess).report.borders.unwrap();
     assert_eq!((told.case, told.rims.len()), (BorderCase::Missing, 0));
+}
+
+#[test]
+fn closed_meshes_are_mapped_bit_for_bit_alike_whatever_is_said_of_borders() {
+    let case = fixtures::demo("sphere-tetrahedron");
+    let no_cap: [TiVec<FaceId, bool>; 2] =
+        [&case.source, &case.target].map(|mesh| mesh.faces().map(|_| false).collect());
+    let map = |borders: Borders, caps: CapFaces<'_>| {
+        let input = MapInput { caps, ..MapInput::new(&case.source, &case.target, &case.landmarks) };
+        run(input, &PipelineOptions { borders, ..PipelineOptions::default() }, &mut Silent).unwrap()
+    };
+    let usual = map(Borders::Guess, CapFaces::default());
+    assert!(usual.report.borders.is_none() && usual.report.coverage.is_none());
+    let marked = CapFaces { source: Some(&no_cap[0]), target: Some(&no_cap[1]) };
+    for (borders, caps) in [
+        (Borders::Missing, CapFaces::default()),
+        (Borders::Corresponding, CapFaces::default()),
+        (Borders::Guess, marked),
+    ] {
+        let other = map(borders, caps);
+        assert_eq!(other.report.distortion, usual.report.distortion, "{borders:?}");
+        assert_eq!(other.target_from_source, usual.target_from_source, "{borders:?}");
+        assert!(other.report.borders.is_none_or(|told| told.case == BorderCase::Missing));
+    }
 }

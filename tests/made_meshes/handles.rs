@@ -1,6 +1,7 @@
 //! Handles: sums of tori in random triangulations, by seed, and a ball with a small one.
 
-use crate::repair::{is_sound, numbers_are_the_files, soup};
+use crate::damage::soup;
+use crate::repair::{is_sound, numbers_are_the_files};
 use conemap::job::{Job, JobError, JobFiles, MeshFaults, ReadOptions};
 use conemap::landmark_exchange::GivenFile;
 use conemap::landmarks::MeshSide;

@@ -29,6 +29,7 @@ mod rough_meshes;
 #[path = "../common/theorems.rs"]
 mod theorems;
 
+mod damage;
 mod exact_geodesics;
 mod fixtures;
 
@@ -37,6 +38,7 @@ mod base;
 mod base_picture;
 mod borders;
 mod bounds;
+mod broken_files;
 #[cfg(feature = "cli")]
 mod cli;
 mod clicks;

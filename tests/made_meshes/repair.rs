@@ -1,39 +1,19 @@
 //! Repair: broken meshes made from good ones, by seed and by hand.
 
+use crate::damage::{Damage, add, punch, soup};
 use conemap::io::landmark_file::LandmarkPoint;
 use conemap::landmarks::{LandmarkError, MeshSide, check_side};
 use conemap::math::random::SplitMix;
 use conemap::math::scalar::{cos, sin};
 use conemap::mesh::check::{CheckedMesh, MeshFault, closed_genus_zero};
-use conemap::mesh::generators::{icosphere, octahedron, tetrahedron, torus};
+use conemap::mesh::generators::{icosphere, octahedron, torus};
 use conemap::mesh::repair::{Change, Handles, Parts, RepairOptions, RepairRefusal, RepairedMesh, repaired};
 use conemap::mesh::soup::PolygonSoup;
 use conemap::mesh::{FaceId, SurfaceMesh, SurfacePoint};
 use conemap::monitor::Silent;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
-
-pub fn soup(mesh: &SurfaceMesh) -> PolygonSoup {
-    PolygonSoup {
-        positions: mesh.positions().iter().copied().collect(),
-        polygons: mesh.triangles().iter().map(|t| t.iter().map(|v| v.0).collect()).collect(),
-        joined_with: Vec::new(),
-    }
-}
-
-/// Adds another soup's vertices and polygons.
-fn add(soup: &mut PolygonSoup, other: &PolygonSoup, place: impl Fn(DVec3) -> DVec3) {
-    let first = soup.positions.len() as u32;
-    soup.positions.extend(other.positions.iter().map(|&p| place(p)));
-    soup.polygons.extend(other.polygons.iter().map(|p| p.iter().map(|v| v + first).collect::<Vec<_>>()));
-}
-
-/// Takes all polygons away that have a corner within a distance of a place.
-fn punch(soup: &mut PolygonSoup, place: DVec3, radius: f64) {
-    let positions = &soup.positions;
-    soup.polygons.retain(|p| !p.iter().any(|&v| positions[v as usize].distance(place) < radius));
-}
 
 /// With handles cut.
 fn repair_all(soup: &PolygonSoup) -> Result<RepairedMesh, RepairRefusal> {
@@ -66,135 +46,11 @@ fn kinds(mesh: &RepairedMesh) -> Vec<&'static str> {
     mesh.report.changes.iter().map(Change::kind).collect()
 }
 
-/// Random faults of a soup.
-struct Damage(SplitMix);
-
-impl Damage {
-    fn below(&mut self, n: usize) -> usize {
-        ((self.0.unit() * n as f64) as usize).min(n - 1)
-    }
-
-    fn chance(&mut self, share: f64) -> bool {
-        self.0.unit() < share
-    }
-
-    fn mesh(&mut self) -> SurfaceMesh {
-        match self.below(6) {
-            0 => octahedron(),
-            1 => icosphere(1),
-            2 => torus(5 + self.below(9), 4 + self.below(6)),
-            _ => icosphere(2),
-        }
-    }
-
-    fn holes(&mut self, soup: &mut PolygonSoup) {
-        for _ in 0..self.below(4) {
-            let at = soup.positions[self.below(soup.positions.len())];
-            let radius = 0.6 * self.0.unit();
-            punch(soup, at, radius);
-        }
-    }
-
-    fn missing_faces(&mut self, soup: &mut PolygonSoup) {
-        let share = 0.1 * self.0.unit();
-        soup.polygons.retain(|_| !self.chance(share));
-    }
-
-    fn turned_patches(&mut self, soup: &mut PolygonSoup) {
-        let at = soup.positions[self.below(soup.positions.len())];
-        let radius = 1.5 * self.0.unit();
-        for polygon in &mut soup.polygons {
-            if soup.positions[polygon[0] as usize].distance(at) < radius {
-                polygon.reverse();
-            }
-        }
-    }
-
-    fn doubled_faces(&mut self, soup: &mut PolygonSoup) {
-        for _ in 0..self.below(6) {
-            if !soup.polygons.is_empty() {
-                let mut copy = soup.polygons[self.below(soup.polygons.len())].clone();
-                if self.chance(0.5) {
-                    copy.reverse();
-                }
-                soup.polygons.push(copy);
-            }
-        }
-    }
-
-    /// Vertices that are one from now on.
-    fn pinches(&mut self, soup: &mut PolygonSoup) {
-        for _ in 0..self.below(3) {
-            let [a, b] = [0; 2].map(|_| self.below(soup.positions.len()) as u32);
-            soup.polygons.iter_mut().flatten().filter(|v| **v == a).for_each(|v| *v = b);
-        }
-    }
-
-    /// Some polygons get vertices of their own.
-    fn torn_faces(&mut self, soup: &mut PolygonSoup) {
-        let share = self.0.unit();
-        for k in 0..soup.polygons.len() {
-            if self.chance(share) {
-                for c in 0..3 {
-                    let v = soup.polygons[k][c] as usize;
-                    soup.polygons[k][c] = soup.positions.len() as u32;
-                    soup.positions.push(soup.positions[v]);
-                }
-            }
-        }
-    }
-
-    fn specks(&mut self, soup: &mut PolygonSoup) {
-        let at = soup.positions[self.below(soup.positions.len())];
-        add(soup, &self::soup(&tetrahedron()), |p| at * 1.5 + 0.02 * p);
-    }
-
-    /// A face with one corner on the middle of an edge, its neighbour on the other side whole.
-    fn corners_on_edges(&mut self, soup: &mut PolygonSoup) {
-        for _ in 0..1 + self.below(3) {
-            if soup.polygons.is_empty() {
-                return;
-            }
-            let k = self.below(soup.polygons.len());
-            let [a, b, c] = soup.polygons[k][..] else { return };
-            let middle = soup.positions.len() as u32;
-            soup.positions.push(0.5 * (soup.positions[a as usize] + soup.positions[b as usize]));
-            soup.polygons[k] = vec![a, middle, c];
-            soup.polygons.extend([vec![middle, b, c], vec![a, b, middle]]);
-        }
-    }
-
-    /// A wall of a face across the inside, or any other three vertices.
-    fn walls(&mut self, soup: &mut PolygonSoup) {
-        let corners = [0; 3].map(|_| self.below(soup.positions.len()) as u32);
-        soup.polygons.push(corners.to_vec());
-    }
-
-    fn soup(&mut self) -> PolygonSoup {
-        let mut soup = soup(&self.mesh());
-        let faults: [fn(&mut Self, &mut PolygonSoup); 9] = [
-            Self::holes,
-            Self::missing_faces,
-            Self::turned_patches,
-            Self::doubled_faces,
-            Self::pinches,
-            Self::torn_faces,
-            Self::specks,
-            Self::corners_on_edges,
-            Self::walls,
-        ];
-        for _ in 0..1 + self.below(4) {
-            faults[self.below(faults.len())](self, &mut soup);
-        }
-        soup
-    }
-}
-
 #[test]
 fn of_a_thousand_broken_meshes_each_is_closed_or_refused() {
     let mut outcomes: BTreeMap<&'static str, usize> = BTreeMap::new();
     for seed in 0..1000 {
-        let soup = Damage(SplitMix::new(seed)).soup();
+        let soup = Damage::new(seed).soup();
         let outcome = match repair(&soup) {
             Ok(mesh) => {
                 is_sound(&mesh);
@@ -375,6 +231,66 @@ fn a_corner_on_an_edge_cuts_the_neighbour_and_opens_nothing() {
     assert!(matches!(placed(recut.first[0]), Err(LandmarkError::DroppedFace { .. })));
     assert_eq!(placed(83), Ok(()));
     assert!(matches!(placed(84), Err(LandmarkError::MissingFace { faces: 82, .. })));
+}
+
+/// A box whose six sides are fans of their own. Two of them have their common edge cut into three and into five.
+fn box_with_a_seam(turned: DMat3) -> PolygonSoup {
+    let corner = |k: usize| DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64);
+    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let mut soup = PolygonSoup::default();
+    for side in sides {
+        let middle = soup.positions.len() as u32;
+        soup.positions.push(turned * (0.25 * side.map(corner).iter().sum::<DVec3>()));
+        for (k, &from) in side.iter().enumerate() {
+            let to = side[(k + 1) % 4];
+            let pieces = match [from, to] {
+                [3, 1] => 3,
+                [1, 3] => 5,
+                _ => 1,
+            };
+            let at = |step: usize| turned * corner(from).lerp(corner(to), step as f64 / pieces as f64);
+            soup.positions.extend((0..pieces).map(at));
+        }
+        let around = soup.positions.len() as u32 - middle - 1;
+        soup.polygons
+            .extend((0..around).map(|k| vec![middle, middle + 1 + k, middle + 1 + (k + 1) % around]));
+    }
+    soup
+}
+
+#[test]
+fn a_seam_with_other_vertices_on_its_sides_closes_without_a_cap() {
+    for angle in [0.0, 0.7] {
+        let turned = DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), angle);
+        let loose = box_with_a_seam(turned);
+        let mesh = repair(&loose).unwrap();
+        is_sound(&mesh);
+        numbers_are_the_files(&loose, &mesh.checked);
+        let area = mesh.checked.mesh.area();
+        assert!(
+            (area - 6.0).abs() < 1e-9 && (signed_volume(&mesh.checked.mesh) - 1.0).abs() < 1e-9,
+            "{area}"
+        );
+        assert!(mesh.report.cap_share < 1e-9, "{:?}", mesh.report);
+    }
+}
+
+#[test]
+fn a_face_without_area_that_is_missing_leaves_no_hole() {
+    // A corner of the neighbour on an edge of a face, whose other corner it has an edge with already.
+    let mut given = soup(&icosphere(1));
+    let [a, b, c] = given.polygons[3][..] else { panic!() };
+    let place = |v: u32| given.positions[v as usize];
+    let (middle, top) = (given.positions.len() as u32, given.positions.len() as u32 + 1);
+    let [on_edge, above] = [0.5 * (place(a) + place(b)), (place(a) + place(b) + place(c)) / 3.0];
+    given.positions.extend([on_edge, above]);
+    // The middle of the edge is a corner of this face's pieces, and the face beyond is whole.
+    given.polygons[3] = vec![a, middle, top];
+    given.polygons.extend([vec![middle, b, top], vec![b, c, top], vec![c, a, top]]);
+    let mesh = repair(&given).unwrap();
+    is_sound(&mesh);
+    numbers_are_the_files(&given, &mesh.checked);
+    assert!((mesh.checked.mesh.area() - icosphere(1).area()).abs() < 1e-12);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Faces without area go, and the surface around them closes.
 
-use super::draft::{Draft, DraftFace, Edge, FaceOrigin, edges};
+use super::draft::{Draft, DraftFace, Edge, FaceOrigin, NONE, edges};
 use crate::math::disjoint_sets::DisjointSets;
 use crate::mesh::check::{Elements, Triangle, is_degenerate};
 use glam::DVec3;
@@ -22,6 +22,15 @@ impl Degenerate {
     }
 }
 
+/// What may be added to a surface where a face without area goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Additions {
+    /// Nothing: what cannot go without is a hole then.
+    Nothing,
+    /// Vertices over caps: these stay, as fins that are next to nothing.
+    Vertices,
+}
+
 /// Rounds at most: each one is for faces that lie beside one changed before.
 const ROUNDS: usize = 20;
 
@@ -31,8 +40,9 @@ const SAME_PLACE: f64 = 1e-12;
 /// The draft without faces that name a vertex twice or have no area.
 ///
 /// Of a needle the ends of the short edge become one vertex. A face with a corner on its longest edge goes with that edge: the
-/// neighbour there is cut in two at the corner, so that nothing opens. Where that cannot be the face is dropped.
-pub(super) fn without_degenerate(mut draft: Draft) -> (Draft, Degenerate) {
+/// neighbour there is cut in two at the corner, so that nothing opens. Where that cannot be the face is dropped, or, of a cap, drawn out to a
+/// fin.
+pub(super) fn without_degenerate(mut draft: Draft, additions: Additions) -> (Draft, Degenerate) {
     let (mut dropped, mut recut) = (Vec::new(), Vec::new());
     for _ in 0..ROUNDS {
         if !draft.faces.iter().any(|face| is_degenerate(&draft.positions, &face.corners)) {
@@ -49,6 +59,9 @@ pub(super) fn without_degenerate(mut draft: Draft) -> (Draft, Degenerate) {
             break;
         }
         draft = cuts.made(draft, &mut dropped, &mut recut);
+    }
+    if additions == Additions::Vertices {
+        draft = with_fins(draft);
     }
     let positions = draft.positions.clone();
     draft = without(draft, |face| !is_degenerate(&positions, &face.corners), &mut dropped);
@@ -69,6 +82,37 @@ fn without(draft: Draft, stays: impl Fn(&DraftFace) -> bool, dropped: &mut Vec<u
 fn squares(positions: &[DVec3], corners: &Triangle) -> [f64; 3] {
     let [p, q, r] = corners.map(|v| positions[v as usize]);
     [p.distance_squared(q), q.distance_squared(r), r.distance_squared(p)]
+}
+
+fn longest_side(positions: &[DVec3], corners: &Triangle) -> usize {
+    let squares = squares(positions, corners);
+    (0..3).max_by(|&i, &j| squares[i].total_cmp(&squares[j])).unwrap_or(0)
+}
+
+/// Height of a fin over its length: enough for its triangles to have an area.
+const FIN: f64 = 1e-4;
+
+/// Caps without area become fins: the corner on the longest side gets a vertex above it, whose edges nothing else has.
+fn with_fins(mut draft: Draft) -> Draft {
+    let mut faces = Vec::with_capacity(draft.faces.len());
+    for face in &draft.faces {
+        if face.origin != FaceOrigin::Cap || !is_degenerate(&draft.positions, &face.corners) {
+            faces.push(*face);
+            continue;
+        }
+        let k = longest_side(&draft.positions, &face.corners);
+        let [from, to, foot] = [0, 1, 2].map(|step| draft.positions[face.corners[(k + step) % 3] as usize]);
+        let up = (to - from).any_orthogonal_vector().normalize_or_zero();
+        let vertex = draft.positions.len() as u32;
+        draft.positions.push(foot + FIN * from.distance(to) * up);
+        draft.numbers.push(None);
+        faces.extend([0, 1, 2].map(|k| {
+            let mut third = *face;
+            (third.corners[k], third.file_corners[k]) = (vertex, NONE);
+            third
+        }));
+    }
+    draft.with_faces(faces)
 }
 
 fn needles_joined(mut draft: Draft) -> Draft {
@@ -112,8 +156,7 @@ impl Cuts {
             if !is_degenerate(&draft.positions, &face.corners) || touched.contains(&f) {
                 continue;
             }
-            let squares = squares(&draft.positions, &face.corners);
-            let longest = (0..3).max_by(|&i, &j| squares[i].total_cmp(&squares[j])).unwrap_or(0);
+            let longest = longest_side(&draft.positions, &face.corners);
             let Some(beside) = neighbour(draft, &edges, f, longest) else {
                 found.gone.push(f);
                 touched.insert(f);
@@ -122,19 +165,13 @@ impl Cuts {
             if touched.contains(&beside) {
                 continue;
             }
-            let corner = (longest + 2) % 3;
-            let [c, across] = [face.corners[corner], opposite(&draft.faces[beside], face.side(longest))];
-            let ends = [c.min(across), c.max(across)];
-            let halves = halves(
-                &draft.faces[beside],
-                face.side(longest),
-                Corner { vertex: c, in_file: face.file_corners[corner] },
-            );
-            let sound = halves.iter().all(|half| !is_degenerate(&draft.positions, &half.corners));
-            if c != across && sound && known.insert(ends) {
+            let on_edge = (longest + 2) % 3;
+            let corner = Corner { vertex: face.corners[on_edge], in_file: face.file_corners[on_edge] };
+            let cut = across(draft, beside, face.side(longest), &corner, &mut known);
+            if let Some(cut) = cut {
                 touched.extend([f, beside]);
                 found.gone.push(f);
-                found.cut.insert(beside, halves);
+                found.cut.insert(beside, cut);
             }
         }
         found
@@ -150,9 +187,9 @@ impl Cuts {
         for (f, face) in draft.faces.iter().enumerate() {
             if gone.contains(&f) {
                 dropped.extend(face.number());
-            } else if let Some(halves) = self.cut.get(&f) {
+            } else if let Some(cut) = self.cut.get(&f) {
                 recut.extend(face.number());
-                faces.extend(halves);
+                faces.extend(cut);
             } else {
                 faces.push(*face);
             }
@@ -186,13 +223,34 @@ struct Corner {
     in_file: u32,
 }
 
-/// A face cut in two from the middle of an edge to the opposite corner.
-fn halves(face: &DraftFace, [a, b]: [u32; 2], middle: Corner) -> [DraftFace; 2] {
+/// A face cut in two from a corner on one of its edges to its own corner across; `None` where that edge is there, or where faces without
+/// area would come of faces that have some. Two neighbours without area become two shorter ones.
+fn across(
+    draft: &Draft,
+    f: usize,
+    edge: [u32; 2],
+    corner: &Corner,
+    known: &mut FxHashSet<[u32; 2]>,
+) -> Option<[DraftFace; 2]> {
+    let face = &draft.faces[f];
+    let [c, across] = [corner.vertex, opposite(face, edge)];
+    let halves = halves(face, edge, corner);
+    let is_flat = |face: &DraftFace| is_degenerate(&draft.positions, &face.corners);
+    let is_sound = is_flat(face) || !halves.iter().any(is_flat);
+    (c != across && is_sound && known.insert([c.min(across), c.max(across)])).then_some(halves)
+}
+
+/// The origin of what a face is cut into.
+fn made_of(face: &DraftFace) -> FaceOrigin {
+    if face.origin == FaceOrigin::Cap { FaceOrigin::Cap } else { FaceOrigin::Recut }
+}
+
+/// A face cut in two from a corner on an edge to the opposite corner.
+fn halves(face: &DraftFace, [a, b]: [u32; 2], corner: &Corner) -> [DraftFace; 2] {
     let half = |replaced: u32| {
-        let origin = if face.origin == FaceOrigin::Cap { FaceOrigin::Cap } else { FaceOrigin::Recut };
-        let mut half = DraftFace { origin, ..*face };
+        let mut half = DraftFace { origin: made_of(face), ..*face };
         for k in (0..3).filter(|&k| face.corners[k] == replaced) {
-            (half.corners[k], half.file_corners[k]) = (middle.vertex, middle.in_file);
+            (half.corners[k], half.file_corners[k]) = (corner.vertex, corner.in_file);
         }
         half
     };

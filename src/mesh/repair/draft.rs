@@ -9,7 +9,7 @@ use glam::DVec3;
 pub(super) struct Draft {
     /// The file's vertices in their order, then those that the repair added.
     pub positions: Vec<DVec3>,
-    /// The number in the file of each vertex, the original's for a copy; `None` for vertices of caps.
+    /// The number in the file of each vertex, the original's for a copy; `None` for vertices that the repair added.
     pub numbers: Vec<Option<u32>>,
     /// The faces: the file's that are left in their order, then those that the repair made.
     pub faces: Vec<DraftFace>,
@@ -20,7 +20,7 @@ pub(super) struct Draft {
 pub(super) struct DraftFace {
     /// Its vertices.
     pub corners: Triangle,
-    /// The file's vertices at its corners, before any were joined; of a cap [`NONE`] inside its rim.
+    /// The file's vertices at its corners, before any were joined; [`NONE`] at those that the repair added.
     pub file_corners: Triangle,
     /// Where it comes from.
     pub origin: FaceOrigin,

@@ -1,7 +1,7 @@
 //! The order of the steps, and the way back to the numbers of the file.
 
 use super::caps::{Capped, capped};
-use super::degenerate::{Degenerate, without_degenerate};
+use super::degenerate::{Additions, Degenerate, without_degenerate};
 use super::draft::{Draft, DraftFace, FaceOrigin};
 use super::duplicates::without_duplicates;
 use super::handles::{MOST_HANDLES, WithoutHandles, without_handles};
@@ -39,22 +39,30 @@ pub fn repaired(
     options: &RepairOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<RepairedMesh, RepairRefusal> {
-    let frame = FileFrame::of(soup);
-    let options = RepairOptions { join_within: options.join_within / frame.scale(), ..*options };
-    let mut repaired =
-        repaired_usual(&frame.soup(soup), &options, monitor).map_err(|refusal| match refusal {
-            RepairRefusal::Handles(mut handles) => {
-                to_file(&mut handles, &frame);
-                RepairRefusal::Handles(handles)
+    match closed_genus_zero(soup) {
+        Ok(checked) => {
+            let report = RepairReport { changes: told_of_all(soup, &checked), ..RepairReport::default() };
+            Ok(RepairedMesh { checked, report })
+        }
+        Err(fault @ (MeshFault::Empty | MeshFault::TooManyFaces { .. })) => Err(fault.into()),
+        Err(fault) => {
+            let frame = FileFrame::of(soup);
+            let mut repaired =
+                steps(soup, &frame, options, fault, monitor).map_err(|refusal| match refusal {
+                    RepairRefusal::Handles(mut handles) => {
+                        to_file(&mut handles, &frame);
+                        RepairRefusal::Handles(handles)
+                    }
+                    other => other,
+                })?;
+            for change in &mut repaired.report.changes {
+                if let Change::CutHandles { handles, .. } = change {
+                    to_file(&mut handles.first, &frame);
+                }
             }
-            other => other,
-        })?;
-    for change in &mut repaired.report.changes {
-        if let Change::CutHandles { handles, .. } = change {
-            to_file(&mut handles.first, &frame);
+            Ok(repaired)
         }
     }
-    Ok(RepairedMesh { checked: CheckedMesh { frame, ..repaired.checked }, ..repaired })
 }
 
 /// Tells the places of handles in the file's coordinates.
@@ -62,32 +70,19 @@ fn to_file(handles: &mut [Handle], frame: &FileFrame) {
     handles.iter_mut().flat_map(|handle| &mut handle.places).for_each(|place| *place = frame.in_file(*place));
 }
 
-/// Repairs a soup of usual coordinates.
-fn repaired_usual(
-    soup: &PolygonSoup,
-    options: &RepairOptions,
-    monitor: &mut dyn Monitor,
-) -> Result<RepairedMesh, RepairRefusal> {
-    match closed_genus_zero(soup) {
-        Ok(checked) => {
-            let report = RepairReport { changes: told_of_all(soup, &checked), ..RepairReport::default() };
-            Ok(RepairedMesh { checked, report })
-        }
-        Err(fault @ (MeshFault::Empty | MeshFault::TooManyFaces { .. })) => Err(fault.into()),
-        Err(fault) => steps(soup, options, fault, monitor),
-    }
-}
-
+/// The steps, on the file's surface in usual coordinates: those of `frame`.
 fn steps(
     soup: &PolygonSoup,
+    frame: &FileFrame,
     options: &RepairOptions,
     fault: MeshFault,
     monitor: &mut dyn Monitor,
 ) -> Result<RepairedMesh, RepairRefusal> {
-    let draft = drafted(soup)?;
+    let draft = drafted(&frame.soup(soup))?;
     let in_file = draft.faces.len();
     monitor.step(Step::default())?;
-    let (draft, degenerate) = without_degenerate(joined(draft, options.join_within));
+    let draft = joined(draft, options.join_within / frame.scale());
+    let (draft, degenerate) = without_degenerate(draft, Additions::Nothing);
     monitor.step(Step::default())?;
     let (draft, doubled) = without_duplicates(draft);
     if draft.faces.is_empty() {
@@ -97,10 +92,10 @@ fn steps(
         closed(draft, options.parts, monitor)?;
     let mut degenerate = degenerate.and(closed);
     let mut handles = None;
-    let checked = match checked(soup, &draft, in_file) {
+    let checked = match checked(soup, frame, &draft, in_file) {
         Err(MeshFault::Genus { genus }) => {
             let cut = cut_handles(draft, genus, options.handles, monitor)?;
-            let (draft, closed) = without_degenerate(cut.draft);
+            let (draft, closed) = without_degenerate(cut.draft, Additions::Vertices);
             degenerate = degenerate.and(closed);
             cap_share = cut.cap_share;
             handles = Some(Change::CutHandles {
@@ -108,7 +103,7 @@ fn steps(
                 faces: cut.faces,
                 area_share: cut.area_share,
             });
-            checked(soup, &draft, in_file)?
+            checked(soup, frame, &draft, in_file)?
         }
         other => other.map_err(|left| cause(&fault, left))?,
     };
@@ -166,7 +161,7 @@ fn closed(draft: Draft, parts: Parts, monitor: &mut dyn Monitor) -> Result<Close
     let (draft, caps) = capped(draft)?;
     monitor.step(Step::default())?;
     // A corner on an edge without a face between leaves a hole without area, whose cap goes as such faces do.
-    let (draft, degenerate) = without_degenerate(draft);
+    let (draft, degenerate) = without_degenerate(draft, Additions::Vertices);
     let cap_share = caps.as_ref().map_or(0.0, |caps| caps.area_share);
     if cap_share > MOST_CAP {
         return Err(RepairRefusal::OpenSheet { cap_share });
@@ -186,7 +181,7 @@ pub(super) fn handles_of(
     }
     let refusal = || -> Result<(), RepairRefusal> {
         let Closed { draft, .. } = closed(draft, Parts::LargestAlone, monitor)?;
-        match checked(soup, &draft, in_file) {
+        match checked(soup, &FileFrame::default(), &draft, in_file) {
             Err(MeshFault::Genus { genus }) => cut_handles(draft, genus, Handles::Refused, monitor).map(drop),
             _ => Ok(()),
         }
@@ -243,10 +238,16 @@ pub(super) fn drafted(soup: &PolygonSoup) -> Result<Draft, MeshFault> {
     })
 }
 
-/// The draft judged as every mesh, with the numbers of the file.
-fn checked(soup: &PolygonSoup, draft: &Draft, in_file: usize) -> Result<CheckedMesh, MeshFault> {
+/// The draft judged as every mesh, with the numbers of the file. What is left of a file may be much smaller than the file, and far from
+/// its middle: so it is judged where it lies in the file, and has a frame of its own.
+fn checked(
+    soup: &PolygonSoup,
+    frame: &FileFrame,
+    draft: &Draft,
+    in_file: usize,
+) -> Result<CheckedMesh, MeshFault> {
     let whole = PolygonSoup {
-        positions: draft.positions.clone(),
+        positions: draft.positions.iter().map(|p| frame.in_file(*p)).collect(),
         polygons: draft.faces.iter().map(|face| face.corners.to_vec()).collect(),
         joined_with: Vec::new(),
     };

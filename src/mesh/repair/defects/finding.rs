@@ -1,6 +1,6 @@
 //! Defects are found.
 
-use super::super::degenerate::without_degenerate;
+use super::super::degenerate::{Additions, without_degenerate};
 use super::super::draft::{Draft, DraftFace, Edge, NONE, across, edges, parts};
 use super::super::duplicates::without_duplicates;
 use super::super::joining::joined;
@@ -41,7 +41,7 @@ pub fn defects(
         groups: Vec::new(),
     };
     let flat = without_area(&draft);
-    let (draft, _) = without_degenerate(draft);
+    let (draft, _) = without_degenerate(draft, Additions::Nothing);
     let before = draft.clone();
     let (draft, _) = without_duplicates(draft);
     let double = gone(&before, &draft);
