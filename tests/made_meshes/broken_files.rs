@@ -44,7 +44,7 @@ impl Dressing {
         match self.random.below(4) {
             0 => stl(&soup),
             1 => off(&soup),
-            2 => obj::polygons(&soup.positions, &self.in_quads(&soup.polygons)),
+            2 => obj::polygons(&soup.positions, self.in_quads(&soup.polygons)),
             _ => obj::polygons(&soup.positions, &soup.polygons),
         }
     }
