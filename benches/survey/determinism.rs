@@ -1,4 +1,4 @@
-//! The same input gives the same bytes; exchanged meshes give the inverse map, and landmarks in another order the same one.
+//! The same input gives the same bytes, and exchanged meshes the inverse map; how far the map depends on the order of the landmarks.
 
 use crate::arguments::Arguments;
 use crate::job_files::files;
