@@ -1,24 +1,6 @@
 /** The built page on a port of its own. */
-import { createServer } from 'node:net';
 import { preview } from 'vite';
-
-/** A port that nobody listens on. */
-export async function freePort(): Promise<number> {
-  return new Promise((resolve, reject) => {
-    const server = createServer();
-    server.once('error', reject);
-    server.listen(0, '127.0.0.1', () => {
-      const address = server.address();
-      server.close(() => {
-        if (address === null || typeof address === 'string') {
-          reject(new Error('no free port'));
-        } else {
-          resolve(address.port);
-        }
-      });
-    });
-  });
-}
+import { freePort } from '../web/free-port.ts';
 
 /** The page as it is served. */
 export interface Host {

@@ -3,7 +3,7 @@ import { spawn } from 'node:child_process';
 import { Builder, By, Key } from 'selenium-webdriver';
 import type { Browser, Launcher } from './browser.ts';
 import { firstOf } from './browser.ts';
-import { freePort } from './host.ts';
+import { freePort } from '../web/free-port.ts';
 
 const DRIVER = '/usr/bin/WebKitWebDriver';
 const FOLDERS = ['x86_64-linux-gnu', 'aarch64-linux-gnu'].flatMap((platform) =>

@@ -1,31 +1,14 @@
 import { existsSync } from 'node:fs';
-import { createServer } from 'node:net';
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from '@playwright/test';
+import { freePort } from './free-port.ts';
 
 const root = fileURLToPath(new URL('../../', import.meta.url));
 /** A Chromium that is there; without one, Playwright's own. */
 const chromium = process.env['CHROMIUM'] ?? '/usr/bin/chromium';
 
-/** A port that nobody listens on; the workers inherit the first choice. */
-async function freePort(): Promise<string> {
-  return new Promise((resolve, reject) => {
-    const server = createServer();
-    server.once('error', reject);
-    server.listen(0, '127.0.0.1', () => {
-      const address = server.address();
-      server.close(() => {
-        if (address === null || typeof address === 'string') {
-          reject(new Error('no free port'));
-        } else {
-          resolve(String(address.port));
-        }
-      });
-    });
-  });
-}
-
-process.env['CONEMAP_TEST_PORT'] ??= await freePort();
+// The workers inherit the first choice.
+process.env['CONEMAP_TEST_PORT'] ??= String(await freePort());
 const address = `http://127.0.0.1:${process.env['CONEMAP_TEST_PORT']}/`;
 
 export default defineConfig({

@@ -1,7 +1,7 @@
 /** Starts runs in a worker and ends them. The module is compiled once and shared. */
-import { failureOf } from './messages.ts';
 import type { Finding } from '../report.ts';
 import type { Failure, Progress, RunOutput, RunRequest, WarmUpRequest, WorkerMessage } from './messages.ts';
+import { askOnce } from './one-request.ts';
 
 /** Compiles the core; the same module serves the page and every worker. */
 export async function compileCore(): Promise<WebAssembly.Module> {
@@ -58,70 +58,40 @@ export interface Run {
 export function startRun(request: Omit<RunRequest, 'finishUrl'>, listener: RunListener): Run {
   const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
   const finishUrl = URL.createObjectURL(new Blob());
-  let over = false;
-  const end = (): boolean => {
-    const first = !over;
-    over = true;
-    worker.terminate();
+  const finish = (): void => {
     URL.revokeObjectURL(finishUrl);
-    return first;
   };
-  worker.addEventListener('message', (event: MessageEvent<WorkerMessage>) => {
-    const message = event.data;
-    if (over) {
-      return;
-    }
-    switch (message.kind) {
-      case 'progress':
-        listener.progress(message);
-        break;
-      case 'relaxes':
-        listener.relaxes();
-        break;
-      case 'preview':
-        listener.preview(message.places);
-        break;
-      case 'finishable':
-        listener.finishable();
-        break;
-      case 'found':
-        listener.found(message.findings);
-        break;
-      case 'done':
-        end();
-        listener.done(message.output);
-        break;
-      case 'failed':
-        end();
-        listener.failed(message.failure);
-        break;
-    }
+  const cancel = askOnce<WorkerMessage>(worker, { ...request, finishUrl } satisfies RunRequest, {
+    heard: (message) => {
+      tell(listener, message);
+    },
+    failed: (failure) => {
+      listener.failed(failure);
+    },
+    ended: finish,
   });
-  worker.addEventListener('error', (event) => {
-    event.preventDefault();
-    if (end()) {
-      listener.failed({ code: 'worker', message: event.message });
-    }
-  });
-  worker.addEventListener('messageerror', () => {
-    if (end()) {
-      listener.failed({ code: 'worker', message: 'an unreadable message' });
-    }
-  });
-  try {
-    worker.postMessage({ ...request, finishUrl } satisfies RunRequest);
-  } catch (thrown) {
-    end();
-    queueMicrotask(() => {
-      listener.failed(failureOf(thrown));
-    });
+  return { cancel, finish };
+}
+
+function tell(listener: RunListener, message: Exclude<WorkerMessage, { readonly kind: 'failed' }>): void {
+  switch (message.kind) {
+    case 'progress':
+      listener.progress(message);
+      break;
+    case 'relaxes':
+      listener.relaxes();
+      break;
+    case 'preview':
+      listener.preview(message.places);
+      break;
+    case 'finishable':
+      listener.finishable();
+      break;
+    case 'found':
+      listener.found(message.findings);
+      break;
+    case 'done':
+      listener.done(message.output);
+      break;
   }
-  return {
-    cancel: () => {
-      end();
-    },
-    finish: () => {
-      URL.revokeObjectURL(finishUrl);
-    },
-  };
 }
