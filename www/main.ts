@@ -3,7 +3,7 @@ import { openDropped } from './app/dropped.ts';
 import { Finder } from './app/find.ts';
 import { findUnasked } from './app/find-unasked.ts';
 import { browserWith, Keeper } from './app/keep.ts';
-import { listenForProposal, listenForUndo } from './app/keys.ts';
+import { listenForLeaving, listenForProposal, listenForUndo } from './app/keys.ts';
 import { saveLandmarks } from './app/landmarks.ts';
 import { mark } from './app/mark.ts';
 import { Links } from './app/links.ts';
@@ -15,6 +15,7 @@ import { listenForHalves } from './app/propose.ts';
 import { repair } from './app/repair.ts';
 import { freeExamined, repairMesh, showRepairs } from './app/repair-mesh.ts';
 import { Runner } from './app/run.ts';
+import { leaveTask } from './app/task.ts';
 import { sharedLink } from './app/sharing.ts';
 import { suggest } from './app/suggest.ts';
 import { startWatching } from './app/watch.ts';
@@ -110,10 +111,7 @@ const actions: Actions = {
     runner.cancel();
   },
   leaveTask: () => {
-    const { job } = store.state;
-    if (job.kind === 'busy') {
-      store.dispatch({ kind: 'task-ended', task: job.task });
-    }
+    leaveTask(store);
   },
   repair: (finding) => {
     repair(store, { runner, reader, lookAtPair: showPair }, finding);
@@ -326,6 +324,7 @@ window.addEventListener('hashchange', () => {
 });
 listenForUndo(store);
 listenForProposal(store);
+listenForLeaving(store);
 // The last sign of life that a browser promises.
 document.addEventListener('visibilitychange', () => {
   if (document.visibilityState === 'hidden') {

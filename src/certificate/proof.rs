@@ -50,19 +50,44 @@ impl Certificate {
     }
 }
 
+impl Certificate {
+    /// What is wrong, with its numbers.
+    fn faults(&self) -> Vec<String> {
+        let mut faults = Vec::new();
+        let mut say = |is_so: bool, fault: String| faults.extend(is_so.then_some(fault));
+        // What is not a number is no small error.
+        let is_beyond = |error: f64, bound: f64| error.is_nan() || error > bound;
+        say(
+            self.flipped_triangles > 0,
+            format!("{} triangles are flipped or have no area", self.flipped_triangles),
+        );
+        let [angles, edges] = [self.max_angle_sum_error, self.max_transition_error];
+        say(is_beyond(angles, TOLERANCE), format!("the angles around a vertex are off by {angles:.1e} rad"));
+        say(is_beyond(edges, TOLERANCE), format!("an edge has two places, {edges:.1e} apart"));
+        let [landmarks, directions] = [self.max_landmark_error, self.max_direction_error];
+        // Without a flat surface nothing was followed.
+        say(landmarks == f64::INFINITY, "a base edge misses its landmark".to_owned());
+        say(
+            landmarks.is_finite() && landmarks > TOLERANCE,
+            format!("a base edge ends {landmarks:.1e} beside its landmark"),
+        );
+        say(
+            directions > ANGLE_TOLERANCE,
+            format!("base edges meet at angles that are off by {directions:.1e} rad"),
+        );
+        say(self.crossings > 0, format!("base edges cross {} times", self.crossings));
+        if faults.is_empty() && !self.bijective {
+            faults.push("a mesh is no sphere".to_owned());
+        }
+        faults
+    }
+}
+
 impl fmt::Display for Certificate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{} flipped triangles, largest errors {:.3e} rad of angle sums, {:.3e} of edges, {:.3e} of landmarks, {:.3e} rad of \
-             directions, {} crossings of base edges",
-            self.flipped_triangles,
-            self.max_angle_sum_error,
-            self.max_transition_error,
-            self.max_landmark_error,
-            self.max_direction_error,
-            self.crossings
-        )
+        let faults = self.faults();
+        f.write_str(if faults.is_empty() { "bijective" } else { "" })?;
+        f.write_str(&faults.join(", "))
     }
 }
 
@@ -159,4 +184,30 @@ fn transition_error(judged: &Judged<'_>) -> f64 {
         nan_max(nan_max(gap[0], gap[1]), (motion.rotation.length() - 1.0).abs())
     };
     judged.mesh.halfedges().map(error).fold(0.0, nan_max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_is_wrong_is_said() {
+        let good = Certificate { bijective: true, ..Certificate::default() };
+        assert_eq!(good.to_string(), "bijective");
+        let not_followed = Certificate {
+            flipped_triangles: 3,
+            max_transition_error: 2e-3,
+            max_landmark_error: f64::NAN,
+            max_direction_error: f64::NAN,
+            ..Certificate::default()
+        };
+        let said = not_followed.to_string();
+        assert_eq!(said, "3 triangles are flipped or have no area, an edge has two places, 2.0e-3 apart");
+        let missed =
+            Certificate { max_landmark_error: f64::INFINITY, crossings: 2, ..Certificate::default() };
+        assert_eq!(missed.to_string(), "a base edge misses its landmark, base edges cross 2 times");
+        let unmeasured = Certificate { max_angle_sum_error: f64::NAN, ..Certificate::default() };
+        assert!(unmeasured.to_string().contains("angles around a vertex"));
+        assert_eq!(Certificate::default().to_string(), "a mesh is no sphere");
+    }
 }

@@ -42,7 +42,10 @@ pub enum PipelineError {
     #[error("overlay: {0}")]
     Overlay(OverlayError),
     /// The result is not a bijection; it is not returned as a map.
-    #[error("the map is not certified: {0}")]
+    #[error(
+        "the map is not certified: {0}. Make the triangles of both meshes more even, as `conemap remesh` does, or take landmarks \
+         further from each other"
+    )]
     NotCertified(Certificate),
 }
 

@@ -91,6 +91,10 @@ test('reading can be left, and what was there stays', async ({ page }) => {
   await page.locator('#leave-task').click();
   await expect(page.locator(STATUS)).not.toHaveText('Reading the files…', { timeout: 1000 });
   await expect(page.locator('#run')).toBeEnabled();
+  await page.locator('#view-source').dispatchEvent('drop', { dataTransfer: transfer });
+  await expect(page.locator(STATUS)).toHaveText('Reading the files…');
+  await page.keyboard.press('Escape');
+  await expect(page.locator(STATUS)).not.toHaveText('Reading the files…', { timeout: 1000 });
   expect(await page.locator('.caption').allInnerTexts()).toEqual(names);
   // The next file does not wait for the one that was left.
   await dropContents(page, [{ name: 'small.obj', content: TETRAHEDRON }]);

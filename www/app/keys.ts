@@ -1,6 +1,7 @@
 /** Keys of the whole page; those of a view are the viewer's. */
 import { proposed } from '../store/proposal.ts';
 import type { Store } from '../store/store.ts';
+import { leaveTask } from './task.ts';
 
 /** Whether keys are typed into this element. */
 function isTyped(target: EventTarget | null): boolean {
@@ -35,6 +36,15 @@ export function listenForProposal(store: Store): void {
     if (event.key === 'Enter' || event.key === 'Escape') {
       event.preventDefault();
       store.dispatch({ kind: event.key === 'Enter' ? 'proposal-accepted' : 'proposal-dropped' });
+    }
+  });
+}
+
+/** Where no part of the page has the keys, Escape leaves the task that the page is busy with. */
+export function listenForLeaving(store: Store): void {
+  window.addEventListener('keydown', (event) => {
+    if (event.key === 'Escape' && event.target === document.body && !event.defaultPrevented) {
+      leaveTask(store);
     }
   });
 }

@@ -24,6 +24,14 @@ export function sentenceOf(thrown: unknown): string {
   return thrown instanceof FileRefused ? thrown.message : failureSentence(failureOf(thrown));
 }
 
+/** The user has had enough of the task that the page is busy with, if there is one. */
+export function leaveTask(store: Store): void {
+  const { job } = store.state;
+  if (job.kind === 'busy') {
+    store.dispatch({ kind: 'task-ended', task: job.task });
+  }
+}
+
 /** What became of a work: done, broken off with a sentence, or left out because another one had begun. */
 export type Outcome = 'done' | 'failed' | 'left-out';
 
