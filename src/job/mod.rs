@@ -46,7 +46,7 @@ use crate::mesh::check::CheckedMesh;
 use crate::mesh::insertion::Insertion;
 use crate::mesh::repair::RepairReport;
 use crate::mesh::{FaceId, SurfacePoint};
-use crate::monitor::{Cancelled, Monitor, Portion, Stage, Step};
+use crate::monitor::{Cancelled, Monitor, Portion, Rising, Stage, Step};
 use crate::pipeline::{
     self, CapFaces, FindingReport, FlowRecord, GroundTruth, MapInput, MapResult, PipelineError,
     PipelineOptions, Report, SimplificationStage, Warning, findings,
@@ -120,6 +120,7 @@ impl Job {
         options: impl Into<ReadOptions>,
         monitor: &mut dyn Monitor,
     ) -> Result<Self, JobError> {
+        let monitor = &mut Rising::new(monitor);
         monitor.enter(Stage::Landmarks);
         let ReadOptions { target_image, mesh_faults, few_landmarks } = options.into();
         let mut read = |side, bytes, [from, to]: [f64; 2]| {

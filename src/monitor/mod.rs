@@ -4,12 +4,14 @@ mod portion;
 mod preview;
 mod progress;
 mod pulse;
+mod rising;
 mod stage;
 
 pub use portion::Portion;
 pub use preview::{MapPreview, PreviewOf};
 pub use progress::{PlannedStage, Progress};
 pub use pulse::Pulse;
+pub use rising::Rising;
 pub use stage::Stage;
 
 use std::fmt;

@@ -7,7 +7,7 @@ use crate::landmarks::Landmarks;
 use crate::layout::LandmarkDistances;
 use crate::mesh::coarsening::Level;
 use crate::mesh::{SurfaceMesh, VertexId};
-use crate::monitor::{Cancelled, Monitor, Portion, Stage};
+use crate::monitor::{Cancelled, Monitor, Portion, Rising, Stage};
 use serde::Serialize;
 
 /// Vertices of the coarse levels, on which distances are measured. Chosen by hand.
@@ -164,6 +164,7 @@ pub fn findings(
     labels: &[String],
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<FindingReport>, Cancelled> {
+    let monitor = &mut Rising::new(monitor);
     monitor.enter(Stage::Findings);
     let Landmarks { source, target } = input.landmarks;
     let numbers =

@@ -9,7 +9,7 @@ use crate::cone_metric::{
 };
 use crate::landmarks::{Landmarks, MeshSide};
 use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
-use crate::monitor::{Cancelled, Monitor, Stage};
+use crate::monitor::{Cancelled, Monitor, Rising, Stage};
 use glam::DVec2;
 use typed_index_collections::{TiVec, ti_vec};
 
@@ -108,6 +108,7 @@ pub fn recorded_flows(
     options: &PipelineOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<[FlowRecord; 2], PipelineError> {
+    let monitor = &mut Rising::new(monitor);
     let mut recorded = |stage, mesh: &SurfaceMesh, landmarks: &[VertexId]| {
         monitor.enter(stage);
         let mut curvature: TiVec<VertexId, f64> = ti_vec![0.0; mesh.vertex_count()];

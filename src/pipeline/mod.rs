@@ -35,7 +35,7 @@ pub use warning::{Warning, WarningReport};
 pub use crate::base_domain::SimplificationStage;
 pub use crate::cone_metric::{FlowMoment, FlowRecord};
 
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Rising};
 
 /// Maps the source onto the target.
 ///
@@ -50,6 +50,7 @@ pub fn run(
     options: &PipelineOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<MapResult, PipelineError> {
+    let monitor = &mut Rising::new(monitor);
     match options.method {
         Method::Relaxed => relaxed::run(input, options, monitor),
         Method::Thesis => thesis::run(input, options, monitor),
