@@ -12,7 +12,7 @@ use crate::math::scalar::{exp, ln, min};
 use crate::mesh::face_weights::FaceWeight;
 use crate::mesh::rims::{Rim, rims};
 use crate::mesh::{FaceId, SurfaceMesh, VertexId};
-use crate::monitor::{Cancelled, Monitor, Stage, Step};
+use crate::monitor::{Cancelled, Monitor, Step};
 use serde::Serialize;
 use typed_index_collections::{TiSlice, TiVec};
 
@@ -122,7 +122,6 @@ pub(super) fn counted_caps(
     };
     let mut told = Vec::new();
     if asked != Borders::Missing {
-        monitor.enter(Stage::ClassSearch);
         let source = Borderline::new(input.source, source, &input.landmarks.source, monitor)?;
         let target = Borderline::new(input.target, target, &input.landmarks.target, monitor)?;
         for RimPair { numbers: [s, t], misfit } in corresponding([&source, &target], asked) {

@@ -100,6 +100,7 @@ pub(super) fn parametrise(
     options: &PipelineOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Parametrisation, PipelineError> {
+    monitor.enter(Stage::ClassSearch);
     let Landmarks { source, target } = input.landmarks;
     let CountedCaps { weights: [on_source, on_target], report: borders } =
         counted_caps(input, options, monitor)?;
@@ -160,7 +161,6 @@ fn solve(
     options: &PipelineOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Solved, PipelineError> {
-    monitor.enter(Stage::ClassSearch);
     let Attempt { vertices, search, scale } = attempt;
     let coarsening = &mut Portion::new(monitor, 0.0, 0.0);
     let sides = coarse_levels(full, vertices, options.multilevel.rims, coarsening)?;

@@ -136,6 +136,7 @@ test('pairs that do not fit are named and repaired by a click', async ({ page })
   const swapped = test.info().outputPath('cat-lion.json');
   writeFileSync(swapped, JSON.stringify({ ...file, pairs: exchanged }));
   await drop(page, [`${DATA}/sumner/lion.off`, `${DATA}/sumner/cat.off`, swapped]);
+  await expect(page.locator('body')).toHaveAttribute('data-pairs', String(file.pairs.length));
   await openStep(page, 'landmarks');
   await expect(pairs(page)).toHaveCount(file.pairs.length);
   await page.locator('#run').click();

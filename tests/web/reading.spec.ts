@@ -105,7 +105,7 @@ test('reading can be left, and what was there stays', async ({ page }) => {
 test('a reader that breaks is told in a sentence, and the next file has a fresh one', async ({ page }) => {
   await open(page);
   await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
-  const reader = page.workers().find((worker) => worker.url().includes('/worker-')) ?? page.workers()[0] ?? fail('there is no reader');
+  const reader = page.workers().find((worker) => worker.url().includes('/reader-worker-')) ?? fail('there is no reader');
   await reader.evaluate(() => {
     self.postMessage = () => {
       throw new Error('no memory');

@@ -127,7 +127,7 @@ export class Reader implements FileReader {
   }
 
   #begin(): void {
-    const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
+    const worker = new Worker(new URL('./reader-worker.ts', import.meta.url), { type: 'module' });
     this.#worker = worker;
     worker.addEventListener('message', ({ data }: MessageEvent<ReaderAnswer>) => {
       if (worker === this.#worker) {

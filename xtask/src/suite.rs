@@ -89,7 +89,7 @@ fn documentation() -> Outcome {
 }
 
 fn core(extent: Extent) -> Outcome {
-    run(&cargo(), &[&["test"][..], &PACKAGES].concat())?;
+    run(&cargo(), &[&["test", "--no-fail-fast"][..], &PACKAGES].concat())?;
     if extent == Extent::Usual {
         return Ok(());
     }
