@@ -235,15 +235,20 @@ impl<'a> Reader<'a> {
         Ok(self.elements(accessor)?.iter().map(|bytes| point(bytes)).collect())
     }
 
-    /// The elements of an accessor, by as many numbers each as its type has; whole numbers that stand for shares are from 0 to 1.
-    pub(super) fn numbers(&self, number: usize) -> Result<Vec<Vec<f64>>, String> {
-        let accessor = self.accessor(number)?;
+    /// So many elements of an accessor, by the numbers that its type has, at most four, with zeros behind them; whole numbers that stand for
+    /// shares are from 0 to 1. `None` where the accessor cannot be used, or has another number of elements.
+    pub(super) fn numbers(&self, number: usize, count: usize) -> Option<(Dimensions, Vec<[f32; 4]>)> {
+        let accessor = self.accessor(number).ok().filter(|accessor| accessor.count() == count)?;
         let kind = accessor.data_type();
         let divisor = if accessor.normalized() { normal_divisor(kind) } else { 1.0 };
-        let numbers = |bytes: &&[u8]| -> Vec<f64> {
-            bytes.chunks_exact(kind.size()).map(|b| component(kind, b) / divisor).collect()
+        let numbers = |bytes: &&[u8]| {
+            let mut numbers = [0.0; 4];
+            for (x, b) in numbers.iter_mut().zip(bytes.chunks_exact(kind.size())) {
+                *x = (component(kind, b) / divisor) as f32;
+            }
+            numbers
         };
-        Ok(self.elements(&accessor)?.iter().map(numbers).collect())
+        Some((accessor.dimensions(), self.elements(&accessor).ok()?.iter().map(numbers).collect()))
     }
 
     /// Indices below `vertices`.

@@ -9,6 +9,7 @@ use super::gltf_document::Document;
 use super::gltf_file::{Part, Reader, Scene, scene};
 use crate::math::scalar::pow;
 use crate::mesh::look::{CornerLook, PolygonLook};
+use gltf::accessor::Dimensions;
 use serde_json::Value;
 
 /// What a file says of its look; `None` where that is nothing.
@@ -37,9 +38,9 @@ struct Looks<'a> {
 #[derive(Default)]
 struct PartLook {
     /// Linear red, green and blue by vertex; empty where there are none.
-    colours: Vec<Vec<f64>>,
+    colours: Vec<[f32; 4]>,
     /// By vertex, down from the left upper corner; empty where there are none.
-    places: Vec<Vec<f64>>,
+    places: Vec<[f32; 4]>,
     /// Linear red, green and blue of the whole.
     factor: [f64; 3],
     /// The number of its picture.
@@ -71,10 +72,10 @@ impl Looks<'_> {
         let surface = material.map(|material| &material["pbrMetallicRoughness"]);
         let factor = surface.and_then(|surface| surface["baseColorFactor"].as_array());
         let factor = [0, 1, 2].map(|k| factor.and_then(|f| f.get(k)?.as_f64()).unwrap_or(1.0));
-        let values = |name: &str| {
+        let values = |name: &str, kinds: &[Dimensions]| {
             let number = index(&primitive["attributes"][name])?;
-            let values = self.reader.numbers(number).ok()?;
-            (values.len() == part.vertices).then_some(values)
+            let (kind, values) = self.reader.numbers(number, part.vertices)?;
+            (kinds.contains(&kind) && values.iter().flatten().all(|x| x.is_finite())).then_some(values)
         };
         let texture = surface.map(|surface| &surface["baseColorTexture"]);
         // Only the first texture coordinates are read.
@@ -82,8 +83,8 @@ impl Looks<'_> {
         let texture = texture.and_then(|texture| index(&texture["index"]));
         let picture = texture.and_then(|number| index(&self.root["textures"][number]["source"]));
         PartLook {
-            colours: values("COLOR_0").filter(|colours| have(colours, 3)).unwrap_or_default(),
-            places: values("TEXCOORD_0").filter(|places| have(places, 2)).unwrap_or_default(),
+            colours: values("COLOR_0", &[Dimensions::Vec3, Dimensions::Vec4]).unwrap_or_default(),
+            places: values("TEXCOORD_0", &[Dimensions::Vec2]).unwrap_or_default(),
             factor,
             picture,
         }
@@ -108,13 +109,10 @@ impl Looks<'_> {
 impl PartLook {
     fn corner(&self, vertex: usize, chosen: Option<usize>) -> CornerLook {
         let own = self.colours.get(vertex);
-        let channel = |k: usize| screen_byte(self.factor[k] * own.map_or(1.0, |own| own[k]));
+        let channel = |k: usize| screen_byte(self.factor[k] * own.map_or(1.0, |own| f64::from(own[k])));
         let is_pictured = chosen.is_some() && self.picture == chosen;
         let place = self.places.get(vertex).filter(|_| is_pictured);
-        CornerLook {
-            colour: [0, 1, 2].map(channel),
-            place: place.map(|place| [place[0] as f32, (1.0 - place[1]) as f32]),
-        }
+        CornerLook { colour: [0, 1, 2].map(channel), place: place.map(|[u, down, ..]| [*u, 1.0 - down]) }
     }
 }
 
@@ -130,11 +128,6 @@ fn most_used(parts: &[(Part, PartLook)]) -> Option<usize> {
     }
     let most = counts.iter().map(|(_, count)| *count).max()?;
     counts.iter().find(|(_, count)| *count == most).map(|(number, _)| *number)
-}
-
-/// Whether every element has so many usable numbers.
-fn have(elements: &[Vec<f64>], count: usize) -> bool {
-    elements.iter().all(|element| element.len() >= count && element.iter().all(|x| x.is_finite()))
 }
 
 fn index(value: &Value) -> Option<usize> {
