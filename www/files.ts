@@ -14,6 +14,7 @@ import { wholePairs } from './store/order.ts';
 import type { DefectGroup, Examined } from './store/defects.ts';
 import { update } from './store/reducer.ts';
 import type { MeshFile, State } from './store/state.ts';
+import type { LookKind } from './store/work.ts';
 import { checkLandmarks, unpackDefects, unpackMesh } from './wasm/conemap.js';
 
 export type { NamedBytes } from './named-file.ts';
@@ -30,12 +31,19 @@ export function meshFile({ file, reading }: ReadFile): MeshFile {
     name: file.name,
     bytes: file.bytes,
     ...(file.address === undefined ? {} : { address: file.address }),
+    ...(file.picture === undefined ? {} : { picture: file.picture }),
     mesh,
     vertexCount: mesh.vertexCount,
     faceCount: mesh.faceCount,
     turnedFaces: mesh.turnedFaces,
+    look: lookOf(mesh.lookKind() as LookKind, file.picture),
     repairs: reading.repairs,
   };
+}
+
+/** A picture that came with a mesh is seen where its file has places in it. */
+function lookOf(kind: LookKind, picture: Uint8Array | undefined): LookKind {
+  return kind === 'places' && picture !== undefined ? 'colours' : kind;
 }
 
 /** What was found wrong with a mesh, as the reader has packed it. */

@@ -97,9 +97,46 @@ function packed(mesh: NamedBytes, files: readonly NamedBytes[]): NamedBytes {
   }
 }
 
+const PICTURES = new Set(['png', 'jpg', 'jpeg', 'webp']);
+/** Meshes that can have places in a picture that is a file of its own. */
+const PICTURED = new Set(['obj', 'ply']);
+/** Of a mesh, in bytes: before its vertices it names its materials. */
+const HEAD = 2 ** 16;
+
+function stem(path: string): string {
+  return path.replace(/^.*\//, '').replace(/\.[^.]*$/, '');
+}
+
+/** The pictures that the materials of an OBJ file name, in their order. */
+function namedPictures(mesh: NamedBytes, files: readonly NamedBytes[]): NamedBytes[] {
+  const text = (bytes: Uint8Array): string => new TextDecoder().decode(bytes);
+  const libraries = [...text(mesh.bytes.subarray(0, HEAD)).matchAll(/^mtllib[ \t]+(.+)$/gm)].map(([, name]) => name?.trim() ?? '');
+  const materials = libraries.map((name) => called(name, mesh, files)).filter((file) => file !== null);
+  return materials.flatMap((file) =>
+    // Options may come before the name.
+    [...text(file.bytes).matchAll(/^[ \t]*map_Kd[ \t]+(.+)$/gim)].flatMap(([, words]) => {
+      const whole = words?.trim() ?? '';
+      const found = called(whole, file, files) ?? called(whole.split(/[ \t]+/).at(-1) ?? '', file, files);
+      return found === null ? [] : [found];
+    }),
+  );
+}
+
+/** The picture that belongs on a mesh: one that its materials name, that is called like it, or the only one beside the only mesh. */
+function pictureOf(mesh: NamedBytes, files: readonly NamedBytes[]): Uint8Array | null {
+  if (!PICTURED.has(endingOf(mesh.name))) {
+    return null;
+  }
+  const pictures = files.filter(({ name }) => PICTURES.has(endingOf(name)));
+  const isAlone = files.filter(({ name }) => PICTURED.has(endingOf(name))).length === 1;
+  const alone = isAlone && pictures.length === 1 ? pictures[0] : undefined;
+  const [named] = pictures.length === 0 ? [] : namedPictures(mesh, files);
+  return (named ?? pictures.find(({ name }) => stem(name) === stem(mesh.name)) ?? alone)?.bytes ?? null;
+}
+
 /**
- * The files with zips unpacked and what belongs to a mesh packed into it; names are without folders. Materials and pictures of
- * an OBJ are not used and go. Throws {@link FileRefused}.
+ * The files with zips unpacked and what belongs to a mesh packed into it; names are without folders. Of the materials
+ * and pictures of an OBJ or PLY file one picture stays with it. Throws {@link FileRefused}.
  */
 export function gathered(given: readonly NamedBytes[]): NamedBytes[] {
   const files = unzipped(given);
@@ -108,6 +145,10 @@ export function gathered(given: readonly NamedBytes[]): NamedBytes[] {
     throw new FileRefused(`${files[0]?.name ?? ''}: ${SENTENCES.partsAlone}`);
   }
   return wholes
-    .map((file) => packed(file, files))
-    .map(({ name, bytes }) => ({ name: name.slice(name.lastIndexOf('/') + 1), bytes }));
+    .map((file) => ({ ...packed(file, files), picture: pictureOf(file, files) }))
+    .map(({ name, bytes, picture }) => ({
+      name: name.slice(name.lastIndexOf('/') + 1),
+      bytes,
+      ...(picture === null ? {} : { picture }),
+    }));
 }

@@ -5,6 +5,8 @@ import type { RepairOffer } from './report.ts';
 export interface NamedBytes {
   readonly name: string;
   readonly bytes: Uint8Array;
+  /** The file of a picture that belongs on the mesh in them; there is none where they hold it themselves. */
+  readonly picture?: Uint8Array;
   /** Where a link found them; there is none for a file from a disk. */
   readonly address?: string;
 }

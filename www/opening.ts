@@ -160,7 +160,11 @@ export function arrivalsOf(files: readonly SortedFile[], readings: readonly Mesh
     maps: files.filter(({ content }) => content === 'map'),
     meshes: readings.flatMap((reading, index) => {
       const file = meshes[index];
-      return file === undefined ? [] : [{ file: { name: file.name, bytes: file.bytes }, reading }];
+      if (file === undefined) {
+        return [];
+      }
+      const { name, bytes, picture } = file;
+      return [{ file: { name, bytes, ...(picture === undefined ? {} : { picture }) }, reading }];
     }),
     landmarks: files.flatMap(({ name, bytes, content }) => (content === 'mesh' || content === 'map' ? [] : [{ name, bytes, content }])),
   };

@@ -284,6 +284,7 @@ mod tests {
             uvs: vec![DVec2::ZERO; 6],
             triangles: mesh.triangles().iter().map(|t| t.map(|v| v.0)).collect(),
             pieces: (0..8).collect(),
+            faces: Vec::new(),
             source_positions: positions,
         };
         for distortion in [&[][..], &[1.0, 1.5, 2.0, 1.0, 1.25, 3.0]] {
@@ -316,6 +317,7 @@ mod tests {
             uvs: vec![DVec2::ZERO; 6],
             triangles: mesh.triangles().iter().map(|t| t.map(|v| v.0)).collect(),
             pieces: (0..8).collect(),
+            faces: Vec::new(),
             source_positions: places(1.0),
         };
         let bytes = textured_source(&common, &[], [FileFrame::default(); 2]).unwrap();

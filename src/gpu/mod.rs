@@ -3,4 +3,4 @@
 mod pipelines;
 mod renderer;
 
-pub use renderer::{Clear, GpuError, Mesh, Paint, Palette, Renderer, ViewDraw};
+pub use renderer::{Clear, GpuError, Mesh, Paint, Palette, Picture, Renderer, ViewDraw};

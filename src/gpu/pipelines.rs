@@ -62,6 +62,7 @@ pub(super) struct Pipelines {
     pub ball: wgpu::RenderPipeline,
     pub pin: wgpu::RenderPipeline,
     pub view_layout: wgpu::BindGroupLayout,
+    pub picture_layout: wgpu::BindGroupLayout,
 }
 
 /// How what is drawn meets what is there.
@@ -146,16 +147,17 @@ impl Workshop<'_> {
 
 impl Pipelines {
     pub fn new(device: &wgpu::Device, format: wgpu::TextureFormat, samples: u32) -> Self {
-        let view_layout = view_layout(device);
+        let [view_layout, picture_layout] = [view_layout(device), picture_layout(device)];
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: None,
-            bind_group_layouts: &[Some(&view_layout)],
+            bind_group_layouts: &[Some(&view_layout), Some(&picture_layout)],
             immediate_size: 0,
         });
         let shader = device.create_shader_module(wgpu::include_wgsl!("shaders.wgsl"));
         let workshop = Workshop { device, shader, layout, format, samples };
         let surface = wgpu::vertex_attr_array![
-            0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Float32, 4 => Float32x3, 5 => Float32x3, 6 => Float32
+            0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Float32, 4 => Float32x3, 5 => Float32x3, 6 => Float32,
+            7 => Unorm8x4
         ];
         let surface = [Some(stepping(wgpu::VertexStepMode::Vertex, size_of::<SurfaceVertex>(), &surface))];
         let line = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32];
@@ -182,6 +184,7 @@ impl Pipelines {
             ball: workshop.pipeline(["ball_vertex", "ball_fragment"], Layer::Solid, &ball),
             pin: workshop.pipeline(["pin_vertex", "pin_fragment"], Layer::Top, &pin),
             view_layout,
+            picture_layout,
         }
     }
 }
@@ -199,6 +202,29 @@ fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
             },
             count: None,
         }],
+    })
+}
+
+fn picture_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty,
+        count: None,
+    };
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("picture"),
+        entries: &[
+            entry(
+                0,
+                wgpu::BindingType::Texture {
+                    sample_type: wgpu::TextureSampleType::Float { filterable: true },
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                    multisampled: false,
+                },
+            ),
+            entry(1, wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering)),
+        ],
     })
 }
 

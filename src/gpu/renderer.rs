@@ -4,6 +4,7 @@ use super::pipelines::{DEPTH, Pipelines, ViewUniform};
 use crate::scene::buffers::unit_ball;
 use crate::scene::colours::{SCALE_END, distortion_scale, factor_scale};
 use crate::scene::defects::MarkedLineVertex;
+use crate::scene::looks::levels;
 use crate::scene::{LineVertex, MarkerInstance, PinInstance, Pose, SurfaceVertex};
 use glam::Mat4;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -48,6 +49,8 @@ pub enum Paint {
     /// A place on a scale from what shrinks to what grows: between the two texture coordinates of each vertex, this share of the way
     /// from the first to the second.
     Factors(f32),
+    /// The look of a mesh's file.
+    Look,
 }
 
 /// Colours of both views, linear RGB.
@@ -103,7 +106,12 @@ pub struct ViewDraw<'a> {
     pub balls: &'a [MarkerInstance],
     /// Pins over everything, the lowest first.
     pub pins: &'a [PinInstance],
+    /// What is laid on a surface in a look; white where there is none.
+    pub picture: Option<&'a Picture>,
 }
+
+/// A picture on the GPU.
+pub struct Picture(wgpu::BindGroup);
 
 /// How much a hollow takes of the light from around.
 const HOLLOW_SHADE: f32 = 0.75;
@@ -120,6 +128,7 @@ pub struct Renderer {
     pipelines: Pipelines,
     uniforms: [ViewUniforms; 2],
     ball: Mesh,
+    white: Picture,
     targets: Targets,
     samples: u32,
 }
@@ -182,8 +191,9 @@ impl Renderer {
         let uniforms =
             [0, 1].map(|_| ViewUniforms { front: uniform(), painted: uniform(), under: uniform() });
         let ball = ball(&device);
+        let white = picture(&device, &queue, &pipelines, levels(1, 1, vec![u8::MAX; 4]));
         let targets = Targets::new(&device, &config, samples);
-        Ok(Self { surface, device, queue, config, pipelines, uniforms, ball, targets, samples })
+        Ok(Self { surface, device, queue, config, pipelines, uniforms, ball, white, targets, samples })
     }
 
     /// Follows the canvas's size in physical pixels.
@@ -205,8 +215,18 @@ impl Renderer {
             push(bytes, &v.image);
             push(bytes, &v.image_normal);
             push(bytes, &[v.hollow]);
+            bytes.extend_from_slice(&v.tint);
         };
         mesh(&self.device, &packed(vertices, floats), indices)
+    }
+
+    /// Uploads a picture: 8-bit colours with opacity, row by row from the top. `None` where these are not so many pixels, or more than
+    /// can be drawn.
+    pub fn picture(&self, width: u32, height: u32, pixels: Vec<u8>) -> Option<Picture> {
+        let limit = self.device.limits().max_texture_dimension_2d;
+        let fits = (1..=limit).contains(&width) && (1..=limit).contains(&height);
+        let is_whole = fits && pixels.len() as u64 == 4 * u64::from(width) * u64::from(height);
+        is_whole.then(|| picture(&self.device, &self.queue, &self.pipelines, levels(width, height, pixels)))
     }
 
     /// Uploads ribbons.
@@ -304,6 +324,7 @@ impl Renderer {
             Paint::Pattern => 4.0,
             Paint::Refused => 5.0,
             Paint::Factors(_) => 7.0,
+            Paint::Look => 8.0,
         };
         let (share, scale) = match view.paint {
             Paint::Factors(share) => (share, factor_scale()),
@@ -386,6 +407,7 @@ impl Renderer {
             pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed(0..mesh.index_count, 0, 0..1);
         };
+        pass.set_bind_group(1, &view.picture.unwrap_or(&self.white).0, &[]);
         if let Some(mesh) = view.under {
             pass.set_bind_group(0, &under.1, &[]);
             draw(pass, mesh, surface);
@@ -459,6 +481,49 @@ fn mesh(device: &wgpu::Device, vertices: &[u8], indices: &[u32]) -> Mesh {
 fn ball(device: &wgpu::Device) -> Mesh {
     let (positions, indices) = unit_ball();
     mesh(device, &packed(&positions, |bytes, x| push(bytes, &[*x])), &indices)
+}
+
+fn picture(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    pipelines: &Pipelines,
+    levels: Vec<(u32, u32, Vec<u8>)>,
+) -> Picture {
+    let size = |width, height| wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("picture"),
+        size: size(levels[0].0, levels[0].1),
+        mip_level_count: levels.len() as u32,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba8UnormSrgb,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    for (mip_level, (width, height, pixels)) in (0..).zip(&levels) {
+        let place = wgpu::TexelCopyTextureInfo { mip_level, ..texture.as_image_copy() };
+        let layout =
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * width), rows_per_image: None };
+        queue.write_texture(place, pixels, layout, size(*width, *height));
+    }
+    let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+        address_mode_u: wgpu::AddressMode::Repeat,
+        address_mode_v: wgpu::AddressMode::Repeat,
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        mipmap_filter: wgpu::MipmapFilterMode::Linear,
+        ..wgpu::SamplerDescriptor::default()
+    });
+    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+    let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
+    Picture(device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &pipelines.picture_layout,
+        entries: &[
+            entry(0, wgpu::BindingResource::TextureView(&view)),
+            entry(1, wgpu::BindingResource::Sampler(&sampler)),
+        ],
+    }))
 }
 
 fn view_uniform(device: &wgpu::Device, pipelines: &Pipelines) -> (wgpu::Buffer, wgpu::BindGroup) {

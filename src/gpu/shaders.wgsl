@@ -13,7 +13,7 @@ struct View {
     up: vec4<f32>,
     // xy: size of the view in pixels; z: surface style (-1 plain and a little behind, 0 plain, 1 checkerboard of the flat metric,
     // 2 colours of the place on the target, 3 distortion, 4 solid pattern, 5 faint and hatched, 6 faces in their own colours, a
-    // little in front, 7 a scale of factors); w: half width of lines in pixels.
+    // little in front, 7 a scale of factors, 8 the look of a mesh's file); w: half width of lines in pixels.
     size_and_style: vec4<f32>,
     // x: share of the way that every vertex has gone to its image; y: how strongly hollows are darkened;
     // z: opacity of lines behind the surface; w: the distortion at the end of the scale.
@@ -36,6 +36,9 @@ struct View {
 };
 
 @group(0) @binding(0) var<uniform> view: View;
+// What is laid on a surface in a look.
+@group(1) @binding(0) var picture: texture_2d<f32>;
+@group(1) @binding(1) var picture_sampler: sampler;
 
 struct SurfaceOut {
     @builtin(position) clip: vec4<f32>,
@@ -45,6 +48,8 @@ struct SurfaceOut {
     // Distortion, and how hollow the place is.
     @location(3) values: vec2<f32>,
     @location(4) image: vec3<f32>,
+    // Colour as a screen shows it; w: whether the picture is laid on it.
+    @location(5) tint: vec4<f32>,
 };
 
 @vertex
@@ -56,6 +61,7 @@ fn surface_vertex(
     @location(4) image: vec3<f32>,
     @location(5) image_normal: vec3<f32>,
     @location(6) hollow: f32,
+    @location(7) tint: vec4<f32>,
 ) -> SurfaceOut {
     let way = view.ways.x;
     let end = (view.world_from_image * vec4<f32>(image, 1.0)).xyz;
@@ -70,6 +76,7 @@ fn surface_vertex(
     out.uv = uv;
     out.values = vec2<f32>(distortion, hollow);
     out.image = image;
+    out.tint = tint;
     if view.size_and_style.z < -0.5 {
         out.clip.z += 0.004 * out.clip.w;
     }
@@ -161,6 +168,12 @@ fn filling(kind: f32, at: vec2<f32>, unit: f32) -> f32 {
     return stripe(at.x - at.y, 1.4142 * period, 2.6 * unit);
 }
 
+// The light of a screen's number (sRGB).
+fn light_of(colour: vec3<f32>) -> vec3<f32> {
+    let above = pow((colour + 0.055) / 1.055, vec3<f32>(2.4));
+    return select(above, colour / 12.92, colour <= vec3<f32>(0.04045));
+}
+
 @fragment
 fn surface_fragment(in: SurfaceOut) -> @location(0) vec4<f32> {
     let style = view.size_and_style.z;
@@ -170,7 +183,11 @@ fn surface_fragment(in: SurfaceOut) -> @location(0) vec4<f32> {
     let dark = view.pattern_dark.rgb;
     var colour = view.surface.rgb;
     let unit = view.size_and_style.w / 0.9;
-    if style > 6.5 {
+    if style > 7.5 {
+        let sampled = textureSample(picture, picture_sampler, in.uv).rgb;
+        let own = light_of(in.tint.rgb) * mix(vec3<f32>(1.0), sampled, step(0.5, in.tint.w));
+        colour = select(own, colour, in.clip.x < view.wipe.x);
+    } else if style > 6.5 {
         colour = scale_colour(mix(in.uv.x, in.uv.y, view.wipe.z));
     } else if style > 5.5 {
         let stroke = filling(in.uv.x, in.clip.xy, 1.2 * unit);

@@ -275,7 +275,9 @@ impl Accessor {
         };
         match self.kind.as_str() {
             "SCALAR" => Ok(component),
+            "VEC2" => Ok(2 * component),
             "VEC3" => Ok(3 * component),
+            "VEC4" => Ok(4 * component),
             other => {
                 let short: String = other.chars().take(20).collect();
                 Err(format!("has the type {short}: positions must be VEC3 and indices SCALAR"))

@@ -23,20 +23,17 @@ const MAX_CORNERS: usize = 60_000_000;
 const CORNERS_OF_COPIES: usize = 500_000;
 
 pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
-    scene(bytes).map(weld).map_err(|problem| (Place::Header, problem))
+    let scene = || {
+        let container = gltf_container::split(bytes)?;
+        let document = Document::read(container.json)?;
+        scene(&Reader::new(&document, container, bytes.len())?)
+    };
+    scene().map(|scene: Scene| weld(scene.soup)).map_err(|problem| (Place::Header, problem))
 }
 
-fn scene(bytes: &[u8]) -> Result<PolygonSoup, String> {
-    let Container { json, binary } = gltf_container::split(bytes)?;
-    let document = Document::read(json)?;
-    let buffers = buffers(&document.buffers, binary)?;
-    let reader = Reader {
-        sizes: buffers.iter().map(|buffer| buffer.as_ref().map(|content| content.len())).collect(),
-        library: document.to_library()?,
-        most_corners: MAX_CORNERS.min(bytes.len().saturating_add(CORNERS_OF_COPIES)),
-        document: &document,
-        buffers,
-    };
+/// The triangles of the scene, before vertices are joined.
+pub(super) fn scene(reader: &Reader<'_>) -> Result<Scene, String> {
+    let document = reader.document;
     let mut scene = Scene::default();
     let mut places = vec![DMat4::IDENTITY; document.nodes.len()];
     for (number, above) in document.tree()? {
@@ -51,7 +48,7 @@ fn scene(bytes: &[u8]) -> Result<PolygonSoup, String> {
     if scene.soup.polygons.is_empty() {
         return Err("its scene has no triangles".into());
     }
-    Ok(scene.soup)
+    Ok(scene)
 }
 
 /// From a node's coordinates to those of the node above; `None` where numbers are not finite.
@@ -106,14 +103,31 @@ fn buffers<'a>(buffers: &[Buffer], binary: Option<&'a [u8]>) -> Result<Vec<Optio
 
 /// The triangles read so far.
 #[derive(Default)]
-struct Scene {
-    soup: PolygonSoup,
+pub(super) struct Scene {
+    pub(super) soup: PolygonSoup,
+    /// Where they come from, in their order.
+    pub(super) parts: Vec<Part>,
     /// Positions and indices that were read for them.
     corners: usize,
 }
 
+/// The triangles of one primitive as one node places it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part {
+    /// The number of its mesh.
+    pub(super) mesh: usize,
+    /// Its number in the mesh.
+    pub(super) primitive: usize,
+    /// The number of its first vertex in the scene.
+    pub(super) first_vertex: usize,
+    /// How many vertices it has.
+    pub(super) vertices: usize,
+    /// How many triangles it has.
+    pub(super) triangles: usize,
+}
+
 /// A document with the contents of its buffers.
-struct Reader<'a> {
+pub(super) struct Reader<'a> {
     document: &'a Document,
     library: gltf::Document,
     buffers: Vec<Option<Cow<'a, [u8]>>>,
@@ -121,13 +135,42 @@ struct Reader<'a> {
     most_corners: usize,
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
+    /// Of a file of so many bytes.
+    pub(super) fn new(
+        document: &'a Document,
+        container: Container<'a>,
+        file_bytes: usize,
+    ) -> Result<Self, String> {
+        let buffers = buffers(&document.buffers, container.binary)?;
+        Ok(Self {
+            sizes: buffers.iter().map(|buffer| buffer.as_ref().map(|content| content.len())).collect(),
+            library: document.to_library()?,
+            most_corners: MAX_CORNERS.min(file_bytes.saturating_add(CORNERS_OF_COPIES)),
+            document,
+            buffers,
+        })
+    }
+
+    /// The contents of a buffer.
+    pub(super) fn buffer(&self, number: usize) -> Option<&[u8]> {
+        self.buffers.get(number)?.as_deref()
+    }
+
     fn add_mesh(&self, number: usize, world: &DMat4, scene: &mut Scene) -> Result<(), String> {
         let mesh = self.document.meshes.get(number);
         let mesh = mesh.ok_or_else(|| format!("it names mesh {number}, which is not there"))?;
         for (k, primitive) in mesh.primitives.iter().enumerate() {
             let of_primitive = |problem| format!("primitive {k} of mesh {number}: {problem}");
+            let [vertices, triangles] = [scene.soup.positions.len(), scene.soup.polygons.len()];
             self.add_primitive(primitive, world, scene).map_err(of_primitive)?;
+            scene.parts.push(Part {
+                mesh: number,
+                primitive: k,
+                first_vertex: vertices,
+                vertices: scene.soup.positions.len() - vertices,
+                triangles: scene.soup.polygons.len() - triangles,
+            });
         }
         Ok(())
     }
@@ -192,6 +235,22 @@ impl Reader<'_> {
         Ok(self.elements(accessor)?.iter().map(|bytes| point(bytes)).collect())
     }
 
+    /// So many elements of an accessor, by the numbers that its type has, at most four, with zeros behind them; whole numbers that stand for
+    /// shares are from 0 to 1. `None` where the accessor cannot be used, or has another number of elements.
+    pub(super) fn numbers(&self, number: usize, count: usize) -> Option<(Dimensions, Vec<[f32; 4]>)> {
+        let accessor = self.accessor(number).ok().filter(|accessor| accessor.count() == count)?;
+        let kind = accessor.data_type();
+        let divisor = if accessor.normalized() { normal_divisor(kind) } else { 1.0 };
+        let numbers = |bytes: &&[u8]| {
+            let mut numbers = [0.0; 4];
+            for (x, b) in numbers.iter_mut().zip(bytes.chunks_exact(kind.size())) {
+                *x = (component(kind, b) / divisor) as f32;
+            }
+            numbers
+        };
+        Some((accessor.dimensions(), self.elements(&accessor).ok()?.iter().map(numbers).collect()))
+    }
+
     /// Indices below `vertices`.
     fn indices(&self, accessor: &Accessor<'_>, vertices: usize) -> Result<Vec<u32>, String> {
         let kind = accessor.data_type();
@@ -213,7 +272,7 @@ impl Reader<'_> {
 
     /// The bytes of each element of an accessor that was checked; sparse ones are in place.
     fn elements(&self, accessor: &Accessor<'_>) -> Result<Vec<&[u8]>, String> {
-        const ZERO: [u8; 12] = [0; 12];
+        const ZERO: [u8; 16] = [0; 16];
         let size = accessor.size();
         let mut elements = match accessor.view() {
             Some(view) => self.range(&view, accessor.offset(), [accessor.count(), size])?,

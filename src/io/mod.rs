@@ -2,6 +2,7 @@
 //!
 //! Everything is hostile until checked: sizes are compared with the file before anything is allocated.
 
+pub mod appearance;
 pub mod curve_file;
 mod data_uri;
 mod detection;
@@ -9,6 +10,7 @@ mod format;
 mod gltf_container;
 mod gltf_document;
 mod gltf_file;
+mod gltf_look;
 pub mod gltf_parts;
 pub mod landmark_file;
 pub mod landmark_formats;

@@ -3,7 +3,7 @@
 
 use super::problem::{Place, Problem};
 use super::reading::{number, short, text};
-use super::vertex_table::TableError;
+use super::vertex_table::{TableError, VertexTable};
 use super::{Format, MAX_BYTES, ReadError, detect, obj, read_mesh, vertex_table};
 use glam::DVec2;
 
@@ -90,15 +90,20 @@ fn ply(bytes: &[u8]) -> Result<Vec<Vec<DVec2>>, TextureCoordinateError> {
     let soup = read_mesh(bytes)?;
     let table = vertex_table::of_ply(bytes, soup.positions.len())
         .map_err(|TableError { place, problem }| TextureCoordinateError::Malformed { place, problem })?;
+    of_table(&table, &soup.polygons).ok_or(TextureCoordinateError::None)
+}
+
+/// Texture coordinates of each corner of each polygon from those of the vertices; `None` where they have none.
+pub(super) fn of_table(table: &VertexTable, polygons: &[Vec<u32>]) -> Option<Vec<Vec<DVec2>>> {
     let column = |name: &str| table.columns.iter().find(|column| column.name == name);
     let found = PROPERTIES.iter().find_map(|[u, v]| column(u).zip(column(v)));
-    let (us, vs) = found.ok_or(TextureCoordinateError::None)?;
+    let (us, vs) = found?;
     let uv = |v: &u32| {
         // Both columns have a number for each vertex, and the vertices of polygons are there.
         let value = |column: &vertex_table::Column| column.values[*v as usize].unwrap_or(0.0);
         DVec2::new(value(us), value(vs))
     };
-    Ok(soup.polygons.iter().map(|polygon| polygon.iter().map(uv).collect()).collect())
+    Some(polygons.iter().map(|polygon| polygon.iter().map(uv).collect()).collect())
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ mod file_frame;
 pub mod generators;
 mod ids;
 pub mod insertion;
+pub mod look;
 pub mod mirror;
 pub mod normals;
 mod packed;

@@ -80,6 +80,12 @@ impl Packer {
         self.numbers(values, |flag| [u8::from(flag)]);
     }
 
+    /// How many there are, and bytes.
+    pub fn bytes(&mut self, bytes: &[u8]) {
+        self.count(bytes.len());
+        self.bytes.extend_from_slice(bytes);
+    }
+
     fn numbers<T, const N: usize>(
         &mut self,
         values: impl ExactSizeIterator<Item = T>,
@@ -194,6 +200,17 @@ impl<'a> Unpacker<'a> {
         self.numbers(|[byte]| byte != 0)
     }
 
+    /// Bytes.
+    ///
+    /// # Errors
+    /// As [`Self::reals`].
+    pub fn bytes(&mut self) -> Result<&'a [u8], PackedError> {
+        let count = self.count()?;
+        let (bytes, rest) = self.rest.split_at_checked(count).ok_or(ENDS_EARLY)?;
+        self.rest = rest;
+        Ok(bytes)
+    }
+
     fn numbers<T, const N: usize>(&mut self, value: impl Fn([u8; N]) -> T) -> Result<Vec<T>, PackedError> {
         let count = self.count()?;
         let size = count.checked_mul(N).filter(|size| *size <= self.rest.len()).ok_or(ENDS_EARLY)?;
@@ -220,6 +237,7 @@ mod tests {
         packer.triples([[1, 2, 3], [4, 5, 0x0102_0304]].into_iter());
         packer.places([DVec3::new(0.1, -2.0, 1e9)].into_iter());
         packer.flags([true, false].into_iter());
+        packer.bytes(b"abc");
         packer.into_bytes()
     }
 
@@ -233,6 +251,7 @@ mod tests {
         assert_eq!(unpacker.triples()?, [[1, 2, 3], [4, 5, 0x0102_0304]]);
         assert_eq!(unpacker.places()?, [DVec3::new(0.1, -2.0, 1e9)]);
         assert_eq!(unpacker.flags()?, [true, false]);
+        assert_eq!(unpacker.bytes()?, b"abc");
         unpacker.end()
     }
 

@@ -23,6 +23,8 @@ pub struct SurfaceVertex {
     pub image_normal: [f32; 3],
     /// How much it lies in a hollow (positive) or on a ridge (negative), from -1 to 1.
     pub hollow: f32,
+    /// Its colour in a look, red, green and blue as a screen shows them, and 255 where the picture is laid on it, or else 0.
+    pub tint: [u8; 4],
 }
 
 /// A corner of the ribbon that draws a line segment.
@@ -112,6 +114,7 @@ pub fn surface(mesh: &SurfaceMesh, shading: &Shading, frame: &Frame) -> (Vec<Sur
             image: position,
             image_normal: normal,
             hollow: shading.hollows[v.index()],
+            ..SurfaceVertex::default()
         }
     };
     let vertices = mesh.vertices().map(vertex).collect();

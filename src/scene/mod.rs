@@ -6,6 +6,7 @@ pub mod colours;
 pub mod defects;
 pub mod glide;
 pub mod hollows;
+pub mod looks;
 pub mod map_picking;
 pub mod morph;
 pub mod patches;

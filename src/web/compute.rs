@@ -299,6 +299,11 @@ impl MapOutput {
         self.shown.common.triangles.iter().flatten().copied().collect()
     }
 
+    /// The face of the source (0) or the target (1) in which each triangle lies; empty for the thesis' method.
+    pub fn faces(&self, side: usize) -> Vec<u32> {
+        self.shown.common.faces.iter().map(|faces| faces[side.min(1)].0).collect()
+    }
+
     /// Points of all patch lines on one side.
     #[wasm_bindgen(js_name = linePoints)]
     pub fn line_points(&self, side: usize) -> Vec<f32> {

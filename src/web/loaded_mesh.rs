@@ -5,6 +5,7 @@ use crate::io::landmark_formats::Space;
 use crate::landmark_exchange::Surface;
 use crate::map_file::Hash;
 use crate::mesh::check::CheckedMesh;
+use crate::mesh::look::Look;
 use crate::mesh::packing::{PackedError, Packer, Unpacker};
 use crate::scene::Shading;
 use std::rc::Rc;
@@ -17,12 +18,15 @@ pub struct LoadedMesh {
     pub(super) shading: Rc<Shading>,
     /// The coordinate system that its file names.
     pub(super) space: Space,
+    /// The colours and the picture that its file gives it.
+    pub(super) look: Option<Rc<Look>>,
 }
 
 impl LoadedMesh {
     /// A checked mesh, ready to be shown.
-    pub(super) fn new(checked: CheckedMesh, space: Space) -> Self {
-        Self { shading: Rc::new(Shading::of(&checked.mesh)), checked: Rc::new(checked), space }
+    pub(super) fn new(checked: CheckedMesh, space: Space, look: Option<Look>) -> Self {
+        let shading = Rc::new(Shading::of(&checked.mesh));
+        Self { shading, checked: Rc::new(checked), space, look: look.map(Rc::new) }
     }
 
     /// The mesh as landmark files are brought onto it.
@@ -35,8 +39,12 @@ impl LoadedMesh {
         let space = if unpacker.count()? == 0 { Space::Lps } else { Space::Ras };
         let checked = CheckedMesh::unpack(&mut unpacker)?;
         let shading = Shading::unpack(&mut unpacker, checked.mesh.vertex_count())?;
+        let look = match unpacker.count()? {
+            0 => None,
+            _ => Some(Rc::new(Look::unpack(&mut unpacker, checked.mesh.face_count())?)),
+        };
         unpacker.end()?;
-        Ok(Self { checked: Rc::new(checked), shading: Rc::new(shading), space })
+        Ok(Self { checked: Rc::new(checked), shading: Rc::new(shading), space, look })
     }
 }
 
@@ -66,12 +74,33 @@ impl LoadedMesh {
         self.checked.turned_faces()
     }
 
+    /// What its file gives it of a look: `"none"`, `"places"` in a picture that the file does not hold, or `"colours"`, with or without
+    /// a picture.
+    #[wasm_bindgen(js_name = lookKind)]
+    pub fn look_kind(&self) -> String {
+        let kind = match self.look.as_deref() {
+            None => "none",
+            Some(look) if look.is_coloured() => "colours",
+            Some(_) => "places",
+        };
+        kind.to_owned()
+    }
+
+    /// The file of the picture that is laid on it (PNG, JPEG or WebP); `undefined` where its file holds none.
+    pub fn picture(&self) -> Option<Vec<u8>> {
+        self.look.as_ref()?.picture.clone()
+    }
+
     /// All of it as bytes, of which `unpackMesh` of the same build makes it again.
     pub fn packed(&self) -> Vec<u8> {
         let mut packer = Packer::default();
         packer.count(usize::from(self.space == Space::Ras));
         self.checked.pack(&mut packer);
         self.shading.pack(&mut packer);
+        packer.count(usize::from(self.look.is_some()));
+        if let Some(look) = &self.look {
+            look.pack(&mut packer);
+        }
         packer.into_bytes()
     }
 }

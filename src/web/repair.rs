@@ -2,9 +2,10 @@
 
 use super::failure;
 use super::loaded_mesh::LoadedMesh;
-use crate::io;
 use crate::io::landmark_formats::Space;
+use crate::io::{self, appearance};
 use crate::mesh::check::CheckedMesh;
+use crate::mesh::look::Look;
 use crate::mesh::repair::{ChangeReport, RepairOptions, RepairRefusal, RepairReport, RepairedMesh, repaired};
 use crate::monitor::Silent;
 use serde_json::{Value, json};
@@ -14,6 +15,7 @@ use wasm_bindgen::prelude::*;
 #[wasm_bindgen]
 pub struct MeshReport {
     checked: Option<CheckedMesh>,
+    look: Option<Look>,
     report: RepairReport,
     /// The coordinate system that its file names.
     space: Space,
@@ -28,7 +30,7 @@ impl MeshReport {
     #[wasm_bindgen(js_name = takeMesh)]
     pub fn take_mesh(&mut self) -> Result<LoadedMesh, JsValue> {
         let checked = self.checked.take().ok_or_else(|| failure("mesh", "the mesh was taken before"))?;
-        Ok(LoadedMesh::new(checked, self.space))
+        Ok(LoadedMesh::new(checked, self.space, self.look.take()))
     }
 
     /// What was repaired, in a sentence without a full stop ("2 holes were capped (0.4 % of the area), 13 duplicate vertices were
@@ -66,7 +68,8 @@ pub fn repair_mesh(bytes: &[u8], allowed: &str) -> Result<MeshReport, JsValue> {
         JsValue::from_str(&value.to_string())
     })?;
     let RepairedMesh { checked, report } = mesh;
-    Ok(MeshReport { checked: Some(checked), report, space: Space::of_mesh(bytes) })
+    let look = appearance::read(bytes, &soup).and_then(|look| look.by_face(&soup, &checked));
+    Ok(MeshReport { checked: Some(checked), look, report, space: Space::of_mesh(bytes) })
 }
 
 /// The repair that would help.

@@ -3,7 +3,7 @@
 use super::defects::MeshDefects;
 use super::failure;
 use super::loaded_mesh::LoadedMesh;
-use crate::gpu::{Mesh, Renderer};
+use crate::gpu::{Mesh, Picture, Renderer};
 use crate::io::landmark_file::LandmarkPoint;
 use crate::mesh::check::CheckedMesh;
 use crate::mesh::normals::vertex_normals;
@@ -12,6 +12,7 @@ use crate::scene::buffers::{Frame, surface};
 use crate::scene::colours::landmark_colour;
 use crate::scene::defects::{DefectBuffers, painted, surface_as_read};
 use crate::scene::hollows::carried;
+use crate::scene::looks::{Giver, dressed};
 use crate::scene::pins::{Pin, STEM, Stand, distance_to_pin};
 use crate::scene::{Camera, Glide, Patches, Picker, PinInstance, Pose, Ray, Shading, SurfaceVertex, UpAxis};
 use glam::{DVec3, Vec2, Vec3};
@@ -61,6 +62,10 @@ pub(super) struct Side {
     pub mesh: Option<SideMesh>,
     /// The map's own triangles on this side.
     pub overlay: Option<Mesh>,
+    /// The map's triangles in the look of the mesh that gives its look.
+    pub carried: Option<Mesh>,
+    /// What is laid on the side's own look.
+    pub picture: Option<Picture>,
     pub lines: Option<Mesh>,
     /// The mesh with the places to which a map that is being made takes its vertices.
     pub preview: Option<Preview>,
@@ -172,6 +177,9 @@ pub(super) struct SideMesh {
     pub frame: Frame,
     pub picker: Option<Picker>,
     pub surface: Mesh,
+    pub look: Option<Rc<crate::mesh::look::Look>>,
+    /// The mesh in its own look.
+    pub dressed: Option<Mesh>,
 }
 
 impl Side {
@@ -276,6 +284,7 @@ impl Side {
     /// What a result has brought goes.
     pub fn clear_result(&mut self) {
         self.overlay = None;
+        self.carried = None;
         self.lines = None;
         self.patches = None;
         self.lit = Lit::default();
@@ -446,12 +455,17 @@ impl ShownDefects {
 impl SideMesh {
     /// A mesh, and its vertices as they are drawn.
     pub fn new(loaded: &LoadedMesh, renderer: &Renderer) -> Self {
-        let LoadedMesh { checked, shading, .. } = loaded;
+        let LoadedMesh { checked, shading, look, .. } = loaded;
         let frame = Frame::of(&checked.mesh);
         let (vertices, indices) = surface(&checked.mesh, shading, &frame);
         let surface = renderer.surface_mesh(&vertices, &indices);
+        let dressed = look.as_deref().map(|look| {
+            let (vertices, indices) = dressed(Giver { mesh: &checked.mesh, look }, &vertices);
+            renderer.surface_mesh(&vertices, &indices)
+        });
         let picker = Picker::begun(&checked.mesh);
-        Self { checked: checked.clone(), shading: shading.clone(), frame, picker, surface }
+        let (checked, shading, look) = (checked.clone(), shading.clone(), look.clone());
+        Self { checked, shading, frame, picker, surface, look, dressed }
     }
 
     /// Goes on with what takes long for a large mesh; whether there is more to do.

@@ -21,7 +21,7 @@ export function mesh(name: string, faceCount = 20): MeshFile & { readonly freed:
     },
   } as unknown as LoadedMesh;
   const bytes = new TextEncoder().encode(name);
-  return { name, bytes, mesh: loaded, vertexCount: 12, faceCount, turnedFaces: 0, repairs: '', freed: () => freed };
+  return { name, bytes, mesh: loaded, vertexCount: 12, faceCount, turnedFaces: 0, look: 'none', repairs: '', freed: () => freed };
 }
 
 /** A pair whose number is its id, as it is until one is deleted. */

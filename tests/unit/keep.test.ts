@@ -74,10 +74,10 @@ class Tab {
       newId: () => `session-${ids++}`,
       now: () => clock++,
       hash: async (bytes) => Buffer.from(await crypto.subtle.digest('SHA-256', bytes)).toString('base64url'),
-      read: async ({ name, bytes }) => {
+      read: async ({ name, bytes, picture }) => {
         await Promise.resolve();
         return () => {
-          const file = { ...mesh(name), bytes };
+          const file = { ...mesh(name), bytes, ...(picture === undefined ? {} : { picture }) };
           this.made.push(file);
           return file;
         };
@@ -214,6 +214,19 @@ describe('what is kept', () => {
     const [hash] = (await records())[0]?.hashes ?? [];
     const stored = await database.mesh(hash ?? '');
     expect([stored?.byteLength, stored?.buffer.byteLength]).toEqual([7, 7]);
+  });
+
+  test('is the picture that came with a mesh, which comes back with it and goes with it', async () => {
+    const picture = new TextEncoder().encode('a picture of fur');
+    const tab = await new Tab().visit();
+    tab.does({ kind: 'mesh', side: 0, file: { ...mesh('cat.obj'), picture } }, { kind: 'mesh', side: 1, file: mesh('lion.obj') });
+    const memory = await tab.close();
+    expect(await meshNames()).toEqual(['a picture of fur', 'cat.obj', 'lion.obj']);
+    const again = await new Tab(memory).visit();
+    expect(again.state.meshes.map((file) => file?.picture)).toEqual([picture, undefined]);
+    again.does({ kind: 'mesh', side: 0, file: mesh('cow.obj') }, { kind: 'history-begun' }, pick(30));
+    await again.keeper.flush();
+    expect(await meshNames()).toEqual(['cow.obj', 'lion.obj']);
   });
 
   test('is no mesh that no step leads to', async () => {
@@ -589,7 +602,7 @@ describe('a store that fails', () => {
   test('half way leaves nothing half', async () => {
     const tab = await catAndLion();
     const kept = keptOf(tab.state);
-    const hashes = new Map([...kept.files].map((file) => [file, 'x'.repeat(43)] as const));
+    const hashes = new Map([...kept.files].map((file) => [file.bytes, 'x'.repeat(43)] as const));
     const record = recordOf(kept, { id: 'other', saved: 1, ui: tab.state.ui }, hashes);
     const fresh = new Map([['new', new Uint8Array(1)]]);
     const broken = { ...record, work: { ...record.work, groundTruth: (() => undefined) as unknown as string } };

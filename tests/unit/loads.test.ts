@@ -2,6 +2,7 @@
 import { describe, expect, test } from 'vitest';
 import { baseName, landmarkFileOf } from '../../www/store/landmark-file.ts';
 import { INITIAL } from '../../www/store/state.ts';
+import { giverOf } from '../../www/store/work.ts';
 import { after, DEMO, DONE, FOUR, mesh, pair, READY, suggestion } from './fixtures.ts';
 
 describe('landmarks stay', () => {
@@ -126,4 +127,24 @@ test('a mesh that comes back stands as it stood last', () => {
 
 test('a name loses its folders of either kind', () => {
   expect(['a/b/cat.off', 'a\\b\\cat.off', 'cat.off'].map(baseName)).toEqual(['cat.off', 'cat.off', 'cat.off']);
+});
+
+describe('colours of a file', () => {
+  const coloured = { ...mesh('cat.ply'), look: 'colours' } as const;
+
+  test('are shown where nothing else was chosen', () => {
+    const state = after(INITIAL, { kind: 'mesh', side: 1, file: coloured });
+    expect(state.ui.style.surface).toBe('look');
+    const chosen = after(INITIAL, { kind: 'style', style: { surface: 'distortion' } }, { kind: 'mesh', side: 1, file: coloured });
+    expect(chosen.ui.style.surface).toBe('distortion');
+    expect(after(INITIAL, { kind: 'mesh', side: 1, file: { ...coloured, look: 'places' } }).ui.style.surface).toBe('shaded');
+  });
+
+  test('are carried from the target, or else from the source', () => {
+    const plain = mesh('horse.obj');
+    const givers = ([[plain, coloured], [coloured, plain], [coloured, coloured], [plain, plain], [null, plain]] as const).map((meshes) =>
+      giverOf({ meshes }),
+    );
+    expect(givers).toEqual([1, 0, 1, null, null]);
+  });
 });

@@ -15,7 +15,7 @@ export default defineConfig({
   testDir: '.',
   outputDir: `${root}test-results/artifacts`,
   timeout: 300_000,
-  globalTimeout: 1_200_000,
+  globalTimeout: 2_400_000,
   expect: { timeout: 30_000 },
   workers: 1,
   forbidOnly: true,

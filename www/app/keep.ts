@@ -115,7 +115,7 @@ function noteOf({ hasOthers, hasBroken }: Choice): string | null {
 export class Keeper {
   readonly #store: Store;
   readonly #around: Surroundings;
-  readonly #hashes = new WeakMap<MeshFile, Promise<string | null>>();
+  readonly #hashes = new WeakMap<Uint8Array, Promise<string | null>>();
   #database: Database | null = null;
   #tabs: Tabs | null = null;
   #id = '';
@@ -289,8 +289,10 @@ export class Keeper {
         if (bytes === null) {
           throw new FileRefused(SENTENCES.keptUnreadable);
         }
-        const { name, address } = mesh;
-        const file = { name, bytes, ...(address === undefined ? {} : { address }) };
+        const { name, address, picture: hash } = mesh;
+        // Without its picture a mesh is still the mesh.
+        const picture = hash === undefined ? null : ((await this.#database?.mesh(hash)) ?? null);
+        const file = { name, bytes, ...(address === undefined ? {} : { address }), ...(picture === null ? {} : { picture }) };
         return [meshKey(mesh), await this.#around.read(file, signal)];
       }),
     );
@@ -342,11 +344,11 @@ export class Keeper {
     }
   }
 
-  async #hashOf(file: MeshFile): Promise<string> {
-    const known = this.#hashes.get(file);
+  async #hashOf(bytes: Uint8Array): Promise<string> {
+    const known = this.#hashes.get(bytes);
     // What the page holds lies in its own memory, and is no buffer that threads share.
-    const hash = known ?? this.#around.hash(file.bytes as Uint8Array<ArrayBuffer>);
-    this.#hashes.set(file, hash);
+    const hash = known ?? this.#around.hash(bytes as Uint8Array<ArrayBuffer>);
+    this.#hashes.set(bytes, hash);
     const value = await hash;
     if (value === null) {
       throw new Error('no hash of a mesh');
@@ -361,13 +363,15 @@ export class Keeper {
     }
     try {
       const kept = keptOf(state);
-      const hashes = new Map<MeshFile, string>();
-      for (const file of kept.files) {
-        hashes.set(file, await this.#hashOf(file));
+      const hashes = new Map<Uint8Array, string>();
+      for (const { bytes, picture } of kept.files) {
+        for (const part of picture === undefined ? [bytes] : [bytes, picture]) {
+          hashes.set(part, await this.#hashOf(part));
+        }
       }
       const record = recordOf(kept, { id: this.#id, saved: this.#around.now(), ui: state.ui }, hashes);
       const needed = new Set(record.hashes);
-      const fresh = new Map([...hashes].flatMap(([file, hash]) => (this.#written?.has(hash) === true ? [] : [[hash, file.bytes]])));
+      const fresh = new Map([...hashes].flatMap(([bytes, hash]) => (this.#written?.has(hash) === true ? [] : [[hash, bytes]])));
       const dropped = [...(this.#written ?? [])].filter((hash) => !needed.has(hash));
       await this.#database.write({ record, fresh, dropped, absorbed: this.#absorbed });
       this.#written = needed;

@@ -17,7 +17,11 @@ import { place, readArriving, sentWorkOf, withMeshes } from './sent-work.ts';
 import { perform } from './task.ts';
 
 function projectMesh(file: MeshFile | null): ProjectMesh | null {
-  return file && { name: file.name, bytes: file.bytes, address: file.address ?? null };
+  if (file === null) {
+    return null;
+  }
+  const { name, bytes, address = null, picture } = file;
+  return { name, bytes, address, ...(picture === undefined ? {} : { picture }) };
 }
 
 /** What is on the page as a project; the map's own file is in it where the result has one. */

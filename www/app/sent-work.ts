@@ -18,6 +18,8 @@ export interface ArrivingMesh {
   readonly bytes: Uint8Array;
   /** Where it was loaded from; `null` where it was given by hand. */
   readonly address: string | null;
+  /** The file of a picture that came with it. */
+  readonly picture?: Uint8Array;
 }
 
 /** The work on the page and how it is looked at, without the meshes. */
@@ -33,8 +35,8 @@ export function sentWorkOf({ pairs, up, groundTruth, options, ui }: State): Sent
 }
 
 /** An arriving mesh as a file. */
-function named({ name, bytes, address }: ArrivingMesh): NamedBytes {
-  return { name, bytes, ...(address === null ? {} : { address }) };
+function named({ name, bytes, address, picture }: ArrivingMesh): NamedBytes {
+  return { name, bytes, ...(address === null ? {} : { address }), ...(picture === undefined ? {} : { picture }) };
 }
 
 /** Reads arriving meshes. Those of work that was on a page are allowed every repair that they were given there. */

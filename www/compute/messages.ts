@@ -59,6 +59,8 @@ export interface RunOutput {
   /** By point, 1 for none; empty where the method has none. */
   readonly distortion: Float32Array;
   readonly triangles: Uint32Array;
+  /** The face of each mesh in which each triangle lies; empty where that is not known. */
+  readonly faces: readonly [Uint32Array, Uint32Array];
   readonly cones: Float64Array;
   /** `null` where it is not known how it lies on the meshes. */
   readonly base: BaseOutput | null;

@@ -28,7 +28,7 @@ const MOST_LISTED = 100_000;
 const Text = v.pipe(v.string(), v.maxLength(LONGEST_TEXT));
 /** SHA-256 in base64url. */
 const Hash = v.pipe(v.string(), v.regex(/^[\w-]{43}$/));
-const MeshRecord = v.object({ name: Text, hash: Hash, address: v.exactOptional(Text) });
+const MeshRecord = v.object({ name: Text, hash: Hash, address: v.exactOptional(Text), picture: v.exactOptional(Hash) });
 const Point = v.nullable(v.union([Index, v.object({ face: Index, barycentric: v.strictTuple([Weight, Weight, Weight]) })]));
 const PairRecord = v.object({
   id: v.pipe(Index, v.minValue(1)),
@@ -169,16 +169,17 @@ function once<K extends object, T>(make: (key: K) => T): (key: K) => T {
   };
 }
 
-/** The record of a session. `hashes` has that of each mesh. */
+/** The record of a session. `hashes` has that of each mesh's bytes and of its picture's, where that is a file of its own. */
 export function recordOf(
   kept: Kept,
   { id, saved, ui }: { readonly id: string; readonly saved: number; readonly ui: Ui },
-  hashes: ReadonlyMap<MeshFile, string>,
+  hashes: ReadonlyMap<Uint8Array, string>,
 ): SessionRecord {
   const mesh = once((file: MeshFile): MeshRecord => ({
     name: file.name,
-    hash: hashes.get(file) ?? '',
+    hash: hashes.get(file.bytes) ?? '',
     ...(file.address === undefined ? {} : { address: file.address }),
+    ...(file.picture === undefined ? {} : { picture: hashes.get(file.picture) ?? '' }),
   }));
   const table: Pair[] = [];
   const place = once((pair: Pair) => table.push(pair) - 1);
@@ -199,7 +200,7 @@ export function recordOf(
     id,
     saved,
     declined: false,
-    hashes: [...new Set([...kept.files].map((file) => mesh(file).hash))],
+    hashes: [...new Set([...kept.files].map(mesh).flatMap(({ hash, picture }) => (picture === undefined ? [hash] : [hash, picture])))],
     // Lists that are checked are not read-only; these are not written to.
     pairs: table as SessionRecord['pairs'],
     work,
@@ -222,9 +223,9 @@ export function meshesOf({ work, past, future }: SessionRecord): MeshRecord[] {
   return [...new Map(all.map((mesh) => [meshKey(mesh), mesh])).values()];
 }
 
-/** Tells meshes of a session apart: the same bytes may have two names. */
-export function meshKey({ name, hash }: MeshRecord): string {
-  return `${hash} ${name}`;
+/** Tells meshes of a session apart: the same bytes may have two names, and two pictures. */
+export function meshKey({ name, hash, picture }: MeshRecord): string {
+  return `${hash} ${picture ?? ''} ${name}`;
 }
 
 /** The work and history of a session. `files` has its meshes by key; a demo that is no more is none. */

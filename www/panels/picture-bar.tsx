@@ -10,6 +10,7 @@ import { Popover } from './popover.tsx';
 
 const SURFACES: readonly Choice<Style['surface']>[] = [
   { value: 'shaded', text: 'Plain' },
+  { value: 'look', text: 'Own colours' },
   { value: 'pattern', text: 'Pattern' },
   { value: 'checkerboard', text: 'Checkerboard' },
   { value: 'colours', text: 'Colours' },
@@ -19,6 +20,9 @@ const SURFACES: readonly Choice<Style['surface']>[] = [
 /** Whether a surface can be shown now. */
 function isThere(state: State, surface: Style['surface']): boolean {
   const result = shownResult(state);
+  if (surface === 'look') {
+    return state.meshes.some((mesh) => mesh?.look === 'colours');
+  }
   return surface === 'shaded' || (result !== null && (surface !== 'distortion' || result.output.distortion.length > 0));
 }
 

@@ -19,9 +19,9 @@ import type { Answers, DemoFiles, MeshReading, MirroredMesh, OwnBytes, Question,
 
 /** The files by what they hold. Throws `FileRefused` for those that belong to nothing, and for bad landmark files. */
 function sorted(files: readonly NamedBytes[]): SortedFile[] {
-  return gathered(files).map(({ name, bytes }) => {
+  return gathered(files).map(({ name, bytes, picture }) => {
     const content = isMapFile({ bytes }) ? 'map' : (contentOf({ name, bytes }) ?? 'mesh');
-    return { name, bytes, content };
+    return { name, bytes, ...(picture === undefined ? {} : { picture }), content };
   });
 }
 

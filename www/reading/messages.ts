@@ -41,9 +41,7 @@ export interface ReadFile {
 }
 
 /** A file by what it holds. */
-export interface SortedFile {
-  readonly name: string;
-  readonly bytes: Uint8Array;
+export interface SortedFile extends NamedBytes {
   readonly content: 'mesh' | 'map' | LandmarkContent;
 }
 

@@ -29,6 +29,8 @@ export interface ProjectMesh {
   readonly bytes: Uint8Array;
   /** Where it was loaded from; `null` where it was given by hand. */
   readonly address: string | null;
+  /** The file of a picture that came with it; there is none where its own file holds it. */
+  readonly picture?: Uint8Array;
 }
 
 /** What a project file holds. */
@@ -56,6 +58,7 @@ const MeshEntry = v.nullable(
     /** SHA-256 of its bytes in base64url; `null` where the page could not tell. */
     hash: v.nullable(v.pipe(v.string(), v.regex(/^[\w-]{43}$/))),
     address: v.nullable(v.pipe(v.string(), v.maxLength(LONGEST_ADDRESS))),
+    picture: v.exactOptional(v.picklist(['pictures/source', 'pictures/target'])),
   }),
 );
 type MeshEntry = v.InferOutput<typeof MeshEntry>;
@@ -74,10 +77,12 @@ function entryOf(folder: string, { name }: ProjectMesh): string {
   return `${folder}/${shownName(name).replace(/[:*?"<>|]/g, '_') || 'mesh'}`;
 }
 
-async function meshEntry(folder: string, mesh: ProjectMesh | null): Promise<MeshEntry> {
-  return mesh === null
-    ? null
-    : { name: mesh.name, entry: entryOf(folder, mesh), hash: await hashOf(mesh.bytes), address: mesh.address };
+async function meshEntry(folder: 'source' | 'target', mesh: ProjectMesh | null): Promise<MeshEntry> {
+  if (mesh === null) {
+    return null;
+  }
+  const picture = mesh.picture === undefined ? {} : ({ picture: `pictures/${folder}` } as const);
+  return { name: mesh.name, entry: entryOf(folder, mesh), hash: await hashOf(mesh.bytes), address: mesh.address, ...picture };
 }
 
 async function entriesOf(project: Project, landmarks: string): Promise<Entries> {
@@ -100,6 +105,9 @@ async function entriesOf(project: Project, landmarks: string): Promise<Entries> 
     const mesh = meshes[side];
     if (entry !== null && mesh !== null && mesh !== undefined) {
       entries[entry.entry] = mesh.bytes;
+      if (entry.picture !== undefined && mesh.picture !== undefined) {
+        entries[entry.picture] = mesh.picture;
+      }
     }
   });
   if (result !== null) {
@@ -176,7 +184,14 @@ async function meshOf(entry: MeshEntry, files: Entries): Promise<ProjectMesh | n
     throw new ProjectRefused('mesh-changed');
   }
   const address = entry.address === null ? 'no-address' : addressOf(entry.address, new URL('https://none.invalid/'));
-  return { name: shownName(entry.name), bytes, address: typeof address === 'string' ? null : address.url };
+  // Without its picture a mesh is still the mesh.
+  const picture = entry.picture === undefined ? undefined : files[entry.picture];
+  return {
+    name: shownName(entry.name),
+    bytes,
+    address: typeof address === 'string' ? null : address.url,
+    ...(picture === undefined ? {} : { picture }),
+  };
 }
 
 /**
@@ -185,7 +200,8 @@ async function meshOf(entry: MeshEntry, files: Entries): Promise<ProjectMesh | n
  */
 export async function readProject(archive: Uint8Array, archiver: Archiver): Promise<Project> {
   const { meshes, work, result } = manifestOf(archive);
-  const names = [...meshes.map((mesh) => mesh?.entry), result?.report, result?.map].filter((name) => typeof name === 'string');
+  const parts = meshes.flatMap((mesh) => [mesh?.entry, mesh?.picture]);
+  const names = [...parts, result?.report, result?.map].filter((name) => typeof name === 'string');
   const files = await archiver.read(archive, names).catch((thrown: unknown) => {
     throw refusal(thrown);
   });

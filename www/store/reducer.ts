@@ -30,7 +30,7 @@ import { withSideMarks } from './side-marks.ts';
 import { withFound, withSearch, withSearched, withTaken } from './search.ts';
 import type { Result, State, Style } from './state.ts';
 import { shownResult } from './staleness.ts';
-import type { Axis } from './work.ts';
+import type { Axis, MeshFile } from './work.ts';
 import { workOf } from './work.ts';
 
 /** A change of the run under way; without one, none. */
@@ -82,6 +82,11 @@ function withResult(state: State, result: Result): State {
   return isShown ? done : withStyle(done, { surface: 'pattern' });
 }
 
+/** A mesh came; colours of its own are shown where nothing else was chosen. */
+function withOwnLook(state: State, { look }: MeshFile): State {
+  return look === 'colours' && state.ui.style.surface === 'shaded' ? withStyle(state, { surface: 'look' }) : state;
+}
+
 /** A proof is over; what came too late for the map that is proved now is left out. */
 function withProof(state: State, of: Result, answer: ProofReport | null): State {
   return state.proof?.of === of ? { ...state, proof: answer === null ? null : { of, answer } } : state;
@@ -97,7 +102,7 @@ export function update(state: State, event: Event): State {
     case 'task-ended':
       return { ...state, job: ended(state.job, event.task) };
     case 'mesh':
-      return withoutRefused(withMesh(state, event.side, event.file), event.side);
+      return withOwnLook(withoutRefused(withMesh(state, event.side, event.file), event.side), event.file);
     case 'mirrored':
       return withMirrored(state, event.file, event.points);
     case 'swap-meshes':

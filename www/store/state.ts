@@ -16,8 +16,8 @@ import { NO_WORK } from './work.ts';
 export type { Axis, Demo, MeshFile, Work } from './work.ts';
 
 export interface Style {
-  /** Plain clay; a pattern in space, which the map carries to the source; the flat metric's checkerboard; colours of the place on the target; distortion. */
-  readonly surface: 'shaded' | 'pattern' | 'checkerboard' | 'colours' | 'distortion';
+  /** Plain clay; the colours of the mesh's file, which the map carries; a pattern in space, which the map carries to the source; the flat metric's checkerboard; colours of the place on the target; distortion. */
+  readonly surface: 'shaded' | 'look' | 'pattern' | 'checkerboard' | 'colours' | 'distortion';
   readonly patchLines: boolean;
   readonly cones: boolean;
   readonly markers: boolean;

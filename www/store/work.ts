@@ -1,5 +1,5 @@
 /** The work: everything that the user made and that undo gives back. */
-import type { Pair } from '../landmarks.ts';
+import type { Pair, Side } from '../landmarks.ts';
 import type { RunOptions } from '../report.ts';
 import type { LoadedMesh } from '../wasm/conemap.js';
 
@@ -17,9 +17,16 @@ export interface MeshFile {
   readonly vertexCount: number;
   readonly faceCount: number;
   readonly turnedFaces: number;
+  /** The file of a picture that came with it; there is none where its own file holds it. */
+  readonly picture?: Uint8Array;
+  /** What its file says of its colours, that picture included. */
+  readonly look: LookKind;
   /** What was repaired, in a sentence without a full stop; empty where the mesh was good as given. */
   readonly repairs: string;
 }
+
+/** None; places in a picture that is not there; colours, or a picture with its places. */
+export type LookKind = 'none' | 'places' | 'colours';
 
 export interface Demo {
   readonly id: string;
@@ -70,6 +77,14 @@ export function isSameWork(a: Work, b: Work): boolean {
     a.groundTruth === b.groundTruth &&
     a.options === b.options
   );
+}
+
+/** The side whose colours a map carries to the other one: the target's, where its file has some; `null` where neither has. */
+export function giverOf({ meshes: [source, target] }: Pick<Work, 'meshes'>): Side | null {
+  if (target?.look === 'colours') {
+    return 1;
+  }
+  return source?.look === 'colours' ? 0 : null;
 }
 
 /** A mesh's name for the eye: without the ending of its file. */

@@ -10,6 +10,8 @@ import type { Viewer } from '../wasm/conemap.js';
 /** The sides on which a style is drawn on the map's own triangles; the meshes themselves can show the others. */
 const OVERLAYS: Readonly<Record<Style['surface'], readonly Side[]>> = {
   shaded: [],
+  // What the map carries of it has triangles of its own.
+  look: [],
   // What follows from the place on the target, the target's mesh shows.
   pattern: [0],
   colours: [0],
@@ -22,6 +24,8 @@ export class Picture {
   #result: Result | null = null;
   #overlays = new Set<Side>();
   #lines = false;
+  #carried = false;
+  #giver: Side | null = null;
   #map = false;
   #patches = false;
   #lit: BasePart | null = null;
@@ -35,12 +39,14 @@ export class Picture {
     return this.#isMorphed;
   }
 
-  /** Another map, or none; what was of the last one goes. */
-  take(viewer: Viewer, result: Result | null): void {
+  /** Another map, or none; what was of the last one goes. The look of the giver, where there is one, is carried by the map. */
+  take(viewer: Viewer, result: Result | null, giver: Side | null): void {
     viewer.clearResult();
     this.#result = result;
     this.#overlays = new Set();
     this.#lines = false;
+    this.#carried = false;
+    this.#giver = giver;
     this.#map = false;
     this.#patches = false;
     this.#lit = null;
@@ -60,6 +66,21 @@ export class Picture {
     return result !== null;
   }
 
+  /** Brings the map's triangles in the look that it carries: the target's, or else the source's. */
+  #bringLook(viewer: Viewer, { sides, triangles, faces }: Result['output']): void {
+    const giver = this.#giver;
+    if (this.#carried || giver === null || faces[giver].length === 0) {
+      return;
+    }
+    const [{ positions: places }, target] = [sides[giver], sides[1]];
+    // The giver itself goes on its own way to the target's shape where it is the source.
+    for (const side of giver === 0 ? SIDES : ([0] as const)) {
+      const { positions, normals } = sides[side];
+      viewer.setCarriedLook(side, giver, positions, normals, places, target.positions, target.normals, triangles, faces[giver]);
+    }
+    this.#carried = true;
+  }
+
   /** Brings what a style needs. */
   bring(viewer: Viewer, style: Style): void {
     const result = this.#result;
@@ -67,6 +88,9 @@ export class Picture {
       return;
     }
     const { output } = result;
+    if (style.surface === 'look') {
+      this.#bringLook(viewer, output);
+    }
     for (const side of OVERLAYS[style.surface]) {
       this.bringOverlay(viewer, side);
     }

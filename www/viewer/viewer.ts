@@ -13,6 +13,8 @@ import type { Event } from '../store/events.ts';
 import { shownPreview } from '../store/job.ts';
 import { hasItsCones, shownResult } from '../store/staleness.ts';
 import type { Axis, Camera, Proposal, State } from '../store/state.ts';
+import type { MeshFile } from '../store/work.ts';
+import { giverOf } from '../store/work.ts';
 import { Viewer } from '../wasm/conemap.js';
 import type { Direction } from './cameras.ts';
 import { cameraOf, Cameras } from './cameras.ts';
@@ -26,6 +28,7 @@ import { labelsOf, marksOf } from './pins.ts';
 import type { Probe } from './probe.ts';
 import { probeOf } from './probe.ts';
 import { Rings } from './rings.ts';
+import { decoded } from './decoded.ts';
 import { fitCanvas, fitViewer, samplesOf, whenResized } from './screen.ts';
 
 /** What the views tell the page. */
@@ -310,7 +313,7 @@ export class Views {
     }
     this.#with((viewer) => {
       if (isOther) {
-        this.#picture.take(viewer, result);
+        this.#picture.take(viewer, result, giverOf(state));
       }
       if (isOtherMesh) {
         this.#setMeshes(viewer, previous);
@@ -350,9 +353,23 @@ export class Views {
         viewer.clearMesh(side);
       } else {
         viewer.setMesh(side, file.mesh);
+        void this.#layPicture(viewer, side, file);
       }
     }
     this.#prepare();
+  }
+
+  /** Lays the picture of a mesh's file on it, once it is read. */
+  async #layPicture(viewer: Viewer, side: Side, file: MeshFile): Promise<void> {
+    const picture = file.look === 'colours' ? (file.picture ?? file.mesh.picture()) : undefined;
+    const pixels = picture === undefined ? null : await decoded(picture as Uint8Array<ArrayBuffer>);
+    // Meanwhile another mesh may have come, or another renderer.
+    if (pixels === null || this.#viewer !== viewer || this.#state.meshes[side] !== file) {
+      return;
+    }
+    this.#with((viewer) => {
+      viewer.setPicture(side, pixels.width, pixels.height, pixels.pixels);
+    });
   }
 
   /** Has large meshes made ready to be pointed at, bit by bit, so that frames go on. */
@@ -407,7 +424,7 @@ export class Views {
     viewer.setStyle(
       JSON.stringify({
         ...style,
-        surface: result === null ? 'shaded' : style.surface,
+        surface: result === null && style.surface !== 'look' ? 'shaded' : style.surface,
         cones: style.cones && hasItsCones(this.#state),
         dark: theme === 'dark' || (theme === 'system' && this.#dark.matches),
         holes: result !== null && result.report.certificate === null,

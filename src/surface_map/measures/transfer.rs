@@ -27,6 +27,8 @@ pub struct CommonMesh {
     pub triangles: Vec<[u32; 3]>,
     /// The piece of the overlay that holds each triangle; for [`mapped_mesh`] the source's face.
     pub pieces: Vec<u32>,
+    /// The face of the source's and of the target's input mesh in which each triangle lies; empty for [`mapped_mesh`].
+    pub faces: Vec<[FaceId; 2]>,
 }
 
 impl CommonMesh {
@@ -135,6 +137,8 @@ pub fn common_mesh(
     for (number, piece) in overlay.pieces.iter().enumerate() {
         pulse.beat()?;
         let (s, t) = (&source_values[piece.source_face], &target_values[piece.target_face]);
+        let faces =
+            [source.refined.face_origin[piece.source_face], target.refined.face_origin[piece.target_face]];
         ring.clear();
         for point in &overlay.points[piece.points.clone()] {
             let position = blend3(s.positions, point.source);
@@ -157,6 +161,7 @@ pub fn common_mesh(
             if triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0] {
                 mesh.triangles.push(triangle);
                 mesh.pieces.push(number as u32);
+                mesh.faces.push(faces);
             }
         }
     }

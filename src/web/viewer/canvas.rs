@@ -38,6 +38,7 @@ pub(super) enum SurfaceStyle {
     Checkerboard,
     Colours,
     Distortion,
+    Look,
 }
 
 impl SurfaceStyle {
@@ -48,6 +49,7 @@ impl SurfaceStyle {
             Self::Checkerboard => Paint::Checkerboard,
             Self::Colours => Paint::Places,
             Self::Distortion => Paint::Distortion,
+            Self::Look => Paint::Look,
         }
     }
 
@@ -70,6 +72,8 @@ pub struct Viewer {
     pub(super) source_from_target: Mat4,
     /// Share of the way between the two moments of a flow that is shown.
     pub(super) factor_share: f32,
+    /// The side whose look the map carries.
+    pub(super) look_giver: Option<usize>,
     pub(super) pixel_ratio: f32,
     /// The time of the last frame.
     pub(super) now: f64,
@@ -92,6 +96,7 @@ impl Viewer {
             morph: 0.0,
             source_from_target: Mat4::IDENTITY,
             factor_share: 0.0,
+            look_giver: None,
             pixel_ratio: 1.0,
             now: 0.0,
         })
@@ -124,6 +129,7 @@ impl Viewer {
         let side = self.side_mut(side);
         side.uncover();
         side.preview = None;
+        side.picture = None;
         side.mesh = Some(shown);
         side.clear_marks();
         side.glide = None;
@@ -133,6 +139,13 @@ impl Viewer {
     /// Goes on with what a large mesh needs before it can be pointed at, for some milliseconds; whether there is more to do.
     pub fn prepare(&mut self) -> bool {
         self.sides.iter_mut().filter_map(|side| side.mesh.as_mut()).any(SideMesh::prepare)
+    }
+
+    /// Lays a picture on a side's look: 8-bit colours with opacity, row by row from the top. One that cannot be drawn is left out.
+    #[wasm_bindgen(js_name = setPicture)]
+    pub fn set_picture(&mut self, side: usize, width: u32, height: u32, pixels: Vec<u8>) {
+        let picture = self.renderer.picture(width, height, pixels);
+        self.side_mut(side).picture = picture;
     }
 
     /// Empties a view.

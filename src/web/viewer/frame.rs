@@ -1,7 +1,7 @@
 //! One frame of both views.
 
 use super::super::view_side::{Landmark, Side};
-use super::canvas::Viewer;
+use super::canvas::{SurfaceStyle, Viewer};
 use crate::gpu::{Clear, Paint, Palette, ViewDraw};
 use crate::scene::pins::Stand;
 use crate::scene::{MarkerInstance, PinInstance, Pose};
@@ -42,7 +42,7 @@ impl Viewer {
         let (side, style): (&Side, _) = (&self.sides[k], &self.style);
         let pose = side.pose(self.now);
         let defects = side.defects.as_ref().filter(|_| !self.is_morphed(k));
-        let bare = ViewDraw {
+        let bare = || ViewDraw {
             rectangle: side.rectangle,
             pose,
             paint: Paint::Plain,
@@ -61,29 +61,37 @@ impl Viewer {
             dash: self.dash(side, pose),
             balls: marks.balls,
             pins: marks.pins,
+            picture: None,
         };
         if let Some(refused) = side.refused() {
-            return ViewDraw { paint: Paint::Refused, surface: Some(refused), ..bare };
+            return ViewDraw { paint: Paint::Refused, surface: Some(refused), ..bare() };
         }
         let own = side.mesh.as_ref().map(|m| &m.surface);
         if let Some(preview) = &self.sides[0].preview {
             let surface = if k == 0 { Some(&preview.mesh) } else { own };
-            return ViewDraw { paint: Paint::Pattern, surface, ..bare };
+            return ViewDraw { paint: Paint::Pattern, surface, ..bare() };
         }
         if let Some(stage) = side.stage.as_ref().filter(|_| !self.is_morphed(k)) {
             let palette = Palette { line: [0.03, 0.03, 0.03], ..self.palette() };
             let line_half_width = 0.55 * self.pixel_ratio;
             let lines = stage.edges.as_ref();
-            return ViewDraw { palette, line_half_width, surface: Some(&stage.surface), lines, ..bare };
+            return ViewDraw { palette, line_half_width, surface: Some(&stage.surface), lines, ..bare() };
         }
         if let Some(factors) = &side.factors
             && !self.is_morphed(k)
         {
             let lines = side.lines.as_ref().filter(|_| style.patch_lines);
             let paint = Paint::Factors(self.factor_share);
-            return ViewDraw { paint, surface: Some(&factors.mesh), lines, ..bare };
+            return ViewDraw { paint, surface: Some(&factors.mesh), lines, ..bare() };
         }
+        if style.surface == SurfaceStyle::Look
+            && let Some(shown) = self.in_look(k, bare())
+        {
+            return shown;
+        }
+        // Without a look to show, surfaces are plain.
         let paint = style.surface.paint();
+        let paint = if paint == Paint::Look { Paint::Plain } else { paint };
         let morph = if k == 0 && side.overlay.is_some() { self.morph } else { 0.0 };
         let shows_own = morph == 0.0 && (paint == Paint::Plain || (k == 1 && style.surface.is_of_places()));
         let overlay = side.overlay.as_ref().filter(|_| !shows_own);
@@ -96,8 +104,29 @@ impl Viewer {
             tinted: side.lit.surface.as_ref().filter(|_| morph == 0.0),
             traced: side.lit.lines.as_ref().filter(|_| morph == 0.0),
             lines: side.lines.as_ref().filter(|_| style.patch_lines && morph == 0.0),
-            ..bare
+            ..bare()
         }
+    }
+
+    /// A view in the look of the giving side, which the map carries, or in its own where there is no map; `None` where there is no look.
+    fn in_look<'a>(&'a self, k: usize, bare: ViewDraw<'a>) -> Option<ViewDraw<'a>> {
+        let side = &self.sides[k];
+        let own = side.mesh.as_ref().and_then(|mesh| mesh.dressed.as_ref());
+        let giver = self.look_giver.filter(|_| side.carried.is_some());
+        let morph = if k == 0 && giver.is_some() { self.morph } else { 0.0 };
+        let surface = if giver.is_some() { side.carried.as_ref() } else { own };
+        let is_still = morph == 0.0;
+        Some(ViewDraw {
+            paint: Paint::Look,
+            morph,
+            wipe: self.style.wipe.filter(|_| k == 0).unwrap_or(0.0),
+            surface: Some(surface?),
+            picture: self.sides[giver.unwrap_or(k)].picture.as_ref(),
+            tinted: side.lit.surface.as_ref().filter(|_| is_still),
+            traced: side.lit.lines.as_ref().filter(|_| is_still),
+            lines: side.lines.as_ref().filter(|_| self.style.patch_lines && is_still),
+            ..bare
+        })
     }
 
     /// The length of a dash with its gap in scene units: about as long on the screen whatever the distance, and the same while the

@@ -3,11 +3,18 @@
 use super::super::view_side::Side;
 use super::canvas::Viewer;
 use super::reading::{point, strips};
+use crate::mesh::FaceId;
 use crate::scene::buffers::ribbons;
+use crate::scene::looks::{Giver, carried};
 use crate::scene::morph::laid_on;
 use crate::scene::{MapPicker, SurfaceVertex};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use wasm_bindgen::prelude::*;
+
+/// The numbers of a point.
+fn three(numbers: &[f32], k: usize) -> [f32; 3] {
+    [numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]]
+}
 
 #[wasm_bindgen]
 impl Viewer {
@@ -36,7 +43,6 @@ impl Viewer {
             return;
         }
         let hollows = own.hollows_at(positions, triangles);
-        let three = |a: &[f32], k: usize| [a[3 * k], a[3 * k + 1], a[3 * k + 2]];
         let vertex = |k: usize| SurfaceVertex {
             position: own.frame.place(point(three(positions, k))).to_array(),
             normal: three(normals, k),
@@ -45,6 +51,7 @@ impl Viewer {
             image: target.frame.place(point(three(images, k))).to_array(),
             image_normal: three(image_normals, k),
             hollow: hollows[k],
+            ..SurfaceVertex::default()
         };
         let vertices: Vec<SurfaceVertex> = (0..count).map(vertex).collect();
         let uploaded = self.renderer.surface_mesh(&vertices, triangles);
@@ -54,6 +61,49 @@ impl Viewer {
             self.source_from_target = laid_on(&images, &places);
         }
         self.side_mut(side).overlay = Some(uploaded);
+    }
+
+    /// Takes the map's triangles as one side sees them in the look of the giving side: positions and normals there, the places on the
+    /// giver, the images on the target, and the giver's face of each triangle.
+    #[wasm_bindgen(js_name = setCarriedLook)]
+    #[allow(clippy::too_many_arguments, reason = "typed arrays cannot be bundled")]
+    pub fn set_carried_look(
+        &mut self,
+        side: usize,
+        giver: usize,
+        positions: &[f32],
+        normals: &[f32],
+        places: &[f32],
+        images: &[f32],
+        image_normals: &[f32],
+        triangles: &[u32],
+        faces: &[u32],
+    ) {
+        let [own, given, target] = [side, giver, 1].map(|side| self.sides[side.min(1)].mesh.as_ref());
+        let (Some(own), Some(given), Some(target)) = (own, given, target) else { return };
+        let Some(look) = given.look.as_deref() else { return };
+        let count = positions.len() / 3;
+        let numbers = [normals.len(), places.len(), images.len(), image_normals.len()];
+        if numbers.iter().any(|n| *n != 3 * count) || triangles.iter().any(|&v| v as usize >= count) {
+            return;
+        }
+        let hollows = own.hollows_at(positions, triangles);
+        let vertex = |k: usize| SurfaceVertex {
+            position: own.frame.place(point(three(positions, k))).to_array(),
+            normal: three(normals, k),
+            image: target.frame.place(point(three(images, k))).to_array(),
+            image_normal: three(image_normals, k),
+            hollow: hollows[k],
+            ..SurfaceVertex::default()
+        };
+        let bare: Vec<SurfaceVertex> = (0..count).map(vertex).collect();
+        let places: Vec<DVec3> = (0..count).map(|k| point(three(places, k))).collect();
+        let faces: Vec<FaceId> = faces.iter().map(|face| FaceId(*face)).collect();
+        let from = Giver { mesh: &given.checked.mesh, look };
+        let (vertices, indices) = carried(from, &bare, &places, triangles.as_chunks().0, &faces);
+        let uploaded = self.renderer.surface_mesh(&vertices, &indices);
+        self.side_mut(side).carried = Some(uploaded);
+        self.look_giver = Some(giver.min(1));
     }
 
     /// Takes patch lines of one side: their points, and where each line starts among them, and one past the end.
@@ -90,6 +140,7 @@ impl Viewer {
     pub fn clear_result(&mut self) {
         self.sides.iter_mut().for_each(Side::clear_result);
         self.map = None;
+        self.look_giver = None;
         self.morph = 0.0;
     }
 }

@@ -20,6 +20,7 @@ function anyProject(random: Random): Project {
     name,
     bytes: random.bytes(random.below(5000)),
     address: random.of([null, 'https://data.example/cat.obj']),
+    ...random.of([{}, { picture: random.bytes(50) }]),
   });
   return {
     meshes: random.of([

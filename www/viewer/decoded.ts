@@ -1,0 +1,28 @@
+/** Pictures of files as pixels. */
+
+/** A picture's pixels: red, green, blue and opacity, row by row from the top. */
+export interface Pixels {
+  readonly width: number;
+  readonly height: number;
+  readonly pixels: Uint8Array;
+}
+
+/** Pixels on the longer side: more is not seen at the views' size. */
+const LARGEST = 2048;
+
+/** The pixels of a picture's file, made smaller where there are many; `null` where it cannot be read. */
+export async function decoded(file: Uint8Array<ArrayBuffer>): Promise<Pixels | null> {
+  try {
+    const picture = await createImageBitmap(new Blob([file]));
+    const scale = Math.min(1, LARGEST / Math.max(picture.width, picture.height));
+    const [width, height] = [Math.max(1, Math.round(scale * picture.width)), Math.max(1, Math.round(scale * picture.height))];
+    const context = new OffscreenCanvas(width, height).getContext('2d');
+    context?.drawImage(picture, 0, 0, width, height);
+    picture.close();
+    const data = context?.getImageData(0, 0, width, height).data;
+    return data === undefined ? null : { width, height, pixels: new Uint8Array(data.buffer) };
+  } catch (thrown) {
+    console.warn(thrown);
+    return null;
+  }
+}
