@@ -118,13 +118,42 @@ interface PictureProps extends Pick<PlaneProps, 'parts' | 'counts'> {
   readonly look: PlaneFrame['look'];
 }
 
-/** One mesh in the plane. */
-function PlanePicture({ name, side, planes, grown, shown, circles, look, parts, counts }: PictureProps): VNode {
-  const canvas = useRef<HTMLCanvasElement>(null);
-  const size = useSize(canvas);
+/** Where a view looks, and how hands change it. */
+interface Looking extends Pick<PlaneFrame, 'x' | 'y' | 'scale'> {
+  readonly isWhole: boolean;
+  readonly showAll: () => void;
+  /** Moves what is seen, in pixels. */
+  readonly move: (dx: number, dy: number) => void;
+  /** Multiplies its size; what is under this point of the picture, in pixels from its middle, stays. */
+  readonly zoom: (factor: number, dx?: number, dy?: number) => void;
+}
+
+function useLooking(grown: GrownSide, size: Size): Looking {
   const [view, setView] = useState<View | null>(null);
-  const density = Math.min(2, window.devicePixelRatio);
+  useEffect(() => {
+    setView(null);
+  }, [grown]);
+  const fit = placing(null, grown.box, size).scale;
   const { x, y, scale } = placing(view, grown.box, size);
+  return {
+    ...{ x, y, scale },
+    isWhole: view === null,
+    showAll: () => {
+      setView(null);
+    },
+    move: (dx, dy) => {
+      setView({ x: x - dx / scale, y: y + dy / scale, zoom: scale / fit });
+    },
+    zoom: (factor, dx = 0, dy = 0) => {
+      const to = fit * Math.min(ZOOMS[1], Math.max(ZOOMS[0], (scale / fit) * factor));
+      setView({ x: x + dx / scale - dx / to, y: y - dy / scale + dy / to, zoom: to / fit });
+    },
+  };
+}
+
+/** Has the picture drawn as it changes, the latest first. */
+function useDrawn(canvas: { readonly current: HTMLCanvasElement | null }, { side, planes, grown, shown, circles, look, parts }: PictureProps, size: Size, { x, y, scale }: Looking): void {
+  const density = Math.min(2, window.devicePixelRatio);
   const draw = useLatest(async (frame: PlaneFrame) => {
     const bitmap = await planes.ask('draw', frame);
     canvas.current?.getContext('bitmaprenderer')?.transferFromImageBitmap(bitmap);
@@ -135,97 +164,123 @@ function PlanePicture({ name, side, planes, grown, shown, circles, look, parts, 
     const [width, height] = [Math.round(size.width * density), Math.round(size.height * density)];
     draw({ side, width, height, density, x, y, scale: scale * density, shown, lit, circles, look });
   }, [grown, size, x, y, scale, shown, lit?.kind, lit?.index, circles, look]);
-  useEffect(() => {
-    setView(null);
-  }, [grown]);
-  const lookAt = (next: { readonly x: number; readonly y: number; readonly scale: number }): void => {
-    const fit = placing(null, grown.box, size).scale;
-    setView({ x: next.x, y: next.y, zoom: Math.min(ZOOMS[1], Math.max(ZOOMS[0], next.scale / fit)) });
+}
+
+/** What a key does; nothing where it is not the picture's. */
+function actionOf({ key, shiftKey }: KeyboardEvent, { parts, counts }: PictureProps, { move, zoom, showAll }: Looking): (() => void) | undefined {
+  const kind = PART_KEYS[key.toLowerCase()];
+  if (kind !== undefined && counts[kind] > 0) {
+    return () => {
+      parts.hold(stepped(parts.held, kind, shiftKey ? -1 : 1, counts[kind]));
+    };
+  }
+  const actions: Readonly<Partial<Record<string, () => void>>> = {
+    ArrowLeft: () => { move(KEY_MOVE, 0); },
+    ArrowRight: () => { move(-KEY_MOVE, 0); },
+    ArrowUp: () => { move(0, KEY_MOVE); },
+    ArrowDown: () => { move(0, -KEY_MOVE); },
+    '+': () => { zoom(KEY_ZOOM); },
+    '-': () => { zoom(1 / KEY_ZOOM); },
+    '0': showAll,
+    Escape: () => { parts.hold(null); },
   };
-  const move = (dx: number, dy: number): void => {
-    lookAt({ x: x - dx / scale, y: y + dy / scale, scale });
-  };
-  /** Keeps the place under a point of the picture, from its middle. */
-  const zoom = (factor: number, dx = 0, dy = 0): void => {
-    const to = Math.min(ZOOMS[1], Math.max(ZOOMS[0], (scale * factor) / placing(null, grown.box, size).scale)) * placing(null, grown.box, size).scale;
-    lookAt({ x: x + dx / scale - dx / to, y: y - dy / scale + dy / to, scale: to });
-  };
-  const partUnder = async ({ clientX, clientY }: { readonly clientX: number; readonly clientY: number }): Promise<BasePart | null> => {
+  return actions[key];
+}
+
+type PointerHandlers = Readonly<Record<'onPointerDown' | 'onPointerMove' | 'onPointerUp' | 'onPointerCancel' | 'onPointerLeave', (event: PointerEvent) => void>>;
+
+/** A drag moves the picture, a click holds a part, and what is under the pointer is asked for. */
+function usePointer(canvas: { readonly current: HTMLCanvasElement | null }, { side, planes, shown, parts }: PictureProps, size: Size, { x, y, scale, move }: Looking): PointerHandlers {
+  const isOver = useRef(false);
+  const pressed = useRef<{ readonly x: number; readonly y: number; readonly travelled: number } | null>(null);
+  const partUnder = async ({ clientX, clientY }: PointerEvent): Promise<BasePart | null> => {
     const box = canvas.current?.getBoundingClientRect();
     const [dx, dy] = [clientX - (box?.left ?? 0) - size.width / 2, clientY - (box?.top ?? 0) - size.height / 2];
     return planes.ask('ask', { side, x: x + dx / scale, y: y - dy / scale, reach: REACH / scale, shown });
   };
-  const isOver = useRef(false);
   const hover = useLatest(async (event: PointerEvent) => {
     const part = await partUnder(event);
     parts.hover(isOver.current ? part : null);
   });
-  const pressed = useRef<{ readonly x: number; readonly y: number; readonly travelled: number } | null>(null);
-  const press = (event: KeyboardEvent): void => {
-    const kind = PART_KEYS[event.key.toLowerCase()];
-    const moves: Readonly<Partial<Record<string, () => void>>> = {
-      ArrowLeft: () => { move(KEY_MOVE, 0); },
-      ArrowRight: () => { move(-KEY_MOVE, 0); },
-      ArrowUp: () => { move(0, KEY_MOVE); },
-      ArrowDown: () => { move(0, -KEY_MOVE); },
-      '+': () => { zoom(KEY_ZOOM); },
-      '-': () => { zoom(1 / KEY_ZOOM); },
-      '0': () => { setView(null); },
-      Escape: () => { parts.hold(null); },
-    };
-    const action =
-      kind === undefined || counts[kind] === 0
-        ? moves[event.key]
-        : (): void => {
-            parts.hold(stepped(parts.held, kind, event.shiftKey ? -1 : 1, counts[kind]));
-          };
-    if (action !== undefined && !event.ctrlKey && !event.metaKey && !event.altKey) {
-      event.preventDefault();
-      event.stopPropagation();
-      action();
-    }
+  return {
+    onPointerDown: (event) => {
+      canvas.current?.setPointerCapture(event.pointerId);
+      pressed.current = { x: event.clientX, y: event.clientY, travelled: 0 };
+    },
+    onPointerMove: (event) => {
+      isOver.current = true;
+      const from = pressed.current;
+      if (from === null) {
+        hover(event);
+        return;
+      }
+      const [dx, dy] = [event.clientX - from.x, event.clientY - from.y];
+      const travelled = from.travelled + Math.hypot(dx, dy);
+      pressed.current = { x: event.clientX, y: event.clientY, travelled };
+      if (travelled > CLICK_SLACK) {
+        move(dx, dy);
+      }
+    },
+    onPointerUp: (event) => {
+      if ((pressed.current?.travelled ?? Infinity) <= CLICK_SLACK) {
+        void partUnder(event).then(parts.hold);
+      }
+      pressed.current = null;
+    },
+    onPointerCancel: () => {
+      pressed.current = null;
+    },
+    onPointerLeave: () => {
+      isOver.current = false;
+      parts.hover(null);
+    },
   };
+}
+
+/** The buttons below a picture, for who has neither wheel nor keys. */
+function Caption({ name, looking: { zoom, showAll } }: { readonly name: string; readonly looking: Looking }): VNode {
+  const plane = `the plane of the ${name.toLowerCase()}`;
+  return (
+    <figcaption class="small">
+      <span>{name}</span>
+      <button type="button" aria-label={`Make ${plane} smaller`} onClick={() => { zoom(1 / BUTTON_ZOOM); }}>
+        −
+      </button>
+      <button type="button" aria-label={`Make ${plane} larger`} onClick={() => { zoom(BUTTON_ZOOM); }}>
+        +
+      </button>
+      <button type="button" aria-label={`Show all of ${plane}`} onClick={showAll}>
+        All
+      </button>
+    </figcaption>
+  );
+}
+
+/** One mesh in the plane. */
+function PlanePicture(props: PictureProps): VNode {
+  const { name, side, grown } = props;
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const size = useSize(canvas);
+  const looking = useLooking(grown, size);
+  useDrawn(canvas, props, size, looking);
   return (
     <figure>
       <canvas
         ref={canvas}
         data-plane={side}
-        class={view === null ? 'whole' : undefined}
+        class={looking.isWhole ? 'whole' : undefined}
         role="group"
         tabIndex={0}
         aria-label={`${name} in the plane, ${integer(grown.cutEdges)} edges along the cut. ${HELP}`}
-        onKeyDown={press}
-        onPointerDown={(event) => {
-          canvas.current?.setPointerCapture(event.pointerId);
-          pressed.current = { x: event.clientX, y: event.clientY, travelled: 0 };
-        }}
-        onPointerMove={(event) => {
-          isOver.current = true;
-          const from = pressed.current;
-          if (from === null) {
-            hover(event);
-            return;
-          }
-          const [dx, dy] = [event.clientX - from.x, event.clientY - from.y];
-          const travelled = from.travelled + Math.hypot(dx, dy);
-          pressed.current = { x: event.clientX, y: event.clientY, travelled };
-          if (travelled > CLICK_SLACK) {
-            move(dx, dy);
+        onKeyDown={(event) => {
+          const action = event.ctrlKey || event.metaKey || event.altKey ? undefined : actionOf(event, props, looking);
+          if (action !== undefined) {
+            event.preventDefault();
+            event.stopPropagation();
+            action();
           }
         }}
-        onPointerUp={(event) => {
-          if ((pressed.current?.travelled ?? Infinity) <= CLICK_SLACK) {
-            void partUnder(event).then(parts.hold);
-          }
-          pressed.current = null;
-        }}
-        onPointerCancel={() => {
-          pressed.current = null;
-        }}
-        onPointerLeave={() => {
-          isOver.current = false;
-          parts.hover(null);
-        }}
+        {...usePointer(canvas, props, size, looking)}
         onWheel={(event) => {
           // The panel scrolls on where nobody has clicked before.
           if (document.activeElement !== event.currentTarget && !event.ctrlKey) {
@@ -233,21 +288,10 @@ function PlanePicture({ name, side, planes, grown, shown, circles, look, parts, 
           }
           event.preventDefault();
           const box = event.currentTarget.getBoundingClientRect();
-          zoom(Math.exp(-WHEEL_ZOOM * event.deltaY), event.clientX - box.left - size.width / 2, event.clientY - box.top - size.height / 2);
+          looking.zoom(Math.exp(-WHEEL_ZOOM * event.deltaY), event.clientX - box.left - size.width / 2, event.clientY - box.top - size.height / 2);
         }}
       />
-      <figcaption class="small">
-        <span>{name}</span>
-        <button type="button" aria-label={`Make the plane of the ${name.toLowerCase()} smaller`} onClick={() => { zoom(1 / BUTTON_ZOOM); }}>
-          −
-        </button>
-        <button type="button" aria-label={`Make the plane of the ${name.toLowerCase()} larger`} onClick={() => { zoom(BUTTON_ZOOM); }}>
-          +
-        </button>
-        <button type="button" aria-label={`Show all of the plane of the ${name.toLowerCase()}`} onClick={() => { setView(null); }}>
-          All
-        </button>
-      </figcaption>
+      <Caption name={name} looking={looking} />
     </figure>
   );
 }
