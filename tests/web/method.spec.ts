@@ -172,7 +172,7 @@ async function marked(picture: string): Promise<{ readonly cut: number; readonly
     for (let at = 0; at < data.length; at += 4) {
       const [r = 0, g = 0, b = 0] = data.subarray(at, at + 3);
       cut += r > 170 && g < 90 && b < 90 ? 1 : 0;
-      circles += b > r + 50 && g > r + 30 ? 1 : 0;
+      circles += b > r + 20 && g > r + 10 ? 1 : 0;
     }
     return { cut, circles };
   }, base64);

@@ -158,7 +158,8 @@ export class PlanePainter {
       }
     });
     context.strokeStyle = CIRCLE[frame.look];
-    context.lineWidth = frame.density;
+    // Hardly thicker than a circle is wide, or small ones would hide what is beneath.
+    context.lineWidth = Math.min(frame.density, Math.max(0.3, (0.15 * frame.scale) / Math.sqrt(growth.vertices.length)));
     context.stroke();
   }
 

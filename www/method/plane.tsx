@@ -389,7 +389,7 @@ function Player({ planes, grown, seed, names, theme, parts, counts, onClose }: P
         <li>patch lines</li>
       </ul>
       <Transport name="growth" {...{ last, time, isPlaying, words, rest, toggle }} />
-      <p class="small stage-words">{words}</p>
+      <p class="small growth-words">{words}</p>
       <p class="small quiet" role="status">
         {summary(grown, ring === last)}
       </p>
