@@ -18,7 +18,7 @@ import { Runner } from './app/run.ts';
 import { leaveTask } from './app/task.ts';
 import { sharedLink } from './app/sharing.ts';
 import { suggest } from './app/suggest.ts';
-import { startWatching } from './app/watch.ts';
+import { startLayingOut, startSimplifying, startWatching } from './app/watch.ts';
 import { compileCore } from './compute/client.ts';
 import { SENTENCES } from './messages.ts';
 import { download } from './dom.ts';
@@ -149,10 +149,13 @@ const actions: Actions = {
     },
   },
   simplification: {
-    start: (listener) => startWatching(store, runner.core, 'simplifications', listener),
+    start: (listener, from) => startSimplifying(store, runner.core, listener, from),
     show: (frame) => {
       views.showStage(frame);
     },
+  },
+  plane: {
+    start: (listener) => startLayingOut(store, runner.core, listener),
   },
   proposedUp: (side) => views.proposedUp(side),
   lookAtPair: (id) => {

@@ -7,5 +7,5 @@ mod simplify;
 mod stages;
 
 pub use domain::BaseDomain;
-pub use simplify::{SimplifyError, simplification_stages, simplify};
+pub use simplify::{SimplifyError, joint_simplification_stages, simplification_stages, simplify};
 pub use stages::SimplificationStage;

@@ -59,7 +59,27 @@ pub fn simplification_stages(
     landmarks: &[VertexId],
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<SimplificationStage>, SimplifyError> {
-    let mut simplification = Simplification::new(mesh, landmarks)?;
+    staged(Simplification::new(mesh, landmarks)?, monitor)
+}
+
+/// Collapses of a mesh that has two shapes, in stages: each is the cheapest by the quadrics of both together, and spares both.
+///
+/// The shapes are those of one mesh, and should have areas near each other.
+///
+/// # Errors
+/// [`SimplifyError`].
+pub fn joint_simplification_stages(
+    [mesh, shape]: [&SurfaceMesh; 2],
+    landmarks: &[VertexId],
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<SimplificationStage>, SimplifyError> {
+    staged(Simplification::new(mesh, landmarks)?.with_shape(shape), monitor)
+}
+
+fn staged(
+    mut simplification: Simplification<'_>,
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<SimplificationStage>, SimplifyError> {
     simplification.stages = Some(Stages::new(&simplification.mesh));
     simplification.run(monitor)?;
     let Simplification { stages, mesh, .. } = simplification;
@@ -69,11 +89,29 @@ pub fn simplification_stages(
 /// A collapse that waits for its turn.
 type Collapse = Queued<(VertexId, u32), HalfedgeId>;
 
+/// A shape of the mesh with its quadrics.
+struct Shape<'a> {
+    mesh: &'a SurfaceMesh,
+    quadrics: TiVec<VertexId, Quadric>,
+}
+
+/// By vertex the quadric of its triangles.
+fn quadrics_of(mesh: &SurfaceMesh) -> TiVec<VertexId, Quadric> {
+    let mut quadrics = ti_vec![Quadric::ZERO; mesh.vertex_count()];
+    for f in mesh.faces() {
+        let plane = Quadric::of_triangle(mesh.corners(f));
+        mesh.triangles()[f].iter().for_each(|&v| quadrics[v].add(&plane));
+    }
+    quadrics
+}
+
 struct Simplification<'a> {
     input: &'a SurfaceMesh,
     mesh: CollapsibleMesh,
     protected: TiVec<VertexId, bool>,
     quadrics: TiVec<VertexId, Quadric>,
+    /// Another shape of the mesh that counts as much.
+    other: Option<Shape<'a>>,
     /// Where somebody looks on.
     stages: Option<Stages>,
 }
@@ -83,14 +121,15 @@ impl<'a> Simplification<'a> {
         if landmarks.len() < 4 {
             return Err(SimplifyError::TooFew { count: landmarks.len() });
         }
-        let mut quadrics = ti_vec![Quadric::ZERO; input.vertex_count()];
-        for f in input.faces() {
-            let plane = Quadric::of_triangle(input.corners(f));
-            input.triangles()[f].iter().for_each(|&v| quadrics[v].add(&plane));
-        }
         let mut protected = ti_vec![false; input.vertex_count()];
         landmarks.iter().for_each(|&v| protected[v] = true);
-        Ok(Self { input, mesh: CollapsibleMesh::new(input), protected, quadrics, stages: None })
+        let (mesh, quadrics) = (CollapsibleMesh::new(input), quadrics_of(input));
+        Ok(Self { input, mesh, protected, quadrics, other: None, stages: None })
+    }
+
+    fn with_shape(mut self, mesh: &'a SurfaceMesh) -> Self {
+        self.other = Some(Shape { mesh, quadrics: quadrics_of(mesh) });
+        self
     }
 
     fn run(&mut self, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
@@ -124,6 +163,10 @@ impl<'a> Simplification<'a> {
             let kept = self.mesh.head(halfedge);
             let absorbed = self.quadrics[vertex];
             self.quadrics[kept].add(&absorbed);
+            if let Some(Shape { quadrics, .. }) = &mut self.other {
+                let absorbed = quadrics[vertex];
+                quadrics[kept].add(&absorbed);
+            }
             self.collapse(halfedge);
             touched.clear();
             touched.push(kept);
@@ -141,19 +184,30 @@ impl<'a> Simplification<'a> {
         if self.protected[v] {
             return None;
         }
-        let positions = self.input.positions();
         let mut best: Option<Collapse> = None;
         for halfedge in self.mesh.star(v) {
-            let cost = self.quadrics[v].at(positions[self.mesh.head(halfedge)]);
+            let cost = self.cost(v, self.mesh.head(halfedge));
             let better = best.as_ref().is_none_or(|b| cost < b.cost);
             if better
                 && self.mesh.link_condition(halfedge)
-                && limits.is_none_or(|l| self.mesh.keeps_shape(halfedge, positions, l))
+                && limits.is_none_or(|l| self.keeps_shape(halfedge, l))
             {
                 best = Some(Queued { cost, key: (v, version), value: halfedge });
             }
         }
         best
+    }
+
+    /// What it costs that a vertex goes to the place of another one.
+    fn cost(&self, v: VertexId, onto: VertexId) -> f64 {
+        let own = self.quadrics[v].at(self.input.positions()[onto]);
+        let Some(Shape { mesh, quadrics }) = &self.other else { return own };
+        own + quadrics[v].at(mesh.positions()[onto])
+    }
+
+    fn keeps_shape(&self, halfedge: HalfedgeId, limits: &ShapeLimits) -> bool {
+        let keeps = |mesh: &SurfaceMesh| self.mesh.keeps_shape(halfedge, mesh.positions(), limits);
+        keeps(self.input) && self.other.as_ref().is_none_or(|shape| keeps(shape.mesh))
     }
 
     /// Flips edges around each vertex left over until it has three neighbours, then collapses it.
@@ -226,6 +280,25 @@ mod tests {
         let number = |v: &VertexId| landmarks.iter().position(|l| l == v).map(VertexId::from).unwrap();
         let named: Vec<[VertexId; 3]> = last.triangles.iter().map(|t| t.each_ref().map(number)).collect();
         assert_eq!(named, base.mesh.triangles().raw);
+    }
+
+    #[test]
+    fn two_shapes_are_spared_both() {
+        let sphere = icosphere(3);
+        let landmarks: Vec<_> = (0..12).map(|k| VertexId(k * 97 % 642)).collect();
+        // A shape of the mesh's own changes nothing; another one does.
+        let alone = simplification_stages(&sphere, &landmarks, &mut Silent).unwrap();
+        assert_eq!(joint_simplification_stages([&sphere, &sphere], &landmarks, &mut Silent).unwrap(), alone);
+        let bent = |p: &glam::DVec3| glam::DVec3::new(p.x, 0.4 * p.y, 1.5 * p.z + p.x * p.x);
+        let bent = sphere.with_positions(sphere.positions().iter().map(bent).collect());
+        let joint = joint_simplification_stages([&sphere, &bent], &landmarks, &mut Silent).unwrap();
+        assert_ne!(joint, alone);
+        let reversed = joint_simplification_stages([&bent, &sphere], &landmarks, &mut Silent).unwrap();
+        let last = |stages: &[SimplificationStage]| stages[stages.len() - 1].vertices;
+        assert_eq!([last(&joint), last(&reversed)], [12, 12]);
+        for stage in &joint {
+            assert_eq!(stage.triangles.len(), 2 * stage.vertices - 4, "Euler's formula");
+        }
     }
 
     #[test]

@@ -31,7 +31,7 @@ pub struct FlatAtlas {
 pub fn flat_atlas(mesh: &SurfaceMesh, metric: &ConeMetric, landmarks: &[VertexId]) -> FlatAtlas {
     let displacements = mesh_displacements(metric);
     let cut = cut_tree(mesh, landmarks);
-    let mut corner_uvs = develop(mesh, &displacements, &cut);
+    let mut corner_uvs = develop(mesh, &displacements, &cut, FaceId(0)).corners;
     let double_area = |uvs: &TiVec<HalfedgeId, DVec2>, f: FaceId| {
         let [p, q, r] = f.halfedges().map(|h| uvs[h]);
         signed_double_area(p, q, r)
@@ -89,30 +89,51 @@ fn cut_tree(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> TiVec<HalfedgeId, boo
     cut
 }
 
-/// Places the faces breadth first across edges that are not cut.
-fn develop(
+/// Faces placed in the plane next to each other.
+pub(super) struct Development {
+    /// For each halfedge the place of its start in its face.
+    pub corners: TiVec<HalfedgeId, DVec2>,
+    /// The faces in the order in which they were placed.
+    pub order: Vec<FaceId>,
+    /// Where each ring around the first face starts in that order, and one past the end.
+    pub rings: Vec<usize>,
+    /// Whether a face was placed across the edge; twins agree.
+    pub joined: TiVec<HalfedgeId, bool>,
+}
+
+/// Places the faces breadth first from a seed, across edges that are not cut.
+pub(super) fn develop(
     mesh: &SurfaceMesh,
     along: &TiVec<HalfedgeId, DVec2>,
     cut: &TiVec<HalfedgeId, bool>,
-) -> TiVec<HalfedgeId, DVec2> {
-    let mut uvs = ti_vec![DVec2::ZERO; along.len()];
+    seed: FaceId,
+) -> Development {
+    let mut corners = ti_vec![DVec2::ZERO; along.len()];
+    let mut joined = ti_vec![false; along.len()];
+    let (mut order, mut rings) = (Vec::with_capacity(mesh.face_count()), vec![0]);
     let mut placed: TiVec<FaceId, bool> = ti_vec![false; mesh.face_count()];
-    let mut queue = VecDeque::from([(HalfedgeId(0), DVec2::ZERO, DVec2::X)]);
-    placed[FaceId(0)] = true;
-    while let Some((h, start, turn)) = queue.pop_front() {
-        uvs[h] = start;
-        uvs[h.next()] = start + complex_mul(turn, along[h]);
-        uvs[h.prev()] = uvs[h.next()] + complex_mul(turn, along[h.next()]);
+    let mut queue = VecDeque::from([(HalfedgeId::of(seed, 0), DVec2::ZERO, DVec2::X, 0)]);
+    placed[seed] = true;
+    while let Some((h, start, turn, ring)) = queue.pop_front() {
+        if ring == rings.len() {
+            rings.push(order.len());
+        }
+        order.push(h.face());
+        corners[h] = start;
+        corners[h.next()] = start + complex_mul(turn, along[h]);
+        corners[h.prev()] = corners[h.next()] + complex_mul(turn, along[h.next()]);
         for exit in [h, h.next(), h.prev()] {
             let t = mesh.twin(exit);
             if !cut[exit] && !std::mem::replace(&mut placed[t.face()], true) {
+                (joined[exit], joined[t]) = (true, true);
                 let back = -complex_mul(turn, along[exit]);
                 let turn = conj_mul(along[t], back).normalize_or(DVec2::X);
-                queue.push_back((t, uvs[exit.next()], turn));
+                queue.push_back((t, corners[exit.next()], turn, ring + 1));
             }
         }
     }
-    uvs
+    rings.push(order.len());
+    Development { corners, order, rings, joined }
 }
 
 /// L2 stretch of texture coordinates over their positive faces (Sander et al. 2001, eq. 2); 1 for an isometry.

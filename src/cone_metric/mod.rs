@@ -6,12 +6,14 @@
 
 pub mod atlas;
 mod flow;
+mod growth;
 mod metric;
 mod record;
 mod scheme;
 pub mod target;
 
 pub use flow::{FlowError, FlowOptions, FlowReport, flow, recorded_flow};
+pub use growth::{FlatSurface, PlaneLayout};
 pub use metric::ConeMetric;
 pub use record::{FlowMoment, FlowRecord};
 pub use scheme::Scheme;

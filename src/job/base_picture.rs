@@ -5,9 +5,9 @@ use super::Job;
 use super::taken::TakenMap;
 use crate::base_domain::BaseDomain;
 use crate::map_file::FileMesh;
-use crate::mesh::{HalfedgeId, Place, SurfaceMesh};
+use crate::mesh::{FaceId, HalfedgeId, Place, SurfaceMesh};
 use crate::pipeline::MapResult;
-use crate::surface_map::flat_layout::{FlatDrawing, FlatLayout, TrianglesByChart};
+use crate::surface_map::flat_layout::{BorderPart, FlatDrawing, FlatLayout, TrianglesByChart};
 use glam::DVec3;
 use std::f64::consts::TAU;
 use typed_index_collections::{TiVec, ti_vec};
@@ -33,8 +33,12 @@ pub struct BaseShape {
     /// Corners of the parts of the mesh.
     pub points: Vec<DVec3>,
     /// The parts of the mesh as triangles of points, patch after patch in the order of the base triangles; none where they are not
-    /// known.
+    /// known. Faces are those of the checked mesh.
     pub patches: TrianglesByChart,
+    /// The borders of the patches, piece by piece, from both sides; faces likewise, ends are numbers of points.
+    pub borders: Vec<BorderPart>,
+    /// By base triangle the face in the middle of its patch, of the checked mesh; none where patches are not known.
+    pub middles: Vec<FaceId>,
 }
 
 impl Job {
@@ -42,8 +46,12 @@ impl Job {
     pub fn base_picture(&self, result: &MapResult) -> BasePicture {
         let meshes = [&self.placed.source.mesh, &self.placed.target.mesh];
         let given = |side: usize, p| self.meshes[side].as_given(p);
-        if let Some(picture) =
-            result.flat_layout.as_ref().and_then(|layout| BasePicture::of_layout(layout, meshes, given))
+        let placed = [&self.placed.source, &self.placed.target];
+        let checked = |side: usize, f: FaceId| placed[side].face_origin[f];
+        if let Some(picture) = result
+            .flat_layout
+            .as_ref()
+            .and_then(|layout| BasePicture::of_layout(layout, meshes, given, checked))
         {
             return picture;
         }
@@ -60,26 +68,32 @@ impl TakenMap<'_> {
         let layout = self.map().layout.as_ref()?;
         let [source, target] = self.meshes();
         let given = |side: usize, p| [source, target][side].as_given(p);
-        BasePicture::of_layout(layout, [source, target].map(FileMesh::mesh), given)
+        BasePicture::of_layout(layout, [source, target].map(FileMesh::mesh), given, |_, f| f)
     }
 }
 
 impl BasePicture {
-    /// Of a flat layout; `given` brings a place of the mapped mesh of a side to the mesh as it was given. `None` where a cone is
-    /// nowhere.
+    /// Of a flat layout; `given` brings a place of the mapped mesh of a side to the mesh as it was given, `checked` a face to that of the
+    /// checked mesh which holds it. `None` where a cone is nowhere.
     fn of_layout(
         layout: &FlatLayout,
         meshes: [&SurfaceMesh; 2],
         given: impl Fn(usize, DVec3) -> DVec3,
+        checked: impl Fn(usize, FaceId) -> FaceId,
     ) -> Option<Self> {
         let base = &layout.base.mesh;
         let shape = |side: usize| -> Option<BaseShape> {
             let drawing: &FlatDrawing = &layout.drawings[side];
             let place = |at: Place| given(side, at.surface_point(meshes[side]).position(meshes[side]));
             let cones: Option<Vec<DVec3>> = drawing.cones(base).into_iter().map(|at| at.map(place)).collect();
-            let patches = drawing.triangles_by_chart(base.face_count());
+            let mut patches = drawing.triangles_by_chart(base.face_count());
+            patches.faces.iter_mut().for_each(|f| *f = checked(side, *f));
+            let mut borders = drawing.border_parts();
+            borders.iter_mut().for_each(|part| part.face = checked(side, part.face));
+            let middles = drawing.middle_faces(base.face_count());
+            let middles = middles.into_iter().map(|f| checked(side, f)).collect();
             let points = drawing.vertices.iter().map(|vertex| place(vertex.place)).collect();
-            Some(BaseShape { points, patches, ..BaseShape::bare(base, cones?) })
+            Some(BaseShape { points, patches, borders, middles, ..BaseShape::bare(base, cones?) })
         };
         Some(Self::with_shapes(base, [shape(0)?, shape(1)?]))
     }
@@ -111,7 +125,13 @@ impl BaseShape {
             curvatures: shaped.cone_angles().into_iter().map(|angle| TAU - angle).collect(),
             cones,
             points: Vec::new(),
-            patches: TrianglesByChart { triangles: Vec::new(), starts: vec![0; base.face_count() + 1] },
+            patches: TrianglesByChart {
+                triangles: Vec::new(),
+                faces: Vec::new(),
+                starts: vec![0; base.face_count() + 1],
+            },
+            borders: Vec::new(),
+            middles: Vec::new(),
         }
     }
 }

@@ -45,11 +45,11 @@ use crate::map_file::FileMesh;
 use crate::mesh::check::CheckedMesh;
 use crate::mesh::insertion::Insertion;
 use crate::mesh::repair::RepairReport;
-use crate::mesh::{FaceId, SurfacePoint};
+use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Rising, Stage, Step};
 use crate::pipeline::{
-    self, CapFaces, FindingReport, FlowRecord, GroundTruth, MapInput, MapResult, PipelineError,
-    PipelineOptions, Report, SimplificationStage, Warning, findings,
+    self, CapFaces, FindingReport, FlatSurface, FlowRecord, GroundTruth, Lead, MapInput, MapResult,
+    PipelineError, PipelineOptions, Report, SimplificationStage, Warning, findings,
 };
 use glam::DVec3;
 use serde::Serialize;
@@ -108,6 +108,15 @@ pub struct Job {
     ground_truth: GroundTruth,
     /// What is told of landmarks that the program found; `None` where enough were given.
     matching: Option<MatchReport>,
+}
+
+/// A mesh on its way to its landmarks, drawn on both meshes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CarriedSimplification {
+    /// From the whole mesh down to its landmarks.
+    pub stages: Vec<SimplificationStage>,
+    /// Where its vertices are on the source and on the target.
+    pub positions: [Vec<DVec3>; 2],
 }
 
 impl Job {
@@ -266,6 +275,34 @@ impl Job {
         pipeline::recorded_flows(self.input(), cones, options, monitor)
     }
 
+    /// Both mapped meshes with flat metrics of these curvatures of the landmarks' cones, in radians: those of a result of this job.
+    ///
+    /// # Errors
+    /// As [`pipeline::flat_surfaces`].
+    pub fn flat_surfaces(
+        &self,
+        cones: &[f64],
+        options: &PipelineOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<[FlatSurface; 2], PipelineError> {
+        pipeline::flat_surfaces(self.input(), cones, options, monitor)
+    }
+
+    /// The mapped source and the mapped target: the checked meshes with their landmarks as vertices.
+    pub fn mapped_meshes(&self) -> [&SurfaceMesh; 2] {
+        [&self.placed.source.mesh, &self.placed.target.mesh]
+    }
+
+    /// By landmark its vertex on the mapped source and on the mapped target.
+    pub fn landmark_vertices(&self) -> [&[VertexId]; 2] {
+        [&self.placed.landmarks.source, &self.placed.landmarks.target]
+    }
+
+    /// By face of the mapped source and of the mapped target the face of the checked mesh that contains it.
+    pub fn checked_faces(&self) -> [&[FaceId]; 2] {
+        [&self.placed.source.face_origin.raw, &self.placed.target.face_origin.raw]
+    }
+
     /// Both meshes on their way to their landmarks, in stages.
     ///
     /// # Errors
@@ -275,6 +312,38 @@ impl Job {
         monitor: &mut dyn Monitor,
     ) -> Result<[Vec<SimplificationStage>; 2], PipelineError> {
         pipeline::simplifications(self.input(), monitor)
+    }
+
+    /// One of the mapped meshes, 0 for the source, on its way to its landmarks, and on the other one, where the map has its vertices.
+    /// Coordinates are those of the checked meshes.
+    ///
+    /// # Errors
+    /// As [`pipeline::carried_simplification`].
+    pub fn carried_simplification(
+        &self,
+        from: usize,
+        map: &TakenMap<'_>,
+        lead: Lead,
+        monitor: &mut dyn Monitor,
+    ) -> Result<CarriedSimplification, PipelineError> {
+        let [own, other] = [from, 1 - from];
+        let mesh = self.mapped_meshes()[own];
+        let landmarks = self.landmark_vertices();
+        let positions = self.positions();
+        let places = map.vertex_places(own);
+        let mut carried: TiVec<VertexId, DVec3> = positions[own].iter().copied().collect();
+        for (place, found) in carried.iter_mut().zip(&places) {
+            *place = found.unwrap_or(*place);
+        }
+        // Landmarks inside faces are no vertices of the checked mesh; all of them are exact.
+        for (&v, &image) in landmarks[own].iter().zip(landmarks[other]) {
+            carried[v] = positions[other][image.index()];
+        }
+        let shape = mesh.with_positions(carried.clone());
+        let stages = pipeline::carried_simplification([mesh, &shape], landmarks[own], lead, monitor)?;
+        let mut shapes = [positions[own].clone(), carried.raw];
+        shapes.rotate_left(own);
+        Ok(CarriedSimplification { stages, positions: shapes })
     }
 
     /// Where the vertices of the mapped meshes are, in the coordinates of the checked ones, whose vertices are the first: those of landmarks

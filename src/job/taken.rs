@@ -206,6 +206,14 @@ impl<'a> TakenMap<'a> {
         images.into_iter().map(|image| image.flatten().map(|point| self.told(1 - from, point))).collect()
     }
 
+    /// The place of each vertex of a mapped mesh, 0 for the source, on the other one, not mirrored; `None` for one that no piece has.
+    pub fn vertex_places(&self, from: usize) -> Vec<Option<DVec3>> {
+        let onto = self.meshes[1 - from];
+        let images = self.map.correspondence.vertex_images(self.surfaces(), from);
+        let place = |point: SurfacePoint| onto.as_given(point.position(onto.mesh()));
+        images.into_iter().map(|image| image.map(place)).collect()
+    }
+
     /// The images of points, given and told in the files' numbers. The faces must exist.
     pub fn images(&self, direction: Direction, points: &[SurfacePoint]) -> Vec<PointImage> {
         let from = direction.side();

@@ -4,7 +4,7 @@ use super::{Cones, MapInput, PipelineError, PipelineOptions, Warning};
 use crate::base_domain::BaseDomain;
 use crate::cone_metric::atlas::{FlatAtlas, flat_atlas};
 use crate::cone_metric::{
-    ConeMetric, FlowError, FlowRecord, FlowReport, base_domain_curvature, flow, recorded_flow,
+    ConeMetric, FlatSurface, FlowError, FlowRecord, FlowReport, base_domain_curvature, flow, recorded_flow,
     uniform_curvature,
 };
 use crate::landmarks::{Landmarks, MeshSide};
@@ -108,20 +108,47 @@ pub fn recorded_flows(
     options: &PipelineOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<[FlowRecord; 2], PipelineError> {
+    on_both(input, cones, monitor, |mesh, curvature, monitor| {
+        Ok(recorded_flow(mesh, curvature, &options.flow, monitor)?.centred(&mesh.vertex_areas()))
+    })
+}
+
+/// Both meshes with flat metrics of these curvatures at the landmarks, in radians, to be laid out in the plane.
+///
+/// # Errors
+/// [`PipelineError::SourceFlow`] or [`PipelineError::TargetFlow`], or cancellation.
+pub fn flat_surfaces(
+    input: MapInput<'_>,
+    cones: &[f64],
+    options: &PipelineOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<[FlatSurface; 2], PipelineError> {
+    on_both(input, cones, monitor, |mesh, curvature, monitor| {
+        let (metric, _) = flow(mesh, curvature, &options.flow, monitor)?;
+        Ok(FlatSurface::new(&metric, curvature))
+    })
+}
+
+/// What flows of both meshes give, with these curvatures at the landmarks.
+fn on_both<T>(
+    input: MapInput<'_>,
+    cones: &[f64],
+    monitor: &mut dyn Monitor,
+    flowed: impl Fn(&SurfaceMesh, &TiVec<VertexId, f64>, &mut dyn Monitor) -> Result<T, FlowError>,
+) -> Result<[T; 2], PipelineError> {
     let monitor = &mut Rising::new(monitor);
-    let mut recorded = |stage, mesh: &SurfaceMesh, landmarks: &[VertexId]| {
+    let mut of_side = |stage, mesh: &SurfaceMesh, landmarks: &[VertexId]| {
         monitor.enter(stage);
         let mut curvature: TiVec<VertexId, f64> = ti_vec![0.0; mesh.vertex_count()];
         for (&v, &cone) in landmarks.iter().zip(cones) {
             curvature[v] = cone;
         }
-        let record = recorded_flow(mesh, &curvature, &options.flow, monitor)?;
-        Ok::<_, FlowError>(record.centred(&mesh.vertex_areas()))
+        flowed(mesh, &curvature, monitor)
     };
     let Landmarks { source, target } = input.landmarks;
     Ok([
-        recorded(Stage::SourceConeMetric, input.source, source).map_err(PipelineError::source_flow)?,
-        recorded(Stage::TargetConeMetric, input.target, target).map_err(PipelineError::target_flow)?,
+        of_side(Stage::SourceConeMetric, input.source, source).map_err(PipelineError::source_flow)?,
+        of_side(Stage::TargetConeMetric, input.target, target).map_err(PipelineError::target_flow)?,
     ])
 }
 

@@ -20,7 +20,7 @@ mod warning;
 pub use borders::{BorderCase, BordersReport, RimPairReport, RimReport};
 pub use error::PipelineError;
 pub use findings::{FindingKind, FindingReport, RepairKind, findings};
-pub use flows::recorded_flows;
+pub use flows::{flat_surfaces, recorded_flows};
 pub use input::{CapFaces, GroundTruth, MapInput};
 pub use options::{Base, Borders, Choices, ClassChoice, Cones, Method, OwnConeOptions, PipelineOptions};
 pub use report::{
@@ -29,11 +29,11 @@ pub use report::{
     WorstPieceReport,
 };
 pub use result::{MapResult, TriangleDistortion};
-pub use simplification::simplifications;
+pub use simplification::{Lead, carried_simplification, simplifications};
 pub use warning::{Warning, WarningReport};
 
 pub use crate::base_domain::SimplificationStage;
-pub use crate::cone_metric::{FlowMoment, FlowRecord};
+pub use crate::cone_metric::{FlatSurface, FlowMoment, FlowRecord, PlaneLayout};
 
 use crate::monitor::{Monitor, Rising};
 

@@ -48,6 +48,28 @@ impl MapOutput {
         let starts = self.base_shape(side).map(|shape| &shape.patches.starts);
         starts.into_iter().flatten().map(|&start| start as u32).collect()
     }
+
+    /// By part triangle the face of the checked mesh that holds it.
+    #[wasm_bindgen(js_name = patchFaces)]
+    pub fn patch_faces(&self, side: usize) -> Vec<u32> {
+        let shape = self.base_shape(side);
+        shape.map(|shape| shape.patches.faces.iter().map(|f| f.0).collect()).unwrap_or_default()
+    }
+
+    /// The borders of the patches, four numbers a piece: the base triangle's corner at which its side begins (three times the triangle plus
+    /// the corner), the face of the checked mesh, and the points at its ends. Each piece is there from both of its patches.
+    #[wasm_bindgen(js_name = patchBorders)]
+    pub fn patch_borders(&self, side: usize) -> Vec<u32> {
+        let parts = self.base_shape(side).map(|shape| &shape.borders);
+        parts.into_iter().flatten().flat_map(|part| [part.side.0, part.face.0, part.from, part.to]).collect()
+    }
+
+    /// By base triangle the face of the checked mesh in the middle of its patch.
+    #[wasm_bindgen(js_name = patchMiddles)]
+    pub fn patch_middles(&self, side: usize) -> Vec<u32> {
+        let shape = self.base_shape(side);
+        shape.map(|shape| shape.middles.iter().map(|f| f.0).collect()).unwrap_or_default()
+    }
 }
 
 impl MapOutput {

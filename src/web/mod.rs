@@ -9,6 +9,7 @@ mod landmark_files;
 mod loaded_mesh;
 mod matching;
 mod output_file;
+mod planes;
 mod repair;
 mod saved;
 mod simplification;

@@ -3,9 +3,9 @@
 use super::compute::{Messenger, RunListener, flat3};
 use super::failure;
 use super::flows::read_job;
-use crate::job::JobError;
+use crate::job::{CarriedSimplification, JobError, MapFiles, OpenMap};
 use crate::monitor::{PlannedStage, Stage};
-use crate::pipeline::SimplificationStage;
+use crate::pipeline::{Lead, SimplificationStage};
 use glam::DVec3;
 use wasm_bindgen::prelude::*;
 
@@ -33,6 +33,37 @@ pub fn record_simplifications(
     let failed = |error: JobError| failure(error.code(), error);
     let stages = job.simplifications(&mut messenger).map_err(|error| failed(error.into()))?;
     Ok(Simplifications { stages, positions: job.positions() })
+}
+
+/// Collapses one of both meshes to its landmarks, drawn on both by a map file that was made with them: `from` is `source` or `target`, where
+/// this mesh decides alone, or `both`, where the source is collapsed and both decide.
+///
+/// # Errors
+/// `{"code", "message"}` with the stage's code, or that of the map file.
+#[wasm_bindgen(js_name = recordCarriedSimplification)]
+pub fn record_carried_simplification(
+    map: &[u8],
+    source: &[u8],
+    target: &[u8],
+    landmarks: &str,
+    from: &str,
+    listener: &RunListener,
+) -> Result<Simplifications, JsValue> {
+    let (side, lead) = match from {
+        "source" => (0, Lead::Own),
+        "target" => (1, Lead::Own),
+        "both" => (0, Lead::Both),
+        _ => return Err(failure("options", format!("\"{from}\" is nothing to simplify from"))),
+    };
+    let mut messenger = Messenger::new(listener);
+    messenger.plan(vec![PlannedStage { stage: Stage::BaseDomain, time: 1.0 }]);
+    let open = OpenMap::read(MapFiles { map, source, target }).map_err(|e| failure(e.code(), &e))?;
+    let job = read_job([source, target], landmarks, &mut messenger)?;
+    let failed = |error: JobError| failure(error.code(), error);
+    let CarriedSimplification { stages, positions } = job
+        .carried_simplification(side, &open.taken(), lead, &mut messenger)
+        .map_err(|error| failed(error.into()))?;
+    Ok(Simplifications { stages: [stages.clone(), stages], positions })
 }
 
 #[wasm_bindgen]

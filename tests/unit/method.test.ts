@@ -146,6 +146,9 @@ const SHAPE: BaseShape = {
   patchPoints: new Float32Array(),
   patchTriangles: new Uint32Array(),
   patchStarts: new Uint32Array(5),
+  patchFaces: new Uint32Array(),
+  patchBorders: new Uint32Array(),
+  patchMiddles: new Uint32Array(4),
 };
 const TETRAHEDRON: BaseOutput = {
   triangles: new Uint32Array([0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2]),

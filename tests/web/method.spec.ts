@@ -1,4 +1,7 @@
-/** The step Method: the base domain turned with the views, asked, lit up on the meshes and from them, saved; flows and simplification played on them. */
+/**
+ * The step Method: the base domain turned with the views, asked, lit up on the meshes and from them, saved; the flat metrics in the plane,
+ * grown from patches; flows and simplification played on the meshes.
+ */
 import { readFileSync } from 'node:fs';
 import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
@@ -147,6 +150,120 @@ test('it is saved as a drawing that stands alone', async () => {
   expect(svg).toMatch(/^<svg xmlns="http:\/\/www\.w3\.org\/2000\/svg" width="900"/);
   expect((svg.match(/<circle/g) ?? []).length).toBeGreaterThan(5);
   expect((svg.match(/<path/g) ?? []).length).toBeGreaterThan(50);
+
+  const second = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Save the base domain as PNG' }).click();
+  const png = readFileSync(await (await second).path());
+  expect(png.subarray(1, 4).toString()).toBe('PNG');
+  expect([png.readUInt32BE(16), png.readUInt32BE(20)]).toEqual([1800, 1400]);
+});
+
+/** How many pixels of a picture are red as the cut, or blue-green as the circles. */
+async function marked(picture: string): Promise<{ readonly cut: number; readonly circles: number }> {
+  const box = (await page.locator(picture).boundingBox()) ?? fail(`${picture} has no box`);
+  const base64 = (await page.screenshot({ clip: box })).toString('base64');
+  return page.evaluate(async (png) => {
+    const bytes = Uint8Array.from(atob(png), (c) => c.charCodeAt(0));
+    const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+    const context = new OffscreenCanvas(image.width, image.height).getContext('2d') ?? undefined;
+    context?.drawImage(image, 0, 0);
+    const data = context?.getImageData(0, 0, image.width, image.height).data ?? new Uint8ClampedArray();
+    let [cut, circles] = [0, 0];
+    for (let at = 0; at < data.length; at += 4) {
+      const [r = 0, g = 0, b = 0] = data.subarray(at, at + 3);
+      cut += r > 170 && g < 90 && b < 90 ? 1 : 0;
+      circles += b > r + 20 && g > r + 10 ? 1 : 0;
+    }
+    return { cut, circles };
+  }, base64);
+}
+
+const SOURCE_PLANE = '[data-plane="0"]';
+const TARGET_PLANE = '[data-plane="1"]';
+
+/** Saves a file of the plane. */
+async function savedPlane(format: string): Promise<Buffer> {
+  const download = page.waitForEvent('download');
+  await page.getByRole('button', { name: `Save the plane as ${format}` }).click();
+  return readFileSync(await (await download).path());
+}
+
+test('both meshes are laid out in the plane, cut from cone to cone', async () => {
+  await page.locator('#open-plane').click();
+  await expect(page.locator(SOURCE_PLANE)).toHaveAttribute('data-drawn', '5114', { timeout: 120_000 });
+  await expect(page.locator(TARGET_PLANE)).toHaveAttribute('data-drawn', '4574');
+  await page.locator(SOURCE_PLANE).scrollIntoViewIfNeeded();
+  await page.screenshot({ path: `${ROOT}test-results/plane.png` });
+  const whole = [await marked(SOURCE_PLANE), await marked(TARGET_PLANE)];
+  whole.forEach(({ cut }) => { expect(cut).toBeGreaterThan(100); });
+  // With a few rings around the seed there is nothing to cut.
+  const slider = page.getByRole('slider', { name: 'Step of the growth' });
+  await slider.focus();
+  await page.keyboard.press('Home');
+  await page.keyboard.press('ArrowRight');
+  await expect(page.locator(SOURCE_PLANE)).toHaveAttribute('data-drawn', '1');
+  await page.waitForTimeout(200);
+  expect((await marked(SOURCE_PLANE)).cut).toBeLessThan(20 + (whole[0]?.cut ?? 0) / 4);
+  await page.keyboard.press('End');
+  await expect(page.locator(SOURCE_PLANE)).toHaveAttribute('data-drawn', '5114');
+});
+
+test('the layout grows from the patch that is chosen in the base domain or in the plane', async () => {
+  await page.locator('#base-picture').focus();
+  await page.keyboard.press('f');
+  await page.keyboard.press('f');
+  await expect(page.locator('.base-reading')).toContainText(/^Triangle of /);
+  await expect(page.locator('#play-growth')).toHaveText('Pause');
+  await expect(page.locator('#play-growth')).toHaveText('Play', { timeout: 60_000 });
+  await expect(page.locator(SOURCE_PLANE)).toHaveAttribute('data-drawn', '5114');
+  // The patch is lit up in the plane, too.
+  await page.waitForTimeout(200);
+  expect(await litPixels(SOURCE_PLANE)).toBeGreaterThan(20);
+  const reading = await page.locator('.base-reading').textContent();
+
+  // A click grows it from another one.
+  await page.locator(TARGET_PLANE).scrollIntoViewIfNeeded();
+  const box = (await page.locator(TARGET_PLANE).boundingBox()) ?? fail('no plane');
+  const places = [0.5, 0.4, 0.6, 0.3, 0.7].flatMap((x) => [0.5, 0.35, 0.65].map((y) => ({ x: x * box.width, y: y * box.height })));
+  for (const position of places) {
+    await page.locator(TARGET_PLANE).click({ position });
+    await page.waitForTimeout(150);
+    const now = await page.locator('.base-reading').textContent();
+    if (now?.startsWith('Triangle of ') === true && now !== reading) {
+      break;
+    }
+  }
+  await expect(page.locator('#play-growth')).toHaveText('Pause');
+  await page.waitForTimeout(1500);
+  await page.screenshot({ path: `${ROOT}test-results/plane-growing.png` });
+  await expect(page.locator('#play-growth')).toHaveText('Play', { timeout: 60_000 });
+  await page.mouse.move(5, 5);
+});
+
+test('the plane shows the circles of the packing, and is saved as picture, drawing and mesh', async () => {
+  await page.waitForTimeout(300);
+  const without = await marked(SOURCE_PLANE);
+  await page.getByRole('checkbox', { name: 'Circles of the packing' }).check();
+  await page.waitForTimeout(500);
+  expect((await marked(SOURCE_PLANE)).circles).toBeGreaterThan(without.circles + 200);
+  await page.screenshot({ path: `${ROOT}test-results/plane-circles.png` });
+  const svg = (await savedPlane('SVG')).toString();
+  expect(svg).toMatch(/^<svg xmlns="http:\/\/www\.w3\.org\/2000\/svg" width="900"/);
+  expect((svg.match(/<circle/g) ?? []).length).toBeGreaterThan(1000);
+  expect(svg).toMatch(/id="cut" d="M/);
+  const png = await savedPlane('PNG');
+  expect([png.readUInt32BE(16), png.readUInt32BE(20)]).toEqual([1800, 1400]);
+  expect((await savedPlane('OBJ')).toString().match(/^f /gm)?.length).toBe(4574);
+  await page.locator(SOURCE_PLANE).focus();
+  const small = await marked(SOURCE_PLANE);
+  await page.keyboard.press('+');
+  await page.keyboard.press('+');
+  await page.waitForTimeout(400);
+  expect(await marked(SOURCE_PLANE)).not.toEqual(small);
+  await page.keyboard.press('0');
+  await page.keyboard.press('Escape');
+  await page.waitForTimeout(400);
+  await expect(page.locator('.base-reading')).toContainText(/corners, /);
 });
 
 /** How many pixels of a view are warm or violet, as factors that grow or shrink. */
@@ -237,6 +354,21 @@ test('both meshes are simplified to their landmarks, and come back', async () =>
   }
   await page.waitForTimeout(300);
   await page.screenshot({ path: `${ROOT}test-results/simplification-middle.png` });
+  // Of one mesh, carried to the other: both have as many triangles from the beginning.
+  for (const [choice, count] of [['From the target', '4,574'], ['Jointly', '5,114']] as const) {
+    await page.getByRole('radio', { name: choice }).check();
+    await expect(words).toHaveText(`${count} triangles on the source, ${count} on the target`, { timeout: 60_000 });
+    await slider.focus();
+    await page.keyboard.press('End');
+    // The landmarks of the user alone.
+    await expect(words).toHaveText(/^(\d+) triangles on the source, \1 on the target$/);
+    await page.keyboard.press('Home');
+    for (let k = 0; k < 14; k += 1) {
+      await page.keyboard.press('ArrowRight');
+    }
+    await page.waitForTimeout(300);
+    await page.screenshot({ path: `${ROOT}test-results/simplification-${choice.replaceAll(' ', '-')}.png` });
+  }
   await page.locator('#close-simplification').click();
   await page.mouse.move(5, 5);
   await page.waitForTimeout(300);
@@ -269,9 +401,13 @@ test('all of it fits a phone and a wide window, light and dark, without findings
       await page.emulateMedia({ colorScheme });
       await page.locator('#base-picture').scrollIntoViewIfNeeded();
       await expect(page.locator('.flow-numbers')).toBeAttached();
+      await expect(page.locator('.plane-layouts')).toBeAttached();
       const { violations } = await new AxeBuilder({ page }).include('#panel').withTags(RULES).analyze();
       expect(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(' ')).join(', ')}`)).toEqual([]);
       await page.screenshot({ path: `${ROOT}test-results/base-domain-${width}-${colorScheme}.png` });
+      await page.locator(SOURCE_PLANE).scrollIntoViewIfNeeded();
+      await page.waitForTimeout(500);
+      await page.screenshot({ path: `${ROOT}test-results/plane-${width}-${colorScheme}.png` });
     }
   }
   await page.getByRole('button', { name: 'Large' }).click();

@@ -1,49 +1,115 @@
 /** Parts of the method of the map on the page, done again for whoever looks at them. */
+import type { Failure } from '../compute/messages.ts';
 import { startWatched } from '../compute/watch-client.ts';
-import type { Watchable, Watched } from '../compute/watch-messages.ts';
+import type { Simplifications, SimplifiedFrom, Watchable, Watched } from '../compute/watch-messages.ts';
 import { failureSentence } from '../messages.ts';
-import type { WatchHands } from '../method/hands.ts';
+import type { Listener } from '../method/hands.ts';
+import type { Planes } from '../method/plane-client.ts';
 import { landmarkFileOf } from '../store/landmark-file.ts';
 import { shownResult } from '../store/staleness.ts';
+import type { Result } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 
-/** What was computed stays as long as its map does. */
-const KNOWN = new WeakMap<object, Partial<Watched>>();
+/** What was computed stays as long as its map does, by what was wanted. */
+const KNOWN = new WeakMap<object, Map<string, Watched[Watchable]>>();
+
+const nothing = (): void => undefined;
+
+interface Work {
+  readonly result: Result;
+  /** What a worker begins with. */
+  readonly begun: { readonly module: WebAssembly.Module; readonly source: Uint8Array; readonly target: Uint8Array; readonly landmarks: string; readonly cones: Float64Array };
+}
+
+/** The map on the page, with what it was made from; `null` where there is none. */
+function shownWork(store: Store, core: WebAssembly.Module | null): Work | null {
+  const result = shownResult(store.state);
+  const [source, target] = result?.inputs.meshes ?? [];
+  if (core === null || result === null || source === undefined || source === null || target === undefined || target === null) {
+    return null;
+  }
+  const { output, inputs } = result;
+  const landmarks = JSON.stringify(landmarkFileOf(inputs));
+  return { result, begun: { module: core, source: source.bytes, target: target.bytes, landmarks, cones: output.cones } };
+}
+
+function failing(failed: (sentence: string) => void): (failure: Failure) => void {
+  return (failure) => {
+    console.error(failure);
+    failed(failureSentence(failure));
+  };
+}
 
 /** Computes what is wanted of the map on the page in a worker; returns what ends that. */
 export function startWatching<W extends Watchable>(
   store: Store,
   core: WebAssembly.Module | null,
   wanted: W,
-  listener: Parameters<WatchHands<W>['start']>[0],
+  listener: Listener<Watched[W]>,
+  from: SimplifiedFrom = 'each',
 ): () => void {
-  const result = shownResult(store.state);
-  const [source, target] = result?.inputs.meshes ?? [];
-  if (core === null || result === null || source === undefined || source === null || target === undefined || target === null) {
-    return () => undefined;
+  const work = shownWork(store, core);
+  if (work === null) {
+    return nothing;
   }
-  const { output, inputs } = result;
-  const known = KNOWN.get(output);
-  const answer: Watched[W] | undefined = known?.[wanted];
+  const { output } = work.result;
+  const known = KNOWN.get(output) ?? new Map<string, Watched[Watchable]>();
+  KNOWN.set(output, known);
+  const key = `${wanted} ${from}`;
+  // What is kept under a wish is its answer.
+  const answer = known.get(key) as Watched[W] | undefined;
   if (answer !== undefined) {
     queueMicrotask(() => {
       listener.done(answer);
     });
-    return () => undefined;
+    return nothing;
   }
-  const landmarks = JSON.stringify(landmarkFileOf(inputs));
+  const carried = from === 'each' || output.map === null ? null : { from, map: output.map };
   return startWatched(
-    { wanted, module: core, source: source.bytes, target: target.bytes, landmarks, cones: output.cones },
+    { wanted, ...work.begun, carried },
     {
       progress: listener.progress,
       done: (found) => {
-        KNOWN.set(output, { ...KNOWN.get(output), [wanted]: found });
+        known.set(key, found);
         listener.done(found);
       },
-      failed: (failure) => {
-        console.error(failure);
-        listener.failed(failureSentence(failure));
-      },
+      failed: failing(listener.failed),
     },
   );
+}
+
+/** Likewise the simplification. */
+export function startSimplifying(
+  store: Store,
+  core: WebAssembly.Module | null,
+  listener: Listener<Simplifications>,
+  from: SimplifiedFrom,
+): () => void {
+  return startWatching(store, core, 'simplifications', listener, from);
+}
+
+/** Computes both flat metrics of the map on the page in a worker that lays them out as long as nobody ends it. */
+export function startLayingOut(store: Store, core: WebAssembly.Module | null, listener: Listener<Planes>): () => void {
+  const work = shownWork(store, core);
+  if (work === null) {
+    return nothing;
+  }
+  let end = nothing;
+  let isOver = false;
+  const failed = failing(listener.failed);
+  // Who looks at the planes has fetched what draws them; their client comes with it.
+  import('../method/plane-client.ts').then(
+    ({ startPlanes }) => {
+      if (!isOver) {
+        end = startPlanes({ ...work.begun, base: work.result.output.base }, { ...listener, failed });
+      }
+    },
+    (thrown: unknown) => {
+      failed({ code: 'worker', message: String(thrown) });
+    },
+  );
+  return () => {
+    isOver = true;
+    end();
+  };
 }

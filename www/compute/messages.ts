@@ -50,6 +50,15 @@ export interface BaseShape {
   readonly patchTriangles: Uint32Array;
   /** Where each patch starts among the triangles, and one past the end. */
   readonly patchStarts: Uint32Array;
+  /** By part triangle the face of the checked mesh that holds it. */
+  readonly patchFaces: Uint32Array;
+  /**
+   * The borders of the patches, four numbers a piece: the base triangle's corner at which its side begins (three times the triangle plus
+   * the corner), the face of the checked mesh, and the points at its ends.
+   */
+  readonly patchBorders: Uint32Array;
+  /** By base triangle the face of the checked mesh in the middle of its patch. */
+  readonly patchMiddles: Uint32Array;
 }
 
 /** A finished map. */

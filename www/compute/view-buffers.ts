@@ -19,6 +19,9 @@ function shapeOf(output: MapOutput, side: number): BaseShape {
     patchPoints: output.patchPoints(side),
     patchTriangles: output.patchTriangles(side),
     patchStarts: output.patchStarts(side),
+    patchFaces: output.patchFaces(side),
+    patchBorders: output.patchBorders(side),
+    patchMiddles: output.patchMiddles(side),
   };
 }
 

@@ -4,6 +4,9 @@ import type { Failure } from './messages.ts';
 /** What can be watched: the flows of both meshes to their flat metrics, and how both are simplified to their landmarks. */
 export type Watchable = 'flows' | 'simplifications';
 
+/** What is simplified: each mesh by itself; or one of both, drawn on both by the map, or the source where both decide. */
+export type SimplifiedFrom = 'each' | 'source' | 'target' | 'both';
+
 /** What is wanted of a map. */
 export interface WatchRequest {
   readonly wanted: Watchable;
@@ -14,6 +17,8 @@ export interface WatchRequest {
   readonly landmarks: string;
   /** Curvature of each landmark's cone, in radians. */
   readonly cones: Float64Array;
+  /** What simplifications begin with, and the map file that draws them on both meshes; `null` for each mesh by itself. */
+  readonly carried: { readonly from: Exclude<SimplifiedFrom, 'each'>; readonly map: Uint8Array } | null;
 }
 
 /** A flow after a Newton step; the counts are of all steps so far. */

@@ -1,5 +1,5 @@
 /** Parts of the method that are done again to be watched: answers one request, then is thrown away. */
-import init, { recordFlows, recordSimplifications } from '../wasm/conemap.js';
+import init, { recordCarriedSimplification, recordFlows, recordSimplifications } from '../wasm/conemap.js';
 import type { RecordedFlows, Simplifications as RecordedSimplifications } from '../wasm/conemap.js';
 import { failureOf } from './messages.ts';
 import type { Flows, SideFlow, Simplification, Simplifications, WatchMessage, WatchRequest } from './watch-messages.ts';
@@ -29,14 +29,17 @@ function simplificationOf(stages: RecordedSimplifications, side: number): Simpli
   return { positions: stages.positions(side), triangles: stages.triangles(side), counts: stages.counts(side) };
 }
 
-function answerTo({ wanted, source, target, landmarks, cones }: WatchRequest): Flows | Simplifications {
+function answerTo({ wanted, source, target, landmarks, cones, carried }: WatchRequest): Flows | Simplifications {
   switch (wanted) {
     case 'flows': {
       const flows = recordFlows(source, target, landmarks, cones, LISTENER);
       return [flowOf(flows, 0), flowOf(flows, 1)];
     }
     case 'simplifications': {
-      const stages = recordSimplifications(source, target, landmarks, LISTENER);
+      const stages =
+        carried === null
+          ? recordSimplifications(source, target, landmarks, LISTENER)
+          : recordCarriedSimplification(carried.map, source, target, landmarks, carried.from, LISTENER);
       return [simplificationOf(stages, 0), simplificationOf(stages, 1)];
     }
   }

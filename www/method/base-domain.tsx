@@ -5,14 +5,15 @@ import type { BaseOutput } from '../compute/messages.ts';
 import { useDarkness } from '../darkness.ts';
 import { download } from '../dom.ts';
 import type { Side } from '../landmarks.ts';
+import { pngOf } from '../plots/png.ts';
 import type { Axes, Vector } from './axes.ts';
 import { dragged } from './axes.ts';
 import './base-domain.css';
 import type { Palette } from './drawing.ts';
 import { DARK, LIGHT, mixed, outline, pictureSvg, stroke, strokes } from './drawing.ts';
 import type { BaseHands } from './hands.ts';
-import type { BasePart } from './parts.ts';
-import { faceCount } from './parts.ts';
+import type { BasePart, PartHands } from './parts.ts';
+import { faceCount, PART_KEYS, stepped } from './parts.ts';
 import type { Ball, Facet, Look, Picture, Solid, Spot } from './picture.ts';
 import { partAt, pictureOf, solidOf } from './picture.ts';
 import { coneName, degrees, reading, summary } from './words.ts';
@@ -27,12 +28,15 @@ export interface BaseDomainProps {
   readonly isLinked: boolean;
   /** By side the axis of the mesh that points up. */
   readonly up: readonly [Vector, Vector];
-  /** The base triangle in whose patch the mouse is on a mesh; `null` for none. */
+  /** The base triangle in whose patch the mouse is on a mesh, which the views light up themselves; `null` for none. */
   readonly under: number | null;
+  readonly parts: PartHands;
 }
 
 /** Size of an exported drawing, in pixels. */
 const EXPORTED = { width: 900, height: 700 };
+/** Pixels of a PNG to each of the drawing's. */
+const PNG_TIMES = 2;
 /** What an arrow key turns by, in heights of the picture, and a zoom key multiplies by. */
 const KEY_TURN = 0.06;
 const KEY_ZOOM = 1.25;
@@ -46,9 +50,6 @@ const SHAPES = [['Target', 1], ['Source', 0]] as const;
 
 const HELP =
   'Arrow keys turn it, plus and minus change its size, v, e and f go to the next corner, side and triangle, with Shift to the last one.';
-
-/** The keys that go from part to part, with Shift backwards. */
-const PART_KEYS: Readonly<Partial<Record<string, BasePart['kind']>>> = { v: 'cone', e: 'side', f: 'face' };
 
 function isPart(part: BasePart | null, kind: BasePart['kind'], index: number): boolean {
   return part?.kind === kind && part.index === index;
@@ -179,12 +180,6 @@ function useTurning({ hands, isLinked, up }: Pick<BaseDomainProps, 'hands' | 'is
   };
 }
 
-/** The next or the last part of a kind. */
-function stepped(part: BasePart | null, kind: BasePart['kind'], by: 1 | -1, count: number): BasePart {
-  const index = part?.kind === kind ? part.index + by : by > 0 ? 0 : count - 1;
-  return { kind, index: (index + count) % count };
-}
-
 /** What the picture shows and is asked for, and what hands and keys do to it. */
 interface Desk {
   readonly solid: Solid;
@@ -287,7 +282,7 @@ interface RowProps {
   readonly isLarge: boolean;
   readonly onSide: (side: Side) => void;
   readonly onLarge: (isLarge: boolean) => void;
-  readonly onSave: () => void;
+  readonly onSave: (format: 'svg' | 'png') => Promise<void>;
 }
 
 /** What is below the picture. */
@@ -318,9 +313,18 @@ function Row({ side, isLarge, onSide, onLarge, onSave }: RowProps): VNode {
       >
         Large
       </button>
-      <button type="button" aria-label="Save the base domain as SVG" onClick={onSave}>
-        SVG
-      </button>
+      {(['png', 'svg'] as const).map((format) => (
+        <button
+          type="button"
+          key={format}
+          aria-label={`Save the base domain as ${format.toUpperCase()}`}
+          onClick={() => {
+            void onSave(format);
+          }}
+        >
+          {format.toUpperCase()}
+        </button>
+      ))}
     </div>
   );
 }
@@ -359,12 +363,11 @@ function Shapes({ solid, picture, lit, palette, names, width }: ShapesProps): VN
 
 /** All of it. */
 export default function BaseDomain(props: BaseDomainProps): VNode {
-  const { base, names, hands, theme, under } = props;
+  const { base, names, hands, theme, under, parts } = props;
+  const { lit, held, hold, hover } = parts;
   const [side, setSide] = useState<Side>(1);
   const [zoom, setZoom] = useState(1);
   const [isLarge, setLarge] = useState(false);
-  const [hovered, setHovered] = useState<BasePart | null>(null);
-  const [held, setHeld] = useState<BasePart | null>(null);
   const svg = useRef<SVGSVGElement>(null);
   const palette = useDarkness(theme) ? DARK : LIGHT;
   const { width, height } = useSize(svg);
@@ -372,29 +375,24 @@ export default function BaseDomain(props: BaseDomainProps): VNode {
   const solid = useMemo(() => solidOf(base, side), [base, side]);
   const look: Look = { axes, width, height, zoom };
   const picture = pictureOf(solid, look);
-  const chosen = hovered ?? held;
-  const lit: BasePart | null = under === null ? chosen : { kind: 'face', index: under };
   useEffect(() => {
     if (under === null) {
-      hands.light(chosen);
+      hands.light(lit);
     }
-  }, [chosen?.kind, chosen?.index, under]);
+  }, [lit?.kind, lit?.index, under]);
   const desk: Desk = {
-    ...{ solid, picture, height, held, turn },
-    hover: (part) => {
-      if (part?.kind !== hovered?.kind || part?.index !== hovered?.index) {
-        setHovered(part);
-      }
-    },
-    hold: setHeld,
+    ...{ solid, picture, height, held, turn, hover, hold },
     magnify: (factor) => {
       setZoom(factor === null ? 1 : Math.min(ZOOMS[1], Math.max(ZOOMS[0], zoom * factor)));
     },
   };
-  const save = (): void => {
+  const save = async (format: 'svg' | 'png'): Promise<void> => {
     const saved = pictureOf(solid, { ...look, ...EXPORTED });
-    const labels = solid.cones.map((_, cone) => coneName(names, cone));
-    download('conemap-base-domain.svg', 'image/svg+xml', pictureSvg(saved, EXPORTED, labels));
+    const svgText = pictureSvg(saved, EXPORTED, solid.cones.map((_, cone) => coneName(names, cone)));
+    const file = format === 'svg' ? svgText : await pngOf(svgText, EXPORTED, PNG_TIMES);
+    if (file !== null) {
+      download(`conemap-base-domain.${format}`, format === 'svg' ? 'image/svg+xml' : 'image/png', file);
+    }
   };
   return (
     <div class={`base-domain${isLarge ? ' large' : ''}`}>

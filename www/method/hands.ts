@@ -1,5 +1,5 @@
 /** What the page lends to the picture of the base domain. */
-import type { Watchable, Watched } from '../compute/watch-messages.ts';
+import type { Simplifications, SimplifiedFrom, Watchable, Watched } from '../compute/watch-messages.ts';
 import type { Side } from '../landmarks.ts';
 import type { Axes } from './axes.ts';
 import type { BasePart } from './parts.ts';
@@ -47,15 +47,23 @@ interface Frames {
   readonly simplifications: StageFrame;
 }
 
+/** Who waits for what is computed. */
+export interface Listener<T> {
+  readonly progress: (share: number) => void;
+  readonly done: (answer: T) => void;
+  /** In a sentence for the user. */
+  readonly failed: (sentence: string) => void;
+}
+
 /** What the page lends to a part of the method that is watched. */
 export interface WatchHands<W extends Watchable> {
   /** Computes it for the map on the page; returns what ends that. */
-  readonly start: (listener: {
-    readonly progress: (share: number) => void;
-    readonly done: (answer: Watched[W]) => void;
-    /** In a sentence for the user. */
-    readonly failed: (sentence: string) => void;
-  }) => () => void;
+  readonly start: (listener: Listener<Watched[W]>) => () => void;
   /** Shows a frame on the meshes; `null` for the meshes as before. */
   readonly show: (frame: Frames[W] | null) => void;
+}
+
+/** Likewise of the simplification, from one of both meshes or from both. */
+export interface SimplificationHands extends Pick<WatchHands<'simplifications'>, 'show'> {
+  readonly start: (listener: Listener<Simplifications>, from: SimplifiedFrom) => () => void;
 }

@@ -58,3 +58,22 @@ export function litBy(base: BaseOutput, part: BasePart | null): LitParts {
       return { patch: null, lines: endsOfSides(base).flatMap((ends, side) => (ends.includes(part.index) ? [side] : [])) };
   }
 }
+
+/** What is lit up and held, and how a picture changes it. */
+export interface PartHands {
+  /** What is lit up: under the mouse on a mesh or on a picture, else what is held. */
+  readonly lit: BasePart | null;
+  readonly held: BasePart | null;
+  /** What is under the mouse on a picture; `null` for nothing. */
+  readonly hover: (part: BasePart | null) => void;
+  readonly hold: (part: BasePart | null) => void;
+}
+
+/** The keys that go from part to part, with Shift backwards. */
+export const PART_KEYS: Readonly<Partial<Record<string, BasePart['kind']>>> = { v: 'cone', e: 'side', f: 'face' };
+
+/** The next or the last part of a kind. */
+export function stepped(part: BasePart | null, kind: BasePart['kind'], by: 1 | -1, count: number): BasePart {
+  const index = part?.kind === kind ? part.index + by : by > 0 ? 0 : count - 1;
+  return { kind, index: (index + count) % count };
+}

@@ -9,12 +9,15 @@ export interface Played {
   readonly rest: (time: number) => void;
   /** Plays on, from the beginning where it is at its end, or stops. */
   readonly toggle: () => void;
+  /** Plays from the beginning. */
+  readonly restart: () => void;
 }
 
 /** From 0 to the last step, each taking this time in ms. */
 export function usePlayed(last: number, stepTime: number): Played {
   const [time, setTime] = useState(0);
   const [isPlaying, setPlaying] = useState(false);
+  const [round, setRound] = useState(0);
   const from = useRef(0);
   useEffect(() => {
     if (!isPlaying) {
@@ -36,7 +39,7 @@ export function usePlayed(last: number, stepTime: number): Played {
     return () => {
       cancelAnimationFrame(frame);
     };
-  }, [isPlaying, last]);
+  }, [isPlaying, last, round]);
   return {
     time,
     isPlaying,
@@ -47,6 +50,12 @@ export function usePlayed(last: number, stepTime: number): Played {
     toggle: () => {
       from.current = time >= last ? 0 : time;
       setPlaying(!isPlaying);
+    },
+    restart: () => {
+      from.current = 0;
+      setTime(0);
+      setRound(round + 1);
+      setPlaying(true);
     },
   };
 }

@@ -1,15 +1,17 @@
 /** How both meshes are simplified to their landmarks, played on them. */
 import type { VNode } from 'preact';
-import { useEffect, useMemo } from 'preact/hooks';
-import type { Simplifications } from '../compute/watch-messages.ts';
+import { useEffect, useMemo, useState } from 'preact/hooks';
+import type { Simplifications, SimplifiedFrom } from '../compute/watch-messages.ts';
 import { integer } from '../numbers.ts';
-import type { WatchHands } from './hands.ts';
+import type { Listener, SimplificationHands } from './hands.ts';
 import { usePlayed } from './played.ts';
 import { countAt, stageAt, stageCount } from './stages.ts';
 import { Computed, Transport } from './watched.tsx';
 
 export interface SimplificationPlayerProps {
-  readonly hands: WatchHands<'simplifications'>;
+  readonly hands: SimplificationHands;
+  /** Whether the map can draw one mesh on the other: it has a map file. */
+  readonly isCarried: boolean;
   /** Leaves it. */
   readonly onClose: () => void;
 }
@@ -17,7 +19,7 @@ export interface SimplificationPlayerProps {
 /** From one stage to the next, in ms. */
 const STAGE_TIME = 160;
 
-interface PlayerProps extends SimplificationPlayerProps {
+interface PlayerProps extends Omit<SimplificationPlayerProps, 'isCarried'> {
   readonly found: Simplifications;
 }
 
@@ -51,11 +53,47 @@ function Player({ found, hands, onClose }: PlayerProps): VNode {
   );
 }
 
-/** The stages, once they are computed. */
-export default function SimplificationPlayer({ hands, onClose }: SimplificationPlayerProps): VNode {
+const CHOICES: readonly (readonly [SimplifiedFrom, string, string])[] = [
+  ['each', 'Each by itself', 'Both meshes go to their own landmarks.'],
+  ['source', 'From the source', 'The source is simplified by its own shape; the map carries its triangles to the target.'],
+  ['target', 'From the target', 'The target is simplified by its own shape; the map carries its triangles to the source.'],
+  ['both', 'Jointly', 'The source is simplified where both shapes change least; the map carries its triangles to the target.'],
+];
+
+/** The stages, once they are computed, of what is chosen. */
+export default function SimplificationPlayer({ hands, isCarried, onClose }: SimplificationPlayerProps): VNode {
+  const [from, setFrom] = useState<SimplifiedFrom>('each');
   return (
-    <Computed hands={hands} sentence="Collapsing both meshes to their landmarks…" onClose={onClose}>
-      {(found) => <Player hands={hands} onClose={onClose} found={found} />}
-    </Computed>
+    <div class="watched">
+      <div role="radiogroup" aria-label="What is simplified" class="simplified-from">
+        {CHOICES.map(([value, text]) => (
+          <label class="check" key={value}>
+            <input
+              type="radio"
+              name="simplified-from"
+              value={value}
+              checked={from === value}
+              disabled={!isCarried && value !== 'each'}
+              onChange={() => {
+                setFrom(value);
+              }}
+            />
+            <span>{text}</span>
+          </label>
+        ))}
+      </div>
+      <p class="quiet small">
+        {CHOICES.find(([value]) => value === from)?.[2]}
+        {!isCarried && ' The others need a map with a map file: of the default method, between meshes that were not repaired.'}
+      </p>
+      <Computed
+        key={from}
+        hands={{ start: (listener: Listener<Simplifications>) => hands.start(listener, from) }}
+        sentence={from === 'each' ? 'Collapsing both meshes to their landmarks…' : 'Collapsing one mesh to its landmarks…'}
+        onClose={onClose}
+      >
+        {(found) => <Player hands={hands} onClose={onClose} found={found} />}
+      </Computed>
+    </div>
   );
 }

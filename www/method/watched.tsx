@@ -1,26 +1,26 @@
 /** What is shown of a part of the method while it is computed, and then. */
 import type { ComponentChildren, VNode } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
-import type { Watchable, Watched } from '../compute/watch-messages.ts';
-import type { WatchHands } from './hands.ts';
+import type { Listener } from './hands.ts';
 import './watched.css';
 
-interface ComputedProps<W extends Watchable> {
-  readonly hands: WatchHands<W>;
+interface ComputedProps<T> {
+  /** Begins; returns what ends it. */
+  readonly hands: { readonly start: (listener: Listener<T>) => () => void };
   /** What is done meanwhile, in words. */
   readonly sentence: string;
   readonly onClose: () => void;
-  readonly children: (answer: Watched[W]) => ComponentChildren;
+  readonly children: (answer: T) => ComponentChildren;
 }
 
-type State<W extends Watchable> =
+type State<T> =
   | { readonly kind: 'running'; readonly share: number }
   | { readonly kind: 'failed'; readonly sentence: string }
-  | { readonly kind: 'there'; readonly answer: Watched[W] };
+  | { readonly kind: 'there'; readonly answer: T };
 
 /** Computes it from when it is drawn until it is drawn no more. */
-export function Computed<W extends Watchable>({ hands, sentence, onClose, children }: ComputedProps<W>): VNode {
-  const [state, setState] = useState<State<W>>({ kind: 'running', share: 0 });
+export function Computed<T>({ hands, sentence, onClose, children }: ComputedProps<T>): VNode {
+  const [state, setState] = useState<State<T>>({ kind: 'running', share: 0 });
   useEffect(
     () =>
       hands.start({

@@ -1,6 +1,7 @@
 /** What the page's parts ask for, and what each of them is given. */
 import type { Side, SurfacePoint } from '../landmarks.ts';
-import type { BaseHands, WatchHands } from '../method/hands.ts';
+import type { BaseHands, Listener, SimplificationHands, WatchHands } from '../method/hands.ts';
+import type { Planes } from '../method/plane-client.ts';
 import type { prospectSentence } from '../messages.ts';
 import type { Event } from '../store/events.ts';
 import type { Examined } from '../store/defects.ts';
@@ -73,7 +74,9 @@ export interface Actions {
   /** What the flows that are watched need of the page. */
   readonly flow: WatchHands<'flows'>;
   /** Likewise the simplification. */
-  readonly simplification: WatchHands<'simplifications'>;
+  readonly simplification: SimplificationHands;
+  /** Likewise the layouts in the plane. */
+  readonly plane: { readonly start: (listener: Listener<Planes>) => () => void };
   /** The axis of a mesh that seems to point up by its shape; `null` where the shape does not tell. */
   readonly proposedUp: (side: Side) => Axis | null;
   /** Turns both views to a pair's points. */

@@ -1,7 +1,8 @@
 /** Parts of the method that are watched on the meshes, one at a time. */
 import type { ComponentType, VNode } from 'preact';
 import { useState } from 'preact/hooks';
-import type { WatchHands } from '../method/hands.ts';
+import type { FlowPlayerProps } from '../method/flow.tsx';
+import type { SimplificationPlayerProps } from '../method/simplification.tsx';
 import { shownResult } from '../store/staleness.ts';
 import type { PartProps } from './actions.ts';
 import { Icon } from './icons.tsx';
@@ -9,13 +10,9 @@ import { Late } from './late.tsx';
 
 type Part = 'flow' | 'simplification';
 
-interface PlayerProps<W extends 'flows' | 'simplifications'> {
-  readonly hands: WatchHands<W>;
-  readonly onClose: () => void;
-}
 
-const loadFlow = async (): Promise<ComponentType<PlayerProps<'flows'>>> => (await import('../method/flow.tsx')).default;
-const loadSimplification = async (): Promise<ComponentType<PlayerProps<'simplifications'>>> =>
+const loadFlow = async (): Promise<ComponentType<FlowPlayerProps>> => (await import('../method/flow.tsx')).default;
+const loadSimplification = async (): Promise<ComponentType<SimplificationPlayerProps>> =>
   (await import('../method/simplification.tsx')).default;
 
 interface ButtonProps {
@@ -38,7 +35,7 @@ function WatchButton({ part, about, onOpen }: ButtonProps): VNode {
   );
 }
 
-function PartsOf({ actions }: Pick<PartProps, 'actions'>): VNode {
+function PartsOf({ actions, isCarried }: Pick<PartProps, 'actions'> & { readonly isCarried: boolean }): VNode {
   const [open, setOpen] = useState<Part | null>(null);
   const close = (): void => {
     setOpen(null);
@@ -51,11 +48,11 @@ function PartsOf({ actions }: Pick<PartProps, 'actions'>): VNode {
       <section id="simplification">
         <h3>The simplification</h3>
         {open === 'simplification' ? (
-          <Late isWanted load={loadSimplification} given={{ hands: actions.simplification, onClose: close }} />
+          <Late isWanted load={loadSimplification} given={{ hands: actions.simplification, isCarried, onClose: close }} />
         ) : (
           <WatchButton
             part="simplification"
-            about="A base domain in the way of the thesis: edge after edge is collapsed, least change first, until the landmarks are left. By default the map goes over one that is planned on both meshes together."
+            about="A base domain in the way of the thesis: edge after edge is collapsed, least change first, until the landmarks are left: on each mesh by itself, or on one of both and carried to the other. By default the map goes over one that is planned on both meshes together."
             onOpen={opens('simplification')}
           />
         )}
@@ -79,5 +76,5 @@ function PartsOf({ actions }: Pick<PartProps, 'actions'>): VNode {
 /** What can be watched of the map on the page. */
 export function WatchView({ state, actions }: PartProps): VNode | null {
   const result = shownResult(state);
-  return result === null ? null : <PartsOf key={result.output.report} actions={actions} />;
+  return result === null ? null : <PartsOf key={result.output.report} actions={actions} isCarried={result.output.map !== null} />;
 }

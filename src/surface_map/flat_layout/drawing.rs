@@ -72,17 +72,55 @@ impl FlatDrawing {
     /// are numbers of vertices; a part is convex, and cut from its first corner.
     pub fn triangles_by_chart(&self, charts: usize) -> TrianglesByChart {
         let mut by_chart: Vec<Vec<[u32; 3]>> = vec![Vec::new(); charts];
+        let mut faces: Vec<Vec<FaceId>> = vec![Vec::new(); charts];
         for polygon in &self.polygons {
             let corners = &self.corners[polygon.corners.clone()];
             let fan = corners.windows(2).skip(1).map(|side| [corners[0], side[0], side[1]]);
             by_chart[polygon.chart.index()].extend(fan);
+            faces[polygon.chart.index()].resize(by_chart[polygon.chart.index()].len(), polygon.face);
         }
         let mut starts = vec![0];
         starts.extend(by_chart.iter().scan(0, |end, chart| {
             *end += chart.len();
             Some(*end)
         }));
-        TrianglesByChart { triangles: by_chart.concat(), starts }
+        TrianglesByChart { triangles: by_chart.concat(), faces: faces.concat(), starts }
+    }
+
+    /// The parts of the sides of the base domain inside each face, from both of their charts.
+    pub fn border_parts(&self) -> Vec<BorderPart> {
+        let mut parts = Vec::new();
+        for polygon in &self.polygons {
+            let corners = &self.corners[polygon.corners.clone()];
+            for (k, &from) in corners.iter().enumerate() {
+                let to = corners[(k + 1) % corners.len()];
+                let is_on =
+                    |v: u32, side: HalfedgeId| self.vertices[v as usize].weights[side.prev().corner()] == 0.0;
+                let sides = polygon.chart.halfedges();
+                if let Some(side) = sides.into_iter().find(|&side| is_on(from, side) && is_on(to, side)) {
+                    parts.push(BorderPart { side, face: polygon.face, from, to });
+                }
+            }
+        }
+        parts
+    }
+
+    /// By chart the face in its middle; face 0 for one without parts.
+    pub fn middle_faces(&self, charts: usize) -> Vec<FaceId> {
+        let mut middles = vec![(f64::INFINITY, FaceId(0)); charts];
+        for polygon in &self.polygons {
+            let corners = &self.corners[polygon.corners.clone()];
+            let mean = |k: usize| {
+                let sum: f64 = corners.iter().map(|&v| self.vertices[v as usize].weights[k]).sum();
+                sum / corners.len() as f64 - 1.0 / 3.0
+            };
+            let off: f64 = (0..3).map(|k| mean(k) * mean(k)).sum();
+            let nearest = &mut middles[polygon.chart.index()];
+            if off < nearest.0 {
+                *nearest = (off, polygon.face);
+            }
+        }
+        middles.into_iter().map(|(_, face)| face).collect()
     }
 
     /// Where each vertex of the base domain lies on the mesh; `None` for one that the drawing does not have.
@@ -123,8 +161,23 @@ impl FlatDrawing {
 pub struct TrianglesByChart {
     /// Three corners each.
     pub triangles: Vec<[u32; 3]>,
+    /// By triangle the face of the mesh that it is a part of.
+    pub faces: Vec<FaceId>,
     /// By chart, and one past the end.
     pub starts: Vec<usize>,
+}
+
+/// The part of a side of the base domain inside a face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BorderPart {
+    /// The base halfedge, in the chart of the part.
+    pub side: HalfedgeId,
+    /// The face of the mesh.
+    pub face: FaceId,
+    /// Where it begins, in the chart's counter-clockwise order: the number of a vertex of the drawing.
+    pub from: u32,
+    /// Where it ends.
+    pub to: u32,
 }
 
 /// A chart as seen from the plane of a face.

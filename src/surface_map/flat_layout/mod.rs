@@ -8,5 +8,5 @@ mod cutting;
 mod drawing;
 mod layout;
 
-pub use drawing::{FlatDrawing, FlatPolygon, FlatVertex, TrianglesByChart};
+pub use drawing::{BorderPart, FlatDrawing, FlatPolygon, FlatVertex, TrianglesByChart};
 pub use layout::FlatLayout;

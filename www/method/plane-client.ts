@@ -1,0 +1,66 @@
+/** The worker that lays the flat metrics out, which stays as long as they are looked at. */
+import type { Failure } from '../compute/messages.ts';
+import { failureOf } from '../compute/messages.ts';
+import type { PlaneAnswers, PlaneMessage, PlaneQuestions, PlaneRequest } from './plane-messages.ts';
+
+/** Answers questions about both meshes in the plane. */
+export interface Planes {
+  readonly ask: <K extends keyof PlaneQuestions>(kind: K, question: PlaneQuestions[K]) => Promise<PlaneAnswers[K]>;
+}
+
+export interface PlaneListener {
+  readonly progress: (share: number) => void;
+  readonly done: (planes: Planes) => void;
+  readonly failed: (failure: Failure) => void;
+}
+
+/** Starts the worker; the returned function ends it, and nothing is heard or answered any more. */
+export function startPlanes(request: PlaneRequest, listener: PlaneListener): () => void {
+  const worker = new Worker(new URL('./plane-worker.ts', import.meta.url), { type: 'module' });
+  const waiting = new Map<number, (answer: PlaneAnswers[keyof PlaneAnswers]) => void>();
+  let asked = 0;
+  const planes: Planes = {
+    ask: <K extends keyof PlaneQuestions>(kind: K, question: PlaneQuestions[K]) =>
+      new Promise<PlaneAnswers[K]>((resolve) => {
+        asked += 1;
+        // The worker answers what it was asked.
+        waiting.set(asked, resolve as (answer: PlaneAnswers[keyof PlaneAnswers]) => void);
+        worker.postMessage({ kind, number: asked, question });
+      }),
+  };
+  const fail = (failure: Failure): void => {
+    worker.terminate();
+    listener.failed(failure);
+  };
+  worker.addEventListener('message', ({ data }: MessageEvent<PlaneMessage>) => {
+    switch (data.kind) {
+      case 'progress':
+        listener.progress(data.share);
+        break;
+      case 'ready':
+        listener.done(planes);
+        break;
+      case 'answer':
+        waiting.get(data.number)?.(data.answer);
+        waiting.delete(data.number);
+        break;
+      case 'failed':
+        fail(data.failure);
+        break;
+    }
+  });
+  worker.addEventListener('error', (event) => {
+    event.preventDefault();
+    fail({ code: 'worker', message: event.message });
+  });
+  try {
+    worker.postMessage(request);
+  } catch (thrown) {
+    queueMicrotask(() => {
+      fail(failureOf(thrown));
+    });
+  }
+  return () => {
+    worker.terminate();
+  };
+}
