@@ -1,7 +1,7 @@
 /** The memory that a map takes, foretold from the sizes of its meshes. */
 import type { State } from './state.ts';
 
-/** In bytes: what any map may take, and what each triangle of both meshes adds. The module took 3.0 to 3.8 KiB for each (`docs/figures.md`). */
+/** In bytes: what any map may take, and what each triangle of both meshes adds. The module took 3.0 to 4.0 KiB for each (`docs/figures.md`). */
 const LEAST = 64 * 2 ** 20;
 const PER_FACE = 4 * 2 ** 10;
 /** In bytes: what WebAssembly with 32-bit addresses can hold. */
