@@ -33,6 +33,7 @@ mod holes;
 mod hostile;
 mod job_files;
 mod matched;
+mod memory;
 mod pairs;
 mod remesh;
 mod remeshed;
@@ -154,6 +155,12 @@ const SURVEYS: &[Survey] = &[
         about: "some of them in this process: --pairs slivers-17,hubs-3",
         run: torture::cases,
     },
+    Survey {
+        name: "memory",
+        about: "the largest memory of whole jobs by faces: balls, pairs by name, meshes by path (--pairs)",
+        run: memory::table,
+    },
+    Survey { name: "memory-case", about: "some of them in this process, for the table", run: memory::case },
     Survey { name: "hostile-case", about: "one of them in this process, for the table", run: hostile::case },
     Survey {
         name: "match",

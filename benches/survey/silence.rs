@@ -6,7 +6,10 @@ use crate::job_files::files;
 use crate::judged_job::mapped;
 use crate::watch::Watch;
 use conemap::monitor::Stage;
-use std::time::Instant;
+use std::time::{Duration, Instant};
+
+/// Silences from here on are told with the calls that ended them, where that is asked for (`--depth 2`).
+const LONG: Duration = Duration::from_millis(40);
 
 /// The longest silence of each stage, in processor time.
 pub fn table(arguments: &Arguments) {
@@ -15,6 +18,9 @@ pub fn table(arguments: &Arguments) {
     for name in names {
         let files = files(arguments, &name);
         let (begun, mut watch) = (Instant::now(), Watch::new());
+        if arguments.depth > 1 {
+            watch = watch.tracing(LONG);
+        }
         let outcome = mapped(&files, &mut watch);
         watch.longest();
         let seconds = begun.elapsed().as_secs_f64();

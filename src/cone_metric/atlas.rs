@@ -10,6 +10,7 @@ use crate::math::min_queue::shortest_paths;
 use crate::math::rigid2::{complex_mul, conj_mul};
 use crate::math::triangle::{lay_out, signed_double_area};
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
+use crate::monitor::{Cancelled, Monitor, Step};
 use glam::DVec2;
 use std::collections::VecDeque;
 use typed_index_collections::{TiVec, ti_vec};
@@ -28,10 +29,22 @@ pub struct FlatAtlas {
 }
 
 /// Lays the metric out over the mesh that it was made from, cut along a tree that joins the landmarks.
-pub fn flat_atlas(mesh: &SurfaceMesh, metric: &ConeMetric, landmarks: &[VertexId]) -> FlatAtlas {
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn flat_atlas(
+    mesh: &SurfaceMesh,
+    metric: &ConeMetric,
+    landmarks: &[VertexId],
+    monitor: &mut dyn Monitor,
+) -> Result<FlatAtlas, Cancelled> {
+    monitor.step(Step::default())?;
     let displacements = mesh_displacements(metric);
+    monitor.step(Step::default())?;
     let cut = cut_tree(mesh, landmarks);
+    monitor.step(Step::default())?;
     let mut corner_uvs = develop(mesh, &displacements, &cut, FaceId(0)).corners;
+    monitor.step(Step::default())?;
     let double_area = |uvs: &TiVec<HalfedgeId, DVec2>, f: FaceId| {
         let [p, q, r] = f.halfedges().map(|h| uvs[h]);
         signed_double_area(p, q, r)
@@ -41,7 +54,8 @@ pub fn flat_atlas(mesh: &SurfaceMesh, metric: &ConeMetric, landmarks: &[VertexId
     corner_uvs.iter_mut().for_each(|uv| *uv *= scale);
     let inverted_faces = mesh.faces().filter(|&f| double_area(&corner_uvs, f) <= 0.0).count();
     let l2_stretch = l2_stretch(mesh, &corner_uvs);
-    FlatAtlas { corner_uvs, cut, inverted_faces, l2_stretch }
+    monitor.step(Step::default())?;
+    Ok(FlatAtlas { corner_uvs, cut, inverted_faces, l2_stretch })
 }
 
 /// The displacement along each halfedge of the original triangulation, in the frame of its face.
@@ -180,7 +194,7 @@ mod tests {
         let target = uniform_curvature(mesh.vertex_count(), &landmarks);
         let (metric, _) = flow(&mesh, &target, &FlowOptions::default(), &mut Silent).unwrap();
         assert!(!metric.triangulation.flips().is_empty());
-        let atlas = flat_atlas(&mesh, &metric, &landmarks);
+        let atlas = flat_atlas(&mesh, &metric, &landmarks, &mut Silent).unwrap();
         let edge = |h: HalfedgeId| atlas.corner_uvs[h.next()] - atlas.corner_uvs[h];
         for h in mesh.halfedges() {
             let t = mesh.twin(h);

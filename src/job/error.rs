@@ -1,5 +1,6 @@
 //! Why a job has no result, and which of its files is at fault.
 
+use super::memory::mib;
 use super::mesh_file::MeshFileError;
 use crate::io::ReadError;
 use crate::landmark_exchange::ExchangeError;
@@ -57,6 +58,23 @@ pub enum JobError {
     /// The target has no mirror image.
     #[error("the mirror image of the target: {0}")]
     Mirror(#[from] MeshError),
+    /// The meshes are too large for the memory that a map may take.
+    #[error(
+        "a map of meshes with {} and {} triangles may take {} MiB of memory, more than the {} MiB that it may have: take fewer triangles, \
+         as `conemap remesh` makes them",
+        faces[0],
+        faces[1],
+        mib(*expected),
+        most >> 20
+    )]
+    Memory {
+        /// Of the source and of the target.
+        faces: [usize; 2],
+        /// Bytes that are foretold.
+        expected: u64,
+        /// Bytes that it may have.
+        most: u64,
+    },
     /// There is no map.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),
@@ -110,7 +128,11 @@ impl JobError {
             }
             Self::LandmarkFiles(error) => error.file().map(JobFile::Landmarks),
             Self::Landmarks(_) => Some(JobFile::Landmarks(0)),
-            Self::Matching(_) | Self::Unmatched { .. } | Self::Mirror(_) | Self::Pipeline(_) => None,
+            Self::Matching(_)
+            | Self::Unmatched { .. }
+            | Self::Mirror(_)
+            | Self::Memory { .. }
+            | Self::Pipeline(_) => None,
         }
     }
 
@@ -122,6 +144,7 @@ impl JobError {
             Self::LandmarkFiles(_) | Self::Landmarks(_) | Self::Matching(_) | Self::Unmatched { .. } => {
                 "landmarks"
             }
+            Self::Memory { .. } => "memory",
             Self::Pipeline(error) => error.code(),
         }
     }

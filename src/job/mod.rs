@@ -9,6 +9,7 @@ mod base_picture;
 mod error;
 mod held;
 mod matching;
+mod memory;
 mod mesh_file;
 mod outputs;
 mod proof;
@@ -26,6 +27,7 @@ pub use matching::{
     CandidateReport, DifferenceReport, FewLandmarks, MatchReport, Matched, QuestionReport, VerdictReport,
     match_meshes,
 };
+pub use memory::{LEAST_MEMORY, MEMORY_PER_FACE, expected_memory};
 pub use mesh_file::{MeshFaults, MeshFileError, ReadMesh, read_mesh};
 pub use outputs::OutputFile;
 pub use proof::{ProofError, prove};
@@ -86,6 +88,8 @@ pub struct ReadOptions {
     pub mesh_faults: MeshFaults,
     /// What becomes of fewer landmarks than a map needs.
     pub few_landmarks: FewLandmarks,
+    /// Bytes that a map may take by [`expected_memory`]; `None` for as many as there are.
+    pub most_memory: Option<u64>,
 }
 
 impl From<TargetImage> for ReadOptions {
@@ -131,13 +135,18 @@ impl Job {
     ) -> Result<Self, JobError> {
         let monitor = &mut Rising::new(monitor);
         monitor.enter(Stage::Landmarks);
-        let ReadOptions { target_image, mesh_faults, few_landmarks } = options.into();
+        let ReadOptions { target_image, mesh_faults, few_landmarks, most_memory } = options.into();
         let mut read = |side, bytes, [from, to]: [f64; 2]| {
             read_mesh(bytes, mesh_faults, &mut Portion::new(monitor, from, to))
                 .map_err(|error| JobError::of_mesh(side, error))
         };
         let source = read(MeshSide::Source, files.source, [0.0, 0.5])?;
         let target = read(MeshSide::Target, files.target, [0.5, 1.0])?;
+        let meshes = [source.mesh.mesh(), target.mesh.mesh()];
+        let expected = expected_memory(meshes);
+        if let Some(most) = most_memory.filter(|most| *most < expected) {
+            return Err(JobError::Memory { faces: meshes.map(SurfaceMesh::face_count), expected, most });
+        }
         let repairs = [source.report, target.report];
         let (source, mut target) = (source.mesh, target.mesh);
         let surfaces = [(&source, files.source), (&target, files.target)]

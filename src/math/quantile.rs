@@ -9,9 +9,26 @@ pub struct Weighted {
     pub weight: f64,
 }
 
+/// Values that are sorted between two questions: some milliseconds.
+const ASKED_EVERY: usize = 1 << 16;
+
 /// Sorts by value, the least first.
 pub fn sort_by_value(values: &mut [Weighted]) {
     values.sort_by(|a, b| a.value.total_cmp(&b.value));
+}
+
+/// The same, and asks now and then whether to go on.
+///
+/// # Errors
+/// That of `ask`; the values are then in any order.
+pub fn sort_asking<E>(values: &mut [Weighted], mut ask: impl FnMut() -> Result<(), E>) -> Result<(), E> {
+    for part in values.chunks_mut(ASKED_EVERY) {
+        sort_by_value(part);
+        ask()?;
+    }
+    // Stable, as the parts were: the same order as at once, and quick, since it only merges runs.
+    sort_by_value(values);
+    Ok(())
 }
 
 /// The weighted quantile of sorted values; not a number where there are none.
@@ -41,5 +58,21 @@ mod tests {
             [1.0, 1.0, 2.0, 2.0, 2.0, 5.0, 5.0]
         );
         assert!(quantile(&[], 0.5).is_nan());
+    }
+
+    #[test]
+    fn a_long_sort_asks_and_orders_as_one_at_once() {
+        let of = |k: usize| Weighted { value: (k * 7919 % 1000) as f64, weight: k as f64 };
+        let mut values: Vec<Weighted> = (0..3 * ASKED_EVERY + 5).map(of).collect();
+        let mut at_once = values.clone();
+        at_once.sort_by(|a, b| a.value.total_cmp(&b.value));
+        let mut asked = 0;
+        sort_asking(&mut values, || {
+            asked += 1;
+            Ok::<_, ()>(())
+        })
+        .unwrap();
+        assert_eq!((asked, values == at_once), (4, true));
+        assert_eq!(sort_asking(&mut values, || Err("stop")), Err("stop"));
     }
 }

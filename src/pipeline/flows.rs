@@ -39,9 +39,10 @@ impl Flows {
             metric_of(MeshSide::Source, input, base, options, monitor).map_err(PipelineError::source_flow)?;
         let (metric, target) =
             metric_of(MeshSide::Target, input, base, options, monitor).map_err(PipelineError::target_flow)?;
+        let atlas = flat_atlas(input.target, &metric, &input.landmarks.target, monitor)?;
         Ok(Self {
             cones: cones(input, base, options),
-            target_atlas: Some(flat_atlas(input.target, &metric, &input.landmarks.target)),
+            target_atlas: Some(atlas),
             reports: [Some(source), Some(target)],
             faces: input.target.face_count(),
         })
@@ -72,11 +73,14 @@ impl Flows {
             Ok((None, None))
         };
         let (_, source) = tried(MeshSide::Source, &mut *monitor)?;
-        let (metric, target) = tried(MeshSide::Target, monitor)?;
-        let atlas = |metric: &ConeMetric| flat_atlas(input.target, metric, &input.landmarks.target);
+        let (metric, target) = tried(MeshSide::Target, &mut *monitor)?;
+        let target_atlas = match &metric {
+            Some(metric) => Some(flat_atlas(input.target, metric, &input.landmarks.target, monitor)?),
+            None => None,
+        };
         let flows = Self {
             cones: cones(input, base, options),
-            target_atlas: metric.as_ref().map(atlas),
+            target_atlas,
             reports: [source, target],
             faces: input.target.face_count(),
         };

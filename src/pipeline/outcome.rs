@@ -57,6 +57,7 @@ impl Outcome<'_> {
         let vertices = input.source.vertex_count();
         let has_caps = input.caps.any();
         let images = vertex_images(map.sides(), self.surfaces()[1], self.locations, vertices);
+        monitor.step(Step::default())?;
         let true_error = (input.ground_truth == GroundTruth::SameConnectivity).then(|| {
             // Of skin alone, where there are caps.
             let is_skin = |&(v, p): &(VertexId, SurfacePoint)| {
@@ -67,6 +68,7 @@ impl Outcome<'_> {
             let error = same_connectivity_error(input.target, mapped.filter(is_skin));
             GroundTruthReport { mean: error.mean, p95: error.p95, max: error.max }
         });
+        monitor.step(Step::default())?;
         let images: TiVec<VertexId, Option<SurfacePoint>> = images.into_iter().map(Some).collect();
         let shown = match overlay {
             Ok(overlay) => self.shown_on(&overlay, monitor)?,
@@ -75,12 +77,18 @@ impl Outcome<'_> {
                 self.shown_at_vertices(&images)
             }
         };
+        monitor.step(Step { fraction: 1.0, residual: None })?;
         let warnings = warnings(map, &shown.measured);
         let report = Report {
             ground_truth: true_error,
             warnings: missing.into_iter().chain(warnings).collect(),
             ..self.report(&shown.measured)
         };
+        monitor.step(Step::default())?;
+        let source_lines = patch_lines(map, 0, input.source);
+        monitor.step(Step::default())?;
+        let target_lines = patch_lines(map, 1, input.target);
+        monitor.step(Step::default())?;
         Ok(MapResult {
             base: self.base.clone(),
             cone_curvatures: self.flows.cones.clone(),
@@ -89,7 +97,7 @@ impl Outcome<'_> {
             flat_layout: shown.flat_layout,
             texture: self.flows.l2_stretch().map(|_| self.flows.texture()),
             common: shown.common,
-            patch_lines: [patch_lines(map, 0, input.source), patch_lines(map, 1, input.target)],
+            patch_lines: [source_lines, target_lines],
             target_from_source: images,
             vertex_distortion: shown.measured.by_vertex.into_iter().take(vertices).collect(),
             report,

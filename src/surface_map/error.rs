@@ -10,7 +10,12 @@ pub enum MapError {
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     /// Landmarks so placed that a base triangle is degenerate.
-    #[error("landmarks {}, {} and {} lie on one line on both meshes: move one of them", landmarks[0], landmarks[1], landmarks[2])]
+    #[error(
+        "the landmarks {}, {} and {} (the first is 1) lie on one line on both meshes: move one of them",
+        landmarks[0] + 1,
+        landmarks[1] + 1,
+        landmarks[2] + 1
+    )]
     DegenerateBase {
         /// The landmarks, 0-based.
         landmarks: [usize; 3],

@@ -246,6 +246,24 @@ fn maps_the_other_demos() {
     map_demos(&others.collect::<Vec<_>>());
 }
 
+#[test]
+fn meshes_whose_map_may_take_more_than_the_memory_limit_are_refused_before_the_run() {
+    let folder = folder("memory_limit");
+    let [source, target, pairs] = write_bodies(&folder);
+    let map = |mib: &str| {
+        let flags = ["map", "--memory-limit", mib, "--landmarks"].map(OsStr::new);
+        conemap([&flags[..], &[&pairs, &source, &target].map(|path| path.as_os_str())].concat())
+    };
+    let refused = map("100");
+    assert!(!refused.status.success());
+    let faces = [octasphere().face_count(), egg().face_count()];
+    let sentence =
+        format!("a map of meshes with {} and {} triangles may take 109 MiB of memory", faces[0], faces[1]);
+    assert!(errors(&refused).contains(&sentence), "{}", errors(&refused));
+    let mapped = map("109");
+    assert!(mapped.status.success(), "{}", errors(&mapped));
+}
+
 /// Runs `map` on a demo with a limit of time; the report.
 fn mapped_within(seconds: &str) -> Value {
     let folder = folder(&format!("mapped_within/{seconds}"));

@@ -1,5 +1,7 @@
 /** The one thing to do now, on top of every panel. */
 import type { VNode } from 'preact';
+import { integer } from '../numbers.ts';
+import { expectedMemory, mayExceedMemory } from '../store/memory.ts';
 import { wholePairs } from '../store/order.ts';
 import { canRun, MIN_PAIRS } from '../store/readiness.ts';
 import { staleness } from '../store/staleness.ts';
@@ -8,6 +10,13 @@ import type { Actions, PartProps } from './actions.ts';
 import { choose } from './inputs.tsx';
 import { FindLandmarks } from './matching.tsx';
 import { meshName } from './names.ts';
+
+/** Meshes of which a map may end for want of memory. */
+function tooLarge(state: State): string {
+  const faces = state.meshes.reduce((sum, mesh) => sum + (mesh?.faceCount ?? 0), 0);
+  const needed = (expectedMemory(state) / 2 ** 30).toFixed(1);
+  return `A map of ${integer(faces)} triangles may take ${needed} GiB of memory, more than the 4 GiB that a page can have. The command line has no such limit; or take fewer triangles.`;
+}
 
 /** Why no map can be made, or what it would be made of. */
 function reason(state: State): string {
@@ -20,6 +29,9 @@ function reason(state: State): string {
   }
   if (pairs < MIN_PAIRS) {
     return `${pairs} of at least ${MIN_PAIRS} landmark pairs.`;
+  }
+  if (mayExceedMemory(state)) {
+    return tooLarge(state);
   }
   if (state.result === null) {
     return `With ${pairs} landmark pairs.`;

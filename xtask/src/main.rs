@@ -1,5 +1,7 @@
-//! Build helper of the project: `cargo xtask serve | build | test | browsers | compare | survey | fuzz | torture | wasm`.
+//! Build helper of the project: `cargo xtask serve | build | test | browsers | compare | agree | survey | fuzz | torture | wasm`.
 
+mod agree;
+mod audit;
 mod browser;
 mod browsers;
 mod compare;
@@ -20,6 +22,7 @@ const USAGE: &str = "cargo xtask COMMAND
   test    run the tests: formatting, lints, documentation, core, page, browser; with --all the long ones, too
   browsers visit the page in Chromium, Firefox and WebKit, which are installed where that is possible
   compare time whole maps, wasm in a browser against native: [--runs N] [PAIR.json ...], the demos without files
+  agree   compare whole maps as wasm with native ones, number by number: [PAIR.json ...], all of ../shared/data without files
   survey  tables of many maps on the meshes of ../shared/data: TABLE [--pairs NAME,NAME] [--seeds N]; lists them without a name
   fuzz    read changed files by every reader: [--runs N] of each, from one [--seed S]
   torture map generated hostile geometry for [--minutes N], from one [--seed S]: the table of outcomes; --case KIND-SEED for one
@@ -36,6 +39,7 @@ fn main() -> ExitCode {
         "test" if rest.is_empty() => suite::test(suite::Extent::Usual),
         "browsers" if rest.is_empty() => browsers::build_and_visit(),
         "compare" => compare::compare(&rest),
+        "agree" => agree::agree(&rest),
         "survey" => survey::survey(&rest),
         "fuzz" => fuzz::fuzz(&rest),
         "torture" => torture::torture(&rest),

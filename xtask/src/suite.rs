@@ -1,7 +1,7 @@
 //! The tests of the project.
 
 use crate::run::{cargo, run, run_with};
-use crate::{browser, browsers, licences, page, wasm};
+use crate::{audit, browser, browsers, licences, page, wasm};
 use std::time::Instant;
 
 type Task<'a> = Box<dyn FnOnce() -> Outcome + 'a>;
@@ -70,6 +70,7 @@ fn helper() -> Outcome {
 
 fn lints() -> Outcome {
     licences::check()?;
+    audit::check()?;
     run(&cargo(), &[&["clippy"][..], &PACKAGES, &["--all-targets", "--", "-D", "warnings"]].concat())?;
     let web = [
         "clippy",

@@ -148,6 +148,9 @@ pub struct MapArguments {
     /// --time-limit.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub deadline: Option<Duration>,
+    /// Refuse meshes whose map may take more memory than that: 100 MiB and 10 KiB for each triangle of both meshes.
+    #[arg(long, value_name = "MIB")]
+    pub memory_limit: Option<u32>,
     /// Use the mirror image of the target: for landmarks whose left and right are exchanged.
     #[arg(long)]
     pub mirror_target: bool,

@@ -99,6 +99,7 @@ impl<'a> From<&'a MapArguments> for Asked<'a> {
                 target_image,
                 mesh_faults: arguments.faults.into(),
                 few_landmarks: FewLandmarks::Matched,
+                most_memory: arguments.memory_limit.map(|mib| u64::from(mib) << 20),
             },
             choices: arguments.choices,
             time_limit: arguments.time_limit,

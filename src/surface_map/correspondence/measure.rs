@@ -7,6 +7,7 @@ use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint};
 use crate::surface_map::measures::coverage::SkinAreas;
 use crate::surface_map::measures::distortion::{Distortion, Tally, in_plane};
 use glam::{DMat2, DVec3};
+use std::convert::Infallible;
 use typed_index_collections::TiVec;
 
 /// Measures a map from its pieces alone, where both of its sides are skin. Places and averages are those of the meshes given.
@@ -39,7 +40,8 @@ pub fn distortion(meshes: [&SurfaceMesh; 2], map: &Correspondence, caps: CapFace
     }
     let middles = |k: usize| [0, 1].map(|side| middle(meshes[side], map, side, &map.pieces[k]));
     let worst = tally.worst(|k| map.pieces[k].is_certain, middles);
-    tally.finish(meshes[0], worst)
+    let Ok(distortion) = tally.finish(meshes[0], worst, || Ok::<_, Infallible>(()));
+    distortion
 }
 
 /// The mean of a piece's corners on one of both meshes.

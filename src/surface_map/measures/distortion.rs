@@ -4,7 +4,7 @@
 
 use super::coverage::{Coverage, SkinAreas};
 use crate::math::matrix2::squares;
-use crate::math::quantile::{Weighted, quantile, sort_by_value};
+use crate::math::quantile::{Weighted, quantile, sort_asking};
 use crate::math::scalar::{ln, max, min};
 use crate::math::triangle::lay_out;
 use crate::mesh::cap_faces::CapFaces;
@@ -14,6 +14,7 @@ use crate::surface_map::overlay::{Overlay, OverlayPoint, Piece};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use crate::surface_map::parametrisation::rest_triangle::rest_jacobian;
 use glam::{DMat2, DVec2, DVec3};
+use std::convert::Infallible;
 use typed_index_collections::{TiVec, ti_vec};
 
 /// Distortion where the map is affine, with singular values s1 and s2 and both areas 1.
@@ -154,7 +155,7 @@ pub fn skin_distortion(
     monitor.step(Step::default())?;
     let worst = worst_pieces([source, target], overlay, &tally);
     monitor.step(Step::default())?;
-    Ok(tally.finish(source.mesh, worst))
+    tally.finish(source.mesh, worst, || monitor.step(Step::default()))
 }
 
 fn worst_pieces(
@@ -274,15 +275,25 @@ impl Tally {
             .collect()
     }
 
-    /// All measures, after the last piece.
-    pub(in crate::surface_map) fn finish(self, source: &SurfaceMesh, worst: Vec<WorstPiece>) -> Distortion {
+    /// All measures, after the last piece; asks now and then whether to go on.
+    ///
+    /// # Errors
+    /// That of `ask`.
+    pub(in crate::surface_map) fn finish<E>(
+        self,
+        source: &SurfaceMesh,
+        worst: Vec<WorstPiece>,
+        mut ask: impl FnMut() -> Result<(), E>,
+    ) -> Result<Distortion, E> {
         let Self { mut result, densities, dented, faces, .. } = self;
-        result.summarise(densities);
+        result.summarise(densities, &mut ask)?;
+        ask()?;
         result.max = worst.first().map_or(1.0, |piece| piece.density);
         result.dented = max(dented[0] / result.source_area, dented[1] / result.target_area);
         result.worst = worst;
         result.by_vertex = vertex_averages(source, &faces);
-        result
+        ask()?;
+        Ok(result)
     }
 }
 
@@ -327,7 +338,7 @@ pub fn image_distortion(
     }
     result.dented = max(dented[0] / result.source_area, dented[1] / result.target_area);
     result.mean_log = 0.5 * (logs[0] / result.source_area + logs[1] / result.target_area);
-    result.summarise(densities);
+    let Ok(()) = result.summarise(densities, || Ok::<_, Infallible>(()));
     result
 }
 
@@ -339,12 +350,17 @@ pub(in crate::surface_map) fn in_plane([p, q, r]: [DVec3; 3], scale: f64) -> DMa
 
 impl Distortion {
     /// Mean, quantiles and maximum of densities, their weights the source areas.
-    fn summarise(&mut self, mut densities: Vec<Weighted>) {
+    fn summarise<E>(
+        &mut self,
+        mut densities: Vec<Weighted>,
+        ask: impl FnMut() -> Result<(), E>,
+    ) -> Result<(), E> {
         self.mean = densities.iter().map(|d| d.value * d.weight).sum::<f64>() / self.source_area;
-        sort_by_value(&mut densities);
+        sort_asking(&mut densities, ask)?;
         self.median = quantile(&densities, 0.5);
         self.p95 = quantile(&densities, 0.95);
         self.max = densities.last().map_or(1.0, |d| d.value);
+        Ok(())
     }
 }
 

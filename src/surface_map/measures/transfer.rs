@@ -126,10 +126,12 @@ pub fn common_mesh(
     monitor: &mut dyn Monitor,
 ) -> Result<CommonMesh, Cancelled> {
     let normals = [vertex_normals(source.input), vertex_normals(target.input)];
+    monitor.step(Step::default())?;
     let values = |s: Surface<'_>, n, uvs| s.refined.mesh.faces().map(|f| face_values(s, n, uvs, f)).collect();
     let source_values: TiVec<FaceId, FaceValues> = values(source, &normals[0], None);
     monitor.step(Step::default())?;
     let target_values: TiVec<FaceId, FaceValues> = values(target, &normals[1], Some(target_uvs));
+    monitor.step(Step::default())?;
     let mut shared = FxHashMap::default();
     let mut mesh = CommonMesh::default();
     let mut ring = Vec::new();
