@@ -76,7 +76,7 @@ const VARIANTS: [Variant; 6] = [
     Variant { name: "higher", moved: 0.04, ..USUAL },
     Variant { name: "lower", moved: -0.04, ..USUAL },
     Variant { name: "denser", parts: 4, ..USUAL },
-    Variant { name: "neck, limb", limb: true, ..USUAL },
+    Variant { name: "neck and limb", limb: true, ..USUAL },
 ];
 
 /// Distances in units of the root of the area of the mesh on which they are.

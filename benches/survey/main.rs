@@ -96,7 +96,7 @@ const SURVEYS: &[Survey] = &[
     },
     Survey {
         name: "borders",
-        about: "both meshes cut at the neck: rim to rim, errors beside it, against the closed pair; --variants head,'neck, limb',... --toll 0.5",
+        about: "both meshes cut at the neck: rim to rim, errors beside it, against the closed pair; --variants head,'neck and limb',... --toll 0.5",
         run: borders::cut,
     },
     Survey {

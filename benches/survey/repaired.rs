@@ -52,7 +52,7 @@ const FILES: [(&str, Partner); 13] = [
 const REPAIRS: RepairOptions =
     RepairOptions { join_within: 0.0, parts: Parts::LargestAlone, handles: Handles::Cut };
 
-/// Landmarks on a copy.
+/// Landmarks on a copy, where the arguments say nothing.
 const LANDMARKS: usize = 12;
 
 /// A map's files.
@@ -119,7 +119,7 @@ fn line(arguments: &Arguments, name: &str, partner: &Partner) -> Result<[String;
                 nearest.expect("vertices") as u32
             })
         }
-        Partner::Copy => copy(bytes)?,
+        Partner::Copy => copy(bytes, if arguments.landmarks == 0 { LANDMARKS } else { arguments.landmarks })?,
     };
     let mut limit = Limit::new(arguments.time_limit);
     let job = read(&files, &mut limit)?;
@@ -160,7 +160,7 @@ fn of_pair(
 }
 
 /// A file and the bent copy of its repaired surface, in triangles of its own.
-fn copy(bytes: Vec<u8>) -> Result<Files, String> {
+fn copy(bytes: Vec<u8>, landmarks: usize) -> Result<Files, String> {
     let read = read_mesh(&bytes, MeshFaults::Repaired(REPAIRS), &mut Silent);
     let ReadMesh { mesh, .. } = read.map_err(|e| e.to_string())?;
     let checked = mesh.checked();
@@ -171,10 +171,10 @@ fn copy(bytes: Vec<u8>) -> Result<Files, String> {
     // Landmarks are vertices of the file.
     let numbers = checked.file_from_vertex();
     let in_file = |v: &VertexId| numbers[v.index()] < checked.vertex_from_file.len();
-    let chosen: Vec<VertexId> = common::farthest_points(&checked.mesh, 3 * LANDMARKS)
+    let chosen: Vec<VertexId> = common::farthest_points(&checked.mesh, 3 * landmarks)
         .into_iter()
         .filter(in_file)
-        .take(LANDMARKS)
+        .take(landmarks)
         .collect();
     let points: Vec<SurfacePoint> = chosen.iter().map(|&v| SurfacePoint::at_vertex(&bent, v)).collect();
     let places = carried(&bent, &remeshed, &points);

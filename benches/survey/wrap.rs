@@ -21,16 +21,29 @@ struct Punch {
     around: &'static [(usize, f64)],
 }
 
-const PUNCHES: [Punch; 6] = [
+const PUNCHES: [Punch; 9] = [
     Punch { name: "clean", around: &[] },
     Punch { name: "at 12", around: &[(12, 0.1)] },
     Punch { name: "at 3", around: &[(3, 0.1)] },
     Punch { name: "at 4", around: &[(4, 0.1)] },
     Punch { name: "at 20", around: &[(20, 0.1)] },
+    Punch { name: "at 0", around: &[(0, 0.1)] },
+    Punch { name: "at 7", around: &[(7, 0.1)] },
+    Punch { name: "two places", around: &[(6, 0.05), (17, 0.05)] },
     Punch { name: "four places", around: &[(2, 0.025), (9, 0.025), (14, 0.025), (21, 0.025)] },
 ];
 
-/// Each pair clean and with each punch.
+/// Pairs of the data folder, base first.
+const PAIRS: [(&str, [&str; 2]); 6] = [
+    ("cat-lion", ["cat", "lion"]),
+    ("cat-dog", ["cat", "dog"]),
+    ("horse-camel", ["horse", "camel"]),
+    ("cat-lion", ["lion", "cat"]),
+    ("cat-dog", ["dog", "cat"]),
+    ("horse-camel", ["camel", "horse"]),
+];
+
+/// Each pair, either way round, clean and with each punch.
 pub fn bases(arguments: &Arguments) {
     println!(
         "{:14} {:12} {:>8} {:>8} {:>8} {:>23} {:>23} {:>4} {:>15} {:>6}",
@@ -46,13 +59,12 @@ pub fn bases(arguments: &Arguments) {
         "cpu s"
     );
     let wanted = |name: &str| arguments.variants.is_empty() || arguments.variants.iter().any(|v| v == name);
-    let pairs: Vec<&str> = ["cat-lion", "cat-dog", "horse-camel"]
-        .into_iter()
-        .filter(|name| {
-            arguments.pairs.is_empty() || arguments.pairs.iter().any(|p| name.starts_with(p.as_str()))
-        })
-        .collect();
-    let cases = pairs.iter().flat_map(|&pair| PUNCHES.iter().map(move |punch| (pair, punch)));
+    let is_asked = |[base, scan]: [&str; 2]| {
+        let name = format!("{base}-{scan}");
+        arguments.pairs.is_empty() || arguments.pairs.iter().any(|p| name.starts_with(p.as_str()))
+    };
+    let pairs: Vec<_> = PAIRS.into_iter().filter(|(_, ends)| is_asked(*ends)).collect();
+    let cases = pairs.iter().flat_map(|pair| PUNCHES.iter().map(move |punch| (pair, punch)));
     let queue: std::collections::VecDeque<_> = cases.filter(|(_, punch)| wanted(punch.name)).collect();
     let queue = std::sync::Mutex::new(queue);
     std::thread::scope(|scope| {
@@ -60,11 +72,11 @@ pub fn bases(arguments: &Arguments) {
             scope.spawn(|| {
                 loop {
                     let next = queue.lock().expect("a queue").pop_front();
-                    let Some((pair, punch)) = next else { break };
+                    let Some(((pair, ends), punch)) = next else { break };
                     let begun = ThreadTime::now();
-                    let outcome = wrapped(arguments, pair, punch);
+                    let outcome = wrapped(arguments, (pair, *ends), punch);
                     let seconds = begun.elapsed().as_secs_f64();
-                    println!("{pair:14} {:12} {}", punch.name, line(&outcome, seconds));
+                    println!("{:14} {:12} {}", ends.join("-"), punch.name, line(&outcome, seconds));
                 }
             });
         }
@@ -72,8 +84,16 @@ pub fn bases(arguments: &Arguments) {
 }
 
 /// Writes the files, reads them as a user's, maps and wraps.
-fn wrapped(arguments: &Arguments, pair: &str, punch: &Punch) -> Result<WrappedFile, String> {
-    let mut pair = common::read_pair(&arguments.data, pair);
+fn wrapped(
+    arguments: &Arguments,
+    (file, ends): (&str, [&str; 2]),
+    punch: &Punch,
+) -> Result<WrappedFile, String> {
+    let mut pair = common::read_pair(&arguments.data, file);
+    if !file.starts_with(ends[0]) {
+        std::mem::swap(&mut pair.source, &mut pair.target);
+        pair.file.pairs.iter_mut().for_each(|ends| ends.reverse());
+    }
     let base = obj_with_quads(&pair.source, |_| true);
     let pairs = common::vertex_pairs(&pair.file);
     let mut is_gone: TiVec<FaceId, bool> = pair.target.faces().map(|_| false).collect();
@@ -96,7 +116,12 @@ fn wrapped(arguments: &Arguments, pair: &str, punch: &Punch) -> Result<WrappedFi
     let job = Job::read(files, ReadOptions::default(), &mut limit).map_err(|e| e.to_string())?;
     let result = job.run(&arguments.options, &mut limit).map_err(|e| e.to_string())?;
     let map = job.map_file(&result, &Choices::default()).ok_or("no pieces")?;
-    job.taken(&map).wrapped(&base, Normals::Kept, &mut limit).map_err(|e| e.to_string())
+    let wrapped = job.taken(&map).wrapped(&base, Normals::Kept, &mut limit).map_err(|e| e.to_string())?;
+    let lines = |bytes: &[u8]| -> Vec<Vec<u8>> {
+        bytes.split(|b| *b == b'\n').filter(|line| !line.starts_with(b"v ")).map(<[u8]>::to_vec).collect()
+    };
+    assert!(lines(&wrapped.bytes) == lines(&base), "a line that is no vertex changed");
+    Ok(wrapped)
 }
 
 /// The faces that are left, as a file.

@@ -196,14 +196,27 @@ fn read_text<'a>(
     let last_line = text.lines().count().max(1);
     let rest: Vec<(usize, &str)> = lines.collect();
     let announced = Announced { kind, counts, last_line };
-    if rest.len() >= counts.vertices + counts.faces || words.len() <= 1 {
-        by_lines(announced, rest.into_iter(), told)
+    // The number of edges is told and not needed.
+    let all = || {
+        let later =
+            rest.iter().flat_map(|&(line, content)| content.split_whitespace().map(move |w| (line, w)));
+        words.clone().skip(1).chain(later)
+    };
+    let has_lines = rest.len() >= counts.vertices + counts.faces;
+    let is_short = || {
+        let first = rest.first().map_or(0, |(_, content)| content.split_whitespace().count());
+        !has_lines || first < kind.coordinates()
+    };
+    // A file with a line for each element that was cut off is not taken for one long line.
+    let is_by_words = if words.len() > 1 {
+        !has_lines
     } else {
-        // The number of edges is told and not needed.
-        let later = rest
-            .into_iter()
-            .flat_map(|(line, content)| content.split_whitespace().map(move |word| (line, word)));
-        by_words(announced, words.skip(1).chain(later), told)
+        is_short() && by_words(announced, all(), &mut |_| {}).is_ok_and(|(_, left)| left == 0)
+    };
+    if is_by_words {
+        by_words(announced, all(), told).map(|(soup, _)| soup)
+    } else {
+        by_lines(announced, rest.iter().copied(), told)
     }
 }
 
@@ -263,12 +276,13 @@ fn by_lines<'a>(
     Ok(soup)
 }
 
-/// Numbers one after another, wherever lines end: then a vertex has all the numbers that the keyword says, and faces no colours.
+/// Numbers one after another, wherever lines end: then a vertex has all the numbers that the keyword says, and faces no colours. With the
+/// number of words that are left.
 fn by_words<'a>(
     announced: Announced,
     mut words: impl Iterator<Item = (usize, &'a str)>,
     told: &mut dyn FnMut(CoordinateWords<'a>),
-) -> Result<PolygonSoup, Problem> {
+) -> Result<(PolygonSoup, usize), Problem> {
     let mut soup = announced.counts.soup();
     let mut next = || {
         let (line, word) = words.next().unzip();
@@ -287,7 +301,7 @@ fn by_words<'a>(
         };
         soup.polygons.push((0..corners).map(corner).collect::<Result<_, _>>()?);
     }
-    Ok(soup)
+    Ok((soup, words.count()))
 }
 
 /// What follows the first line of a binary file; `None` for text.

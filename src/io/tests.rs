@@ -179,6 +179,11 @@ fn text_formats_have_many_forms() {
         OFF.replace('\n', "\r"),
         OFF.replace("# a comment\n", "").replace('\n', " "),
         OFF.replace("OFF\n# a comment\n", "OFF"),
+        OFF.replace("6\n0 0 0\n1 0 0\n0 1", "6\n0 0 0 1 0 0\n0 1"),
+        format!("OFF\n4 4 6\n0 0 0 1 0 0 0 1 0 0 0 1\n{}", faces.replace('\n', " ")),
+        format!("OFF\n4 4 6\n0 0 0 1 0 0 0 1 0 0 0 1 {faces}")
+            .replace([' ', '\n'], "\n")
+            .replacen("4\n4\n", "4 4 ", 1),
         format!("4OFF\n4 4 6\n0 0 0 2\n2 0 0 2\n0 2 0 2\n0 0 2 2\n{faces}"),
         format!("nOFF 3\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n{faces}"),
         format!(
@@ -200,6 +205,9 @@ fn text_formats_have_many_forms() {
     }
     let says = |text: &str| read_mesh(text.as_bytes()).unwrap_err().to_string();
     assert!(says("4OFF\n1 0 0\n1 2 3 0\n").contains("it lies at infinity"));
+    // A file that was cut off is no file with several elements a line.
+    let cut_off = &OFF[..OFF.len() - 16];
+    assert!(says(cut_off).contains("the file ends before face 2 of 4"), "{}", says(cut_off));
     assert!(says("nOFF 5\n1 0 0\n1 2 3 4 5\n").contains("its vertices have 5 coordinates"));
     let stl = ascii_stl();
     assert!(says(&stl[..stl.len() - 12]).contains("cut off"));

@@ -216,9 +216,9 @@ fn outcomes(seeds: std::ops::Range<u64>, largest: usize) -> Outcomes {
 
 fn are_closed_or_refused_for_a_reason(outcomes: &Outcomes) {
     let count = |kind: &str| outcomes.get(kind).map_or(0, Vec::len);
-    let reasons = ["open_sheet", "not_orientable", "too_many_handles", "nothing_left", "non_manifold_edges"];
-    // Three of a thousand are left with crowded edges once all else is done: it is not known why.
-    assert!(count("non_manifold_edges") <= 3, "{outcomes:?}");
+    let reasons = ["open_sheet", "not_orientable", "too_many_handles", "nothing_left", "degenerate_faces"];
+    // Faces without area that cannot go without a hole.
+    assert!(count("degenerate_faces") <= 2, "{outcomes:?}");
     let closed = count("repaired") + count("repaired when asked");
     let refused: usize = reasons.map(count).iter().sum();
     let others = outcomes.iter().filter(|(kind, _)| !reasons.contains(kind) && !kind.starts_with("repaired"));
@@ -236,6 +236,12 @@ fn a_file_with_several_faults_is_closed_or_refused() {
 #[ignore = "long: run by `cargo xtask test --all`"]
 fn a_thousand_files_with_several_faults_are_closed_or_refused() {
     are_closed_or_refused_for_a_reason(&outcomes(200..1200, 4));
+}
+
+#[test]
+#[ignore = "long: run by `cargo xtask test --all`"]
+fn a_thousand_other_files_with_several_faults_are_closed_or_refused() {
+    are_closed_or_refused_for_a_reason(&outcomes(10_000..11_000, 4));
 }
 
 #[test]

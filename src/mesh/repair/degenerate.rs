@@ -48,14 +48,18 @@ pub(super) fn without_degenerate(mut draft: Draft, additions: Additions) -> (Dra
         if !draft.faces.iter().any(|face| is_degenerate(&draft.positions, &face.corners)) {
             break;
         }
-        draft = needles_joined(draft);
+        let mut waits = false;
+        draft = match additions {
+            Additions::Nothing => needles_joined(draft),
+            Additions::Vertices => closed_needles_joined(draft, &mut waits),
+        };
         let has_three = |face: &DraftFace| {
             let [a, b, c] = face.corners;
             a != b && b != c && c != a
         };
         draft = without(draft, has_three, &mut dropped);
         let cuts = Cuts::find(&draft);
-        if cuts.is_empty() {
+        if cuts.is_empty() && !waits {
             break;
         }
         draft = cuts.made(draft, &mut dropped, &mut recut);
@@ -126,16 +130,90 @@ fn needles_joined(mut draft: Draft) -> Draft {
             any |= sets.join(a as usize, b as usize);
         }
     }
-    if !any {
-        return draft;
+    if any {
+        join(&mut draft, &mut sets);
     }
+    draft
+}
+
+/// Makes one vertex of each set: that of the least number.
+fn join(draft: &mut Draft, sets: &mut DisjointSets) {
     let mut least: FxHashMap<usize, u32> = FxHashMap::default();
     let stands: Vec<u32> =
         (0..draft.positions.len()).map(|v| *least.entry(sets.root(v)).or_insert(v as u32)).collect();
     for v in draft.faces.iter_mut().flat_map(|face| &mut face.corners) {
         *v = stands[*v as usize];
     }
-    draft
+}
+
+/// The same on a surface where every edge has two faces, and keeps them: an edge goes only where its ends have no other neighbours in
+/// common than the corners across it. Where they have, as the copies of a vertex at which two sheets touch, the edge of a cap gets a
+/// vertex above its middle. `waits` tells whether there are more, beside what changed now.
+fn closed_needles_joined(mut draft: Draft, waits: &mut bool) -> Draft {
+    let edges = edges(&draft.faces);
+    let mut beside: FxHashMap<u32, FxHashSet<u32>> = FxHashMap::default();
+    for [a, b] in edges.iter().map(|edge| edge.ends) {
+        beside.entry(a).or_default().insert(b);
+        beside.entry(b).or_default().insert(a);
+    }
+    let mut sets = DisjointSets::new(draft.positions.len());
+    let mut raised = FxHashMap::default();
+    let mut touched: FxHashSet<u32> = FxHashSet::default();
+    for (f, face) in draft.faces.iter().enumerate() {
+        let Some(k) = short_side(&draft, face) else { continue };
+        let [a, b] = face.side(k);
+        let Some(g) = neighbour(&draft, &edges, f, k) else { continue };
+        let others = [opposite(face, [a, b]), opposite(&draft.faces[g], [a, b])];
+        let around = |v: u32| beside[&v].iter().copied().chain([v]);
+        if around(a).chain(around(b)).any(|v| touched.contains(&v)) {
+            *waits = true;
+            continue;
+        }
+        let is_common = |v: &&u32| beside[&b].contains(v) && !others.contains(v);
+        let is_free = others[0] != others[1] && !beside[&a].iter().any(|v| is_common(&v));
+        if is_free {
+            sets.join(a as usize, b as usize);
+        } else if [f, g].iter().any(|&f| draft.faces[f].origin == FaceOrigin::Cap) {
+            raised.insert([a.min(b), a.max(b)], [f, g]);
+        } else {
+            continue;
+        }
+        touched.extend(around(a).chain(around(b)).collect::<Vec<_>>());
+    }
+    join(&mut draft, &mut sets);
+    with_raised_edges(draft, raised)
+}
+
+/// The side of a face without area whose ends are at one place.
+fn short_side(draft: &Draft, face: &DraftFace) -> Option<usize> {
+    let squares = squares(&draft.positions, &face.corners);
+    let longest = squares.into_iter().fold(0.0, f64::max);
+    let is_short = |k: &usize| squares[*k] <= SAME_PLACE * SAME_PLACE * longest;
+    (0..3).find(is_short).filter(|_| is_degenerate(&draft.positions, &face.corners))
+}
+
+/// Edges, each with its two faces, get a vertex above their middle.
+fn with_raised_edges(mut draft: Draft, raised: FxHashMap<[u32; 2], [usize; 2]>) -> Draft {
+    let mut raised: Vec<([u32; 2], [usize; 2])> = raised.into_iter().collect();
+    raised.sort_unstable();
+    let mut cut: FxHashMap<usize, [DraftFace; 2]> = FxHashMap::default();
+    for (edge, faces) in raised {
+        let at = |v: u32| draft.positions[v as usize];
+        let middle = 0.5 * (at(edge[0]) + at(edge[1]));
+        let [c, d] = faces.map(|f| at(opposite(&draft.faces[f], edge)) - middle);
+        let across = c.cross(d).normalize_or(c.any_orthogonal_vector().normalize_or_zero());
+        let height = FIN * c.length().min(d.length());
+        let corner = Corner { vertex: draft.positions.len() as u32, in_file: NONE };
+        draft.positions.push(middle + height * across);
+        draft.numbers.push(None);
+        cut.extend(faces.map(|f| (f, halves(&draft.faces[f], edge, &corner))));
+    }
+    if cut.is_empty() {
+        return draft;
+    }
+    let whole = std::mem::take(&mut draft.faces);
+    let made = |(f, face): (usize, DraftFace)| cut.get(&f).map_or(vec![face], |halves| halves.to_vec());
+    draft.with_faces(whole.into_iter().enumerate().flat_map(made).collect::<Vec<_>>())
 }
 
 /// What is done about faces without area in one round.

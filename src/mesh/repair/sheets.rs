@@ -3,10 +3,11 @@
 //!
 //! Faces are paired at every edge. The corners that hang together across paired sides are one vertex, the others copies of it.
 
-use super::draft::{Draft, Edge, NONE, across, edges};
+use super::draft::{Draft, DraftFace, Edge, FaceOrigin, NONE, across, edges};
 use crate::math::disjoint_sets::DisjointSets;
 use crate::math::scalar::atan2;
 use crate::mesh::check::Elements;
+use rustc_hash::FxHashMap;
 use std::f64::consts::PI;
 
 /// What came apart, and what stayed one, in the numbers of the file.
@@ -40,7 +41,57 @@ pub(super) fn apart(mut draft: Draft) -> (Draft, Sheets) {
     }
     joined.sort_unstable();
     joined.dedup();
+    let draft = apart_along_edges(draft, &across);
     (draft, Sheets { edges: crowded, split, joined: joined.into_iter().collect() })
+}
+
+/// The draft with a vertex of its own in the middle of each edge that has the ends of another one: a sheet that touches itself along
+/// an edge, whose vertices stay one since they hang together around its ends. `across` are the sides that belong together.
+fn apart_along_edges(mut draft: Draft, across: &[u32]) -> Draft {
+    let mut middles: FxHashMap<u32, u32> = FxHashMap::default();
+    for edge in edges(&draft.faces) {
+        let is_first = |side: &&u32| across[**side as usize] == NONE || across[**side as usize] > **side;
+        // One of them stays as it is.
+        for &side in edge.sides.iter().filter(is_first).skip(1) {
+            let middle = draft.positions.len() as u32;
+            let [p, q] = edge.ends.map(|v| draft.positions[v as usize]);
+            draft.positions.push(0.5 * (p + q));
+            draft.numbers.push(None);
+            let both = [side, across[side as usize]];
+            middles.extend(both.into_iter().filter(|side| *side != NONE).map(|side| (side, middle)));
+        }
+    }
+    if middles.is_empty() {
+        return draft;
+    }
+    let faces = std::mem::take(&mut draft.faces);
+    let mut made = Vec::with_capacity(faces.len() + middles.len());
+    for (face, f) in faces.into_iter().zip(0..) {
+        let middle = |k: u32| middles.get(&(3 * f + k)).copied();
+        cut_at(face, [middle(0), middle(1), middle(2)], &mut made);
+    }
+    draft.with_faces(made)
+}
+
+/// Cuts a face at vertices on its sides, each to the corner across.
+fn cut_at(face: DraftFace, middles: [Option<u32>; 3], pieces: &mut Vec<DraftFace>) {
+    let Some((k, middle)) = (0..3).find_map(|k| Some((k, middles[k]?))) else {
+        pieces.push(face);
+        return;
+    };
+    let [after, last] = [(k + 1) % 3, (k + 2) % 3];
+    let half = |corner: usize| {
+        let mut half = DraftFace { origin: FaceOrigin::Recut, ..face };
+        (half.corners[corner], half.file_corners[corner]) = (middle, NONE);
+        half
+    };
+    let on = |side: usize| {
+        let mut on = [None; 3];
+        on[side] = middles[side];
+        on
+    };
+    cut_at(half(after), on(last), pieces);
+    cut_at(half(k), on(after), pieces);
 }
 
 /// A side at an edge, seen along the edge.
