@@ -18,7 +18,7 @@ pub(super) fn read(bytes: &[u8]) -> Option<PolygonLook> {
     // Most files without a look are told from others before their triangles are read again.
     let says_something = ["COLOR_0", "TEXCOORD_0", "baseColorFactor"];
     let named = |name: &&str| container.json.windows(name.len()).any(|part| part == name.as_bytes());
-    if !says_something.iter().any(|name| named(&name)) {
+    if !says_something.iter().any(named) {
         return None;
     }
     let document = Document::read(container.json).ok()?;

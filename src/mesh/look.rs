@@ -190,8 +190,11 @@ mod tests {
         let mut polygons: Vec<Vec<u32>> =
             ball.triangles().iter().map(|t| t.iter().map(|v| v.0).collect()).collect();
         polygons.drain(5..7);
-        let soup =
-            PolygonSoup { positions: ball.positions().iter().copied().collect(), polygons, ..PolygonSoup::default() };
+        let soup = PolygonSoup {
+            positions: ball.positions().iter().copied().collect(),
+            polygons,
+            ..PolygonSoup::default()
+        };
         let checked = repaired(&soup, &RepairOptions::default(), &mut Silent).unwrap().checked;
         let look = look_of(&soup).by_face(&soup, &checked).unwrap();
         let made =
