@@ -219,7 +219,10 @@ impl<'a> Reader<'a> {
 
     fn positions(&self, accessor: &Accessor<'_>) -> Result<Vec<DVec3>, String> {
         if accessor.dimensions() != Dimensions::Vec3 {
-            return Err("its positions are not three numbers each".into());
+            let (number, kind) = (accessor.index(), type_name(accessor.dimensions()));
+            return Err(format!(
+                "accessor {number} has the type {kind}: positions must be VEC3 and indices SCALAR"
+            ));
         }
         let kind = accessor.data_type();
         if kind != DataType::F32 && !self.document.is_quantised() {
@@ -339,6 +342,19 @@ fn triangles(mode: Mode, indices: &[u32]) -> Box<dyn Iterator<Item = [u32; 3]> +
             Box::new(rest.windows(2).map(move |pair| [first, pair[0], pair[1]]).filter(is_whole))
         }
         _ => Box::new(indices.as_chunks::<3>().0.iter().copied()),
+    }
+}
+
+/// The name of a type as files write it.
+fn type_name(dimensions: Dimensions) -> &'static str {
+    match dimensions {
+        Dimensions::Scalar => "SCALAR",
+        Dimensions::Vec2 => "VEC2",
+        Dimensions::Vec3 => "VEC3",
+        Dimensions::Vec4 => "VEC4",
+        Dimensions::Mat2 => "MAT2",
+        Dimensions::Mat3 => "MAT3",
+        Dimensions::Mat4 => "MAT4",
     }
 }
 

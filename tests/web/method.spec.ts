@@ -160,6 +160,7 @@ test('it is saved as a drawing that stands alone', async () => {
 
 /** How many pixels of a picture are red as the cut, or blue-green as the circles. */
 async function marked(picture: string): Promise<{ readonly cut: number; readonly circles: number }> {
+  await page.locator(picture).scrollIntoViewIfNeeded();
   const box = (await page.locator(picture).boundingBox()) ?? fail(`${picture} has no box`);
   const base64 = (await page.screenshot({ clip: box })).toString('base64');
   return page.evaluate(async (png) => {
@@ -195,7 +196,9 @@ test('both meshes are laid out in the plane, cut from cone to cone', async () =>
   await page.locator(SOURCE_PLANE).scrollIntoViewIfNeeded();
   await page.screenshot({ path: `${ROOT}test-results/plane.png` });
   const whole = [await marked(SOURCE_PLANE), await marked(TARGET_PLANE)];
-  whole.forEach(({ cut }) => { expect(cut).toBeGreaterThan(100); });
+  for (const { cut } of whole) {
+    expect(cut).toBeGreaterThan(100);
+  }
   // With a few rings around the seed there is nothing to cut.
   const slider = page.getByRole('slider', { name: 'Step of the growth' });
   await slider.focus();
@@ -217,6 +220,7 @@ test('the layout grows from the patch that is chosen in the base domain or in th
   await expect(page.locator('#play-growth')).toHaveText('Play', { timeout: 60_000 });
   await expect(page.locator(SOURCE_PLANE)).toHaveAttribute('data-drawn', '5114');
   // The patch is lit up in the plane, too.
+  await page.locator(SOURCE_PLANE).scrollIntoViewIfNeeded();
   await page.waitForTimeout(200);
   expect(await litPixels(SOURCE_PLANE)).toBeGreaterThan(20);
   const reading = await page.locator('.base-reading').textContent();
@@ -224,15 +228,20 @@ test('the layout grows from the patch that is chosen in the base domain or in th
   // A click grows it from another one.
   await page.locator(TARGET_PLANE).scrollIntoViewIfNeeded();
   const box = (await page.locator(TARGET_PLANE).boundingBox()) ?? fail('no plane');
-  const places = [0.5, 0.4, 0.6, 0.3, 0.7].flatMap((x) => [0.5, 0.35, 0.65].map((y) => ({ x: x * box.width, y: y * box.height })));
-  for (const position of places) {
-    await page.locator(TARGET_PLANE).click({ position });
-    await page.waitForTimeout(150);
+  const shares = Array.from({ length: 12 }, (_, k) => 0.08 + 0.07 * k);
+  const places = shares.flatMap((x) => shares.map((y) => ({ x: box.x + x * box.width, y: box.y + y * box.height })));
+  let isOverAnother = false;
+  for (const { x, y } of places) {
+    await page.mouse.move(x, y);
+    await page.waitForTimeout(60);
     const now = await page.locator('.base-reading').textContent();
-    if (now?.startsWith('Triangle of ') === true && now !== reading) {
+    isOverAnother = now?.startsWith('Triangle of ') === true && now !== reading;
+    if (isOverAnother) {
+      await page.mouse.click(x, y);
       break;
     }
   }
+  expect(isOverAnother).toBe(true);
   await expect(page.locator('#play-growth')).toHaveText('Pause');
   await page.waitForTimeout(1500);
   await page.screenshot({ path: `${ROOT}test-results/plane-growing.png` });
@@ -410,10 +419,10 @@ test('all of it fits a phone and a wide window, light and dark, without findings
       await page.screenshot({ path: `${ROOT}test-results/plane-${width}-${colorScheme}.png` });
     }
   }
-  await page.getByRole('button', { name: 'Large' }).click();
+  await page.getByRole('button', { name: 'Large', exact: true }).click();
   expect((await page.locator('#base-picture').boundingBox())?.width).toBeGreaterThan(500);
   await page.waitForTimeout(SETTLED);
   await page.screenshot({ path: `${ROOT}test-results/base-domain-large.png` });
-  await page.getByRole('button', { name: 'Large' }).click();
+  await page.getByRole('button', { name: 'Large', exact: true }).click();
   expect(errors).toEqual([]);
 });
