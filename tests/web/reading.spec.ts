@@ -78,7 +78,7 @@ test('a large mesh is read while the page draws its frames', async ({ page }) =>
   expect(frames).toBeGreaterThan(5);
   // What a click needs of such a mesh is made between the frames.
   await expect(async () => {
-    await page.locator('#view-source').click();
+    await page.locator('#view-source').click({ force: true });
     await expect(page.locator('#hint')).toContainText('now click the same place', { timeout: 1000 });
   }).toPass();
 });

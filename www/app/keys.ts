@@ -40,10 +40,11 @@ export function listenForProposal(store: Store): void {
   });
 }
 
-/** Where no part of the page has the keys, Escape leaves the task that the page is busy with. */
+/** Escape leaves the task that the page is busy with, but where it means something else: to a text, a dialog or a view. */
 export function listenForLeaving(store: Store): void {
   window.addEventListener('keydown', (event) => {
-    if (event.key === 'Escape' && event.target === document.body && !event.defaultPrevented) {
+    const isTaken = event.defaultPrevented || isTyped(event.target) || (event.target instanceof Element && event.target.closest('dialog') !== null);
+    if (event.key === 'Escape' && !isTaken) {
       leaveTask(store);
     }
   });

@@ -1,4 +1,5 @@
 /** Colours of the base domain, and its picture as a file. */
+import { escaped } from '../svg.ts';
 import type { Ball, Facet, Picture, Spot } from './picture.ts';
 
 /** Red, green and blue, 0 to 255. */
@@ -65,10 +66,6 @@ export function stroke({ from, to }: { readonly from: Spot; readonly to: Spot })
 /** The sides that border a facet. */
 export function strokes({ sides }: Facet): string {
   return sides.map(stroke).join('');
-}
-
-function escaped(text: string): string {
-  return text.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
 }
 
 function ballMarkup({ at, radius, sign, isHidden }: Ball, name: string, palette: Palette): string {

@@ -1,4 +1,5 @@
 /** A mesh in the plane as pixels and as files; drawn in a worker. */
+import { escaped } from '../svg.ts';
 import type { Palette } from './drawing.ts';
 import { DARK, LIGHT, mixed } from './drawing.ts';
 import type { BasePart } from './parts.ts';
@@ -200,10 +201,6 @@ export interface DrawnPlane {
 
 /** Size of an exported drawing, in pixels. */
 export const PLANE_SIZE = { width: 900, height: 700 };
-
-function escaped(text: string): string {
-  return text.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
-}
 
 /** The plane as a drawing that stands alone, dark on white: its triangles, the circles, patch lines, cut and cones as groups. */
 export function planeSvg(sheet: Sheet, { curvatures, names, circles, shown }: DrawnPlane): string {

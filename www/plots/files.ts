@@ -1,4 +1,5 @@
 /** A plot as files: SVG and CSV. The SVG stands alone, dark on white, as papers need it. */
+import { escaped } from '../svg.ts';
 import type { Axis, Chart, Curve } from './chart.ts';
 import { markText, shareOf } from './chart.ts';
 
@@ -11,10 +12,6 @@ const QUIET = '#57626c';
 const LINE = '#dde1e5';
 /** How strongly the map before is drawn. */
 export const FAINT = 0.45;
-
-function escaped(text: string): string {
-  return text.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
-}
 
 function across(axis: Axis, value: number): number {
   return BOX.left + shareOf(axis, value) * (BOX.right - BOX.left);

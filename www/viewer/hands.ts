@@ -192,10 +192,11 @@ export class Hands {
       escape: () => {
         if (this.#pins.isDragging) {
           this.#pins.drop('given up');
-        } else {
-          const isThere = proposed(this.#bench.state()) !== null;
-          this.#bench.dispatch({ kind: isThere ? 'proposal-dropped' : 'pick-dropped' });
+          return true;
         }
+        const before = this.#bench.state();
+        this.#bench.dispatch({ kind: proposed(before) === null ? 'pick-dropped' : 'proposal-dropped' });
+        return this.#bench.state() !== before;
       },
     };
   }

@@ -20,7 +20,8 @@ export interface KeyTarget {
   pick(side: Side, at: Place): void;
   /** Takes the place that the map proposes; whether there is one. */
   accept(): boolean;
-  escape(): void;
+  /** Gives up what the hands are at; whether there was something. */
+  escape(): boolean;
 }
 
 /** The keys in words, for those who do not see the views. */
@@ -105,8 +106,7 @@ export function pressKey(target: KeyTarget, side: Side, event: KeyboardEvent): b
     case 'Backspace':
       return target.deleteSelected();
     case 'Escape':
-      target.escape();
-      return true;
+      return target.escape();
     default:
       return false;
   }
