@@ -10,7 +10,7 @@ import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync } from 'node
 import { tmpdir } from 'node:os';
 import { basename, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { initSync, runMap } from '../www/wasm/conemap.js';
+import { initSync, runMap } from '../www/wasm/core.js';
 
 const root = join(dirname(fileURLToPath(import.meta.url)), '..');
 const target = process.env['CARGO_TARGET_DIR'] ?? join(root, 'target');
@@ -123,7 +123,7 @@ const pairs =
         .filter((name) => name.endsWith('.json'))
         .sort()
         .map((name) => join(data, name));
-const { memory } = initSync({ module: readFileSync(join(root, 'www/wasm/conemap_bg.wasm')) });
+const { memory } = initSync({ module: readFileSync(join(root, 'www/wasm/core_bg.wasm')) });
 const folder = mkdtempSync(join(tmpdir(), 'conemap-agree-'));
 try {
   console.log('pair                       E  values  rel. diff.  map file, bytes');

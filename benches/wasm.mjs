@@ -22,7 +22,7 @@ const program = join(target, 'release/conemap');
 
 /** Loads its files, says so, waits to be started, and tells its answer. */
 const worker = `
-import init, { buildDemo, demoList, runMap } from './wasm/conemap.js';
+import init, { buildDemo, demoList, runMap } from './wasm/core.js';
 const bytes = async (path) => new Uint8Array(await (await fetch(path)).arrayBuffer());
 const text = (array) => new TextDecoder().decode(array);
 const demos = () => JSON.parse(demoList()).map(({ id }) => {
@@ -51,8 +51,8 @@ async function serve(files) {
   const fixed = {
     '/': ['text/html', '<!doctype html><title>comparison</title>'],
     '/worker.js': ['text/javascript', worker],
-    '/wasm/conemap.js': ['text/javascript', readFileSync(join(root, 'www/wasm/conemap.js'))],
-    '/wasm/conemap_bg.wasm': ['application/wasm', readFileSync(join(root, 'www/wasm/conemap_bg.wasm'))],
+    '/wasm/core.js': ['text/javascript', readFileSync(join(root, 'www/wasm/conemap.js'))],
+    '/wasm/core_bg.wasm': ['application/wasm', readFileSync(join(root, 'www/wasm/conemap_bg.wasm'))],
   };
   const server = createServer((request, response) => {
     const [type, body] = fixed[request.url] ?? ['', files[Number(request.url.slice('/file/'.length))]];
@@ -90,7 +90,7 @@ async function inBrowser(files, count) {
 
 /** In the page: starts a worker and waits until it has everything that it needs. */
 async function ready(paths) {
-  globalThis.module ??= await WebAssembly.compileStreaming(fetch('/wasm/conemap_bg.wasm'));
+  globalThis.module ??= await WebAssembly.compileStreaming(fetch('/wasm/core_bg.wasm'));
   globalThis.worker = new Worker('/worker.js', { type: 'module' });
   await new Promise((resolve, reject) => {
     globalThis.worker.onmessage = resolve;

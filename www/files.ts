@@ -15,7 +15,7 @@ import type { DefectGroup, Examined } from './store/defects.ts';
 import { update } from './store/reducer.ts';
 import type { MeshFile, State } from './store/state.ts';
 import type { LookKind } from './store/work.ts';
-import { checkLandmarks, unpackDefects, unpackMesh } from './wasm/conemap.js';
+import { checkLandmarks, unpackDefects, unpackMesh } from './wasm/page.js';
 
 export type { NamedBytes } from './named-file.ts';
 export { FileRefused } from './named-file.ts';

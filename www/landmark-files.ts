@@ -4,7 +4,7 @@ import type { LandmarkFile, Side, SurfacePoint } from './landmarks.ts';
 import { fileSentence, failureSentence } from './messages.ts';
 import type { NamedBytes } from './named-file.ts';
 import { FileRefused } from './named-file.ts';
-import type { LandmarkFormatInfo, LoadedMesh } from './wasm/conemap.js';
+import type { LandmarkFormatInfo, LoadedMesh } from './wasm/page.js';
 import {
   landmarkContent,
   landmarkFormats,
@@ -13,7 +13,7 @@ import {
   readLandmarkSide,
   writeLandmarkPairs,
   writeLandmarkSide,
-} from './wasm/conemap.js';
+} from './wasm/page.js';
 
 /** Landmarks of one mesh, of both, or pairs in the meshes' own numbers, which need no mesh to be read. */
 export type LandmarkContent = 'one' | 'both' | 'pairs';

@@ -19,7 +19,7 @@ import { leaveTask } from './app/task.ts';
 import { sharedLink } from './app/sharing.ts';
 import { suggest } from './app/suggest.ts';
 import { startLayingOut, startSimplifying, startWatching } from './app/watch.ts';
-import { compileCore } from './compute/client.ts';
+import { compilePage, coreSource } from './compute/core.ts';
 import { SENTENCES } from './messages.ts';
 import { download } from './dom.ts';
 import { keepOffline } from './offline/register.ts';
@@ -31,13 +31,13 @@ import { guideSection } from './send/guide-link.ts';
 import type { Demo, State } from './store/state.ts';
 import { Store } from './store/store.ts';
 import { Views } from './viewer/viewer.ts';
-import init, { demoList } from './wasm/conemap.js';
+import init, { demoList } from './wasm/page.js';
 
 /** How much larger a picture of the views is than the screen shows them. */
 const PICTURE_SCALE = 2;
 
 const store = new Store();
-// Its worker is fetched and started while the core is.
+// Its worker is fetched and started while the page's module is.
 const reader = new Reader();
 const runner = new Runner(store);
 const links = new Links(store, reader);
@@ -288,15 +288,16 @@ async function start(): Promise<void> {
   followGuide();
   const finding = keeper.find(links.named);
   try {
-    const core = await compileCore();
-    reader.use(core);
-    await init({ module_or_path: core });
-    runner.use(core);
+    const module = await compilePage();
+    reader.use(module);
+    await init({ module_or_path: module });
   } catch (thrown) {
     console.error(thrown);
     fail(SENTENCES.noCore);
     return;
   }
+  const core = coreSource();
+  runner.use(core);
   const demos = JSON.parse(demoList()) as Demo[];
   const found = await finding;
   // The demo is built while the views start.
@@ -309,7 +310,7 @@ async function start(): Promise<void> {
   if (!(await keeper.resume(found))) {
     await showFirst(demos);
   }
-  // The core lists its quickest demo last.
+  // Once the page can be used it has the core fetched. The core lists its quickest demo last.
   const quickest = demos.at(-1);
   if (quickest !== undefined) {
     runner.warmUp(quickest.id);

@@ -8,7 +8,7 @@ import { FileRefused } from './named-file.ts';
 import { shownName } from './send/address.ts';
 import type { AwaitedMap, WantedMesh } from './store/awaited.ts';
 import type { MeshFile, State } from './store/state.ts';
-import { isMapFile as isMap, wantedMeshes } from './wasm/conemap.js';
+import { isMapFile as isMap, wantedMeshes } from './wasm/page.js';
 
 /** The ending of map files, as a chooser is told. */
 export const MAP_ENDING = '.conemap';

@@ -5,7 +5,7 @@ import { failureOf } from './compute/messages.ts';
 import { fileSentence, missingParts, SENTENCES } from './messages.ts';
 import type { NamedBytes } from './named-file.ts';
 import { endingOf, FileRefused } from './named-file.ts';
-import { meshParts, packMesh } from './wasm/conemap.js';
+import { meshParts, packMesh } from './wasm/page.js';
 
 /** Files that belong to a mesh and are none themselves. */
 const COMPANIONS = new Set(['mtl', 'png', 'jpg', 'jpeg', 'webp', 'bmp', 'tga', 'tif', 'tiff', 'bin', 'ktx2']);

@@ -1,9 +1,9 @@
 /** The report of a run and the choices of one, as the core declares them. */
-import type { CandidateReport, Choices, FindingReport, QuestionReport } from './wasm/conemap.js';
+import type { CandidateReport, Choices, FindingReport, QuestionReport } from './wasm/core.js';
 
-export type { CertificateReport, ConeMetricReport, CoverageReport, LayoutSearchReport, ProofReport, Report } from './wasm/conemap.js';
+export type { CertificateReport, ConeMetricReport, CoverageReport, LayoutSearchReport, ProofReport, Report } from './wasm/core.js';
 
-export type { MatchReport } from './wasm/conemap.js';
+export type { MatchReport } from './wasm/core.js';
 
 /** Landmark pairs that the program has found. */
 export type Candidate = CandidateReport;

@@ -1,20 +1,43 @@
 //! The wasm boundary: typed arrays in and out, errors as JSON with a stable code and a sentence.
+//!
+//! It makes two modules, so that the page need not wait for what makes maps: `web-page` reads, checks, repairs and draws meshes,
+//! `web-core` makes maps and opens them, in workers.
 
-mod base_output;
-mod compute;
+mod demos;
+
+#[cfg(feature = "web-page")]
 mod defects;
+#[cfg(feature = "web-page")]
 mod files;
-mod flows;
+#[cfg(feature = "web-page")]
 mod landmark_files;
+#[cfg(feature = "web-page")]
 mod loaded_mesh;
-mod matching;
-mod output_file;
-mod planes;
+#[cfg(feature = "web-page")]
+mod map_headers;
+#[cfg(feature = "web-page")]
 mod repair;
-mod saved;
-mod simplification;
+#[cfg(feature = "web-page")]
 mod view_side;
+#[cfg(feature = "web-page")]
 mod viewer;
+
+#[cfg(feature = "web-core")]
+mod base_output;
+#[cfg(feature = "web-core")]
+mod compute;
+#[cfg(feature = "web-core")]
+mod flows;
+#[cfg(feature = "web-core")]
+mod matching;
+#[cfg(feature = "web-core")]
+mod output_file;
+#[cfg(feature = "web-core")]
+mod planes;
+#[cfg(feature = "web-core")]
+mod saved;
+#[cfg(feature = "web-core")]
+mod simplification;
 
 use serde_json::json;
 use wasm_bindgen::prelude::*;

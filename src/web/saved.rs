@@ -5,7 +5,6 @@ use super::failure;
 use super::output_file::file;
 use crate::job::{MapFiles, Normals, OpenMap, OpenMapError, ProofReport, TargetImage, prove};
 use crate::landmarks::MeshSide;
-use crate::map_file;
 use crate::monitor::Silent;
 use crate::pipeline::Choices;
 use serde_json::json;
@@ -63,24 +62,6 @@ impl WrappedBase {
     pub fn sentence(&self) -> String {
         self.sentence.clone()
     }
-}
-
-/// Whether a file says of itself that it is a map file, whole or not.
-#[wasm_bindgen(js_name = isMapFile)]
-pub fn is_map_file(bytes: &[u8]) -> bool {
-    map_file::is_one(bytes)
-}
-
-/// The source and the target that a map file was made with, by its header alone: JSON, two of `{"name", "checked"}`. `name` is what
-/// the landmarks call the mesh, or `null`; `checked` is the [`LoadedMesh::checked_hash`](super::loaded_mesh::LoadedMesh::checked_hash) of the right one.
-///
-/// # Errors
-/// `{"code": "map-file" | "map-version", "message"}`.
-#[wasm_bindgen(js_name = wantedMeshes)]
-pub fn wanted_meshes(map: &[u8]) -> Result<String, JsValue> {
-    let wanted = map_file::wanted_meshes(map).map_err(|e| failure(e.code(), &e))?;
-    let told = wanted.map(|mesh| json!({ "name": mesh.name, "checked": mesh.checked_hash }));
-    Ok(json!(told).to_string())
 }
 
 #[wasm_bindgen]

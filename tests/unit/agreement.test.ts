@@ -6,7 +6,8 @@ import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { beforeAll, describe, expect, test } from 'vitest';
-import { buildDemo, initSync, openMap, runMap } from '../../www/wasm/conemap.js';
+import { buildDemo, openMap, runMap } from '../../www/wasm/core.js';
+import { startCoreModule } from './modules.ts';
 
 const ROOT = fileURLToPath(new URL('../../', import.meta.url));
 const LEFT = join(process.env['CARGO_TARGET_DIR'] ?? join(ROOT, 'target'), 'tmp/agreement');
@@ -46,7 +47,7 @@ function firstDifference(ours: readonly (number | string)[], theirs: readonly (n
 }
 
 beforeAll(() => {
-  initSync({ module: readFileSync(join(ROOT, 'www/wasm/conemap_bg.wasm')) });
+  startCoreModule();
 });
 
 describe.each(['sphere-tetrahedron', 'horse-cat'])('the map of the demo %s', (id) => {

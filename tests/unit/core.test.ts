@@ -1,13 +1,11 @@
 /** What the page relies on of the core that has been built for it. */
-import { readFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
 import { beforeAll, expect, test } from 'vitest';
 import type { Demo } from '../../www/store/state.ts';
-import { buildDemo, demoList, initSync, landmarkColour } from '../../www/wasm/conemap.js';
+import { buildDemo, demoList, landmarkColour } from '../../www/wasm/page.js';
+import { startPageModule } from './modules.ts';
 
 beforeAll(() => {
-  const path = fileURLToPath(new URL('../../www/wasm/conemap_bg.wasm', import.meta.url));
-  initSync({ module: readFileSync(path) });
+  startPageModule();
 });
 
 test('the demo with the smallest meshes, whose map warms the core, is the last one', () => {

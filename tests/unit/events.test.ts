@@ -10,7 +10,7 @@ import type { Offer, Proposal, State, Style, Ui } from '../../www/store/state.ts
 import { INITIAL } from '../../www/store/state.ts';
 import { workOf } from '../../www/store/work.ts';
 import { AWAITED, DEMO, DONE, DOUBT, FOUR, MATCH, mesh, OPENED, OUTPUT, pair, READY, REFUSAL, REPORT, RESULT, RUNNING, suggestion, SWAPPED } from './fixtures.ts';
-import type { MeshDefects } from '../../www/wasm/conemap.js';
+import type { MeshDefects } from '../../www/wasm/page.js';
 
 interface Case<K extends Event['kind']> {
   readonly before: State;

@@ -1,20 +1,17 @@
 /** Meshes and landmarks as the core reads them for the page. */
-import { readFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
 import { beforeAll, expect, test } from 'vitest';
 import { areMarksGood } from '../../www/files.ts';
 import type { MeshFile } from '../../www/store/state.ts';
-import { initSync } from '../../www/wasm/conemap.js';
 import { after, mesh, pair, READY } from './fixtures.ts';
 import { meshFile, mirroredTarget } from './reading.ts';
+import { startPageModule } from './modules.ts';
 
 /** A tetrahedron whose corners differ, with a vertex in front that no face uses. */
 const OBJ = 'v 9 9 9\nv 0 0 0\nv 2 0 0\nv 0 3 0\nv 0 0 4\nf 2 4 3\nf 2 3 5\nf 3 4 5\nf 4 2 5\n';
 let file: MeshFile;
 
 beforeAll(() => {
-  const path = fileURLToPath(new URL('../../www/wasm/conemap_bg.wasm', import.meta.url));
-  initSync({ module: readFileSync(path) });
+  startPageModule();
   file = meshFile({ name: 'corner.obj', bytes: new TextEncoder().encode(OBJ) });
 });
 

@@ -10,7 +10,7 @@ import type { OpenedMap } from '../../www/store/opened.ts';
 import type { Demo, Doubt, MeshFile, Result, State } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
 import { workOf } from '../../www/store/work.ts';
-import type { LoadedMesh } from '../../www/wasm/conemap.js';
+import type { LoadedMesh } from '../../www/wasm/page.js';
 
 /** A mesh that the core knows nothing of; `freed` counts how often it was given back. */
 export function mesh(name: string, faceCount = 20): MeshFile & { readonly freed: () => number } {

@@ -5,14 +5,15 @@ import { beforeAll, describe, expect, test } from 'vitest';
 import { sightOf } from '../../www/panels/gallery.tsx';
 import { guideSection } from '../../www/send/guide-link.ts';
 import type { Demo } from '../../www/store/state.ts';
-import { demoList, initSync } from '../../www/wasm/conemap.js';
+import { demoList } from '../../www/wasm/page.js';
+import { startPageModule } from './modules.ts';
 
 const FOLDER = fileURLToPath(new URL('../../www/public/demos/', import.meta.url));
 /** In bytes. */
 const LARGEST = 12_000;
 
 beforeAll(() => {
-  initSync({ module: readFileSync(fileURLToPath(new URL('../../www/wasm/conemap_bg.wasm', import.meta.url))) });
+  startPageModule();
 });
 
 describe('the gallery', () => {

@@ -78,6 +78,29 @@ test('files import each other in one direction', () => {
   expect(circle(graph)).toBeNull();
 });
 
+/** What a file has of others when it runs, itself included: all that it imports but types. */
+function reached(file: string, seen = new Set<string>()): ReadonlySet<string> {
+  if (!seen.has(file)) {
+    seen.add(file);
+    const text = file.startsWith('wasm') || file.endsWith('.css') ? '' : readFileSync(join(WWW, file), 'utf8');
+    for (const [, path] of text.matchAll(/^(?:import|export) (?!type )(?:[^;]*? from )?'(\.[^']+)'/gm)) {
+      reached(relative(WWW, join(WWW, dirname(file), path ?? '')), seen);
+    }
+  }
+  return seen;
+}
+
+test('workers of maps run by the core alone, the page and its reader without it', () => {
+  const [core, page] = [join('wasm', 'core.js'), join('wasm', 'page.js')];
+  const files = [...imports().keys()];
+  const workers = files.filter((file) => reached(file).has(core));
+  expect(workers).toEqual(expect.arrayContaining([join('compute', 'worker.ts'), join('method', 'plane-worker.ts')]));
+  expect(workers.filter((file) => reached(file).has(page))).toEqual([]);
+  expect(workers.filter((file) => !/worker\.ts$|warmer\.ts$/.test(file))).toEqual([]);
+  expect(reached(join('reading', 'reader-worker.ts'))).toContain(page);
+  expect(reached('main.ts')).toContain(page);
+});
+
 test('each part imports only what stands above it in docs/page.md', () => {
   const ranks = parts();
   const partOf = (file: string): string => (file.split(sep)[0] ?? '').replace(/\.ts$/, '');

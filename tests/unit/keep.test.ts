@@ -14,7 +14,7 @@ import { Store } from '../../www/store/store.ts';
 import { DEMO, mesh, READY } from './fixtures.ts';
 
 /** The core takes every vertex up to 1000. */
-vi.mock('../../www/wasm/conemap.js', () => ({
+vi.mock('../../www/wasm/page.js', () => ({
   checkLandmarks: (_: unknown, __: number, bytes: Uint8Array) => {
     const { pairs } = JSON.parse(new TextDecoder().decode(bytes)) as { pairs: unknown[][] };
     if (pairs.flat().some((point) => typeof point === 'number' && point > 1000)) {

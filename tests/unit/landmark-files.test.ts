@@ -1,6 +1,4 @@
 /** Landmark files of other programs, and meshes in several files, with the core that has been built. */
-import { readFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
 import { zipSync } from 'fflate';
 import { beforeAll, describe, expect, test } from 'vitest';
 import type { NamedBytes } from '../../www/files.ts';
@@ -9,11 +7,12 @@ import type { LandmarkFile } from '../../www/landmarks.ts';
 import { gathered } from '../../www/mesh-sets.ts';
 import type { MeshFile, State } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
-import { buildDemo, initSync, landmarkEndings } from '../../www/wasm/conemap.js';
+import { buildDemo, landmarkEndings } from '../../www/wasm/page.js';
 import { after } from './fixtures.ts';
 import { meshFile, openingOf } from './reading.ts';
 import { refusal } from './refusal.ts';
 import { tetrahedron } from './tetrahedron.ts';
+import { startPageModule } from './modules.ts';
 
 let source: MeshFile;
 let target: MeshFile;
@@ -21,8 +20,7 @@ let landmarks: LandmarkFile;
 let open: State;
 
 beforeAll(() => {
-  const path = fileURLToPath(new URL('../../www/wasm/conemap_bg.wasm', import.meta.url));
-  initSync({ module: readFileSync(path) });
+  startPageModule();
   const demo = buildDemo('horse-cat');
   if (demo === undefined) {
     throw new Error('the demo is gone');

@@ -1,6 +1,4 @@
 /** Map files that are opened on the page, with the core itself in place of its worker. */
-import { readFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
 import { beforeAll, beforeEach, describe, expect, test, vi } from 'vitest';
 import { Maps } from '../../www/app/maps.ts';
 import { openFiles } from '../../www/app/open.ts';
@@ -18,10 +16,11 @@ import { isCurrent, shownResult, staleness } from '../../www/store/staleness.ts'
 import type { Demo } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
 import { Store } from '../../www/store/store.ts';
-import { buildDemo, demoList, initSync, openMap, runMap } from '../../www/wasm/conemap.js';
+import { buildDemo, demoList, openMap, runMap } from '../../www/wasm/core.js';
 import { after } from './fixtures.ts';
 import { meshFile, READER } from './reading.ts';
 import { refusal } from './refusal.ts';
+import { startCoreModule, startPageModule } from './modules.ts';
 
 vi.mock('../../www/compute/saved-client.ts', async (original) => {
   const { SavedMapError } = await original<typeof import('../../www/compute/saved-client.ts')>();
@@ -51,7 +50,8 @@ let store: Store;
 let maps: Maps;
 
 beforeAll(() => {
-  initSync({ module: readFileSync(fileURLToPath(new URL('../../www/wasm/conemap_bg.wasm', import.meta.url))) });
+  startCoreModule();
+  startPageModule();
   const demo = buildDemo((JSON.parse(demoList()) as Demo[]).at(-1)?.id ?? '');
   if (demo === undefined) {
     throw new Error('the demo is gone');

@@ -1,12 +1,10 @@
 /** Which picture stays with which mesh. */
-import { readFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
 import { beforeAll, describe, expect, test } from 'vitest';
 import { gathered } from '../../www/mesh-sets.ts';
-import { initSync } from '../../www/wasm/conemap.js';
+import { startPageModule } from './modules.ts';
 
 beforeAll(() => {
-  initSync({ module: readFileSync(fileURLToPath(new URL('../../www/wasm/conemap_bg.wasm', import.meta.url))) });
+  startPageModule();
 });
 
 function file(name: string, content = name): { readonly name: string; readonly bytes: Uint8Array } {

@@ -1,20 +1,18 @@
 /** Demos that are opened, with the core itself. */
-import { readFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
 import { beforeAll, beforeEach, expect, test, vi } from 'vitest';
 import { openDemo } from '../../www/app/open.ts';
 import type { Demo } from '../../www/store/state.ts';
 import { Store } from '../../www/store/store.ts';
-import { demoList, initSync } from '../../www/wasm/conemap.js';
+import { demoList } from '../../www/wasm/page.js';
 import { mesh } from './fixtures.ts';
 import { READER } from './reading.ts';
+import { startPageModule } from './modules.ts';
 
 let demos: Demo[];
 let store: Store;
 
 beforeAll(() => {
-  const path = fileURLToPath(new URL('../../www/wasm/conemap_bg.wasm', import.meta.url));
-  initSync({ module: readFileSync(path) });
+  startPageModule();
   demos = JSON.parse(demoList()) as Demo[];
 });
 

@@ -1,6 +1,4 @@
 /** The flat metrics in the plane: all of a mesh, cut where the core cuts it, with patches, lines and cones where they belong. */
-import { readFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
 import { beforeAll, describe, expect, test } from 'vitest';
 import type { BaseOutput } from '../../www/compute/messages.ts';
 import { viewBuffers } from '../../www/compute/view-buffers.ts';
@@ -8,8 +6,9 @@ import { fitted, planeObj, planeSvg } from '../../www/method/plane-drawing.ts';
 import { stepped } from '../../www/method/parts.ts';
 import type { Spot } from '../../www/method/sheet.ts';
 import { Sheet } from '../../www/method/sheet.ts';
-import type { FlatPlanes, MapOutput } from '../../www/wasm/conemap.js';
-import { buildDemo, flatPlanes, initSync, recordCarriedSimplification, runMap } from '../../www/wasm/conemap.js';
+import type { FlatPlanes, MapOutput } from '../../www/wasm/core.js';
+import { buildDemo, flatPlanes, recordCarriedSimplification, runMap } from '../../www/wasm/core.js';
+import { startCoreModule } from './modules.ts';
 
 const nothing = (): void => undefined;
 const LISTENER = { relaxes: nothing, progress: nothing, preview: nothing, found: nothing, wantsResult: (): boolean => false };
@@ -52,7 +51,7 @@ function area([a, b, c]: readonly [Spot, Spot, Spot]): number {
 const sum = (numbers: readonly number[]): number => numbers.reduce((total, number) => total + number, 0);
 
 beforeAll(() => {
-  initSync({ module: readFileSync(fileURLToPath(new URL('../../www/wasm/conemap_bg.wasm', import.meta.url))) });
+  startCoreModule();
   const demo = buildDemo('sphere-tetrahedron') ?? fail();
   landmarks = new TextDecoder().decode(demo.landmarks());
   files = [demo.source(), demo.target()];

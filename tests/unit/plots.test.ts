@@ -1,6 +1,4 @@
 /** Plots: what they show of a report and of a map's pieces, and the files that they become. */
-import { readFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
 import { beforeAll, describe, expect, test } from 'vitest';
 import type { Chart } from '../../www/plots/chart.ts';
 import { evenMarks, indexAt, logMarks, markText, reading, shareOf } from '../../www/plots/chart.ts';
@@ -11,8 +9,9 @@ import type { Spectra } from '../../www/plots/spectrum.ts';
 import { measure, quantile, spectraOf } from '../../www/plots/spectrum.ts';
 import type { ConeMetricReport, Report } from '../../www/report.ts';
 import type { Pieces } from '../../www/store/state.ts';
-import { buildDemo, initSync, runMap } from '../../www/wasm/conemap.js';
+import { buildDemo, runMap } from '../../www/wasm/core.js';
 import { after, DONE, OUTPUT, REPORT } from './fixtures.ts';
+import { startCoreModule } from './modules.ts';
 
 const pause = (): Promise<void> => Promise.resolve();
 
@@ -83,7 +82,7 @@ describe('the pieces of a map', () => {
   let report: Report;
   let spectra: Spectra;
   beforeAll(async () => {
-    initSync({ module: readFileSync(fileURLToPath(new URL('../../www/wasm/conemap_bg.wasm', import.meta.url))) });
+    startCoreModule();
     const demo = buildDemo('sphere-tetrahedron');
     if (demo === undefined) {
       throw new Error('the demo is gone');

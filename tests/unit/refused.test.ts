@@ -1,6 +1,4 @@
 /** Meshes that are refused, what is offered, and what comes of it. */
-import { readFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
 import { beforeAll, expect, test, vi } from 'vitest';
 import { freeExamined } from '../../www/app/repair-mesh.ts';
 import type { NamedBytes } from '../../www/files.ts';
@@ -13,13 +11,14 @@ import type { RefusedMesh } from '../../www/store/refused.ts';
 import type { State } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
 import { workOf } from '../../www/store/work.ts';
-import { initSync, runMap } from '../../www/wasm/conemap.js';
+import { runMap } from '../../www/wasm/core.js';
 import { after, mesh, READY } from './fixtures.ts';
 import { eventsOfSides, examinedRepair, meshFile, openingOf, repairedEvents } from './reading.ts';
+import { startCoreModule, startPageModule } from './modules.ts';
 
 beforeAll(() => {
-  const path = fileURLToPath(new URL('../../www/wasm/conemap_bg.wasm', import.meta.url));
-  initSync({ module: readFileSync(path) });
+  startCoreModule();
+  startPageModule();
 });
 
 /** Vertices and faces, numbered from 0. */

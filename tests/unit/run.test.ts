@@ -32,7 +32,7 @@ beforeEach(() => {
   vi.spyOn(console, 'error').mockReturnValue();
   store = new Store();
   runner = new Runner(store);
-  runner.use(CORE);
+  runner.use(() => CORE);
   store.dispatch(
     { kind: 'ready', demos: [] },
     { kind: 'mesh', side: 0, file: mesh('cat.off') },

@@ -1,6 +1,4 @@
 /** What is on the page, sent and opened again on another page: with the core, without a browser. */
-import { readFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
 import { afterEach, beforeAll, beforeEach, describe, expect, test, vi } from 'vitest';
 import { Links } from '../../www/app/links.ts';
 import { place, sentWorkOf, withMeshes } from '../../www/app/sent-work.ts';
@@ -10,14 +8,14 @@ import { readLink } from '../../www/send/link.ts';
 import type { NamedBytes } from '../../www/named-file.ts';
 import type { SentWork } from '../../www/send/schema.ts';
 import { Store } from '../../www/store/store.ts';
-import { initSync } from '../../www/wasm/conemap.js';
 import { Random } from './random.ts';
 import { meshFile, READER, readFile } from './reading.ts';
+import { startPageModule } from './modules.ts';
 
 const BASE = 'https://maps.example/conemap/';
 
 beforeAll(() => {
-  initSync({ module: readFileSync(fileURLToPath(new URL('../../www/wasm/conemap_bg.wasm', import.meta.url))) });
+  startPageModule();
 });
 
 /** The bytes of an octahedron, pulled to this height. */

@@ -1,14 +1,14 @@
 /** What is watched: the flows of the run, on a scale that holds them, as numbers and as a table; the simplification, stage by stage. */
-import { readFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
 import { beforeAll, describe, expect, test } from 'vitest';
 import type { Flows, SideFlow, Simplification } from '../../www/compute/watch-messages.ts';
 import { momentCount, placeOf, placesAt, scaleEnd } from '../../www/method/factors.ts';
 import { flowCsv, momentAt, residualRange } from '../../www/method/flow-table.ts';
 import { countAt, stageAt, stageCount } from '../../www/method/stages.ts';
 import type { Report } from '../../www/report.ts';
-import type { MapOutput, RecordedFlows, Simplifications } from '../../www/wasm/conemap.js';
-import { buildDemo, factorScale, initSync, recordFlows, recordSimplifications, runMap } from '../../www/wasm/conemap.js';
+import type { MapOutput, RecordedFlows, Simplifications } from '../../www/wasm/core.js';
+import { buildDemo, recordFlows, recordSimplifications, runMap } from '../../www/wasm/core.js';
+import { factorScale } from '../../www/wasm/page.js';
+import { startCoreModule, startPageModule } from './modules.ts';
 
 const nothing = (): void => undefined;
 const LISTENER = { relaxes: nothing, progress: nothing, preview: nothing, found: nothing, wantsResult: (): boolean => false };
@@ -20,7 +20,8 @@ describe('the flows of a map', () => {
   let stages: Simplifications;
 
   beforeAll(() => {
-    initSync({ module: readFileSync(fileURLToPath(new URL('../../www/wasm/conemap_bg.wasm', import.meta.url))) });
+    startCoreModule();
+    startPageModule();
     const demo = buildDemo('sphere-tetrahedron');
     if (demo === undefined) {
       throw new Error('no demo');

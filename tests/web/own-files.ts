@@ -1,7 +1,7 @@
 /** Files of a demo as a user would have them. */
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
-import { buildDemo, initSync } from '../../www/wasm/conemap.js';
+import { buildDemo, initSync } from '../../www/wasm/page.js';
 
 /** A file as it is chosen. */
 export interface Upload {
@@ -34,7 +34,7 @@ function mirrored(obj: string): string {
 
 /** The files of a demo, as a user's own. */
 export function ownFiles(): OwnFiles {
-  initSync({ module: readFileSync(fileURLToPath(new URL('../../www/wasm/conemap_bg.wasm', import.meta.url))) });
+  initSync({ module: readFileSync(fileURLToPath(new URL('../../www/wasm/page_bg.wasm', import.meta.url))) });
   const demo = buildDemo('horse-cat');
   if (demo === undefined) {
     throw new Error('there is no demo horse-cat');

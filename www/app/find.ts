@@ -1,4 +1,5 @@
 /** Looks for landmarks in a worker of its own, while the page can be used. */
+import type { Core } from '../compute/core.ts';
 import { startMatch } from '../compute/match-client.ts';
 import { failureSentence } from '../messages.ts';
 import type { MatchReport } from '../report.ts';
@@ -9,10 +10,10 @@ import type { Store } from '../store/store.ts';
 /** Holds the worker of the search. */
 export class Finder {
   readonly #store: Store;
-  readonly #core: () => WebAssembly.Module | null;
+  readonly #core: () => Core | null;
   #end = (): unknown => undefined;
 
-  constructor(store: Store, core: () => WebAssembly.Module | null) {
+  constructor(store: Store, core: () => Core | null) {
     this.#store = store;
     this.#core = core;
     store.subscribe(({ matching }, previous) => {

@@ -1,5 +1,6 @@
 /** What is made of the map when somebody asks for it: files, a wrapped base, a proof; from its map file, in a worker of their own. */
 import type { SavedMapHandle } from '../compute/saved-client.ts';
+import type { Core } from '../compute/core.ts';
 import { openSavedMap, SavedMapError } from '../compute/saved-client.ts';
 import { download } from '../dom.ts';
 import { FileRefused } from '../files.ts';
@@ -9,7 +10,7 @@ import type { Store } from '../store/store.ts';
 import { perform, sentenceOf } from './task.ts';
 
 /** What a map's own worker gives for `use`. Throws `FileRefused`. */
-async function askMap<T>(core: WebAssembly.Module, { output, inputs }: Result, use: (saved: SavedMapHandle) => Promise<T>): Promise<T> {
+async function askMap<T>(core: Core, { output, inputs }: Result, use: (saved: SavedMapHandle) => Promise<T>): Promise<T> {
   const [source, target] = inputs.meshes;
   if (output.map === null || source === null || target === null) {
     throw new FileRefused('This map has no map file, from which more could be made: the relaxed method gives one.');
@@ -46,7 +47,7 @@ interface MadeFile {
 }
 
 /** Saves a file of the map on the page. */
-export async function saveMadeFile(store: Store, core: WebAssembly.Module, { made, name, type }: MadeFile): Promise<void> {
+export async function saveMadeFile(store: Store, core: Core, { made, name, type }: MadeFile): Promise<void> {
   const { result } = store.state;
   if (result !== null) {
     await make(store, `Making ${name}…`, () => askMap(core, result, (saved) => saved.file(made)), (bytes) => {
@@ -56,7 +57,7 @@ export async function saveMadeFile(store: Store, core: WebAssembly.Module, { mad
 }
 
 /** Saves the source's own file with its vertices laid onto the target, and says what became of it. */
-export async function saveWrapped(store: Store, core: WebAssembly.Module): Promise<void> {
+export async function saveWrapped(store: Store, core: Core): Promise<void> {
   const { result } = store.state;
   const source = result?.inputs.meshes[0] ?? null;
   if (result === null || source === null) {
@@ -69,7 +70,7 @@ export async function saveWrapped(store: Store, core: WebAssembly.Module): Promi
 }
 
 /** Has the map on the page proved by the program that shares nothing with what made it. */
-export async function proveMap(store: Store, core: WebAssembly.Module): Promise<void> {
+export async function proveMap(store: Store, core: Core): Promise<void> {
   const { result } = store.state;
   if (result === null) {
     return;

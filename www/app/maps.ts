@@ -1,5 +1,6 @@
 /** Maps that come from files: opened for the meshes on the page without computing, or kept until those have come. */
 import type { SavedMapHandle } from '../compute/saved-client.ts';
+import type { Core } from '../compute/core.ts';
 import { openSavedMap, SavedMapError } from '../compute/saved-client.ts';
 import type { OpenedMap as Opened } from '../compute/saved-messages.ts';
 import type { NamedBytes } from '../files.ts';
@@ -57,9 +58,9 @@ function taken(map: NamedBytes, { buffers, landmarks, options, isMirrored }: Ope
 
 export class Maps {
   readonly #store: Store;
-  readonly #core: () => WebAssembly.Module | null;
+  readonly #core: () => Core | null;
 
-  constructor(store: Store, core: () => WebAssembly.Module | null) {
+  constructor(store: Store, core: () => Core | null) {
     this.#store = store;
     this.#core = core;
     store.subscribe((state, previous) => {

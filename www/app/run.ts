@@ -1,5 +1,6 @@
 /** The run of the page: starts it, ends it, asks it for its result. */
 import { startRun, warmUp } from '../compute/client.ts';
+import type { Core } from '../compute/core.ts';
 import type { Run, RunListener } from '../compute/client.ts';
 import { failureSentence, SENTENCES } from '../messages.ts';
 import type { Report } from '../report.ts';
@@ -10,7 +11,7 @@ import type { Store } from '../store/store.ts';
 /** Holds the workers: beside the store the only thing of the page that changes. */
 export class Runner {
   readonly #store: Store;
-  #core: WebAssembly.Module | null = null;
+  #core: () => Core | null = () => null;
   #run: Run | null = null;
   #endWarmUp = (): void => undefined;
 
@@ -18,21 +19,22 @@ export class Runner {
     this.#store = store;
   }
 
-  /** The compiled core; `null` until it is there. */
-  get core(): WebAssembly.Module | null {
-    return this.#core;
+  /** The core, there or on its way; `null` until it is known where it comes from. */
+  get core(): Core | null {
+    return this.#core();
   }
 
-  /** Takes the compiled core, without which no run starts. */
-  use(core: WebAssembly.Module): void {
+  /** Takes what gives the core, without which no run starts. */
+  use(core: () => Core): void {
     this.#core = core;
   }
 
   /** Has the browser optimise the core by a small map, this demo's; a run that begins ends it. */
   warmUp(demo: string): void {
-    if (this.#core !== null && this.#run === null) {
+    const { core } = this;
+    if (core !== null && this.#run === null) {
       this.#endWarmUp();
-      this.#endWarmUp = warmUp({ module: this.#core, demo });
+      this.#endWarmUp = warmUp({ module: core, demo });
     }
   }
 
@@ -40,7 +42,8 @@ export class Runner {
   start(): void {
     const { state, dispatch } = this.#store;
     const [source, target] = state.meshes;
-    if (this.#core === null || source === null || target === null || !canRun(state)) {
+    const { core } = this;
+    if (core === null || source === null || target === null || !canRun(state)) {
       return;
     }
     if (!needsRun(state)) {
@@ -51,7 +54,7 @@ export class Runner {
     dispatch({ kind: 'run-started' });
     this.#run = startRun(
       {
-        module: this.#core,
+        module: core,
         source: source.bytes,
         target: target.bytes,
         landmarks: JSON.stringify(landmarkFileOf(state)),

@@ -1,4 +1,5 @@
 /** Parts of the method of the map on the page, done again for whoever looks at them. */
+import type { Core } from '../compute/core.ts';
 import type { Failure } from '../compute/messages.ts';
 import { startWatched } from '../compute/watch-client.ts';
 import type { Simplifications, SimplifiedFrom, Watchable, Watched } from '../compute/watch-messages.ts';
@@ -18,11 +19,11 @@ const nothing = (): void => undefined;
 interface Work {
   readonly result: Result;
   /** What a worker begins with. */
-  readonly begun: { readonly module: WebAssembly.Module; readonly source: Uint8Array; readonly target: Uint8Array; readonly landmarks: string; readonly cones: Float64Array };
+  readonly begun: { readonly module: Core; readonly source: Uint8Array; readonly target: Uint8Array; readonly landmarks: string; readonly cones: Float64Array };
 }
 
 /** The map on the page, with what it was made from; `null` where there is none. */
-function shownWork(store: Store, core: WebAssembly.Module | null): Work | null {
+function shownWork(store: Store, core: Core | null): Work | null {
   const result = shownResult(store.state);
   const [source, target] = result?.inputs.meshes ?? [];
   if (core === null || result === null || source === undefined || source === null || target === undefined || target === null) {
@@ -43,7 +44,7 @@ function failing(failed: (sentence: string) => void): (failure: Failure) => void
 /** Computes what is wanted of the map on the page in a worker; returns what ends that. */
 export function startWatching<W extends Watchable>(
   store: Store,
-  core: WebAssembly.Module | null,
+  core: Core | null,
   wanted: W,
   listener: Listener<Watched[W]>,
   from: SimplifiedFrom = 'each',
@@ -81,7 +82,7 @@ export function startWatching<W extends Watchable>(
 /** Likewise the simplification. */
 export function startSimplifying(
   store: Store,
-  core: WebAssembly.Module | null,
+  core: Core | null,
   listener: Listener<Simplifications>,
   from: SimplifiedFrom,
 ): () => void {
@@ -89,7 +90,7 @@ export function startSimplifying(
 }
 
 /** Computes both flat metrics of the map on the page in a worker that lays them out as long as nobody ends it. */
-export function startLayingOut(store: Store, core: WebAssembly.Module | null, listener: Listener<Planes>): () => void {
+export function startLayingOut(store: Store, core: Core | null, listener: Listener<Planes>): () => void {
   const work = shownWork(store, core);
   if (work === null) {
     return nothing;

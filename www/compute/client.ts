@@ -1,31 +1,21 @@
-/** Starts runs in a worker and ends them. The module is compiled once and shared. */
+/** Starts runs in a worker and ends them. */
 import type { Finding } from '../report.ts';
 import type { Failure, Progress, RunOutput, RunRequest, WarmUpRequest, WorkerMessage } from './messages.ts';
+import type { With } from './core.ts';
+import { postWithCore } from './core.ts';
 import { askOnce } from './one-request.ts';
-
-/** Compiles the core; the same module serves the page and every worker. */
-export async function compileCore(): Promise<WebAssembly.Module> {
-  const url = new URL('../wasm/conemap_bg.wasm', import.meta.url);
-  const response = await fetch(url);
-  if (!response.ok) {
-    throw new Error(`the program's core could not be fetched (status ${response.status})`);
-  }
-  if (response.headers.get('content-type') === 'application/wasm') {
-    return WebAssembly.compileStreaming(response);
-  }
-  return WebAssembly.compile(await response.arrayBuffer());
-}
 
 /**
  * Lets the browser optimise the core while the user is still choosing, so that the first run is as fast as later ones;
  * the returned function ends that at once. Nothing depends on it.
  */
-export function warmUp(request: WarmUpRequest): () => void {
+export function warmUp(request: With<WarmUpRequest>): () => void {
   const worker = new Worker(new URL('./warmer.ts', import.meta.url), { type: 'module' });
   worker.addEventListener('error', (event) => {
     event.preventDefault();
   });
-  worker.postMessage(request);
+  // A core that does not come is told to whoever waits for it.
+  postWithCore(worker, request, () => undefined);
   return () => {
     worker.terminate();
   };
@@ -55,13 +45,13 @@ export interface Run {
 }
 
 /** Starts a run. */
-export function startRun(request: Omit<RunRequest, 'finishUrl'>, listener: RunListener): Run {
+export function startRun(request: Omit<With<RunRequest>, 'finishUrl'>, listener: RunListener): Run {
   const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
   const finishUrl = URL.createObjectURL(new Blob());
   const finish = (): void => {
     URL.revokeObjectURL(finishUrl);
   };
-  const cancel = askOnce<WorkerMessage>(worker, { ...request, finishUrl } satisfies RunRequest, {
+  const cancel = askOnce<WorkerMessage>(worker, { ...request, finishUrl } satisfies With<RunRequest>, {
     heard: (message) => {
       tell(listener, message);
     },

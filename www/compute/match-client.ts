@@ -1,4 +1,5 @@
 /** Starts searches for landmarks in a worker and ends them. */
+import type { With } from './core.ts';
 import type { MatchMessage, MatchRequest } from './match-messages.ts';
 import type { Failure } from './messages.ts';
 import { askOnce } from './one-request.ts';
@@ -12,7 +13,7 @@ export interface MatchListener {
 }
 
 /** Starts a search; the returned function ends it at once, and the listener hears nothing more. */
-export function startMatch(request: MatchRequest, listener: MatchListener): () => void {
+export function startMatch(request: With<MatchRequest>, listener: MatchListener): () => void {
   const worker = new Worker(new URL('./match-worker.ts', import.meta.url), { type: 'module' });
   return askOnce<MatchMessage>(worker, request, {
     heard: (message) => {

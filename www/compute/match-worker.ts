@@ -1,5 +1,5 @@
 /** One search for landmarks: answers one request, then is thrown away. */
-import init, { matchLandmarks } from '../wasm/conemap.js';
+import init, { matchLandmarks } from '../wasm/core.js';
 import type { MatchMessage, MatchRequest } from './match-messages.ts';
 import { failureOf } from './messages.ts';
 

@@ -1,6 +1,7 @@
 /** A worker that is asked once, tells how it goes on, and is thrown away with its last message. */
+import type { Core } from './core.ts';
+import { postWithCore } from './core.ts';
 import type { Failure } from './messages.ts';
-import { failureOf } from './messages.ts';
 
 /** What such a worker says: `done` and `failed` are last. */
 type Message = { readonly kind: string } | { readonly kind: 'failed'; readonly failure: Failure };
@@ -19,7 +20,7 @@ function isFailed<M extends Message>(message: M): message is Extract<M, { readon
 }
 
 /** Asks a worker; the returned function ends it at once, and the listener hears nothing more. */
-export function askOnce<M extends Message>(worker: Worker, request: unknown, listener: Listener<M>): () => void {
+export function askOnce<M extends Message>(worker: Worker, request: { readonly module: Core }, listener: Listener<M>): () => void {
   let over = false;
   const end = (): boolean => {
     const first = !over;
@@ -55,13 +56,7 @@ export function askOnce<M extends Message>(worker: Worker, request: unknown, lis
   worker.addEventListener('messageerror', () => {
     fail({ code: 'worker', message: 'an unreadable message' });
   });
-  try {
-    worker.postMessage(request);
-  } catch (thrown) {
-    queueMicrotask(() => {
-      fail(failureOf(thrown));
-    });
-  }
+  postWithCore(worker, request, fail);
   return () => {
     end();
   };

@@ -1,6 +1,7 @@
 /** A saved map in a worker of its own: opened with its meshes, shown, exported, wrapped and proved. */
 import type { ProofReport } from '../report.ts';
-import { failureOf } from './messages.ts';
+import type { Core } from './core.ts';
+import { postWithCore } from './core.ts';
 import type { OpenedMap, SavedAnswer, SavedFailure, SavedFiles, SavedRequest, WrappedFile } from './saved-messages.ts';
 
 /** What a saved map's promises fail with. */
@@ -28,7 +29,7 @@ export interface SavedMapHandle {
   close(): void;
 }
 
-type Body = SavedRequest extends infer R ? (R extends SavedRequest ? Omit<R, 'id'> : never) : never;
+type Body = SavedRequest extends infer R ? (R extends SavedRequest ? Omit<R, 'id' | 'module'> : never) : never;
 
 interface Waiting {
   readonly resolve: (answer: SavedAnswer) => void;
@@ -36,7 +37,7 @@ interface Waiting {
 }
 
 /** Opens a map file with its meshes: for the views and files, or for files alone, which is faster. */
-export function openSavedMap(module: WebAssembly.Module, files: SavedFiles, show: 'views' | 'files'): SavedMapHandle {
+export function openSavedMap(module: Core, files: SavedFiles, show: 'views' | 'files'): SavedMapHandle {
   const worker = new Worker(new URL('./saved-worker.ts', import.meta.url), { type: 'module' });
   const waiting = new Map<number, Waiting>();
   let next = 0;
@@ -75,18 +76,17 @@ export function openSavedMap(module: WebAssembly.Module, files: SavedFiles, show
       }
       const id = next++;
       waiting.set(id, { resolve, reject });
-      try {
-        worker.postMessage({ ...body, id });
-      } catch (thrown) {
+      // Every request goes with the core, so that none overtakes the first.
+      postWithCore(worker, { ...body, id, module }, (failure) => {
         waiting.delete(id);
-        reject(new SavedMapError({ ...failureOf(thrown), side: null }));
-      }
+        reject(new SavedMapError({ ...failure, side: null }));
+      });
     });
   const wrong = (): never => {
     throw new SavedMapError({ code: 'worker', message: 'an answer to another question', side: null });
   };
   return {
-    opened: ask({ kind: 'open', module, show, ...files }).then((answer) => (answer.kind === 'opened' ? answer.opened : wrong())),
+    opened: ask({ kind: 'open', show, ...files }).then((answer) => (answer.kind === 'opened' ? answer.opened : wrong())),
     file: async (name) => {
       const answer = await ask({ kind: 'file', name });
       return answer.kind === 'file' ? answer.bytes : wrong();

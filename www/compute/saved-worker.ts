@@ -1,7 +1,7 @@
 /** A saved map: opens it once, then gives what the views show and its files, lays its source onto its target, and proves it. */
 import type { ProofReport } from '../report.ts';
-import init, { openMap, proveMap } from '../wasm/conemap.js';
-import type { SavedMap } from '../wasm/conemap.js';
+import init, { openMap, proveMap } from '../wasm/core.js';
+import type { SavedMap } from '../wasm/core.js';
 import { failureOf } from './messages.ts';
 import type { SavedAnswer, SavedFailure, SavedFiles, SavedRequest } from './saved-messages.ts';
 import { openedOf, transferable } from './view-buffers.ts';

@@ -1,5 +1,5 @@
 /** A map of the core as arrays that can be sent. */
-import type { MapOutput, SavedMap } from '../wasm/conemap.js';
+import type { MapOutput, SavedMap } from '../wasm/core.js';
 import type { BaseOutput, BaseShape, SideOutput } from './messages.ts';
 import type { MapBuffers, OpenedMap } from './saved-messages.ts';
 

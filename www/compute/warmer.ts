@@ -1,5 +1,5 @@
 /** Makes a small map and throws it away: the browser optimises code that has run, for all workers with the same module. */
-import init, { buildDemo, runMap } from '../wasm/conemap.js';
+import init, { buildDemo, runMap } from '../wasm/core.js';
 import type { WarmUpRequest } from './messages.ts';
 
 declare const self: DedicatedWorkerGlobalScope;

@@ -1,4 +1,5 @@
 /** Does parts of the method again in a worker, to be watched. */
+import type { With } from './core.ts';
 import type { Failure } from './messages.ts';
 import { askOnce } from './one-request.ts';
 import type { Watchable, Watched, WatchMessage, WatchRequest } from './watch-messages.ts';
@@ -11,7 +12,7 @@ export interface WatchListener<W extends Watchable> {
 }
 
 /** Starts it; the returned function ends it at once, and the listener hears nothing more. */
-export function startWatched<W extends Watchable>(request: WatchRequest & { readonly wanted: W }, listener: WatchListener<W>): () => void {
+export function startWatched<W extends Watchable>(request: With<WatchRequest> & { readonly wanted: W }, listener: WatchListener<W>): () => void {
   const worker = new Worker(new URL('./watch-worker.ts', import.meta.url), { type: 'module' });
   return askOnce<WatchMessage>(worker, request, {
     heard: (message) => {

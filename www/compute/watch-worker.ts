@@ -1,6 +1,6 @@
 /** Parts of the method that are done again to be watched: answers one request, then is thrown away. */
-import init, { recordCarriedSimplification, recordFlows, recordSimplifications } from '../wasm/conemap.js';
-import type { RecordedFlows, Simplifications as RecordedSimplifications } from '../wasm/conemap.js';
+import init, { recordCarriedSimplification, recordFlows, recordSimplifications } from '../wasm/core.js';
+import type { RecordedFlows, Simplifications as RecordedSimplifications } from '../wasm/core.js';
 import { failureOf } from './messages.ts';
 import type { Flows, SideFlow, Simplification, Simplifications, WatchMessage, WatchRequest } from './watch-messages.ts';
 

@@ -1,6 +1,6 @@
 /** One run of the pipeline: answers one request, then is thrown away. */
-import init, { runMap } from '../wasm/conemap.js';
-import type { MapOutput } from '../wasm/conemap.js';
+import init, { runMap } from '../wasm/core.js';
+import type { MapOutput } from '../wasm/core.js';
 import type { Finding } from '../report.ts';
 import { failureOf } from './messages.ts';
 import type { RunOutput, RunRequest, WorkerMessage } from './messages.ts';

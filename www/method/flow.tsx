@@ -5,7 +5,7 @@ import type { FlowMoment, Flows } from '../compute/watch-messages.ts';
 import { download } from '../dom.ts';
 import { figure, integer } from '../numbers.ts';
 import { logMarks, markText } from '../plots/chart.ts';
-import { factorScale } from '../wasm/conemap.js';
+import { factorScale } from '../wasm/page.js';
 import { momentCount, placesAt, scaleEnd } from './factors.ts';
 import './flow.css';
 import { flowCsv, momentAt, residualRange } from './flow-table.ts';

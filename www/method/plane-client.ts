@@ -1,6 +1,7 @@
 /** The worker that lays the flat metrics out, which stays as long as they are looked at. */
+import type { With } from '../compute/core.ts';
+import { postWithCore } from '../compute/core.ts';
 import type { Failure } from '../compute/messages.ts';
-import { failureOf } from '../compute/messages.ts';
 import type { PlaneAnswers, PlaneMessage, PlaneQuestions, PlaneRequest } from './plane-messages.ts';
 
 /** Answers questions about both meshes in the plane. */
@@ -15,7 +16,7 @@ export interface PlaneListener {
 }
 
 /** Starts the worker; the returned function ends it, and nothing is heard or answered any more. */
-export function startPlanes(request: PlaneRequest, listener: PlaneListener): () => void {
+export function startPlanes(request: With<PlaneRequest>, listener: PlaneListener): () => void {
   const worker = new Worker(new URL('./plane-worker.ts', import.meta.url), { type: 'module' });
   const waiting = new Map<number, (answer: PlaneAnswers[keyof PlaneAnswers]) => void>();
   let asked = 0;
@@ -53,13 +54,7 @@ export function startPlanes(request: PlaneRequest, listener: PlaneListener): () 
     event.preventDefault();
     fail({ code: 'worker', message: event.message });
   });
-  try {
-    worker.postMessage(request);
-  } catch (thrown) {
-    queueMicrotask(() => {
-      fail(failureOf(thrown));
-    });
-  }
+  postWithCore(worker, request, fail);
   return () => {
     worker.terminate();
   };

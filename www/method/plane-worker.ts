@@ -1,8 +1,8 @@
 /** Both flat metrics in the plane: the flows once, then layouts and pictures as they are asked for. */
 import { failureOf } from '../compute/messages.ts';
 import type { Side } from '../landmarks.ts';
-import type { FlatPlanes } from '../wasm/conemap.js';
-import init, { flatPlanes } from '../wasm/conemap.js';
+import type { FlatPlanes } from '../wasm/core.js';
+import init, { flatPlanes } from '../wasm/core.js';
 import { fitted, PLANE_SIZE, PlanePainter, planeObj, planeSvg } from './plane-drawing.ts';
 import type { GrownSide, PlaneAnswers, PlaneFileWish, PlaneMessage, PlaneQuestion, PlaneRequest } from './plane-messages.ts';
 import type { MappedMesh } from './sheet.ts';

@@ -5,7 +5,7 @@ import type { Side } from '../landmarks.ts';
 import { MAP_ENDING } from '../map-files.ts';
 import { PART_ENDINGS } from '../mesh-sets.ts';
 import type { State } from '../store/state.ts';
-import { landmarkEndings, meshEndings } from '../wasm/conemap.js';
+import { landmarkEndings, meshEndings } from '../wasm/page.js';
 import type { Actions } from './actions.ts';
 
 export type Chooser = 'mesh-files' | 'source-file' | 'target-file' | 'landmark-file' | 'landmarks-of-source' | 'landmarks-of-target';

@@ -3,7 +3,7 @@ import type { VNode } from 'preact';
 import { formatList } from '../landmark-files.ts';
 import { wholePairs } from '../store/order.ts';
 import type { State } from '../store/state.ts';
-import type { LandmarkFormatInfo } from '../wasm/conemap.js';
+import type { LandmarkFormatInfo } from '../wasm/page.js';
 import type { PartProps } from './actions.ts';
 import { choose } from './inputs.tsx';
 import { Popover } from './popover.tsx';

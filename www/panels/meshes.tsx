@@ -3,7 +3,7 @@ import type { VNode } from 'preact';
 import type { Side } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
 import { integer } from '../numbers.ts';
-import { meshFormats } from '../wasm/conemap.js';
+import { meshFormats } from '../wasm/page.js';
 import type { RefusedMesh } from '../store/refused.ts';
 import type { PartProps } from './actions.ts';
 import { DefectList } from './defects.tsx';

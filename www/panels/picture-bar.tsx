@@ -2,7 +2,7 @@
 import type { VNode } from 'preact';
 import { shownResult } from '../store/staleness.ts';
 import type { State, Style } from '../store/state.ts';
-import { distortionScale } from '../wasm/conemap.js';
+import { distortionScale } from '../wasm/page.js';
 import type { PartProps } from './actions.ts';
 import type { Choice } from './controls.tsx';
 import { Check } from './controls.tsx';

@@ -1,6 +1,6 @@
 /** A landmark's number in its colour. */
 import type { VNode } from 'preact';
-import { landmarkColour } from '../wasm/conemap.js';
+import { landmarkColour } from '../wasm/page.js';
 
 /** From this luminance on dark figures are easier to read than light ones (equal contrast, WCAG 2). */
 const BRIGHT = 0.179;

@@ -14,7 +14,7 @@ import {
   repairMesh,
   suggestLandmarks,
   unpackMesh,
-} from '../wasm/conemap.js';
+} from '../wasm/page.js';
 import type { Answers, DemoFiles, MeshReading, MirroredMesh, OwnBytes, Question, ReadFile, SortedFile } from './messages.ts';
 
 /** The files by what they hold. Throws `FileRefused` for those that belong to nothing, and for bad landmark files. */

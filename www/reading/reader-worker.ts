@@ -2,8 +2,8 @@
 import { failureOf } from '../compute/messages.ts';
 import { failureSentence } from '../messages.ts';
 import { FileRefused } from '../named-file.ts';
-import type { InitOutput } from '../wasm/conemap.js';
-import init from '../wasm/conemap.js';
+import type { InitOutput } from '../wasm/page.js';
+import init from '../wasm/page.js';
 import { answerTo } from './answers.ts';
 import type { ReaderAnswer, ReaderRequest } from './messages.ts';
 

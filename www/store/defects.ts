@@ -1,6 +1,6 @@
 /** What is wrong with a mesh, or was before it was repaired, as the core found it. */
 import type { Side } from '../landmarks.ts';
-import type { MeshDefects } from '../wasm/conemap.js';
+import type { MeshDefects } from '../wasm/page.js';
 
 /** All defects of one kind. */
 export interface DefectGroup {

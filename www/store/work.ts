@@ -1,7 +1,7 @@
 /** The work: everything that the user made and that undo gives back. */
 import type { Pair, Side } from '../landmarks.ts';
 import type { RunOptions } from '../report.ts';
-import type { LoadedMesh } from '../wasm/conemap.js';
+import type { LoadedMesh } from '../wasm/page.js';
 
 /**
  * A mesh with the bytes it came from; the bytes go to the worker. One object for one opened file: two are the same mesh only

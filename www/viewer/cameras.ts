@@ -2,7 +2,7 @@
 import type { Side } from '../landmarks.ts';
 import { otherSide, SIDES } from '../landmarks.ts';
 import type { Axis, Camera } from '../store/state.ts';
-import type { MeshDefects, Viewer } from '../wasm/conemap.js';
+import type { MeshDefects, Viewer } from '../wasm/page.js';
 import type { Place } from './gestures.ts';
 
 /** A side to look from. */

@@ -5,7 +5,7 @@ import { SENTENCES } from '../messages.ts';
 import type { Event } from '../store/events.ts';
 import { proposed } from '../store/proposal.ts';
 import type { State } from '../store/state.ts';
-import type { Viewer } from '../wasm/conemap.js';
+import type { Viewer } from '../wasm/page.js';
 import type { Cameras } from './cameras.ts';
 import type { Box, GestureTarget, Place } from './gestures.ts';
 import { Gestures } from './gestures.ts';

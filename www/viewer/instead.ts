@@ -5,7 +5,7 @@ import { shownDefects } from '../store/defects.ts';
 import { shownPreview } from '../store/job.ts';
 import type { State } from '../store/state.ts';
 import { upOf } from '../store/work.ts';
-import type { Viewer } from '../wasm/conemap.js';
+import type { Viewer } from '../wasm/page.js';
 
 /** What is wrong with a mesh: a refused one in the place of the side's own, or over that where it was repaired. */
 export function showDefects(viewer: Viewer, state: State, previous: State | null): void {

@@ -5,7 +5,7 @@ import type { FlowFrame } from '../method/hands.ts';
 import type { BasePart } from '../method/parts.ts';
 import { litBy } from '../method/parts.ts';
 import type { Result, Style } from '../store/state.ts';
-import type { Viewer } from '../wasm/conemap.js';
+import type { Viewer } from '../wasm/page.js';
 
 /** The sides on which a style is drawn on the map's own triangles; the meshes themselves can show the others. */
 const OVERLAYS: Readonly<Record<Style['surface'], readonly Side[]>> = {

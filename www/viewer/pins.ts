@@ -5,7 +5,7 @@ import { wholePairs } from '../store/order.ts';
 import { proposed } from '../store/proposal.ts';
 import { hasItsCones, shownResult } from '../store/staleness.ts';
 import type { Proposal, State } from '../store/state.ts';
-import type { Viewer } from '../wasm/conemap.js';
+import type { Viewer } from '../wasm/page.js';
 import type { Place } from './gestures.ts';
 import type { Label } from './labels.ts';
 

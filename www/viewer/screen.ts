@@ -1,6 +1,6 @@
 /** The canvas on the screen: its pixels, the boxes of both views in it, and when they change. */
 import { SIDES } from '../landmarks.ts';
-import type { Viewer } from '../wasm/conemap.js';
+import type { Viewer } from '../wasm/page.js';
 
 /** Samples a pixel: four, but one where a processor draws in place of a graphics card. */
 export function samplesOf(): number {

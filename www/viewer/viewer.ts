@@ -15,7 +15,7 @@ import { hasItsCones, shownResult } from '../store/staleness.ts';
 import type { Axis, Camera, Proposal, State } from '../store/state.ts';
 import type { MeshFile } from '../store/work.ts';
 import { giverOf } from '../store/work.ts';
-import { Viewer } from '../wasm/conemap.js';
+import { Viewer } from '../wasm/page.js';
 import type { Direction } from './cameras.ts';
 import { cameraOf, Cameras } from './cameras.ts';
 import type { Box } from './gestures.ts';

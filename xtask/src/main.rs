@@ -26,7 +26,7 @@ const USAGE: &str = "cargo xtask COMMAND
   survey  tables of many maps on the meshes of ../shared/data: TABLE [--pairs NAME,NAME] [--seeds N]; lists them without a name
   fuzz    read changed files by every reader: [--runs N] of each, from one [--seed S]
   torture map generated hostile geometry for [--minutes N], from one [--seed S]: the table of outcomes; --case KIND-SEED for one
-  wasm    build only the wasm module, into www/wasm/; with --names it keeps the functions' names for profilers";
+  wasm    build only the wasm modules, into www/wasm/; with --names they keep the functions' names for profilers";
 
 fn main() -> ExitCode {
     let mut arguments = std::env::args().skip(1);

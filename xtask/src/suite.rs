@@ -79,7 +79,7 @@ fn lints() -> Outcome {
         "wasm32-unknown-unknown",
         "--no-default-features",
         "--features",
-        "web",
+        "web-page,web-core",
     ];
     run(&cargo(), &[&web[..], &["--", "-D", "warnings"]].concat())
 }

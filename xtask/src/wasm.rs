@@ -1,4 +1,4 @@
-//! The wasm module: built by cargo, made ready for the browser by wasm-bindgen at the version of Cargo.lock, which is a
+//! The wasm modules: built by cargo, made ready for the browser by wasm-bindgen at the version of Cargo.lock, which is a
 //! library of this helper.
 
 use crate::run::{cargo, output_of, root, run};
@@ -13,19 +13,25 @@ pub enum Names {
     Removed,
 }
 
-/// Builds `www/wasm/conemap.js`, its types and `conemap_bg.wasm`.
+/// The modules, each a package in `wasm/`: what the page needs at once, and what the workers of maps need.
+const MODULES: [&str; 2] = ["page", "core"];
+
+/// Builds, of each module, `www/wasm/NAME.js`, its types and `NAME_bg.wasm`.
 pub fn build(names: Names) -> Result<(), String> {
     ensure_target()?;
-    // As a cdylib alone: with an rlib beside it cargo would leave out link-time optimisation.
-    let build = ["rustc", "--lib", "--crate-type", "cdylib", "--target", TARGET, "--profile", "web"];
-    run(&cargo(), &[&build[..], &["--no-default-features", "--features", "web"]].concat())?;
-    let module = target_folder().join(TARGET).join("web/conemap.wasm");
-    bind(&module, names).map_err(|e| format!("wasm-bindgen failed: {e:#}"))
+    MODULES.iter().try_for_each(|name| build_one(name, names))
 }
 
-fn bind(module: &std::path::Path, names: Names) -> Result<(), impl std::fmt::Display> {
+fn build_one(name: &str, names: Names) -> Result<(), String> {
+    let package = format!("conemap-{name}");
+    run(&cargo(), &["build", "--package", &package, "--target", TARGET, "--profile", "web"])?;
+    let module = target_folder().join(TARGET).join(format!("web/conemap_{name}.wasm"));
+    bind(&module, name, names).map_err(|e| format!("wasm-bindgen failed: {e:#}"))
+}
+
+fn bind(module: &std::path::Path, name: &str, names: Names) -> Result<(), impl std::fmt::Display> {
     let mut bindgen = Bindgen::new();
-    bindgen.input_path(module).typescript(true).remove_name_section(names == Names::Removed);
+    bindgen.input_path(module).out_name(name).typescript(true).remove_name_section(names == Names::Removed);
     bindgen.web(true)?.generate(root().join("www/wasm"))
 }
 

@@ -1,0 +1,18 @@
+/** The wasm modules as they were built, for tests that ask them. */
+import { readFileSync } from 'node:fs';
+import { initSync as initCore } from '../../www/wasm/core.js';
+import { initSync as initPage } from '../../www/wasm/page.js';
+
+function module(name: string): Buffer {
+  return readFileSync(new URL(`../../www/wasm/${name}_bg.wasm`, import.meta.url));
+}
+
+/** Starts the module that reads and draws meshes. */
+export function startPageModule(): void {
+  initPage({ module: module('page') });
+}
+
+/** Starts the module that makes maps. */
+export function startCoreModule(): void {
+  initCore({ module: module('core') });
+}
