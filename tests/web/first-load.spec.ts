@@ -1,42 +1,59 @@
-/** What the browser fetches before a mesh can be dropped: no equations and no plots, which come when they are asked for. */
-import { readdirSync, readFileSync } from 'node:fs';
-import { join } from 'node:path';
-import { gzipSync } from 'node:zlib';
+/** What a visit fetches before a mesh can be dropped, and what makes maps, which comes after it. */
+import { brotliCompressSync, constants } from 'node:zlib';
+import type { Request } from '@playwright/test';
 import { expect, test } from '@playwright/test';
-import { ROOT } from './page.ts';
+import { fail, open, openDemo, runMap } from './page.ts';
 
-const ASSETS = join(ROOT, 'dist/assets');
-/** In bytes, packed with gzip. */
-const LARGEST_FIRST_LOAD = 150_000;
+const CORE = /\/core_bg[^/]*\.wasm$/;
+/** The gallery's pictures: they come when the demos can be opened. */
+const PICTURE = /\/demos\/[^/]*$/;
+/** In bytes, as a host sends text and programs. */
+const BUDGET = 1_200_000;
 
-/** The scripts that index.html asks for, with all that they import at once. */
-function firstScripts(): ReadonlyMap<string, string> {
-  const found = new Map<string, string>();
-  const visit = (name: string): void => {
-    if (!found.has(name)) {
-      const code = readFileSync(join(ASSETS, name), 'utf8');
-      found.set(name, code);
-      for (const [, imported] of code.matchAll(/(?:from|import)\s*"\.\/([\w.-]+\.js)"/g)) {
-        visit(imported ?? '');
-      }
-    }
-  };
-  const html = readFileSync(join(ROOT, 'dist/index.html'), 'utf8');
-  for (const [, name] of html.matchAll(/(?:src|href)="\.\/assets\/([\w.-]+\.js)"/g)) {
-    visit(name ?? '');
-  }
-  return found;
+async function packedSize(request: Request): Promise<number> {
+  const response = await request.response();
+  const body = (await response?.body()) ?? fail(`${request.url()} has no body`);
+  return brotliCompressSync(body, { params: { [constants.BROTLI_PARAM_LGWIN]: 24, [constants.BROTLI_PARAM_SIZE_HINT]: body.length } }).length;
 }
 
-test('the first load has no part of KaTeX and uPlot, and stays small', () => {
-  const first = firstScripts();
-  expect(first.size).toBeGreaterThan(0);
-  const all = readdirSync(ASSETS).filter((name) => name.endsWith('.js'));
-  for (const sign of [/katex/i, /u-hz/]) {
-    const holding = all.filter((name) => sign.test(readFileSync(join(ASSETS, name), 'utf8')));
-    expect(holding.length, `${sign.source} is in the build`).toBeGreaterThan(0);
-    expect(holding.filter((name) => first.has(name)), `${sign.source} is not in the first load`).toEqual([]);
-  }
-  const size = [...first.values()].reduce((sum, code) => sum + gzipSync(code).length, 0);
-  expect(size).toBeLessThan(LARGEST_FIRST_LOAD);
+test('the first load is small: the core is asked for when the page can be used', async ({ page }) => {
+  const requests: Request[] = [];
+  page.on('request', (request) => {
+    requests.push(request);
+  });
+  const core = page.waitForRequest((request) => CORE.test(request.url()));
+  await open(page);
+  await core;
+  const urls = requests.map((request) => request.url());
+  const after = urls.findIndex((url) => CORE.test(url) || PICTURE.test(url));
+  const first = requests.slice(0, after).filter((request) => request.url().startsWith('http'));
+  expect(first.filter((request) => request.url().includes('page_bg'))).toHaveLength(1);
+  const sizes = await Promise.all(first.map(packedSize));
+  const list = first.map((request, k) => `${request.url().replace(/.*\//, '')} ${sizes[k]}`).join(', ');
+  expect(sizes.reduce((sum, size) => sum + size, 0), list).toBeLessThan(BUDGET);
+});
+
+test('a core that does not come is told, and fetched again by the next try', async ({ page }) => {
+  await page.route(CORE, (route) => route.abort());
+  await openDemo(page);
+  await page.locator('#run').click();
+  await expect(page.locator('#error')).toContainText('could not be fetched');
+  await page.unroute(CORE);
+  await runMap(page);
+});
+
+test('a run that is asked for before the core is there begins when it comes', async ({ page }) => {
+  let letThrough = (): void => undefined;
+  const opened = new Promise<void>((resolve) => {
+    letThrough = resolve;
+  });
+  await page.route(CORE, async (route) => {
+    await opened;
+    await route.continue();
+  });
+  await openDemo(page);
+  await page.locator('#run').click();
+  await expect(page.locator('#cancel')).toBeVisible();
+  letThrough();
+  await expect(page.locator('#result')).toContainText('Certified bijective', { timeout: 200_000 });
 });

@@ -51,7 +51,8 @@ export function startRun(request: Omit<With<RunRequest>, 'finishUrl'>, listener:
   const finish = (): void => {
     URL.revokeObjectURL(finishUrl);
   };
-  const cancel = askOnce<WorkerMessage>(worker, { ...request, finishUrl } satisfies With<RunRequest>, {
+  const asked: With<RunRequest> = { ...request, finishUrl };
+  const cancel = askOnce<WorkerMessage>(worker, asked, {
     heard: (message) => {
       tell(listener, message);
     },

@@ -77,7 +77,8 @@ export function openSavedMap(module: Core, files: SavedFiles, show: 'views' | 'f
       const id = next++;
       waiting.set(id, { resolve, reject });
       // Every request goes with the core, so that none overtakes the first.
-      postWithCore(worker, { ...body, id, module }, (failure) => {
+      const request = { ...body, id, module };
+      postWithCore(worker, request, (failure) => {
         waiting.delete(id);
         reject(new SavedMapError({ ...failure, side: null }));
       });
