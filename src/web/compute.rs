@@ -1,9 +1,8 @@
 //! The pipeline in the worker.
 
+use super::page_job::read_job;
 use super::{failure, output_file};
-use crate::job::{BasePicture, Job, JobError, JobFiles, MeshFaults, OutputKind, ReadOptions};
-use crate::landmark_exchange::GivenFile;
-use crate::mesh::repair::RepairOptions;
+use crate::job::{BasePicture, Job, JobError, OutputKind};
 use crate::monitor::{Cancelled, MapPreview, Monitor, PlannedStage, PreviewOf, Progress, Stage, Step};
 use crate::pipeline::{Choices, MapResult, PipelineOptions};
 use crate::surface_map::measures::transfer::CommonMesh;
@@ -245,12 +244,7 @@ pub fn run_map(
     let choices: Choices = serde_json::from_str(options).map_err(|e| failure("options", e))?;
     let options = PipelineOptions::from(choices);
     let failed = |error: JobError| failure(error.code(), error);
-    let landmarks = [GivenFile { name: "landmarks.json", bytes: landmarks.as_bytes() }];
-    let files = JobFiles { source, target, landmarks: &landmarks };
-    // Meshes that are on the page were allowed what they needed.
-    let mesh_faults = MeshFaults::Repaired(RepairOptions::everything());
-    let options_of_files = ReadOptions { mesh_faults, ..ReadOptions::default() };
-    let job = Job::read(files, options_of_files, &mut messenger).map_err(failed)?;
+    let job = read_job([source, target], landmarks, &mut messenger)?;
     messenger.plan(options.stages(job.landmark_count()));
     let findings = job.findings(&mut messenger).map_err(|stop| failed(stop.into()))?;
     let json = serde_json::to_string(&findings).unwrap_or_default();

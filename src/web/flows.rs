@@ -2,9 +2,8 @@
 
 use super::compute::{Messenger, RunListener};
 use super::failure;
-use crate::job::{Job, JobError, JobFiles, MeshFaults, ReadOptions};
-use crate::landmark_exchange::GivenFile;
-use crate::mesh::repair::RepairOptions;
+use super::page_job::read_job;
+use crate::job::JobError;
 use crate::monitor::{PlannedStage, Stage};
 use crate::pipeline::{FlowRecord, PipelineOptions};
 use serde_json::json;
@@ -39,20 +38,6 @@ pub fn record_flows(
         .recorded_flows(cones, &PipelineOptions::default(), &mut messenger)
         .map_err(|error| failed(error.into()))?;
     Ok(RecordedFlows { records, vertices: job.vertex_counts() })
-}
-
-/// The job of a map on the page.
-pub(super) fn read_job(
-    [source, target]: [&[u8]; 2],
-    landmarks: &str,
-    messenger: &mut Messenger<'_>,
-) -> Result<Job, JsValue> {
-    let landmarks = [GivenFile { name: "landmarks.json", bytes: landmarks.as_bytes() }];
-    let files = JobFiles { source, target, landmarks: &landmarks };
-    // Meshes that are on the page were allowed what they needed.
-    let mesh_faults = MeshFaults::Repaired(RepairOptions::everything());
-    let options = ReadOptions { mesh_faults, ..ReadOptions::default() };
-    Job::read(files, options, messenger).map_err(|error| failure(error.code(), error))
 }
 
 #[wasm_bindgen]

@@ -33,6 +33,8 @@ mod matching;
 #[cfg(feature = "web-core")]
 mod output_file;
 #[cfg(feature = "web-core")]
+mod page_job;
+#[cfg(feature = "web-core")]
 mod planes;
 #[cfg(feature = "web-core")]
 mod saved;

@@ -2,7 +2,7 @@
 
 use super::compute::{Messenger, RunListener, flat3};
 use super::failure;
-use super::flows::read_job;
+use super::page_job::read_job;
 use crate::job::{Job, JobError};
 use crate::mesh::FaceId;
 use crate::monitor::{PlannedStage, Stage};

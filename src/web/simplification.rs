@@ -2,7 +2,7 @@
 
 use super::compute::{Messenger, RunListener, flat3};
 use super::failure;
-use super::flows::read_job;
+use super::page_job::read_job;
 use crate::job::{CarriedSimplification, JobError, MapFiles, OpenMap};
 use crate::monitor::{PlannedStage, Stage};
 use crate::pipeline::{Lead, SimplificationStage};
