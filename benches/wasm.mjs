@@ -51,8 +51,8 @@ async function serve(files) {
   const fixed = {
     '/': ['text/html', '<!doctype html><title>comparison</title>'],
     '/worker.js': ['text/javascript', worker],
-    '/wasm/core.js': ['text/javascript', readFileSync(join(root, 'www/wasm/conemap.js'))],
-    '/wasm/core_bg.wasm': ['application/wasm', readFileSync(join(root, 'www/wasm/conemap_bg.wasm'))],
+    '/wasm/core.js': ['text/javascript', readFileSync(join(root, 'www/wasm/core.js'))],
+    '/wasm/core_bg.wasm': ['application/wasm', readFileSync(join(root, 'www/wasm/core_bg.wasm'))],
   };
   const server = createServer((request, response) => {
     const [type, body] = fixed[request.url] ?? ['', files[Number(request.url.slice('/file/'.length))]];

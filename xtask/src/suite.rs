@@ -13,14 +13,14 @@ const PACKAGES: [&str; 4] = ["--package", "conemap", "--package", "conemap-verif
 /// Which tests are run.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
-    /// All but the long ones, which are shown as ignored: under half an hour on two processors from nothing.
+    /// All but the long ones, which are shown as ignored: about three quarters of an hour on two processors from nothing.
     Usual,
     All,
 }
 
 /// Runs the tests, the quick ones first; none is left out after one that failed, and the failed ones are named at the end.
 ///
-/// The page is built beside the lints and the core's tests: its last and longest step, the optimisation of the whole module, keeps
+/// The page is built beside the lints and the core's tests: its longest steps, the optimisation of each wasm module as a whole, keep
 /// one processor busy.
 pub fn test(extent: Extent) -> Outcome {
     wasm::ensure_target()?;
