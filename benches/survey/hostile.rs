@@ -36,7 +36,7 @@ pub fn table(arguments: &Arguments) {
 /// One case, in this process.
 pub fn case(arguments: &Arguments) {
     for case in cases(arguments).into_iter().filter(|case| name(case) == arguments.pairs[0]) {
-        let mut watch = Watch::new();
+        let mut watch = Watch::new(arguments);
         let outcome = mapped(&arguments.data, &case, &mut watch);
         let (stage, longest) = watch.longest();
         println!("{:10.0}  {stage:34} {outcome}", 1000.0 * longest.as_secs_f64());

@@ -6,10 +6,7 @@ use crate::job_files::files;
 use crate::judged_job::mapped;
 use crate::watch::Watch;
 use conemap::monitor::Stage;
-use std::time::{Duration, Instant};
-
-/// Silences from here on are told with the calls that ended them, where that is asked for (`--depth 2`).
-const LONG: Duration = Duration::from_millis(40);
+use std::time::Instant;
 
 /// The longest silence of each stage, in processor time.
 pub fn table(arguments: &Arguments) {
@@ -17,10 +14,7 @@ pub fn table(arguments: &Arguments) {
     let names = if arguments.pairs.is_empty() { names } else { arguments.pairs.clone() };
     for name in names {
         let files = files(arguments, &name);
-        let (begun, mut watch) = (Instant::now(), Watch::new());
-        if arguments.depth > 1 {
-            watch = watch.tracing(LONG);
-        }
+        let (begun, mut watch) = (Instant::now(), Watch::new(arguments));
         let outcome = mapped(&files, &mut watch);
         watch.longest();
         let seconds = begun.elapsed().as_secs_f64();

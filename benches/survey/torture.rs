@@ -82,7 +82,7 @@ pub fn cases(arguments: &Arguments) {
         let faces = files.meshes.iter().map(|mesh| mesh.face_count()).sum::<usize>();
         let files = Files::from(files);
         std::thread::spawn(move || keep_bounds(faces));
-        let mut watch = Watch::new();
+        let mut watch = Watch::new(arguments);
         let mapped = mapped(&files, &mut watch);
         let (stage, silence) = watch.longest();
         let outcome = mapped.map_or_else(|outcome| outcome, |mapped| mapped.judged(&files));

@@ -1,10 +1,14 @@
 //! A monitor that measures how long nobody asks it, in processor time of its thread, so that other programs do not count.
 
+use crate::arguments::Arguments;
 use conemap::monitor::{Cancelled, Monitor, Stage, Step};
 use cpu_time::ThreadTime;
 use std::backtrace::Backtrace;
 use std::collections::BTreeMap;
 use std::time::Duration;
+
+/// Silences from here on are told with the calls that ended them, where that is asked for (`--depth 2`).
+const LONG: Duration = Duration::from_millis(40);
 
 /// The silences of a run.
 pub struct Watch {
@@ -12,19 +16,13 @@ pub struct Watch {
     stage: Option<Stage>,
     /// By stage the longest silence and the number of questions; without a stage what came before the first.
     pub by_stage: BTreeMap<Option<Stage>, (Duration, usize)>,
-    /// Silences from here on are told with the calls that ended them.
-    traced: Option<Duration>,
+    traces: bool,
 }
 
 impl Watch {
     /// From now on.
-    pub fn new() -> Self {
-        Self { last: ThreadTime::now(), stage: None, by_stage: BTreeMap::new(), traced: None }
-    }
-
-    /// The same, and silences of this length are told with the calls that ended them.
-    pub fn tracing(self, from: Duration) -> Self {
-        Self { traced: Some(from), ..self }
+    pub fn new(arguments: &Arguments) -> Self {
+        Self { last: ThreadTime::now(), stage: None, by_stage: BTreeMap::new(), traces: arguments.depth > 1 }
     }
 
     /// The longest silence, with the sentence of its stage; the last one ends now.
@@ -39,7 +37,7 @@ impl Watch {
     fn told(&mut self) {
         let silence = self.last.elapsed();
         let (longest, questions) = self.by_stage.entry(self.stage).or_default();
-        if self.traced.is_some_and(|from| silence >= from) {
+        if self.traces && silence >= LONG {
             println!("    {:.0} ms before {}", 1000.0 * silence.as_secs_f64(), calls());
         }
         *longest = (*longest).max(silence);
@@ -48,12 +46,12 @@ impl Watch {
     }
 }
 
-/// The calls of the core that lead here, the innermost first.
+/// The places of the core that lead here, the innermost first: the build keeps lines, and not the names of what was put into its callers.
 fn calls() -> String {
     let trace = Backtrace::force_capture().to_string();
-    let names = trace.lines().filter_map(|line| line.trim().split_once(": ").map(|(_, name)| name));
-    let of_core = names.filter(|name| name.starts_with("conemap::") && !name.contains("monitor"));
-    of_core.take(5).map(|name| name.trim_start_matches("conemap::")).collect::<Vec<_>>().join(" < ")
+    let places = trace.lines().filter_map(|line| line.trim().strip_prefix("at ./src/"));
+    let of_core = places.filter(|place| !place.starts_with("monitor/"));
+    of_core.take(5).collect::<Vec<_>>().join(" < ")
 }
 
 impl Monitor for Watch {

@@ -75,19 +75,35 @@ impl LandmarkedMesh {
         self.weights.as_ref().map(|weights| weights.of_refined.as_slice())
     }
 
-    /// The same mesh with room around further points of the refined mesh, and the vertex of each; `landmarks` stay as they are.
+    /// The same mesh with further points of the refined mesh as vertices, and the vertex of each; `landmarks` stay as they are.
     ///
     /// # Errors
     /// [`MeshError`] where a point cannot be inserted.
-    pub(super) fn with_room_at(
+    pub(super) fn with_points(
         &self,
         input: &SurfaceMesh,
         points: &[SurfacePoint],
     ) -> Result<(Self, Vec<VertexId>), MeshError> {
         let (refined, vertices) = self.refined.with_points(input, points)?;
-        let refined = refined.with_degrees(input, vertices.iter().copied(), LEAST_DEGREE)?;
+        Ok((self.refined_to(refined), vertices))
+    }
+
+    /// The same mesh with room around further vertices of the refined mesh.
+    ///
+    /// # Errors
+    /// [`MeshError`] where a face cannot be bisected.
+    pub(super) fn with_room_around(
+        &self,
+        input: &SurfaceMesh,
+        vertices: &[VertexId],
+    ) -> Result<Self, MeshError> {
+        Ok(self.refined_to(self.refined.with_degrees(input, vertices.iter().copied(), LEAST_DEGREE)?))
+    }
+
+    /// The same mesh, refined further.
+    fn refined_to(&self, refined: RefinedMesh) -> Self {
         let weights = self.weights.as_ref().map(|known| Weights::new(known.of_input.clone(), &refined));
-        Ok((Self { refined, landmarks: self.landmarks.clone(), weights }, vertices))
+        Self { refined, landmarks: self.landmarks.clone(), weights }
     }
 
     /// The mesh with a parametrisation.

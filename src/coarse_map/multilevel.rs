@@ -288,6 +288,7 @@ impl CoarseMap<'_> {
         let energy = DentEnergy { energy: self.energy, brink };
         let healed = dents::heal([source, target], &self.surface, &overlay, options, energy, monitor)?;
         for (k, embedding) in healed.iter().flatten().enumerate() {
+            monitor.step(Step::default())?;
             self.levels[k].adopt(&present[k].level, embedding);
         }
         Ok(())
@@ -331,8 +332,10 @@ impl CoarseMap<'_> {
         let relaxed =
             map_relaxation::relax_constrained(parametrised, &self.surface, constraints, options, monitor)?;
         let seen = look(&relaxed);
+        monitor.step(Step::default())?;
         let embeddings = relaxed.into_embeddings();
         for k in 0..2 {
+            monitor.step(Step::default())?;
             self.levels[k].adopt(&present[k].level, &embeddings[k]);
         }
         Ok(seen)
@@ -433,6 +436,7 @@ pub fn solve_fine(
         }
     }
     map.heal(&options.dents, &mut Portion::new(monitor, 1.0, 1.0))?;
+    monitor.step(Step { fraction: 1.0, residual: None })?;
     let source = map.levels[0].snapshot().embedding;
     monitor.step(Step { fraction: 1.0, residual: None })?;
     Ok([source, map.levels[1].snapshot().embedding])

@@ -15,7 +15,7 @@ use crate::landmark_suggestion::{Spread, farthest_points};
 use crate::layout::SearchOptions;
 use crate::mesh::closest_point::closest_point;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
-use crate::monitor::{Cancelled, Monitor, Portion};
+use crate::monitor::{Cancelled, Monitor, Portion, Step};
 use crate::surface_map::{ConeSurface, Embedding, MapError, certify};
 use glam::DVec3;
 use std::cell::OnceCell;
@@ -151,14 +151,12 @@ pub fn add<'a>(
     let mut without_gain = 0;
     for (round, (full_cell, levels_cell)) in owners.meshes.0.iter().zip(&owners.levels.0).enumerate() {
         let share = |done: f64| (round as f64 + done) / own.rounds as f64;
-        if monitor.wants_result() {
+        if monitor.wants_result() || without_gain >= own.patience {
             break;
         }
         let placing = &mut Portion::new(monitor, share(0.0), share(0.1));
         let pairs = pairs(full, &images, &before, own.count, placing)?;
-        let Some(with_own) = with(inputs, full, &pairs).filter(|_| without_gain < own.patience) else {
-            break;
-        };
+        let Some(with_own) = with(inputs, full, &pairs, placing)? else { break };
         without_gain += 1;
         before = pairs.iter().map(|pair| pair.source).collect();
         let with_own = full_cell.get_or_init(|| with_own);
@@ -276,20 +274,27 @@ fn with(
     inputs: [&SurfaceMesh; 2],
     full: &[LandmarkedMesh; 2],
     pairs: &[OwnPair],
-) -> Option<[LandmarkedMesh; 2]> {
+    monitor: &mut dyn Monitor,
+) -> Result<Option<[LandmarkedMesh; 2]>, Cancelled> {
     if pairs.is_empty() {
-        return None;
+        return Ok(None);
     }
     let at = |pair: &OwnPair| SurfacePoint::at_vertex(&full[0].refined.mesh, pair.source);
     let points: [Vec<SurfacePoint>; 2] =
         [pairs.iter().map(at).collect(), pairs.iter().map(|pair| pair.target).collect()];
-    let side = |k: usize| full[k].with_room_at(inputs[k], &points[k]).ok();
-    let ((mut source, from), (mut target, onto)) = (side(0)?, side(1)?);
+    let mut side = |k: usize| {
+        let Ok((mesh, vertices)) = full[k].with_points(inputs[k], &points[k]) else { return Ok(None) };
+        monitor.step(Step::default())?;
+        let mesh = mesh.with_room_around(inputs[k], &vertices);
+        monitor.step(Step::default())?;
+        Ok(mesh.ok().map(|mesh| (mesh, vertices)))
+    };
+    let (Some((mut source, from)), Some((mut target, onto))) = (side(0)?, side(1)?) else { return Ok(None) };
     for (s, t) in from.into_iter().zip(onto) {
         if !target.landmarks.contains(&t) {
             source.landmarks.push(s);
             target.landmarks.push(t);
         }
     }
-    Some([source, target])
+    Ok(Some([source, target]))
 }

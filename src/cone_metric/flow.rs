@@ -162,13 +162,13 @@ impl<'a> Newton<'a> {
             monitor.step(Step { fraction: self.fraction(error), residual: Some(error) })?;
             self.metric.hessian(&self.state, &mut graph);
             monitor.step(Step { fraction: self.fraction(error), residual: Some(error) })?;
-            let preconditioner = ApproximateCholesky::new(&graph);
+            let fraction = self.fraction(error);
+            let within = &mut Portion::new(monitor, fraction, fraction);
+            let preconditioner = ApproximateCholesky::watched(&graph, within)?;
             // Inexact Newton: a tolerance that falls with the curvature error (radians) keeps the quadratic convergence. 1000
             // iterations bound what a breakdown costs.
             let tolerance = (0.1 * error).clamp(1e-8, 0.1);
             let options = CgOptions { tolerance, max_iterations: LINEAR_ITERATIONS };
-            let fraction = self.fraction(error);
-            let within = &mut Portion::new(monitor, fraction, fraction);
             within.step(Step::default())?;
             let mut stopped = Ok(());
             let may_go_on = || {

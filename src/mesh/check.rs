@@ -294,24 +294,42 @@ pub(crate) type Triangle = [u32; 3];
 /// # Errors
 /// The first [`MeshFault`] in the order of the enum, with counts and file numbers.
 pub fn closed_genus_zero(soup: &PolygonSoup) -> Result<CheckedMesh, MeshFault> {
+    closed_genus_zero_asking(soup, &mut || Ok(()))
+}
+
+/// The same, and asks between its parts whether to go on.
+///
+/// # Errors
+/// As [`closed_genus_zero`], and what the question answers.
+pub(crate) fn closed_genus_zero_asking<E: From<MeshFault>>(
+    soup: &PolygonSoup,
+    ask: &mut dyn FnMut() -> Result<(), E>,
+) -> Result<CheckedMesh, E> {
     let frame = FileFrame::of(soup);
-    let checked = judged(&frame.soup(soup))?;
+    let checked = judged(&frame.soup(soup), ask)?;
     Ok(CheckedMesh { frame, ..checked })
 }
 
 /// Judges a soup of usual coordinates.
-fn judged(soup: &PolygonSoup) -> Result<CheckedMesh, MeshFault> {
+fn judged<E: From<MeshFault>>(
+    soup: &PolygonSoup,
+    ask: &mut dyn FnMut() -> Result<(), E>,
+) -> Result<CheckedMesh, E> {
     let (mut triangles, polygon_of) = triangulated(soup)?;
     check_degenerate(soup, &triangles, &polygon_of)?;
+    ask()?;
     let edges = EdgeTable::new(&triangles)?;
+    ask()?;
     edges.check_closed()?;
     let mut turned = orient(&mut triangles, &edges)?;
     let (vertex_from_file, positions) = used_vertices(soup, &triangles);
+    ask()?;
     check_fans(&triangles, &edges, soup.positions.len())?;
     check_components(&edges)?;
+    ask()?;
     let euler = positions.len() as i64 - edges.count() as i64 + triangles.len() as i64;
     if euler != 2 {
-        return Err(MeshFault::Genus { genus: ((2 - euler) / 2) as usize });
+        return Err(MeshFault::Genus { genus: ((2 - euler) / 2) as usize }.into());
     }
     if signed_volume(soup, &triangles) < 0.0 {
         triangles.iter_mut().for_each(|t| t.swap(1, 2));

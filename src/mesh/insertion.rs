@@ -2,6 +2,7 @@
 
 use super::{FaceFrame, FaceId, MeshError, SurfaceMesh, SurfacePoint, VertexId};
 use glam::{DMat3, DVec3};
+use rustc_hash::FxHashMap;
 use typed_index_collections::TiVec;
 
 /// Nearer than this (in barycentric coordinates) to a corner or an edge, a point is taken to lie on it: no click can be meant
@@ -42,15 +43,17 @@ impl Insertion {
 /// [`MeshError`], which points of the mesh rule out.
 pub fn insert(mesh: &SurfaceMesh, points: &[SurfacePoint]) -> Result<Insertion, MeshError> {
     let mut refinement = Refinement {
+        original: mesh,
+        added: FxHashMap::default(),
         positions: mesh.positions().iter().copied().collect(),
         faces: mesh.triangles().iter().copied().collect(),
         face_origin: mesh.faces().collect(),
         corner_origins: mesh.faces().map(|_| [DVec3::X, DVec3::Y, DVec3::Z]).collect(),
     };
     let vertices = points.iter().map(|p| refinement.insert(p)).collect();
-    let Refinement { positions, faces, face_origin, corner_origins } = refinement;
+    let Refinement { positions, faces, face_origin, corner_origins, added, .. } = refinement;
     Ok(Insertion {
-        mesh: SurfaceMesh::from_triangles(positions, faces)?,
+        mesh: if added.is_empty() { mesh.clone() } else { SurfaceMesh::from_triangles(positions, faces)? },
         face_origin,
         corner_origins,
         vertices,
@@ -65,14 +68,17 @@ struct Corner {
     origin: DVec3,
 }
 
-struct Refinement {
+struct Refinement<'a> {
+    original: &'a SurfaceMesh,
+    /// Of an original face that was split, the faces that came with that, ascending.
+    added: FxHashMap<FaceId, Vec<FaceId>>,
     positions: TiVec<VertexId, DVec3>,
     faces: TiVec<FaceId, [VertexId; 3]>,
     face_origin: TiVec<FaceId, FaceId>,
     corner_origins: TiVec<FaceId, [DVec3; 3]>,
 }
 
-impl Refinement {
+impl Refinement<'_> {
     fn insert(&mut self, point: &SurfacePoint) -> VertexId {
         let SurfacePoint { face, barycentric: weights } = self.child(point);
         if let Some(k) = (0..3).find(|&k| weights[k] > 1.0 - SNAP) {
@@ -82,7 +88,7 @@ impl Refinement {
         if let Some(k) = (0..3).find(|&k| weights[k] < SNAP) {
             let (a, b) = ((k + 1) % 3, (k + 2) % 3);
             let share = weights[b] / (weights[a] + weights[b]);
-            return self.split_edge([self.faces[face][a], self.faces[face][b]], share);
+            return self.split_edge(face, [self.faces[face][a], self.faces[face][b]], share);
         }
         let position = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
         let v = self.positions.push_and_get_key(position);
@@ -103,12 +109,16 @@ impl Refinement {
             let [p, q, r] = self.corner_origins[f];
             DMat3::from_cols(p, q, r).inverse() * goal
         };
-        // Children of a face come after it: most faces are their own only child.
-        let added = (0..self.faces.len()).map(FaceId::from).filter(|&f| self.face_origin[f] == point.face);
-        let all = added.map(|f| (f, coordinates(f)));
+        let all = self.children(point.face).map(|f| (f, coordinates(f)));
         let best = all.max_by(|a, b| a.1.min_element().total_cmp(&b.1.min_element()));
         let (face, weights) = best.unwrap_or((point.face, goal));
         SurfacePoint { face, barycentric: weights.to_array() }
+    }
+
+    /// The faces in an original face, ascending: its own number, and those that were added.
+    fn children(&self, original: FaceId) -> impl Iterator<Item = FaceId> {
+        let added = self.added.get(&original).into_iter().flatten();
+        std::iter::once(original).chain(added.copied())
     }
 
     /// Adds a copy of a face with corner `k - 1` replaced: the child opposite that corner.
@@ -116,9 +126,10 @@ impl Refinement {
         let (mut corners, mut origins) = (self.faces[face], self.corner_origins[face]);
         corners[k - 1] = corner.vertex;
         origins[k - 1] = corner.origin;
-        self.faces.push(corners);
+        let (added, original) = (self.faces.push_and_get_key(corners), self.face_origin[face]);
         self.corner_origins.push(origins);
-        self.face_origin.push(self.face_origin[face]);
+        self.face_origin.push(original);
+        self.added.entry(original).or_default().push(added);
     }
 
     fn set_corner(&mut self, face: FaceId, k: usize, corner: Corner) {
@@ -126,12 +137,17 @@ impl Refinement {
         self.corner_origins[face][k] = corner.origin;
     }
 
-    /// Splits the edge ab at the given share of the way to b, in both its faces.
-    fn split_edge(&mut self, [a, b]: [VertexId; 2], share: f64) -> VertexId {
+    /// Splits the edge ab of a face at the given share of the way to b, in both faces beside it.
+    fn split_edge(&mut self, face: FaceId, [a, b]: [VertexId; 2], share: f64) -> VertexId {
         let v = self.positions.push_and_get_key(self.positions[a].lerp(self.positions[b], share));
         let beside = |f: &[VertexId; 3]| f.contains(&a) && f.contains(&b);
-        let found: Vec<FaceId> =
-            self.faces.iter_enumerated().filter(|(_, f)| beside(f)).map(|(f, _)| f).collect();
+        // The other face is in the same original face, or in one beside it.
+        let original = self.face_origin[face];
+        let neighbours = original.halfedges().map(|h| self.original.twin(h).face());
+        let near = std::iter::once(original).chain(neighbours).flat_map(|f| self.children(f));
+        let mut found: Vec<FaceId> = near.filter(|&f| beside(&self.faces[f])).collect();
+        found.sort_unstable();
+        found.dedup();
         for face in found {
             let place = |w: VertexId| self.faces[face].iter().position(|&x| x == w).unwrap_or(0);
             let (ka, kb) = (place(a), place(b));
@@ -147,7 +163,28 @@ impl Refinement {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::HalfedgeId;
     use crate::mesh::generators::icosphere;
+
+    #[test]
+    fn every_edge_is_split_in_three() {
+        let mesh = icosphere(1);
+        let on = |h: HalfedgeId, share: f64| {
+            let mut barycentric = [0.0; 3];
+            barycentric[h.corner()] = 1.0 - share;
+            barycentric[h.next().corner()] = share;
+            SurfacePoint { face: h.face(), barycentric }
+        };
+        let edges: Vec<HalfedgeId> = mesh.edges().collect();
+        // The second time the point is on half an edge, and told of the face on its other side.
+        let halves = edges.iter().map(|&h| on(h, 0.5));
+        let quarters = edges.iter().map(|&h| on(mesh.twin(h), 0.25));
+        let inserted = insert(&mesh, &halves.chain(quarters).collect::<Vec<_>>()).unwrap();
+        assert_eq!(inserted.mesh.vertex_count(), mesh.vertex_count() + 2 * edges.len());
+        assert_eq!(inserted.mesh.face_count(), mesh.face_count() + 4 * edges.len());
+        assert_eq!(inserted.mesh.euler_characteristic(), 2);
+        assert!((inserted.mesh.area() - mesh.area()).abs() < 1e-12);
+    }
 
     #[test]
     fn points_become_vertices_where_they_are() {

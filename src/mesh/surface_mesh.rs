@@ -4,7 +4,7 @@ use super::ids::star;
 use super::{FaceId, HalfedgeId, VertexId};
 use crate::math::triangle;
 use glam::DVec3;
-use rustc_hash::FxHashMap;
+use std::ops::Range;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 /// A closed, oriented, manifold triangle mesh: every halfedge has a twin and every vertex one fan of triangles.
@@ -57,7 +57,7 @@ impl SurfaceMesh {
         faces: TiVec<FaceId, [VertexId; 3]>,
     ) -> Result<Self, MeshError> {
         check_vertex_numbers(positions.len(), &faces)?;
-        let twins = twins(&faces)?;
+        let twins = twins(positions.len(), &faces)?;
         let outgoing = outgoing(positions.len(), &faces, &twins)?;
         Ok(Self { positions, faces, twins, outgoing })
     }
@@ -225,26 +225,75 @@ fn check_vertex_numbers(vertices: usize, faces: &TiSlice<FaceId, [VertexId; 3]>)
     Ok(())
 }
 
-fn twins(faces: &TiSlice<FaceId, [VertexId; 3]>) -> Result<TiVec<HalfedgeId, HalfedgeId>, MeshError> {
+fn twins(
+    vertices: usize,
+    faces: &TiSlice<FaceId, [VertexId; 3]>,
+) -> Result<TiVec<HalfedgeId, HalfedgeId>, MeshError> {
     let edge_error = |a: VertexId, b: VertexId| MeshError::Edge { edge: [a.index(), b.index()] };
-    let mut by_ends = FxHashMap::default();
-    by_ends.reserve(faces.len() * 3);
-    for (f, corners) in faces.iter_enumerated() {
-        for k in 0..3 {
-            let (a, b) = (corners[k], corners[(k + 1) % 3]);
-            if a == b || by_ends.insert((a, b), HalfedgeId::of(f, k)).is_some() {
-                return Err(edge_error(a, b));
-            }
-        }
-    }
+    let by_tail = ByTail::new(vertices, faces);
     let mut twins = ti_vec![HalfedgeId(0); faces.len() * 3];
-    for (f, corners) in faces.iter_enumerated() {
-        for k in 0..3 {
-            let (a, b) = (corners[k], corners[(k + 1) % 3]);
-            twins[HalfedgeId::of(f, k)] = *by_ends.get(&(b, a)).ok_or_else(|| edge_error(a, b))?;
+    let mut lonely = None;
+    for (h, a, b) in directed_edges(faces) {
+        if a == b || by_tail.first(a, b) != Some(h) {
+            return Err(edge_error(a, b));
+        }
+        match by_tail.first(b, a) {
+            Some(twin) => twins[h] = twin,
+            None => lonely = lonely.or(Some([a, b])),
         }
     }
-    Ok(twins)
+    lonely.map_or(Ok(twins), |[a, b]| Err(edge_error(a, b)))
+}
+
+/// Every halfedge with its ends.
+fn directed_edges(
+    faces: &TiSlice<FaceId, [VertexId; 3]>,
+) -> impl Iterator<Item = (HalfedgeId, VertexId, VertexId)> {
+    let of_face = |(f, corners): (FaceId, &[VertexId; 3])| {
+        let corners = *corners;
+        (0..3).map(move |k| (HalfedgeId::of(f, k), corners[k], corners[(k + 1) % 3]))
+    };
+    faces.iter_enumerated().flat_map(of_face)
+}
+
+/// Halfedges by the vertices that they come from.
+struct ByTail {
+    /// By vertex its first entry, and one past the last.
+    starts: Vec<u32>,
+    /// The other end and the halfedge, ascending at each vertex.
+    entries: Vec<(VertexId, HalfedgeId)>,
+}
+
+impl ByTail {
+    fn new(vertices: usize, faces: &TiSlice<FaceId, [VertexId; 3]>) -> Self {
+        let mut starts = vec![0u32; vertices + 1];
+        directed_edges(faces).for_each(|(_, tail, _)| starts[tail.index() + 1] += 1);
+        (0..vertices).for_each(|v| starts[v + 1] += starts[v]);
+        let mut next = starts.clone();
+        let mut entries = vec![(VertexId(0), HalfedgeId(0)); faces.len() * 3];
+        for (h, tail, head) in directed_edges(faces) {
+            let place = &mut next[tail.index()];
+            entries[*place as usize] = (head, h);
+            *place += 1;
+        }
+        let mut by_tail = Self { starts, entries };
+        for v in 0..vertices {
+            let range = by_tail.range(VertexId::from(v));
+            by_tail.entries[range].sort_unstable();
+        }
+        by_tail
+    }
+
+    fn range(&self, v: VertexId) -> Range<usize> {
+        self.starts[v.index()] as usize..self.starts[v.index() + 1] as usize
+    }
+
+    /// The halfedge of the least number from one vertex to another.
+    fn first(&self, tail: VertexId, head: VertexId) -> Option<HalfedgeId> {
+        let around = &self.entries[self.range(tail)];
+        let found = around.get(around.partition_point(|entry| entry.0 < head))?;
+        (found.0 == head).then_some(found.1)
+    }
 }
 
 /// Each halfedge has one twin, whose twin it is, and both go the same edge in opposite directions.

@@ -7,6 +7,7 @@
 use super::conjugate_gradients::Preconditioner;
 use super::graph::Graph;
 use crate::math::random::SplitMix;
+use crate::monitor::{Cancelled, Monitor, Pulse};
 
 const NONE: u32 = u32::MAX;
 const BUCKETS: usize = 256;
@@ -28,25 +29,36 @@ pub struct ApproximateCholesky {
 impl ApproximateCholesky {
     /// Factorises.
     pub fn new(graph: &Graph) -> Self {
+        let mut factor = Self::empty(graph);
+        let mut elimination = Elimination::new(graph);
+        while elimination.eliminate(&mut factor) {}
+        factor
+    }
+
+    /// The same, and asks the monitor between the vertices.
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn watched(graph: &Graph, monitor: &mut dyn Monitor) -> Result<Self, Cancelled> {
+        let mut factor = Self::empty(graph);
+        let mut elimination = Elimination::new(graph);
+        let mut pulse = Pulse::new(monitor, ASKED_EVERY);
+        while elimination.eliminate(&mut factor) {
+            pulse.beat()?;
+        }
+        Ok(factor)
+    }
+
+    /// No column yet, and room for all.
+    fn empty(graph: &Graph) -> Self {
         let n = graph.vertices;
-        let mut lists = Lists::new(graph);
-        let mut queue = DegreeQueue::new(&lists.degrees);
-        let mut random = SplitMix::new(0x9e37_79b9_7f4a_7c15);
-        let mut factor = Self {
+        Self {
             order: Vec::with_capacity(n),
             starts: vec![0],
             rows: Vec::with_capacity(graph.edges.len() * 2),
             shares: Vec::with_capacity(graph.edges.len() * 2),
             pivots: Vec::with_capacity(n),
-        };
-        let mut neighbours = Vec::new();
-        while let Some(v) = queue.pop(&lists) {
-            lists.gather(v, &mut neighbours);
-            lists.eliminated[v as usize] = true;
-            factor.push_column(v, &neighbours);
-            lists.replace_clique(&neighbours, &mut random, &mut queue);
         }
-        factor
     }
 
     fn push_column(&mut self, v: u32, neighbours: &[(u32, f64)]) {
@@ -79,6 +91,36 @@ impl Preconditioner<f64> for ApproximateCholesky {
             }
             y[v as usize] = value;
         }
+    }
+}
+
+/// Vertices between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 8192;
+
+/// What is left of a graph.
+struct Elimination {
+    lists: Lists,
+    queue: DegreeQueue,
+    random: SplitMix,
+    neighbours: Vec<(u32, f64)>,
+}
+
+impl Elimination {
+    fn new(graph: &Graph) -> Self {
+        let lists = Lists::new(graph);
+        let queue = DegreeQueue::new(&lists.degrees);
+        Self { lists, queue, random: SplitMix::new(0x9e37_79b9_7f4a_7c15), neighbours: Vec::new() }
+    }
+
+    /// Eliminates the next vertex, whose column the factor gets; `false` where none is left.
+    fn eliminate(&mut self, factor: &mut ApproximateCholesky) -> bool {
+        let Self { lists, queue, random, neighbours } = self;
+        let Some(v) = queue.pop(lists) else { return false };
+        lists.gather(v, neighbours);
+        lists.eliminated[v as usize] = true;
+        factor.push_column(v, neighbours);
+        lists.replace_clique(neighbours, random, queue);
+        true
     }
 }
 

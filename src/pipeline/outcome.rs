@@ -71,7 +71,11 @@ impl Outcome<'_> {
         monitor.step(Step::default())?;
         let images: TiVec<VertexId, Option<SurfacePoint>> = images.into_iter().map(Some).collect();
         let shown = match overlay {
-            Ok(overlay) => self.shown_on(&overlay, monitor)?,
+            Ok(overlay) => {
+                let shown = self.shown_on(&overlay, monitor)?;
+                monitor.step(Step { fraction: 0.95, residual: None })?;
+                shown
+            }
             Err(error) => {
                 missing.push(Warning::NoOverlay { reason: error.to_string() });
                 self.shown_at_vertices(&images)
@@ -126,16 +130,16 @@ impl Outcome<'_> {
         let frames: [&dyn Fn(FaceId) -> FaceFrame; 2] =
             [&|f| source.refined.frame(source.input, f), &|f| target.refined.frame(target.input, f)];
         let carriers = [source.carrier(frames[0]), target.carrier(frames[1])];
-        let correspondence = Correspondence::of_overlay(sides, overlay, monitor)?;
+        let mut correspondence = Correspondence::of_overlay(sides, overlay, monitor)?;
         monitor.step(told(0.4))?;
-        let correspondence = correspondence.carried(carriers, monitor)?;
+        // Each takes the place of what it was made from: to give that back takes long enough to be asked after.
+        correspondence = correspondence.carried(carriers, monitor)?;
         monitor.step(told(0.5))?;
-        let flat_layout = FlatLayout::new(sides, &self.map.surface, monitor)?;
+        let mut flat_layout = FlatLayout::new(sides, &self.map.surface, monitor)?;
         monitor.step(told(0.6))?;
-        let flat_layout = match flat_layout {
-            Some(layout) => Some(layout.carried(carriers, monitor)?),
-            None => None,
-        };
+        if let Some(layout) = &mut flat_layout {
+            *layout = layout.carried(carriers, monitor)?;
+        }
         monitor.step(told(0.7))?;
         let common = common_mesh([source, target], overlay, &self.flows.texture(), monitor)?;
         monitor.step(told(0.9))?;

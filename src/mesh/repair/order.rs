@@ -12,7 +12,10 @@ use super::parts::{DroppedParts, largest};
 use super::refusal::RepairRefusal;
 use super::report::{Change, Handle, RepairReport};
 use super::sheets::{Sheets, apart};
-use crate::mesh::check::{CheckedMesh, Elements, MeshFault, RepairedFaces, closed_genus_zero, triangulated};
+use crate::mesh::check::{
+    CheckedMesh, Elements, MeshFault, RepairedFaces, closed_genus_zero, closed_genus_zero_asking,
+    triangulated,
+};
 use crate::mesh::soup::PolygonSoup;
 use crate::mesh::{FaceId, FileFrame, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
@@ -39,13 +42,17 @@ pub fn repaired(
     options: &RepairOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<RepairedMesh, RepairRefusal> {
-    match closed_genus_zero(soup) {
+    let mut ask = || Ok(monitor.step(Step::default())?);
+    match closed_genus_zero_asking::<NotClosed>(soup, &mut ask) {
         Ok(checked) => {
             let report = RepairReport { changes: told_of_all(soup, &checked), ..RepairReport::default() };
             Ok(RepairedMesh { checked, report })
         }
-        Err(fault @ (MeshFault::Empty | MeshFault::TooManyFaces { .. })) => Err(fault.into()),
-        Err(fault) => {
+        Err(NotClosed::Stopped(stop)) => Err(stop.into()),
+        Err(NotClosed::Fault(fault @ (MeshFault::Empty | MeshFault::TooManyFaces { .. }))) => {
+            Err(fault.into())
+        }
+        Err(NotClosed::Fault(fault)) => {
             let frame = FileFrame::of(soup);
             let mut repaired =
                 steps(soup, &frame, options, fault, monitor).map_err(|refusal| match refusal {
@@ -62,6 +69,24 @@ pub fn repaired(
             }
             Ok(repaired)
         }
+    }
+}
+
+/// Why a soup was not taken as it is.
+enum NotClosed {
+    Fault(MeshFault),
+    Stopped(Cancelled),
+}
+
+impl From<MeshFault> for NotClosed {
+    fn from(fault: MeshFault) -> Self {
+        Self::Fault(fault)
+    }
+}
+
+impl From<Cancelled> for NotClosed {
+    fn from(stop: Cancelled) -> Self {
+        Self::Stopped(stop)
     }
 }
 

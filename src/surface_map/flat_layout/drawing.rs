@@ -210,11 +210,11 @@ pub(super) fn draw(
         let Some(of_face) = cuts.parts(mesh, &surface.base.mesh, f) else { return Ok(None) };
         parts.extend(of_face);
     }
-    let neighbours = neighbours_of(&parts, mesh);
-    monitor.step(Step::default())?;
-    let Some(charts) = charts_of(&parts, &neighbours, side, Charts { surface, cuts: &cuts }) else {
+    let neighbours = neighbours_of(&parts, mesh, monitor)?;
+    let Some(charts) = charts_of(&parts, &neighbours, side, Charts { surface, cuts: &cuts }, monitor)? else {
         return Ok(None);
     };
+    drop(neighbours);
     monitor.step(Step::default())?;
     let mut pen =
         Pen { side, surface, cuts: &cuts, numbers: FxHashMap::default(), drawing: FlatDrawing::default() };
@@ -227,16 +227,24 @@ pub(super) fn draw(
 }
 
 /// The parts at each part of an edge.
-fn neighbours_of(parts: &[Part], mesh: &SurfaceMesh) -> Neighbours {
+fn neighbours_of(
+    parts: &[Part],
+    mesh: &SurfaceMesh,
+    monitor: &mut dyn Monitor,
+) -> Result<Neighbours, Cancelled> {
     let mut neighbours = Neighbours::default();
+    // Three halves of edges a part.
+    neighbours.reserve(parts.len() * 3 / 2);
+    let mut pulse = Pulse::new(monitor, ASKED_EVERY);
     for (k, part) in parts.iter().enumerate() {
+        pulse.beat()?;
         for corner in &part.corners {
             if let Some(key) = part_of_edge(mesh, corner.side) {
                 neighbours.entry(key).or_default().push(k as u32);
             }
         }
     }
-    neighbours
+    Ok(neighbours)
 }
 
 /// The charts and the lines that part them.
@@ -252,11 +260,14 @@ fn charts_of(
     neighbours: &Neighbours,
     side: Parametrised<'_>,
     Charts { surface, cuts }: Charts<'_>,
-) -> Option<Vec<Seen>> {
+    monitor: &mut dyn Monitor,
+) -> Result<Option<Vec<Seen>>, Cancelled> {
     let mesh = side.mesh;
     let mut seen: Vec<Option<Seen>> = parts.iter().map(|part| beside_line(part, surface, cuts)).collect();
     let mut stack: Vec<u32> = (0..parts.len() as u32).filter(|&k| seen[k as usize].is_some()).collect();
+    let mut pulse = Pulse::new(monitor, ASKED_EVERY);
     while let Some(k) = stack.pop() {
+        pulse.beat()?;
         let Some(here) = seen[k as usize] else { continue };
         for corner in &parts[k as usize].corners {
             let (Some(key), SideKind::Edge { halfedge, .. }) = (part_of_edge(mesh, corner.side), corner.side)
@@ -272,7 +283,7 @@ fn charts_of(
             }
         }
     }
-    seen.into_iter().collect()
+    Ok(seen.into_iter().collect())
 }
 
 fn part_of_edge(mesh: &SurfaceMesh, side: SideKind) -> Option<PartOfEdge> {

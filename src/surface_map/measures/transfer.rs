@@ -7,7 +7,7 @@ use crate::surface_map::overlay::Overlay;
 use crate::surface_map::overlay::location::{Locations, barycentric};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::{DVec2, DVec3};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 use typed_index_collections::TiVec;
 
 /// The common subdivision: one triangulation drawn on both surfaces, with the target's texture.
@@ -111,7 +111,7 @@ fn face_values(
 }
 
 /// Pieces between two questions to the monitor: some milliseconds.
-const ASKED_EVERY: usize = 8192;
+const ASKED_EVERY: usize = 2048;
 
 /// The overlay as one mesh; a corner is shared by the pieces around it, once per side of a texture seam.
 ///
@@ -132,7 +132,8 @@ pub fn common_mesh(
     monitor.step(Step::default())?;
     let target_values: TiVec<FaceId, FaceValues> = values(target, &normals[1], Some(target_uvs));
     monitor.step(Step::default())?;
-    let mut shared = FxHashMap::default();
+    // With room for all vertices and an eighth on top for seams: a table that grows takes long, in silence.
+    let mut shared = FxHashMap::with_capacity_and_hasher(overlay.vertex_count * 9 / 8, FxBuildHasher);
     let mut mesh = CommonMesh::default();
     let mut ring = Vec::new();
     let mut pulse = Pulse::new(monitor, ASKED_EVERY);

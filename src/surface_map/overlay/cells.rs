@@ -71,6 +71,7 @@ impl Cells {
             }
         }
         for f in target.mesh.faces() {
+            pulse.beat()?;
             self.walk(view, arrangement.target_dart(HalfedgeId::of(f, 0)), overlay)?;
         }
         if self.cell_of_dart.contains(&NONE) {

@@ -11,11 +11,14 @@ use super::seats::Seats;
 use super::trace::{Traced, Traces};
 use crate::math::rigid2::{Rigid2, complex_mul};
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh};
-use crate::monitor::{Monitor, Step};
+use crate::monitor::{Monitor, Pulse, Step};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::DVec2;
 
 const NONE: u32 = u32::MAX;
+
+/// Halfedges or faces between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 16384;
 
 /// A convex polygon inside one source triangle and one target triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,7 +86,7 @@ impl Measure {
         traces.fill([source, target], seats, monitor)?;
         arrangement.fill(Traced { source, target, seats, traces }, monitor)?;
         monitor.step(Step::default())?;
-        self.label(source.mesh, target.mesh)?;
+        self.label(source.mesh, target.mesh, monitor)?;
         monitor.step(Step::default())?;
         self.sweep_source(source, target)?;
         monitor.step(Step::default())?;
@@ -159,12 +162,19 @@ impl Measure {
     }
 
     /// Numbers the cells in the order of the source halfedges; then those that are whole target faces.
-    fn label(&mut self, source: &SurfaceMesh, target: &SurfaceMesh) -> Result<(), OverlayError> {
+    fn label(
+        &mut self,
+        source: &SurfaceMesh,
+        target: &SurfaceMesh,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(), OverlayError> {
+        let mut pulse = Pulse::new(monitor, ASKED_EVERY);
         self.cells.clear();
         self.cells.resize(self.arrangement.next.len(), NONE);
         self.pieces.clear();
         self.whole.clear();
         for h in source.halfedges() {
+            pulse.beat()?;
             let first = self.arrangement.source_dart(h);
             let [begin, end] = self.traces.ranges[h];
             for dart in first..=first + (end - begin) {
@@ -173,6 +183,7 @@ impl Measure {
         }
         let bounded = self.pieces.len() as u32;
         for f in target.faces() {
+            pulse.beat()?;
             self.follow(self.arrangement.target_dart(HalfedgeId::of(f, 0)))?;
         }
         self.whole.extend(bounded..self.pieces.len() as u32);

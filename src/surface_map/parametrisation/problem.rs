@@ -150,7 +150,7 @@ impl NewtonSolver {
 }
 
 /// Unknowns that a linear solve goes over between two questions to the monitor: some milliseconds.
-const ASKED_EVERY: usize = 1 << 16;
+const ASKED_EVERY: usize = 1 << 15;
 
 impl FlatProblem {
     /// A problem of `free` unknown vertices.

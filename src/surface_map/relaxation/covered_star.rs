@@ -12,6 +12,7 @@ use crate::math::scalar::{ln, max, min};
 use crate::math::triangle::signed_double_area;
 use crate::mesh::face_weights::{FaceWeight, PieceWeight};
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::monitor::{Cancelled, Monitor, Pulse};
 use crate::surface_map::overlay::Overlay;
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use crate::surface_map::parametrisation::embedding::triangle;
@@ -75,20 +76,32 @@ pub struct Improved {
     pub log_cost: f64,
 }
 
+/// Pieces between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 16384;
+
 /// Both sides with what overlaps their faces, by their overlay.
-pub fn sheets<'a>(sides: [Parametrised<'a>; 2], overlay: &Overlay) -> [Sheet<'a>; 2] {
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn sheets<'a>(
+    sides: [Parametrised<'a>; 2],
+    overlay: &Overlay,
+    monitor: &mut dyn Monitor,
+) -> Result<[Sheet<'a>; 2], Cancelled> {
     let mut sheets = sides.map(|side| {
         let mut is_landmark = ti_vec![false; side.mesh.vertex_count()];
         side.landmark_vertices.iter().for_each(|&v| is_landmark[v] = true);
         let partners = ti_vec![Vec::new(); side.mesh.face_count()];
         Sheet { side, is_landmark, corners: side.embedding.corners.clone(), partners }
     });
+    let mut pulse = Pulse::new(monitor, ASKED_EVERY);
     for piece in &overlay.pieces {
+        pulse.beat()?;
         let (s, t) = (piece.source_face, piece.target_face);
         sheets[0].partners[s].push(Partner { face: t, motion: piece.motion });
         sheets[1].partners[t].push(Partner { face: s, motion: piece.motion.inverse() });
     }
-    sheets
+    Ok(sheets)
 }
 
 impl Sheet<'_> {

@@ -75,9 +75,10 @@ pub fn heal(
     monitor: &mut dyn Monitor,
 ) -> Result<Option<[Embedding; 2]>, Cancelled> {
     monitor.step(Step::default())?;
-    let mut healer = Healer { sheets: sheets(sides, overlay), energy, at_rest: BTreeSet::new() };
+    let mut healer = Healer { sheets: sheets(sides, overlay, monitor)?, energy, at_rest: BTreeSet::new() };
     monitor.step(Step::default())?;
     let mut faces = dented(sides, overlay, energy.brink);
+    monitor.step(Step::default())?;
     let vertices = sides.iter().map(|side| side.mesh.vertex_count()).sum::<usize>();
     let most = ((options.share * vertices as f64) as usize).max(LEAST);
     let mut moved = false;
@@ -286,7 +287,7 @@ mod tests {
     /// Puts a free vertex next to the middle of a side of its star that it can see, at `distance` of the way; `false` where
     /// there is none.
     fn dent(side: Parametrised<'_>, embedding: &mut Embedding, v: VertexId, distance: f64) -> bool {
-        let sheet = &sheets([side, side], &Overlay::default())[0];
+        let sheet = &sheets([side, side], &Overlay::default(), &mut Silent).unwrap()[0];
         let star = CoveredStar::around(sheet, sheet, v);
         let middle = |ray: &Ray| (ray.ring[0] + ray.ring[1]) * 0.5 * (1.0 - distance);
         let places: Vec<DVec2> = star.rays.iter().map(middle).collect();
@@ -355,7 +356,7 @@ mod tests {
         let (layout, surface, start) = example();
         let sides = sides(&layout, &start);
         let (overlay, measured) = overlaid(sides, &surface);
-        let sheets = sheets(sides, &overlay);
+        let sheets = sheets(sides, &overlay, &mut Silent).unwrap();
         let energy = DentEnergy { brink: f64::INFINITY, energy: MapEnergy::PLAIN };
         for v in free_vertices(sides[0]) {
             let star = CoveredStar::around(&sheets[0], &sheets[1], v);
@@ -379,7 +380,7 @@ mod tests {
     fn the_ring_of_a_star_closes() {
         let (layout, _, start) = example();
         let side = sides(&layout, &start)[1];
-        let sheet = &sheets([side, side], &Overlay::default())[0];
+        let sheet = &sheets([side, side], &Overlay::default(), &mut Silent).unwrap()[0];
         for v in free_vertices(side) {
             let star = CoveredStar::around(sheet, sheet, v);
             for (k, ray) in star.rays.iter().enumerate() {

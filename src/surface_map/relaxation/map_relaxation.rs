@@ -136,7 +136,7 @@ pub fn relax_constrained<'a>(
     monitor: &mut dyn Monitor,
 ) -> Result<Relaxed<'a>, Cancelled> {
     monitor.step(Step::default())?;
-    let mut relaxation = Relaxation::new(sides, surface, constraints, options);
+    let mut relaxation = Relaxation::new(sides, surface, constraints, options, monitor)?;
     let mut energies = Vec::new();
     if !relaxation.begin(&mut Portion::new(monitor, 0.0, 0.0))? {
         return Ok(Relaxed { relaxation, energies });
@@ -189,6 +189,15 @@ struct Relaxation<'a> {
     trial: Evaluation,
 }
 
+/// Makes something of the source, then of the target, with a question after each.
+fn of_both<T>(monitor: &mut dyn Monitor, make: impl Fn(usize) -> T) -> Result<[T; 2], Cancelled> {
+    let of_source = make(0);
+    monitor.step(Step::default())?;
+    let of_target = make(1);
+    monitor.step(Step::default())?;
+    Ok([of_source, of_target])
+}
+
 /// The derivatives of the energy by the Jacobian and the corners of one moving face.
 #[derive(Clone, Copy)]
 struct FaceDerivatives {
@@ -206,13 +215,15 @@ impl<'a> Relaxation<'a> {
         surface: &'a ConeSurface,
         constraints: Constraints<'a>,
         options: &'a MapRelaxationOptions,
-    ) -> Self {
-        let unknowns = sides.map(Unknowns::new);
-        let problems = [unknowns[0].problem(), unknowns[1].problem()];
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        let unknowns = of_both(monitor, |k| Unknowns::new(sides[k]))?;
+        let problems = of_both(monitor, |k| unknowns[k].problem())?;
         let embeddings = sides.map(|side| side.embedding.clone());
-        let inverses =
-            sides.map(|side| side.mesh.faces().map(|f| rest_jacobian(side, f).inverse()).collect());
-        Self {
+        let inverses = of_both(monitor, |k| {
+            sides[k].mesh.faces().map(|f| rest_jacobian(sides[k], f).inverse()).collect()
+        })?;
+        Ok(Self {
             sides,
             surface,
             constraints,
@@ -229,7 +240,7 @@ impl<'a> Relaxation<'a> {
             locations: Locations::default(),
             present: Evaluation::default(),
             trial: Evaluation::default(),
-        }
+        })
     }
 
     /// Evaluates the start, nudged where source and target coincide; `false` where it has no overlay.
@@ -519,7 +530,8 @@ pub(super) mod tests {
             Parametrised { weights: FaceWeights::new(Some(&weights[1])), ..target },
         ];
         for sides in [[source, target], capped] {
-            gradient_is_quotient(Relaxation::new(sides, &surface, [&[], &[]], &options), &embeddings[0]);
+            let relaxation = Relaxation::new(sides, &surface, [&[], &[]], &options, &mut Silent).unwrap();
+            gradient_is_quotient(relaxation, &embeddings[0]);
         }
     }
 
