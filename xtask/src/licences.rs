@@ -3,6 +3,7 @@
 use crate::run::{cargo, output_of, root};
 use serde_json::Value;
 use spdx::{Expression, LicenseReq, Licensee, ParseMode};
+use std::collections::BTreeMap;
 
 /// The one registry that crates may come from.
 const REGISTRY: &str = "registry+https://github.com/rust-lang/crates.io-index";
@@ -17,11 +18,26 @@ pub fn check() -> Result<(), String> {
     let metadata: Value = serde_json::from_str(&metadata).map_err(|e| format!("cargo metadata: {e}"))?;
     let packages = metadata["packages"].as_array().ok_or("cargo metadata names no packages")?;
     let faults: Vec<String> = packages.iter().filter_map(|package| fault(package, &allowed)).collect();
-    if faults.is_empty() {
-        eprintln!("the licences and sources of {} crates are allowed", packages.len());
-        return Ok(());
+    if !faults.is_empty() {
+        return Err(faults.join("; "));
     }
-    Err(faults.join("; "))
+    eprintln!("the licences and sources of {} crates are allowed", packages.len());
+    let several = several_versions(packages);
+    if !several.is_empty() {
+        eprintln!("in several versions: {}", several.join(", "));
+    }
+    Ok(())
+}
+
+/// Crates that are there in more than one version, each with its versions.
+fn several_versions(packages: &[Value]) -> Vec<String> {
+    let mut versions: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for package in packages {
+        let text = |field: &str| package[field].as_str().unwrap_or_default();
+        versions.entry(text("name")).or_default().push(text("version"));
+    }
+    versions.retain(|_, versions| versions.len() > 1);
+    versions.into_iter().map(|(name, versions)| format!("{name} {}", versions.join(" and "))).collect()
 }
 
 /// The licences of the list `allow` of the section `[licenses]`.
@@ -76,6 +92,14 @@ mod tests {
         let own = json!({ "name": "conemap", "version": "0.1.0", "license": null, "source": null });
         assert_eq!(fault(&own, &allowed), None);
         assert!(super::allowed("[bans]\n").is_err());
+    }
+
+    #[test]
+    fn crates_in_several_versions_are_told() {
+        let of = |name: &str, version: &str| json!({ "name": name, "version": version });
+        let packages = [of("b", "2.0.0"), of("a", "1.0.0"), of("b", "1.4.0")];
+        assert_eq!(several_versions(&packages), ["b 2.0.0 and 1.4.0"]);
+        assert!(several_versions(&packages[..2]).is_empty());
     }
 
     #[test]

@@ -5,6 +5,7 @@ mod audit;
 mod browser;
 mod browsers;
 mod compare;
+mod deny;
 mod fuzz;
 mod licences;
 mod page;

@@ -1,7 +1,7 @@
 //! The tests of the project.
 
 use crate::run::{cargo, run, run_with};
-use crate::{audit, browser, browsers, licences, page, wasm};
+use crate::{audit, browser, browsers, deny, page, wasm};
 use std::time::Instant;
 
 type Task<'a> = Box<dyn FnOnce() -> Outcome + 'a>;
@@ -69,7 +69,7 @@ fn helper() -> Outcome {
 }
 
 fn lints() -> Outcome {
-    licences::check()?;
+    deny::check()?;
     audit::check()?;
     run(&cargo(), &[&["clippy"][..], &PACKAGES, &["--all-targets", "--", "-D", "warnings"]].concat())?;
     let web = [

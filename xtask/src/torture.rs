@@ -3,8 +3,7 @@
 use crate::run::{cargo, run_for};
 use std::time::Duration;
 
-const USAGE: &str =
-    "cargo xtask torture [--minutes N] [--seed S] [--kinds NAME,NAME], or --case KIND-SEED for one of them";
+const USAGE: &str = "cargo xtask torture [--hours N | --minutes N] [--seed S] [--kinds NAME,NAME], or --case KIND-SEED for one of them";
 
 /// Maps generated hostile cases for some minutes and prints the table of outcomes (`benches/survey/torture.rs`); fails on a panic, a
 /// broken bound and a map that `conemap_verify` rejects. In the profile of the tests, whose assertions find more.
@@ -20,18 +19,22 @@ pub fn torture(rest: &[String]) -> Result<(), String> {
     let mut minutes = 10;
     for pair in rest.chunks(2) {
         match pair {
-            [option, number] if option == "--minutes" || option == "--seed" => {
-                let whole: u32 =
-                    number.parse().map_err(|_| format!("{option} {number}: a whole number is needed"))?;
-                if option == "--minutes" {
-                    minutes = whole;
-                }
+            [option, number] if option == "--minutes" => minutes = whole(option, number)?,
+            [option, number] if option == "--hours" => minutes = whole(option, number)?.saturating_mul(60),
+            [option, number] if option == "--seed" => {
+                whole(option, number)?;
                 arguments.extend([option.as_str(), number]);
             }
             [option, names] if option == "--kinds" => arguments.extend(["--pairs", names]),
             _ => return Err(USAGE.to_owned()),
         }
     }
+    let told = minutes.to_string();
+    arguments.extend(["--minutes", &told]);
     // The build and the last case come on top.
     run_for(Duration::from_mins(u64::from(minutes) + 40), &cargo(), &arguments)
+}
+
+fn whole(option: &str, number: &str) -> Result<u32, String> {
+    number.parse().map_err(|_| format!("{option} {number}: a whole number is needed"))
 }
