@@ -24,7 +24,7 @@ export { landmarkFile } from './landmark-files.ts';
 /** A mesh of the page. Throws {@link FileRefused} where it was refused. */
 export function meshFile({ file, reading }: ReadFile): MeshFile {
   if (reading.kind === 'bad') {
-    throw new FileRefused(reading.sentence, reading.offer, reading.what);
+    throw new FileRefused(reading.sentence, reading);
   }
   const mesh = unpackMesh(reading.packed);
   return {

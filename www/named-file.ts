@@ -1,4 +1,5 @@
 /** Files by their names, and the reasons to refuse them. */
+import type { Failure } from './compute/messages.ts';
 import type { RepairOffer } from './report.ts';
 
 /** Some named bytes. */
@@ -11,17 +12,27 @@ export interface NamedBytes {
   readonly address?: string;
 }
 
+/** What there is to know of a refusal beside its sentence. */
+export interface RefusalDetail {
+  /** The repair of a mesh that would help; `null` where there is none. */
+  readonly offer?: RepairOffer | null;
+  /** What is refused: the file, or the mesh in it, which was read. */
+  readonly what?: 'file' | 'mesh';
+  /** Where it was not the file's fault. */
+  readonly failure?: Failure;
+}
+
 /** A reason to refuse files, as a sentence. */
 export class FileRefused extends Error {
-  /** The repair of a mesh that would help; `null` where there is none. */
   readonly offer: RepairOffer | null;
-  /** What is refused: the file, or the mesh in it, which was read. */
   readonly what: 'file' | 'mesh';
+  readonly failure: Failure | null;
 
-  constructor(sentence: string, offer: RepairOffer | null = null, what: 'file' | 'mesh' = 'file') {
+  constructor(sentence: string, { offer = null, what = 'file', failure }: RefusalDetail = {}) {
     super(sentence);
     this.offer = offer;
     this.what = what;
+    this.failure = failure ?? null;
   }
 }
 

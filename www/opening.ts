@@ -219,7 +219,7 @@ function metMeshes(meshes: readonly ReadFile[], sides: readonly Side[]): ReadMes
       }
       const mesh = refusedMesh({ side, file, allowed: {} }, reading);
       if (mesh === null) {
-        faults.push(new FileRefused(reading.sentence, reading.offer, reading.what));
+        faults.push(new FileRefused(reading.sentence, reading));
       } else {
         refused.push(mesh);
       }
@@ -254,7 +254,7 @@ function eventsBesideBad(read: ReadMeshes, landmarks: readonly GivenMarks[], sta
   const meshes = read.loaded.map((mesh): Event => ({ kind: 'mesh', ...mesh }));
   const refused: Event[] = read.refused.length === 0 ? [] : [{ kind: 'refused', refused: { meshes: read.refused, landmarks } }];
   const leftOut = landmarks.length > 0 && read.refused.length === 0 ? ` ${SENTENCES.landmarksLeftOut}` : '';
-  const errors = read.faults.map(({ message }): Event => ({ kind: 'error', sentence: `${message}${leftOut}` }));
+  const errors = read.faults.map(({ message, failure }): Event => ({ kind: 'error', sentence: `${message}${leftOut}`, ...(failure === null ? {} : { failure }) }));
   return [...meshes, ...(meshes.length === 0 ? [] : keptMisfit(meshes, state)), ...refused, ...errors];
 }
 

@@ -47,7 +47,11 @@ use wasm_bindgen::prelude::*;
 /// Runs once when the module is loaded.
 #[wasm_bindgen(start)]
 pub fn start() {
-    console_error_panic_hook::set_once();
+    std::panic::set_hook(Box::new(|panic| {
+        console_error_panic_hook::hook(panic);
+        // Where the page finds it (`failureOf`): the browser's own error says no more than that something broke off.
+        let _ = js_sys::Reflect::set(&js_sys::global(), &"conemapPanic".into(), &panic.to_string().into());
+    }));
 }
 
 /// An error as the page takes it: a string of JSON `{"code", "message"}`.

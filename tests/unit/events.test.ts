@@ -21,6 +21,7 @@ interface Case<K extends Event['kind']> {
   readonly changes: Partial<State>;
 }
 
+const TRAP = { code: 'trap', message: 'unreachable' };
 const TASK = { sentence: 'Reading the files…' };
 const PROGRESS = { stage: 'relaxation', sentence: 'Relaxing the map', share: 0.5, residual: null, energy: 5 };
 const [HORSE, A, B] = [mesh('horse.stl'), suggestion(5, 'A'), suggestion(6, 'B')];
@@ -566,9 +567,9 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
   },
   error: {
     before: READY,
-    event: { sentence: 'Something failed.' },
+    event: { sentence: 'Something failed.', failure: TRAP },
     step: null,
-    changes: { error: 'Something failed.' },
+    changes: { error: 'Something failed.', breakdown: { sentence: 'Something failed.', failure: TRAP, during: '' } },
   },
   'error-closed': {
     before: { ...READY, error: 'Something failed.' },

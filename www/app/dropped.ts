@@ -6,7 +6,7 @@ import type { Links } from './links.ts';
 import type { Openers } from './open.ts';
 import { bytesOf, openFiles } from './open.ts';
 import { openProject } from './projects.ts';
-import { sentenceOf } from './task.ts';
+import { errorOf } from './task.ts';
 
 const PROJECT = /\.zip$/i;
 
@@ -39,6 +39,6 @@ export async function openDropped(
       await openFiles(store, openers, files, side);
     }
   } catch (thrown) {
-    store.dispatch({ kind: 'error', sentence: sentenceOf(thrown) });
+    store.dispatch(errorOf(thrown));
   }
 }

@@ -46,7 +46,7 @@ export class Finder {
         },
         failed: (failure) => {
           console.error(failure);
-          dispatch({ kind: 'search-closed' }, { kind: 'error', sentence: failureSentence(failure) });
+          dispatch({ kind: 'search-closed' }, { kind: 'error', sentence: failureSentence(failure), failure });
         },
       },
     );

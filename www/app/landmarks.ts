@@ -5,7 +5,7 @@ import { filesOf, formatList } from '../landmark-files.ts';
 import { landmarkFileOf } from '../store/landmark-file.ts';
 import type { State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
-import { sentenceOf } from './task.ts';
+import { errorOf } from './task.ts';
 
 /** The program's own format, which needs no mesh to be written. */
 const OWN = 'conemap';
@@ -29,6 +29,6 @@ export function saveLandmarks(store: Store, format: string = OWN): void {
       download(name, name.endsWith('.json') ? 'application/json' : 'application/octet-stream', bytes.slice());
     }
   } catch (thrown) {
-    store.dispatch({ kind: 'error', sentence: sentenceOf(thrown) });
+    store.dispatch(errorOf(thrown));
   }
 }

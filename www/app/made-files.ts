@@ -7,7 +7,7 @@ import { FileRefused } from '../files.ts';
 import { failureSentence } from '../messages.ts';
 import type { Result } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
-import { perform, sentenceOf } from './task.ts';
+import { perform, errorOf } from './task.ts';
 
 /** What a map's own worker gives for `use`. Throws `FileRefused`. */
 async function askMap<T>(core: Core, { output, inputs }: Result, use: (saved: SavedMapHandle) => Promise<T>): Promise<T> {
@@ -21,7 +21,7 @@ async function askMap<T>(core: Core, { output, inputs }: Result, use: (saved: Sa
     await saved.opened;
     return await use(saved);
   } catch (thrown) {
-    throw thrown instanceof SavedMapError ? new FileRefused(failureSentence(thrown.failure)) : thrown;
+    throw thrown instanceof SavedMapError ? new FileRefused(failureSentence(thrown.failure), { failure: thrown.failure }) : thrown;
   } finally {
     saved?.close();
   }
@@ -32,7 +32,7 @@ async function make<T>(store: Store, sentence: string, prepare: () => Promise<T>
   const { job } = store.state;
   if (job.kind === 'running' || job.kind === 'busy') {
     await prepare().then(use, (thrown: unknown) => {
-      store.dispatch({ kind: 'error', sentence: sentenceOf(thrown) });
+      store.dispatch(errorOf(thrown));
     });
     return;
   }
@@ -80,6 +80,6 @@ export async function proveMap(store: Store, core: Core): Promise<void> {
     const answer = await askMap(core, result, (saved) => saved.proof());
     store.dispatch({ kind: 'proof-done', of: result, answer });
   } catch (thrown) {
-    store.dispatch({ kind: 'proof-done', of: result, answer: null }, { kind: 'error', sentence: sentenceOf(thrown) });
+    store.dispatch({ kind: 'proof-done', of: result, answer: null }, errorOf(thrown));
   }
 }

@@ -134,7 +134,7 @@ export class Maps {
       return taken(map, opened, meshes);
     } catch (thrown) {
       if (thrown instanceof SavedMapError) {
-        throw new FileRefused(fileSentence(map.name, thrown.failure));
+        throw new FileRefused(fileSentence(map.name, thrown.failure), { failure: thrown.failure });
       }
       throw thrown;
     } finally {

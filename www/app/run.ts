@@ -104,7 +104,7 @@ export class Runner {
       failed: (failure) => {
         this.#run = null;
         console.error(failure);
-        dispatch({ kind: 'run-failed', sentence: failureSentence(failure) });
+        dispatch({ kind: 'run-failed', sentence: failureSentence(failure), failure });
       },
     };
   }

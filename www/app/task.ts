@@ -2,6 +2,7 @@
 import { failureOf } from '../compute/messages.ts';
 import { FileRefused } from '../files.ts';
 import { failureSentence } from '../messages.ts';
+import type { Event } from '../store/events.ts';
 import type { Task } from '../store/job.ts';
 import type { Store } from '../store/store.ts';
 
@@ -19,9 +20,13 @@ function painted(): Promise<void> {
   });
 }
 
-/** What was thrown, in words. */
-export function sentenceOf(thrown: unknown): string {
-  return thrown instanceof FileRefused ? thrown.message : failureSentence(failureOf(thrown));
+/** What was thrown, as it is told to the page. */
+export function errorOf(thrown: unknown): Extract<Event, { readonly kind: 'error' }> {
+  if (thrown instanceof FileRefused) {
+    return { kind: 'error', sentence: thrown.message, ...(thrown.failure === null ? {} : { failure: thrown.failure }) };
+  }
+  const failure = failureOf(thrown);
+  return { kind: 'error', sentence: failureSentence(failure), failure };
 }
 
 /** The user has had enough of the task that the page is busy with, if there is one. */
@@ -66,7 +71,7 @@ export async function perform<T>(
     if (leaving.signal.aborted) {
       return 'left-out';
     }
-    store.dispatch({ kind: 'error', sentence: sentenceOf(thrown) });
+    store.dispatch(errorOf(thrown));
     return 'failed';
   } finally {
     unsubscribe();

@@ -106,6 +106,8 @@ export interface Failure {
   readonly message: string;
   /** Of a mesh that was refused: the repair that would help, where there is one. */
   readonly offer?: RepairOffer;
+  /** Of what broke off: the calls that led there, as the browser tells them. */
+  readonly stack?: string;
 }
 
 /** From the worker. */
@@ -124,6 +126,16 @@ function offerIn(value: object): Pick<Failure, 'offer'> {
   return 'offer' in value && value.offer !== null ? { offer: value.offer as RepairOffer } : {};
 }
 
+function stackOf({ stack }: Error): Pick<Failure, 'stack'> {
+  return stack === undefined ? {} : { stack };
+}
+
+/** What the core said when it gave up, which the browser's error does not hold; it says nothing where memory ran out. */
+function lastPanic(): string | null {
+  const said: unknown = Reflect.get(globalThis, 'conemapPanic');
+  return typeof said === 'string' ? said : null;
+}
+
 /** Reads what the core throws: a string that holds `{code, message}`, or a trap. */
 export function failureOf(thrown: unknown): Failure {
   if (typeof thrown === 'string') {
@@ -138,10 +150,10 @@ export function failureOf(thrown: unknown): Failure {
     return { code: 'unknown', message: thrown };
   }
   if (thrown instanceof WebAssembly.RuntimeError) {
-    return { code: 'trap', message: thrown.message };
+    return { code: 'trap', message: lastPanic() ?? thrown.message, ...stackOf(thrown) };
   }
   if (thrown instanceof Error) {
-    return { code: 'unknown', message: thrown.message };
+    return { code: 'unknown', message: thrown.message, ...stackOf(thrown) };
   }
   return { code: 'unknown', message: String(thrown) };
 }

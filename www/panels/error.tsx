@@ -1,13 +1,48 @@
 /** What went wrong, in one sentence over the views. */
 import type { VNode } from 'preact';
+import { useState } from 'preact/hooks';
+import { breakdownReport, toldBreakdown } from '../store/breakdown.ts';
+import type { State } from '../store/state.ts';
 import type { PartProps } from './actions.ts';
 import { IconButton } from './controls.tsx';
+
+/** Copies the report of a breakdown; where the browser forbids that, the report is there to be copied by hand. */
+function ReportButton({ state }: { readonly state: State }): VNode | null {
+  const [shown, setShown] = useState<{ readonly report: string; readonly isCopied: boolean } | null>(null);
+  const breakdown = toldBreakdown(state);
+  if (breakdown === null) {
+    return null;
+  }
+  const report = breakdownReport(state, breakdown, { address: location.href, browser: navigator.userAgent });
+  const answered = (isCopied: boolean) => (): void => {
+    setShown({ report, isCopied });
+  };
+  const told = shown?.report === report ? shown : null;
+  return (
+    <>
+      <button
+        type="button"
+        id="copy-report"
+        title="Sizes, options and what broke off; nothing of your files"
+        onClick={() => {
+          navigator.clipboard.writeText(report).then(answered(true), answered(false));
+        }}
+      >
+        {told?.isCopied === true ? 'Copied' : 'Copy a report'}
+      </button>
+      {told?.isCopied === false && <textarea readOnly rows={6} aria-label="Report" value={report} />}
+    </>
+  );
+}
 
 /** The banner; it stays in the page, so that what comes into it is read out. */
 export function ErrorBanner({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
   return (
     <div id="error" role="alert" hidden={state.error === null}>
-      <p>{state.error}</p>
+      <div>
+        <p>{state.error}</p>
+        <ReportButton state={state} />
+      </div>
       <IconButton
         icon="close"
         label="Close the message"

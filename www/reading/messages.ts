@@ -22,6 +22,8 @@ export interface Refusal {
   readonly sentence: string;
   readonly offer: RepairOffer | null;
   readonly what: 'file' | 'mesh';
+  /** Where it was not the file's fault. */
+  readonly failure?: Failure;
 }
 
 /** A mesh that was refused. */

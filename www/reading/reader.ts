@@ -24,13 +24,14 @@ export async function readMesh(reader: FileReader, file: NamedBytes, allowed: Al
     if (signal.aborted || !(thrown instanceof ReaderBroken)) {
       throw thrown;
     }
-    return { kind: 'bad', sentence: fileSentence(file.name, thrown.failure), offer: null, what: 'file', defects: null };
+    const { failure } = thrown;
+    return { kind: 'bad', sentence: fileSentence(file.name, failure), offer: null, what: 'file', defects: null, failure };
   }
 }
 
 /** The worker broke off, perhaps for want of memory. */
 export class ReaderBroken extends FileRefused {
-  readonly failure: Failure;
+  override readonly failure: Failure;
 
   constructor(failure: Failure) {
     super(failureSentence(failure));
@@ -177,7 +178,7 @@ export class Reader implements FileReader {
         break;
       case 'refused':
         this.#asked.delete(data.id);
-        asked?.reject(new FileRefused(data.refusal.sentence, data.refusal.offer, data.refusal.what));
+        asked?.reject(new FileRefused(data.refusal.sentence, data.refusal));
         break;
     }
     if (this.#asked.size === 0 && data.memory > LARGEST_IDLE) {

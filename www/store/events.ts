@@ -1,5 +1,5 @@
 /** Everything that can happen to the state. */
-import type { Progress, RunOutput } from '../compute/messages.ts';
+import type { Failure, Progress, RunOutput } from '../compute/messages.ts';
 import type { RunOptions } from '../report.ts';
 import type { LandmarkFile, Side, Suggestion, SurfacePoint } from '../landmarks.ts';
 import type { Finding, MatchReport, ProofReport, Report } from '../report.ts';
@@ -113,7 +113,8 @@ export type Event =
   | { readonly kind: 'map-opened'; readonly map: OpenedMap }
   /** A map file waits for its meshes, or none does any more. */
   | { readonly kind: 'map-awaited'; readonly map: AwaitedMap | null }
-  | { readonly kind: 'run-failed'; readonly sentence: string }
+  /** With the failure itself where a computation told it. */
+  | { readonly kind: 'run-failed'; readonly sentence: string; readonly failure?: Failure }
   | { readonly kind: 'run-cancelled' }
 
   /** A second program begins to prove a map. */
@@ -142,5 +143,5 @@ export type Event =
   | { readonly kind: 'offered'; readonly offer: Offer }
   /** The offer was answered. */
   | { readonly kind: 'offer-closed' }
-  | { readonly kind: 'error'; readonly sentence: string }
+  | { readonly kind: 'error'; readonly sentence: string; readonly failure?: Failure }
   | { readonly kind: 'error-closed' };

@@ -1,6 +1,7 @@
 /** What each event makes of the state: `update(state, event)`, without side effects and without a record of the steps. */
 import type { Side } from '../landmarks.ts';
 import type { Event } from './events.ts';
+import { breakdownOf } from './breakdown.ts';
 import { earlierOf } from './comparison.ts';
 import { NO_HISTORY, redone, undone } from './history.ts';
 import type { ProofReport } from '../report.ts';
@@ -71,6 +72,11 @@ function withStep(state: State, step: ReturnType<typeof undone>): State {
   const up = (side: Side): Axis => (work.meshes[side] === state.meshes[side] ? state : work).up[side];
   const stands = work.meshes === state.meshes ? state.up : ([up(0), up(1)] as const);
   return { ...state, ...work, up: stands, history, toast: null, error: null };
+}
+
+/** What went wrong is said. */
+function withError(state: State, { sentence, failure }: Extract<Event, { readonly kind: 'error' | 'run-failed' }>): State {
+  return { ...state, error: sentence, breakdown: breakdownOf(state.job, sentence, failure) };
 }
 
 /** A map came; what a plain surface cannot show is shown. */
@@ -209,7 +215,7 @@ export function update(state: State, event: Event): State {
     case 'map-awaited':
       return patched(state, { awaited: event.map });
     case 'run-failed':
-      return { ...state, job: { kind: 'error' }, error: event.sentence };
+      return { ...withError(state, event), job: { kind: 'error' } };
     case 'proof-begun':
       return { ...state, proof: { of: event.of, answer: null } };
     case 'proof-done':
@@ -237,7 +243,7 @@ export function update(state: State, event: Event): State {
     case 'offer-closed':
       return patched(state, { offer: null });
     case 'error':
-      return { ...state, error: event.sentence };
+      return withError(state, event);
     case 'error-closed':
       return patched(state, { error: null });
   }

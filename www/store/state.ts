@@ -3,6 +3,7 @@ import type { RunOutput } from '../compute/messages.ts';
 import type { Side, Suggestion, SurfacePoint } from '../landmarks.ts';
 import type { Finding, ProofReport, Report } from '../report.ts';
 import type { AwaitedMap } from './awaited.ts';
+import type { Breakdown } from './breakdown.ts';
 import type { Examined } from './defects.ts';
 import type { History } from './history.ts';
 import { NO_HISTORY } from './history.ts';
@@ -152,6 +153,8 @@ export interface State extends Work {
   readonly undrawn: string | null;
   readonly offer: Offer | null;
   readonly error: string | null;
+  /** The last failure that nobody foresaw; `toldBreakdown` says whether the error is of it. */
+  readonly breakdown: Breakdown | null;
 }
 
 export const INITIAL: State = {
@@ -188,4 +191,5 @@ export const INITIAL: State = {
   undrawn: null,
   offer: null,
   error: null,
+  breakdown: null,
 };
