@@ -1,7 +1,7 @@
 /**
  * Draws the pictures of the demos in the gallery, with the page itself: it maps each demo in a browser and saves what both
  * views show, without their ground, as www/public/demos/NAME.webp. To be run by `npm run thumbnails` after `npm run build`,
- * when the demos or the way in which they are drawn have changed.
+ * when the demos or the way in which they are drawn have changed; `npm run thumbnails -- NAME` draws those that are named.
  */
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
@@ -114,7 +114,8 @@ try {
   await page.locator('#step-meshes').click();
   const demos = await page.locator('[data-demo-id]').evaluateAll((buttons) => buttons.map((button) => button.dataset.demoId));
   mkdirSync(FOLDER, { recursive: true });
-  for (const demo of demos) {
+  const named = process.argv.slice(2);
+  for (const demo of demos.filter((id) => named.length === 0 || named.includes(id))) {
     const pictures = await mapped(page, address, demo);
     const source = `(${composed})(${JSON.stringify(pictures)}, ${JSON.stringify(SIZE)}, ${LARGEST})`;
     const bytes = Buffer.from(await page.evaluate(source));

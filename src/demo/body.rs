@@ -3,6 +3,7 @@
 //! A part counts in a box around it only, so that a place knows the few parts that matter there; beyond the box it is too
 //! far to be blended.
 
+use super::rounded_cone::RoundedCone;
 use crate::math::scalar::{max, min};
 use glam::{DVec2, DVec3};
 
@@ -96,6 +97,7 @@ fn of_ellipsoid(q: DVec3, radii: DVec3) -> f64 {
 pub(super) enum Solid {
     Section(Section),
     Ellipsoid(Ellipsoid),
+    Cone(RoundedCone),
     /// The side of a plane away from its normal; only to take away.
     Beyond {
         point: DVec3,
@@ -109,6 +111,7 @@ impl Solid {
         match self {
             Self::Section(section) => section.value(p, least),
             Self::Ellipsoid(ellipsoid) => ellipsoid.value(p),
+            Self::Cone(cone) => cone.value(p),
             Self::Beyond { point, normal } => (p - *point).dot(*normal),
         }
     }
@@ -117,6 +120,7 @@ impl Solid {
         match self {
             Self::Section(section) => section.bounds(),
             Self::Ellipsoid(ellipsoid) => ellipsoid.bounds(),
+            Self::Cone(cone) => cone.bounds(),
             Self::Beyond { .. } => [DVec3::NEG_INFINITY, DVec3::INFINITY],
         }
     }

@@ -4,6 +4,7 @@
 //! demos, pairs of tubes and of balls (`implicit`, `polygonise`), others hold the numbers: they keep their bits.
 
 mod animal;
+mod ball_cone;
 mod body;
 mod clawed;
 mod eye;
@@ -16,6 +17,7 @@ mod marching;
 mod polygonise;
 mod quadruped;
 mod round;
+mod rounded_cone;
 mod shape;
 mod skin;
 mod tube;
@@ -52,7 +54,7 @@ pub struct Demo {
 }
 
 /// The first is what a stranger sees first; the last is mapped quickest.
-const DEMOS: [DemoInfo; 10] = [
+const DEMOS: [DemoInfo; 11] = [
     DemoInfo {
         id: "horse-camel",
         title: "Horse and camel",
@@ -80,6 +82,11 @@ const DEMOS: [DemoInfo; 10] = [
         sentence: "One figure standing and running, meshed twice",
     },
     DemoInfo { id: "hands", title: "Two hands", sentence: "One hand open and grasping, meshed twice" },
+    DemoInfo {
+        id: "ball-cone",
+        title: "Ball and cone",
+        sentence: "A ball and a rounded cone, with the boundary of the cone's texture on both",
+    },
     DemoInfo {
         id: "horse-cat",
         title: "Horse and cat",
@@ -114,6 +121,7 @@ pub fn build(id: &str) -> Option<Demo> {
         "horse-rearing" => meshed([hoofed::horse(&hoofed::GRAZE), hoofed::horse(&hoofed::REAR)], ANIMAL),
         "figure-running" => meshed([human::standing(), human::running()], FIGURE),
         "hands" => meshed([hand::hand(&hand::OPEN), hand::hand(&hand::GRASP)], HAND),
+        "ball-cone" => pair(ball_cone::ball(), ball_cone::cone()),
         "horse-cat" => pair(animal::horse(), animal::cat()),
         "poses" => pair(figure::standing(), figure::dancing()),
         "sphere-tetrahedron" => pair(round::sphere(), round::tetrahedron()),
@@ -149,6 +157,7 @@ fn nearest_vertices(mesh: &SurfaceMesh, points: &[(&'static str, DVec3)]) -> Vec
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::FaceId;
 
     const SMALL: [&str; 3] = ["horse-cat", "poses", "sphere-tetrahedron"];
 
@@ -173,6 +182,7 @@ mod tests {
         let demo = build(id).unwrap();
         let [faces, marks] =
             if SMALL.contains(&id) { [1500..15_000, 10..22] } else { [20_000..40_000, 21..34] };
+        let marks = if id == "ball-cone" { 14..25 } else { marks };
         for (mesh, side) in [(&demo.source, 0), (&demo.target, 1)] {
             assert_eq!(mesh.euler_characteristic(), 2, "{id}");
             assert!(is_connected(mesh), "{id}");
@@ -248,6 +258,30 @@ mod tests {
         }
     }
 
+    /// The area of the triangles whose middle is above a height, of the whole.
+    fn share_above(mesh: &SurfaceMesh, height: f64) -> f64 {
+        let middle = |f: FaceId| mesh.corners(f).iter().map(|p| p.y).sum::<f64>() / 3.0;
+        mesh.faces().filter(|&f| middle(f) > height).map(|f| mesh.face_area(f)).sum::<f64>() / mesh.area()
+    }
+
+    #[test]
+    fn rings_of_landmarks_cut_off_as_much_of_the_ball_as_of_the_cone() {
+        let demo = check("ball-cone");
+        let [ball, cone] = [0, 1].map(|side| Places { demo: &demo, side });
+        let highest =
+            |places: &Places| places.mesh().positions().iter().map(|p| p.y).fold(f64::MIN, f64::max);
+        for places in [&ball, &cone] {
+            assert!((places.of("apex").y - highest(places)).abs() < 0.01);
+            assert!(places.of("base").length() < 1.01);
+        }
+        for name in ["upper side 3", "lower side 1", "rim 5"] {
+            let [on_ball, on_cone] =
+                [&ball, &cone].map(|places| share_above(places.mesh(), places.of(name).y));
+            // The cone is rounded, and landmarks are vertices.
+            assert!((on_ball - on_cone).abs() < 0.04, "{name}: {on_ball} {on_cone}");
+        }
+    }
+
     #[test]
     fn poses_are_the_poses() {
         let demo = check("horse-gallop");
@@ -278,6 +312,7 @@ mod tests {
             "horse-rearing",
             "figure-running",
             "hands",
+            "ball-cone",
         ];
         let ids: Vec<_> = list().iter().map(|info| info.id).collect();
         assert_eq!(ids, [&known[..], &SMALL[..]].concat());

@@ -95,7 +95,7 @@ pub struct ViewDraw<'a> {
     /// Faces that lie over the surface as a veil.
     pub tinted: Option<&'a Mesh>,
     /// Ribbons with colours of their own around them.
-    pub traced: Option<&'a Mesh>,
+    pub traced: [Option<&'a Mesh>; 2],
     /// Ribbons.
     pub lines: Option<&'a Mesh>,
     /// Ribbons with colours and strokes of their own.
@@ -437,7 +437,7 @@ impl Renderer {
             draw(pass, mesh, hidden_line);
             draw(pass, mesh, line);
         }
-        for mesh in [view.traced, view.marks].into_iter().flatten() {
+        for mesh in view.traced.into_iter().chain([view.marks]).flatten() {
             draw(pass, mesh, hidden_mark);
             draw(pass, mesh, mark);
         }

@@ -13,6 +13,7 @@ pub mod patches;
 pub mod picking;
 pub mod pins;
 pub mod pose;
+pub mod seams;
 pub mod shading;
 pub mod up_axis;
 pub mod upright;

@@ -67,6 +67,8 @@ pub(super) struct Side {
     /// What is laid on the side's own look.
     pub picture: Option<Picture>,
     pub lines: Option<Mesh>,
+    /// Where the texture that the map carries is cut.
+    pub seams: Option<Mesh>,
     /// The mesh with the places to which a map that is being made takes its vertices.
     pub preview: Option<Preview>,
     /// The patches of the result, where they are asked for.
@@ -286,6 +288,7 @@ impl Side {
         self.overlay = None;
         self.carried = None;
         self.lines = None;
+        self.seams = None;
         self.patches = None;
         self.lit = Lit::default();
         self.factors = None;

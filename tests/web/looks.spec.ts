@@ -2,33 +2,12 @@
 import { zipSync } from 'fflate';
 import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
+import { seen } from './canvas.ts';
 import type { OwnFiles } from './own-files.ts';
 import { ownFiles } from './own-files.ts';
 import { dropContents, open, openStep, ROOT, runMap, showSurface } from './page.ts';
 
 const own: OwnFiles = ownFiles();
-
-/** How much of a view is red, blue and green, in shares of its pixels. */
-async function seen(page: Page, view: 'source' | 'target'): Promise<{ red: number; blue: number; green: number }> {
-  const box = (await page.locator(`#view-${view}`).boundingBox()) ?? { x: 0, y: 0, width: 1, height: 1 };
-  const picture = (await page.screenshot({ clip: box })).toString('base64');
-  return page.evaluate(async (base64) => {
-    const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-    const image = await createImageBitmap(new Blob([bytes]));
-    const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
-    context?.drawImage(image, 0, 0);
-    const data = context?.getImageData(0, 0, image.width, image.height).data ?? new Uint8ClampedArray();
-    const counts = { red: 0, blue: 0, green: 0 };
-    for (let k = 0; k < data.length; k += 4) {
-      const [r = 0, g = 0, b = 0] = data.slice(k, k + 3);
-      counts.red += Number(r > 2 * Math.max(g, b) + 30);
-      counts.blue += Number(b > 2 * Math.max(r, g) + 30);
-      counts.green += Number(g > 2 * Math.max(r, b) + 30);
-    }
-    const count = data.length / 4;
-    return { red: counts.red / count, blue: counts.blue / count, green: counts.green / count };
-  }, picture);
-}
 
 interface Shape {
   readonly text: string;

@@ -13,6 +13,7 @@ const SIGHTS: Readonly<Record<string, string>> = {
   'horse-rearing': 'See one horse from its nose in the grass to its forelegs in the air.',
   'figure-running': 'See knees and elbows: the stretch gathers where a body bends, and nowhere else.',
   hands: 'See every finger find its own, down to the nails.',
+  'ball-cone': 'See the texture of the cone on the ball, cut along the red lines from landmark to landmark.',
   'horse-cat': 'See how the pattern keeps its squares from the cat’s short legs to the horse’s long ones.',
   poses: 'See how the skin keeps its size while arms and legs bend: the two meshes share no triangle.',
   'sphere-tetrahedron': 'See how a ball spreads over corners, and where the stretch gathers.',

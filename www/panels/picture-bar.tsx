@@ -1,7 +1,7 @@
 /** What the surfaces show: chosen on the canvas, with a legend where colours mean something. */
 import type { VNode } from 'preact';
 import { shownResult } from '../store/staleness.ts';
-import type { State, Style } from '../store/state.ts';
+import type { Result, State, Style } from '../store/state.ts';
 import { distortionScale } from '../wasm/page.js';
 import type { PartProps } from './actions.ts';
 import type { Choice } from './controls.tsx';
@@ -24,6 +24,11 @@ function isThere(state: State, surface: Style['surface']): boolean {
     return state.meshes.some((mesh) => mesh?.look === 'colours');
   }
   return surface === 'shaded' || (result !== null && (surface !== 'distortion' || result.output.distortion.length > 0));
+}
+
+/** Whether it is known where the texture is cut that a map carries: only a map that is one-to-one has the target's cut on the source. */
+function hasSeams(result: Result | null): boolean {
+  return result !== null && result.output.distortion.length > 0;
 }
 
 interface SurfaceProps extends Pick<PartProps, 'state' | 'actions'> {
@@ -59,7 +64,8 @@ export function LineChoice({ state, actions }: Pick<PartProps, 'state' | 'action
   const set = (style: Partial<Style>): void => {
     actions.dispatch({ kind: 'style', style });
   };
-  const hasResult = shownResult(state) !== null;
+  const result = shownResult(state);
+  const hasResult = result !== null;
   return (
     <>
       <Check name="markers" text="Landmarks" checked={state.ui.style.markers} onChange={(markers) => { set({ markers }); }} />
@@ -71,6 +77,15 @@ export function LineChoice({ state, actions }: Pick<PartProps, 'state' | 'action
         disabled={!hasResult}
         onChange={(patchLines) => {
           set({ patchLines });
+        }}
+      />
+      <Check
+        name="textureBoundary"
+        text="Texture boundary"
+        checked={state.ui.style.textureBoundary}
+        disabled={!hasSeams(result)}
+        onChange={(textureBoundary) => {
+          set({ textureBoundary });
         }}
       />
     </>
@@ -111,7 +126,8 @@ export function Legend({ state }: Pick<PartProps, 'state'>): VNode | null {
   const hasResult = shownResult(state) !== null;
   const scale = hasResult && state.ui.style.surface === 'distortion';
   const cones = hasResult && state.ui.style.cones;
-  if (!scale && !cones) {
+  const boundary = state.ui.style.textureBoundary && hasSeams(shownResult(state));
+  if (!scale && !cones && !boundary) {
     return null;
   }
   return (
@@ -131,6 +147,12 @@ export function Legend({ state }: Pick<PartProps, 'state'>): VNode | null {
           <span class="dot positive" />
           bulging, <span class="dot negative" />
           saddle-like cones
+        </p>
+      )}
+      {boundary && (
+        <p>
+          <span class="stroke" />
+          where the texture is cut
         </p>
       )}
     </div>

@@ -198,6 +198,7 @@ function wireCamera(camera: Camera | null): number[] | null {
 function wireLink(link: Link, work: SentWork): WrittenLink {
   const { pairs } = work;
   const { borders, ...options } = work.options;
+  const { textureBoundary, ...style } = work.style;
   const points = (side: Side): WirePoint[] => pairs.map((pair) => wirePoint(pair.points[side]));
   const labels = pairs.map(({ label }) => label);
   const locked = pairs.flatMap((pair, index) => (pair.locked ? [index] : []));
@@ -209,10 +210,10 @@ function wireLink(link: Link, work: SentWork): WrittenLink {
     ...(locked.length === 0 ? {} : { x: locked }),
     ...(work.groundTruth === null ? {} : { g: work.groundTruth }),
     u: [...work.up],
-    // The usual choice is left out, as it was before there was one.
+    // Usual choices are left out, as they were before there was one.
     o: borders === 'guess' ? options : work.options,
     c: [wireCamera(work.cameras[0]), wireCamera(work.cameras[1])],
-    s: work.style,
+    s: textureBoundary ? work.style : style,
   };
 }
 

@@ -50,6 +50,7 @@ export const StyleSchema = v.object({
   cones: v.boolean(),
   markers: v.boolean(),
   // Links, projects and sessions of earlier pages do not have these.
+  textureBoundary: v.optional(v.boolean(), false),
   morph: v.optional(Share, 0),
   wipe: v.optional(v.nullable(Share), null),
 }) satisfies v.GenericSchema<unknown, Style>;

@@ -3,6 +3,7 @@ import type { Side } from '../landmarks.ts';
 import type { Event } from './events.ts';
 import { breakdownOf } from './breakdown.ts';
 import { earlierOf } from './comparison.ts';
+import { pictureLeft, pictureOf } from './demo-picture.ts';
 import { NO_HISTORY, redone, undone } from './history.ts';
 import type { ProofReport } from '../report.ts';
 import { advanced, begun, ended, started } from './job.ts';
@@ -108,7 +109,7 @@ export function update(state: State, event: Event): State {
     case 'task-ended':
       return { ...state, job: ended(state.job, event.task) };
     case 'mesh':
-      return withOwnLook(withoutRefused(withMesh(state, event.side, event.file), event.side), event.file);
+      return withOwnLook(withoutRefused(withMesh(withStyle(state, pictureLeft(state)), event.side, event.file), event.side), event.file);
     case 'mirrored':
       return withMirrored(state, event.file, event.points);
     case 'swap-meshes':
@@ -118,7 +119,7 @@ export function update(state: State, event: Event): State {
     case 'side-marks':
       return withSideMarks(state, event.side, event.points);
     case 'demo':
-      return { ...state, demo: event.demo, error: null };
+      return { ...withStyle(state, pictureOf(event.demo)), demo: event.demo, error: null };
     case 'point-picked':
       return withPick(state, event.side, event.point);
     case 'point-moved':

@@ -20,6 +20,8 @@ export interface Style {
   /** Plain clay; the colours of the mesh's file, which the map carries; a pattern in space, which the map carries to the source; the flat metric's checkerboard; colours of the place on the target; distortion. */
   readonly surface: 'shaded' | 'look' | 'pattern' | 'checkerboard' | 'colours' | 'distortion';
   readonly patchLines: boolean;
+  /** Where the texture is cut that the map carries. */
+  readonly textureBoundary: boolean;
   readonly cones: boolean;
   readonly markers: boolean;
   /** Share of the way that the source's shape has gone to the target's, 0 to 1; it takes a map to be seen. */
@@ -171,7 +173,7 @@ export const INITIAL: State = {
     panel: 'open',
     link: 'linked',
     cameras: [null, null],
-    style: { surface: 'shaded', patchLines: false, cones: false, markers: true, morph: 0, wipe: null },
+    style: { surface: 'shaded', patchLines: false, cones: false, markers: true, textureBoundary: false, morph: 0, wipe: null },
     selected: null,
     hovered: null,
   },

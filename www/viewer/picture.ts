@@ -24,6 +24,7 @@ export class Picture {
   #result: Result | null = null;
   #overlays = new Set<Side>();
   #lines = false;
+  #seams = false;
   #carried = false;
   #giver: Side | null = null;
   #map = false;
@@ -45,6 +46,7 @@ export class Picture {
     this.#result = result;
     this.#overlays = new Set();
     this.#lines = false;
+    this.#seams = false;
     this.#carried = false;
     this.#giver = giver;
     this.#map = false;
@@ -99,6 +101,12 @@ export class Picture {
         viewer.setLines(side, output.sides[side].linePoints, output.sides[side].lineStarts);
       }
       this.#lines = true;
+    }
+    if (style.textureBoundary && !this.#seams && output.distortion.length > 0) {
+      for (const side of SIDES) {
+        viewer.setSeams(side, output.sides[side].positions, output.uvs, output.triangles);
+      }
+      this.#seams = true;
     }
   }
 

@@ -16,6 +16,8 @@ use wasm_bindgen::prelude::*;
 pub(super) struct Style {
     pub(super) surface: SurfaceStyle,
     pub(super) patch_lines: bool,
+    #[serde(default)]
+    pub(super) texture_boundary: bool,
     pub(super) cones: bool,
     pub(super) markers: bool,
     #[serde(default)]
@@ -181,8 +183,8 @@ impl Viewer {
         self.side_mut(side).set_suggestions(points)
     }
 
-    /// What to show: JSON `{"surface", "patchLines", "cones", "markers", "dark"?, "holes"?, "wipe"?}`; with `wipe`, a share of the
-    /// source's view, the source is plain from the left to there.
+    /// What to show: JSON `{"surface", "patchLines", "textureBoundary"?, "cones", "markers", "dark"?, "holes"?, "wipe"?}`; with
+    /// `wipe`, a share of the source's view, the source is plain from the left to there.
     ///
     /// # Errors
     /// `{"code": "style", "message"}`.

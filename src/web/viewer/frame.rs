@@ -2,7 +2,7 @@
 
 use super::super::view_side::{Landmark, Side};
 use super::canvas::{SurfaceStyle, Viewer};
-use crate::gpu::{Clear, Paint, Palette, ViewDraw};
+use crate::gpu::{Clear, Mesh, Paint, Palette, ViewDraw};
 use crate::scene::pins::Stand;
 use crate::scene::{MarkerInstance, PinInstance, Pose};
 use glam::Vec3;
@@ -55,7 +55,7 @@ impl Viewer {
             under: None,
             painted: defects.and_then(|defects| defects.painted.as_ref()),
             tinted: None,
-            traced: None,
+            traced: [None; 2],
             lines: None,
             marks: defects.and_then(|defects| defects.lines.as_ref()),
             dash: self.dash(side, pose),
@@ -102,7 +102,7 @@ impl Viewer {
             surface: overlay.or(own),
             under: own.filter(|_| style.holes && overlay.is_some() && morph == 0.0),
             tinted: side.lit.surface.as_ref().filter(|_| morph == 0.0),
-            traced: side.lit.lines.as_ref().filter(|_| morph == 0.0),
+            traced: self.traced(side).map(|lines| lines.filter(|_| morph == 0.0)),
             lines: side.lines.as_ref().filter(|_| style.patch_lines && morph == 0.0),
             ..bare()
         }
@@ -123,10 +123,15 @@ impl Viewer {
             surface: Some(surface?),
             picture: self.sides[giver.unwrap_or(k)].picture.as_ref(),
             tinted: side.lit.surface.as_ref().filter(|_| is_still),
-            traced: side.lit.lines.as_ref().filter(|_| is_still),
+            traced: self.traced(side).map(|lines| lines.filter(|_| is_still)),
             lines: side.lines.as_ref().filter(|_| self.style.patch_lines && is_still),
             ..bare
         })
+    }
+
+    /// The lines of a side that have colours of their own: where the texture is cut, and what is lit up.
+    fn traced<'a>(&self, side: &'a Side) -> [Option<&'a Mesh>; 2] {
+        [side.seams.as_ref().filter(|_| self.style.texture_boundary), side.lit.lines.as_ref()]
     }
 
     /// The length of a dash with its gap in scene units: about as long on the screen whatever the distance, and the same while the

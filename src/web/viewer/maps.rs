@@ -7,8 +7,8 @@ use crate::mesh::FaceId;
 use crate::scene::buffers::ribbons;
 use crate::scene::looks::{Giver, carried};
 use crate::scene::morph::laid_on;
-use crate::scene::{MapPicker, SurfaceVertex};
-use glam::{DVec3, Vec3};
+use crate::scene::{MapPicker, SurfaceVertex, seams};
+use glam::{DVec3, Vec2, Vec3};
 use wasm_bindgen::prelude::*;
 
 /// The numbers of a point.
@@ -117,6 +117,23 @@ impl Viewer {
         let (vertices, indices) = ribbons(&strips);
         let uploaded = self.renderer.line_mesh(&vertices, &indices);
         self.side_mut(side).lines = Some(uploaded);
+    }
+
+    /// Takes the seams of the texture as one side sees them, told by the map's triangles: positions there, and texture coordinates.
+    #[wasm_bindgen(js_name = setSeams)]
+    pub fn set_seams(&mut self, side: usize, positions: &[f32], uvs: &[f32], triangles: &[u32]) {
+        let Some(mesh) = &self.sides[side.min(1)].mesh else { return };
+        let count = positions.len() / 3;
+        if uvs.len() != 2 * count || triangles.iter().any(|&v| v as usize >= count) {
+            return;
+        }
+        let place = |k: usize| mesh.frame.place(point(three(positions, k)));
+        let places: Vec<Vec3> = (0..count).map(place).collect();
+        let uvs: Vec<Vec2> = uvs.as_chunks().0.iter().map(|uv| Vec2::from_array(*uv)).collect();
+        let seams = seams::seams(&places, &uvs, triangles.as_chunks().0);
+        let (vertices, indices) = seams::drawn(&places, &seams);
+        let uploaded = (!indices.is_empty()).then(|| self.renderer.marked_line_mesh(&vertices, &indices));
+        self.side_mut(side).seams = uploaded;
     }
 
     /// Takes the map to be asked by [`Viewer::probe`]: places of its points on both meshes, its distortion there (or none), and its

@@ -111,7 +111,7 @@ describe('a link of version 1 from another day', () => {
         groundTruth: 'same',
         options: { method: 'relaxed', base: 'joint', cones: 'base-domain', class: 'best', ownCones: null, borders: 'guess' },
         cameras: [[1, 2], null],
-        style: { surface: 'shaded', patchLines: true, cones: true, markers: true, morph: 0, wipe: null },
+        style: { surface: 'shaded', patchLines: true, textureBoundary: false, cones: true, markers: true, morph: 0, wipe: null },
       },
     });
   });

@@ -74,6 +74,7 @@ export function anyWork(random: Random): SentWork {
       patchLines: random.of([true, false]),
       cones: random.of([true, false]),
       markers: random.of([true, false]),
+      textureBoundary: random.of([true, false]),
       morph: random.of([0, 0.37, 1]),
       wipe: random.of([null, 0, 0.4375]),
     },
