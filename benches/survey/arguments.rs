@@ -1,6 +1,7 @@
 //! What a survey is asked for.
 
 use crate::common;
+use conemap::demo;
 use conemap::pipeline::PipelineOptions;
 use std::path::PathBuf;
 
@@ -102,6 +103,13 @@ impl Arguments {
             }
         }
         arguments
+    }
+
+    /// The names of the demos that are asked for.
+    pub fn demos(&self) -> Vec<&'static str> {
+        let is_asked =
+            |id: &str| self.pairs.is_empty() || self.pairs.iter().any(|p| id.starts_with(p.as_str()));
+        demo::list().iter().map(|info| info.id).filter(|id| is_asked(id)).collect()
     }
 
     /// The names of the pairs that are asked for.

@@ -127,14 +127,16 @@ impl Case {
         Ok(())
     }
 
-    fn placed(&self) -> Result<PlacedLandmarks, String> {
+    /// Both meshes with the points as vertices.
+    pub fn placed(&self) -> Result<PlacedLandmarks, String> {
         let side = |k: usize| insert(&self.meshes[k], &self.points[k]).map_err(|e| e.to_string());
         let (source, target) = (side(0)?, side(1)?);
         let landmarks = Landmarks { source: source.vertices.clone(), target: target.vertices.clone() };
         Ok(PlacedLandmarks { source, target, landmarks })
     }
 
-    fn input(placed: &PlacedLandmarks) -> MapInput<'_> {
+    /// What the pipeline starts from.
+    pub fn input(placed: &PlacedLandmarks) -> MapInput<'_> {
         let PlacedLandmarks { source, target, landmarks } = placed;
         let ground_truth = GroundTruth::Unknown;
         MapInput {

@@ -26,6 +26,7 @@ mod borders;
 mod case;
 mod classes;
 mod clicks;
+mod cones;
 mod determinism;
 mod fit;
 mod fit_faults;
@@ -111,6 +112,11 @@ const SURVEYS: &[Survey] = &[
     },
     Survey { name: "demos", about: "each demo with its landmarks; --pairs NAME,...", run: pairs::demos },
     Survey {
+        name: "cones",
+        about: "each demo with cones of the base domain and with equal ones, by the thesis' method; --pairs NAME,...",
+        run: cones::table,
+    },
+    Survey {
         name: "stages",
         about: "the share of each stage, measured and told; --landmarks 12 for few landmarks",
         run: stages::shares,
@@ -170,7 +176,7 @@ const SURVEYS: &[Survey] = &[
 ];
 
 /// Tables of meshes that the project makes itself.
-const NEED_NO_DATA: [&str; 3] = ["soak", "torture", "torture-case"];
+const NEED_NO_DATA: [&str; 5] = ["cones", "demos", "soak", "torture", "torture-case"];
 
 fn main() {
     let arguments = Arguments::read();

@@ -3,7 +3,6 @@
 use crate::arguments::Arguments;
 use crate::case::{Case, Make, map_all};
 use crate::table::{header, sum_up};
-use conemap::demo;
 use conemap::mesh::VertexId;
 
 /// Each pair as its file gives it.
@@ -26,9 +25,7 @@ pub fn exchanged(arguments: &Arguments) {
 /// Each demo with its landmarks (`--pairs NAME,...`: of those that begin so).
 pub fn demos(arguments: &Arguments) {
     header();
-    let is_asked =
-        |id: &str| arguments.pairs.is_empty() || arguments.pairs.iter().any(|p| id.starts_with(p.as_str()));
-    let ids = demo::list().iter().map(|info| info.id).filter(|id| is_asked(id));
+    let ids = arguments.demos().into_iter();
     let cases: Vec<Make<'_>> = ids.map(|id| Box::new(move || Case::of_demo(id)) as Make<'_>).collect();
     sum_up("demos", &map_all(cases, arguments).iter().collect::<Vec<_>>());
 }
