@@ -82,7 +82,7 @@ impl Case {
             let at = |pair: &[u32; 2]| SurfacePoint::at_vertex(&meshes[side], VertexId(pair[side]));
             demo.landmarks.iter().map(at).collect()
         });
-        Self { name: id.to_owned(), variant: String::new(), meshes, points, truth: None }
+        Self { name: id.to_owned(), variant: String::new(), meshes, points, truth: demo.truth }
     }
 
     /// A pair of the data folder as it is, its landmarks thinned where that is asked for.

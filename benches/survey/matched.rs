@@ -34,7 +34,7 @@ struct Known {
     name: String,
     meshes: [SurfaceMesh; 2],
     places: [Vec<DVec3>; 2],
-    truth: GroundTruth,
+    truth: GroundTruth<'static>,
 }
 
 /// How well a map fits the known landmarks.

@@ -5,6 +5,7 @@
 
 mod animal;
 mod ball_cone;
+mod bend;
 mod body;
 mod clawed;
 mod eye;
@@ -23,6 +24,7 @@ mod skin;
 mod tube;
 
 use crate::mesh::{SurfaceMesh, VertexId};
+use bend::Bend;
 use body::Body;
 use glam::DVec3;
 use quadruped::Pose;
@@ -51,10 +53,12 @@ pub struct Demo {
     pub landmarks: Vec<[u32; 2]>,
     /// One name per pair.
     pub labels: Vec<String>,
+    /// By vertex of the source its true image, on the target but for the size of its triangles; `None` where no map is the true one.
+    pub truth: Option<Vec<DVec3>>,
 }
 
 /// The first is what a stranger sees first; the last is mapped quickest.
-const DEMOS: [DemoInfo; 11] = [
+const DEMOS: [DemoInfo; 12] = [
     DemoInfo {
         id: "horse-camel",
         title: "Horse and camel",
@@ -70,6 +74,11 @@ const DEMOS: [DemoInfo; 11] = [
         id: "horse-gallop",
         title: "Galloping horse",
         sentence: "One horse standing and galloping, meshed twice",
+    },
+    DemoInfo {
+        id: "horse-turning",
+        title: "Turning horse",
+        sentence: "One horse straight and bent to its side, meshed twice; the true map is known",
     },
     DemoInfo {
         id: "horse-rearing",
@@ -113,11 +122,12 @@ const HAND: [f64; 2] = [0.0145, 0.0152];
 /// Builds a demo by its id.
 pub fn build(id: &str) -> Option<Demo> {
     let rest = Pose::default();
-    Some(match id {
+    let demo = match id {
         "horse-camel" => meshed([hoofed::horse(&rest), hoofed::camel(&rest)], ANIMAL),
         "wolf-cow" => meshed([clawed::wolf(&rest), hoofed::cow(&rest)], ANIMAL),
         "cat-lion" => meshed([clawed::cat(&rest), clawed::lion(&rest)], ANIMAL),
         "horse-gallop" => meshed([hoofed::horse(&rest), hoofed::horse(&hoofed::GALLOP)], ANIMAL),
+        "horse-turning" => bent(&hoofed::horse(&rest), ANIMAL),
         "horse-rearing" => meshed([hoofed::horse(&hoofed::GRAZE), hoofed::horse(&hoofed::REAR)], ANIMAL),
         "figure-running" => meshed([human::standing(), human::running()], FIGURE),
         "hands" => meshed([hand::hand(&hand::OPEN), hand::hand(&hand::GRASP)], HAND),
@@ -126,13 +136,33 @@ pub fn build(id: &str) -> Option<Demo> {
         "poses" => pair(figure::standing(), figure::dancing()),
         "sphere-tetrahedron" => pair(round::sphere(), round::tetrahedron()),
         _ => return None,
-    })
+    };
+    let truth = true_map(id).map(|image| demo.source.positions().iter().map(|&p| image(p)).collect());
+    Some(Demo { truth, ..demo })
+}
+
+/// How a horse bends that walks on a circle.
+const TURN: Bend = Bend { radius: 1.6 };
+
+/// Where a demo's true map takes a place of the source, on the target but for the size of its triangles; `None` where no map is the true one.
+pub fn true_map(id: &str) -> Option<fn(DVec3) -> DVec3> {
+    (id == "horse-turning").then_some(|p| TURN.place(p))
 }
 
 /// The skins of two bodies, in cells of different sizes and places.
 fn meshed([source, target]: [(Body, Vec<Mark>); 2], sizes: [f64; 2]) -> Demo {
-    let cells = |k: usize| Cells { size: sizes[k], offset: DVec3::splat(0.4 * k as f64), coarseness: 0.9 };
-    pair(skinned(&source, &cells(0)), skinned(&target, &cells(1)))
+    let [first, second] = cells(sizes);
+    pair(skinned(&source, &first), skinned(&target, &second))
+}
+
+/// A body and the same bent, likewise.
+fn bent(body: &(Body, Vec<Mark>), sizes: [f64; 2]) -> Demo {
+    let [first, second] = cells(sizes);
+    pair(skinned(body, &first), TURN.shape(skinned(body, &second)))
+}
+
+fn cells(sizes: [f64; 2]) -> [Cells; 2] {
+    [0, 1].map(|k| Cells { size: sizes[k], offset: DVec3::splat(0.4 * k as f64), coarseness: 0.9 })
 }
 
 /// Pairs the points of equal place in both lists.
@@ -140,7 +170,7 @@ fn pair(source: Shape, target: Shape) -> Demo {
     let [s, t] = [&source, &target].map(|shape| nearest_vertices(&shape.mesh, &shape.points));
     let landmarks = s.into_iter().zip(t).map(|(a, b)| [a.0, b.0]).collect();
     let labels = source.points.iter().map(|(name, _)| (*name).to_owned()).collect();
-    Demo { source: source.mesh, target: target.mesh, landmarks, labels }
+    Demo { source: source.mesh, target: target.mesh, landmarks, labels, truth: None }
 }
 
 /// The nearest vertex of each point, each vertex taken once.
@@ -303,12 +333,30 @@ mod tests {
     }
 
     #[test]
+    fn the_true_images_lie_on_the_target_and_take_landmarks_to_their_partners() {
+        let demo = check("horse-turning");
+        let truth = demo.truth.as_ref().unwrap();
+        assert_eq!(truth.len(), demo.source.vertex_count());
+        for (pair, label) in demo.landmarks.iter().zip(&demo.labels) {
+            let partner = demo.target.positions()[VertexId(pair[1])];
+            assert!(truth[pair[0] as usize].distance(partner) < 0.05, "{label}");
+        }
+        let places: Vec<DVec3> = demo.target.positions().iter().copied().collect();
+        let longest = demo.target.edges().map(|h| demo.target.length(h)).fold(0.0, f64::max);
+        for image in truth.iter().step_by(97) {
+            let nearest = places.iter().map(|p| p.distance(*image)).fold(f64::INFINITY, f64::min);
+            assert!(nearest < longest, "{image}");
+        }
+    }
+
+    #[test]
     fn every_demo_of_the_list_is_checked_and_no_other_is_built() {
         let known = [
             "horse-camel",
             "wolf-cow",
             "cat-lion",
             "horse-gallop",
+            "horse-turning",
             "horse-rearing",
             "figure-running",
             "hands",

@@ -56,6 +56,16 @@ pub fn points_csv(direction: Direction, images: &[Option<PointImage>]) -> Vec<u8
     lines(format!("point,{}_face,b0,b1,b2,x,y,z\n", direction.names()[1]), images)
 }
 
+/// One line per vertex of the source with its image in space: `source_vertex,x,y,z`.
+pub fn places_csv(images: &[DVec3]) -> Vec<u8> {
+    let mut text = "source_vertex,x,y,z\n".to_owned();
+    for (v, p) in images.iter().enumerate() {
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "{v},{},{},{}", p.x, p.y, p.z);
+    }
+    text.into_bytes()
+}
+
 fn lines(mut text: String, images: &[Option<PointImage>]) -> Vec<u8> {
     let has_caps = images.iter().flatten().any(|image| image.in_cap.is_some());
     if has_caps {
@@ -108,6 +118,7 @@ mod tests {
             text,
             "source_vertex,target_face,b0,b1,b2,x,y,z\n0,17,0.1,0.2,0.7,1,-2.5,0.125\n1,,,,,,,\n"
         );
+        assert_eq!(places_csv(&[DVec3::new(1.0, -2.5, 0.125)]), b"source_vertex,x,y,z\n0,1,-2.5,0.125\n");
         assert!(csv(Direction::TargetToSource, &images).starts_with(b"target_vertex,source_face,b0"));
         let value: serde_json::Value =
             serde_json::from_slice(&json(Direction::TargetToSource, &images)).unwrap();

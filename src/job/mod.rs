@@ -16,6 +16,7 @@ mod proof;
 mod proof_report;
 mod saved;
 mod taken;
+mod truth;
 mod wrapping;
 
 pub use crate::io::moved::Normals;
@@ -36,6 +37,7 @@ pub use proof_report::{
 };
 pub use saved::{MapFiles, OpenMap, OpenMapError};
 pub use taken::{OutputKind, TakenMap};
+pub use truth::TruthError;
 pub use wrapping::{QuadAngles, WrapFileError, WrappedFile, WrappedFileReport};
 
 use crate::io::landmark_file::LandmarkFile;
@@ -50,11 +52,12 @@ use crate::mesh::repair::RepairReport;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Rising, Stage, Step};
 use crate::pipeline::{
-    self, CapFaces, FindingReport, FlatSurface, FlowRecord, GroundTruth, Lead, MapInput, MapResult,
-    PipelineError, PipelineOptions, Report, SimplificationStage, Warning, findings,
+    self, CapFaces, FindingReport, FlatSurface, FlowRecord, Lead, MapInput, MapResult, PipelineError,
+    PipelineOptions, Report, SimplificationStage, Warning, findings,
 };
 use glam::DVec3;
 use serde::Serialize;
+use truth::Truth;
 use typed_index_collections::TiVec;
 
 /// The contents of the files of a job.
@@ -109,7 +112,7 @@ pub struct Job {
     /// As given, on the files' meshes; those beside a corner or an edge as they are held.
     landmarks: LandmarkFile,
     remarks: Vec<Remark>,
-    ground_truth: GroundTruth,
+    truth: Truth,
     /// What is told of landmarks that the program found; `None` where enough were given.
     matching: Option<MatchReport>,
 }
@@ -184,21 +187,28 @@ impl Job {
         monitor.step(Step { fraction: 1.0, residual: None })?;
         held::tell(&mut landmarks, &placed, [&source, &target]);
         let is_same = source.mesh().triangles() == target.mesh().triangles();
-        let ground_truth = match landmarks.ground_truth {
-            Some(_) if is_same => GroundTruth::SameConnectivity,
-            _ => GroundTruth::Unknown,
+        let truth = match landmarks.ground_truth {
+            Some(_) if is_same => Truth::SameConnectivity,
+            _ => Truth::Unknown,
         };
         let caps = [caps(source.checked(), &placed.source), caps(target.checked(), &placed.target)];
-        Ok(Self {
-            meshes: [source, target],
-            repairs,
-            placed,
-            caps,
-            landmarks,
-            remarks,
-            ground_truth,
-            matching,
-        })
+        Ok(Self { meshes: [source, target], repairs, placed, caps, landmarks, remarks, truth, matching })
+    }
+
+    /// Takes the true images of the source's vertices, so that reports tell how far a map is from them: a table by the source file's
+    /// vertices with the columns `x`, `y` and `z`, places in the target's file, as `vertex-images.csv` has them. Lines may be missing.
+    ///
+    /// # Errors
+    /// [`TruthError`]; then nothing is known of the true map.
+    pub fn know_truth(&mut self, table: &[u8]) -> Result<(), TruthError> {
+        self.truth = Truth::Unknown;
+        self.truth = Truth::of_table(table, self.meshes.each_ref())?;
+        Ok(())
+    }
+
+    /// Takes the true map, from places in the source's file to places in the target's, likewise.
+    pub fn know_true_map(&mut self, image: impl Fn(DVec3) -> DVec3) {
+        self.truth = Truth::of_map(image, self.meshes.each_ref());
     }
 
     /// What was repaired of the source and of the target.
@@ -407,7 +417,7 @@ impl Job {
 
     fn input(&self) -> MapInput<'_> {
         let PlacedLandmarks { source, target, landmarks } = &self.placed;
-        let ground_truth = self.ground_truth;
+        let ground_truth = self.truth.known();
         let [source_caps, target_caps] = &self.caps;
         let caps = CapFaces { source: source_caps.as_deref(), target: target_caps.as_deref() };
         MapInput { source: &source.mesh, target: &target.mesh, landmarks, ground_truth, caps }

@@ -1,8 +1,11 @@
 //! What the pipeline starts from.
 
 use crate::landmarks::Landmarks;
-use crate::mesh::SurfaceMesh;
 pub use crate::mesh::cap_faces::CapFaces;
+use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use crate::surface_map::measures::ground_truth::{GroundTruthError, distance_to_truth};
+use glam::DVec3;
+use typed_index_collections::TiSlice;
 
 /// What the pipeline starts from: two checked meshes and landmarks that are vertices of both.
 #[derive(Clone, Copy, Debug)]
@@ -14,7 +17,7 @@ pub struct MapInput<'a> {
     /// At least four corresponding vertices.
     pub landmarks: &'a Landmarks,
     /// What is known of the true map.
-    pub ground_truth: GroundTruth,
+    pub ground_truth: GroundTruth<'a>,
     /// Which faces of both were made up.
     pub caps: CapFaces<'a>,
 }
@@ -24,14 +27,33 @@ impl<'a> MapInput<'a> {
     pub fn new(source: &'a SurfaceMesh, target: &'a SurfaceMesh, landmarks: &'a Landmarks) -> Self {
         Self { source, target, landmarks, ground_truth: GroundTruth::Unknown, caps: CapFaces::default() }
     }
+
+    /// How far images of the source's vertices are from the true ones; `None` where these are not known.
+    pub(super) fn distance_to_truth(
+        &self,
+        images: impl Iterator<Item = (VertexId, SurfacePoint)>,
+    ) -> Option<GroundTruthError> {
+        let places = self.target.positions();
+        match self.ground_truth {
+            GroundTruth::Unknown => None,
+            GroundTruth::SameConnectivity => {
+                Some(distance_to_truth(self.target, images, |v| Some(places[v])))
+            }
+            GroundTruth::Images(truth) => {
+                Some(distance_to_truth(self.target, images, |v| truth.get(v).copied().flatten()))
+            }
+        }
+    }
 }
 
 /// What is known of the true map.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum GroundTruth {
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum GroundTruth<'a> {
     /// Nothing.
     #[default]
     Unknown,
     /// Both meshes share their connectivity: vertex i corresponds to vertex i.
     SameConnectivity,
+    /// The true images of the source's first vertices in space; `None` where they are not known.
+    Images(&'a TiSlice<VertexId, Option<DVec3>>),
 }

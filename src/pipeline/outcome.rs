@@ -4,10 +4,8 @@
 
 use super::flows::Flows;
 use super::parametrise::Parametrisation;
-use super::report::{
-    CertificateReport, CoverageReport, DistortionReport, GroundTruthReport, LayoutSearchReport,
-};
-use super::{GroundTruth, MapInput, MapResult, Report, TriangleDistortion, Warning};
+use super::report::{CertificateReport, CoverageReport, DistortionReport, LayoutSearchReport};
+use super::{MapInput, MapResult, Report, TriangleDistortion, Warning};
 use crate::base_domain::BaseDomain;
 use crate::mesh::cap_faces::CapFaces;
 use crate::mesh::{FaceFrame, FaceId, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
@@ -15,7 +13,6 @@ use crate::monitor::{Cancelled, Monitor, Step};
 use crate::surface_map::correspondence::Correspondence;
 use crate::surface_map::flat_layout::FlatLayout;
 use crate::surface_map::measures::distortion::{Distortion, image_distortion, skin_distortion};
-use crate::surface_map::measures::ground_truth::same_connectivity_error;
 use crate::surface_map::measures::transfer::{CommonMesh, Surface, common_mesh, mapped_mesh, vertex_images};
 use crate::surface_map::overlay::base_lines::base_line;
 use crate::surface_map::overlay::location::Locations;
@@ -58,16 +55,13 @@ impl Outcome<'_> {
         let has_caps = input.caps.any();
         let images = vertex_images(map.sides(), self.surfaces()[1], self.locations, vertices);
         monitor.step(Step::default())?;
-        let true_error = (input.ground_truth == GroundTruth::SameConnectivity).then(|| {
-            // Of skin alone, where there are caps.
-            let is_skin = |&(v, p): &(VertexId, SurfacePoint)| {
-                let faces = || input.source.star(v).map(|h| [h.face(), p.face]);
-                !has_caps || faces().any(|faces| input.caps.are_skin(faces) == [true, true])
-            };
-            let mapped = images.iter_enumerated().map(|(v, p)| (v, *p));
-            let error = same_connectivity_error(input.target, mapped.filter(is_skin));
-            GroundTruthReport { mean: error.mean, p95: error.p95, max: error.max }
-        });
+        // Of skin alone, where there are caps.
+        let is_skin = |&(v, p): &(VertexId, SurfacePoint)| {
+            let faces = || input.source.star(v).map(|h| [h.face(), p.face]);
+            !has_caps || faces().any(|faces| input.caps.are_skin(faces) == [true, true])
+        };
+        let mapped = images.iter_enumerated().map(|(v, p)| (v, *p));
+        let true_error = input.distance_to_truth(mapped.filter(is_skin));
         monitor.step(Step::default())?;
         let images: TiVec<VertexId, Option<SurfacePoint>> = images.into_iter().map(Some).collect();
         let shown = match overlay {
@@ -84,7 +78,7 @@ impl Outcome<'_> {
         monitor.step(Step { fraction: 1.0, residual: None })?;
         let warnings = warnings(map, &shown.measured);
         let report = Report {
-            ground_truth: true_error,
+            ground_truth: true_error.map(Into::into),
             warnings: missing.into_iter().chain(warnings).collect(),
             ..self.report(&shown.measured)
         };

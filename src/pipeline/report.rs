@@ -8,6 +8,7 @@ use crate::mesh::SurfacePoint;
 use crate::monitor::Stage;
 use crate::surface_map::measures::coverage::Coverage;
 use crate::surface_map::measures::distortion::{Distortion, WorstPiece};
+use crate::surface_map::measures::ground_truth::GroundTruthError;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -260,6 +261,12 @@ pub struct GroundTruthReport {
     pub p95: f64,
     /// Maximum.
     pub max: f64,
+}
+
+impl From<GroundTruthError> for GroundTruthReport {
+    fn from(GroundTruthError { mean, p95, max }: GroundTruthError) -> Self {
+        Self { mean, p95, max }
+    }
 }
 
 /// Triangles of the two input meshes.

@@ -1,15 +1,14 @@
 //! The thesis' map: from a layout to the images of the vertices, with warnings about what is missing.
 
 use super::flows::{Flows, cone_metric};
-use super::report::{DistortionReport, GroundTruthReport};
-use super::{Base, GroundTruth, MapInput, MapResult, PipelineError, PipelineOptions, Report, Warning};
+use super::report::DistortionReport;
+use super::{Base, MapInput, MapResult, PipelineError, PipelineOptions, Report, Warning};
 use crate::base_domain::{self, BaseDomain};
 use crate::layout::{self, BaseLayout, PatchedMesh};
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Monitor, Portion, Stage};
 use crate::patchwise::{PatchwiseMap, patchwise_map};
 use crate::surface_map::measures::distortion::image_distortion;
-use crate::surface_map::measures::ground_truth::same_connectivity_error;
 use crate::surface_map::measures::transfer::mapped_mesh;
 use glam::DVec3;
 use typed_index_collections::TiVec;
@@ -60,17 +59,13 @@ fn draw(
 
 fn result(input: MapInput<'_>, layout: BaseLayout, flows: &Flows, map: PatchwiseMap) -> MapResult {
     let images = &map.target_from_source;
-    let mapped = || images.iter_enumerated().filter_map(|(v, image)| Some((v, (*image)?)));
-    let ground_truth = (input.ground_truth == GroundTruth::SameConnectivity).then(|| {
-        let error = same_connectivity_error(input.target, mapped());
-        GroundTruthReport { mean: error.mean, p95: error.p95, max: error.max }
-    });
+    let mapped = images.iter_enumerated().filter_map(|(v, image)| Some((v, (*image)?)));
     let measured = image_distortion(input.source, input.target, images);
     let report = Report {
         certificate: None,
         unmapped_share: map.unmapped_share,
         distortion: DistortionReport::new(&measured, flows.l2_stretch()),
-        ground_truth,
+        ground_truth: input.distance_to_truth(mapped).map(Into::into),
         warnings: warnings(&map),
         ..Report::of_inputs(input, &layout.base, flows)
     };

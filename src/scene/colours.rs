@@ -28,6 +28,14 @@ pub const SCALE_COLOURS: usize = CIVIDIS.len();
 /// The distortion at the end of the scale; its logarithm goes evenly over the colours, from 1, which is none.
 pub const SCALE_END: f32 = 4.0;
 
+/// The distance to the true map at the end of the scale, in units of the root of the target's area; distances go evenly over the colours.
+pub const TRUTH_END: f32 = 0.01;
+
+/// The distortion that has the colour of a distance to the true map.
+pub fn truth_on_scale(distance: f32) -> f32 {
+    SCALE_END.powf((distance / TRUTH_END).clamp(0.0, 1.0))
+}
+
 /// The colour of a landmark by its number, from 0; after 40 they begin again.
 pub fn landmark_colour(k: usize) -> [f32; 3] {
     linear(LANDMARKS[k % LANDMARKS.len()])
@@ -54,6 +62,13 @@ pub(super) fn linear(hex: Hex) -> [f32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn distances_to_the_truth_go_from_one_end_of_the_scale_to_the_other() {
+        assert_eq!(truth_on_scale(0.0), 1.0);
+        assert!((truth_on_scale(0.5 * TRUTH_END) - SCALE_END.sqrt()).abs() < 1e-5);
+        assert_eq!([TRUTH_END, 0.5, f32::INFINITY].map(truth_on_scale), [SCALE_END; 3]);
+    }
 
     #[test]
     fn no_two_landmarks_have_colours_that_are_alike() {

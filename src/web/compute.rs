@@ -2,6 +2,7 @@
 
 use super::page_job::read_job;
 use super::{failure, output_file};
+use crate::demo::true_map;
 use crate::job::{BasePicture, Job, JobError, OutputKind};
 use crate::monitor::{Cancelled, MapPreview, Monitor, PlannedStage, PreviewOf, Progress, Stage, Step};
 use crate::pipeline::{Choices, MapResult, PipelineOptions};
@@ -175,6 +176,8 @@ pub(super) struct Shown {
     pub common: CommonMesh,
     /// By point of `common`; empty for the thesis' method.
     pub distortion: Vec<f64>,
+    /// By point of `common` the distance to its true image in units of the root of the target's area; empty where that is not known.
+    pub truth: Vec<f64>,
     /// On the source and on the target.
     pub patch_lines: [Vec<Vec<DVec3>>; 2],
     /// Curvature of each landmark's cone, in radians.
@@ -208,6 +211,7 @@ impl MapOutput {
     fn of_run(job: Job, mut result: MapResult, choices: Choices) -> Self {
         let shown = Shown {
             distortion: result.common_vertex_distortion(),
+            truth: Vec::new(),
             common: result.common.clone(),
             patch_lines: std::mem::take(&mut result.patch_lines),
             cones: result.cone_curvatures.clone(),
@@ -227,7 +231,8 @@ impl MapOutput {
     }
 }
 
-/// Runs the pipeline; the listener receives progress and may ask for the result.
+/// Runs the pipeline; the listener receives progress and may ask for the result. Where the meshes are a demo's, its id tells the true map
+/// where that is known.
 ///
 /// # Errors
 /// `{"code", "message"}` with the stage's code.
@@ -238,13 +243,18 @@ pub fn run_map(
     landmarks: &str,
     options: &str,
     listener: &RunListener,
+    demo: Option<String>,
 ) -> Result<MapOutput, JsValue> {
     let mut messenger = Messenger::new(listener);
     let begun = js_sys::Date::now();
     let choices: Choices = serde_json::from_str(options).map_err(|e| failure("options", e))?;
     let options = PipelineOptions::from(choices);
     let failed = |error: JobError| failure(error.code(), error);
-    let job = read_job([source, target], landmarks, &mut messenger)?;
+    let mut job = read_job([source, target], landmarks, &mut messenger)?;
+    let true_map = demo.and_then(|id| true_map(&id));
+    if let Some(image) = true_map {
+        job.know_true_map(image);
+    }
     messenger.plan(options.stages(job.landmark_count()));
     let findings = job.findings(&mut messenger).map_err(|stop| failed(stop.into()))?;
     let json = serde_json::to_string(&findings).unwrap_or_default();
@@ -256,7 +266,9 @@ pub fn run_map(
     seconds.insert("total".into(), (js_sys::Date::now() - begun) / 1000.0);
     result.report.set_seconds(seconds);
     result.report.findings = findings;
-    Ok(MapOutput::of_run(job, result, choices))
+    let mut output = MapOutput::of_run(job, result, choices);
+    output.shown.truth = true_map.map_or_else(Vec::new, |image| output.shown.common.distances_to(image));
+    Ok(output)
 }
 
 /// Coordinates of points in single precision, one after the other.
@@ -286,6 +298,11 @@ impl MapOutput {
     /// Distortion around each point, 1 for none; empty for the thesis' method.
     pub fn distortion(&self) -> Vec<f32> {
         self.shown.distortion.iter().map(|&d| d as f32).collect()
+    }
+
+    /// The distance to the true image around each point, in units of the root of the target's area; empty where that is not known.
+    pub fn truth(&self) -> Vec<f32> {
+        self.shown.truth.iter().map(|&d| d as f32).collect()
     }
 
     /// Triangles of the common subdivision.

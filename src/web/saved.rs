@@ -81,6 +81,7 @@ impl SavedMap {
         fields.insert("distortion".to_owned(), json!(map.distortion()));
         Ok(MapOutput::of_saved(Shown {
             distortion: map.common_distortion(&common),
+            truth: Vec::new(),
             common,
             patch_lines: map.patch_lines(),
             cones: map.map().cones.clone(),

@@ -48,7 +48,7 @@ pub struct Pair {
 
 impl Pair {
     /// The pair as the pipeline takes it.
-    pub fn input<'a>(&'a self, landmarks: &'a Landmarks, ground_truth: GroundTruth) -> MapInput<'a> {
+    pub fn input<'a>(&'a self, landmarks: &'a Landmarks, ground_truth: GroundTruth<'a>) -> MapInput<'a> {
         MapInput {
             source: &self.source,
             target: &self.target,

@@ -30,7 +30,7 @@ pub struct Case {
     pub source: SurfaceMesh,
     pub target: SurfaceMesh,
     pub landmarks: Landmarks,
-    pub ground_truth: GroundTruth,
+    pub ground_truth: GroundTruth<'static>,
 }
 
 impl From<Pair> for Case {

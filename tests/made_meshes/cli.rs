@@ -343,7 +343,35 @@ fn writes_demos_that_can_be_mapped() {
             assert_eq!(pair[side], landmark_file::LandmarkPoint::Vertex(known[side]));
         }
     }
+    assert!(!folder.join(format!("{id}-truth.csv")).exists());
     assert!(errors(&conemap(["demo", "teapot"])).contains("there is no demo “teapot”"));
+}
+
+#[test]
+fn the_report_tells_how_far_a_map_is_from_the_known_one() {
+    let folder = folder("the_report_tells_how_far_a_map_is_from_the_known_one");
+    let id = "horse-turning";
+    let written = conemap([OsStr::new("demo"), OsStr::new(id), OsStr::new("--out"), folder.as_os_str()]);
+    assert!(written.status.success(), "{}", errors(&written));
+    let [source, target, pairs, truth] =
+        ["-source.obj", "-target.obj", ".json", "-truth.csv"].map(|end| folder.join(format!("{id}{end}")));
+    let report = folder.join("report.json");
+    let map = |truth: &Path| {
+        let files = [&source, &target].map(|path| path.as_os_str());
+        let options = [("--landmarks", &*pairs), ("--truth", truth), ("--report", &*report)];
+        let options = options.into_iter().flat_map(|(name, path)| [OsStr::new(name), path.as_os_str()]);
+        conemap([OsStr::new("map")].into_iter().chain(files).chain(options))
+    };
+    let mapped = map(&truth);
+    assert!(mapped.status.success(), "{}", errors(&mapped));
+    assert!(errors(&mapped).contains("true images: mean"), "{}", errors(&mapped));
+    let told: Value = serde_json::from_slice(&std::fs::read(&report).unwrap()).unwrap();
+    let mean = told["ground_truth"]["mean"].as_f64().unwrap();
+    assert!(mean < 0.01, "{mean}");
+    std::fs::write(&truth, "source_vertex,x,y\n0,1,2\n").unwrap();
+    let refused = map(&truth);
+    assert!(!refused.status.success());
+    assert!(errors(&refused).contains("there is no column \"z\""), "{}", errors(&refused));
 }
 
 #[test]

@@ -5,7 +5,7 @@ use conemap::cone_metric::FlowOptions;
 use conemap::demo;
 use conemap::export;
 use conemap::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
-use conemap::job::{Job, JobError, JobFile, JobFiles, TargetImage};
+use conemap::job::{Job, JobError, JobFile, JobFiles, TargetImage, TruthError};
 use conemap::landmark_exchange::GivenFile;
 use conemap::landmarks::MeshSide;
 use conemap::mesh::SurfaceMesh;
@@ -72,6 +72,19 @@ pub fn run(files: &Files, options: &PipelineOptions, monitor: &mut dyn Monitor) 
     job.findings(monitor).unwrap();
     let result = job.run(options, monitor).unwrap();
     (job, result)
+}
+
+#[test]
+fn a_map_that_is_given_as_the_truth_is_met() {
+    let options = PipelineOptions::default();
+    let (mut job, result) = run(&Files::of_demo("sphere-tetrahedron", 14), &options, &mut Silent);
+    assert!(result.report.ground_truth.is_none());
+    job.know_truth(&job.vertex_images(&result)).unwrap();
+    let truth = job.run(&options, &mut Silent).unwrap().report.ground_truth.unwrap();
+    assert!(truth.max < 1e-9, "{truth:?}");
+    assert_eq!(job.know_truth(b"vertex,x,z\n0,1,2\n"), Err(TruthError::Column("y")));
+    assert_eq!(job.know_truth(b"vertex,x,y,z\n0,,,\n"), Err(TruthError::Empty));
+    assert!(matches!(job.know_truth(b"vertex,x,y,z\n0,1\n"), Err(TruthError::Table(_))));
 }
 
 #[test]

@@ -54,7 +54,7 @@ export const DOUBT: Doubt = {
   ids: [1, 2],
 };
 const NOWHERE = { positions: new Float32Array(9) } as SideOutput;
-export const OUTPUT = { report: '{}', base: null, distortion: new Float32Array(3), sides: [NOWHERE, NOWHERE] as const, triangles: new Uint32Array([0, 1, 2]) } as RunOutput;
+export const OUTPUT = { report: '{}', base: null, distortion: new Float32Array(3), truth: new Float32Array(), sides: [NOWHERE, NOWHERE] as const, triangles: new Uint32Array([0, 1, 2]) } as RunOutput;
 export const REPORT = { warnings: [], stopped_early: false } as unknown as Report;
 
 /** Two meshes, four pairs, nothing under way. */

@@ -59,6 +59,7 @@ export class Runner {
         target: target.bytes,
         landmarks: JSON.stringify(landmarkFileOf(state)),
         options: state.options,
+        demo: state.demo?.id ?? null,
       },
       this.#listener(),
     );

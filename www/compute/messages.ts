@@ -9,6 +9,8 @@ export interface RunRequest {
   readonly target: Uint8Array;
   readonly landmarks: string;
   readonly options: RunOptions;
+  /** The demo whose meshes these are, by its id; `null` for other meshes. */
+  readonly demo: string | null;
   /** The address of an empty file; when the page takes it back the run is to finish. */
   readonly finishUrl: string;
 }
@@ -67,6 +69,8 @@ export interface RunOutput {
   readonly uvs: Float32Array;
   /** By point, 1 for none; empty where the method has none. */
   readonly distortion: Float32Array;
+  /** By point the distance to its true image, in units of the root of the target's area; empty where that is not known. */
+  readonly truth: Float32Array;
   readonly triangles: Uint32Array;
   /** The face of each mesh in which each triangle lies; empty where that is not known. */
   readonly faces: readonly [Uint32Array, Uint32Array];

@@ -11,7 +11,7 @@ export interface SavedFiles {
 }
 
 /** What the views show of a map, as a run gives it. */
-export type MapBuffers = Pick<RunOutput, 'sides' | 'uvs' | 'distortion' | 'triangles' | 'faces' | 'cones' | 'base' | 'report'>;
+export type MapBuffers = Pick<RunOutput, 'sides' | 'uvs' | 'distortion' | 'truth' | 'triangles' | 'faces' | 'cones' | 'base' | 'report'>;
 
 /** A saved map that is open. */
 export interface OpenedMap {

@@ -73,6 +73,7 @@ async function run(request: RunRequest): Promise<void> {
         },
         wantsResult: () => canAsk && isRevoked(request.finishUrl),
       },
+      request.demo,
     );
     const copy = read(output);
     output.free();

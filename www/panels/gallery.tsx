@@ -10,6 +10,7 @@ const SIGHTS: Readonly<Record<string, string>> = {
   'wolf-cow': 'See paws become hooves, a bushy tail a thin one, and where the skin for the horns is found.',
   'cat-lion': 'See the mane: every tuft has its place on the cat’s smooth neck.',
   'horse-gallop': 'See how the skin keeps its size while every leg bends: the two meshes share no triangle.',
+  'horse-turning': 'See one flank shorten and the other stretch: here the true map is known, and this one is close to it.',
   'horse-rearing': 'See one horse from its nose in the grass to its forelegs in the air.',
   'figure-running': 'See knees and elbows: the stretch gathers where a body bends, and nowhere else.',
   hands: 'See every finger find its own, down to the nails.',

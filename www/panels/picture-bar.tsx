@@ -15,6 +15,7 @@ const SURFACES: readonly Choice<Style['surface']>[] = [
   { value: 'checkerboard', text: 'Checkerboard' },
   { value: 'colours', text: 'Colours' },
   { value: 'distortion', text: 'Distortion' },
+  { value: 'truth', text: 'Distance to the truth' },
 ];
 
 /** Whether a surface can be shown now. */
@@ -23,7 +24,10 @@ function isThere(state: State, surface: Style['surface']): boolean {
   if (surface === 'look') {
     return state.meshes.some((mesh) => mesh?.look === 'colours');
   }
-  return surface === 'shaded' || (result !== null && (surface !== 'distortion' || result.output.distortion.length > 0));
+  if (surface === 'distortion' || surface === 'truth') {
+    return result !== null && result.output[surface].length > 0;
+  }
+  return surface === 'shaded' || result !== null;
 }
 
 /** Whether it is known where the texture is cut that a map carries: only a map that is one-to-one has the target's cut on the source. */
@@ -40,7 +44,7 @@ interface SurfaceProps extends Pick<PartProps, 'state' | 'actions'> {
 export function SurfaceChoice({ state, actions, group }: SurfaceProps): VNode {
   return (
     <div role="radiogroup" aria-label="Surface">
-      {SURFACES.map(({ value, text }) => (
+      {SURFACES.filter(({ value }) => value !== 'truth' || isThere(state, value)).map(({ value, text }) => (
         <label class="check" key={value}>
           <input
             type="radio"
@@ -114,6 +118,15 @@ export function PictureBar({ state, actions }: Pick<PartProps, 'state' | 'action
   );
 }
 
+/** What the scale of colours tells, with its beginning, middle and end. */
+const SCALES = {
+  distortion: { label: 'Colours of the distortion from 1, which is none, to 4 and more', ticks: ['1, none', '2', '4 and more'] },
+  truth: {
+    label: 'Colours of the distance to the true image, from none to 1 % of the root of the area and more',
+    ticks: ['0', '0.5 %', '1 % and more'],
+  },
+} as const;
+
 /** The renderer's colours of the distortion as a gradient. */
 function scaleImage(): string {
   const colours = distortionScale();
@@ -124,21 +137,22 @@ function scaleImage(): string {
 /** What the colours mean. */
 export function Legend({ state }: Pick<PartProps, 'state'>): VNode | null {
   const hasResult = shownResult(state) !== null;
-  const scale = hasResult && state.ui.style.surface === 'distortion';
+  const { surface } = state.ui.style;
+  const scale = (surface === 'distortion' || surface === 'truth') && isThere(state, surface) ? SCALES[surface] : null;
   const cones = hasResult && state.ui.style.cones;
   const boundary = state.ui.style.textureBoundary && hasSeams(shownResult(state));
-  if (!scale && !cones && !boundary) {
+  if (scale === null && !cones && !boundary) {
     return null;
   }
   return (
     <div class="legend small">
-      {scale && (
-        <div class="scale" role="img" aria-label="Colours of the distortion from 1, which is none, to 4 and more">
+      {scale !== null && (
+        <div class="scale" role="img" aria-label={scale.label}>
           <div class="bar" style={{ backgroundImage: scaleImage() }} />
           <div class="ticks">
-            <span>1, none</span>
-            <span>2</span>
-            <span>4 and more</span>
+            {scale.ticks.map((tick) => (
+              <span key={tick}>{tick}</span>
+            ))}
           </div>
         </div>
       )}

@@ -45,7 +45,7 @@ export const Cameras = v.strictTuple([
   v.nullable(v.pipe(v.array(v.pipe(v.number(), v.finite())), v.maxLength(LONGEST_CAMERA))),
 ]) satisfies v.GenericSchema<readonly [Camera | null, Camera | null]>;
 export const StyleSchema = v.object({
-  surface: v.picklist(['shaded', 'look', 'pattern', 'checkerboard', 'colours', 'distortion']),
+  surface: v.picklist(['shaded', 'look', 'pattern', 'checkerboard', 'colours', 'distortion', 'truth']),
   patchLines: v.boolean(),
   cones: v.boolean(),
   markers: v.boolean(),

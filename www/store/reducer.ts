@@ -85,7 +85,9 @@ function withResult(state: State, result: Result): State {
   const earlier = state.result === null ? state.earlier : earlierOf(state.result);
   const done = { ...state, result, earlier };
   const { surface } = state.ui.style;
-  const isShown = surface !== 'shaded' && (surface !== 'distortion' || result.output.distortion.length > 0);
+  const { distortion, truth } = result.output;
+  const isTold = (surface !== 'distortion' || distortion.length > 0) && (surface !== 'truth' || truth.length > 0);
+  const isShown = surface !== 'shaded' && isTold;
   return isShown ? done : withStyle(done, { surface: 'pattern' });
 }
 

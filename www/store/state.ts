@@ -17,8 +17,8 @@ import { NO_WORK } from './work.ts';
 export type { Axis, Demo, MeshFile, Work } from './work.ts';
 
 export interface Style {
-  /** Plain clay; the colours of the mesh's file, which the map carries; a pattern in space, which the map carries to the source; the flat metric's checkerboard; colours of the place on the target; distortion. */
-  readonly surface: 'shaded' | 'look' | 'pattern' | 'checkerboard' | 'colours' | 'distortion';
+  /** Plain clay; the colours of the mesh's file, which the map carries; a pattern in space, which the map carries to the source; the flat metric's checkerboard; colours of the place on the target; distortion; distance to the true map. */
+  readonly surface: 'shaded' | 'look' | 'pattern' | 'checkerboard' | 'colours' | 'distortion' | 'truth';
   readonly patchLines: boolean;
   /** Where the texture is cut that the map carries. */
   readonly textureBoundary: boolean;

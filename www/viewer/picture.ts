@@ -6,6 +6,7 @@ import type { BasePart } from '../method/parts.ts';
 import { litBy } from '../method/parts.ts';
 import type { Result, Style } from '../store/state.ts';
 import type { Viewer } from '../wasm/page.js';
+import { truthOnScale } from '../wasm/page.js';
 
 /** The sides on which a style is drawn on the map's own triangles; the meshes themselves can show the others. */
 const OVERLAYS: Readonly<Record<Style['surface'], readonly Side[]>> = {
@@ -17,12 +18,15 @@ const OVERLAYS: Readonly<Record<Style['surface'], readonly Side[]>> = {
   colours: [0],
   checkerboard: [0, 1],
   distortion: [0, 1],
+  truth: [0, 1],
 };
 
 /** Knows what one renderer has. */
 export class Picture {
   #result: Result | null = null;
   #overlays = new Set<Side>();
+  /** What the overlays' colours tell where they are those of a scale. */
+  #scale: 'distortion' | 'truth' = 'distortion';
   #lines = false;
   #seams = false;
   #carried = false;
@@ -60,9 +64,10 @@ export class Picture {
   bringOverlay(viewer: Viewer, side: Side): boolean {
     const result = this.#result;
     if (result !== null && !this.#overlays.has(side)) {
-      const { uvs, distortion, triangles, sides } = result.output;
+      const { uvs, triangles, sides } = result.output;
+      const values = this.#scale === 'truth' ? truthOnScale(result.output.truth) : result.output.distortion;
       const { positions, normals } = sides[side];
-      viewer.setOverlay(side, positions, normals, uvs, distortion, triangles, sides[1].positions, sides[1].normals);
+      viewer.setOverlay(side, positions, normals, uvs, values, triangles, sides[1].positions, sides[1].normals);
       this.#overlays.add(side);
     }
     return result !== null;
@@ -83,6 +88,14 @@ export class Picture {
     this.#carried = true;
   }
 
+  /** Has the overlays brought anew where a style's scale tells something else than theirs. */
+  #tell(surface: Style['surface']): void {
+    if ((surface === 'distortion' || surface === 'truth') && surface !== this.#scale) {
+      this.#scale = surface;
+      this.#overlays.clear();
+    }
+  }
+
   /** Brings what a style needs. */
   bring(viewer: Viewer, style: Style): void {
     const result = this.#result;
@@ -93,6 +106,7 @@ export class Picture {
     if (style.surface === 'look') {
       this.#bringLook(viewer, output);
     }
+    this.#tell(style.surface);
     for (const side of OVERLAYS[style.surface]) {
       this.bringOverlay(viewer, side);
     }

@@ -154,6 +154,10 @@ pub struct MapArguments {
     /// Use the mirror image of the target: for landmarks whose left and right are exchanged.
     #[arg(long)]
     pub mirror_target: bool,
+    /// True images of the source's vertices, in columns x, y and z as vertex-images.csv has them: the report tells how far the map is
+    /// from them.
+    #[arg(long, value_name = "FILE")]
+    pub truth: Option<PathBuf>,
     /// What becomes of meshes with faults.
     #[command(flatten)]
     pub faults: FaultArguments,

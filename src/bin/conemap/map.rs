@@ -5,7 +5,9 @@ use crate::clock::Clock;
 use crate::input::{self, Failure};
 use crate::told::say;
 use crate::{interrupt, matching, outputs};
-use conemap::job::{FewLandmarks, Job, JobError, JobFile, JobFiles, OutputKind, ReadOptions, TargetImage};
+use conemap::job::{
+    FewLandmarks, Job, JobError, JobFile, JobFiles, OutputKind, ReadOptions, TargetImage, TruthError,
+};
 use conemap::monitor::{PlannedStage, Stage};
 use conemap::pipeline::{Choices, FindingReport, MapResult, Method, PipelineOptions, RepairKind};
 use std::path::PathBuf;
@@ -35,13 +37,13 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
 
 /// Finds before the run what cannot be written after it.
 fn check_outputs(arguments: &MapArguments, method: Method) -> Result<(), Failure> {
-    let MapArguments { source, target, target_landmarks, landmarks, map, out, report, .. } = arguments;
+    let MapArguments { source, target, target_landmarks, landmarks, truth, map, out, report, .. } = arguments;
     if map.is_some() && method == Method::Thesis {
         return Err("--map: the map of the method `thesis` has no pieces, and so no map file".into());
     }
     let files = out.iter().flat_map(|folder| outputs::of_folder(folder));
     outputs::check(
-        [source, target].into_iter().chain(landmarks).chain(target_landmarks),
+        [source, target].into_iter().chain(landmarks).chain(target_landmarks).chain(truth),
         map.iter().chain(report).cloned().chain(files),
     )
 }
@@ -61,7 +63,11 @@ fn write_folder(arguments: &MapArguments, job: &Job, result: &MapResult) -> Resu
 
 /// Reads the files and makes the map.
 fn made(arguments: &MapArguments, asked: &Asked<'_>, clock: &mut Clock) -> Result<(Job, MapResult), Failure> {
-    let job = asked.read(clock)?;
+    let mut job = asked.read(clock)?;
+    if let Some(path) = &arguments.truth {
+        let told = |error: TruthError| format!("{}: {error}", path.display());
+        job.know_truth(&input::bytes(path)?).map_err(told)?;
+    }
     if arguments.map.is_some() && !job.has_map_file() {
         return Err(
             "--map: a mesh was repaired, and a map file tells of meshes as their files have them: save the repaired mesh by \
@@ -187,5 +193,11 @@ pub fn tell(result: &MapResult) {
     let d = &report.distortion;
     let (energy, mean) = (d.energy, d.mean);
     say(format_args!("energy {energy:.3} (4 is an isometry), mean distortion {mean:.3} (1 is an isometry)"));
+    if let Some(truth) = &report.ground_truth {
+        let [mean, most] = [truth.mean, truth.p95].map(|distance| 100.0 * distance);
+        say(format_args!(
+            "true images: mean {mean:.2} % of the root of the area away, 95 % within {most:.2} %"
+        ));
+    }
     report.warnings.iter().for_each(|w| say(format_args!("warning: {w}")));
 }

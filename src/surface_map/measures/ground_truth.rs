@@ -2,6 +2,7 @@
 
 use crate::math::quantile::{Weighted, quantile, sort_by_value};
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use glam::DVec3;
 
 /// Distances between images and true images, in units of sqrt(target area).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -14,17 +15,18 @@ pub struct GroundTruthError {
     pub max: f64,
 }
 
-/// Euclidean distances where vertex i truly corresponds to vertex i; vertices without an image are left out.
-pub fn same_connectivity_error(
+/// Euclidean distances of images from the true ones; vertices without an image, and those whose true image is not known, are left out.
+pub fn distance_to_truth(
     target: &SurfaceMesh,
     images: impl Iterator<Item = (VertexId, SurfacePoint)>,
+    truth: impl Fn(VertexId) -> Option<DVec3>,
 ) -> GroundTruthError {
     let scale = 1.0 / target.area().sqrt();
     let distance = |(v, image): (VertexId, SurfacePoint)| {
-        let value = image.position(target).distance(target.positions()[v]) * scale;
-        Weighted { value, weight: 1.0 }
+        let value = image.position(target).distance(truth(v)?) * scale;
+        Some(Weighted { value, weight: 1.0 })
     };
-    let mut distances: Vec<_> = images.map(distance).collect();
+    let mut distances: Vec<_> = images.filter_map(distance).collect();
     sort_by_value(&mut distances);
     GroundTruthError {
         mean: distances.iter().map(|d| d.value).sum::<f64>() / distances.len() as f64,

@@ -32,6 +32,17 @@ pub struct CommonMesh {
 }
 
 impl CommonMesh {
+    /// By vertex the distance to its image under another map, such as the true one, in units of the root of the target's area.
+    pub fn distances_to(&self, image: impl Fn(DVec3) -> DVec3) -> Vec<f64> {
+        let double_area = |corners: &[u32; 3]| {
+            let [p, q, r] = corners.map(|v| self.target_positions[v as usize]);
+            (q - p).cross(r - p).length()
+        };
+        let scale = (0.5 * self.triangles.iter().map(double_area).sum::<f64>()).sqrt().recip();
+        let places = self.source_positions.iter().zip(&self.target_positions);
+        places.map(|(s, t)| image(*s).distance(*t) * scale).collect()
+    }
+
     /// Values by triangle averaged at the vertices, by area on the source.
     pub fn vertex_averages(&self, by_triangle: &[f64]) -> Vec<f64> {
         let mut sums = vec![[0.0_f64; 2]; self.source_positions.len()];

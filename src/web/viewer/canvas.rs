@@ -40,6 +40,7 @@ pub(super) enum SurfaceStyle {
     Checkerboard,
     Colours,
     Distortion,
+    Truth,
     Look,
 }
 
@@ -50,7 +51,8 @@ impl SurfaceStyle {
             Self::Pattern => Paint::Pattern,
             Self::Checkerboard => Paint::Checkerboard,
             Self::Colours => Paint::Places,
-            Self::Distortion => Paint::Distortion,
+            // Its overlay has distances in the place of the distortion.
+            Self::Distortion | Self::Truth => Paint::Distortion,
             Self::Look => Paint::Look,
         }
     }

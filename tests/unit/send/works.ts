@@ -70,7 +70,7 @@ export function anyWork(random: Random): SentWork {
     },
     cameras: [random.of([null, camera(random)]), random.of([null, camera(random)])],
     style: {
-      surface: random.of(['shaded', 'checkerboard', 'colours', 'distortion']),
+      surface: random.of(['shaded', 'checkerboard', 'colours', 'distortion', 'truth']),
       patchLines: random.of([true, false]),
       cones: random.of([true, false]),
       markers: random.of([true, false]),
