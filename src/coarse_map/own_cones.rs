@@ -246,6 +246,8 @@ fn pairs(
         full[1].landmarks.iter().map(|&v| full[1].refined.mesh.positions()[v]).collect();
     let mut pairs = Vec::new();
     for v in chosen {
+        // Each goes over all faces of the target.
+        monitor.step(Step::default())?;
         let image = images.target_from_source[v];
         let place = image.position(&target.mesh);
         let is_taken = places.iter().any(|p| p.distance(place) < LEAST_DISTANCE);

@@ -40,6 +40,7 @@ impl LandmarkDistances {
         let mut fields: [Vec<_>; 2] = Default::default();
         let count = (landmarks[0].len() + landmarks[1].len()).max(1) as f64;
         for s in 0..2 {
+            monitor.step(Step::default())?;
             let links = Links::new(meshes[s]);
             for &v in landmarks[s] {
                 let done = (s * landmarks[0].len() + fields[s].len()) as f64;

@@ -2,10 +2,13 @@
 //! or a typed error with a sentence, after bounded work.
 
 use crate::bounds::{Counter, MOST_QUESTIONS};
-use crate::hostile_geometry::{Kind, Size, case};
+use crate::hostile_geometry::{HostileCase, Kind, Size, case};
 use crate::judged_job::{Files, Outcome, mapped};
 use crate::rough_meshes::Random;
+use conemap::io::landmark_file::LandmarkPoint;
+use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::Silent;
+use glam::DVec3;
 
 /// The outcome of a small case, which must be one of those that may be.
 fn outcome(kind: Kind, seed: u64) -> Outcome {
@@ -49,6 +52,27 @@ fn hostile_landmarks_end_in_a_proved_map_or_a_sentence() {
         let outcome = outcome(kind, 1);
         assert!(is_map(&outcome), "{}: {outcome:?}", kind.name());
     }
+}
+
+/// Two hats of triangles around a wavy rim of so many vertices: the first two vertices see all of it.
+fn hats(rim: usize, height: f64) -> SurfaceMesh {
+    let turn = |k: usize| std::f64::consts::TAU * k as f64 / rim as f64;
+    let around = (0..rim).map(|k| DVec3::new(turn(k).cos(), turn(k).sin(), 0.1 * (3.0 * turn(k)).sin()));
+    let positions = [DVec3::Z * height, DVec3::NEG_Z].into_iter().chain(around).collect();
+    let at = |k: usize| VertexId::from(2 + k % rim);
+    let faces = (0..rim).flat_map(|k| [[VertexId(0), at(k), at(k + 1)], [VertexId(1), at(k + 1), at(k)]]);
+    SurfaceMesh::from_triangles(positions, faces.collect()).unwrap()
+}
+
+#[test]
+fn landmarks_may_have_more_than_a_thousand_neighbours() {
+    let meshes = [hats(1400, 1.0), hats(1200, 1.5)];
+    let at = LandmarkPoint::Vertex;
+    let rim = (0..4).map(|k| [at(2 + 350 * k), at(2 + 300 * k)]);
+    let pairs = [[at(0); 2], [at(1); 2]].into_iter().chain(rim).collect();
+    let files = Files::from(HostileCase { meshes, pairs });
+    let mapped = mapped(&files, &mut Silent).unwrap_or_else(|outcome| panic!("{outcome:?}"));
+    assert_eq!(mapped.judged(&files), Outcome::Proved);
 }
 
 #[test]

@@ -250,8 +250,6 @@ fn turn_around_cone(
     apex: VertexId,
     all: &mut Vec<Location>,
 ) -> Option<()> {
-    /// Faces around a landmark, at most: a walk that rounding keeps from arriving ends there.
-    const MOST: usize = 1000;
     let [mesh, below] = [source.mesh, target.mesh];
     let corner = |x: HalfedgeId| target.embedding.corners[x];
     let mut wedge = (0..3).map(|k| HalfedgeId::of(at.face, k)).find(|&x| below.tail(x) == apex)?;
@@ -261,7 +259,8 @@ fn turn_around_cone(
         return None;
     }
     let mut here = at;
-    let mut hops = 0..MOST;
+    // Two turns around the apex, at most, and some faces on top: a walk that rounding keeps from arriving ends there.
+    let mut hops = 0..2 * below.star(apex).count() + 100;
     let edge = |x: HalfedgeId| source.embedding.corners[x.next()] - source.embedding.corners[x];
     let mut cross = |here: &mut Location, across: HalfedgeId| {
         here.motion = target.embedding.transitions[across].after(&here.motion);
