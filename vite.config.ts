@@ -13,6 +13,8 @@ export default defineConfig({
     // The first that know light-dark(), with which every colour is written once.
     cssTarget: ['chrome123', 'firefox120', 'safari17.5'],
     assetsInlineLimit: 0,
+    // One sheet of styles: a part that is fetched late has its own at once, also when it came by a second try.
+    cssCodeSplit: false,
     modulePreload: { polyfill: false },
   },
   server: { watch: { ignored: ['**/target/**', '**/test-results/**'] } },

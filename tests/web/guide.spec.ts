@@ -91,8 +91,13 @@ test('a guide that cannot be fetched says so, and comes when it can', async ({ p
   const guide = page.getByRole('dialog', { name: 'Guide' });
   await expect(guide.getByRole('alert')).toContainText('could not be fetched');
   await expect(page.locator('#error')).toBeHidden();
+  const again = guide.getByRole('button', { name: 'Try again' });
+  const refused = page.waitForEvent('requestfailed', (request) => chunk.test(request.url()));
+  await again.click();
+  await refused;
+  await expect(guide.getByRole('alert')).toContainText('could not be fetched');
   await page.unroute(chunk);
-  await guide.getByRole('button', { name: 'Try again' }).click();
+  await again.click();
   await expect(guide.getByRole('heading', { name: 'What Conemap does' })).toBeVisible();
 });
 

@@ -3,6 +3,7 @@ import type { Core } from '../compute/core.ts';
 import type { Failure } from '../compute/messages.ts';
 import { startWatched } from '../compute/watch-client.ts';
 import type { Simplifications, SimplifiedFrom, Watchable, Watched } from '../compute/watch-messages.ts';
+import { lateModule } from '../late-module.ts';
 import { failureSentence } from '../messages.ts';
 import type { Listener } from '../method/hands.ts';
 import type { Planes } from '../method/plane-client.ts';
@@ -13,6 +14,9 @@ import type { Store } from '../store/store.ts';
 
 /** What was computed stays as long as its map does, by what was wanted. */
 const KNOWN = new WeakMap<object, Map<string, Watched[Watchable]>>();
+
+// Who looks at the planes has fetched what draws them; their client comes with it.
+const loadPlanes = lateModule(() => import('../method/plane-client.ts'));
 
 const nothing = (): void => undefined;
 
@@ -98,8 +102,7 @@ export function startLayingOut(store: Store, core: Core | null, listener: Listen
   let end = nothing;
   let isOver = false;
   const failed = failing(listener.failed);
-  // Who looks at the planes has fetched what draws them; their client comes with it.
-  import('../method/plane-client.ts').then(
+  loadPlanes().then(
     ({ startPlanes }) => {
       if (!isOver) {
         end = startPlanes({ ...work.begun, base: work.result.output.base }, { ...listener, failed });

@@ -1,6 +1,9 @@
 /** An equation of the guide. What sets it comes when the first one is shown; until then, and where it does not come, it is plain text. */
 import type { VNode } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
+import { lateModule } from '../late-module.ts';
+
+const loadTypeset = lateModule(() => import('./typeset.ts'));
 
 export interface Formula {
   readonly tex: string;
@@ -12,7 +15,7 @@ export function Equation({ tex, plain }: Formula): VNode {
   const [markup, setMarkup] = useState<string | null>(null);
   useEffect(() => {
     let isShown = true;
-    import('./typeset.ts').then(
+    loadTypeset().then(
       ({ typeset }) => {
         if (isShown) {
           setMarkup(typeset(tex));

@@ -1,6 +1,7 @@
 /** The base domain in the step Method, and both flat metrics in the plane beside it. */
-import type { ComponentType, VNode } from 'preact';
+import type { VNode } from 'preact';
 import { useMemo, useState } from 'preact/hooks';
+import { lateModule } from '../late-module.ts';
 import { pairName } from '../messages.ts';
 import { upVector } from '../method/axes.ts';
 import type { BaseDomainProps } from '../method/base-domain.tsx';
@@ -20,8 +21,8 @@ interface OfResult extends PartProps {
   readonly parts: PartHands;
 }
 
-const loadBase = async (): Promise<ComponentType<BaseDomainProps>> => (await import('../method/base-domain.tsx')).default;
-const loadPlane = async (): Promise<ComponentType<PlaneProps>> => (await import('../method/plane.tsx')).default;
+const loadBase = lateModule(() => import('../method/base-domain.tsx'));
+const loadPlane = lateModule(() => import('../method/plane.tsx'));
 
 function BaseOf({ state, actions, shell, result, names, parts }: OfResult): VNode {
   const { base } = result.output;

@@ -1,11 +1,13 @@
 /** The guide over the page. */
 import type { VNode } from 'preact';
 import type { GuideProps } from '../guide/guide.tsx';
+import { lateModule } from '../late-module.ts';
 import { shownResult } from '../store/staleness.ts';
 import type { PartProps } from './actions.ts';
 import { LateDialog } from './late-dialog.tsx';
 
 const BEGINNING = { section: '' };
+const loadGuide = lateModule(() => import('../guide/guide.tsx'));
 
 /** The dialog. */
 export function GuideDialog({ state, actions, shell }: PartProps): VNode {
@@ -30,7 +32,7 @@ export function GuideDialog({ state, actions, shell }: PartProps): VNode {
       title="Guide"
       isOpen={isOpen}
       onClose={close}
-      load={async () => (await import('../guide/guide.tsx')).default}
+      load={loadGuide}
       given={given}
     />
   );

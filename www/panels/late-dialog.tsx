@@ -9,7 +9,7 @@ interface LateDialogProps<P extends object> {
   readonly title: string;
   readonly isOpen: boolean;
   readonly onClose: () => void;
-  readonly load: () => Promise<ComponentType<P>>;
+  readonly load: () => Promise<{ readonly default: ComponentType<P> }>;
   /** What the content is given. */
   readonly given: P;
 }

@@ -9,7 +9,8 @@ type Content<P extends object> =
 
 interface LateProps<P extends object> {
   readonly isWanted: boolean;
-  readonly load: () => Promise<ComponentType<P>>;
+  /** The part's module; a loader that is the same at each drawing. */
+  readonly load: () => Promise<{ readonly default: ComponentType<P> }>;
   /** What the part is given. */
   readonly given: P;
 }
@@ -20,7 +21,7 @@ export function Late<P extends object>({ isWanted, load, given }: LateProps<P>):
   const bring = (): void => {
     setContent({ kind: 'waiting' });
     load().then(
-      (Component) => {
+      ({ default: Component }) => {
         setContent({ kind: 'there', Component });
       },
       (thrown: unknown) => {
@@ -43,7 +44,10 @@ export function Late<P extends object>({ isWanted, load, given }: LateProps<P>):
     case 'failed':
       return (
         <div role="alert">
-          <p>This part of the page could not be fetched. Is the network there?</p>
+          <p>
+            This part of the page could not be fetched. Is the network there? Where another try does not help, reload the page: your
+            work is kept.
+          </p>
           <button type="button" onClick={bring}>
             Try again
           </button>

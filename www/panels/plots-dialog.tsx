@@ -1,11 +1,14 @@
 /** The plots of the last map over the page. */
 import type { VNode } from 'preact';
 import { useMemo } from 'preact/hooks';
+import { lateModule } from '../late-module.ts';
 import type { PlotsProps } from '../plots/plots.tsx';
 import { earlierOf } from '../store/comparison.ts';
 import type { PartProps } from './actions.ts';
 import { Icon } from './icons.tsx';
 import { LateDialog } from './late-dialog.tsx';
+
+const loadPlots = lateModule(() => import('../plots/plots.tsx'));
 
 /** Opens the plots. */
 export function PlotsButton({ shell }: Pick<PartProps, 'shell'>): VNode {
@@ -38,7 +41,7 @@ export function PlotsDialog({ state, shell }: PartProps): VNode {
           shell.set({ dialog: null });
         }
       }}
-      load={async () => (await import('../plots/plots.tsx')).default}
+      load={loadPlots}
       given={given}
     />
   );

@@ -1,8 +1,7 @@
 /** Parts of the method that are watched on the meshes, one at a time. */
-import type { ComponentType, VNode } from 'preact';
+import type { VNode } from 'preact';
 import { useState } from 'preact/hooks';
-import type { FlowPlayerProps } from '../method/flow.tsx';
-import type { SimplificationPlayerProps } from '../method/simplification.tsx';
+import { lateModule } from '../late-module.ts';
 import { shownResult } from '../store/staleness.ts';
 import type { PartProps } from './actions.ts';
 import { Icon } from './icons.tsx';
@@ -10,10 +9,8 @@ import { Late } from './late.tsx';
 
 type Part = 'flow' | 'simplification';
 
-
-const loadFlow = async (): Promise<ComponentType<FlowPlayerProps>> => (await import('../method/flow.tsx')).default;
-const loadSimplification = async (): Promise<ComponentType<SimplificationPlayerProps>> =>
-  (await import('../method/simplification.tsx')).default;
+const loadFlow = lateModule(() => import('../method/flow.tsx'));
+const loadSimplification = lateModule(() => import('../method/simplification.tsx'));
 
 interface ButtonProps {
   readonly part: Part;
