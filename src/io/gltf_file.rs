@@ -8,9 +8,10 @@
 use super::data_uri;
 use super::gltf_container::{self, Container};
 use super::gltf_document::{Buffer, Document, Node, Primitive};
-use super::problem::{Place, Problem};
+use super::problem::{Place, Unread};
 use super::reading::weld;
 use crate::mesh::soup::PolygonSoup;
+use crate::monitor::Pulse;
 use glam::{DMat4, DQuat, DVec3};
 use gltf::Accessor;
 use gltf::accessor::{DataType, Dimensions};
@@ -22,17 +23,22 @@ const MAX_CORNERS: usize = 60_000_000;
 /// Corners that a file may have beyond its number of bytes, so that a small one with many copies cannot ask for much memory.
 const CORNERS_OF_COPIES: usize = 500_000;
 
-pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
-    let scene = || {
-        let container = gltf_container::split(bytes)?;
-        let document = Document::read(container.json)?;
-        scene(&Reader::new(&document, container, bytes.len())?)
-    };
-    scene().map(|scene: Scene| weld(scene.soup)).map_err(|problem| (Place::Header, problem))
+pub(super) fn read(bytes: &[u8], pulse: &mut Pulse<'_>) -> Result<PolygonSoup, Unread> {
+    let container = gltf_container::split(bytes)?;
+    let document = Document::read(container.json)?;
+    let scene = scene(&Reader::new(&document, container, bytes.len())?, pulse)?;
+    Ok(weld(scene.soup, pulse)?)
+}
+
+impl From<String> for Unread {
+    /// A problem of the file as a whole: its elements have no lines.
+    fn from(problem: String) -> Self {
+        Self::Problem((Place::Header, problem))
+    }
 }
 
 /// The triangles of the scene, before vertices are joined.
-pub(super) fn scene(reader: &Reader<'_>) -> Result<Scene, String> {
+pub(super) fn scene(reader: &Reader<'_>, pulse: &mut Pulse<'_>) -> Result<Scene, Unread> {
     let document = reader.document;
     let mut scene = Scene::default();
     let mut places = vec![DMat4::IDENTITY; document.nodes.len()];
@@ -42,11 +48,11 @@ pub(super) fn scene(reader: &Reader<'_>) -> Result<Scene, String> {
             .ok_or_else(|| format!("node {number} is placed by numbers that cannot be used"))?;
         places[number] = above.map_or(own, |above| places[above] * own);
         if let Some(mesh) = node.mesh {
-            reader.add_mesh(mesh, &places[number], &mut scene)?;
+            reader.add_mesh(mesh, &places[number], &mut scene, pulse)?;
         }
     }
     if scene.soup.polygons.is_empty() {
-        return Err("its scene has no triangles".into());
+        return Err("its scene has no triangles".to_owned().into());
     }
     Ok(scene)
 }
@@ -157,13 +163,21 @@ impl<'a> Reader<'a> {
         self.buffers.get(number)?.as_deref()
     }
 
-    fn add_mesh(&self, number: usize, world: &DMat4, scene: &mut Scene) -> Result<(), String> {
+    fn add_mesh(
+        &self,
+        number: usize,
+        world: &DMat4,
+        scene: &mut Scene,
+        pulse: &mut Pulse<'_>,
+    ) -> Result<(), Unread> {
         let mesh = self.document.meshes.get(number);
         let mesh = mesh.ok_or_else(|| format!("it names mesh {number}, which is not there"))?;
         for (k, primitive) in mesh.primitives.iter().enumerate() {
-            let of_primitive = |problem| format!("primitive {k} of mesh {number}: {problem}");
             let [vertices, triangles] = [scene.soup.positions.len(), scene.soup.polygons.len()];
-            self.add_primitive(primitive, world, scene).map_err(of_primitive)?;
+            self.add_primitive(primitive, world, scene, pulse).map_err(|unread| match unread {
+                Unread::Problem((_, problem)) => format!("primitive {k} of mesh {number}: {problem}").into(),
+                stopped => stopped,
+            })?;
             scene.parts.push(Part {
                 mesh: number,
                 primitive: k,
@@ -175,18 +189,28 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn add_primitive(&self, primitive: &Primitive, world: &DMat4, scene: &mut Scene) -> Result<(), String> {
+    fn add_primitive(
+        &self,
+        primitive: &Primitive,
+        world: &DMat4,
+        scene: &mut Scene,
+        pulse: &mut Pulse<'_>,
+    ) -> Result<(), Unread> {
         let mode = mode(primitive.mode)?;
         if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
             // Also what gives no corners counts, as it takes time.
-            return self.count(1, scene);
+            return Ok(self.count(1, scene)?);
         }
-        let accessor = self.accessor(primitive.attributes.position.ok_or("it has no positions")?)?;
+        let accessor =
+            self.accessor(primitive.attributes.position.ok_or_else(|| "it has no positions".to_owned())?)?;
         let indices = primitive.indices.map(|number| self.accessor(number)).transpose()?;
         self.count(1 + accessor.count() + indices.as_ref().map_or(0, Accessor::count), scene)?;
         let PolygonSoup { positions, polygons, .. } = &mut scene.soup;
         let start = positions.len() as u32;
-        positions.extend(self.positions(&accessor)?.into_iter().map(|p| world.transform_point3(p)));
+        for p in self.positions(&accessor)? {
+            pulse.beat()?;
+            positions.push(world.transform_point3(p));
+        }
         let indices = match indices {
             Some(indices) => self.indices(&indices, accessor.count())?,
             None => (0..accessor.count() as u32).collect(),
@@ -195,10 +219,13 @@ impl<'a> Reader<'a> {
             return Err(format!(
                 "its {} corners do not make whole triangles: the file may be cut off",
                 indices.len()
-            ));
+            )
+            .into());
         }
-        let polygon = |t: [u32; 3]| t.map(|i| start + i).to_vec();
-        polygons.extend(triangles(mode, &indices).map(polygon));
+        for t in triangles(mode, &indices) {
+            pulse.beat()?;
+            polygons.push(t.map(|i| start + i).to_vec());
+        }
         Ok(())
     }
 
@@ -230,8 +257,8 @@ impl<'a> Reader<'a> {
         }
         let divisor = if accessor.normalized() { normal_divisor(kind) } else { 1.0 };
         let point = |bytes: &[u8]| {
-            let components: Vec<f64> = bytes.chunks_exact(kind.size()).map(|b| component(kind, b)).collect();
-            let p = DVec3::new(components[0], components[1], components[2]) / divisor;
+            let of_axis = |k: usize| component(kind, &bytes[k * kind.size()..]);
+            let p = DVec3::new(of_axis(0), of_axis(1), of_axis(2)) / divisor;
             // The least number of a signed type is as good as its neighbour.
             if accessor.normalized() { p.max(DVec3::NEG_ONE) } else { p }
         };

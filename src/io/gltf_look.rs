@@ -9,6 +9,7 @@ use super::gltf_document::Document;
 use super::gltf_file::{Part, Reader, Scene, scene};
 use crate::math::scalar::pow;
 use crate::mesh::look::{CornerLook, PolygonLook};
+use crate::monitor::{Pulse, Silent};
 use gltf::accessor::Dimensions;
 use serde_json::Value;
 
@@ -23,7 +24,7 @@ pub(super) fn read(bytes: &[u8]) -> Option<PolygonLook> {
     }
     let document = Document::read(container.json).ok()?;
     let reader = Reader::new(&document, container, bytes.len()).ok()?;
-    let scene = scene(&reader).ok()?;
+    let scene = scene(&reader, &mut Pulse::new(&mut Silent, usize::MAX)).ok()?;
     let root: Value = serde_json::from_slice(container.json).ok()?;
     Looks { root: &root, reader: &reader }.of(&scene)
 }

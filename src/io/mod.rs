@@ -33,7 +33,8 @@ pub use other_file::OtherFile;
 pub use problem::Place;
 
 use crate::mesh::soup::PolygonSoup;
-use problem::Problem;
+use crate::monitor::{Cancelled, Monitor, Pulse, Silent};
+use problem::Unread;
 
 /// Files larger than this are refused.
 pub const MAX_BYTES: usize = 1 << 30;
@@ -64,13 +65,27 @@ pub enum ReadError {
         /// What is wrong and what to do.
         problem: String,
     },
+    /// The user asked to stop.
+    #[error(transparent)]
+    Stopped(#[from] Cancelled),
 }
+
+/// Elements of a file, lines of a text among them, that are read between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 4096;
 
 /// Reads a mesh file of any known format.
 ///
 /// # Errors
 /// [`ReadError`] that names the line, vertex or face.
 pub fn read_mesh(bytes: &[u8]) -> Result<PolygonSoup, ReadError> {
+    read_mesh_asking(bytes, &mut Silent)
+}
+
+/// The same, and asks the monitor whether to go on.
+///
+/// # Errors
+/// As [`read_mesh`], and [`ReadError::Stopped`].
+pub fn read_mesh_asking(bytes: &[u8], monitor: &mut dyn Monitor) -> Result<PolygonSoup, ReadError> {
     if bytes.len() > MAX_BYTES {
         return Err(ReadError::TooLarge { bytes: bytes.len() });
     }
@@ -78,40 +93,47 @@ pub fn read_mesh(bytes: &[u8]) -> Result<PolygonSoup, ReadError> {
         return Err(OtherFile::of(bytes).map_or(ReadError::UnknownFormat, ReadError::OtherFile));
     };
     let bytes = &*reading::unmarked(bytes);
+    let pulse = &mut Pulse::new(monitor, ASKED_EVERY);
     let soup = match format {
-        Format::Obj => obj::read(bytes),
-        Format::Off => off::read(bytes),
-        Format::Ply => ply::read(bytes),
-        Format::Stl => stl::read(bytes),
-        Format::Gltf => gltf_file::read(bytes),
+        Format::Obj => obj::read(bytes, pulse),
+        Format::Off => off::read(bytes, pulse),
+        Format::Ply => ply::read(bytes, pulse),
+        Format::Stl => stl::read(bytes, pulse),
+        Format::Gltf => gltf_file::read(bytes, pulse),
     };
-    let malformed = |(place, problem)| ReadError::Malformed { format, place, problem };
-    let soup = soup.map_err(malformed)?;
-    check_numbers(&soup).map_err(malformed)?;
-    Ok(soup)
+    let soup = soup.and_then(|soup| check_numbers(&soup, pulse).map(|()| soup));
+    soup.map_err(|unread| match unread {
+        Unread::Problem((place, problem)) => ReadError::Malformed { format, place, problem },
+        Unread::Stopped(stop) => stop.into(),
+    })
 }
 
 /// Every coordinate finite and of sane size, every polygon with at least three existing vertices.
-fn check_numbers(soup: &PolygonSoup) -> Result<(), Problem> {
+fn check_numbers(soup: &PolygonSoup, pulse: &mut Pulse<'_>) -> Result<(), Unread> {
     // Products of three coordinates stay finite up to 1e100.
     let sane = |p: &glam::DVec3| p.is_finite() && p.abs().max_element() < 1e100;
     if let Some(v) = soup.positions.iter().position(|p| !sane(p)) {
         let [x, y, z] = soup.positions[v].to_array().map(short);
-        return Err((Place::Vertex(v), format!("the coordinates [{x}, {y}, {z}] are not usable numbers")));
+        return Err(
+            (Place::Vertex(v), format!("the coordinates [{x}, {y}, {z}] are not usable numbers")).into()
+        );
     }
     for (f, polygon) in soup.polygons.iter().enumerate() {
-        if polygon.len() < 3 {
-            return Err((
-                Place::Face(f),
-                format!("it has {} corners; a face needs at least 3", polygon.len()),
-            ));
-        }
-        if let Some(v) = polygon.iter().find(|v| **v as usize >= soup.positions.len()) {
-            let count = soup.positions.len();
-            return Err((Place::Face(f), format!("it names vertex {v}, but the file has {count} vertices")));
-        }
+        pulse.beat()?;
+        check_polygon(polygon, soup.positions.len()).map_err(|problem| (Place::Face(f), problem))?;
     }
     Ok(())
+}
+
+/// At least three corners, at vertices that are there.
+fn check_polygon(polygon: &[u32], vertices: usize) -> Result<(), String> {
+    if polygon.len() < 3 {
+        return Err(format!("it has {} corners; a face needs at least 3", polygon.len()));
+    }
+    match polygon.iter().find(|v| **v as usize >= vertices) {
+        Some(v) => Err(format!("it names vertex {v}, but the file has {vertices} vertices")),
+        None => Ok(()),
+    }
 }
 
 /// A number without hundreds of digits.

@@ -1,17 +1,19 @@
 //! Wavefront OBJ: vertices and faces; the vertex order of the file is kept. Its lines and numbers are read here for all who
 //! read something of such a file.
 
-use super::problem::{Place, Problem};
+use super::problem::{Place, Problem, Unread};
 use super::reading::{lines, number, text, without_comment};
 use crate::mesh::soup::PolygonSoup;
+use crate::monitor::Pulse;
 use glam::DVec3;
 
 /// Kinds of lines that may be continued. Others hold names, which may end in a backslash, or are passed over.
 const CONTINUED: [&str; 5] = ["v", "vt", "vn", "f", "l"];
 
-pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
+pub(super) fn read(bytes: &[u8], pulse: &mut Pulse<'_>) -> Result<PolygonSoup, Unread> {
     let mut soup = PolygonSoup::default();
     for line in whole_lines(&text(bytes)?) {
+        pulse.beat()?;
         match line.kind {
             "v" => soup.positions.push(DVec3::from(coordinates(&line)?)),
             "f" => {

@@ -1,9 +1,10 @@
 //! OFF with its variants (normals, colours and texture coordinates are passed over), text or binary, also without its
 //! keyword; the vertex order of the file is kept.
 
-use super::problem::{Place, Problem};
+use super::problem::{Place, Problem, Unread};
 use super::reading::{content_lines, number, text, unmarked};
 use crate::mesh::soup::PolygonSoup;
+use crate::monitor::{Pulse, Silent};
 use glam::DVec3;
 
 /// What the keyword says of a vertex's numbers: `[ST][C][N][4][n]OFF`, the letters in any order.
@@ -81,11 +82,11 @@ pub(super) fn is_header(first: &[u8], second: Option<&[u8]>) -> bool {
     is_counts(&words_of_first) && second.is_some_and(is_vertex)
 }
 
-pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
+pub(super) fn read(bytes: &[u8], pulse: &mut Pulse<'_>) -> Result<PolygonSoup, Unread> {
     let unmarked = unmarked(bytes);
     match binary_part(&unmarked) {
-        Some((kind, part)) => binary(kind, part),
-        None => read_text(&text(bytes)?, bytes.len(), &mut |_| {}),
+        Some((kind, part)) => binary(kind, part, pulse),
+        None => read_text(&text(bytes)?, bytes.len(), &mut |_| {}, pulse),
     }
 }
 
@@ -122,8 +123,8 @@ impl<'a> CoordinateWords<'a> {
 pub(super) fn each_vertex<'a>(
     text: &'a str,
     mut told: impl FnMut(CoordinateWords<'a>),
-) -> Result<(), Problem> {
-    read_text(text, text.len(), &mut told).map(drop)
+) -> Result<(), Unread> {
+    read_text(text, text.len(), &mut told, &mut Pulse::new(&mut Silent, usize::MAX)).map(drop)
 }
 
 /// Elements announced.
@@ -159,7 +160,8 @@ fn read_text<'a>(
     text: &'a str,
     bytes: usize,
     told: &mut dyn FnMut(CoordinateWords<'a>),
-) -> Result<PolygonSoup, Problem> {
+    pulse: &mut Pulse<'_>,
+) -> Result<PolygonSoup, Unread> {
     let mut lines = content_lines(text);
     let (mut line, first) = lines.next().unwrap_or((1, ""));
     let mut words: Vec<(usize, &str)> = first.split_whitespace().map(|word| (line, word)).collect();
@@ -171,9 +173,8 @@ fn read_text<'a>(
     }
     // The counts may stand on the first line, after the keyword, and so may all the rest.
     while words.len() < 2 + usize::from(kind.has_dimension) {
-        let (number, content) = lines
-            .next()
-            .ok_or((Place::Line(line), "the numbers of vertices and faces are missing".into()))?;
+        let missing = || (Place::Line(line), "the numbers of vertices and faces are missing".to_owned());
+        let (number, content) = lines.next().ok_or_else(missing)?;
         line = number;
         words.extend(content.split_whitespace().map(|word| (line, word)));
     }
@@ -185,16 +186,14 @@ fn read_text<'a>(
     if kind.has_dimension {
         let dimension = next("the number of coordinates")?;
         if dimension != 3 {
-            return Err((
-                Place::Line(line),
-                format!("its vertices have {dimension} coordinates; only 3 can be read"),
-            ));
+            let problem = format!("its vertices have {dimension} coordinates; only 3 can be read");
+            return Err((Place::Line(line), problem).into());
         }
     }
     let counts = Counts { vertices: next("the number of vertices")?, faces: next("the number of faces")? };
     let counts = counts.checked(bytes, [6, 8], Place::Line(line))?;
     let last_line = text.lines().count().max(1);
-    let rest: Vec<(usize, &str)> = lines.collect();
+    let rest = lines.map(|line| pulse.beat().map(|()| line)).collect::<Result<Vec<(usize, &str)>, _>>()?;
     let announced = Announced { kind, counts, last_line };
     // The number of edges is told and not needed.
     let all = || {
@@ -211,12 +210,12 @@ fn read_text<'a>(
     let is_by_words = if words.len() > 1 {
         !has_lines
     } else {
-        is_short() && by_words(announced, all(), &mut |_| {}).is_ok_and(|(_, left)| left == 0)
+        is_short() && by_words(announced, all(), &mut |_| {}, pulse).is_ok_and(|(_, left)| left == 0)
     };
     if is_by_words {
-        by_words(announced, all(), told).map(|(soup, _)| soup)
+        by_words(announced, all(), told, pulse).map(|(soup, _)| soup)
     } else {
-        by_lines(announced, rest.iter().copied(), told)
+        by_lines(announced, rest.iter().copied(), told, pulse)
     }
 }
 
@@ -253,7 +252,8 @@ fn by_lines<'a>(
     announced: Announced,
     mut lines: impl Iterator<Item = (usize, &'a str)>,
     told: &mut dyn FnMut(CoordinateWords<'a>),
-) -> Result<PolygonSoup, Problem> {
+    pulse: &mut Pulse<'_>,
+) -> Result<PolygonSoup, Unread> {
     let mut soup = announced.counts.soup();
     let Counts { vertices, faces } = announced.counts;
     let mut next_line = |what: &str, number: usize, of: usize| {
@@ -262,11 +262,13 @@ fn by_lines<'a>(
         lines.next().ok_or_else(problem)
     };
     for v in 0..vertices {
+        pulse.beat()?;
         let (line, content) = next_line("vertex", v, vertices)?;
         let mut words = content.split_whitespace();
         soup.positions.push(announced.position(|| (line, words.next()), told)?);
     }
     for f in 0..faces {
+        pulse.beat()?;
         let (line, content) = next_line("face", f, faces)?;
         let mut words = content.split_whitespace();
         let corners: usize = number(words.next(), line, "a number of corners")?;
@@ -282,17 +284,20 @@ fn by_words<'a>(
     announced: Announced,
     mut words: impl Iterator<Item = (usize, &'a str)>,
     told: &mut dyn FnMut(CoordinateWords<'a>),
-) -> Result<(PolygonSoup, usize), Problem> {
+    pulse: &mut Pulse<'_>,
+) -> Result<(PolygonSoup, usize), Unread> {
     let mut soup = announced.counts.soup();
     let mut next = || {
         let (line, word) = words.next().unzip();
         (line.unwrap_or(announced.last_line), word)
     };
     for _ in 0..announced.counts.vertices {
+        pulse.beat()?;
         soup.positions.push(announced.position(&mut next, told)?);
         (0..announced.kind.others).for_each(|_| _ = next());
     }
     for _ in 0..announced.counts.faces {
+        pulse.beat()?;
         let (line, word) = next();
         let corners: usize = number(word, line, "a number of corners")?;
         let corner = |_| {
@@ -340,10 +345,10 @@ impl Words<'_> {
     }
 }
 
-fn binary(kind: Kind, part: &[u8]) -> Result<PolygonSoup, Problem> {
+fn binary(kind: Kind, part: &[u8], pulse: &mut Pulse<'_>) -> Result<PolygonSoup, Unread> {
     let mut words = Words(part.as_chunks::<4>().0.iter());
     if kind.has_dimension && words.whole(Place::Header, "the number of coordinates")? != 3 {
-        return Err((Place::Header, "its vertices do not have 3 coordinates".into()));
+        return Err((Place::Header, "its vertices do not have 3 coordinates".to_owned()).into());
     }
     let vertices = words.whole(Place::Header, "the number of vertices")? as usize;
     let faces = words.whole(Place::Header, "the number of faces")? as usize;
@@ -351,6 +356,7 @@ fn binary(kind: Kind, part: &[u8]) -> Result<PolygonSoup, Problem> {
     let counts = Counts { vertices, faces }.checked(part.len(), [12, 8], Place::Header)?;
     let mut soup = counts.soup();
     for v in 0..vertices {
+        pulse.beat()?;
         let place = Place::Vertex(v);
         let mut p = [0.0; 4];
         for x in &mut p[..kind.coordinates()] {
@@ -360,6 +366,7 @@ fn binary(kind: Kind, part: &[u8]) -> Result<PolygonSoup, Problem> {
         soup.positions.push(kind.position(p, place)?);
     }
     for f in 0..faces {
+        pulse.beat()?;
         let place = Place::Face(f);
         let corners = words.whole(place, "a number of corners")?;
         let polygon = (0..corners).map(|_| words.whole(place, "a vertex number"));

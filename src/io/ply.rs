@@ -3,9 +3,11 @@
 //! The library reads the elements, into types that hold no more than a mesh needs: an element of one byte must not become
 //! hundreds.
 
-use super::problem::{Place, Problem};
+use super::problem::{Place, Problem, Unread};
 use crate::mesh::soup::PolygonSoup;
+use crate::monitor::{Cancelled, Pulse, Silent};
 use glam::DVec3;
+use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::io::{BufRead, Read};
 
@@ -17,45 +19,48 @@ use ply_rs_bw::ply::{
 /// The names of the list of a face's vertices.
 const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
-pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
+pub(super) fn read(bytes: &[u8], pulse: &mut Pulse<'_>) -> Result<PolygonSoup, Unread> {
     let file = File::split(bytes)?;
-    let (mut reader, header) = file.opened()?;
+    let stopped = Cell::new(None);
+    let (mut reader, header) = file.opened(pulse, &stopped)?;
     check_elements(&header)?;
     check_sizes(&header, bytes.len())?;
     let mut soup = PolygonSoup::default();
     for (name, element) in &header.elements {
         match name.as_str() {
             "vertex" => {
-                let vertices = elements::<Vertex, _>(&mut reader, element, &header)?;
+                let vertices = elements::<Vertex, _>(&mut reader, element, &header, &stopped)?;
                 soup.positions = vertices.into_iter().map(|vertex| DVec3::from(vertex.0)).collect();
             }
             "face" => {
-                let faces = elements::<Face, _>(&mut reader, element, &header)?;
+                let faces = elements::<Face, _>(&mut reader, element, &header, &stopped)?;
                 soup.polygons = faces
                     .into_iter()
                     .enumerate()
                     .map(|(f, face)| face.polygon(f))
                     .collect::<Result<_, _>>()?;
             }
-            _ => drop(elements::<Passed, _>(&mut reader, element, &header)?),
+            _ => drop(elements::<Passed, _>(&mut reader, element, &header, &stopped)?),
         }
     }
     Ok(soup)
 }
 
 /// The vertices with their numbers: what is announced of them, and by vertex the values of its properties that are no lists, in order.
-pub(super) fn vertex_rows(bytes: &[u8]) -> Result<(ElementDef, Vec<Vec<f64>>), Problem> {
+pub(super) fn vertex_rows(bytes: &[u8]) -> Result<(ElementDef, Vec<Vec<f64>>), Unread> {
     let file = File::split(bytes)?;
-    let (mut reader, header) = file.opened()?;
+    let (mut silent, stopped) = (Silent, Cell::new(None));
+    let mut pulse = Pulse::new(&mut silent, usize::MAX);
+    let (mut reader, header) = file.opened(&mut pulse, &stopped)?;
     check_sizes(&header, bytes.len())?;
     for (name, element) in &header.elements {
         if name == "vertex" {
-            let rows = elements::<Row, _>(&mut reader, element, &header)?;
+            let rows = elements::<Row, _>(&mut reader, element, &header, &stopped)?;
             return Ok((element.clone(), rows.into_iter().map(|row| row.0).collect()));
         }
-        drop(elements::<Passed, _>(&mut reader, element, &header)?);
+        drop(elements::<Passed, _>(&mut reader, element, &header, &stopped)?);
     }
-    Err((Place::Header, "it has no vertices".into()))
+    Err((Place::Header, "it has no vertices".to_owned()).into())
 }
 
 /// All elements of a kind.
@@ -63,10 +68,15 @@ fn elements<E: PropertyAccess, R: BufRead>(
     reader: &mut Reader<R>,
     element: &ElementDef,
     header: &Header,
-) -> Result<Vec<E>, Problem> {
+    stopped: &Cell<Option<Cancelled>>,
+) -> Result<Vec<E>, Unread> {
     Parser::<E>::new().read_payload_for_element(reader, element, header).map_err(|e| {
+        if let Some(stop) = stopped.get() {
+            return stop.into();
+        }
         let problem = short(&e);
         (Place::Header, format!("its contents do not match its header ({problem}): the file may be cut off"))
+            .into()
     })
 }
 
@@ -75,6 +85,41 @@ fn short(error: &ParseError) -> String {
     let words = error.to_string();
     let first = words.lines().next().unwrap_or_default();
     first.chars().filter(|c| !c.is_control()).take(160).collect::<String>().trim_end_matches('.').to_owned()
+}
+
+/// Bytes of a file that ask, each time the parser looks for more of them, whether to go on.
+struct Asking<'a, 'm, R> {
+    bytes: R,
+    pulse: &'a mut Pulse<'m>,
+    /// The parser's own errors have no place for it.
+    stopped: &'a Cell<Option<Cancelled>>,
+}
+
+impl<R: BufRead> Read for Asking<'_, '_, R> {
+    fn read(&mut self, into: &mut [u8]) -> std::io::Result<usize> {
+        self.ask()?;
+        self.bytes.read(into)
+    }
+}
+
+impl<R: BufRead> BufRead for Asking<'_, '_, R> {
+    fn fill_buf(&mut self) -> std::io::Result<&[u8]> {
+        self.ask()?;
+        self.bytes.fill_buf()
+    }
+
+    fn consume(&mut self, amount: usize) {
+        self.bytes.consume(amount);
+    }
+}
+
+impl<R> Asking<'_, '_, R> {
+    fn ask(&mut self) -> std::io::Result<()> {
+        self.pulse.beat().map_err(|stop| {
+            self.stopped.set(Some(stop));
+            std::io::Error::other(stop)
+        })
+    }
 }
 
 /// A file with its header as the library reads it.
@@ -111,10 +156,15 @@ impl<'a> File<'a> {
         Err((Place::Header, "it does not end: the line `end_header` is missing".into()))
     }
 
-    /// What is announced, and a reader of the elements behind it.
-    fn opened(&self) -> Result<(Reader<impl BufRead>, Header), Problem> {
+    /// What is announced, and a reader of the elements behind it, which ends where the user stops it.
+    fn opened<'r>(
+        &'r self,
+        pulse: &'r mut Pulse<'_>,
+        stopped: &'r Cell<Option<Cancelled>>,
+    ) -> Result<(Reader<impl BufRead + 'r>, Header), Problem> {
         check_names(&self.header)?;
-        let mut reader = Reader::new(self.header.as_bytes().chain(&self.body[..]));
+        let bytes = self.header.as_bytes().chain(&self.body[..]);
+        let mut reader = Reader::new(Asking { bytes, pulse, stopped });
         let header = Parser::<Passed>::new().read_header(&mut reader);
         let header = header.map_err(|e| (Place::Header, format!("it cannot be read: {}", short(&e))))?;
         Ok((reader, header))

@@ -1,5 +1,6 @@
 //! What is wrong in a file, and where.
 
+use crate::monitor::Cancelled;
 use std::fmt;
 
 /// Where in a file something is wrong.
@@ -28,3 +29,34 @@ impl fmt::Display for Place {
 
 /// What a reader says is wrong.
 pub type Problem = (Place, String);
+
+/// Why a reader ends without a mesh.
+#[derive(Debug)]
+pub enum Unread {
+    /// Something in the file is wrong.
+    Problem(Problem),
+    /// The user asked to stop.
+    Stopped(Cancelled),
+}
+
+impl From<Problem> for Unread {
+    fn from(problem: Problem) -> Self {
+        Self::Problem(problem)
+    }
+}
+
+impl From<Cancelled> for Unread {
+    fn from(stop: Cancelled) -> Self {
+        Self::Stopped(stop)
+    }
+}
+
+impl From<Unread> for Problem {
+    /// For readers that nobody stops.
+    fn from(unread: Unread) -> Self {
+        match unread {
+            Unread::Problem(problem) => problem,
+            Unread::Stopped(stop) => (Place::Header, stop.to_string()),
+        }
+    }
+}

@@ -2,6 +2,7 @@
 
 use super::problem::{Place, Problem};
 use crate::mesh::soup::PolygonSoup;
+use crate::monitor::{Cancelled, Pulse};
 use std::borrow::Cow;
 
 /// A file without what says only how its text is written: UTF-16 with its mark becomes UTF-8, the mark of UTF-8 goes.
@@ -29,11 +30,13 @@ pub fn text(bytes: &[u8]) -> Result<Cow<'_, str>, Problem> {
         Cow::Borrowed(bytes) => std::str::from_utf8(bytes).map(Cow::Borrowed).ok(),
         Cow::Owned(bytes) => String::from_utf8(bytes).map(Cow::Owned).ok(),
     };
-    match (text, bytes.iter().position(is_control)) {
+    match text {
         // Control characters in comments and names of good text do no harm, zeros show that it is none.
-        (Some(text), _) if !text.contains('\0') => Ok(text),
-        (None, None) => Ok(Cow::Owned(bytes.iter().map(|&b| char::from(b)).collect())),
-        (_, control) => Err(not_text(control.unwrap_or(0))),
+        Some(text) if !text.contains('\0') => Ok(text),
+        text => match bytes.iter().position(is_control) {
+            None if text.is_none() => Ok(Cow::Owned(bytes.iter().map(|&b| char::from(b)).collect())),
+            control => Err(not_text(control.unwrap_or(0))),
+        },
     }
 }
 
@@ -71,18 +74,19 @@ pub fn short(word: &str) -> String {
 }
 
 /// Polygons name the first of the vertices with exactly equal coordinates; formats without shared vertices need it.
-pub fn weld(mut soup: PolygonSoup) -> PolygonSoup {
+pub fn weld(mut soup: PolygonSoup, pulse: &mut Pulse<'_>) -> Result<PolygonSoup, Cancelled> {
     let mut first_at = rustc_hash::FxHashMap::default();
     let joined = |(number, p): (u32, &glam::DVec3)| {
+        pulse.beat()?;
         // Adding 0 makes -0 and 0 the same bits.
         let key = (*p + glam::DVec3::ZERO).to_array().map(f64::to_bits);
-        *first_at.entry(key).or_insert(number)
+        Ok(*first_at.entry(key).or_insert(number))
     };
-    soup.joined_with = (0..).zip(&soup.positions).map(joined).collect();
+    soup.joined_with = (0..).zip(&soup.positions).map(joined).collect::<Result<_, _>>()?;
     for v in soup.polygons.iter_mut().flatten() {
         *v = soup.joined_with.get(*v as usize).copied().unwrap_or(u32::MAX);
     }
-    soup
+    Ok(soup)
 }
 
 #[cfg(test)]

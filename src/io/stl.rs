@@ -1,8 +1,9 @@
 //! STL, text and binary: loose triangles, joined at equal coordinates. Vertex 3 t + k is corner k of triangle t.
 
-use super::problem::{Place, Problem};
+use super::problem::{Place, Unread};
 use super::reading::{lines, number, text, weld};
 use crate::mesh::soup::PolygonSoup;
+use crate::monitor::Pulse;
 use glam::DVec3;
 
 const HEADER: usize = 84;
@@ -42,33 +43,38 @@ fn size(triangles: u64) -> u64 {
     HEADER as u64 + TRIANGLE as u64 * triangles
 }
 
-pub(super) fn read(bytes: &[u8]) -> Result<PolygonSoup, Problem> {
-    let positions = if is_binary(bytes) || !is_text(bytes) { binary(bytes)? } else { ascii(bytes)? };
+pub(super) fn read(bytes: &[u8], pulse: &mut Pulse<'_>) -> Result<PolygonSoup, Unread> {
+    let positions =
+        if is_binary(bytes) || !is_text(bytes) { binary(bytes, pulse)? } else { ascii(bytes, pulse)? };
     let polygons = (0..positions.len() as u32 / 3).map(|t| vec![3 * t, 3 * t + 1, 3 * t + 2]).collect();
-    Ok(weld(PolygonSoup { positions, polygons, ..PolygonSoup::default() }))
+    Ok(weld(PolygonSoup { positions, polygons, ..PolygonSoup::default() }, pulse)?)
 }
 
 /// Bytes after the last triangle are passed over.
-fn binary(bytes: &[u8]) -> Result<Vec<DVec3>, Problem> {
+fn binary(bytes: &[u8], pulse: &mut Pulse<'_>) -> Result<Vec<DVec3>, Unread> {
     let count = triangle_count(bytes).unwrap_or(0);
     if size(count) > bytes.len() as u64 {
         let there = bytes.len().saturating_sub(HEADER) / TRIANGLE;
-        return Err((
-            Place::Header,
-            format!("it announces {count} triangles and has {there}: the file is cut off"),
-        ));
+        let problem = format!("it announces {count} triangles and has {there}: the file is cut off");
+        return Err((Place::Header, problem).into());
     }
     let coordinate = |b: &[u8]| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
     let triangles = bytes[HEADER..size(count) as usize].chunks_exact(TRIANGLE);
     // 12 bytes of normal, then three corners of three floats.
     let corners = triangles.flat_map(|t| t[12..48].chunks_exact(12));
-    Ok(corners.map(|c| DVec3::new(coordinate(&c[..4]), coordinate(&c[4..8]), coordinate(&c[8..]))).collect())
+    let position = |c: &[u8]| {
+        pulse.beat()?;
+        Ok(DVec3::new(coordinate(&c[..4]), coordinate(&c[4..8]), coordinate(&c[8..])))
+    };
+    corners.map(position).collect()
 }
 
-fn ascii(bytes: &[u8]) -> Result<Vec<DVec3>, Problem> {
+fn ascii(bytes: &[u8], pulse: &mut Pulse<'_>) -> Result<Vec<DVec3>, Unread> {
+    let at = |line: usize, problem: &str| Unread::from((Place::Line(line), problem.to_owned()));
     let mut positions = Vec::new();
     let (mut last, mut is_ended) = (0, false);
     for (line_number, line) in lines(&text(bytes)?) {
+        pulse.beat()?;
         let mut words = line.split_whitespace();
         let Some(word) = words.next() else { continue };
         last = line_number;
@@ -76,15 +82,15 @@ fn ascii(bytes: &[u8]) -> Result<Vec<DVec3>, Problem> {
             let mut next = || number::<f64>(words.next(), line_number, "a coordinate");
             positions.push(DVec3::new(next()?, next()?, next()?));
         } else if word.eq_ignore_ascii_case("endfacet") && positions.len() % 3 != 0 {
-            return Err((Place::Line(line_number), "the facet does not have three vertices".into()));
+            return Err(at(line_number, "the facet does not have three vertices"));
         }
         is_ended = word.eq_ignore_ascii_case("endsolid") || is_ended && word.starts_with(['#', ';']);
     }
     if positions.len() % 3 != 0 {
-        return Err((Place::Line(last), "the file ends inside a facet: it is cut off".into()));
+        return Err(at(last, "the file ends inside a facet: it is cut off"));
     }
     if !is_ended {
-        return Err((Place::Line(last), "the file ends without `endsolid`: it is cut off".into()));
+        return Err(at(last, "the file ends without `endsolid`: it is cut off"));
     }
     Ok(positions)
 }

@@ -1,6 +1,7 @@
 use super::*;
 use crate::mesh::SurfaceMesh;
 use crate::mesh::check::closed_genus_zero;
+use crate::monitor::Step;
 use proptest::prelude::*;
 
 const OFF: &str = "OFF\n# a comment\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
@@ -14,17 +15,30 @@ fn tetrahedron_of(bytes: &[u8]) -> SurfaceMesh {
     mesh
 }
 
-/// The tetrahedron as loose triangles.
-fn corners() -> Vec<[[f32; 3]; 3]> {
-    let p = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]].map(|t: [usize; 3]| t.map(|v| p[v])).to_vec()
+const POSITIONS: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+const FACES: [[i32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+
+/// So many tetrahedra in one place as loose triangles.
+fn corners(copies: usize) -> Vec<[[f32; 3]; 3]> {
+    FACES.map(|t| t.map(|v| POSITIONS[v as usize])).repeat(copies)
 }
 
-fn binary_stl(header: &[u8]) -> Vec<u8> {
+/// The faces of so many tetrahedra with vertices of their own.
+fn faces(copies: usize) -> impl Iterator<Item = [i32; 3]> {
+    (0..copies as i32).flat_map(|copy| FACES.map(|t| t.map(|v| 4 * copy + v)))
+}
+
+fn off(copies: usize) -> String {
+    let vertices = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n".repeat(copies);
+    let faces: String = faces(copies).map(|f| format!("3 {} {} {}\n", f[0], f[1], f[2])).collect();
+    format!("OFF\n# a comment\n{0} {0} {1}\n{vertices}{faces}", 4 * copies, 6 * copies)
+}
+
+fn binary_stl(header: &[u8], copies: usize) -> Vec<u8> {
     let mut bytes = header.to_vec();
     bytes.resize(80, b' ');
-    bytes.extend(4_u32.to_le_bytes());
-    for t in corners() {
+    bytes.extend((4 * copies as u32).to_le_bytes());
+    for t in corners(copies) {
         bytes.extend([0; 12]);
         t.iter().flatten().for_each(|x| bytes.extend(x.to_le_bytes()));
         bytes.extend([0; 2]);
@@ -32,68 +46,108 @@ fn binary_stl(header: &[u8]) -> Vec<u8> {
     bytes
 }
 
-fn ascii_stl() -> String {
+fn ascii_stl(copies: usize) -> String {
     let facet = |t: [[f32; 3]; 3]| {
         let vertices: String = t.iter().map(|p| format!("vertex {} {} {}\n", p[0], p[1], p[2])).collect();
         format!("facet normal 0 0 0\nouter loop\n{vertices}endloop\nendfacet\n")
     };
-    format!("solid t\n{}endsolid t\n", corners().into_iter().map(facet).collect::<String>())
+    format!("solid t\n{}endsolid t\n", corners(copies).into_iter().map(facet).collect::<String>())
 }
 
-fn ply(encoding: &str) -> Vec<u8> {
+fn ply(encoding: &str, copies: usize) -> Vec<u8> {
+    let count = 4 * copies;
     let header = format!(
-        "ply\nformat {encoding} 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n"
+        "ply\nformat {encoding} 1.0\nelement vertex {count}\nproperty float x\nproperty float y\nproperty float z\nelement face {count}\nproperty list uchar int vertex_indices\nend_header\n"
     );
     let mut bytes = header.into_bytes();
-    let p: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let faces: [[i32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    let positions = POSITIONS.repeat(copies);
     if encoding == "ascii" {
-        p.iter().for_each(|p| bytes.extend(format!("{} {} {}\n", p[0], p[1], p[2]).bytes()));
-        faces.iter().for_each(|f| bytes.extend(format!("3 {} {} {}\n", f[0], f[1], f[2]).bytes()));
+        positions.iter().for_each(|p| bytes.extend(format!("{} {} {}\n", p[0], p[1], p[2]).bytes()));
+        faces(copies).for_each(|f| bytes.extend(format!("3 {} {} {}\n", f[0], f[1], f[2]).bytes()));
         return bytes;
     }
     let little = encoding == "binary_little_endian";
-    p.iter().flatten().for_each(|x| bytes.extend(if little { x.to_le_bytes() } else { x.to_be_bytes() }));
-    for f in faces {
+    positions
+        .iter()
+        .flatten()
+        .for_each(|x| bytes.extend(if little { x.to_le_bytes() } else { x.to_be_bytes() }));
+    for f in faces(copies) {
         bytes.push(3);
         f.iter().for_each(|v| bytes.extend(if little { v.to_le_bytes() } else { v.to_be_bytes() }));
     }
     bytes
 }
 
-fn gltf_text() -> String {
+fn gltf_text(copies: usize) -> String {
     let mut buffer = Vec::new();
-    corners().iter().flatten().flatten().for_each(|x| buffer.extend(x.to_le_bytes()));
+    let count = 12 * copies;
+    let length = 12 * count;
+    corners(copies).iter().flatten().flatten().for_each(|x| buffer.extend(x.to_le_bytes()));
     let code = base64::Engine::encode(&base64::engine::general_purpose::STANDARD, &buffer);
     format!(
         r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
         "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
-        "accessors":[{{"bufferView":0,"componentType":5126,"count":12,"type":"VEC3","min":[0,0,0],"max":[1,1,1]}}],
-        "bufferViews":[{{"buffer":0,"byteLength":144}}],
-        "buffers":[{{"byteLength":144,"uri":"data:application/octet-stream;base64,{code}"}}]}}"#
+        "accessors":[{{"bufferView":0,"componentType":5126,"count":{count},"type":"VEC3","min":[0,0,0],"max":[1,1,1]}}],
+        "bufferViews":[{{"buffer":0,"byteLength":{length}}}],
+        "buffers":[{{"byteLength":{length},"uri":"data:application/octet-stream;base64,{code}"}}]}}"#
     )
 }
 
-fn samples() -> Vec<Vec<u8>> {
+/// So many tetrahedra in every format.
+fn samples(copies: usize) -> Vec<Vec<u8>> {
     vec![
-        OFF.into(),
-        OBJ.into(),
-        ascii_stl().into(),
-        binary_stl(b"binary"),
-        binary_stl(b"solid but binary"),
-        ply("ascii"),
-        ply("binary_little_endian"),
-        ply("binary_big_endian"),
-        gltf_text().into(),
+        off(copies).into(),
+        OBJ.repeat(copies).into(),
+        ascii_stl(copies).into(),
+        binary_stl(b"binary", copies),
+        binary_stl(b"solid but binary", copies),
+        ply("ascii", copies),
+        ply("binary_little_endian", copies),
+        ply("binary_big_endian", copies),
+        gltf_text(copies).into(),
     ]
 }
 
 #[test]
 fn every_format_gives_the_same_tetrahedron() {
-    let formats = samples().iter().map(|bytes| detect(bytes).unwrap()).collect::<Vec<_>>();
+    let formats = samples(1).iter().map(|bytes| detect(bytes).unwrap()).collect::<Vec<_>>();
     use Format::{Gltf, Obj, Off, Ply, Stl};
     assert_eq!(formats, [Off, Obj, Stl, Stl, Stl, Ply, Ply, Ply, Gltf]);
-    samples().iter().for_each(|bytes| drop(tetrahedron_of(bytes)));
+    samples(1).iter().for_each(|bytes| drop(tetrahedron_of(bytes)));
+}
+
+/// Asked so often; stops at the last question that it may answer.
+struct Asked {
+    times: usize,
+    most: usize,
+}
+
+impl Monitor for Asked {
+    fn step(&mut self, _step: Step) -> Result<(), Cancelled> {
+        self.times += 1;
+        if self.times < self.most { Ok(()) } else { Err(Cancelled) }
+    }
+}
+
+#[test]
+fn every_reader_asks_and_stops() {
+    const COPIES: usize = 3000;
+    for (sample, bytes) in samples(COPIES).iter().enumerate() {
+        let mut asked = Asked { times: 0, most: usize::MAX };
+        let soup = read_mesh_asking(bytes, &mut asked).unwrap();
+        assert_eq!(soup.polygons.len(), 4 * COPIES, "sample {sample}");
+        // Vertices and faces, or loose triangles.
+        assert!(asked.times >= 8 * COPIES / ASKED_EVERY, "sample {sample} asks {} times", asked.times);
+        for most in 1..=asked.times {
+            let mut stopping = Asked { times: 0, most };
+            let stopped = read_mesh_asking(bytes, &mut stopping);
+            assert_eq!(
+                (stopped, stopping.times),
+                (Err(ReadError::Stopped(Cancelled)), most),
+                "sample {sample}"
+            );
+        }
+    }
 }
 
 /// A glTF of one primitive whose accessor 0 has the positions and accessor 1 the indices.
@@ -193,7 +247,7 @@ fn text_formats_have_many_forms() {
         ),
         OBJ.replace("f 2 3 4", "f 2 \\\n 3 \\\r\n4 # the third"),
         format!("{}vp 0.5\nl 1 2\np 3\n{OBJ}", "# \u{fc}ber C:\\\n".repeat(2000)),
-        ascii_stl().to_uppercase(),
+        ascii_stl(1).to_uppercase(),
     ];
     for file in files {
         tetrahedron_of(file.as_bytes());
@@ -209,9 +263,9 @@ fn text_formats_have_many_forms() {
     let cut_off = &OFF[..OFF.len() - 16];
     assert!(says(cut_off).contains("the file ends before face 2 of 4"), "{}", says(cut_off));
     assert!(says("nOFF 5\n1 0 0\n1 2 3 4 5\n").contains("its vertices have 5 coordinates"));
-    let stl = ascii_stl();
+    let stl = ascii_stl(1);
     assert!(says(&stl[..stl.len() - 12]).contains("cut off"));
-    let binary = binary_stl(b"binary");
+    let binary = binary_stl(b"binary", 1);
     tetrahedron_of(&[&binary[..], &[0; 7]].concat());
     let cut = read_mesh(&binary[..binary.len() - 1]).unwrap_err().to_string();
     assert_eq!(cut, "STL file, header: it announces 4 triangles and has 3: the file is cut off");
@@ -219,10 +273,10 @@ fn text_formats_have_many_forms() {
 
 #[test]
 fn ply_headers_are_read_from_any_system() {
-    let text = String::from_utf8(ply("ascii")).unwrap();
+    let text = String::from_utf8(ply("ascii", 1)).unwrap();
     tetrahedron_of(text.replace('\n', "\r").as_bytes());
     tetrahedron_of(text.replace('\n', "\r\n").as_bytes());
-    let binary = ply("binary_little_endian");
+    let binary = ply("binary_little_endian", 1);
     let end = binary.windows(11).position(|word| word == b"end_header\n").unwrap() + 11;
     for line_end in ["\r", "\r\n"] {
         let header = String::from_utf8(binary[..end].to_vec()).unwrap().replace('\n', line_end);
@@ -243,7 +297,7 @@ fn joined_vertices_keep_the_files_numbers() {
     // Corner k of triangle t is vertex 3 t + k.
     let vertices = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];
     let first = [0, 2, 1, 5].map(|number| number as usize);
-    for bytes in [ascii_stl().into(), binary_stl(b"binary"), gltf_text().into()] {
+    for bytes in [ascii_stl(1).into(), binary_stl(b"binary", 1), gltf_text(1).into()] {
         let checked = closed_genus_zero(&read_mesh(&bytes).unwrap()).unwrap();
         assert_eq!(checked.vertex_from_file.len(), 12);
         for (corner, vertex) in vertices.iter().enumerate() {
@@ -272,7 +326,7 @@ fn errors_name_the_line() {
     );
     assert!(says("hello world").contains("OBJ, OFF, PLY"));
     assert!(says("OFF\n4000000000 3 0\n").contains("more than the file can hold"));
-    let huge = String::from_utf8(ply("ascii")).unwrap().replace("vertex 4", "vertex 4000000000");
+    let huge = String::from_utf8(ply("ascii", 1)).unwrap().replace("vertex 4", "vertex 4000000000");
     assert!(says(&huge).contains("announces"));
 }
 
@@ -312,7 +366,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
     #[test]
     fn damaged_files_never_panic(sample in 0_usize..9, cut in 0.0_f64..1.0, at in 0.0_f64..1.0, byte in 0_u8..=255) {
-        let mut bytes = samples().swap_remove(sample);
+        let mut bytes = samples(1).swap_remove(sample);
         bytes.truncate((bytes.len() as f64 * cut.sqrt()) as usize);
         let place = (bytes.len() as f64 * at) as usize;
         if let Some(b) = bytes.get_mut(place) {

@@ -37,7 +37,7 @@ pub struct ReadMesh {
 pub enum MeshFileError {
     /// It cannot be read.
     #[error(transparent)]
-    Read(#[from] ReadError),
+    Read(ReadError),
     /// The mesh is not one closed surface of genus 0, and is not to be repaired.
     #[error(transparent)]
     Fault(#[from] MeshFault),
@@ -47,6 +47,15 @@ pub enum MeshFileError {
     /// The user asked to stop.
     #[error(transparent)]
     Stopped(#[from] Cancelled),
+}
+
+impl From<ReadError> for MeshFileError {
+    fn from(error: ReadError) -> Self {
+        match error {
+            ReadError::Stopped(stop) => Self::Stopped(stop),
+            error => Self::Read(error),
+        }
+    }
 }
 
 impl From<RepairRefusal> for MeshFileError {
@@ -67,7 +76,7 @@ pub fn read_mesh(
     faults: MeshFaults,
     monitor: &mut dyn Monitor,
 ) -> Result<ReadMesh, MeshFileError> {
-    let soup = io::read_mesh(bytes)?;
+    let soup = io::read_mesh_asking(bytes, monitor)?;
     monitor.step(Step::default())?;
     let (checked, report) = match faults {
         MeshFaults::Repaired(options) => {
