@@ -6,6 +6,7 @@ use crate::hostile_geometry::{HostileCase, Kind, Size, case};
 use crate::judged_job::{Files, Outcome, mapped};
 use crate::rough_meshes::Random;
 use conemap::io::landmark_file::LandmarkPoint;
+use conemap::math::scalar::{cos, sin};
 use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::Silent;
 use glam::DVec3;
@@ -57,7 +58,7 @@ fn hostile_landmarks_end_in_a_proved_map_or_a_sentence() {
 /// Two hats of triangles around a wavy rim of so many vertices: the first two vertices see all of it.
 fn hats(rim: usize, height: f64) -> SurfaceMesh {
     let turn = |k: usize| std::f64::consts::TAU * k as f64 / rim as f64;
-    let around = (0..rim).map(|k| DVec3::new(turn(k).cos(), turn(k).sin(), 0.1 * (3.0 * turn(k)).sin()));
+    let around = (0..rim).map(|k| DVec3::new(cos(turn(k)), sin(turn(k)), 0.1 * sin(3.0 * turn(k))));
     let positions = [DVec3::Z * height, DVec3::NEG_Z].into_iter().chain(around).collect();
     let at = |k: usize| VertexId::from(2 + k % rim);
     let faces = (0..rim).flat_map(|k| [[VertexId(0), at(k), at(k + 1)], [VertexId(1), at(k + 1), at(k)]]);
