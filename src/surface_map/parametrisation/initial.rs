@@ -150,7 +150,7 @@ pub fn relax(
 ) -> Result<(Embedding, FlatRelaxReport), MapError> {
     let unknowns = Unknowns::new(side);
     let mut z = unknowns.points(side.embedding);
-    let report = unknowns.problem().relax(&mut z, options, monitor)?;
+    let report = unknowns.problem(monitor)?.relax(&mut z, options, monitor)?;
     let mut relaxed = side.embedding.clone();
     unknowns.place(&z, &mut relaxed.corners);
     relaxed.normalise_anchors(surface);

@@ -374,7 +374,7 @@ impl<'a> ParametrisedLevel<'a> {
             FlatTriangle { area: rest.weight, ..FlatTriangle::with_rest(corners, rest.corners) }
         };
         let triangles = self.mesh.faces().zip(rest).map(triangle).collect();
-        let mut problem = FlatProblem::new(triangles, z.len());
+        let mut problem = FlatProblem::new(triangles, z.len(), monitor)?;
         let report = problem.relax(&mut z, options, monitor)?;
         for f in self.mesh.faces() {
             for h in f.halfedges() {

@@ -154,7 +154,14 @@ const ASKED_EVERY: usize = 1 << 15;
 
 impl FlatProblem {
     /// A problem of `free` unknown vertices.
-    pub fn new(triangles: Vec<FlatTriangle>, free: usize) -> Self {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn new(
+        triangles: Vec<FlatTriangle>,
+        free: usize,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self, Cancelled> {
         let free_corner = |t: &FlatTriangle, k: usize| match t.corners[k] {
             Corner::Free(v, _) => Some(v),
             Corner::Fixed(_) => None,
@@ -162,7 +169,9 @@ impl FlatProblem {
         let pairs = triangles.iter().flat_map(move |t| {
             (0..9).filter_map(move |k| Some((free_corner(t, k / 3)?, free_corner(t, k % 3)?)))
         });
+        monitor.step(Step::default())?;
         let matrix = BlockCsr::with_pattern(free, pairs);
+        monitor.step(Step::default())?;
         let mut places = vec![u32::MAX; triangles.len() * 9];
         for (t, triangle) in triangles.iter().enumerate() {
             for k in 0..9 {
@@ -172,7 +181,7 @@ impl FlatProblem {
             }
         }
         let total_area = triangles.iter().map(|t| t.area).sum();
-        Self { triangles, places, matrix, solver: NewtonSolver::default(), total_area }
+        Ok(Self { triangles, places, matrix, solver: NewtonSolver::default(), total_area })
     }
 
     /// Area-weighted mean energy; `None` where a triangle is not positive.
@@ -418,7 +427,7 @@ mod tests {
             add([free(k), fixed(k), fixed(k + 1)], [inner, outer, outer_next]);
             add([free(k), fixed(k + 1), free(k + 1)], [inner, outer_next, next]);
         }
-        (FlatProblem::new(triangles, 7), z)
+        (FlatProblem::new(triangles, 7, &mut Silent).unwrap(), z)
     }
 
     #[test]

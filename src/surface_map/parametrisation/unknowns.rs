@@ -6,6 +6,7 @@ use super::rest_triangle::{Corner, FlatTriangle};
 use crate::math::golden;
 use crate::math::rigid2::Rigid2;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
+use crate::monitor::{Cancelled, Monitor};
 use glam::DVec2;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
@@ -49,12 +50,15 @@ impl<'a> Unknowns<'a> {
     }
 
     /// The flat problem of the whole mesh; its triangles are the mesh's faces in order.
-    pub fn problem(&self) -> FlatProblem {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn problem(&self, monitor: &mut dyn Monitor) -> Result<FlatProblem, Cancelled> {
         let triangle = |f: FaceId| {
             let corners = f.halfedges().map(|h| self.sights[h]);
             FlatTriangle::with_rest(corners, self.mesh.corners(f))
         };
-        FlatProblem::new(self.mesh.faces().map(triangle).collect(), self.free.len())
+        FlatProblem::new(self.mesh.faces().map(triangle).collect(), self.free.len(), monitor)
     }
 
     /// The start of a halfedge as seen from its face.

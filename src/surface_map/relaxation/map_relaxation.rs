@@ -218,7 +218,7 @@ impl<'a> Relaxation<'a> {
         monitor: &mut dyn Monitor,
     ) -> Result<Self, Cancelled> {
         let unknowns = of_both(monitor, |k| Unknowns::new(sides[k]))?;
-        let problems = of_both(monitor, |k| unknowns[k].problem())?;
+        let problems = [unknowns[0].problem(monitor)?, unknowns[1].problem(monitor)?];
         let embeddings = sides.map(|side| side.embedding.clone());
         let inverses = of_both(monitor, |k| {
             sides[k].mesh.faces().map(|f| rest_jacobian(sides[k], f).inverse()).collect()
