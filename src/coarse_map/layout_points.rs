@@ -7,7 +7,7 @@ use super::mesh_with_coarse::MeshWithCoarse;
 use crate::layout::PatchedMesh;
 use crate::mesh::collapsible::CollapsibleMesh;
 use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
-use crate::monitor::Monitor;
+use crate::monitor::{Cancelled, Monitor, Pulse};
 use crate::surface_map::MapError;
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
 use crate::surface_map::parametrisation::embedding::Embedding;
@@ -58,7 +58,7 @@ pub fn without_layout_points<'a>(
     let mut refined = ParametrisedLevel::on_level(refined, surface.clone(), embedding, |h| h);
     let mut left: Vec<VertexId> = (first..patched.mesh.vertex_count()).map(VertexId::from).collect();
     let kind = |v: VertexId| added.get(v.index().wrapping_sub(first)).copied();
-    take_out(&mut refined, &mut left, kind);
+    take_out(&mut refined, &mut left, kind, monitor)?;
     // Each about a third of the one before: from far away the slivers would be too stiff.
     // Chosen by hand, not measured at half and double.
     for closeness in [0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3] {
@@ -67,7 +67,7 @@ pub fn without_layout_points<'a>(
         }
         let rest = pulled_together(&refined, &left, closeness, kind);
         refined.relax_to(&rest, options, monitor)?;
-        take_out(&mut refined, &mut left, kind);
+        take_out(&mut refined, &mut left, kind, monitor)?;
     }
     if !left.is_empty() {
         let near = nearest_landmarks(patched, &left);
@@ -160,20 +160,30 @@ fn pulled_together(
     mesh.faces().map(triangle).collect()
 }
 
+/// Points that are looked at between two questions to the monitor: some milliseconds, also beside vertices of a thousand neighbours.
+const ASKED_EVERY: usize = 64;
+
 /// Takes out what can be taken out: a point on an edge along its edge, a point inside a face into any neighbour.
 fn take_out(
     level: &mut ParametrisedLevel<'_>,
     left: &mut Vec<VertexId>,
     added: impl Fn(VertexId) -> Option<Added>,
-) {
+    monitor: &mut dyn Monitor,
+) -> Result<(), Cancelled> {
+    let mut pulse = Pulse::new(monitor, ASKED_EVERY);
     let mut before = usize::MAX;
-    while left.len() < before {
+    let mut stopped = Ok(());
+    while left.len() < before && stopped.is_ok() {
         before = left.len();
         left.retain(|&v| {
+            if stopped.is_ok() {
+                stopped = pulse.beat();
+            }
             let along = |w: VertexId| is_along(v, w, &added);
             let ways: Vec<HalfedgeId> =
                 level.mesh().star(v).filter(|&h| along(level.mesh().head(h))).collect();
             !ways.into_iter().any(|h| level.mesh().link_condition(h) && level.remove(h))
         });
     }
+    stopped
 }
