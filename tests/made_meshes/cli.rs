@@ -264,6 +264,18 @@ fn meshes_whose_map_may_take_more_than_the_memory_limit_are_refused_before_the_r
     assert!(mapped.status.success(), "{}", errors(&mapped));
 }
 
+#[test]
+fn files_that_are_too_large_are_refused_unread() {
+    let file = folder("too_large").join("mesh.obj");
+    // It has a length and no contents on the disk.
+    std::fs::File::create(&file).unwrap().set_len(io::MAX_BYTES as u64 + 1).unwrap();
+    let refused = conemap([OsStr::new("check"), file.as_os_str()]);
+    assert!(!refused.status.success());
+    let sentence =
+        format!("mesh.obj: it has more than {} bytes, the most that a file may have", io::MAX_BYTES);
+    assert!(errors(&refused).contains(&sentence), "{}", errors(&refused));
+}
+
 /// Runs `map` on a demo with a limit of time; the report.
 fn mapped_within(seconds: &str) -> Value {
     let folder = folder(&format!("mapped_within/{seconds}"));

@@ -11,14 +11,32 @@ use conemap::mesh::soup::PolygonSoup;
 use conemap::monitor::Silent;
 use std::collections::BTreeMap;
 use std::error::Error;
+use std::fs::File;
+use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
 /// What the command line fails with: a sentence.
 pub type Failure = Box<dyn Error>;
 
-/// Reads a file.
+/// Reads a file, no more of it than a mesh may have: a device never ends.
 pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
-    std::fs::read(path).map_err(|e| format!("{}: {e}", path.display()).into())
+    limited(path).map_err(|e| format!("{}: {e}", path.display()).into())
+}
+
+fn limited(path: &Path) -> std::io::Result<Vec<u8>> {
+    let file = File::open(path)?;
+    let most = io::MAX_BYTES as u64;
+    let length = file.metadata()?.len();
+    let mut bytes = Vec::new();
+    if length <= most {
+        bytes.reserve_exact(length as usize);
+        file.take(most + 1).read_to_end(&mut bytes)?;
+    }
+    if length > most || bytes.len() as u64 > most {
+        let sentence = format!("it has more than {most} bytes, the most that a file may have");
+        return Err(std::io::Error::new(std::io::ErrorKind::FileTooLarge, sentence));
+    }
+    Ok(bytes)
 }
 
 /// Reads a mesh, with what it keeps in files beside it, unchecked.
@@ -45,9 +63,8 @@ pub fn mesh_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let is_below = |name: &str| Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
     let names = parts.buffers.into_iter().chain(parts.images).filter(|name| is_below(name));
-    let contents: BTreeMap<String, Vec<u8>> = names
-        .filter_map(|name| std::fs::read(folder.join(&name)).ok().map(|content| (name, content)))
-        .collect();
+    let contents: BTreeMap<String, Vec<u8>> =
+        names.filter_map(|name| limited(&folder.join(&name)).ok().map(|content| (name, content))).collect();
     let find = |name: &str| contents.get(name).map(Vec::as_slice);
     let packed = gltf_parts::packed(&own, find).map_err(|e| format!("{}: {e}", path.display()))?;
     Ok(packed.bytes)
@@ -56,8 +73,7 @@ pub fn mesh_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
 /// A file with those beside it in which it keeps its data.
 pub fn files_of(path: &Path) -> Vec<PathBuf> {
     let is_gltf = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("gltf"));
-    let parts =
-        is_gltf.then(|| std::fs::read(path).map(|own| gltf_parts::parts_of(&own)).unwrap_or_default());
+    let parts = is_gltf.then(|| limited(path).map(|own| gltf_parts::parts_of(&own)).unwrap_or_default());
     let names = parts.into_iter().flat_map(|parts| parts.buffers.into_iter().chain(parts.images));
     let folder = path.parent().unwrap_or(Path::new(""));
     std::iter::once(path.to_owned()).chain(names.map(|name| folder.join(name))).collect()
