@@ -4,6 +4,7 @@ import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
 import { SETTLED } from './canvas.ts';
 import { fail, openDemo, openStep, ROOT, runMap } from './page.ts';
+import { trapping } from './trapping.ts';
 
 const RULES = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
 
@@ -178,4 +179,20 @@ test('it fits a phone and a wide window, light and dark, without findings', asyn
     }
   }
   expect(errors).toEqual([]);
+});
+
+test('a map that cannot be made is a sentence in the section, and the map on the page stays', async ({ page }) => {
+  await page.route(/\/core_bg-[^/]*\.wasm$/u, async (route) => {
+    const response = await route.fetch();
+    await route.fulfill({ response, body: trapping(await response.body(), 'runOtherMap') });
+  });
+  await openDemo(page);
+  await runMap(page);
+  await openStep(page, 'method');
+  await page.getByRole('radio', { name: 'Patchwise', exact: true }).check();
+  await expect(page.locator('#compare')).toContainText('There is no such map of these meshes. The computation stopped unexpectedly', { timeout: 60_000 });
+  await expect(page.locator('#error')).toBeHidden();
+  await expect(page.locator('#view-target .caption')).toContainText('Target');
+  await openStep(page, 'map');
+  await expect(page.locator('#result')).toContainText('Certified bijective');
 });
