@@ -91,7 +91,7 @@ async function compareWith(choice: string): Promise<ReadonlyMap<string, readonly
 
 const CHOICES = [
   ['Before relaxation', 'before relaxation'],
-  ['Equal cones', 'with equal cones'],
+  ['Equal cones', 'equal cones'],
   ['Patchwise', 'patch by patch'],
 ] as const;
 
