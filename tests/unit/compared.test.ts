@@ -1,5 +1,5 @@
 /** The map on the page beside another one: how a comparison begins, goes on and ends, and what is told of both maps. */
-import { describe, expect, test } from 'vitest';
+import { beforeAll, describe, expect, test } from 'vitest';
 import { Comparer } from '../../www/app/compare.ts';
 import type { OtherOutput } from '../../www/compute/watch-messages.ts';
 import { figuresOf } from '../../www/method/compared-figures.ts';
@@ -8,7 +8,10 @@ import { change } from '../../www/store/change.ts';
 import { otherMap, shownStyle } from '../../www/store/compared.ts';
 import type { ComparedMap, State, Style } from '../../www/store/state.ts';
 import { Store } from '../../www/store/store.ts';
+import type { MapOutput } from '../../www/wasm/core.js';
+import { buildDemo, runOtherMap } from '../../www/wasm/core.js';
 import { DONE, READY, REPORT, RUNNING } from './fixtures.ts';
+import { startCoreModule } from './modules.ts';
 
 const METHOD: State = { ...DONE, ui: { ...DONE.ui, step: 'method' } };
 const COMPUTING = change(METHOD, [{ kind: 'comparison-begun', which: 'start' }]);
@@ -105,5 +108,42 @@ describe('the figures', () => {
       warnings: [{ kind: 'no_cone_metric' }],
     } as unknown as Report;
     expect(values(failed).slice(2)).toEqual(['–', '99.84 %', '6, –', 'no']);
+  });
+});
+
+describe('another map', () => {
+  const nothing = (): void => undefined;
+  const LISTENER = { relaxes: nothing, progress: nothing, preview: nothing, found: nothing, wantsResult: (): boolean => false };
+
+  function made(which: string): MapOutput {
+    const demo = buildDemo('sphere-tetrahedron');
+    if (demo === undefined) {
+      throw new Error('no demo');
+    }
+    return runOtherMap(demo.source(), demo.target(), new TextDecoder().decode(demo.landmarks()), '{}', which, LISTENER);
+  }
+
+  beforeAll(() => {
+    startCoreModule();
+  });
+
+  test('is certified where it is the one that relaxation begins with, and has no files', () => {
+    const output = made('start');
+    const { certificate, own_landmarks: own } = JSON.parse(output.report()) as Report;
+    expect([certificate?.bijective, certificate?.flipped_triangles, own]).toEqual([true, 0, 0]);
+    expect(output.positions(0).length).toBe(output.positions(1).length);
+    expect(() => output.mapFile()).toThrow(/export/);
+  }, 120_000);
+
+  test('is of the thesis where cones are named', () => {
+    for (const which of ['equal-cones', 'patchwise']) {
+      const { certificate, warnings } = JSON.parse(made(which).report()) as Report;
+      expect(certificate).toBeNull();
+      expect(warnings.map(({ kind }) => kind)).toContain('no_bijection');
+    }
+  }, 120_000);
+
+  test('is none where nobody knows its name', () => {
+    expect(() => made('tutte')).toThrow(/options/);
   });
 });
