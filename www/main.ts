@@ -18,7 +18,8 @@ import { Runner } from './app/run.ts';
 import { leaveTask } from './app/task.ts';
 import { sharedLink } from './app/sharing.ts';
 import { suggest } from './app/suggest.ts';
-import { startLayingOut, startSimplifying, startWatching } from './app/watch.ts';
+import { Comparer } from './app/compare.ts';
+import { startFlowing, startLayingOut, startSimplifying } from './app/watch.ts';
 import { compilePage, coreSource } from './compute/core.ts';
 import { SENTENCES } from './messages.ts';
 import { download } from './dom.ts';
@@ -43,6 +44,7 @@ const runner = new Runner(store);
 const links = new Links(store, reader);
 const maps = new Maps(store, () => runner.core);
 const finder = new Finder(store, () => runner.core);
+const comparer = new Comparer(store, () => runner.core);
 /** Reloads the page into its newer build, when there is one. */
 let reload = (): void => undefined;
 const keeper = new Keeper(store, browserWith(reader));
@@ -143,7 +145,7 @@ const actions: Actions = {
     },
   },
   flow: {
-    start: (listener) => startWatching(store, runner.core, 'flows', listener),
+    start: (listener) => startFlowing(store, runner.core, listener),
     show: (frame) => {
       views.showFlow(frame);
     },
@@ -156,6 +158,9 @@ const actions: Actions = {
   },
   plane: {
     start: (listener) => startLayingOut(store, runner.core, listener),
+  },
+  compare: (other) => {
+    comparer.choose(other);
   },
   proposedUp: (side) => views.proposedUp(side),
   lookAtPair: (id) => {

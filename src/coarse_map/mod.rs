@@ -11,6 +11,7 @@ pub mod own_cones;
 mod preview;
 mod rims;
 mod skin;
+pub mod unrelaxed;
 
 pub use error::CoarseMapError;
 pub use landmarked_mesh::{LEAST_PER_LANDMARK, LandmarkedMesh};

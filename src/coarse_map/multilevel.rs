@@ -71,13 +71,7 @@ pub fn solve_coarse<'a>(
     monitor: &mut dyn Monitor,
 ) -> Result<CoarseMap<'a>, MapError> {
     let surface = Arc::new(ConeSurface::of_layout(layout)?);
-    let mut level = |mesh: &'a MeshWithCoarse<'a>, patched: &PatchedMesh| {
-        let (start, _) = initial::embed(patched, &surface, &options.initial, monitor)?;
-        let (relaxed, _) = initial::relax(patched.parametrised(&start), &surface, &options.relax, monitor)?;
-        let parametrisation = PatchedParametrisation { surface: &surface, embedding: &relaxed };
-        without_layout_points(mesh, patched, parametrisation, &options.relax, monitor)
-    };
-    let levels = [level(&meshes[0], &layout.source)?, level(&meshes[1], &layout.target)?];
+    let levels = parametrised_levels(meshes, layout, &surface, options, monitor)?;
     let mut map = CoarseMap {
         surface,
         levels,
@@ -92,6 +86,26 @@ pub fn solve_coarse<'a>(
     };
     map.relax(&options.judge, monitor)?;
     Ok(map)
+}
+
+/// Both coarse levels, each relaxed over the cone surface of a layout by itself, without the points that the layout added.
+///
+/// # Errors
+/// [`MapError::NoStart`], [`MapError::LayoutPoints`].
+pub(super) fn parametrised_levels<'a>(
+    meshes: &'a [MeshWithCoarse<'a>; 2],
+    layout: &BaseLayout,
+    surface: &Arc<ConeSurface>,
+    options: &MultilevelOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<[ParametrisedLevel<'a>; 2], MapError> {
+    let mut level = |mesh: &'a MeshWithCoarse<'a>, patched: &PatchedMesh| {
+        let (start, _) = initial::embed(patched, surface, &options.initial, monitor)?;
+        let (relaxed, _) = initial::relax(patched.parametrised(&start), surface, &options.relax, monitor)?;
+        let parametrisation = PatchedParametrisation { surface, embedding: &relaxed };
+        without_layout_points(mesh, patched, parametrisation, &options.relax, monitor)
+    };
+    Ok([level(&meshes[0], &layout.source)?, level(&meshes[1], &layout.target)?])
 }
 
 impl CoarseMap<'_> {

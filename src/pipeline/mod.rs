@@ -6,6 +6,7 @@ mod findings;
 mod flows;
 mod input;
 mod options;
+mod other_map;
 mod outcome;
 mod parametrise;
 mod previews;
@@ -22,7 +23,10 @@ pub use error::PipelineError;
 pub use findings::{FindingKind, FindingReport, RepairKind, findings};
 pub use flows::{flat_surfaces, recorded_flows};
 pub use input::{CapFaces, GroundTruth, MapInput};
-pub use options::{Base, Borders, Choices, ClassChoice, Cones, Method, OwnConeOptions, PipelineOptions};
+pub use options::{
+    Base, Borders, Choices, ClassChoice, Cones, Method, OwnConeOptions, PipelineOptions, Relaxation,
+};
+pub use other_map::OtherMap;
 pub use report::{
     BaseDomainReport, CertificateReport, ConeMetricReport, ConeMetricsReport, CoverageReport,
     DistortionReport, FacesReport, GroundTruthReport, LayoutSearchReport, PlaceReport, Report,

@@ -61,6 +61,16 @@ pub enum Borders {
     Missing,
 }
 
+/// How far the energy of the map is lowered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Relaxation {
+    /// As far as it goes.
+    #[default]
+    Full,
+    /// Not at all: each mesh is relaxed over the cone surface by itself. The map is certified all the same.
+    None,
+}
+
 /// What a user chooses of a run, on the command line and in the page alike. A name or a value that is not known is an error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(clap::Args))]
@@ -120,4 +130,6 @@ pub struct PipelineOptions {
     pub own_cones: OwnConeOptions,
     /// What the rims of holes are that both meshes have.
     pub borders: Borders,
+    /// How far the energy of the map is lowered.
+    pub relaxation: Relaxation,
 }

@@ -1,11 +1,12 @@
 //! The certified parametrisations of both meshes: class search, own cones, refinement, certificate.
 
 use super::borders::{BordersReport, CountedCaps, counted_caps};
-use super::{Base, MapInput, PipelineError, PipelineOptions};
+use super::{Base, MapInput, PipelineError, PipelineOptions, Relaxation};
 use crate::base_domain;
 use crate::coarse_map::class_search::{Chosen, ClassSearchOptions, choose_class};
 use crate::coarse_map::multilevel::{CoarseMap, solve_coarse, solve_fine};
 use crate::coarse_map::own_cones::{self, Owners, Refined, Rounds, Start};
+use crate::coarse_map::unrelaxed::{Unrelaxed, solve_unrelaxed};
 use crate::coarse_map::{
     LEAST_PER_LANDMARK, LandmarkedMesh, MeshWithCoarse, coarse_landmarks, coarse_levels,
 };
@@ -173,6 +174,12 @@ fn solve(
         let scaled = [full[0].clone(), full[1].scaled(factor)];
         let solved = solve(input, &scaled, Attempt { scale: Scale::BySkin, ..attempt }, options, monitor)?;
         return Ok(Solved { meshes: Some(solved.meshes.unwrap_or(scaled)), ..solved });
+    }
+    if options.relaxation == Relaxation::None {
+        monitor.enter(Stage::Relaxation);
+        let Unrelaxed { surface, embeddings } =
+            solve_unrelaxed(&sides, &layout, &options.multilevel, monitor)?;
+        return Ok(Solved { layout, search, surface, embeddings, meshes: None });
     }
     if has_own_cones(input.landmarks.len(), options) {
         monitor.enter(Stage::OwnCones);

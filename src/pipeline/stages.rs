@@ -14,7 +14,8 @@ impl PipelineOptions {
         let planned = |list: &[(Stage, f64)]| {
             list.iter().map(|&(stage, time)| PlannedStage { stage, time }).collect::<Vec<_>>()
         };
-        match (self.method, has_own_cones(landmarks, self)) {
+        let adds_cones = has_own_cones(landmarks, self) && self.relaxation == super::Relaxation::Full;
+        match (self.method, adds_cones) {
             (Method::Relaxed, false) => planned(&[
                 (Landmarks, 1.0),
                 (Findings, 5.0),

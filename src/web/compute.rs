@@ -188,11 +188,27 @@ pub(super) struct Shown {
     pub report: String,
 }
 
+impl Shown {
+    /// Of a run; the map loses its patch lines to it.
+    pub(super) fn of_run(job: &Job, result: &mut MapResult, true_map: Option<fn(DVec3) -> DVec3>) -> Self {
+        let common = result.common.clone();
+        Self {
+            distortion: result.common_vertex_distortion(),
+            truth: true_map.map_or_else(Vec::new, |image| common.distances_to(image)),
+            common,
+            patch_lines: std::mem::take(&mut result.patch_lines),
+            cones: result.cone_curvatures.clone(),
+            base: Some(job.base_picture(result)),
+            report: serde_json::to_string_pretty(&result.report).unwrap_or_default(),
+        }
+    }
+}
+
 /// A finished map.
 #[wasm_bindgen]
 pub struct MapOutput {
     shown: Shown,
-    /// What files are made of; `None` for maps that were saved, whose files the saved map gives.
+    /// What files are made of; `None` for maps that were saved, whose files the saved map gives, and for those that are only looked at.
     run: Option<FinishedRun>,
 }
 
@@ -203,22 +219,9 @@ struct FinishedRun {
 }
 
 impl MapOutput {
-    /// A map that was saved, for the views.
-    pub(super) fn of_saved(shown: Shown) -> Self {
+    /// A map that was saved, or that is compared with another one: for the views.
+    pub(super) fn for_views(shown: Shown) -> Self {
         Self { shown, run: None }
-    }
-
-    fn of_run(job: Job, mut result: MapResult, choices: Choices) -> Self {
-        let shown = Shown {
-            distortion: result.common_vertex_distortion(),
-            truth: Vec::new(),
-            common: result.common.clone(),
-            patch_lines: std::mem::take(&mut result.patch_lines),
-            cones: result.cone_curvatures.clone(),
-            base: Some(job.base_picture(&result)),
-            report: serde_json::to_string_pretty(&result.report).unwrap_or_default(),
-        };
-        Self { shown, run: Some(FinishedRun { job, result, choices }) }
     }
 
     /// What the views show of it.
@@ -266,9 +269,8 @@ pub fn run_map(
     seconds.insert("total".into(), (js_sys::Date::now() - begun) / 1000.0);
     result.report.set_seconds(seconds);
     result.report.findings = findings;
-    let mut output = MapOutput::of_run(job, result, choices);
-    output.shown.truth = true_map.map_or_else(Vec::new, |image| output.shown.common.distances_to(image));
-    Ok(output)
+    let shown = Shown::of_run(&job, &mut result, true_map);
+    Ok(MapOutput { shown, run: Some(FinishedRun { job, result, choices }) })
 }
 
 /// Coordinates of points in single precision, one after the other.

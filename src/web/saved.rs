@@ -79,7 +79,7 @@ impl SavedMap {
             .as_object_mut()
             .ok_or_else(|| failure("map-file", "the map file, section \"report\": it is no report"))?;
         fields.insert("distortion".to_owned(), json!(map.distortion()));
-        Ok(MapOutput::of_saved(Shown {
+        Ok(MapOutput::for_views(Shown {
             distortion: map.common_distortion(&common),
             truth: Vec::new(),
             common,

@@ -6,7 +6,7 @@ import { change } from '../../www/store/change.ts';
 import type { Event } from '../../www/store/events.ts';
 import type { Examined } from '../../www/store/defects.ts';
 import type { Refused, RefusedMesh } from '../../www/store/refused.ts';
-import type { Offer, Proposal, State, Style, Ui } from '../../www/store/state.ts';
+import type { Comparison, Offer, Proposal, State, Style, Ui } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
 import { workOf } from '../../www/store/work.ts';
 import { AWAITED, DEMO, DONE, DOUBT, FOUR, MATCH, mesh, OPENED, OUTPUT, pair, READY, REFUSAL, REPORT, RESULT, RUNNING, suggestion, SWAPPED } from './fixtures.ts';
@@ -50,6 +50,8 @@ const DOUBTS = [DOUBT];
 const DOUBTED: State = { ...READY, found: { doubts: DOUBTS, inputs: workOf(READY) }, findings: DOUBTS };
 const during = (job: Partial<typeof RUNNING>): State => ({ ...READY, job: { ...RUNNING, ...job } });
 const ui = (state: State, patch: Partial<Ui>): Ui => ({ ...state.ui, ...patch });
+const METHOD: State = { ...DONE, ui: ui(DONE, { step: 'method' }) };
+const comparedBy = (which: Comparison['which'], progress: Comparison['progress']): Comparison => ({ of: RESULT, which, progress });
 const toast = (sentence: string): Pick<State, 'toast'> => ({ toast: { sentence, undo: true } });
 const gone = (work: State): State['history'] => ({ past: [{ name: 'Place pair 9', work: workOf(work) }], future: [], gesture: 1 });
 
@@ -403,6 +405,24 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     event: {},
     step: null,
     changes: { matching: null },
+  },
+  'comparison-begun': {
+    before: METHOD,
+    event: { which: 'patchwise' },
+    step: null,
+    changes: { comparison: comparedBy('patchwise', { kind: 'computing', share: 0 }) },
+  },
+  comparison: {
+    before: { ...METHOD, comparison: comparedBy('start', { kind: 'computing', share: 0.5 }) },
+    event: { which: 'start', progress: { kind: 'failed', sentence: 'The flow did not converge.' } },
+    step: null,
+    changes: { comparison: comparedBy('start', { kind: 'failed', sentence: 'The flow did not converge.' }) },
+  },
+  'comparison-closed': {
+    before: { ...METHOD, comparison: comparedBy('start', { kind: 'computing', share: 0.5 }) },
+    event: {},
+    step: null,
+    changes: { comparison: null },
   },
   'run-started': {
     before: { ...DOUBTED, error: 'Something failed.' },

@@ -40,12 +40,20 @@ export function listenForProposal(store: Store): void {
   });
 }
 
-/** Escape leaves the task that the page is busy with, but where it means something else: to a text, a dialog or a view. */
+/**
+ * Escape leaves the task that the page is busy with, or else the map that the one on the page is compared with, but where it means
+ * something else: to a text, a dialog or a view.
+ */
 export function listenForLeaving(store: Store): void {
   window.addEventListener('keydown', (event) => {
     const isTaken = event.defaultPrevented || isTyped(event.target) || (event.target instanceof Element && event.target.closest('dialog') !== null);
-    if (event.key === 'Escape' && !isTaken) {
+    if (event.key !== 'Escape' || isTaken) {
+      return;
+    }
+    if (store.state.job.kind === 'busy') {
       leaveTask(store);
+    } else {
+      store.dispatch({ kind: 'comparison-closed' });
     }
   });
 }

@@ -1,8 +1,9 @@
 /** Parts of the method of the map on the page, done again for whoever looks at them. */
 import type { Core } from '../compute/core.ts';
 import type { Failure } from '../compute/messages.ts';
+import type { OtherMap } from '../report.ts';
 import { startWatched } from '../compute/watch-client.ts';
-import type { Simplifications, SimplifiedFrom, Watchable, Watched } from '../compute/watch-messages.ts';
+import type { Flows, OtherOutput, Simplifications, SimplifiedFrom, Watchable, Watched, WatchRequest } from '../compute/watch-messages.ts';
 import { lateModule } from '../late-module.ts';
 import { failureSentence } from '../messages.ts';
 import type { Listener } from '../method/hands.ts';
@@ -45,22 +46,13 @@ function failing(failed: (sentence: string) => void): (failure: Failure) => void
   };
 }
 
-/** Computes what is wanted of the map on the page in a worker; returns what ends that. */
-export function startWatching<W extends Watchable>(
-  store: Store,
-  core: Core | null,
-  wanted: W,
-  listener: Listener<Watched[W]>,
-  from: SimplifiedFrom = 'each',
-): () => void {
-  const work = shownWork(store, core);
-  if (work === null) {
-    return nothing;
-  }
-  const { output } = work.result;
-  const known = KNOWN.get(output) ?? new Map<string, Watched[Watchable]>();
-  KNOWN.set(output, known);
-  const key = `${wanted} ${from}`;
+/** What is wanted of a map, beside what it was made from. */
+type Wish<W extends Watchable> = { readonly wanted: W } & Pick<WatchRequest, 'carried' | 'other'>;
+
+/** Computes what is wanted in a worker, or tells it where it is known; `key` tells apart what is wanted. */
+function startWish<W extends Watchable>({ result, begun }: Work, wish: Wish<W>, key: string, listener: Listener<Watched[W]>): () => void {
+  const known = KNOWN.get(result.output) ?? new Map<string, Watched[Watchable]>();
+  KNOWN.set(result.output, known);
   // What is kept under a wish is its answer.
   const answer = known.get(key) as Watched[W] | undefined;
   if (answer !== undefined) {
@@ -69,9 +61,8 @@ export function startWatching<W extends Watchable>(
     });
     return nothing;
   }
-  const carried = from === 'each' || output.map === null ? null : { from, map: output.map };
   return startWatched(
-    { wanted, ...work.begun, carried },
+    { ...begun, ...wish },
     {
       progress: listener.progress,
       done: (found) => {
@@ -83,14 +74,32 @@ export function startWatching<W extends Watchable>(
   );
 }
 
+/** Computes the flows of the map on the page in a worker; returns what ends that. */
+export function startFlowing(store: Store, core: Core | null, listener: Listener<Flows>): () => void {
+  const work = shownWork(store, core);
+  return work === null ? nothing : startWish(work, { wanted: 'flows', carried: null, other: null }, 'flows', listener);
+}
+
 /** Likewise the simplification. */
-export function startSimplifying(
-  store: Store,
-  core: Core | null,
-  listener: Listener<Simplifications>,
-  from: SimplifiedFrom,
-): () => void {
-  return startWatching(store, core, 'simplifications', listener, from);
+export function startSimplifying(store: Store, core: Core | null, listener: Listener<Simplifications>, from: SimplifiedFrom): () => void {
+  const work = shownWork(store, core);
+  if (work === null) {
+    return nothing;
+  }
+  const { map } = work.result.output;
+  const carried = from === 'each' || map === null ? null : { from, map };
+  return startWish(work, { wanted: 'simplifications', carried, other: null }, `simplifications ${from}`, listener);
+}
+
+/** Likewise another map of what it was made from. */
+export function startOtherMap(store: Store, core: Core | null, listener: Listener<OtherOutput>, which: OtherMap): () => void {
+  const work = shownWork(store, core);
+  if (work === null) {
+    return nothing;
+  }
+  const { options, demo } = work.result.inputs;
+  const other = { which, options, demo: demo?.id ?? null };
+  return startWish(work, { wanted: 'other-map', carried: null, other }, `other-map ${which}`, listener);
 }
 
 /** Computes both flat metrics of the map on the page in a worker that lays them out as long as nobody ends it. */

@@ -1,4 +1,4 @@
-/** Does parts of the method again in a worker, to be watched. */
+/** Does parts of the method again in a worker, to be looked at. */
 import type { With } from './core.ts';
 import type { Failure } from './messages.ts';
 import { askOnce } from './one-request.ts';

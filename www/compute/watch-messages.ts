@@ -1,8 +1,12 @@
-/** What the page and the worker that does parts of the method again, to be watched, say to each other. */
-import type { Failure } from './messages.ts';
+/** What the page and the worker that does parts of the method again, to be looked at, say to each other. */
+import type { OtherMap, RunOptions } from '../report.ts';
+import type { Failure, RunOutput } from './messages.ts';
 
-/** What can be watched: the flows of both meshes to their flat metrics, and how both are simplified to their landmarks. */
-export type Watchable = 'flows' | 'simplifications';
+/**
+ * What can be looked at: the flows of both meshes to their flat metrics, how both are simplified to their landmarks, and other maps of
+ * the same meshes and landmarks.
+ */
+export type Watchable = 'flows' | 'simplifications' | 'other-map';
 
 /** What is simplified: each mesh by itself; or one of both, drawn on both by the map, or the source where both decide. */
 export type SimplifiedFrom = 'each' | 'source' | 'target' | 'both';
@@ -19,6 +23,16 @@ export interface WatchRequest {
   readonly cones: Float64Array;
   /** What simplifications begin with, and the map file that draws them on both meshes; `null` for each mesh by itself. */
   readonly carried: { readonly from: Exclude<SimplifiedFrom, 'each'>; readonly map: Uint8Array } | null;
+  /** Which other map is wanted, and what the map was made with; `null` where none is. */
+  readonly other: OtherRequest | null;
+}
+
+/** Another map of the same meshes and landmarks. */
+export interface OtherRequest {
+  readonly which: OtherMap;
+  readonly options: RunOptions;
+  /** The demo whose meshes these are, by its id; `null` for other meshes. */
+  readonly demo: string | null;
 }
 
 /** A flow after a Newton step; the counts are of all steps so far. */
@@ -56,10 +70,14 @@ export interface Simplification {
 /** The source and the target on their way. */
 export type Simplifications = readonly [Simplification, Simplification];
 
+/** What the views show of another map, and its report as JSON. */
+export type OtherOutput = Pick<RunOutput, 'sides' | 'uvs' | 'distortion' | 'truth' | 'triangles' | 'report'>;
+
 /** What each wish is answered with. */
 export interface Watched {
   readonly flows: Flows;
   readonly simplifications: Simplifications;
+  readonly 'other-map': OtherOutput;
 }
 
 /** From the worker. */
@@ -67,5 +85,5 @@ export type WatchMessage =
   /** The share that is done, 0 to 1. */
   | { readonly kind: 'progress'; readonly share: number }
   /** The answer is that of the wish. */
-  | { readonly kind: 'done'; readonly answer: Flows | Simplifications }
+  | { readonly kind: 'done'; readonly answer: Watched[Watchable] }
   | { readonly kind: 'failed'; readonly failure: Failure };

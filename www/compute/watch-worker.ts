@@ -1,8 +1,9 @@
-/** Parts of the method that are done again to be watched: answers one request, then is thrown away. */
-import init, { recordCarriedSimplification, recordFlows, recordSimplifications } from '../wasm/core.js';
+/** Parts of the method that are done again to be looked at: answers one request, then is thrown away. */
+import init, { recordCarriedSimplification, recordFlows, recordSimplifications, runOtherMap } from '../wasm/core.js';
 import type { RecordedFlows, Simplifications as RecordedSimplifications } from '../wasm/core.js';
 import { failureOf } from './messages.ts';
-import type { Flows, SideFlow, Simplification, Simplifications, WatchMessage, WatchRequest } from './watch-messages.ts';
+import { viewBuffers } from './view-buffers.ts';
+import type { Flows, OtherOutput, SideFlow, Simplification, Simplifications, Watchable, Watched, WatchMessage, WatchRequest } from './watch-messages.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
 
@@ -29,28 +30,55 @@ function simplificationOf(stages: RecordedSimplifications, side: number): Simpli
   return { positions: stages.positions(side), triangles: stages.triangles(side), counts: stages.counts(side) };
 }
 
-function answerTo({ wanted, source, target, landmarks, cones, carried }: WatchRequest): Flows | Simplifications {
-  switch (wanted) {
-    case 'flows': {
-      const flows = recordFlows(source, target, landmarks, cones, LISTENER);
-      return [flowOf(flows, 0), flowOf(flows, 1)];
-    }
-    case 'simplifications': {
-      const stages =
-        carried === null
-          ? recordSimplifications(source, target, landmarks, LISTENER)
-          : recordCarriedSimplification(carried.map, source, target, landmarks, carried.from, LISTENER);
-      return [simplificationOf(stages, 0), simplificationOf(stages, 1)];
-    }
+function flowsOf({ source, target, landmarks, cones }: WatchRequest): Flows {
+  const flows = recordFlows(source, target, landmarks, cones, LISTENER);
+  return [flowOf(flows, 0), flowOf(flows, 1)];
+}
+
+function simplificationsOf({ source, target, landmarks, carried }: WatchRequest): Simplifications {
+  const stages =
+    carried === null
+      ? recordSimplifications(source, target, landmarks, LISTENER)
+      : recordCarriedSimplification(carried.map, source, target, landmarks, carried.from, LISTENER);
+  return [simplificationOf(stages, 0), simplificationOf(stages, 1)];
+}
+
+function otherMapOf({ source, target, landmarks, other }: WatchRequest): OtherOutput {
+  if (other === null) {
+    throw new Error('no other map is named');
   }
+  const { which, options, demo } = other;
+  const map = runOtherMap(source, target, landmarks, JSON.stringify(options), which, LISTENER, demo);
+  const { sides, uvs, distortion, truth, triangles, report } = viewBuffers(map);
+  map.free();
+  return { sides, uvs, distortion, truth, triangles, report };
+}
+
+function answerTo(request: WatchRequest): Watched[Watchable] {
+  switch (request.wanted) {
+    case 'flows':
+      return flowsOf(request);
+    case 'simplifications':
+      return simplificationsOf(request);
+    case 'other-map':
+      return otherMapOf(request);
+  }
+}
+
+/** The arrays in an answer, to be handed over. */
+function arraysIn(value: unknown): readonly ArrayBufferView[] {
+  if (ArrayBuffer.isView(value)) {
+    return [value];
+  }
+  return typeof value === 'object' && value !== null ? Object.values(value).flatMap(arraysIn) : [];
 }
 
 async function run(request: WatchRequest): Promise<void> {
   try {
     await init({ module_or_path: request.module });
     const answer = answerTo(request);
-    const arrays = answer.flatMap((side) => Object.values(side) as readonly unknown[]).filter((value) => ArrayBuffer.isView(value));
-    post({ kind: 'done', answer }, arrays.map(({ buffer }) => buffer).filter((buffer) => buffer instanceof ArrayBuffer));
+    const buffers = new Set(arraysIn(answer).map(({ buffer }) => buffer));
+    post({ kind: 'done', answer }, [...buffers].filter((buffer) => buffer instanceof ArrayBuffer));
   } catch (thrown) {
     post({ kind: 'failed', failure: failureOf(thrown) });
   }

@@ -1,5 +1,5 @@
 /** What the page lends to the picture of the base domain. */
-import type { Simplifications, SimplifiedFrom, Watchable, Watched } from '../compute/watch-messages.ts';
+import type { Simplifications, SimplifiedFrom, Watched } from '../compute/watch-messages.ts';
 import type { Side } from '../landmarks.ts';
 import type { Axes } from './axes.ts';
 import type { BasePart } from './parts.ts';
@@ -56,7 +56,7 @@ export interface Listener<T> {
 }
 
 /** What the page lends to a part of the method that is watched. */
-export interface WatchHands<W extends Watchable> {
+export interface WatchHands<W extends keyof Frames> {
   /** Computes it for the map on the page; returns what ends that. */
   readonly start: (listener: Listener<Watched[W]>) => () => void;
   /** Shows a frame on the meshes; `null` for the meshes as before. */

@@ -3,6 +3,7 @@ import type { Side, SurfacePoint } from '../landmarks.ts';
 import type { BaseHands, Listener, SimplificationHands, WatchHands } from '../method/hands.ts';
 import type { Planes } from '../method/plane-client.ts';
 import type { prospectSentence } from '../messages.ts';
+import type { OtherMap } from '../report.ts';
 import type { Event } from '../store/events.ts';
 import type { Examined } from '../store/defects.ts';
 import type { RefusedMesh } from '../store/refused.ts';
@@ -77,6 +78,8 @@ export interface Actions {
   readonly simplification: SimplificationHands;
   /** Likewise the layouts in the plane. */
   readonly plane: { readonly start: (listener: Listener<Planes>) => () => void };
+  /** Compares the map on the page with another one; `null` for none. */
+  readonly compare: (other: OtherMap | null) => void;
   /** The axis of a mesh that seems to point up by its shape; `null` where the shape does not tell. */
   readonly proposedUp: (side: Side) => Axis | null;
   /** Turns both views to a pair's points. */

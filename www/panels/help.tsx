@@ -23,7 +23,7 @@ const KEYS: readonly Keys[] = [
       [['1', '–', '5'], 'open a step'],
       [['Ctrl', 'Z'], 'undo'],
       [['Ctrl', 'Shift', 'Z'], 'redo'],
-      [['Esc'], 'leave what the page is busy with'],
+      [['Esc'], 'leave what the page is busy with, or a comparison'],
       [['?'], 'this help'],
     ],
   },

@@ -4,6 +4,7 @@ import { integer } from '../numbers.ts';
 import type { Report } from '../report.ts';
 import type { PartProps } from './actions.ts';
 import { BaseView } from './base-view.tsx';
+import { CompareView } from './compare-view.tsx';
 import { Icon } from './icons.tsx';
 import { LineChoice } from './picture-bar.tsx';
 import { PlotsButton } from './plots-dialog.tsx';
@@ -51,6 +52,7 @@ export function MethodPanel(props: PartProps): VNode {
   const { result } = state;
   return (
     <div class="content">
+      <CompareView {...props} />
       <BaseView {...props} />
       <WatchView {...props} />
       <section>

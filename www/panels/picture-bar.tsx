@@ -1,5 +1,6 @@
 /** What the surfaces show: chosen on the canvas, with a legend where colours mean something. */
 import type { VNode } from 'preact';
+import { shownStyle } from '../store/compared.ts';
 import { shownResult } from '../store/staleness.ts';
 import type { Result, State, Style } from '../store/state.ts';
 import { distortionScale } from '../wasm/page.js';
@@ -137,10 +138,10 @@ function scaleImage(): string {
 /** What the colours mean. */
 export function Legend({ state }: Pick<PartProps, 'state'>): VNode | null {
   const hasResult = shownResult(state) !== null;
-  const { surface } = state.ui.style;
+  const { surface, textureBoundary } = shownStyle(state);
   const scale = (surface === 'distortion' || surface === 'truth') && isThere(state, surface) ? SCALES[surface] : null;
   const cones = hasResult && state.ui.style.cones;
-  const boundary = state.ui.style.textureBoundary && hasSeams(shownResult(state));
+  const boundary = textureBoundary && hasSeams(shownResult(state));
   if (scale === null && !cones && !boundary) {
     return null;
   }

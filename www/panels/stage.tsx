@@ -6,6 +6,7 @@ import { SIDES } from '../landmarks.ts';
 import { shownPreview } from '../store/job.ts';
 import type { MeshFile, State } from '../store/state.ts';
 import type { PartProps } from './actions.ts';
+import { CompareBar, comparedCaptions } from './compare-view.tsx';
 import { Divider } from './divider.tsx';
 import { DropVeil } from './drop.tsx';
 import { ErrorBanner } from './error.tsx';
@@ -27,7 +28,9 @@ function changed(file: MeshFile): string {
 }
 
 function Caption({ state, side }: { readonly state: State; readonly side: Side }): VNode {
-  const file = state.meshes[side];
+  const compared = comparedCaptions(state);
+  const shown: Side = compared === null ? side : 0;
+  const file = state.meshes[shown];
   const refused = state.refused?.meshes.find((mesh) => mesh.side === side);
   if (refused !== undefined) {
     return (
@@ -41,10 +44,14 @@ function Caption({ state, side }: { readonly state: State; readonly side: Side }
     <p class="caption clipped">
       {file !== null && (
         <>
-          {side === 0 ? 'Source' : 'Target'} <strong>{file.name}</strong>{' '}
-          <span class="facts">
-            {integer(file.faceCount)} triangles{changed(file)}
-          </span>
+          {shown === 0 ? 'Source' : 'Target'} <strong>{file.name}</strong>{' '}
+          {compared === null ? (
+            <span class="facts">
+              {integer(file.faceCount)} triangles{changed(file)}
+            </span>
+          ) : (
+            <span class="coarse-map">{compared[side]}</span>
+          )}
           {side === 0 && shownPreview(state) !== null && <span class="coarse-map">coarse map</span>}
         </>
       )}
@@ -54,6 +61,7 @@ function Caption({ state, side }: { readonly state: State; readonly side: Side }
 
 function Pane({ side, ...props }: { readonly side: Side } & PartProps): VNode {
   const share = side === 0 ? props.shell.state.split : 1 - props.shell.state.split;
+  const isCompared = comparedCaptions(props.state) !== null;
   return (
     <div class={share === 0 ? 'pane shut' : 'pane'}>
       {/* The renderer lays its numbers and rings into this element, before the caption. */}
@@ -61,9 +69,9 @@ function Pane({ side, ...props }: { readonly side: Side } & PartProps): VNode {
         <Caption state={props.state} side={side} />
       </div>
       <Invitation state={props.state} side={side} />
-      {side === 0 && <WipeLine {...props} />}
-      <ViewBar {...props} side={side} />
-      {side === 0 && <MapBar {...props} />}
+      {side === 0 && !isCompared && <WipeLine {...props} />}
+      {side === 1 && isCompared ? <CompareBar {...props} /> : <ViewBar {...props} side={side} />}
+      {side === 0 && !isCompared && <MapBar {...props} />}
     </div>
   );
 }

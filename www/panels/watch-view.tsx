@@ -1,6 +1,6 @@
 /** Parts of the method that are watched on the meshes, one at a time. */
 import type { VNode } from 'preact';
-import { useState } from 'preact/hooks';
+import { useEffect, useState } from 'preact/hooks';
 import { lateModule } from '../late-module.ts';
 import { shownResult } from '../store/staleness.ts';
 import type { PartProps } from './actions.ts';
@@ -32,14 +32,21 @@ function WatchButton({ part, about, onOpen }: ButtonProps): VNode {
   );
 }
 
-function PartsOf({ actions, isCarried }: Pick<PartProps, 'actions'> & { readonly isCarried: boolean }): VNode {
+function PartsOf({ state, actions, isCarried }: Pick<PartProps, 'state' | 'actions'> & { readonly isCarried: boolean }): VNode {
   const [open, setOpen] = useState<Part | null>(null);
   const close = (): void => {
     setOpen(null);
   };
   const opens = (part: Part) => (): void => {
+    // The views show one thing at a time.
+    actions.compare(null);
     setOpen(part);
   };
+  useEffect(() => {
+    if (state.comparison !== null) {
+      close();
+    }
+  }, [state.comparison]);
   return (
     <>
       <section id="simplification">
@@ -73,5 +80,5 @@ function PartsOf({ actions, isCarried }: Pick<PartProps, 'actions'> & { readonly
 /** What can be watched of the map on the page. */
 export function WatchView({ state, actions }: PartProps): VNode | null {
   const result = shownResult(state);
-  return result === null ? null : <PartsOf key={result.output.report} actions={actions} isCarried={result.output.map !== null} />;
+  return result === null ? null : <PartsOf key={result.output.report} state={state} actions={actions} isCarried={result.output.map !== null} />;
 }

@@ -2,7 +2,7 @@
 import type { Failure, Progress, RunOutput } from '../compute/messages.ts';
 import type { RunOptions } from '../report.ts';
 import type { LandmarkFile, Side, Suggestion, SurfacePoint } from '../landmarks.ts';
-import type { Finding, MatchReport, ProofReport, Report } from '../report.ts';
+import type { Finding, MatchReport, OtherMap, ProofReport, Report } from '../report.ts';
 import type { AwaitedMap } from './awaited.ts';
 import type { Examined } from './defects.ts';
 import type { History } from './history.ts';
@@ -11,7 +11,7 @@ import type { OpenedMap } from './opened.ts';
 import type { Receiving } from './receiving.ts';
 import type { Refused } from './refused.ts';
 import type { SidePoint } from './side-marks.ts';
-import type { Axis, Camera, Demo, MeshFile, Offer, Proposal, Result, Style, Ui, Work } from './state.ts';
+import type { Axis, Camera, Comparison, Demo, MeshFile, Offer, Proposal, Result, Style, Ui, Work } from './state.ts';
 
 export type Event =
   /** The core is there. */
@@ -93,6 +93,12 @@ export type Event =
   | { readonly kind: 'search-progress'; readonly share: number }
   /** It is given up, or what it found is seen no more. */
   | { readonly kind: 'search-closed' }
+
+  /** The map on the page is to be compared with another one. */
+  | { readonly kind: 'comparison-begun'; readonly which: OtherMap }
+  /** The other one goes on, is there, or failed. */
+  | { readonly kind: 'comparison'; readonly which: OtherMap; readonly progress: Comparison['progress'] }
+  | { readonly kind: 'comparison-closed' }
 
   // The run.
 

@@ -2,6 +2,7 @@
 import type { Side } from '../landmarks.ts';
 import type { Event } from './events.ts';
 import { breakdownOf } from './breakdown.ts';
+import { withCompared, withComparison } from './compared.ts';
 import { earlierOf } from './comparison.ts';
 import { pictureLeft, pictureOf } from './demo-picture.ts';
 import { NO_HISTORY, redone, undone } from './history.ts';
@@ -184,6 +185,12 @@ export function update(state: State, event: Event): State {
       return withTaken(state, event.candidate);
     case 'search-closed':
       return patched(state, { matching: null });
+    case 'comparison-begun':
+      return withComparison(state, event.which);
+    case 'comparison':
+      return withCompared(state, event.which, event.progress);
+    case 'comparison-closed':
+      return patched(state, { comparison: null });
     case 'run-started':
       return {
         ...state,

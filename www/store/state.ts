@@ -1,7 +1,8 @@
 /** The state of the page: everything that it shows follows from it. */
 import type { RunOutput } from '../compute/messages.ts';
+import type { OtherOutput } from '../compute/watch-messages.ts';
 import type { Side, Suggestion, SurfacePoint } from '../landmarks.ts';
-import type { Finding, ProofReport, Report } from '../report.ts';
+import type { Finding, OtherMap, ProofReport, Report } from '../report.ts';
 import type { AwaitedMap } from './awaited.ts';
 import type { Breakdown } from './breakdown.ts';
 import type { Examined } from './defects.ts';
@@ -79,6 +80,25 @@ export interface EarlierMap {
   readonly pieces: Pieces;
 }
 
+/** Another map of the same meshes and landmarks. */
+export interface ComparedMap {
+  readonly output: OtherOutput;
+  readonly report: Report;
+}
+
+/** A map beside another one. */
+export interface Comparison {
+  /** The map on the page. */
+  readonly of: Result;
+  /** The other one. */
+  readonly which: OtherMap;
+  readonly progress:
+    | { readonly kind: 'computing'; readonly share: number }
+    | { readonly kind: 'there'; readonly map: ComparedMap }
+    /** There is none, for this reason. */
+    | { readonly kind: 'failed'; readonly sentence: string };
+}
+
 /** The pieces of a map, triangles that it takes to triangles. */
 export interface Pieces {
   /** Three corners each. */
@@ -134,6 +154,8 @@ export interface State extends Work {
   readonly proof: MapProof | null;
   /** The map before it, of this visit. */
   readonly earlier: EarlierMap | null;
+  /** Another map beside the last one, while both are compared. */
+  readonly comparison: Comparison | null;
   /** The doubts of the last run, and what it was about. */
   readonly found: { readonly doubts: readonly Doubt[]; readonly inputs: Work } | null;
   /** Those doubts while they are about what is on the page; else none. */
@@ -181,6 +203,7 @@ export const INITIAL: State = {
   result: null,
   proof: null,
   earlier: null,
+  comparison: null,
   found: null,
   findings: [],
   matching: null,

@@ -23,6 +23,8 @@ export class Cameras {
   readonly #still = window.matchMedia('(prefers-reduced-motion: reduce)');
   /** Whether what is done to one camera is done to the other. */
   linked = true;
+  /** Whether both views show the source, by its camera. */
+  showsSourceTwice = false;
 
   constructor(act: (action: (viewer: Viewer) => void) => void) {
     this.#act = act;
@@ -110,7 +112,8 @@ export class Cameras {
    * Brings what is seen at a place to the middle, and turns about it from now on; in the other view its partner, if `partnerOf`
    * tells one, or what is seen at the same place of the view.
    */
-  centre(side: Side, at: Place, partnerOf: (viewer: Viewer) => string | null): void {
+  centre(view: Side, at: Place, partnerOf: (viewer: Viewer) => string | null): void {
+    const side = this.#inView(view);
     this.#act((viewer) => {
       const partner = this.linked ? partnerOf(viewer) : null;
       this.#glide(viewer, side, 'smoothly');
@@ -138,7 +141,13 @@ export class Cameras {
     });
   }
 
-  #each(side: Side, way: 'smoothly' | 'at once', action: (viewer: Viewer, side: Side) => void): void {
+  /** The side whose camera a view has. */
+  #inView(view: Side): Side {
+    return this.showsSourceTwice ? 0 : view;
+  }
+
+  #each(view: Side, way: 'smoothly' | 'at once', action: (viewer: Viewer, side: Side) => void): void {
+    const side = this.#inView(view);
     for (const each of SIDES) {
       if (each === side || this.linked) {
         this.#one(each, way, (viewer) => {

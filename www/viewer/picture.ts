@@ -4,7 +4,7 @@ import { SIDES } from '../landmarks.ts';
 import type { FlowFrame } from '../method/hands.ts';
 import type { BasePart } from '../method/parts.ts';
 import { litBy } from '../method/parts.ts';
-import type { Result, Style } from '../store/state.ts';
+import type { ComparedMap, Result, Style } from '../store/state.ts';
 import type { Viewer } from '../wasm/page.js';
 import { truthOnScale } from '../wasm/page.js';
 
@@ -35,6 +35,10 @@ export class Picture {
   #patches = false;
   #lit: BasePart | null = null;
   #isMorphed = false;
+  #compared: ComparedMap | null = null;
+  /** What of the other map the renderer has, with the scale that its colours tell. */
+  #comparedScale: 'distortion' | 'truth' | null = null;
+  #comparedLines = false;
   #moment: FlowFrame['places'] | null = null;
   /** Whether somebody looks at the base domain, whose parts light up on the meshes. */
   wantsPatches = false;
@@ -57,7 +61,31 @@ export class Picture {
     this.#patches = false;
     this.#lit = null;
     this.#isMorphed = false;
+    this.#compared = null;
     this.#moment = null;
+  }
+
+  /** The second view shows another map from now on, or its own side. */
+  compare(viewer: Viewer, map: ComparedMap | null): void {
+    this.#compared = map;
+    this.#comparedScale = null;
+    this.#comparedLines = false;
+    viewer.clearCompared();
+  }
+
+  /** Brings of the other map what a style needs. */
+  #bringCompared(viewer: Viewer, { output }: ComparedMap, style: Style): void {
+    const [source, target] = output.sides;
+    if (this.#comparedScale !== this.#scale) {
+      const values = this.#scale === 'truth' ? truthOnScale(output.truth) : output.distortion;
+      viewer.setCompared(source.positions, source.normals, output.uvs, values, output.triangles, target.positions, target.normals);
+      this.#comparedScale = this.#scale;
+      this.#comparedLines = false;
+    }
+    if (style.patchLines && !this.#comparedLines) {
+      viewer.setComparedLines(source.linePoints, source.lineStarts);
+      this.#comparedLines = true;
+    }
   }
 
   /** Brings the map's triangles on one side; whether there is a map. */
@@ -109,6 +137,9 @@ export class Picture {
     this.#tell(style.surface);
     for (const side of OVERLAYS[style.surface]) {
       this.bringOverlay(viewer, side);
+    }
+    if (this.#compared !== null) {
+      this.#bringCompared(viewer, this.#compared, style);
     }
     if (style.patchLines && !this.#lines) {
       for (const side of SIDES) {

@@ -9,6 +9,7 @@ import { axesOf } from '../method/axes.ts';
 import type { FlowFrame, StageFrame } from '../method/hands.ts';
 import type { BasePart } from '../method/parts.ts';
 import type { Examined } from '../store/defects.ts';
+import { otherMap, shownStyle } from '../store/compared.ts';
 import type { Event } from '../store/events.ts';
 import { shownPreview } from '../store/job.ts';
 import { hasItsCones, shownResult } from '../store/staleness.ts';
@@ -293,6 +294,7 @@ export class Views {
     const isOther = previous === null || shownResult(previous) !== result;
     const isOtherMesh = previous?.meshes !== state.meshes;
     const changes = {
+      compared: isOther || otherMap(previous) !== otherMap(state),
       picture: isOther || isOtherMesh || previous.ui.style !== state.ui.style || previous.ui.theme !== state.ui.theme,
       up: isOtherMesh || previous.up !== state.up,
       pins:
@@ -336,7 +338,12 @@ export class Views {
       if (changes.defects) {
         showDefects(viewer, state, previous);
       }
-      if (changes.picture) {
+      if (changes.compared) {
+        const other = otherMap(state);
+        this.#picture.compare(viewer, other);
+        this.#cameras.showsSourceTwice = other !== null;
+      }
+      if (changes.picture || changes.compared) {
         this.#setStyle(viewer);
       }
     });
@@ -415,7 +422,8 @@ export class Views {
   }
 
   #setStyle(viewer: Viewer): void {
-    const { style, theme } = this.#state.ui;
+    const { theme } = this.#state.ui;
+    const style = shownStyle(this.#state);
     const result = shownResult(this.#state);
     if (result !== null) {
       this.#picture.bring(viewer, style);
@@ -428,6 +436,7 @@ export class Views {
         cones: style.cones && hasItsCones(this.#state),
         dark: theme === 'dark' || (theme === 'system' && this.#dark.matches),
         holes: result !== null && result.report.certificate === null,
+        comparedHoles: otherMap(this.#state)?.report.certificate === null,
       }),
     );
   }

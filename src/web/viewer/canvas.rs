@@ -3,6 +3,7 @@
 use super::super::failure;
 use super::super::loaded_mesh::LoadedMesh;
 use super::super::view_side::{Look, Side, SideMesh};
+use super::compared_map::ComparedMap;
 use super::reading::parsed;
 use crate::gpu::{Paint, Renderer};
 use crate::scene::MapPicker;
@@ -28,6 +29,9 @@ pub(super) struct Style {
     /// Whether parts of the surfaces may be unmapped: the plain meshes are drawn behind.
     #[serde(default)]
     pub(super) holes: bool,
+    /// Likewise of the map that is compared with.
+    #[serde(default)]
+    pub(super) compared_holes: bool,
 }
 
 /// What the surfaces' colours tell.
@@ -70,6 +74,8 @@ pub struct Viewer {
     pub(super) sides: [Side; 2],
     pub(super) style: Style,
     pub(super) map: Option<MapPicker>,
+    /// Another map, which the second view shows on the source.
+    pub(super) compared: Option<ComparedMap>,
     /// Share of the way from the source's shape to the target's.
     pub(super) morph: f32,
     /// Lays the target on the source, in scene coordinates.
@@ -97,6 +103,7 @@ impl Viewer {
             sides: Default::default(),
             style: Style::default(),
             map: None,
+            compared: None,
             morph: 0.0,
             source_from_target: Mat4::IDENTITY,
             factor_share: 0.0,
@@ -185,8 +192,8 @@ impl Viewer {
         self.side_mut(side).set_suggestions(points)
     }
 
-    /// What to show: JSON `{"surface", "patchLines", "textureBoundary"?, "cones", "markers", "dark"?, "holes"?, "wipe"?}`; with
-    /// `wipe`, a share of the source's view, the source is plain from the left to there.
+    /// What to show: JSON `{"surface", "patchLines", "textureBoundary"?, "cones", "markers", "dark"?, "holes"?,
+    /// "comparedHoles"?, "wipe"?}`; with `wipe`, a share of the source's view, the source is plain from the left to there.
     ///
     /// # Errors
     /// `{"code": "style", "message"}`.
@@ -223,9 +230,9 @@ impl Viewer {
         number == 0 && self.morph > 0.0 && side.preview.is_none() && !side.is_covered()
     }
 
-    /// Whether a view shows another shape than its mesh has: that, or a mesh that was refused.
-    pub(super) fn shows_another_shape(&self, side: usize) -> bool {
-        self.is_morphed(side) || self.side(side).is_covered()
+    /// Whether a view shows another shape than its mesh has: that, a mesh that was refused, or the other mesh.
+    pub(super) fn shows_another_shape(&self, view: usize) -> bool {
+        self.is_morphed(view) || self.side(view).is_covered() || self.side_in(view) != view.min(1)
     }
 
     /// Places of marks, x, y and visible for each, of which none is seen while the shape is another one.

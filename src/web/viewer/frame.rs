@@ -39,11 +39,13 @@ struct Marks<'a> {
 impl Viewer {
     /// What is drawn of a view.
     fn view<'a>(&'a self, k: usize, marks: Marks<'a>) -> ViewDraw<'a> {
+        // What is seen, and in which of the views.
+        let (view, k) = (k, self.side_in(k));
         let (side, style): (&Side, _) = (&self.sides[k], &self.style);
         let pose = side.pose(self.now);
         let defects = side.defects.as_ref().filter(|_| !self.is_morphed(k));
         let bare = || ViewDraw {
-            rectangle: side.rectangle,
+            rectangle: self.sides[view].rectangle,
             pose,
             paint: Paint::Plain,
             palette: self.palette(),
@@ -65,6 +67,9 @@ impl Viewer {
         };
         if let Some(refused) = side.refused() {
             return ViewDraw { paint: Paint::Refused, surface: Some(refused), ..bare() };
+        }
+        if let Some(other) = self.compared().filter(|_| view == 1) {
+            return self.compared_view(other, bare());
         }
         let own = side.mesh.as_ref().map(|m| &m.surface);
         if let Some(preview) = &self.sides[0].preview {
@@ -170,7 +175,8 @@ impl Viewer {
     }
 
     /// Pins, hidden ones below and raised ones on top, then the rings of a place that is asked for.
-    fn pins(&self, k: usize) -> Vec<PinInstance> {
+    fn pins(&self, view: usize) -> Vec<PinInstance> {
+        let k = self.side_in(view);
         let side = self.side(k);
         let pose = side.pose(self.now);
         // In another shape nothing is where it was.
@@ -201,7 +207,8 @@ impl Viewer {
     }
 
     /// Cones in red (positive) and blue (negative curvature).
-    fn balls(&self, k: usize) -> Vec<MarkerInstance> {
+    fn balls(&self, view: usize) -> Vec<MarkerInstance> {
+        let k = self.side_in(view);
         let ball = |Landmark { pin, cone }: &Landmark| {
             let curvature = *cone.as_ref()?;
             // A ball's radius is 0.012 to 0.03 of the surface's and grows with the root of the curvature.

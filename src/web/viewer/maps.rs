@@ -3,6 +3,7 @@
 use super::super::view_side::Side;
 use super::canvas::Viewer;
 use super::reading::{point, strips};
+use crate::gpu::Mesh;
 use crate::mesh::FaceId;
 use crate::scene::buffers::ribbons;
 use crate::scene::looks::{Giver, carried};
@@ -14,6 +15,57 @@ use wasm_bindgen::prelude::*;
 /// The numbers of a point.
 fn three(numbers: &[f32], k: usize) -> [f32; 3] {
     [numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]]
+}
+
+/// A map's triangles as one side sees them, as [`Viewer::set_overlay`] takes them.
+#[derive(Clone, Copy)]
+pub(super) struct Overlay<'a> {
+    pub(super) positions: &'a [f32],
+    pub(super) normals: &'a [f32],
+    pub(super) uvs: &'a [f32],
+    pub(super) distortion: &'a [f32],
+    pub(super) triangles: &'a [u32],
+    pub(super) images: &'a [f32],
+    pub(super) image_normals: &'a [f32],
+}
+
+impl Viewer {
+    /// The vertices of an overlay on a side; `None` where its arrays do not belong together, or a mesh is missing.
+    pub(super) fn overlay_vertices(&self, side: usize, overlay: Overlay<'_>) -> Option<Vec<SurfaceVertex>> {
+        let Overlay { positions, normals, uvs, distortion, triangles, images, image_normals } = overlay;
+        let [target, own] = [self.sides[1].mesh.as_ref()?, self.sides[side.min(1)].mesh.as_ref()?];
+        let count = positions.len() / 3;
+        let numbers = [normals.len(), images.len(), image_normals.len()];
+        if numbers.iter().any(|n| *n != 3 * count)
+            || uvs.len() != 2 * count
+            || triangles.iter().any(|&v| v as usize >= count)
+        {
+            return None;
+        }
+        let hollows = own.hollows_at(positions, triangles);
+        let vertex = |k: usize| SurfaceVertex {
+            position: own.frame.place(point(three(positions, k))).to_array(),
+            normal: three(normals, k),
+            uv: [uvs[2 * k], uvs[2 * k + 1]],
+            distortion: distortion.get(k).copied().unwrap_or(1.0),
+            image: target.frame.place(point(three(images, k))).to_array(),
+            image_normal: three(image_normals, k),
+            hollow: hollows[k],
+            ..SurfaceVertex::default()
+        };
+        Some((0..count).map(vertex).collect())
+    }
+
+    /// Patch lines on a side.
+    pub(super) fn line_mesh(&self, side: usize, points: &[f32], starts: &[u32]) -> Option<Mesh> {
+        let mesh = self.sides[side.min(1)].mesh.as_ref()?;
+        let strips: Vec<Vec<Vec3>> = strips(points, starts)
+            .into_iter()
+            .map(|strip| strip.into_iter().map(|p| mesh.frame.place(p)).collect())
+            .collect();
+        let (vertices, indices) = ribbons(&strips);
+        Some(self.renderer.line_mesh(&vertices, &indices))
+    }
 }
 
 #[wasm_bindgen]
@@ -33,27 +85,8 @@ impl Viewer {
         images: &[f32],
         image_normals: &[f32],
     ) {
-        let [Some(target), Some(own)] = [&self.sides[1].mesh, &self.sides[side.min(1)].mesh] else { return };
-        let count = positions.len() / 3;
-        let numbers = [normals.len(), images.len(), image_normals.len()];
-        if numbers.iter().any(|n| *n != 3 * count)
-            || uvs.len() != 2 * count
-            || triangles.iter().any(|&v| v as usize >= count)
-        {
-            return;
-        }
-        let hollows = own.hollows_at(positions, triangles);
-        let vertex = |k: usize| SurfaceVertex {
-            position: own.frame.place(point(three(positions, k))).to_array(),
-            normal: three(normals, k),
-            uv: [uvs[2 * k], uvs[2 * k + 1]],
-            distortion: distortion.get(k).copied().unwrap_or(1.0),
-            image: target.frame.place(point(three(images, k))).to_array(),
-            image_normal: three(image_normals, k),
-            hollow: hollows[k],
-            ..SurfaceVertex::default()
-        };
-        let vertices: Vec<SurfaceVertex> = (0..count).map(vertex).collect();
+        let overlay = Overlay { positions, normals, uvs, distortion, triangles, images, image_normals };
+        let Some(vertices) = self.overlay_vertices(side, overlay) else { return };
         let uploaded = self.renderer.surface_mesh(&vertices, triangles);
         if side == 0 {
             let (images, places): (Vec<Vec3>, Vec<Vec3>) =
@@ -109,14 +142,9 @@ impl Viewer {
     /// Takes patch lines of one side: their points, and where each line starts among them, and one past the end.
     #[wasm_bindgen(js_name = setLines)]
     pub fn set_lines(&mut self, side: usize, points: &[f32], starts: &[u32]) {
-        let Some(mesh) = &self.sides[side.min(1)].mesh else { return };
-        let strips: Vec<Vec<Vec3>> = strips(points, starts)
-            .into_iter()
-            .map(|strip| strip.into_iter().map(|p| mesh.frame.place(p)).collect())
-            .collect();
-        let (vertices, indices) = ribbons(&strips);
-        let uploaded = self.renderer.line_mesh(&vertices, &indices);
-        self.side_mut(side).lines = Some(uploaded);
+        if let Some(uploaded) = self.line_mesh(side, points, starts) {
+            self.side_mut(side).lines = Some(uploaded);
+        }
     }
 
     /// Takes the seams of the texture as one side sees them, told by the map's triangles: positions there, and texture coordinates.
@@ -157,6 +185,7 @@ impl Viewer {
     pub fn clear_result(&mut self) {
         self.sides.iter_mut().for_each(Side::clear_result);
         self.map = None;
+        self.compared = None;
         self.look_giver = None;
         self.morph = 0.0;
     }

@@ -4,6 +4,8 @@ mod asking;
 mod cameras;
 mod canvas;
 mod colours;
+mod compared;
+mod compared_map;
 mod defects;
 mod factors;
 mod frame;
