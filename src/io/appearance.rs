@@ -1,10 +1,12 @@
 //! How a mesh file says that its surface looks: the colours of its vertices, and a picture with its places.
 //!
 //! Read are the vertices' colours of PLY files (`red`, `green`, `blue`) and of OBJ files (three numbers after the coordinates), texture
-//! coordinates of both, and what a glTF file's materials say of their base colours.
+//! coordinates of both, the colours of vertices or faces of OFF files, and what a glTF file's materials say of their base colours.
 
 use super::gltf_look;
 use super::obj;
+use super::off;
+use super::off_colours::{self, OffColours};
 use super::reading::text;
 use super::texture_coordinates;
 use super::vertex_table::{self, Column, NumberType, VertexTable};
@@ -20,7 +22,8 @@ pub fn read(bytes: &[u8], soup: &PolygonSoup) -> Option<PolygonLook> {
         Format::Gltf => gltf_look::read(bytes)?,
         Format::Ply => of_ply(bytes, soup)?,
         Format::Obj => of_obj(bytes, soup)?,
-        Format::Off | Format::Stl => return None,
+        Format::Off => of_off(bytes, soup)?,
+        Format::Stl => return None,
     };
     (look.corners.len() == soup.polygons.len()).then_some(look)
 }
@@ -62,6 +65,20 @@ fn of_obj(bytes: &[u8], soup: &PolygonSoup) -> Option<PolygonLook> {
     let colours = (colours.len() == soup.positions.len()).then_some(colours);
     let places = texture_coordinates::read(bytes).ok();
     joined(soup, colours.as_deref(), places.as_deref())
+}
+
+fn of_off(bytes: &[u8], soup: &PolygonSoup) -> Option<PolygonLook> {
+    if off::is_binary(bytes) {
+        return None;
+    }
+    let faces = match off_colours::read(&text(bytes).ok()?)? {
+        OffColours::OfVertices(colours) => return joined(soup, Some(&colours), None),
+        OffColours::OfFaces(colours) => colours,
+    };
+    let corners = |(polygon, colour): (&Vec<u32>, &[u8; 3])| {
+        vec![CornerLook { colour: *colour, place: None }; polygon.len()]
+    };
+    Some(PolygonLook { corners: soup.polygons.iter().zip(&faces).map(corners).collect(), picture: None })
 }
 
 /// Colours of vertices and texture coordinates of corners as one; `None` where neither is there.
@@ -113,6 +130,10 @@ mod tests {
         assert_eq!(of(bytes.as_bytes()).unwrap().corners, expected);
         let shares = head("float") + "0 0 0 1 0 0.2\n1 0 0 0 1 0\n0 1 0 0 0 1\n3 0 1 2\n";
         assert_eq!(of(shares.as_bytes()).unwrap().corners, expected);
+        let off = "COFF\n3 1 0\n0 0 0 255 0 51 255\n1 0 0 0 255 0 255\n0 1 0 0 0 255 255\n3 0 1 2\n";
+        assert_eq!(of(off.as_bytes()).unwrap().corners, expected);
+        let of_face = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0.2 0 1\n";
+        assert_eq!(of(of_face.as_bytes()).unwrap().corners, coloured([[51, 0, 255]; 3]));
     }
 
     #[test]

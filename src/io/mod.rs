@@ -17,6 +17,7 @@ pub mod landmark_formats;
 pub mod moved;
 mod obj;
 mod off;
+mod off_colours;
 mod other_file;
 pub mod picture;
 mod ply;

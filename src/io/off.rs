@@ -16,6 +16,8 @@ struct Kind {
     has_dimension: bool,
     /// A normal is among the numbers that are passed over.
     has_normals: bool,
+    /// So is a colour, after the normal.
+    has_colours: bool,
     /// Numbers of a vertex that are passed over.
     others: usize,
 }
@@ -42,6 +44,7 @@ impl Kind {
             kind.is_homogeneous |= letters.starts_with('4');
             kind.has_dimension |= letters.starts_with('n');
             kind.has_normals |= letters.starts_with('N');
+            kind.has_colours |= letters.starts_with('C');
             kind.others += others;
             letters = &letters[length..];
         }
@@ -163,35 +166,7 @@ fn read_text<'a>(
     pulse: &mut Pulse<'_>,
 ) -> Result<PolygonSoup, Unread> {
     let mut lines = content_lines(text);
-    let (mut line, first) = lines.next().unwrap_or((1, ""));
-    let mut words: Vec<(usize, &str)> = first.split_whitespace().map(|word| (line, word)).collect();
-    let mut kind = Kind::default();
-    if let Some((of_word, rest)) = words.first().and_then(|(_, word)| Kind::of(word)) {
-        kind = of_word;
-        words[0].1 = rest;
-        words.retain(|(_, word)| !word.is_empty());
-    }
-    // The counts may stand on the first line, after the keyword, and so may all the rest.
-    while words.len() < 2 + usize::from(kind.has_dimension) {
-        let missing = || (Place::Line(line), "the numbers of vertices and faces are missing".to_owned());
-        let (number, content) = lines.next().ok_or_else(missing)?;
-        line = number;
-        words.extend(content.split_whitespace().map(|word| (line, word)));
-    }
-    let mut words = words.into_iter();
-    let mut next = |what| {
-        let (line, word) = words.next().unzip();
-        number::<usize>(word, line.unwrap_or(1), what)
-    };
-    if kind.has_dimension {
-        let dimension = next("the number of coordinates")?;
-        if dimension != 3 {
-            let problem = format!("its vertices have {dimension} coordinates; only 3 can be read");
-            return Err((Place::Line(line), problem).into());
-        }
-    }
-    let counts = Counts { vertices: next("the number of vertices")?, faces: next("the number of faces")? };
-    let counts = counts.checked(bytes, [6, 8], Place::Line(line))?;
+    let Opening { kind, counts, words } = Opening::read(&mut lines, bytes)?;
     let last_line = text.lines().count().max(1);
     let rest = lines.map(|line| pulse.beat().map(|()| line)).collect::<Result<Vec<(usize, &str)>, _>>()?;
     let announced = Announced { kind, counts, last_line };
@@ -217,6 +192,73 @@ fn read_text<'a>(
     } else {
         by_lines(announced, rest.iter().copied(), told, pulse)
     }
+}
+
+/// What stands before the vertices of a text.
+struct Opening<'a> {
+    kind: Kind,
+    counts: Counts,
+    /// What follows the numbers of vertices and faces on their line, the number of edges first; each word with its line.
+    words: std::vec::IntoIter<(usize, &'a str)>,
+}
+
+impl<'a> Opening<'a> {
+    /// Takes it from the lines of a text with their numbers; the text's file has that many bytes.
+    fn read(lines: &mut impl Iterator<Item = (usize, &'a str)>, bytes: usize) -> Result<Self, Problem> {
+        let (mut line, first) = lines.next().unwrap_or((1, ""));
+        let mut words: Vec<(usize, &str)> = first.split_whitespace().map(|word| (line, word)).collect();
+        let mut kind = Kind::default();
+        if let Some((of_word, rest)) = words.first().and_then(|(_, word)| Kind::of(word)) {
+            kind = of_word;
+            words[0].1 = rest;
+            words.retain(|(_, word)| !word.is_empty());
+        }
+        // The counts may stand on the first line, after the keyword, and so may all the rest.
+        while words.len() < 2 + usize::from(kind.has_dimension) {
+            let missing = || (Place::Line(line), "the numbers of vertices and faces are missing".to_owned());
+            let (number, content) = lines.next().ok_or_else(missing)?;
+            line = number;
+            words.extend(content.split_whitespace().map(|word| (line, word)));
+        }
+        let mut words = words.into_iter();
+        let mut next = |what| {
+            let (line, word) = words.next().unzip();
+            number::<usize>(word, line.unwrap_or(1), what)
+        };
+        if kind.has_dimension {
+            let dimension = next("the number of coordinates")?;
+            if dimension != 3 {
+                let problem = format!("its vertices have {dimension} coordinates; only 3 can be read");
+                return Err((Place::Line(line), problem));
+            }
+        }
+        let counts =
+            Counts { vertices: next("the number of vertices")?, faces: next("the number of faces")? };
+        Ok(Self { kind, counts: counts.checked(bytes, [6, 8], Place::Line(line))?, words })
+    }
+}
+
+/// The lines of a text that has one for each vertex and each face.
+pub(super) struct ElementLines<'a> {
+    /// How many numbers stand before a vertex's colour; `None` where vertices have no colours.
+    pub before_colour: Option<usize>,
+    /// Of the vertices.
+    pub vertices: Vec<&'a str>,
+    /// Of the faces.
+    pub faces: Vec<&'a str>,
+}
+
+/// The lines of the vertices and faces; `None` where they do not have one each.
+pub(super) fn element_lines(text: &str) -> Option<ElementLines<'_>> {
+    let mut lines = content_lines(text);
+    let Opening { kind, counts, words } = Opening::read(&mut lines, text.len()).ok()?;
+    let mut lines = lines.map(|(_, line)| line);
+    let vertices: Vec<&str> = lines.by_ref().take(counts.vertices).collect();
+    let faces: Vec<&str> = lines.take(counts.faces).collect();
+    let is_whole = words.len() <= 1 && faces.len() == counts.faces;
+    let before = kind.coordinates() + if kind.has_normals { 3 } else { 0 };
+    let before_colour = kind.has_colours.then_some(before);
+    is_whole.then_some(ElementLines { before_colour, vertices, faces })
 }
 
 /// What the header of a text says.

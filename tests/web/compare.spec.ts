@@ -112,6 +112,7 @@ test('each of three maps is shown beside the map on the page by one click in the
     await expect(page.locator('#view-source .caption')).toContainText('this map');
     await expect(page.locator('#view-target .caption')).toContainText('Source');
     await expect(page.locator('#view-target .caption')).toContainText(caption);
+    await expect(page.locator('#view-target')).toHaveAttribute('aria-label', /^Second source view\./);
     const [here, there] = told.get('Energy E') ?? fail('no energy');
     expect(Number(here), choice).toBeGreaterThan(4);
     expect(Number(there), choice).toBeGreaterThan(Number(here));
@@ -139,6 +140,7 @@ test('the second view takes no clicks, and Escape, None, the button on it and an
     await compareWith('Patchwise');
     await leave();
     await expect(page.locator('#view-target .caption')).toContainText('Target', { timeout: 5000 });
+    await expect(page.locator('#view-target')).toHaveAttribute('aria-label', /^Target view\./);
     await expect(page.getByRole('radio', { name: 'None' })).toBeChecked();
     expect((await views())[1] === before[1], `way ${number}`).toBe(true);
   }

@@ -93,8 +93,8 @@ export class Views {
       const element = this.#elements[side];
       element.tabIndex = 0;
       element.setAttribute('role', 'group');
-      element.setAttribute('aria-label', `${side === 0 ? 'Source' : 'Target'} view. ${HELP}`);
     }
+    this.#nameViews();
     this.#hands = new Hands(this.#canvas, this.#elements, {
       viewer: () => (this.#lost ? null : this.#viewer),
       state: () => this.#state,
@@ -341,6 +341,7 @@ export class Views {
       if (changes.compared) {
         const other = otherMap(state);
         this.#picture.compare(viewer, other);
+        this.#nameViews();
         this.#cameras.showsSourceTwice = other !== null;
       }
       if (changes.picture || changes.compared) {
@@ -573,6 +574,13 @@ export class Views {
     this.#resized = true;
     this.#requestFrame();
     return picture;
+  }
+
+  /** Says what the views show: while two maps are compared both show the source. */
+  #nameViews(): void {
+    const second = otherMap(this.#state) === null ? 'Target' : 'Second source';
+    this.#elements[0].setAttribute('aria-label', `Source view. ${HELP}`);
+    this.#elements[1].setAttribute('aria-label', `${second} view. ${HELP}`);
   }
 
   /** A view's box in the window. */
