@@ -126,7 +126,7 @@ const actions: Actions = {
   },
   lookAtDefect: (side, examined, group, index) => {
     showOwnShape();
-    views.lookAtDefect(side, examined, group, index);
+    views.lookAtDefect(side, examined.found, group, index);
   },
   camera: (side, command) => {
     turn(side, command);
@@ -145,9 +145,15 @@ const actions: Actions = {
     },
   },
   flow: {
-    start: (listener) => startFlowing(store, runner.core, listener),
+    start: (listener, scheme) => startFlowing(store, runner.core, listener, scheme),
     show: (frame) => {
       views.showFlow(frame);
+    },
+    mark: (stops) => {
+      views.markStops(stops);
+    },
+    lookAtStop: (side, found, index) => {
+      views.lookAtDefect(side, found, 0, index);
     },
   },
   simplification: {

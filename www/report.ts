@@ -3,7 +3,7 @@ import type { CandidateReport, Choices, FindingReport, QuestionReport } from './
 
 export type { CertificateReport, ConeMetricReport, CoverageReport, LayoutSearchReport, ProofReport, Report } from './wasm/core.js';
 
-export type { MatchReport, OtherMap } from './wasm/core.js';
+export type { MatchReport, OtherMap, Scheme } from './wasm/core.js';
 
 /** Landmark pairs that the program has found. */
 export type Candidate = CandidateReport;

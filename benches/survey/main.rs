@@ -42,6 +42,7 @@ mod repaired;
 mod silence;
 mod soak;
 mod stages;
+mod structures;
 mod table;
 mod torture;
 mod verify;
@@ -115,6 +116,11 @@ const SURVEYS: &[Survey] = &[
         name: "cones",
         about: "each demo with cones of the base domain and with equal ones, by the thesis' method; --pairs NAME,...",
         run: cones::table,
+    },
+    Survey {
+        name: "structures",
+        about: "each demo's flows by each discrete conformal structure; --pairs NAME,...",
+        run: structures::table,
     },
     Survey {
         name: "stages",

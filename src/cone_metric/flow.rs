@@ -4,7 +4,7 @@ use super::metric::{ConeMetric, FlipQueue, FlowState};
 use super::record::{FlowMoment, FlowRecord, Recorder};
 use super::scheme::Scheme;
 use super::target::{self, TargetError};
-use crate::mesh::{SurfaceMesh, VertexId};
+use crate::mesh::{FaceId, SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
 use crate::numerics::approximate_cholesky::ApproximateCholesky;
 use crate::numerics::conjugate_gradients::{CgError, CgOptions, CgWorkspace};
@@ -46,6 +46,9 @@ pub struct FlowReport {
     pub max_curvature_error: f64,
     /// The same before the first and after each step.
     pub residuals: Vec<f64>,
+    /// On a triangulation that is not flipped the faces that kept the last step short: a little further along it their lengths break the
+    /// triangle inequality. None where no face did.
+    pub degenerate_faces: Vec<FaceId>,
 }
 
 /// Why there is no cone metric.
@@ -107,8 +110,8 @@ pub fn recorded_flow(
     let mut newton = Newton::new(metric, target_curvature, options);
     newton.recorder = Some(&mut recorder);
     match newton.run(monitor) {
-        Ok(_) => Ok(recorder.record(true)),
-        Err(FlowError::NotConverged { .. }) => Ok(recorder.record(false)),
+        Ok(_) => Ok(recorder.record(None)),
+        Err(FlowError::NotConverged { report, .. }) => Ok(recorder.record(Some(report.degenerate_faces))),
         Err(error) => Err(error),
     }
 }
@@ -200,6 +203,7 @@ impl<'a> Newton<'a> {
         }
         self.report.max_curvature_error = error;
         if error < self.options.tolerance {
+            self.report.degenerate_faces.clear();
             return Ok((self.metric, self.report));
         }
         Err(FlowError::NotConverged { best: self.best(), report: Box::new(self.report) })
@@ -219,7 +223,7 @@ impl<'a> Newton<'a> {
 
     /// Restores weighted Delaunay and evaluates curvatures; `false` where a triangle is degenerate.
     fn update(&mut self) -> bool {
-        if self.options.scheme != Scheme::FixedTriangulation {
+        if self.options.scheme.flips() {
             self.report.edge_flips += self.metric.restore_delaunay(&mut self.queue);
         }
         self.metric.curvature(&mut self.state)
@@ -245,6 +249,7 @@ impl<'a> Newton<'a> {
     ) -> Result<bool, Cancelled> {
         let slope = |r: &[f64]| r.iter().zip(step).map(|(a, b)| a * b).sum::<f64>();
         let first = slope(residual);
+        self.report.degenerate_faces.clear();
         let mut t = 1.0;
         // 2^-30 of a step is lost in rounding. The slope may turn a little, to -0.1 of the first: a minimum that was just passed.
         for _ in 0..30 {
@@ -256,6 +261,9 @@ impl<'a> Newton<'a> {
             let error = self.residual(residual);
             if valid && error.is_finite() && slope(residual) >= -0.1 * first {
                 return Ok(true);
+            }
+            if !valid && !self.options.scheme.flips() {
+                self.report.degenerate_faces = self.metric.degenerate_faces();
             }
             t *= 0.5;
         }
@@ -276,6 +284,7 @@ mod tests {
     use crate::mesh::generators::{icosphere, midpoint_subdivision, tetrahedron};
     use crate::monitor::Silent;
     use crate::numerics::conjugate_gradients::LinearOperator;
+    use glam::DVec3;
     use std::f64::consts::PI;
 
     /// Radii away from the start, so that the state is not special.
@@ -285,8 +294,14 @@ mod tests {
         for (k, u) in metric.log_radii.iter_mut().enumerate() {
             *u += 1.5 * crate::math::scalar::sin(1.7 * k as f64);
         }
-        metric.restore_delaunay(&mut FlipQueue::default());
+        restore(&mut metric, scheme);
         metric
+    }
+
+    fn restore(metric: &mut ConeMetric, scheme: Scheme) {
+        if scheme.flips() {
+            metric.restore_delaunay(&mut FlipQueue::default());
+        }
     }
 
     fn curvature(metric: &ConeMetric) -> Vec<f64> {
@@ -297,9 +312,9 @@ mod tests {
 
     #[test]
     fn gauss_bonnet_holds_at_every_state() {
-        for scheme in [Scheme::InversiveDistance, Scheme::VertexScaling] {
+        for scheme in Scheme::ALL.into_iter().filter(|&scheme| scheme != Scheme::FixedTriangulation) {
             let metric = moved(scheme);
-            assert!(!metric.triangulation.flips().is_empty());
+            assert_eq!(metric.triangulation.flips().is_empty(), !scheme.flips());
             assert!(metric.triangulation.is_consistent());
             assert!((curvature(&metric).iter().sum::<f64>() - 4.0 * PI).abs() < 1e-10);
         }
@@ -307,7 +322,7 @@ mod tests {
 
     #[test]
     fn the_hessian_is_the_derivative_of_curvature() {
-        for scheme in [Scheme::InversiveDistance, Scheme::VertexScaling] {
+        for scheme in Scheme::ALL.into_iter().filter(|&scheme| scheme != Scheme::FixedTriangulation) {
             let metric = moved(scheme);
             let mut state = FlowState::default();
             metric.curvature(&mut state);
@@ -320,7 +335,7 @@ mod tests {
             let at = |h: f64| {
                 let mut near = metric.clone();
                 near.log_radii.iter_mut().zip(&direction).for_each(|(u, d)| *u += h * d);
-                near.restore_delaunay(&mut FlipQueue::default());
+                restore(&mut near, scheme);
                 curvature(&near)
             };
             let (plus, minus) = (at(1e-6), at(-1e-6));
@@ -334,7 +349,7 @@ mod tests {
     #[test]
     fn the_residual_is_the_gradient_of_a_convex_energy() {
         // The line integral of target - K around a closed curve vanishes: a gradient.
-        let metric = moved(Scheme::InversiveDistance);
+        let metric = moved(Scheme::Inversive);
         let n = metric.log_radii.len();
         let direction =
             |a: f64| -> Vec<f64> { (0..n).map(|k| 0.05 * crate::math::scalar::sin(a * k as f64)).collect() };
@@ -387,7 +402,7 @@ mod tests {
         let sphere = blown_up_tetrahedron();
         let landmarks: Vec<_> = (0..4).map(VertexId).collect();
         let target = uniform_curvature(sphere.vertex_count(), &landmarks);
-        for scheme in [Scheme::InversiveDistance, Scheme::VertexScaling] {
+        for scheme in Scheme::ALL {
             let options = FlowOptions { scheme, tolerance: 1e-11, ..FlowOptions::default() };
             let (metric, _) = flow(&sphere, &target, &options, &mut Silent).unwrap();
             for (v, k) in sphere.vertices().zip(curvature(&metric)) {
@@ -430,7 +445,7 @@ mod tests {
         let sphere = blown_up_tetrahedron();
         let landmarks: Vec<_> = (0..4).map(VertexId).collect();
         let target = uniform_curvature(sphere.vertex_count(), &landmarks);
-        for scheme in [Scheme::InversiveDistance, Scheme::VertexScaling] {
+        for scheme in [Scheme::Inversive, Scheme::VertexScaling] {
             let options = FlowOptions { scheme, ..FlowOptions::default() };
             let start = ConeMetric::of_mesh(&sphere, scheme, options.radii_scale);
             let (metric, report) = flow(&sphere, &target, &options, &mut Silent).unwrap();
@@ -460,6 +475,50 @@ mod tests {
         let record = recorded_flow(&sphere, &target, &options, &mut Silent).unwrap();
         assert!(!record.converged);
         assert_eq!(record.moments.iter().map(|moment| moment.step).collect::<Vec<_>>(), [0, 1]);
+    }
+
+    /// Three circles of any radii that touch, or overlap by at most a right angle, have centres that span a triangle (Thurston 1980, lemma
+    /// 13.7.2).
+    #[test]
+    fn circles_that_touch_or_overlap_always_span_triangles() {
+        for scheme in [Scheme::Tangential, Scheme::Thurston] {
+            let mut metric = moved(scheme);
+            for stretch in [1.0, 1.5, 1.5] {
+                metric.log_radii.iter_mut().for_each(|u| *u *= stretch);
+                assert_eq!(metric.degenerate_faces(), [], "{scheme:?} {stretch}");
+            }
+        }
+        assert!(!moved(Scheme::FixedTriangulation).degenerate_faces().is_empty());
+    }
+
+    /// On a rod whose triangles are long the flow without flips stops at a triangle that has hardly any area left; the others go through.
+    #[test]
+    fn a_flow_without_flips_stops_at_triangles_that_lose_their_area() {
+        let sphere = blown_up_tetrahedron();
+        let rod = sphere
+            .with_positions(sphere.positions().iter().map(|p| DVec3::new(8.0 * p.x, p.y, p.z)).collect());
+        let landmarks: Vec<_> = (0..4).map(VertexId).collect();
+        let target = uniform_curvature(rod.vertex_count(), &landmarks);
+        for scheme in Scheme::ALL {
+            let options = FlowOptions { scheme, ..FlowOptions::default() };
+            let record = recorded_flow(&rod, &target, &options, &mut Silent).unwrap();
+            assert_eq!(record.converged, scheme != Scheme::FixedTriangulation, "{scheme:?}");
+            assert_eq!(record.degenerate_faces.is_empty(), record.converged, "{scheme:?}");
+            let Err(FlowError::NotConverged { report, .. }) = flow(&rod, &target, &options, &mut Silent)
+            else {
+                continue;
+            };
+            assert_eq!(report.degenerate_faces, record.degenerate_faces);
+            let mut stopped = ConeMetric::of_mesh(&rod, scheme, options.radii_scale);
+            let last = &record.moments[record.moments.len() - 1].log_factors;
+            stopped.log_radii.iter_mut().zip(last).for_each(|(u, factor)| *u += factor);
+            for f in record.degenerate_faces {
+                let lengths = f.halfedges().map(|h| stopped.length(h));
+                let longest = lengths.iter().copied().fold(0.0, f64::max);
+                let slack = (lengths.iter().sum::<f64>() - 2.0 * longest) / longest;
+                assert!((0.0..1e-3).contains(&slack), "{f:?}: {slack}");
+            }
+        }
     }
 
     #[test]

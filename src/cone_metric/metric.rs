@@ -34,10 +34,18 @@ impl ConeMetric {
     pub(super) fn of_mesh(mesh: &SurfaceMesh, scheme: Scheme, radii_scale: f64) -> Self {
         let (eps, gammas) = match scheme {
             Scheme::VertexScaling => (0.0, ti_vec![1.0; mesh.vertex_count()]),
-            Scheme::InversiveDistance => (1.0, initial_radii(mesh, radii_scale)),
+            Scheme::Inversive => (1.0, initial_radii(mesh, radii_scale)),
             Scheme::FixedTriangulation => (1.0, initial_radii(mesh, 1.0)),
+            Scheme::Tangential | Scheme::Thurston => (1.0, mean_radii(mesh)),
         };
-        let eta = |h| inversive_distance(eps, [gammas[mesh.tail(h)], gammas[mesh.head(h)]], mesh.length(h));
+        let eta = |h| {
+            let eta = inversive_distance(eps, [gammas[mesh.tail(h)], gammas[mesh.head(h)]], mesh.length(h));
+            match scheme {
+                Scheme::Tangential => 1.0,
+                Scheme::Thurston => eta.clamp(0.0, 1.0),
+                Scheme::Inversive | Scheme::VertexScaling | Scheme::FixedTriangulation => eta,
+            }
+        };
         Self {
             triangulation: IntrinsicTriangulation::of_mesh(mesh),
             log_radii: gammas.iter().map(|&g| ln(g)).collect(),
@@ -141,6 +149,16 @@ impl ConeMetric {
         area > 0.0
     }
 
+    /// The faces whose lengths do not satisfy the triangle inequality.
+    pub(super) fn degenerate_faces(&self) -> Vec<FaceId> {
+        let is_degenerate = |f: &FaceId| {
+            let [a, b, c] = f.halfedges().map(|h| self.length(h));
+            // A length that does not exist is NaN, as is the area.
+            area_from_lengths(a, b, c).is_nan() || area_from_lengths(a, b, c) <= 0.0
+        };
+        self.triangulation.faces().filter(is_degenerate).collect()
+    }
+
     /// The graph whose Laplacian is the Hessian at the state's weights.
     pub(super) fn hessian(&self, state: &FlowState, graph: &mut Graph) {
         graph.vertices = self.triangulation.vertex_count();
@@ -210,4 +228,20 @@ fn initial_radii(mesh: &SurfaceMesh, scale: f64) -> TiVec<VertexId, f64> {
         shortest[v] = shortest[v].min(ij);
     }
     radii.iter().zip(&shortest).map(|(r, s)| scale * r.max(1e-7 * s)).collect()
+}
+
+/// Radii of circles that nearly touch: mean over the faces ijk at i of (l_ij + l_ki - l_jk) / 2, which is where the incircle touches
+/// both edges at i (Jin et al. 2008). Above 1e-7 of the vertex's shortest edge, as above.
+fn mean_radii(mesh: &SurfaceMesh) -> TiVec<VertexId, f64> {
+    let mut sums: TiVec<VertexId, (f64, f64)> = ti_vec![(0.0, 0.0); mesh.vertex_count()];
+    let mut shortest: TiVec<VertexId, f64> = ti_vec![f64::INFINITY; mesh.vertex_count()];
+    for h in mesh.halfedges() {
+        let v = mesh.tail(h);
+        let [ij, jk, ki] = [h, h.next(), h.prev()].map(|x| mesh.length(x));
+        let (sum, count) = &mut sums[v];
+        *sum += 0.5 * (ij + (ki - jk));
+        *count += 1.0;
+        shortest[v] = shortest[v].min(ij);
+    }
+    sums.iter().zip(&shortest).map(|((sum, count), s)| (sum / count).max(1e-7 * s)).collect()
 }

@@ -1,6 +1,6 @@
 //! A flow from step to step, to be looked at: recorded only where somebody asks.
 
-use crate::mesh::VertexId;
+use crate::mesh::{FaceId, VertexId};
 use typed_index_collections::{TiSlice, TiVec};
 
 /// So many moments are kept at most; of a longer flow every second, fourth, ... step, and the last.
@@ -13,6 +13,8 @@ pub struct FlowRecord {
     pub moments: Vec<FlowMoment>,
     /// Whether the last one has the target curvatures, to the tolerance.
     pub converged: bool,
+    /// The faces that a flow without flips stopped at, because they degenerate beyond the last moment.
+    pub degenerate_faces: Vec<FaceId>,
 }
 
 /// A flow after a Newton step.
@@ -74,8 +76,10 @@ impl Recorder {
         self.moments.push(FlowMoment { log_factors, ..moment });
     }
 
-    pub fn record(self, converged: bool) -> FlowRecord {
-        FlowRecord { moments: self.moments, converged }
+    /// What was recorded of a flow that converged, or stopped at some faces or at none.
+    pub fn record(self, stopped_at: Option<Vec<FaceId>>) -> FlowRecord {
+        let converged = stopped_at.is_none();
+        FlowRecord { moments: self.moments, converged, degenerate_faces: stopped_at.unwrap_or_default() }
     }
 }
 
@@ -91,7 +95,7 @@ mod tests {
             for step in 0..=steps {
                 recorder.take(FlowMoment { step, ..FlowMoment::default() }, &ti_vec![1.0 + step as f64; 3]);
             }
-            let FlowRecord { moments, .. } = recorder.record(true);
+            let FlowRecord { moments, .. } = recorder.record(None);
             let kept: Vec<usize> = moments.iter().map(|moment| moment.step).collect();
             assert_eq!((kept[0], kept[kept.len() - 1]), (0, steps), "{kept:?}");
             assert!(kept.len() <= MOST_MOMENTS && kept.len() > steps.min(MOST_MOMENTS) / 2, "{kept:?}");
@@ -104,7 +108,7 @@ mod tests {
     #[test]
     fn centred_factors_have_mean_0_by_weight() {
         let moment = FlowMoment { log_factors: ti_vec![1.0, 2.0, 4.0], ..FlowMoment::default() };
-        let record = FlowRecord { moments: vec![moment], converged: true };
+        let record = FlowRecord { moments: vec![moment], converged: true, ..FlowRecord::default() };
         let centred = record.centred(&ti_vec![1.0, 1.0, 2.0]);
         assert_eq!(centred.moments[0].log_factors.raw, [-1.75, -0.75, 1.25]);
     }

@@ -372,6 +372,12 @@ impl Job {
         [0, 1].map(|k| placed[k].mesh.positions().iter().map(|&p| self.meshes[k].as_given(p)).collect())
     }
 
+    /// A face of the mapped source (0) or the mapped target (1) as its number in the triangulated file.
+    pub fn file_face(&self, side: usize, face: FaceId) -> FaceId {
+        let placed = if side == 0 { &self.placed.source } else { &self.placed.target };
+        self.meshes[side].checked().file_from_face(placed.face_origin[face])
+    }
+
     /// Vertices of the checked source and of the checked target.
     pub fn vertex_counts(&self) -> [usize; 2] {
         self.meshes.each_ref().map(|mesh| mesh.mesh().vertex_count())

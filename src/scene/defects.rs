@@ -113,6 +113,7 @@ impl Look {
             DefectKind::PinchedVertex => places(0xe6_9f00, Sign::Diamond),
             DefectKind::FaceWithoutArea => places(0x2b_8fc9, Sign::Cross),
             DefectKind::DoubleFace => faces(0x6b_3b12, Fill::Dots),
+            DefectKind::StopsFlow => Self { sign: Some(Sign::Diamond), ..faces(0xd0_1c8b, Fill::Bars) },
             DefectKind::Cap => Self { stroke: Some(Stroke::Solid), ..faces(0x7a_7f86, Fill::Bars) },
         }
     }

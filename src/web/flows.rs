@@ -3,7 +3,11 @@
 use super::compute::{Messenger, RunListener};
 use super::failure;
 use super::page_job::read_job;
-use crate::job::JobError;
+use crate::cone_metric::{FlowOptions, Scheme};
+use crate::job::{Job, JobError};
+use crate::mesh::FaceId;
+use crate::mesh::packing::Packer;
+use crate::mesh::repair::Defects;
 use crate::monitor::{PlannedStage, Stage};
 use crate::pipeline::{FlowRecord, PipelineOptions};
 use serde_json::json;
@@ -15,9 +19,29 @@ pub struct RecordedFlows {
     records: [FlowRecord; 2],
     /// Vertices of the checked meshes.
     vertices: [usize; 2],
+    stops: [Stops; 2],
 }
 
-/// Runs the flows of both meshes with these curvatures of the landmarks' cones, in radians, as a finished map tells them.
+/// The faces that stopped a flow.
+struct Stops {
+    /// Their numbers in the triangulated file.
+    faces: Vec<u32>,
+    /// What is drawn of them.
+    shown: Defects,
+}
+
+impl Stops {
+    fn new(job: &Job, side: usize, record: &FlowRecord) -> Self {
+        let (mesh, positions) = (job.mapped_meshes()[side], &job.positions()[side]);
+        let corners = |&f: &FaceId| mesh.triangles()[f].map(|v| positions[v.index()]);
+        let corners: Vec<_> = record.degenerate_faces.iter().map(corners).collect();
+        let numbers = record.degenerate_faces.iter().map(|&f| job.file_face(side, f).0);
+        Self { faces: numbers.collect(), shown: Defects::of_stopped_flow(&corners) }
+    }
+}
+
+/// Runs the flows of both meshes with these curvatures of the landmarks' cones, in radians, as a finished map tells them, by a discrete
+/// conformal structure, a `Scheme`.
 ///
 /// # Errors
 /// `{"code", "message"}` with the stage's code.
@@ -27,25 +51,31 @@ pub fn record_flows(
     target: &[u8],
     landmarks: &str,
     cones: &[f64],
+    scheme: &str,
     listener: &RunListener,
 ) -> Result<RecordedFlows, JsValue> {
+    let scheme: Scheme = serde_json::from_value(json!(scheme)).map_err(|e| failure("options", e))?;
     let mut messenger = Messenger::new(listener);
     let planned = |stage| PlannedStage { stage, time: 1.0 };
     messenger.plan(vec![planned(Stage::SourceConeMetric), planned(Stage::TargetConeMetric)]);
     let job = read_job([source, target], landmarks, &mut messenger)?;
     let failed = |error: JobError| failure(error.code(), error);
-    let records = job
-        .recorded_flows(cones, &PipelineOptions::default(), &mut messenger)
-        .map_err(|error| failed(error.into()))?;
-    Ok(RecordedFlows { records, vertices: job.vertex_counts() })
+    let flow = FlowOptions { scheme, ..FlowOptions::default() };
+    let options = PipelineOptions { flow, ..PipelineOptions::default() };
+    let records =
+        job.recorded_flows(cones, &options, &mut messenger).map_err(|error| failed(error.into()))?;
+    let stops = [0, 1].map(|side| Stops::new(&job, side, &records[side]));
+    Ok(RecordedFlows { records, vertices: job.vertex_counts(), stops })
 }
 
 #[wasm_bindgen]
 impl RecordedFlows {
-    /// The steps of the source's flow (0) or of the target's (1): JSON `{"converged", "moments"}`, the moments a list of `{"step",
-    /// "residual", "cgIterations", "edgeFlips"}` from before the first step on.
+    /// The steps of the source's flow (0) or of the target's (1): JSON `{"converged", "moments", "stops"}`, the moments a list of `{"step",
+    /// "residual", "cgIterations", "edgeFlips"}` from before the first step on, the stops the numbers of the faces that the flow stopped
+    /// at, in the triangulated file.
     pub fn steps(&self, side: usize) -> String {
-        let FlowRecord { moments, converged } = &self.records[side.min(1)];
+        let FlowRecord { moments, converged, .. } = &self.records[side.min(1)];
+        let stops = &self.stops[side.min(1)].faces;
         let told = moments.iter().map(|moment| {
             json!({
                 "step": moment.step,
@@ -54,7 +84,15 @@ impl RecordedFlows {
                 "edgeFlips": moment.edge_flips,
             })
         });
-        json!({ "converged": converged, "moments": told.collect::<Vec<_>>() }).to_string()
+        json!({ "converged": converged, "moments": told.collect::<Vec<_>>(), "stops": stops }).to_string()
+    }
+
+    /// The faces that the flow stopped at, in the order of their numbers, as bytes of which `unpackDefects` makes what a view shows.
+    #[wasm_bindgen(js_name = packedStops)]
+    pub fn packed_stops(&self, side: usize) -> Vec<u8> {
+        let mut packer = Packer::default();
+        self.stops[side.min(1)].shown.pack(&mut packer);
+        packer.into_bytes()
     }
 
     /// Logarithms of the conformal factor, moment after moment, by vertex of the checked mesh.

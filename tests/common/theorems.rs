@@ -79,7 +79,7 @@ pub fn images(result: &MapResult) -> Vec<SurfacePoint> {
 /// and to Gauss and Bonnet's total.
 pub fn flow_converges(name: &str, mesh: &SurfaceMesh, landmarks: &[VertexId]) {
     let target = uniform_curvature(mesh.vertex_count(), landmarks);
-    for scheme in [Scheme::InversiveDistance, Scheme::VertexScaling] {
+    for scheme in [Scheme::Inversive, Scheme::VertexScaling] {
         let options = FlowOptions { scheme, ..FlowOptions::default() };
         let (metric, report) =
             flow(mesh, &target, &options, &mut Silent).unwrap_or_else(|e| panic!("{name} {scheme:?}: {e}"));

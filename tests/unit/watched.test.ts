@@ -4,10 +4,13 @@ import type { Flows, SideFlow, Simplification } from '../../www/compute/watch-me
 import { momentCount, placeOf, placesAt, scaleEnd } from '../../www/method/factors.ts';
 import { flowCsv, momentAt, residualRange } from '../../www/method/flow-table.ts';
 import { countAt, stageAt, stageCount } from '../../www/method/stages.ts';
+import { STRUCTURES } from '../../www/method/structures.ts';
+import type { DefectGroup } from '../../www/store/defects.ts';
 import type { Report } from '../../www/report.ts';
 import type { MapOutput, RecordedFlows, Simplifications } from '../../www/wasm/core.js';
 import { buildDemo, recordFlows, recordSimplifications, runMap } from '../../www/wasm/core.js';
-import { factorScale } from '../../www/wasm/page.js';
+import { factorScale, unpackDefects } from '../../www/wasm/page.js';
+import { CORNERS, rod } from './rod.ts';
 import { startCoreModule, startPageModule } from './modules.ts';
 
 const nothing = (): void => undefined;
@@ -28,7 +31,7 @@ describe('the flows of a map', () => {
     }
     const landmarks = new TextDecoder().decode(demo.landmarks());
     output = runMap(demo.source(), demo.target(), landmarks, '{}', LISTENER);
-    flows = recordFlows(demo.source(), demo.target(), landmarks, output.cones(), LISTENER);
+    flows = recordFlows(demo.source(), demo.target(), landmarks, output.cones(), 'inversive', LISTENER);
     stages = recordSimplifications(demo.source(), demo.target(), landmarks, LISTENER);
     vertices = new TextDecoder().decode(demo.source()).match(/^v /gm)?.length ?? 0;
     // A map is made first, maybe on a busy machine.
@@ -69,7 +72,28 @@ describe('the flows of a map', () => {
     const demo = buildDemo('sphere-tetrahedron');
     const landmarks = new TextDecoder().decode(demo?.landmarks());
     const wrong = output.cones().map((cone) => cone / 2);
-    expect(() => recordFlows(demo?.source() ?? new Uint8Array(), demo?.target() ?? new Uint8Array(), landmarks, wrong, LISTENER)).toThrow(/4 pi/);
+    expect(() => recordFlows(demo?.source() ?? new Uint8Array(), demo?.target() ?? new Uint8Array(), landmarks, wrong, 'inversive', LISTENER)).toThrow(/4 pi/);
+  });
+
+  test('go by every structure, and without flips stop at triangles that are told and can be shown', () => {
+    const [source, target] = [rod(8), rod(1)].map((text) => new TextEncoder().encode(text));
+    const cones = new Float64Array(4).fill(Math.PI);
+    const stopped = STRUCTURES.filter(({ scheme }) => {
+      const found = recordFlows(source ?? new Uint8Array(), target ?? new Uint8Array(), CORNERS, cones, scheme, LISTENER);
+      const { converged, stops } = JSON.parse(found.steps(0)) as SideFlow;
+      const shown = unpackDefects(found.packedStops(0));
+      const [group] = JSON.parse(shown.list()) as DefectGroup[];
+      expect(group?.count ?? 0, scheme).toBe(stops.length);
+      expect(shown.faceCount).toBe(stops.length);
+      expect(stops.length === 0, scheme).toBe(converged);
+      expect(stops.every((face) => face >= 0 && face < 1024)).toBe(true);
+      if (!converged) {
+        expect(group?.sentence).toMatch(/stops? the flow$/);
+      }
+      return !converged;
+    });
+    expect(stopped.map(({ scheme }) => scheme)).toEqual(['fixed-triangulation']);
+    expect(() => recordFlows(source ?? new Uint8Array(), target ?? new Uint8Array(), CORNERS, cones, 'none', LISTENER)).toThrow(/none/);
   });
 
   test('have ten colours, the lightest in the middle', () => {
@@ -85,10 +109,12 @@ function moment(step: number, residual: number): SideFlow['moments'][number] {
 }
 
 const LN2 = Math.LN2;
+/** Stopped by no triangle. */
+const RESTING = { stops: [], packedStops: new Uint8Array() };
 /** Two vertices each; the target's flow is over after one step. */
 const FLOWS: Flows = [
-  { moments: [moment(0, 1), moment(1, 0.02), moment(2, 1e-9)], converged: true, logFactors: new Float32Array([0, 0, LN2, -LN2, 2 * LN2, -2.5 * LN2]) },
-  { moments: [moment(0, 0.5), moment(1, 0)], converged: false, logFactors: new Float32Array([0, 0, 0.1, -0.1]) },
+  { ...RESTING, moments: [moment(0, 1), moment(1, 0.02), moment(2, 1e-9)], converged: true, logFactors: new Float32Array([0, 0, LN2, -LN2, 2 * LN2, -2.5 * LN2]) },
+  { ...RESTING, moments: [moment(0, 0.5), moment(1, 0)], converged: false, logFactors: new Float32Array([0, 0, 0.1, -0.1]) },
 ];
 
 describe('the scale', () => {

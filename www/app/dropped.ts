@@ -10,13 +10,42 @@ import { errorOf } from './task.ts';
 
 const PROJECT = /\.zip$/i;
 
-/** Brings files where they belong; `side` is the view they were dropped on or chosen for. */
-export async function openDropped(
-  store: Store,
-  { links, ...openers }: { readonly links: Links } & Openers,
-  files: readonly File[],
-  side: Side | null,
-): Promise<void> {
+/** By page what was brought last, as long as it is read. */
+const LAST = new WeakMap<Store, Promise<void>>();
+
+interface Places extends Openers {
+  readonly links: Pick<Links, 'waits' | 'cancel' | 'take'>;
+}
+
+/**
+ * Brings files where they belong; `side` is the view they were dropped on or chosen for. What comes while other files are read waits for
+ * these, so that none is lost; what was refused among these stays told.
+ */
+export async function openDropped(store: Store, places: Places, files: readonly File[], side: Side | null): Promise<void> {
+  const before = LAST.get(store);
+  const opened = before === undefined ? openNow(store, places, files, side) : openAfter(before, store, places, files, side);
+  LAST.set(store, opened);
+  await opened;
+  if (LAST.get(store) === opened) {
+    LAST.delete(store);
+  }
+}
+
+async function openAfter(before: Promise<void>, store: Store, places: Places, files: readonly File[], side: Side | null): Promise<void> {
+  await before;
+  const { error: refused, job } = store.state;
+  // Something else that was begun meanwhile was wanted last.
+  if (job.kind === 'busy') {
+    return;
+  }
+  await openNow(store, places, files, side);
+  const { error } = store.state;
+  if (refused !== null && error !== refused) {
+    store.dispatch({ kind: 'error', sentence: error === null ? refused : `${refused} ${error}` });
+  }
+}
+
+async function openNow(store: Store, { links, ...openers }: Places, files: readonly File[], side: Side | null): Promise<void> {
   const { ready, job } = store.state;
   const [first] = files;
   const isForLink = links.waits;

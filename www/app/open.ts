@@ -45,7 +45,7 @@ async function arrivals(reader: FileReader, files: readonly NamedBytes[], signal
 /** What files are brought to the page with. */
 export interface Openers {
   readonly reader: FileReader;
-  readonly maps: Maps;
+  readonly maps: Pick<Maps, 'open' | 'openOfProject'>;
 }
 
 /** Opens files; `side` is the view they were dropped on or chosen for. */

@@ -1,7 +1,7 @@
 /** Parts of the method of the map on the page, done again for whoever looks at them. */
 import type { Core } from '../compute/core.ts';
 import type { Failure } from '../compute/messages.ts';
-import type { OtherMap } from '../report.ts';
+import type { OtherMap, Scheme } from '../report.ts';
 import { startWatched } from '../compute/watch-client.ts';
 import type { Flows, OtherOutput, Simplifications, SimplifiedFrom, Watchable, Watched, WatchRequest } from '../compute/watch-messages.ts';
 import { lateModule } from '../late-module.ts';
@@ -47,7 +47,7 @@ function failing(failed: (sentence: string) => void): (failure: Failure) => void
 }
 
 /** What is wanted of a map, beside what it was made from. */
-type Wish<W extends Watchable> = { readonly wanted: W } & Pick<WatchRequest, 'carried' | 'other'>;
+type Wish<W extends Watchable> = { readonly wanted: W } & Pick<WatchRequest, 'scheme' | 'carried' | 'other'>;
 
 /** Computes what is wanted in a worker, or tells it where it is known; `key` tells apart what is wanted. */
 function startWish<W extends Watchable>({ result, begun }: Work, wish: Wish<W>, key: string, listener: Listener<Watched[W]>): () => void {
@@ -75,9 +75,9 @@ function startWish<W extends Watchable>({ result, begun }: Work, wish: Wish<W>, 
 }
 
 /** Computes the flows of the map on the page in a worker; returns what ends that. */
-export function startFlowing(store: Store, core: Core | null, listener: Listener<Flows>): () => void {
+export function startFlowing(store: Store, core: Core | null, listener: Listener<Flows>, scheme: Scheme): () => void {
   const work = shownWork(store, core);
-  return work === null ? nothing : startWish(work, { wanted: 'flows', carried: null, other: null }, 'flows', listener);
+  return work === null ? nothing : startWish(work, { wanted: 'flows', scheme, carried: null, other: null }, `flows ${scheme}`, listener);
 }
 
 /** Likewise the simplification. */
@@ -88,7 +88,7 @@ export function startSimplifying(store: Store, core: Core | null, listener: List
   }
   const { map } = work.result.output;
   const carried = from === 'each' || map === null ? null : { from, map };
-  return startWish(work, { wanted: 'simplifications', carried, other: null }, `simplifications ${from}`, listener);
+  return startWish(work, { wanted: 'simplifications', scheme: null, carried, other: null }, `simplifications ${from}`, listener);
 }
 
 /** Likewise another map of what it was made from. */
@@ -99,7 +99,7 @@ export function startOtherMap(store: Store, core: Core | null, listener: Listene
   }
   const { options, demo } = work.result.inputs;
   const other = { which, options, demo: demo?.id ?? null };
-  return startWish(work, { wanted: 'other-map', carried: null, other }, `other-map ${which}`, listener);
+  return startWish(work, { wanted: 'other-map', scheme: null, carried: null, other }, `other-map ${which}`, listener);
 }
 
 /** Computes both flat metrics of the map on the page in a worker that lays them out as long as nobody ends it. */

@@ -1,5 +1,5 @@
 /** What the page and the worker that does parts of the method again, to be looked at, say to each other. */
-import type { OtherMap, RunOptions } from '../report.ts';
+import type { OtherMap, RunOptions, Scheme } from '../report.ts';
 import type { Failure, RunOutput } from './messages.ts';
 
 /**
@@ -21,6 +21,8 @@ export interface WatchRequest {
   readonly landmarks: string;
   /** Curvature of each landmark's cone, in radians. */
   readonly cones: Float64Array;
+  /** The discrete conformal structure of flows; `null` where none is wanted. */
+  readonly scheme: Scheme | null;
   /** What simplifications begin with, and the map file that draws them on both meshes; `null` for each mesh by itself. */
   readonly carried: { readonly from: Exclude<SimplifiedFrom, 'each'>; readonly map: Uint8Array } | null;
   /** Which other map is wanted, and what the map was made with; `null` where none is. */
@@ -50,6 +52,10 @@ export interface SideFlow {
   readonly moments: readonly FlowMoment[];
   /** Whether the last moment has the curvatures that were asked for. */
   readonly converged: boolean;
+  /** The faces that it stopped at, by their numbers in the file. */
+  readonly stops: readonly number[];
+  /** What a view shows of them, for `unpackDefects`. */
+  readonly packedStops: Uint8Array;
   /** Logarithm of the conformal factor, moment after moment, by vertex of the mesh. */
   readonly logFactors: Float32Array;
 }

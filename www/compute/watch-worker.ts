@@ -22,16 +22,19 @@ function post(message: WatchMessage, transfer: Transferable[] = []): void {
 }
 
 function flowOf(flows: RecordedFlows, side: number): SideFlow {
-  const steps = JSON.parse(flows.steps(side)) as Pick<SideFlow, 'moments' | 'converged'>;
-  return { ...steps, logFactors: flows.logFactors(side) };
+  const steps = JSON.parse(flows.steps(side)) as Pick<SideFlow, 'moments' | 'converged' | 'stops'>;
+  return { ...steps, logFactors: flows.logFactors(side), packedStops: flows.packedStops(side) };
 }
 
 function simplificationOf(stages: RecordedSimplifications, side: number): Simplification {
   return { positions: stages.positions(side), triangles: stages.triangles(side), counts: stages.counts(side) };
 }
 
-function flowsOf({ source, target, landmarks, cones }: WatchRequest): Flows {
-  const flows = recordFlows(source, target, landmarks, cones, LISTENER);
+function flowsOf({ source, target, landmarks, cones, scheme }: WatchRequest): Flows {
+  if (scheme === null) {
+    throw new Error('no conformal structure is named');
+  }
+  const flows = recordFlows(source, target, landmarks, cones, scheme, LISTENER);
   return [flowOf(flows, 0), flowOf(flows, 1)];
 }
 

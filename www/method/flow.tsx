@@ -1,20 +1,23 @@
 /** The flows of both meshes to their flat metrics, played: the conformal factor as colour, the curvature error falling. */
 import type { VNode } from 'preact';
-import { useEffect, useMemo } from 'preact/hooks';
-import type { FlowMoment, Flows } from '../compute/watch-messages.ts';
+import { useEffect, useMemo, useState } from 'preact/hooks';
+import type { FlowMoment, Flows, SideFlow } from '../compute/watch-messages.ts';
 import { download } from '../dom.ts';
 import { figure, integer } from '../numbers.ts';
 import { logMarks, markText } from '../plots/chart.ts';
-import { factorScale } from '../wasm/page.js';
+import type { Scheme } from '../report.ts';
+import type { MeshDefects } from '../wasm/page.js';
+import { factorScale, unpackDefects } from '../wasm/page.js';
 import { momentCount, placesAt, scaleEnd } from './factors.ts';
 import './flow.css';
 import { flowCsv, momentAt, residualRange } from './flow-table.ts';
-import type { WatchHands } from './hands.ts';
+import type { FlowHands, Listener } from './hands.ts';
 import { usePlayed } from './played.ts';
+import { STRUCTURES } from './structures.ts';
 import { Computed, Transport } from './watched.tsx';
 
 export interface FlowPlayerProps {
-  readonly hands: WatchHands<'flows'>;
+  readonly hands: FlowHands;
   /** Leaves the flows. */
   readonly onClose: () => void;
 }
@@ -127,6 +130,62 @@ function Numbers({ flows, moment }: { readonly flows: Flows; readonly moment: nu
   );
 }
 
+/** What a view shows of the triangles that stopped a flow; `null` where none did. */
+function stopsOf({ stops, packedStops }: SideFlow): MeshDefects | null {
+  return stops.length === 0 ? null : unpackDefects(packedStops);
+}
+
+/** So many triangles have a button of their own. */
+const LISTED = 6;
+
+/** Where the flows stopped, marked on the meshes. */
+function Stops({ flows, hands }: { readonly flows: Flows; readonly hands: FlowHands }): VNode | null {
+  const [marked, setMarked] = useState<readonly [MeshDefects | null, MeshDefects | null]>([null, null]);
+  useEffect(() => {
+    const found = [stopsOf(flows[0]), stopsOf(flows[1])] as const;
+    setMarked(found);
+    hands.mark(found);
+    return () => {
+      hands.mark(null);
+      found.forEach((one) => one?.free());
+    };
+  }, [flows]);
+  if (flows.every(({ converged }) => converged)) {
+    return null;
+  }
+  return (
+    <div role="status">
+      {SIDES.filter(([, side]) => !flows[side].converged).map(([name, side]) => {
+        const { stops, moments } = flows[side];
+        const reached = `The ${name.toLowerCase()}’s flow stops after ${integer(moments.at(-1)?.step ?? 0)} steps, before it has the curvatures that were asked for`;
+        return (
+          <p class="small" key={name} data-stopped={side}>
+            {stops.length === 0 ? `${reached}.` : `${reached}: beyond, ${stops.length === 1 ? 'a triangle has' : `${integer(stops.length)} triangles have`} no area.`}
+            {stops.slice(0, LISTED).map((face, index) => {
+              const found = marked[side];
+              return (
+                <button
+                  type="button"
+                  class="stop"
+                  key={face}
+                  disabled={found === null}
+                  onClick={() => {
+                    if (found !== null) {
+                      hands.lookAtStop(side, found, index);
+                    }
+                  }}
+                >
+                  Show face {face}
+                </button>
+              );
+            })}
+          </p>
+        );
+      })}
+    </div>
+  );
+}
+
 function Player({ flows, hands, onClose }: FlowPlayerProps & { readonly flows: Flows }): VNode {
   const last = momentCount(flows) - 1;
   const { time, isPlaying, rest, toggle } = usePlayed(last, STEP_TIME);
@@ -142,7 +201,6 @@ function Player({ flows, hands, onClose }: FlowPlayerProps & { readonly flows: F
     },
     [],
   );
-  const stopped = flows.some(({ converged }) => !converged);
   const words = `step ${momentAt(flows[0], Math.round(time)).step} of the source, ${momentAt(flows[1], Math.round(time)).step} of the target`;
   return (
     <div class="watched">
@@ -150,7 +208,7 @@ function Player({ flows, hands, onClose }: FlowPlayerProps & { readonly flows: F
       <Transport name="flow" {...{ last, time, isPlaying, words, rest, toggle }} />
       <Residuals flows={flows} time={time} />
       <Numbers flows={flows} moment={moment} />
-      {stopped && <p class="quiet small">A flow has stopped before it had the curvatures that were asked for.</p>}
+      <Stops flows={flows} hands={hands} />
       <div class="watched-row">
         <button
           type="button"
@@ -169,11 +227,36 @@ function Player({ flows, hands, onClose }: FlowPlayerProps & { readonly flows: F
   );
 }
 
-/** The flows, once they are computed. */
+/** The flows by the structure that is chosen, once they are computed. */
 export default function FlowPlayer({ hands, onClose }: FlowPlayerProps): VNode {
+  const [scheme, setScheme] = useState<Scheme>('inversive');
   return (
-    <Computed hands={hands} sentence="Computing both flows again, step by step…" onClose={onClose}>
-      {(flows) => <Player hands={hands} onClose={onClose} flows={flows} />}
-    </Computed>
+    <div class="watched">
+      <div role="radiogroup" aria-label="The discrete conformal structure of the flow" class="structures">
+        {STRUCTURES.map((structure) => (
+          <label class="check" key={structure.scheme}>
+            <input
+              type="radio"
+              name="flow-structure"
+              value={structure.scheme}
+              checked={scheme === structure.scheme}
+              onChange={() => {
+                setScheme(structure.scheme);
+              }}
+            />
+            <span>{structure.name}</span>
+          </label>
+        ))}
+      </div>
+      <p class="quiet small">{STRUCTURES.find((structure) => structure.scheme === scheme)?.about}</p>
+      <Computed
+        key={scheme}
+        hands={{ start: (listener: Listener<Flows>) => hands.start(listener, scheme) }}
+        sentence="Computing both flows again, step by step…"
+        onClose={onClose}
+      >
+        {(flows) => <Player hands={hands} onClose={onClose} flows={flows} />}
+      </Computed>
+    </div>
   );
 }

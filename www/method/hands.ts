@@ -1,6 +1,8 @@
 /** What the page lends to the picture of the base domain. */
 import type { Simplifications, SimplifiedFrom, Watched } from '../compute/watch-messages.ts';
 import type { Side } from '../landmarks.ts';
+import type { Scheme } from '../report.ts';
+import type { MeshDefects } from '../wasm/page.js';
 import type { Axes } from './axes.ts';
 import type { BasePart } from './parts.ts';
 
@@ -62,6 +64,18 @@ export interface WatchHands<W extends keyof Frames> {
   /** Shows a frame on the meshes; `null` for the meshes as before. */
   readonly show: (frame: Frames[W] | null) => void;
 }
+
+/** Likewise of the flows, by a discrete conformal structure. */
+export interface FlowHands extends Pick<WatchHands<'flows'>, 'show'> {
+  readonly start: (listener: Listener<Watched['flows']>, scheme: Scheme) => () => void;
+  /** Marks by side the triangles that stopped a flow; `null` for the meshes as before. */
+  readonly mark: (stops: Stops | null) => void;
+  /** Turns the view of a side to one of the triangles that are marked there. */
+  readonly lookAtStop: (side: Side, found: MeshDefects, index: number) => void;
+}
+
+/** By side the triangles that stopped a flow; `null` where none did. */
+export type Stops = readonly [MeshDefects | null, MeshDefects | null];
 
 /** Likewise of the simplification, from one of both meshes or from both. */
 export interface SimplificationHands extends Pick<WatchHands<'simplifications'>, 'show'> {

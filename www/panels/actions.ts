@@ -1,6 +1,6 @@
 /** What the page's parts ask for, and what each of them is given. */
 import type { Side, SurfacePoint } from '../landmarks.ts';
-import type { BaseHands, Listener, SimplificationHands, WatchHands } from '../method/hands.ts';
+import type { BaseHands, FlowHands, Listener, SimplificationHands } from '../method/hands.ts';
 import type { Planes } from '../method/plane-client.ts';
 import type { prospectSentence } from '../messages.ts';
 import type { OtherMap } from '../report.ts';
@@ -73,7 +73,7 @@ export interface Actions {
   /** What the picture of the base domain needs of the views. */
   readonly baseView: BaseHands;
   /** What the flows that are watched need of the page. */
-  readonly flow: WatchHands<'flows'>;
+  readonly flow: FlowHands;
   /** Likewise the simplification. */
   readonly simplification: SimplificationHands;
   /** Likewise the layouts in the plane. */

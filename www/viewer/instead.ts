@@ -1,6 +1,6 @@
 /** What the views show in the place of the meshes as they are: refused meshes, defects, a map in the making, coarser meshes. */
 import { SIDES } from '../landmarks.ts';
-import type { StageFrame } from '../method/hands.ts';
+import type { StageFrame, Stops } from '../method/hands.ts';
 import { shownDefects } from '../store/defects.ts';
 import { shownPreview } from '../store/job.ts';
 import type { State } from '../store/state.ts';
@@ -22,6 +22,17 @@ export function showDefects(viewer: Viewer, state: State, previous: State | null
       viewer.showRepaired(side, shown.found);
     } else {
       viewer.showRefused(side, shown.found, upOf(refused.file.name));
+    }
+  }
+}
+
+/** The triangles that stopped a flow, over the mesh of their side; elsewhere what is wrong with that. */
+export function showStops(viewer: Viewer, state: State, stops: Stops | null): void {
+  showDefects(viewer, state, null);
+  for (const side of SIDES) {
+    const found = stops?.[side] ?? null;
+    if (found !== null) {
+      viewer.showRepaired(side, found);
     }
   }
 }

@@ -6,9 +6,8 @@ import { SIDES } from '../landmarks.ts';
 import { failureSentence, SENTENCES } from '../messages.ts';
 import type { Axes } from '../method/axes.ts';
 import { axesOf } from '../method/axes.ts';
-import type { FlowFrame, StageFrame } from '../method/hands.ts';
+import type { FlowFrame, StageFrame, Stops } from '../method/hands.ts';
 import type { BasePart } from '../method/parts.ts';
-import type { Examined } from '../store/defects.ts';
 import { otherMap, shownStyle } from '../store/compared.ts';
 import type { Event } from '../store/events.ts';
 import { shownPreview } from '../store/job.ts';
@@ -16,12 +15,13 @@ import { hasItsCones, shownResult } from '../store/staleness.ts';
 import type { Axis, Camera, Proposal, State } from '../store/state.ts';
 import type { MeshFile } from '../store/work.ts';
 import { giverOf } from '../store/work.ts';
+import type { MeshDefects } from '../wasm/page.js';
 import { Viewer } from '../wasm/page.js';
 import type { Direction } from './cameras.ts';
 import { cameraOf, Cameras } from './cameras.ts';
 import type { Box } from './gestures.ts';
 import { Hands } from './hands.ts';
-import { showDefects, showPreview, showStage } from './instead.ts';
+import { showDefects, showPreview, showStage, showStops } from './instead.ts';
 import { HELP } from './keys.ts';
 import { Labels } from './labels.ts';
 import { Picture } from './picture.ts';
@@ -187,7 +187,7 @@ export class Views {
   }
 
   /** Turns a view to a defect that it shows. */
-  lookAtDefect(side: Side, { found }: Examined, group: number, index: number): void {
+  lookAtDefect(side: Side, found: MeshDefects, group: number, index: number): void {
     this.#cameras.faceDefect(side, found, group, index);
     this.#moved();
   }
@@ -260,6 +260,13 @@ export class Views {
   showFlow(frame: FlowFrame | null): void {
     this.#with((viewer) => {
       this.#picture.showFlow(viewer, frame);
+    });
+  }
+
+  /** Marks the triangles that stopped a flow; `null` for the meshes as before. */
+  markStops(stops: Stops | null): void {
+    this.#with((viewer) => {
+      showStops(viewer, this.#state, stops);
     });
   }
 

@@ -32,8 +32,13 @@ pub fn run(arguments: &FlowArguments) -> Result<(), Failure> {
     if let Some(path) = &arguments.report {
         let total = seconds.get("total").copied().unwrap_or_default();
         let flow = ConeMetricReport { seconds: total, ..ConeMetricReport::from(&report) };
-        let value =
-            json!({ "converged": failure.is_none(), "cone_metric": flow, "faces": mesh.face_count() });
+        let stops: Vec<u32> = report.degenerate_faces.iter().map(|&f| checked.file_from_face(f).0).collect();
+        let value = json!({
+            "converged": failure.is_none(),
+            "cone_metric": flow,
+            "faces": mesh.face_count(),
+            "degenerate_faces": stops,
+        });
         outputs::write(path, &serde_json::to_vec_pretty(&value)?)?;
     }
     failure.map_or(Ok(()), |error| Err(error.into()))

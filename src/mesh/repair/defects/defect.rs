@@ -37,11 +37,13 @@ pub enum DefectKind {
     DoubleFace,
     /// A surface that a repair made up to close a hole or a cut.
     Cap,
+    /// A face at which a flow stopped, because it would lose its area: not the mesh's fault.
+    StopsFlow,
 }
 
 impl DefectKind {
     /// All kinds, in their order.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::OpenRim,
         Self::CrowdedEdges,
         Self::OneSidedSeam,
@@ -52,6 +54,7 @@ impl DefectKind {
         Self::FaceWithoutArea,
         Self::DoubleFace,
         Self::Cap,
+        Self::StopsFlow,
     ];
 
     /// One and several, in words.
@@ -71,6 +74,7 @@ impl DefectKind {
             Self::FaceWithoutArea => ["face without area", "faces without area"],
             Self::DoubleFace => ["double face", "double faces"],
             Self::Cap => ["cap", "caps"],
+            Self::StopsFlow => ["triangle that stops the flow", "triangles that stop the flow"],
         }
     }
 }
@@ -140,6 +144,20 @@ impl Defects {
         self.groups.iter().find(|group| group.kind == kind)
     }
 
+    /// Triangles at which a flow stopped, each by its corners, and marked in its middle.
+    pub fn of_stopped_flow(triangles: &[[DVec3; 3]]) -> Self {
+        let mut found = Self::default();
+        let mut stops = Vec::new();
+        for &[a, b, c] in triangles {
+            let first = found.positions.len() as u32;
+            stops.push(Defect { lines: vec![vec![first + 3]], faces: vec![found.triangles.len() as u32] });
+            found.positions.extend([a, b, c, (a + b + c) / 3.0]);
+            found.triangles.push([first, first + 1, first + 2]);
+        }
+        found.add(DefectKind::StopsFlow, stops);
+        found
+    }
+
     /// Takes further defects of a kind.
     pub(super) fn add(&mut self, kind: DefectKind, defects: Vec<Defect>) {
         self.groups.extend(DefectGroup::new(kind, defects));
@@ -153,7 +171,9 @@ impl Defects {
         let from = vertex.map_or(String::new(), |v| format!(" from vertex {v} on"));
         match (kind, vertex, defect.faces.first()) {
             (DefectKind::PinchedVertex, Some(v), _) => format!("vertex {v}"),
-            (DefectKind::FaceWithoutArea | DefectKind::DoubleFace, _, Some(face)) => format!("face {face}"),
+            (DefectKind::FaceWithoutArea | DefectKind::DoubleFace | DefectKind::StopsFlow, _, Some(face)) => {
+                format!("face {face}")
+            }
             (DefectKind::TurnedPatch | DefectKind::LoosePart, _, Some(face)) => {
                 format!("{} from face {face} on", counted(defect.faces.len(), "face"))
             }

@@ -284,3 +284,23 @@ fn the_same_is_found_of_meshes_of_any_size_and_far_from_the_origin() {
 fn power_of_two(exponent: i32) -> f64 {
     2.0_f64.powi(exponent)
 }
+
+#[test]
+fn triangles_that_stop_a_flow_are_marked_in_their_middle() {
+    let corner = |k: usize| DVec3::new(k as f64, (k * k) as f64, 1.0);
+    let triangles: Vec<[DVec3; 3]> = (0..5).map(|k| [corner(k), corner(k + 1), corner(k + 2)]).collect();
+    let found = Defects::of_stopped_flow(&triangles);
+    assert_eq!(kinds(&found), [DefectKind::StopsFlow]);
+    let group = &found.groups[0];
+    assert_eq!(group.to_string(), "5 triangles that stop the flow");
+    let normals = found.normals();
+    for (defect, corners) in group.defects.iter().zip(&triangles) {
+        let middle = corners.iter().sum::<DVec3>() / 3.0;
+        assert_eq!(found.positions[defect.lines[0][0] as usize], middle);
+        assert_eq!(found.triangles[defect.faces[0] as usize].map(|v| found.positions[v as usize]), *corners);
+        let outlook = found.outlook(defect, &normals).unwrap();
+        assert!(outlook.place.distance(middle) < 1e-12);
+        assert!(outlook.normal.dot((corners[1] - corners[0]).cross(corners[2] - corners[0])) > 0.0);
+    }
+    assert_eq!(Defects::of_stopped_flow(&[]).groups, []);
+}

@@ -1,0 +1,90 @@
+/** Files that come one after the other, faster than they are read. */
+import { beforeAll, beforeEach, expect, test, vi } from 'vitest';
+import { openDropped } from '../../www/app/dropped.ts';
+import { leaveTask } from '../../www/app/task.ts';
+import { Store } from '../../www/store/store.ts';
+import { buildDemo } from '../../www/wasm/page.js';
+import { READER } from './reading.ts';
+import { startPageModule } from './modules.ts';
+
+let store: Store;
+let own: Record<'source' | 'target' | 'landmarks' | 'bad', File>;
+
+beforeAll(() => {
+  startPageModule();
+  const demo = buildDemo('sphere-tetrahedron');
+  if (demo === undefined) {
+    throw new Error('no demo');
+  }
+  const landmarks = JSON.parse(new TextDecoder().decode(demo.landmarks())) as object;
+  const file = (name: string, bytes: BlobPart): File => new File([bytes], name);
+  own = {
+    source: file('ball.obj', demo.source() as Uint8Array<ArrayBuffer>),
+    target: file('tetrahedron.obj', demo.target() as Uint8Array<ArrayBuffer>),
+    landmarks: file('pairs.json', JSON.stringify({ ...landmarks, source: 'ball.obj', target: 'tetrahedron.obj' })),
+    bad: file('bad.obj', 'v 0 0 x'),
+  };
+});
+
+beforeEach(() => {
+  vi.stubGlobal('requestAnimationFrame', (draw: () => void) => {
+    queueMicrotask(draw);
+    return 0;
+  });
+  store = new Store();
+  store.dispatch({ kind: 'ready', demos: [] });
+});
+
+/** Drops files, each alone, without waiting for any. */
+async function drop(...files: readonly (readonly [File, 0 | 1 | null])[]): Promise<void> {
+  const unasked = (): never => {
+    throw new Error('nobody asks for this');
+  };
+  const places = { links: { waits: false, cancel: unasked, take: unasked }, reader: READER, maps: { open: unasked, openOfProject: unasked } };
+  await Promise.all(files.map(([file, side]) => openDropped(store, places, [file], side)));
+}
+
+function names(): (string | undefined)[] {
+  return store.state.meshes.map((mesh) => mesh?.name);
+}
+
+test('none is lost, in whatever order they come', async () => {
+  const { source, target, landmarks } = own;
+  const all = [[source, 0], [target, 1], [landmarks, null]] as const;
+  for (const order of [[0, 1, 2], [1, 0, 2], [0, 2, 1], [2, 1, 0]]) {
+    store = new Store();
+    store.dispatch({ kind: 'ready', demos: [] });
+    await drop(...order.map((k) => all[k] ?? all[0]));
+    expect(names(), String(order)).toEqual(['ball.obj', 'tetrahedron.obj']);
+    expect(store.state.pairs.length, String(order)).toBeGreaterThan(3);
+    expect(store.state.job.kind).toBe('idle');
+    expect(store.state.error).toBeNull();
+  }
+});
+
+test('what was refused among them stays told', async () => {
+  await drop([own.bad, 0], [own.target, 1]);
+  expect(names()).toEqual([undefined, 'tetrahedron.obj']);
+  expect(store.state.error).toContain('bad.obj');
+  await drop([own.bad, 0], [own.bad, 1]);
+  expect(store.state.error?.match(/bad\.obj/g)?.length).toBeGreaterThan(0);
+  // Told until something else is brought.
+  await drop([own.source, 0]);
+  expect(store.state.error).toBeNull();
+});
+
+test('a file that is left while it is read is left out alone', async () => {
+  const dropped = drop([own.source, 0], [own.target, 1]);
+  leaveTask(store);
+  await dropped;
+  expect(names()).toEqual([undefined, 'tetrahedron.obj']);
+});
+
+test('something else that is begun meanwhile was wanted last', async () => {
+  const dropped = drop([own.source, 0], [own.target, 1]);
+  const task = { sentence: 'Building the demo…' };
+  store.dispatch({ kind: 'task-begun', task });
+  await dropped;
+  expect(names()).toEqual([undefined, undefined]);
+  store.dispatch({ kind: 'task-ended', task });
+});

@@ -1,0 +1,72 @@
+/** The family of flows in the step Method: each by its name, and the place where one without flips stops. */
+import { AxeBuilder } from '@axe-core/playwright';
+import type { Page } from '@playwright/test';
+import { expect, test } from '@playwright/test';
+import { SETTLED } from './canvas.ts';
+import { CORNERS, rod } from '../unit/rod.ts';
+import { upload } from './own-files.ts';
+import { fail, open, openStep, ROOT, runMap } from './page.ts';
+
+const RULES = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
+
+/** How many pixels of a view have the colour in which triangles that stop a flow are painted, or nearly so. */
+async function painted(page: Page, view: string): Promise<number> {
+  const box = (await page.locator(view).boundingBox()) ?? fail(`${view} has no box`);
+  const base64 = (await page.screenshot({ clip: box })).toString('base64');
+  return page.evaluate(async (picture) => {
+    const bytes = Uint8Array.from(atob(picture), (c) => c.charCodeAt(0));
+    const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+    const context = new OffscreenCanvas(image.width, image.height).getContext('2d') ?? undefined;
+    context?.drawImage(image, 0, 0);
+    const data = context?.getImageData(0, 0, image.width, image.height).data ?? new Uint8ClampedArray();
+    let count = 0;
+    for (let at = 0; at < data.length; at += 4) {
+      const [r = 0, g = 0, b = 0] = data.subarray(at, at + 3);
+      count += Math.hypot(r - 208, g - 28, b - 139) < 40 ? 1 : 0;
+    }
+    return count;
+  }, base64);
+}
+
+test('every structure has its flow, and the triangle that stops the one without flips is painted, told and brought into sight', async ({ page }) => {
+  await open(page);
+  // One after the other, faster than they are read.
+  await page.locator('#source-file').setInputFiles(upload('rod.obj', rod(8)));
+  await page.locator('#target-file').setInputFiles(upload('ball.obj', rod(1)));
+  await page.locator('#landmark-file').setInputFiles(upload('corners.json', CORNERS));
+  await expect(page.locator('#run')).toBeEnabled();
+  await runMap(page);
+  await openStep(page, 'method');
+  await page.locator('#watch-flow').click();
+  const converged = async (side: number): Promise<boolean> => {
+    const text = (await page.locator(`[data-flow="${side}"] td`).nth(1).textContent()) ?? '';
+    return text.includes('·10⁻') && (await page.locator(`[data-stopped="${side}"]`).count()) === 0;
+  };
+  const structures = page.getByRole('radiogroup', { name: 'The discrete conformal structure of the flow' });
+  for (const name of ['Inversive distance', 'Vertex scaling', 'Touching circles', 'Overlapping circles']) {
+    await structures.getByRole('radio', { name, exact: true }).check();
+    await expect(page.locator('.flow-numbers'), name).toBeVisible({ timeout: 60_000 });
+    const slider = page.getByRole('slider', { name: 'Step of the flow' });
+    await slider.focus();
+    await page.keyboard.press('End');
+    await expect.poll(() => Promise.all([converged(0), converged(1)]), { message: name }).toEqual([true, true]);
+  }
+  const before = await painted(page, '#view-source');
+  await structures.getByRole('radio', { name: 'Inversive distance, no flips', exact: true }).check();
+  const told = page.locator('[data-stopped="0"]');
+  await expect(told).toContainText(/The source’s flow stops after \d+ steps, .*: beyond, .*triangles? ha(s|ve) no area/, { timeout: 60_000 });
+  // The sign at its middle, and with it what is seen of the triangle.
+  await expect.poll(() => painted(page, '#view-source')).toBeGreaterThan(before + 20);
+  await told.getByRole('button', { name: /^Show face \d+$/ }).first().click();
+  await page.waitForTimeout(SETTLED + 800);
+  expect(await painted(page, '#view-source')).toBeGreaterThan(before + 200);
+  await told.scrollIntoViewIfNeeded();
+  await page.screenshot({ path: `${ROOT}test-results/flow-stopped.png` });
+  const { violations } = await new AxeBuilder({ page }).include('#panel').withTags(RULES).analyze();
+  expect(violations.map(({ id }) => id)).toEqual([]);
+  // Another structure, and leaving the flow, take the paint away.
+  await structures.getByRole('radio', { name: 'Touching circles', exact: true }).check();
+  await expect.poll(() => painted(page, '#view-source')).toBeLessThan(before + 10);
+  await page.locator('#close-flow').click();
+  await expect(page.locator('#watch-flow')).toBeVisible();
+});
