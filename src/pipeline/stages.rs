@@ -7,7 +7,7 @@ use crate::monitor::{PlannedStage, Stage};
 impl PipelineOptions {
     /// The stages that a run with these options and that many landmarks passes, in their order: those of [`super::run`] after the
     /// two of whoever reads the files ([`Stage::Landmarks`], [`Stage::Findings`]). Their times are
-    /// percents of a run, means over five pairs with 21 to 33 landmarks, three with 12 and three of the thesis' method
+    /// percents of a run, means over five pairs with 21 to 33 landmarks, three with 12, three of the thesis' method and three of Tutte's embedding
     /// (`cargo xtask survey stages`).
     pub fn stages(&self, landmarks: usize) -> Vec<PlannedStage> {
         use Stage::*;
@@ -47,6 +47,16 @@ impl PipelineOptions {
                 (TargetConeMetric, 6.5),
                 (PatchwiseMap, 17.2),
                 (Transfer, 0.3),
+            ]),
+            (Method::Tutte, _) => planned(&[
+                (Landmarks, 4.0),
+                (Findings, 23.0),
+                (BaseDomain, 45.0),
+                (Certificate, 1.0),
+                (Composition, 4.0),
+                (SourceConeMetric, 7.0),
+                (TargetConeMetric, 6.0),
+                (Transfer, 10.0),
             ]),
         }
     }

@@ -38,7 +38,7 @@ pub(super) fn run(
 }
 
 /// Draws the base domain on both meshes at full resolution.
-fn draw(
+pub(super) fn draw(
     input: MapInput<'_>,
     options: &PipelineOptions,
     monitor: &mut dyn Monitor,
