@@ -118,7 +118,7 @@ impl Asked<'_> {
     /// A clock that holds what was asked of the time, from the first byte on.
     pub fn clock(&self) -> Clock {
         let mut clock = Clock::start();
-        // The thesis' method has nothing to shorten.
+        // The other methods have nothing to shorten.
         if self.choices.method == Method::Relaxed {
             clock.ask_for_result(self.time_limit, interrupt::listen());
         }
@@ -183,7 +183,7 @@ pub fn tell(result: &MapResult) {
             say(format_args!("certified bijective: {flipped} of {all} triangles flipped"));
         }
         None => say(format_args!(
-            "not bijective by construction: {:.1} % of the vertices are unmapped",
+            "not certified: {:.1} % of the vertices are unmapped",
             100.0 * report.unmapped_share
         )),
     }
