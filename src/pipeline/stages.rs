@@ -7,8 +7,8 @@ use crate::monitor::{PlannedStage, Stage};
 impl PipelineOptions {
     /// The stages that a run with these options and that many landmarks passes, in their order: those of [`super::run`] after the
     /// two of whoever reads the files ([`Stage::Landmarks`], [`Stage::Findings`]). Their times are
-    /// percents of a run, means over five pairs with 21 to 33 landmarks, three with 12, three of the thesis' method and three of Tutte's embedding
-    /// (`cargo xtask survey stages`).
+    /// percents of a run, means over five pairs with 21 to 33 landmarks, three with 12 and three of the thesis' method
+    /// (`cargo xtask survey stages`), and six of Tutte's.
     pub fn stages(&self, landmarks: usize) -> Vec<PlannedStage> {
         use Stage::*;
         let planned = |list: &[(Stage, f64)]| {
@@ -49,14 +49,14 @@ impl PipelineOptions {
                 (Transfer, 0.3),
             ]),
             (Method::Tutte, _) => planned(&[
-                (Landmarks, 4.0),
-                (Findings, 23.0),
-                (BaseDomain, 45.0),
-                (Certificate, 1.0),
-                (Composition, 4.0),
-                (SourceConeMetric, 7.0),
-                (TargetConeMetric, 6.0),
-                (Transfer, 10.0),
+                (Landmarks, 2.6),
+                (Findings, 21.0),
+                (BaseDomain, 40.0),
+                (Certificate, 0.9),
+                (Composition, 7.0),
+                (SourceConeMetric, 6.0),
+                (TargetConeMetric, 6.5),
+                (Transfer, 16.0),
             ]),
         }
     }

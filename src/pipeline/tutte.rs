@@ -27,7 +27,11 @@ pub(super) fn run(
     let layout = draw(input, options, &mut Portion::new(monitor, 0.0, 0.9))?;
     let straight = StraightPatches::new(layout, &mut Portion::new(monitor, 0.9, 1.0))?;
     match straight.certified(monitor) {
-        Ok(proven) => composed(input, &straight.parametrisation(proven), options, monitor),
+        Ok(proven) => {
+            let map = composed(input, &straight.parametrisation(proven), options, monitor)?;
+            // Where patches shrink limbs to tiny faces the corners of pieces are known less exactly than whoever reads them asks for.
+            Ok(MapResult { correspondence: None, flat_layout: None, ..map })
+        }
         Err(PipelineError::NotCertified(certificate)) => {
             straight.at_vertices(input, &certificate, options, monitor)
         }
