@@ -1,6 +1,7 @@
 //! A mesh of area 1 with its landmarks and room for a layout around them.
 
 use crate::landmarks::LandmarkId;
+use crate::layout::PatchedMesh;
 use crate::mesh::face_weights::{FaceWeight, FaceWeights};
 use crate::mesh::{FaceId, MeshError, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
 use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
@@ -51,6 +52,11 @@ impl LandmarkedMesh {
             RefinedMesh::unrefined(mesh).with_vertices(mesh, LEAST_PER_LANDMARK * landmarks.len())?;
         let refined = refined.with_degrees(mesh, landmarks.iter().copied(), LEAST_DEGREE)?;
         Ok(Self { refined, landmarks: landmarks.iter().copied().collect(), weights: None })
+    }
+
+    /// A mesh with a drawing of a base domain, and refined along it.
+    pub fn patched(side: &PatchedMesh) -> Self {
+        Self { refined: side.refined(), landmarks: side.landmark_vertices.clone(), weights: None }
     }
 
     /// The same mesh with the weights of the faces of the input mesh; `None` where all are skin.

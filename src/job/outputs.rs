@@ -23,7 +23,7 @@ pub struct OutputFile {
 }
 
 impl Job {
-    /// The content of the map file of a result of this job; `None` where the map has no pieces: for the thesis' method, and where
+    /// The content of the map file of a result of this job; `None` where the map has no pieces: for other methods than the relaxed one, and where
     /// there is no overlay.
     pub fn map_file(&self, result: &MapResult, choices: &Choices) -> Option<MapFile> {
         let on_file = result.correspondence.as_ref()?;

@@ -14,7 +14,7 @@ pub enum Stage {
     Matching,
     /// Landmark pairs that do not fit and limbs without a landmark are looked for.
     Findings,
-    /// The base domain is drawn on both meshes at full resolution (the thesis' method).
+    /// The base domain is drawn on both meshes at full resolution (the methods that map patch by patch).
     BaseDomain,
     /// Ways to draw the base domain are judged by the coarse maps that they lead to.
     ClassSearch,

@@ -4,4 +4,4 @@ mod bins;
 mod development;
 mod patchwise_map;
 
-pub use patchwise_map::{PatchwiseMap, patchwise_map};
+pub use patchwise_map::{PatchwiseMap, patchwise_map, straight_map};

@@ -11,11 +11,12 @@
 use super::bins::{Bins, weights};
 use super::development::{DevelopedMesh, Placed};
 use crate::cone_metric::ConeMetric;
-use crate::layout::BaseLayout;
-use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use crate::layout::{BaseLayout, PatchedMesh};
+use crate::math::predicates::orient2d;
+use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use glam::DVec2;
-use typed_index_collections::{TiVec, ti_vec};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 /// Barycentric coordinates down to minus this are inside a straight triangle.
 const INSIDE: f64 = 1e-9;
@@ -45,10 +46,77 @@ pub fn patchwise_map(
 ) -> Result<PatchwiseMap, Cancelled> {
     let mut source = DevelopedMesh::new(&layout.source, metrics[0]);
     let mut target = DevelopedMesh::new(&layout.target, metrics[1]);
+    let flat = |developed: &mut DevelopedMesh<'_>, patch: FaceId| {
+        let straight = developed.straighten(patch)?;
+        Some(FlatPatch { corners: straight.corners, faces: developed.region(&straight) })
+    };
+    let taken = ti_vec![false; inputs[0].vertex_count()];
+    mapped(layout, inputs, taken, |patch| [flat(&mut source, patch), flat(&mut target, patch)], monitor)
+}
+
+/// Maps the source's input vertices where every patch lies on the same straight triangle on both meshes: of each face of the refined meshes
+/// `corners` has the places in the triangle of its patch. Vertices of faces that are inverted or have no area have no image, nor those over such faces
+/// alone.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn straight_map(
+    layout: &BaseLayout,
+    inputs: [&SurfaceMesh; 2],
+    triangles: &TiSlice<FaceId, [DVec2; 3]>,
+    corners: [&TiSlice<HalfedgeId, DVec2>; 2],
+    monitor: &mut dyn Monitor,
+) -> Result<PatchwiseMap, Cancelled> {
+    let by_patch = |side: &PatchedMesh, corners: &TiSlice<HalfedgeId, DVec2>| {
+        let mut faces = ti_vec![Vec::new(); triangles.len()];
+        for (face, &patch) in side.face_patch.iter_enumerated() {
+            faces[patch].push(Placed { face, corners: face.halfedges().map(|h| corners[h]) });
+        }
+        faces
+    };
+    let mut source: TiVec<FaceId, Vec<Placed>> = by_patch(&layout.source, corners[0]);
+    monitor.step(Step::default())?;
+    let mut taken = ti_vec![false; inputs[0].vertex_count()];
+    for placed in source.iter().flatten().filter(|placed| !is_positive(placed)) {
+        for v in layout.source.mesh.triangles()[placed.face] {
+            // Not those that the layout added.
+            if let Some(taken) = taken.get_mut(v) {
+                *taken = true;
+            }
+        }
+    }
+    monitor.step(Step::default())?;
+    let mut target: TiVec<FaceId, Vec<Placed>> = by_patch(&layout.target, corners[1]);
+    let flat = |faces: &mut TiVec<FaceId, Vec<Placed>>, patch: FaceId| {
+        Some(FlatPatch { corners: triangles[patch], faces: std::mem::take(&mut faces[patch]) })
+    };
+    mapped(layout, inputs, taken, |patch| [flat(&mut source, patch), flat(&mut target, patch)], monitor)
+}
+
+fn is_positive(Placed { corners: [p, q, r], .. }: &Placed) -> bool {
+    orient2d(*p, *q, *r) > 0.0
+}
+
+/// A patch in the plane.
+struct FlatPatch {
+    /// Its straight triangle, positively oriented.
+    corners: [DVec2; 3],
+    /// The faces over it.
+    faces: Vec<Placed>,
+}
+
+/// Maps the source's input vertices by equal barycentric coordinates; `flat` has each patch on the source and on the target, where it is not
+/// inverted. Vertices that are taken from the start have no image.
+fn mapped(
+    layout: &BaseLayout,
+    inputs: [&SurfaceMesh; 2],
+    mut taken: TiVec<VertexId, bool>,
+    mut flat: impl FnMut(FaceId) -> [Option<FlatPatch>; 2],
+    monitor: &mut dyn Monitor,
+) -> Result<PatchwiseMap, Cancelled> {
     let refined = layout.target.refined();
     let vertices = inputs[0].vertex_count();
     let mut images: TiVec<VertexId, Option<SurfacePoint>> = ti_vec![None; vertices];
-    let mut taken = ti_vec![false; vertices];
     for (&s, &t) in layout.source.landmark_vertices.iter().zip(&layout.target.landmark_vertices) {
         images[s] = Some(refined.on_input(inputs[1], SurfacePoint::at_vertex(&layout.target.mesh, t)));
         taken[s] = true;
@@ -57,13 +125,13 @@ pub fn patchwise_map(
     for patch in layout.base.mesh.faces() {
         let fraction = patch.index() as f64 / layout.base.mesh.face_count() as f64;
         monitor.step(Step { fraction, residual: None })?;
-        let [from, onto] = [source.straighten(patch), target.straighten(patch)];
+        let [from, onto] = flat(patch);
         inverted_patches[0] += usize::from(from.is_none());
         inverted_patches[1] += usize::from(onto.is_none());
         let Some(from) = from else { continue };
-        let inside = vertices_inside(&source.region(&from), &from.corners, &layout.source.mesh, &mut taken);
+        let inside = vertices_inside(&from.faces, &from.corners, &layout.source.mesh, &mut taken);
         let Some(onto) = onto else { continue };
-        let faces = Bins::new(target.region(&onto), &onto.corners);
+        let faces = Bins::new(onto.faces, &onto.corners);
         for Inside { vertex, weights } in inside {
             let q = (0..3).map(|k| onto.corners[k] * weights[k]).sum();
             images[vertex] = faces.locate(q).map(|point| refined.on_input(inputs[1], point));
@@ -110,7 +178,7 @@ mod tests {
     use super::*;
     use crate::cone_metric::{FlowOptions, base_domain_curvature, flow};
     use crate::landmarks::Landmarks;
-    use crate::layout::{LayoutOptions, PatchedMesh, joint};
+    use crate::layout::{LayoutOptions, joint};
     use crate::mesh::generators::icosphere;
     use crate::monitor::Silent;
     use glam::DVec3;

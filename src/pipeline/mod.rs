@@ -16,6 +16,7 @@ mod result;
 mod simplification;
 mod stages;
 mod thesis;
+mod tutte;
 mod warning;
 
 pub use borders::{BorderCase, BordersReport, RimPairReport, RimReport};
@@ -58,5 +59,6 @@ pub fn run(
     match options.method {
         Method::Relaxed => relaxed::run(input, options, monitor),
         Method::Thesis => thesis::run(input, options, monitor),
+        Method::Tutte => tutte::run(input, options, monitor),
     }
 }

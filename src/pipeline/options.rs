@@ -18,6 +18,8 @@ pub enum Method {
     Relaxed,
     /// The thesis' patchwise map over the two cone metrics, with its unmapped share.
     Thesis,
+    /// Patch by patch: each onto its straight triangle by Tutte's embedding. Continuous, with kinks along the patch lines.
+    Tutte,
 }
 
 /// Where the base domain's triangles come from.

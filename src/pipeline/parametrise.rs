@@ -22,7 +22,7 @@ pub(super) struct Parametrisation {
     pub(super) search: SearchReport,
     pub(super) surface: Arc<ConeSurface>,
     pub(super) sides: [LandmarkedMesh; 2],
-    embeddings: [Embedding; 2],
+    pub(super) embeddings: [Embedding; 2],
     pub(super) certificate: Certificate,
     pub(super) stopped_early: bool,
     /// What became of the rims of holes; `None` where not both meshes have any.
@@ -130,18 +130,27 @@ pub(super) fn parametrise(
     let Solved { layout, search, surface, embeddings, meshes } = solved;
     let full = meshes.unwrap_or(full);
     let stopped_early = monitor.wants_result();
-    monitor.enter(Stage::Certificate);
-    let mut proofs = Vec::new();
-    for k in 0..2 {
-        monitor.step(Step { fraction: 0.5 * k as f64, residual: None })?;
-        proofs.push(certify(full[k].parametrised(&embeddings[k]), &surface));
-    }
-    let certificate = proofs[0].and(&proofs[1]);
-    if !certificate.bijective {
-        return Err(PipelineError::NotCertified(certificate));
-    }
+    let certificate = certified([0, 1].map(|k| full[k].parametrised(&embeddings[k])), &surface, monitor)?;
     let sides = full;
     Ok(Parametrisation { layout, search, surface, sides, embeddings, certificate, stopped_early, borders })
+}
+
+/// The certificate of both parametrisations.
+///
+/// # Errors
+/// [`PipelineError::NotCertified`] where they are no homeomorphisms, or cancellation.
+pub(super) fn certified(
+    sides: [Parametrised<'_>; 2],
+    surface: &ConeSurface,
+    monitor: &mut dyn Monitor,
+) -> Result<Certificate, PipelineError> {
+    monitor.enter(Stage::Certificate);
+    let [source, target] = sides;
+    monitor.step(Step::default())?;
+    let source = certify(source, surface);
+    monitor.step(Step { fraction: 0.5, residual: None })?;
+    let certificate = source.and(&certify(target, surface));
+    if certificate.bijective { Ok(certificate) } else { Err(PipelineError::NotCertified(certificate)) }
 }
 
 /// Both parametrisations before they are certified.

@@ -2,7 +2,7 @@
 
 use super::flows::Flows;
 use super::outcome::Outcome;
-use super::parametrise::parametrise;
+use super::parametrise::{Parametrisation, parametrise};
 use super::previews::{InGivenMeshes, Roles};
 use super::{Base, MapInput, MapResult, PipelineError, PipelineOptions};
 use crate::base_domain::BaseDomain;
@@ -39,6 +39,16 @@ pub(super) fn run(
         let meshes = [input.source, input.target];
         parametrise(input, options, &mut InGivenMeshes::new(monitor, meshes, Roles::AsGiven))?
     };
+    composed(input, &map, options, monitor)
+}
+
+/// Composes both parametrisations and tells of the map.
+pub(super) fn composed(
+    input: MapInput<'_>,
+    map: &Parametrisation,
+    options: &PipelineOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<MapResult, PipelineError> {
     monitor.enter(Stage::Composition);
     let [source, target] = map.sides();
     monitor.step(Step::default())?;
@@ -50,7 +60,7 @@ pub(super) fn run(
     let (flows, missing) = Flows::beside_a_map(input, &base, options, monitor)?;
     monitor.enter(Stage::Transfer);
     monitor.step(Step::default())?;
-    let outcome = Outcome { input, map: &map, base: &base, flows: &flows, locations: &locations };
+    let outcome = Outcome { input, map, base: &base, flows: &flows, locations: &locations };
     Ok(outcome.result(overlay, missing, monitor)?)
 }
 

@@ -18,14 +18,15 @@ use std::collections::BTreeMap;
 pub struct Report {
     /// Size of the base domain.
     pub base_domain: BaseDomainReport,
-    /// The search for the class of the map; `null` for the thesis' method.
+    /// The search for the class of the map; `null` where there is no certificate.
     pub layout: Option<LayoutSearchReport>,
     /// Points that the program added as cones of its own and held on the finer levels, see
     /// [`super::OwnConeOptions`]; not counted in `base_domain`.
     pub own_landmarks: usize,
     /// Both flows.
     pub cone_metric: ConeMetricsReport,
-    /// The independent check of bijectivity; `null` for the thesis' method, which is not bijective.
+    /// The independent check of bijectivity; `null` for the thesis' method, which is not bijective, and for that
+    /// of Tutte where rounding keeps it from being so.
     pub certificate: Option<CertificateReport>,
     /// Distortion of the map; of skin onto skin where holes were closed by caps.
     pub distortion: DistortionReport,

@@ -22,13 +22,13 @@ pub struct MapResult {
     pub common: CommonMesh,
     /// The paths between the patches on the source and on the target, as line strips in input coordinates.
     pub patch_lines: [Vec<Vec<DVec3>>; 2],
-    /// Image of each source vertex: a point of the target's input mesh. `None` where the thesis' method has none.
+    /// Image of each source vertex: a point of the target's input mesh. `None` where a method that maps patch by patch has none.
     pub target_from_source: TiVec<VertexId, Option<SurfacePoint>>,
-    /// Distortion (s1^2 + s2^2 + s1^-2 + s2^-2) / 4 around each source vertex; empty for the thesis' method.
+    /// Distortion (s1^2 + s2^2 + s1^-2 + s2^-2) / 4 around each source vertex; empty where there is no certificate.
     pub vertex_distortion: TiVec<VertexId, f64>,
-    /// Distortion of each triangle of `common`; empty for the thesis' method.
+    /// Distortion of each triangle of `common`; empty where there is no certificate, or no overlay.
     pub triangle_distortion: Vec<TriangleDistortion>,
-    /// The map's pieces on both input meshes; `None` for the thesis' method, and where there is no overlay.
+    /// The map's pieces on both input meshes; `None` but for the relaxed method, and where there is no overlay.
     pub correspondence: Option<Correspondence>,
     /// Both input meshes on the base domain's flat triangles; `None` where there are no pieces, and where rounding at coincident
     /// points leaves a side lost.

@@ -8,7 +8,7 @@ impl PipelineOptions {
     /// The stages that a run with these options and that many landmarks passes, in their order: those of [`super::run`] after the
     /// two of whoever reads the files ([`Stage::Landmarks`], [`Stage::Findings`]). Their times are
     /// percents of a run, means over five pairs with 21 to 33 landmarks, three with 12 and three of the thesis' method
-    /// (`cargo xtask survey stages`).
+    /// (`cargo xtask survey stages`), and six of Tutte's.
     pub fn stages(&self, landmarks: usize) -> Vec<PlannedStage> {
         use Stage::*;
         let planned = |list: &[(Stage, f64)]| {
@@ -47,6 +47,16 @@ impl PipelineOptions {
                 (TargetConeMetric, 6.5),
                 (PatchwiseMap, 17.2),
                 (Transfer, 0.3),
+            ]),
+            (Method::Tutte, _) => planned(&[
+                (Landmarks, 2.6),
+                (Findings, 21.0),
+                (BaseDomain, 40.0),
+                (Certificate, 0.9),
+                (Composition, 7.0),
+                (SourceConeMetric, 6.0),
+                (TargetConeMetric, 6.5),
+                (Transfer, 16.0),
             ]),
         }
     }

@@ -34,11 +34,12 @@ pub(super) fn run(
     let last = &mut Portion::new(monitor, 0.8, 1.0);
     let map = patchwise_map(&layout, [input.source, input.target], [&source, &target], last)?;
     monitor.enter(Stage::Transfer);
-    Ok(result(input, layout, &flows, map))
+    let warnings = warnings(&map);
+    Ok(result(input, layout, &flows, map, warnings))
 }
 
 /// Draws the base domain on both meshes at full resolution.
-fn draw(
+pub(super) fn draw(
     input: MapInput<'_>,
     options: &PipelineOptions,
     monitor: &mut dyn Monitor,
@@ -57,7 +58,14 @@ fn draw(
     })
 }
 
-fn result(input: MapInput<'_>, layout: BaseLayout, flows: &Flows, map: PatchwiseMap) -> MapResult {
+/// The result of a map that is known at the source's vertices alone.
+pub(super) fn result(
+    input: MapInput<'_>,
+    layout: BaseLayout,
+    flows: &Flows,
+    map: PatchwiseMap,
+    warnings: Vec<Warning>,
+) -> MapResult {
     let images = &map.target_from_source;
     let mapped = images.iter_enumerated().filter_map(|(v, image)| Some((v, (*image)?)));
     let measured = image_distortion(input.source, input.target, images);
@@ -66,7 +74,7 @@ fn result(input: MapInput<'_>, layout: BaseLayout, flows: &Flows, map: Patchwise
         unmapped_share: map.unmapped_share,
         distortion: DistortionReport::new(&measured, flows.l2_stretch()),
         ground_truth: input.distance_to_truth(mapped).map(Into::into),
-        warnings: warnings(&map),
+        warnings,
         ..Report::of_inputs(input, &layout.base, flows)
     };
     MapResult {
@@ -78,7 +86,7 @@ fn result(input: MapInput<'_>, layout: BaseLayout, flows: &Flows, map: Patchwise
         triangle_distortion: Vec::new(),
         correspondence: None,
         flat_layout: None,
-        texture: Some(flows.texture()),
+        texture: flows.l2_stretch().map(|_| flows.texture()),
         report,
         base: layout.base,
         target_from_source: map.target_from_source,
@@ -92,13 +100,12 @@ fn patch_lines(base: &BaseDomain, side: &PatchedMesh, input: &SurfaceMesh) -> Ve
 }
 
 fn warnings(map: &PatchwiseMap) -> Vec<Warning> {
-    let mut warnings = vec![Warning::NoBijection];
     let [source, target] = map.inverted_patches;
-    if source + target > 0 {
-        warnings.push(Warning::InvertedPatches { source, target });
-    }
-    if map.unmapped_share > 0.0 {
-        warnings.push(Warning::Unmapped { share: map.unmapped_share });
-    }
-    warnings
+    let inverted = (source + target > 0).then_some(Warning::InvertedPatches { source, target });
+    [Some(Warning::NoBijection), inverted, unmapped(map)].into_iter().flatten().collect()
+}
+
+/// What is to be known of vertices without an image.
+pub(super) fn unmapped(map: &PatchwiseMap) -> Option<Warning> {
+    (map.unmapped_share > 0.0).then_some(Warning::Unmapped { share: map.unmapped_share })
 }

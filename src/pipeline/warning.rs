@@ -70,6 +70,11 @@ pub enum Warning {
     },
     /// The method guarantees no bijection.
     NoBijection,
+    /// Rounding kept the map from being one-to-one everywhere (the method of Tutte).
+    NotCertified {
+        /// What the certificate found.
+        reason: String,
+    },
     /// Triangles of the base domain are inverted in the flat metrics (the thesis' method).
     InvertedPatches {
         /// On the source.
@@ -77,7 +82,7 @@ pub enum Warning {
         /// On the target.
         target: usize,
     },
-    /// Vertices of the source have no image (the thesis' method).
+    /// Vertices of the source have no image (the methods that map patch by patch).
     Unmapped {
         /// Their share.
         share: f64,
@@ -111,6 +116,7 @@ impl Warning {
             Self::NoConeMetric { .. } => "no_cone_metric",
             Self::NoOverlay { .. } => "no_overlay",
             Self::NoBijection => "no_bijection",
+            Self::NotCertified { .. } => "not_certified",
             Self::InvertedPatches { .. } => "inverted_patches",
             Self::Unmapped { .. } => "unmapped",
         }
@@ -187,6 +193,11 @@ impl fmt::Display for Warning {
             Self::NoBijection => {
                 f.write_str("This method does not guarantee a bijection; the relaxed map does.")
             }
+            Self::NotCertified { reason } => write!(
+                f,
+                "The map is not certified: {reason}. A limb without a landmark shrinks to a point in its patch, where rounding \
+                 cannot tell its triangles apart. The relaxed map is certified."
+            ),
             Self::InvertedPatches { source, target } => write!(
                 f,
                 "Triangles of the base domain that come out inverted in the flat metrics: {source} on the source, {target} on \
@@ -232,6 +243,7 @@ impl From<Warning> for WarningReport {
             | Warning::LandmarkFile { .. }
             | Warning::NoOverlay { .. }
             | Warning::NoBijection
+            | Warning::NotCertified { .. }
             | Warning::InvertedPatches { .. } => {}
         }
         Self { kind, sentence, value, side }

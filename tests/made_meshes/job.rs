@@ -95,6 +95,7 @@ fn a_run_passes_the_stages_that_are_told_in_their_order() {
         ("relaxed, many landmarks", usize::MAX, PipelineOptions::default()),
         ("on a simplified base", usize::MAX, Choices { base: Base::Qem, ..Choices::default() }.into()),
         ("thesis", usize::MAX, Choices { method: Method::Thesis, ..Choices::default() }.into()),
+        ("tutte", usize::MAX, Choices { method: Method::Tutte, ..Choices::default() }.into()),
     ];
     for (name, landmarks, options) in methods {
         let files = Files::of_demo("horse-cat", landmarks);

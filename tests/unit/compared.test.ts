@@ -135,6 +135,12 @@ describe('another map', () => {
     expect(() => output.mapFile()).toThrow(/export/);
   }, 120_000);
 
+  test('is certified and whole where each patch is straight', () => {
+    const { certificate, unmapped_share: unmapped, distortion, warnings } = JSON.parse(made('tutte').report()) as Report;
+    expect([certificate?.bijective, certificate?.flipped_triangles, unmapped, warnings]).toEqual([true, 0, 0, []]);
+    expect(distortion.energy).toBeGreaterThan((JSON.parse(made('start').report()) as Report).distortion.energy);
+  }, 120_000);
+
   test('is of the thesis where cones are named', () => {
     for (const which of ['equal-cones', 'patchwise']) {
       const { certificate, warnings } = JSON.parse(made(which).report()) as Report;
@@ -144,6 +150,6 @@ describe('another map', () => {
   }, 120_000);
 
   test('is none where nobody knows its name', () => {
-    expect(() => made('tutte')).toThrow(/options/);
+    expect(() => made('harmonic')).toThrow(/options/);
   });
 });

@@ -19,9 +19,10 @@ const ABOUT: Readonly<Record<OtherMap, string>> = {
   start: 'The certified map that relaxation begins with: each mesh was relaxed over the flat triangles by itself.',
   'equal-cones': 'The thesis’ patchwise map over flat metrics whose cones are all alike. The certified map does not go over these metrics.',
   patchwise: 'The thesis’ patchwise map over flat metrics with the base domain’s cones. What it leaves unmapped is grey.',
+  tutte: 'Each patch by Tutte’s embedding onto its flat triangle, as in methods before this one: continuous, with kinks along the patch lines. An unmarked limb that shrinks below rounding is grey.',
 };
 
-const CHOICES: readonly (OtherMap | null)[] = [null, 'start', 'equal-cones', 'patchwise'];
+const CHOICES: readonly (OtherMap | null)[] = [null, 'start', 'equal-cones', 'patchwise', 'tutte'];
 
 function Choices({ comparison, choose }: Omit<CompareProps, 'result'>): VNode {
   const chosen = comparison?.which ?? null;

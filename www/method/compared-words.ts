@@ -6,4 +6,5 @@ export const OTHER_NAMES: Readonly<Record<OtherMap, { readonly choice: string; r
   start: { choice: 'Before relaxation', caption: 'before relaxation' },
   'equal-cones': { choice: 'Equal cones', caption: 'equal cones' },
   patchwise: { choice: 'Patchwise', caption: 'patch by patch' },
+  tutte: { choice: 'Patchwise Tutte', caption: 'patchwise Tutte' },
 };

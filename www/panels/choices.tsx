@@ -8,6 +8,7 @@ import { Select } from './controls.tsx';
 const METHODS: readonly Choice<RunOptions['method']>[] = [
   { value: 'relaxed', text: 'Relaxed, certified' },
   { value: 'thesis', text: 'Patch by patch' },
+  { value: 'tutte', text: 'Patchwise Tutte' },
 ];
 const BASES: readonly Choice<RunOptions['base']>[] = [
   { value: 'joint', text: 'From both meshes' },
@@ -39,7 +40,7 @@ const BORDERS: readonly Choice<RunOptions['borders']>[] = [
 export function Choices({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
   const { options } = state;
   const running = state.job.kind === 'running';
-  const thesis = options.method === 'thesis';
+  const unrelaxed = options.method !== 'relaxed';
   const set = (change: Partial<RunOptions>): void => {
     actions.dispatch({ kind: 'options', options: change });
   };
@@ -53,7 +54,7 @@ export function Choices({ state, actions }: Pick<PartProps, 'state' | 'actions'>
         title="Maps of different classes go different ways round a limb"
         value={options.class}
         choices={CLASSES}
-        disabled={running || thesis || options.base === 'qem'}
+        disabled={running || unrelaxed || options.base === 'qem'}
         onChoice={(chosen) => {
           set({ class: chosen });
         }}
@@ -63,7 +64,7 @@ export function Choices({ state, actions }: Pick<PartProps, 'state' | 'actions'>
         title="Points that the program adds as cones of its own where there are at most 16 landmarks"
         value={options.ownCones === null ? 'usual' : String(options.ownCones)}
         choices={OWN_CONES}
-        disabled={running || thesis}
+        disabled={running || unrelaxed}
         onChoice={(value) => {
           set({ ownCones: value === 'usual' ? null : Number(value) });
         }}
@@ -73,7 +74,7 @@ export function Choices({ state, actions }: Pick<PartProps, 'state' | 'actions'>
         title="Whether large holes of both meshes are where both bodies end, so that rim goes to rim, or places that a scan has missed"
         value={options.borders}
         choices={BORDERS}
-        disabled={running || thesis}
+        disabled={running || unrelaxed}
         onChoice={(borders) => {
           set({ borders });
         }}

@@ -22,7 +22,7 @@ export const Weight = v.pipe(v.number(), v.finite(), v.minValue(-1), v.maxValue(
 export const Text = v.pipe(v.string(), v.maxLength(LONGEST_TEXT));
 export const Axis = v.picklist(['x', '-x', 'y', '-y', 'z', '-z']);
 export const Options = v.object({
-  method: v.picklist(['relaxed', 'thesis']),
+  method: v.picklist(['relaxed', 'thesis', 'tutte']),
   base: v.picklist(['joint', 'qem']),
   cones: v.picklist(['base-domain', 'uniform']),
   class: v.picklist(['best', 'runner-up']),

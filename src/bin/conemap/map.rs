@@ -38,8 +38,10 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
 /// Finds before the run what cannot be written after it.
 fn check_outputs(arguments: &MapArguments, method: Method) -> Result<(), Failure> {
     let MapArguments { source, target, target_landmarks, landmarks, truth, map, out, report, .. } = arguments;
-    if map.is_some() && method == Method::Thesis {
-        return Err("--map: the map of the method `thesis` has no pieces, and so no map file".into());
+    if map.is_some() && method != Method::Relaxed {
+        return Err(
+            "--map: the maps of the methods `thesis` and `tutte` have no pieces, and so no map file".into()
+        );
     }
     let files = out.iter().flat_map(|folder| outputs::of_folder(folder));
     outputs::check(
@@ -118,7 +120,7 @@ impl Asked<'_> {
     /// A clock that holds what was asked of the time, from the first byte on.
     pub fn clock(&self) -> Clock {
         let mut clock = Clock::start();
-        // The thesis' method has nothing to shorten.
+        // The other methods have nothing to shorten.
         if self.choices.method == Method::Relaxed {
             clock.ask_for_result(self.time_limit, interrupt::listen());
         }
@@ -183,7 +185,7 @@ pub fn tell(result: &MapResult) {
             say(format_args!("certified bijective: {flipped} of {all} triangles flipped"));
         }
         None => say(format_args!(
-            "not bijective by construction: {:.1} % of the vertices are unmapped",
+            "not certified: {:.1} % of the vertices are unmapped",
             100.0 * report.unmapped_share
         )),
     }

@@ -33,7 +33,7 @@ pub fn run(arguments: &WrapArguments) -> Result<(), Failure> {
     let mut result = asked.map(&job, &mut clock)?;
     let map = job.map_file(&result, &arguments.choices);
     let map = map.ok_or(
-        "a base is laid on by a map with pieces (not by the method `thesis`, and not without an overlay)",
+        "a base is laid on by a map with pieces (by the method `relaxed`, and not without an overlay)",
     )?;
     let wrapped = job.taken(&map).wrapped(&base, normals, &mut clock)?;
     result.report.set_seconds(clock.stop());

@@ -10,4 +10,5 @@ pub mod level;
 pub mod problem;
 pub mod rest_triangle;
 mod star;
+pub mod tutte;
 pub(super) mod unknowns;

@@ -61,7 +61,7 @@ export function anyWork(random: Random): SentWork {
     up: [random.of(AXES), random.of(AXES)],
     groundTruth: random.of([null, 'same connectivity: vertex i corresponds to vertex i']),
     options: {
-      method: random.of(['relaxed', 'thesis']),
+      method: random.of(['relaxed', 'thesis', 'tutte']),
       base: random.of(['joint', 'qem']),
       cones: random.of(['base-domain', 'uniform']),
       class: random.of(['best', 'runner-up']),
