@@ -39,9 +39,7 @@ pub fn run(arguments: &MapArguments) -> Result<(), Failure> {
 fn check_outputs(arguments: &MapArguments, method: Method) -> Result<(), Failure> {
     let MapArguments { source, target, target_landmarks, landmarks, truth, map, out, report, .. } = arguments;
     if map.is_some() && method != Method::Relaxed {
-        return Err(
-            "--map: the maps of the methods `thesis` and `tutte` have no pieces, and so no map file".into()
-        );
+        return Err("--map: a map of the method `thesis` or `tutte` has no pieces, and so no map file".into());
     }
     let files = out.iter().flat_map(|folder| outputs::of_folder(folder));
     outputs::check(
