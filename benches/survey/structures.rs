@@ -33,7 +33,7 @@ fn told(case: &Case, scheme: Scheme) -> Result<[String; 2], String> {
     let landmarks = [&input.landmarks.source, &input.landmarks.target];
     let base = base_domain::simplify(input.target, landmarks[1], &mut Silent).map_err(|e| e.to_string())?;
     let goal = base_domain_curvature(input.target.vertex_count(), landmarks[1], &base);
-    let line = |name: &str, mesh: &SurfaceMesh, own: &[VertexId]| {
+    let line = |name: &str, mesh: &SurfaceMesh, own: &[VertexId]| -> Result<String, String> {
         let mut curvature: TiVec<VertexId, f64> = ti_vec![0.0; mesh.vertex_count()];
         own.iter().zip(landmarks[1]).for_each(|(&v, &t)| curvature[v] = goal[t]);
         Ok(format!("{:18} {name:6} {}", format!("{scheme:?}"), flowed(mesh, own, &curvature, scheme)?))
