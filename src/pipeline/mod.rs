@@ -38,7 +38,7 @@ pub use simplification::{Lead, carried_simplification, simplifications};
 pub use warning::{Warning, WarningReport};
 
 pub use crate::base_domain::SimplificationStage;
-pub use crate::cone_metric::{FlatSurface, FlowMoment, FlowRecord, PlaneLayout};
+pub use crate::cone_metric::{FlatSurface, FlowMoment, FlowOptions, FlowRecord, PlaneLayout, Scheme};
 
 use crate::monitor::{Monitor, Rising};
 

@@ -3,13 +3,12 @@
 use super::compute::{Messenger, RunListener};
 use super::failure;
 use super::page_job::read_job;
-use crate::cone_metric::{FlowOptions, Scheme};
 use crate::job::{Job, JobError};
 use crate::mesh::FaceId;
 use crate::mesh::packing::Packer;
 use crate::mesh::repair::Defects;
 use crate::monitor::{PlannedStage, Stage};
-use crate::pipeline::{FlowRecord, PipelineOptions};
+use crate::pipeline::{FlowOptions, FlowRecord, PipelineOptions, Scheme};
 use serde_json::json;
 use wasm_bindgen::prelude::*;
 
