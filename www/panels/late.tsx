@@ -7,6 +7,9 @@ type Content<P extends object> =
   | { readonly kind: 'failed' }
   | { readonly kind: 'there'; readonly Component: ComponentType<P> };
 
+/** By loader what it has brought: a part that is drawn again is there at once. */
+const BROUGHT = new WeakMap<object, unknown>();
+
 interface LateProps<P extends object> {
   readonly isWanted: boolean;
   /** The part's module; a loader that is the same at each drawing. */
@@ -17,11 +20,15 @@ interface LateProps<P extends object> {
 
 /** The part, or why it is not there; nothing of it is drawn while it is not wanted. */
 export function Late<P extends object>({ isWanted, load, given }: LateProps<P>): VNode | null {
-  const [content, setContent] = useState<Content<P>>({ kind: 'waiting' });
+  const [content, setContent] = useState<Content<P>>(() => {
+    const known = BROUGHT.get(load) as ComponentType<P> | undefined;
+    return known === undefined ? { kind: 'waiting' } : { kind: 'there', Component: known };
+  });
   const bring = (): void => {
     setContent({ kind: 'waiting' });
     load().then(
       ({ default: Component }) => {
+        BROUGHT.set(load, Component);
         setContent({ kind: 'there', Component });
       },
       (thrown: unknown) => {

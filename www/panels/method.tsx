@@ -47,11 +47,11 @@ const STAGES: readonly Stage[] = [
 ];
 
 /** The panel's content. */
-export function MethodPanel(props: PartProps): VNode {
+export default function MethodPanel(props: PartProps): VNode {
   const { state, actions, shell } = props;
   const { result } = state;
   return (
-    <div class="content">
+    <>
       <CompareView {...props} />
       <BaseView {...props} />
       <WatchView {...props} />
@@ -91,6 +91,6 @@ export function MethodPanel(props: PartProps): VNode {
           })}
         </ol>
       </section>
-    </div>
+    </>
   );
 }

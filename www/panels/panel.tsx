@@ -1,15 +1,27 @@
 /** The panel beside the views: the open step with its main action. */
 import type { ComponentType, VNode } from 'preact';
 import type { PartProps } from './actions.ts';
+import { lateModule } from '../late-module.ts';
 import { IconButton } from './controls.tsx';
 import { LandmarksPanel } from './landmarks.tsx';
+import { Late } from './late.tsx';
 import { MainAction } from './main-action.tsx';
 import { MapPanel } from './map.tsx';
 import { MeshesPanel } from './meshes.tsx';
-import { MethodPanel } from './method.tsx';
 import { STEP_NAMES } from './rail.tsx';
 import type { Step } from './steps.ts';
 import { UsePanel } from './use.tsx';
+
+const loadMethod = lateModule(() => import('./method.tsx'));
+
+/** Nobody needs it before there is a map. */
+function MethodPanel(props: PartProps): VNode {
+  return (
+    <div class="content">
+      <Late isWanted load={loadMethod} given={props} />
+    </div>
+  );
+}
 
 const CONTENTS: Readonly<Record<Step, ComponentType<PartProps>>> = {
   meshes: MeshesPanel,
