@@ -158,6 +158,11 @@ for (let visit = 0; visit < VISITS; visit += 1) {
     await open(page, '#demo=sphere-tetrahedron');
     const run = page.locator('#run');
     await expect(run, done.join('\n')).toBeEnabled({ timeout: 60_000 });
+    // The page remembers that the panel was folded away.
+    const panel = page.getByRole('button', { name: 'Show the panel' });
+    if (await panel.isVisible()) {
+      await panel.click();
+    }
     await run.click();
     await finished(page);
     await expect(page.locator('#result')).toContainText('Certified bijective');
