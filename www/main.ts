@@ -153,6 +153,7 @@ const actions: Actions = {
       views.markStops(stops);
     },
     lookAtStop: (side, found, index) => {
+      showOwnShape();
       views.lookAtDefect(side, found, 0, index);
     },
   },

@@ -80,6 +80,15 @@ test('a file that is left while it is read is left out alone', async () => {
   expect(names()).toEqual([undefined, 'tetrahedron.obj']);
 });
 
+test('a file that never comes to its end, once it is left, holds up no other', async () => {
+  const endless = new File(['v 0 0 0'], 'endless.obj');
+  endless.arrayBuffer = () => new Promise(() => undefined);
+  const dropped = drop([endless, 0], [own.target, 1]);
+  leaveTask(store);
+  await dropped;
+  expect(names()).toEqual([undefined, 'tetrahedron.obj']);
+});
+
 test('something else that is begun meanwhile was wanted last', async () => {
   const dropped = drop([own.source, 0], [own.target, 1]);
   const task = { sentence: 'Building the demo…' };

@@ -59,8 +59,14 @@ export async function perform<T>(
       leaving.abort();
     }
   });
+  // Nobody waits for a preparation that was left, also where it does not hear the signal.
+  const left = new Promise<never>((_, reject) => {
+    leaving.signal.addEventListener('abort', () => {
+      reject(new Error('left'));
+    });
+  });
   try {
-    const [prepared] = await Promise.all([prepare(leaving.signal), painted()]);
+    const [prepared] = await Promise.race([Promise.all([prepare(leaving.signal), painted()]), left]);
     const { job } = store.state;
     if (job.kind !== 'busy' || job.task !== task) {
       return 'left-out';
