@@ -17,28 +17,29 @@ pub fn table(arguments: &Arguments) {
         "demo", "structure", "mesh", "steps", "cg", "curvature error", "L2 stretch", "cpu s"
     );
     for case in arguments.demos().into_iter().map(Case::of_demo) {
-        for scheme in Scheme::ALL {
-            match told(&case, scheme) {
-                Ok(lines) => lines.iter().for_each(|line| println!("{:20} {line}", case.name)),
-                Err(error) => println!("{:20} {scheme:?} FAILED: {error}", case.name),
-            }
+        if let Err(error) = tell(&case) {
+            println!("{:20} FAILED: {error}", case.name);
         }
     }
 }
 
-/// The lines of both meshes.
-fn told(case: &Case, scheme: Scheme) -> Result<[String; 2], String> {
+/// Prints the lines of both meshes by each structure.
+fn tell(case: &Case) -> Result<(), String> {
     let placed = case.placed()?;
     let input = Case::input(&placed);
     let landmarks = [&input.landmarks.source, &input.landmarks.target];
     let base = base_domain::simplify(input.target, landmarks[1], &mut Silent).map_err(|e| e.to_string())?;
     let goal = base_domain_curvature(input.target.vertex_count(), landmarks[1], &base);
-    let line = |name: &str, mesh: &SurfaceMesh, own: &[VertexId]| -> Result<String, String> {
-        let mut curvature: TiVec<VertexId, f64> = ti_vec![0.0; mesh.vertex_count()];
-        own.iter().zip(landmarks[1]).for_each(|(&v, &t)| curvature[v] = goal[t]);
-        Ok(format!("{:18} {name:6} {}", format!("{scheme:?}"), flowed(mesh, own, &curvature, scheme)?))
-    };
-    Ok([line("source", input.source, landmarks[0])?, line("target", input.target, landmarks[1])?])
+    let sides = [("source", input.source, landmarks[0]), ("target", input.target, landmarks[1])];
+    for scheme in Scheme::ALL {
+        for (name, mesh, own) in sides {
+            let mut curvature: TiVec<VertexId, f64> = ti_vec![0.0; mesh.vertex_count()];
+            own.iter().zip(landmarks[1]).for_each(|(&v, &t)| curvature[v] = goal[t]);
+            let line = flowed(mesh, own, &curvature, scheme)?;
+            println!("{:20} {:18} {name:6} {line}", case.name, format!("{scheme:?}"));
+        }
+    }
+    Ok(())
 }
 
 /// What one flow came to.

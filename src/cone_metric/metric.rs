@@ -153,8 +153,9 @@ impl ConeMetric {
     pub(super) fn degenerate_faces(&self) -> Vec<FaceId> {
         let is_degenerate = |f: &FaceId| {
             let [a, b, c] = f.halfedges().map(|h| self.length(h));
+            let area = area_from_lengths(a, b, c);
             // A length that does not exist is NaN, as is the area.
-            area_from_lengths(a, b, c).is_nan() || area_from_lengths(a, b, c) <= 0.0
+            area.is_nan() || area <= 0.0
         };
         self.triangulation.faces().filter(is_degenerate).collect()
     }
