@@ -1,5 +1,6 @@
 /** What the views show, read off as a user's eyes would: pins by their numbers, pixels, and how often something is drawn. */
 import type { Page } from '@playwright/test';
+import { fail } from './page.ts';
 
 export interface Spot {
   readonly x: number;
@@ -113,24 +114,44 @@ export function moves(before: ReadonlyMap<string, Spot>, after: ReadonlyMap<stri
   });
 }
 
-/** How much of a view is red, blue and green, in shares of its pixels. */
-export async function seen(page: Page, view: 'source' | 'target'): Promise<{ red: number; blue: number; green: number }> {
-  const box = (await page.locator(`#view-${view}`).boundingBox()) ?? { x: 0, y: 0, width: 1, height: 1 };
-  const picture = (await page.screenshot({ clip: box })).toString('base64');
-  return page.evaluate(async (base64) => {
+/** The pixels of what is seen of an element, four bytes each: red, green, blue, opacity. */
+export async function pixelsOf(page: Page, element: string): Promise<Uint8Array> {
+  const clip = (await page.locator(element).boundingBox()) ?? fail(`${element} has no box`);
+  const picture = (await page.screenshot({ clip })).toString('base64');
+  const read = await page.evaluate(async (base64) => {
     const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-    const image = await createImageBitmap(new Blob([bytes]));
+    const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
     const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
     context?.drawImage(image, 0, 0);
-    const data = context?.getImageData(0, 0, image.width, image.height).data ?? new Uint8ClampedArray();
-    const counts = { red: 0, blue: 0, green: 0 };
-    for (let k = 0; k < data.length; k += 4) {
-      const [r = 0, g = 0, b = 0] = data.slice(k, k + 3);
-      counts.red += Number(r > 2 * Math.max(g, b) + 30);
-      counts.blue += Number(b > 2 * Math.max(r, g) + 30);
-      counts.green += Number(g > 2 * Math.max(r, b) + 30);
-    }
-    const count = data.length / 4;
-    return { red: counts.red / count, blue: counts.blue / count, green: counts.green / count };
+    const pixels = context?.getImageData(0, 0, image.width, image.height).data ?? new Uint8ClampedArray();
+    // By far the quickest way to a text.
+    return new Promise<string>((resolve) => {
+      const reader = new FileReader();
+      reader.onload = () => {
+        resolve(typeof reader.result === 'string' ? reader.result : '');
+      };
+      reader.readAsDataURL(new Blob([pixels]));
+    });
   }, picture);
+  return Buffer.from(read.slice(read.indexOf(',') + 1), 'base64');
+}
+
+/** How many pixels are so. */
+export function countPixels(pixels: Uint8Array, isSo: (red: number, green: number, blue: number) => boolean): number {
+  let count = 0;
+  for (let at = 0; at < pixels.length; at += 4) {
+    count += isSo(pixels[at] ?? 0, pixels[at + 1] ?? 0, pixels[at + 2] ?? 0) ? 1 : 0;
+  }
+  return count;
+}
+
+/** How much of a view is red, blue and green, in shares of its pixels. */
+export async function seen(page: Page, view: 'source' | 'target'): Promise<{ red: number; blue: number; green: number }> {
+  const pixels = await pixelsOf(page, `#view-${view}`);
+  const share = (isSo: (red: number, green: number, blue: number) => boolean): number => countPixels(pixels, isSo) / (pixels.length / 4);
+  return {
+    red: share((r, g, b) => r > 2 * Math.max(g, b) + 30),
+    blue: share((r, g, b) => b > 2 * Math.max(r, g) + 30),
+    green: share((r, g, b) => g > 2 * Math.max(r, b) + 30),
+  };
 }

@@ -2,7 +2,7 @@
 import { existsSync, readdirSync } from 'node:fs';
 import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
-import { SETTLED } from './canvas.ts';
+import { countPixels, pixelsOf, SETTLED } from './canvas.ts';
 import { DATA, drop, dropContents, open, ROOT } from './page.ts';
 
 type Point = readonly [number, number, number];
@@ -43,29 +43,8 @@ function bad(): string {
 
 /** How many pixels of a view are near a colour, as style sheets write it. */
 async function pixelsNear(page: Page, view: string, colour: string): Promise<number> {
-  const box = await page.locator(view).boundingBox();
-  if (box === null) {
-    throw new Error(`${view} is not there`);
-  }
-  const picture = (await page.screenshot({ clip: box })).toString('base64');
-  return page.evaluate(
-    async ([data, wanted]) => {
-      const bytes = Uint8Array.from(atob(data), (c) => c.charCodeAt(0));
-      const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
-      const canvas = new OffscreenCanvas(image.width, image.height);
-      const context = canvas.getContext('2d');
-      context?.drawImage(image, 0, 0);
-      const pixels = context?.getImageData(0, 0, image.width, image.height).data ?? new Uint8ClampedArray();
-      const [red = 0, green = 0, blue = 0] = [1, 3, 5].map((k) => Number.parseInt(wanted.slice(k, k + 2), 16));
-      let count = 0;
-      for (let k = 0; k < pixels.length; k += 4) {
-        const off = Math.abs((pixels[k] ?? 0) - red) + Math.abs((pixels[k + 1] ?? 0) - green) + Math.abs((pixels[k + 2] ?? 0) - blue);
-        count += off < 40 ? 1 : 0;
-      }
-      return count;
-    },
-    [picture, colour] as const,
-  );
+  const [red = 0, green = 0, blue = 0] = [1, 3, 5].map((k) => Number.parseInt(colour.slice(k, k + 2), 16));
+  return countPixels(await pixelsOf(page, view), (r, g, b) => Math.abs(r - red) + Math.abs(g - green) + Math.abs(b - blue) < 40);
 }
 
 const RIM = '#d55e00';

@@ -2,30 +2,16 @@
 import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
-import { SETTLED } from './canvas.ts';
+import { countPixels, pixelsOf, SETTLED } from './canvas.ts';
 import { CORNERS, rod } from '../unit/rod.ts';
 import { upload } from './own-files.ts';
-import { fail, open, openStep, ROOT, runMap } from './page.ts';
+import { open, openStep, ROOT, runMap } from './page.ts';
 
 const RULES = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
 
 /** How many pixels of a view have the colour in which triangles that stop a flow are painted, or nearly so. */
 async function painted(page: Page, view: string): Promise<number> {
-  const box = (await page.locator(view).boundingBox()) ?? fail(`${view} has no box`);
-  const base64 = (await page.screenshot({ clip: box })).toString('base64');
-  return page.evaluate(async (picture) => {
-    const bytes = Uint8Array.from(atob(picture), (c) => c.charCodeAt(0));
-    const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
-    const context = new OffscreenCanvas(image.width, image.height).getContext('2d') ?? undefined;
-    context?.drawImage(image, 0, 0);
-    const data = context?.getImageData(0, 0, image.width, image.height).data ?? new Uint8ClampedArray();
-    let count = 0;
-    for (let at = 0; at < data.length; at += 4) {
-      const [r = 0, g = 0, b = 0] = data.subarray(at, at + 3);
-      count += Math.hypot(r - 208, g - 28, b - 139) < 40 ? 1 : 0;
-    }
-    return count;
-  }, base64);
+  return countPixels(await pixelsOf(page, view), (r, g, b) => Math.hypot(r - 208, g - 28, b - 139) < 40);
 }
 
 test('every structure has its flow, and the triangle that stops the one without flips is painted, told and brought into sight', async ({ page }) => {

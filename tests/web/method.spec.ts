@@ -7,7 +7,7 @@ import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
 import type { Spot } from './canvas.ts';
-import { SETTLED } from './canvas.ts';
+import { countPixels, pixelsOf, SETTLED } from './canvas.ts';
 import { fail, openDemo, openStep, ROOT, runMap } from './page.ts';
 
 const RULES = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
@@ -39,21 +39,7 @@ test.afterAll(async () => {
 
 /** How many pixels of a view are of the colour in which parts light up: magenta, over whatever is beneath. Some pins have such, too. */
 async function litPixels(view: string): Promise<number> {
-  const box = (await page.locator(view).boundingBox()) ?? fail(`${view} has no box`);
-  const base64 = (await page.screenshot({ clip: box })).toString('base64');
-  return page.evaluate(async (picture) => {
-    const bytes = Uint8Array.from(atob(picture), (c) => c.charCodeAt(0));
-    const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
-    const context = new OffscreenCanvas(image.width, image.height).getContext('2d') ?? undefined;
-    context?.drawImage(image, 0, 0);
-    const data = context?.getImageData(0, 0, image.width, image.height).data ?? new Uint8ClampedArray();
-    let count = 0;
-    for (let at = 0; at < data.length; at += 4) {
-      const [r = 0, g = 0, b = 0] = data.subarray(at, at + 3);
-      count += r > g + 60 && b > g + 30 ? 1 : 0;
-    }
-    return count;
-  }, base64);
+  return countPixels(await pixelsOf(page, view), (r, g, b) => r > g + 60 && b > g + 30);
 }
 
 async function lit(): Promise<readonly number[]> {
@@ -161,22 +147,11 @@ test('it is saved as a drawing that stands alone', async () => {
 /** How many pixels of a picture are red as the cut, or blue-green as the circles. */
 async function marked(picture: string): Promise<{ readonly cut: number; readonly circles: number }> {
   await page.locator(picture).scrollIntoViewIfNeeded();
-  const box = (await page.locator(picture).boundingBox()) ?? fail(`${picture} has no box`);
-  const base64 = (await page.screenshot({ clip: box })).toString('base64');
-  return page.evaluate(async (png) => {
-    const bytes = Uint8Array.from(atob(png), (c) => c.charCodeAt(0));
-    const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
-    const context = new OffscreenCanvas(image.width, image.height).getContext('2d') ?? undefined;
-    context?.drawImage(image, 0, 0);
-    const data = context?.getImageData(0, 0, image.width, image.height).data ?? new Uint8ClampedArray();
-    let [cut, circles] = [0, 0];
-    for (let at = 0; at < data.length; at += 4) {
-      const [r = 0, g = 0, b = 0] = data.subarray(at, at + 3);
-      cut += r > 170 && g < 90 && b < 90 ? 1 : 0;
-      circles += b > r + 20 && g > r + 10 ? 1 : 0;
-    }
-    return { cut, circles };
-  }, base64);
+  const pixels = await pixelsOf(page, picture);
+  return {
+    cut: countPixels(pixels, (r, g, b) => r > 170 && g < 90 && b < 90),
+    circles: countPixels(pixels, (r, g, b) => b > r + 20 && g > r + 10),
+  };
 }
 
 const SOURCE_PLANE = '[data-plane="0"]';
@@ -277,22 +252,11 @@ test('the plane shows the circles of the packing, and is saved as picture, drawi
 
 /** How many pixels of a view are warm or violet, as factors that grow or shrink. */
 async function coloured(view: string): Promise<{ readonly warm: number; readonly violet: number }> {
-  const box = (await page.locator(view).boundingBox()) ?? fail(`${view} has no box`);
-  const base64 = (await page.screenshot({ clip: box })).toString('base64');
-  return page.evaluate(async (picture) => {
-    const bytes = Uint8Array.from(atob(picture), (c) => c.charCodeAt(0));
-    const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
-    const context = new OffscreenCanvas(image.width, image.height).getContext('2d') ?? undefined;
-    context?.drawImage(image, 0, 0);
-    const data = context?.getImageData(0, 0, image.width, image.height).data ?? new Uint8ClampedArray();
-    let [warm, violet] = [0, 0];
-    for (let at = 0; at < data.length; at += 4) {
-      const [r = 0, g = 0, b = 0] = data.subarray(at, at + 3);
-      warm += r > g + 25 && g > b + 25 ? 1 : 0;
-      violet += b > g + 25 && r > g ? 1 : 0;
-    }
-    return { warm, violet };
-  }, base64);
+  const pixels = await pixelsOf(page, view);
+  return {
+    warm: countPixels(pixels, (r, g, b) => r > g + 25 && g > b + 25),
+    violet: countPixels(pixels, (r, g, b) => b > g + 25 && r > g),
+  };
 }
 
 test('the flow is played on both meshes, its error falls, and the picture comes back', async () => {
