@@ -9,7 +9,7 @@ use crate::monitor::{Cancelled, Monitor, Portion, Step};
 use crate::numerics::approximate_cholesky::ApproximateCholesky;
 use crate::numerics::conjugate_gradients::{CgError, CgOptions, CgWorkspace};
 use crate::numerics::graph::Graph;
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec};
 
 /// How the flow runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -148,7 +148,7 @@ impl<'a> Newton<'a> {
         let FlowReport { newton_steps: step, cg_iterations, edge_flips, .. } = self.report;
         if let Some(recorder) = &mut self.recorder {
             let moment = FlowMoment { step, residual, cg_iterations, edge_flips, log_factors: TiVec::new() };
-            recorder.take(moment, &self.metric.log_radii);
+            recorder.take(moment, &self.metric.log_radii, TiSlice::from_ref(&self.state.curvature));
         }
     }
 
@@ -318,6 +318,33 @@ mod tests {
             assert!(metric.triangulation.is_consistent());
             assert!((curvature(&metric).iter().sum::<f64>() - 4.0 * PI).abs() < 1e-10);
         }
+    }
+
+    #[test]
+    fn a_recorded_flow_knows_its_curvature_before_and_after() {
+        let mesh = icosphere(2);
+        let mut target = TiVec::from(vec![0.0; mesh.vertex_count()]);
+        (0..4).for_each(|k| target[VertexId(k)] = PI);
+        let options = FlowOptions::default();
+        let record = recorded_flow(&mesh, &target, &options, &mut Silent).unwrap();
+        let metric = ConeMetric::of_mesh(&mesh, options.scheme, options.radii_scale);
+        for (k, (recorded, own)) in record.curvature[0].iter().zip(curvature(&metric)).enumerate() {
+            assert!((recorded - own).abs() < 1e-12, "{k}");
+        }
+        for (recorded, wanted) in record.curvature[1].iter().zip(&target) {
+            assert!((recorded - wanted).abs() <= options.tolerance);
+        }
+        // Gauss-Bonnet, in units of a sphere's.
+        let areas = mesh.vertex_areas();
+        let [before, after] = record.curvature_by_area(&areas);
+        for (moment, curvatures) in [(&record.moments[0], &before), (record.moments.last().unwrap(), &after)]
+        {
+            let share = |v: VertexId| areas[v] * crate::math::scalar::exp(2.0 * moment.log_factors[v]);
+            let whole: f64 = mesh.vertices().map(share).sum();
+            let mean = mesh.vertices().map(|v| curvatures[v] * share(v)).sum::<f64>() / whole;
+            assert!((mean - 1.0).abs() < 1e-10, "{mean}");
+        }
+        assert!(before.iter().all(|k| (k - 1.0).abs() < 0.2) && after[VertexId(5)].abs() < 1e-6);
     }
 
     #[test]

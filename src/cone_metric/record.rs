@@ -1,6 +1,8 @@
 //! A flow from step to step, to be looked at: recorded only where somebody asks.
 
+use crate::math::scalar::exp;
 use crate::mesh::{FaceId, VertexId};
+use std::f64::consts::PI;
 use typed_index_collections::{TiSlice, TiVec};
 
 /// So many moments are kept at most; of a longer flow every second, fourth, ... step, and the last.
@@ -15,6 +17,8 @@ pub struct FlowRecord {
     pub converged: bool,
     /// The faces that a flow without flips stopped at, because they degenerate beyond the last moment.
     pub degenerate_faces: Vec<FaceId>,
+    /// By vertex the curvature, in radians, before the first step and at the last moment.
+    pub curvature: [TiVec<VertexId, f64>; 2],
 }
 
 /// A flow after a Newton step.
@@ -46,23 +50,46 @@ impl FlowRecord {
     }
 }
 
+impl FlowRecord {
+    /// Gaussian curvatures by vertex before the first step and at the last moment, in units of the curvature of a sphere of the same area;
+    /// `areas` are the vertices' shares of the mesh's, which grow with the squares of their conformal factors.
+    pub fn curvature_by_area(&self, areas: &TiSlice<VertexId, f64>) -> [TiVec<VertexId, f64>; 2] {
+        let by_area = |moment: Option<&FlowMoment>, curvature: &TiSlice<VertexId, f64>| {
+            let factors = moment.map_or(&[][..], |moment| &moment.log_factors.raw);
+            let areas: Vec<f64> = areas.iter().zip(factors).map(|(a, u)| a * exp(2.0 * u)).collect();
+            let of_sphere = 4.0 * PI / areas.iter().sum::<f64>();
+            curvature.iter().zip(&areas).map(|(k, a)| k / a / of_sphere).collect()
+        };
+        let [first, last] = &self.curvature;
+        [by_area(self.moments.first(), first), by_area(self.moments.last(), last)]
+    }
+}
+
 /// Takes moments of a flow; memory stays bounded however long it is.
 #[derive(Debug)]
 pub(super) struct Recorder {
     /// Log radii before the first step.
     start: TiVec<VertexId, f64>,
     moments: Vec<FlowMoment>,
+    curvature: [TiVec<VertexId, f64>; 2],
     /// Each so many steps one is kept.
     every: usize,
 }
 
 impl Recorder {
     pub fn new(start: TiVec<VertexId, f64>) -> Self {
-        Self { start, moments: Vec::new(), every: 1 }
+        Self { start, moments: Vec::new(), curvature: Default::default(), every: 1 }
     }
 
-    /// Takes a moment with these log radii.
-    pub fn take(&mut self, moment: FlowMoment, log_radii: &TiSlice<VertexId, f64>) {
+    /// Takes a moment with these log radii and curvatures.
+    pub fn take(
+        &mut self,
+        moment: FlowMoment,
+        log_radii: &TiSlice<VertexId, f64>,
+        curvature: &TiSlice<VertexId, f64>,
+    ) {
+        let kept = if self.moments.is_empty() { 0..2 } else { 1..2 };
+        self.curvature[kept].fill(curvature.to_owned());
         // The last one is of now; it stays only where its step is one of those that are kept.
         if self.moments.last().is_some_and(|last| last.step % self.every != 0) {
             self.moments.pop();
@@ -79,7 +106,8 @@ impl Recorder {
     /// What was recorded of a flow that converged, or stopped at some faces or at none.
     pub fn record(self, stopped_at: Option<Vec<FaceId>>) -> FlowRecord {
         let converged = stopped_at.is_none();
-        FlowRecord { moments: self.moments, converged, degenerate_faces: stopped_at.unwrap_or_default() }
+        let degenerate_faces = stopped_at.unwrap_or_default();
+        FlowRecord { moments: self.moments, converged, degenerate_faces, curvature: self.curvature }
     }
 }
 
@@ -93,9 +121,11 @@ mod tests {
         for steps in [0, 5, 23, 24, 60, 1000] {
             let mut recorder = Recorder::new(ti_vec![1.0; 3]);
             for step in 0..=steps {
-                recorder.take(FlowMoment { step, ..FlowMoment::default() }, &ti_vec![1.0 + step as f64; 3]);
+                let (moment, radii) = (FlowMoment { step, ..FlowMoment::default() }, 1.0 + step as f64);
+                recorder.take(moment, &ti_vec![radii; 3], &ti_vec![step as f64; 3]);
             }
-            let FlowRecord { moments, .. } = recorder.record(None);
+            let FlowRecord { moments, curvature, .. } = recorder.record(None);
+            assert_eq!(curvature.map(|of_vertices| of_vertices.raw), [vec![0.0; 3], vec![steps as f64; 3]]);
             let kept: Vec<usize> = moments.iter().map(|moment| moment.step).collect();
             assert_eq!((kept[0], kept[kept.len() - 1]), (0, steps), "{kept:?}");
             assert!(kept.len() <= MOST_MOMENTS && kept.len() > steps.min(MOST_MOMENTS) / 2, "{kept:?}");

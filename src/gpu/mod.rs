@@ -3,4 +3,6 @@
 mod pipelines;
 mod renderer;
 
-pub use renderer::{Clear, GpuError, Mesh, Paint, Palette, Picture, Renderer, ViewDraw};
+pub use renderer::{
+    Clear, GpuError, Mesh, Paint, Palette, Picture, Renderer, Scale, Texture, TextureKind, ViewDraw,
+};

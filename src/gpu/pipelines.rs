@@ -23,6 +23,7 @@ pub(super) struct ViewUniform {
     pub pattern_dark: [f32; 4],
     pub rim: [f32; 4],
     pub wipe: [f32; 4],
+    pub cells: [f32; 4],
     pub scale: [[f32; 4]; SCALE_COLOURS],
 }
 
@@ -41,6 +42,7 @@ impl ViewUniform {
             &self.pattern_dark,
             &self.rim,
             &self.wipe,
+            &self.cells,
         ];
         let rows = self.clip_from_world.iter().chain(&self.world_from_image).chain(single).chain(&self.scale);
         rows.flatten().flat_map(|x| x.to_le_bytes()).collect()

@@ -2,7 +2,7 @@
 
 use super::pipelines::{DEPTH, Pipelines, ViewUniform};
 use crate::scene::buffers::unit_ball;
-use crate::scene::colours::{SCALE_END, distortion_scale, factor_scale};
+use crate::scene::colours::{factor_scale, rising_scale};
 use crate::scene::defects::MarkedLineVertex;
 use crate::scene::looks::levels;
 use crate::scene::{LineVertex, MarkerInstance, PinInstance, Pose, SurfaceVertex};
@@ -36,12 +36,12 @@ pub enum Paint {
     /// Nothing.
     #[default]
     Plain,
-    /// A checkerboard of the flat metric.
-    Checkerboard,
+    /// A texture of the flat metric.
+    Texture(Texture),
     /// The place on the target.
     Places,
-    /// The distortion.
-    Distortion,
+    /// A place on a scale for each vertex.
+    Scale(Scale),
     /// A checkerboard in space, by the place on the target.
     Pattern,
     /// Faint and hatched: a mesh that is not accepted.
@@ -51,6 +51,39 @@ pub enum Paint {
     Factors(f32),
     /// The look of a mesh's file.
     Look,
+}
+
+/// What lies on the flat metric.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TextureKind {
+    /// A checkerboard.
+    Checkerboard,
+    /// Circles, packed.
+    Circles,
+    /// Coloured ribbons.
+    Ribbons,
+    /// Colours of both coordinates, with a grid.
+    Coordinates,
+    /// A picture, again and again.
+    Picture,
+}
+
+/// A texture, and how it lies on the flat metric.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Texture {
+    /// What it is.
+    pub kind: TextureKind,
+    /// From texture coordinates to cells: the image of (1, 0), and where the origin lies.
+    pub cells: [f32; 4],
+}
+
+/// A scale of colours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scale {
+    /// From little to much.
+    Rising,
+    /// From what shrinks to what grows.
+    Diverging,
 }
 
 /// Colours of both views, linear RGB.
@@ -211,7 +244,7 @@ impl Renderer {
             push(bytes, &v.position);
             push(bytes, &v.normal);
             push(bytes, &v.uv);
-            push(bytes, &[v.distortion]);
+            push(bytes, &[v.scale_place]);
             push(bytes, &v.image);
             push(bytes, &v.image_normal);
             push(bytes, &[v.hollow]);
@@ -318,9 +351,9 @@ impl Renderer {
         let ViewDraw { pose, palette, .. } = view;
         let style = match view.paint {
             Paint::Plain => 0.0,
-            Paint::Checkerboard => 1.0,
+            Paint::Texture(_) => 1.0,
             Paint::Places => 2.0,
-            Paint::Distortion => 3.0,
+            Paint::Scale(_) => 3.0,
             Paint::Pattern => 4.0,
             Paint::Refused => 5.0,
             Paint::Factors(_) => 7.0,
@@ -328,7 +361,12 @@ impl Renderer {
         };
         let (share, scale) = match view.paint {
             Paint::Factors(share) => (share, factor_scale()),
-            _ => (0.0, distortion_scale()),
+            Paint::Scale(Scale::Diverging) => (0.0, factor_scale()),
+            _ => (0.0, rising_scale()),
+        };
+        let (texture, cells) = match view.paint {
+            Paint::Texture(Texture { kind, cells }) => (f32::from(kind as u8), cells),
+            _ => (0.0, [0.0; 4]),
         };
         ViewUniform {
             clip_from_world: pose.view_projection(width / height.max(1.0)).to_cols_array_2d(),
@@ -337,13 +375,14 @@ impl Renderer {
             right: pose.right().extend(0.0).to_array(),
             up: pose.up().extend(0.0).to_array(),
             size_and_style: [width, height, style, view.line_half_width],
-            ways: [view.morph, HOLLOW_SHADE, HIDDEN_LINE_OPACITY, SCALE_END],
+            ways: [view.morph, HOLLOW_SHADE, HIDDEN_LINE_OPACITY, texture],
             surface: with_alpha(palette.surface),
             line: with_alpha(palette.line),
             pattern_light: with_alpha(palette.pattern[0]),
             pattern_dark: with_alpha(palette.pattern[1]),
             rim: with_alpha(palette.rim),
             wipe: [left + view.wipe * width, view.dash, share, 0.0],
+            cells,
             scale: scale.map(with_alpha),
         }
     }

@@ -11,12 +11,12 @@ struct View {
     // xyz: right and up on the screen.
     right: vec4<f32>,
     up: vec4<f32>,
-    // xy: size of the view in pixels; z: surface style (-1 plain and a little behind, 0 plain, 1 checkerboard of the flat metric,
-    // 2 colours of the place on the target, 3 distortion, 4 solid pattern, 5 faint and hatched, 6 faces in their own colours, a
-    // little in front, 7 a scale of factors, 8 the look of a mesh's file); w: half width of lines in pixels.
+    // xy: size of the view in pixels; z: surface style (-1 plain and a little behind, 0 plain, 1 a texture of the flat metric,
+    // 2 colours of the place on the target, 3 a scale by vertex values, 4 solid pattern, 5 faint and hatched, 6 faces in their own
+    // colours, a little in front, 7 a scale by texture coordinates, 8 the look of a mesh's file); w: half width of lines in pixels.
     size_and_style: vec4<f32>,
     // x: share of the way that every vertex has gone to its image; y: how strongly hollows are darkened;
-    // z: opacity of lines behind the surface; w: the distortion at the end of the scale.
+    // z: opacity of lines behind the surface; w: which texture (0 checkerboard, 1 circles, 2 ribbons, 3 coordinates, 4 the picture).
     ways: vec4<f32>,
     // rgb: colour of the plain surface.
     surface: vec4<f32>,
@@ -31,7 +31,9 @@ struct View {
     // y: length of a dash with its gap, in the world; z: share of the way from the first texture coordinate, a place on the scale of
     // factors, to the second.
     wipe: vec4<f32>,
-    // rgb: the colours of the distortion, or of factors.
+    // From texture coordinates to cells of the texture: xy the axis of the first coordinate, zw where the origin lies.
+    cells: vec4<f32>,
+    // rgb: the colours of the scale.
     scale: array<vec4<f32>, 10>,
 };
 
@@ -45,7 +47,7 @@ struct SurfaceOut {
     @location(0) world: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(2) uv: vec2<f32>,
-    // Distortion, and how hollow the place is.
+    // The place on the scale, and how hollow the place is.
     @location(3) values: vec2<f32>,
     @location(4) image: vec3<f32>,
     // Colour as a screen shows it; w: whether the picture is laid on it.
@@ -57,7 +59,7 @@ fn surface_vertex(
     @location(0) position: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(2) uv: vec2<f32>,
-    @location(3) distortion: f32,
+    @location(3) scale_place: f32,
     @location(4) image: vec3<f32>,
     @location(5) image_normal: vec3<f32>,
     @location(6) hollow: f32,
@@ -74,7 +76,7 @@ fn surface_vertex(
     out.clip = view.clip_from_world * vec4<f32>(out.world, 1.0);
     out.normal = mix(normal, end_normal, way);
     out.uv = uv;
-    out.values = vec2<f32>(distortion, hollow);
+    out.values = vec2<f32>(scale_place, hollow);
     out.image = image;
     out.tint = tint;
     if view.size_and_style.z < -0.5 {
@@ -129,18 +131,71 @@ fn solid_checker(place: vec3<f32>) -> f32 {
     return 0.5 - 0.5 * square_wave(p.x) * square_wave(p.y) * square_wave(p.z);
 }
 
-// Colours of the scale by the logarithm of the distortion.
-fn distortion_colour(value: f32) -> vec3<f32> {
-    let place = clamp(9.0 * log(max(value, 1.0)) / log(view.ways.w), 0.0, 9.0);
-    let below = min(i32(place), 8);
-    return mix(view.scale[below].rgb, view.scale[below + 1].rgb, place - f32(below));
-}
-
 // Colours of the scale by a place from 0 to 1.
 fn scale_colour(place: f32) -> vec3<f32> {
     let at = 9.0 * clamp(place, 0.0, 1.0);
     let below = min(i32(at), 8);
     return mix(view.scale[below].rgb, view.scale[below + 1].rgb, at - f32(below));
+}
+
+// Circles of diameter 1 packed as densely as the plane takes them: how much of a pixel lies in one.
+fn circles(p: vec2<f32>) -> f32 {
+    let row = vec2<f32>(1.0, 1.7320508);
+    let near = p - row * round(p / row);
+    let shifted = p - 0.5 * row;
+    let distance = min(length(near), length(shifted - row * round(shifted / row)));
+    let w = max(length(fwidth(p)), 1e-5);
+    // Where a pixel sees many circles only their mean is left.
+    return mix(0.77, clamp((0.46 - distance) / w + 0.5, 0.0, 1.0), clamp(2.0 - w, 0.0, 1.0));
+}
+
+// The colour of a ribbon by its number: six that follow one another, told apart also by the colour-blind.
+fn ribbon_colour(number: f32) -> vec3<f32> {
+    let colours = array<vec3<f32>, 6>(
+        vec3<f32>(0.90, 0.35, 0.02),
+        vec3<f32>(0.11, 0.46, 0.81),
+        vec3<f32>(0.87, 0.77, 0.06),
+        vec3<f32>(0.00, 0.17, 0.45),
+        vec3<f32>(0.60, 0.19, 0.38),
+        vec3<f32>(0.00, 0.34, 0.17),
+    );
+    return colours[i32(number - 6.0 * floor(number / 6.0)) % 6];
+}
+
+// Ribbons of width 1 across the first coordinate.
+fn ribbons(x: f32) -> vec3<f32> {
+    let w = max(fwidth(x), 1e-5);
+    let next = clamp((fract(x) - 1.0 + w) / w, 0.0, 1.0);
+    let sharp = mix(ribbon_colour(floor(x)), ribbon_colour(floor(x) + 1.0), next);
+    return mix(vec3<f32>(0.41, 0.38, 0.32), sharp, clamp(2.0 - w, 0.0, 1.0));
+}
+
+// Red and green for the two coordinates, there and back over 36 cells, with a line around each cell.
+fn coordinates(p: vec2<f32>) -> vec3<f32> {
+    let way = abs(2.0 * fract(p / 72.0) - 1.0);
+    let w = max(fwidth(p), vec2<f32>(1e-5));
+    let line = clamp((0.04 - abs(p - round(p))) / w + 0.5, vec2<f32>(0.0), vec2<f32>(1.0));
+    let share = max(line.x * clamp(1.5 - 2.0 * w.x, 0.0, 1.0), line.y * clamp(1.5 - 2.0 * w.y, 0.0, 1.0));
+    return vec3<f32>(0.92 - 0.84 * way, 0.35) * (1.0 - 0.55 * share);
+}
+
+// A texture of the flat metric. The picture lies on 9 by 9 cells, again and again.
+fn texture_colour(uv: vec2<f32>) -> vec3<f32> {
+    let along = view.cells.xy;
+    let p = vec2<f32>(along.x * uv.x - along.y * uv.y, along.y * uv.x + along.x * uv.y) + view.cells.zw;
+    let light = view.pattern_light.rgb;
+    let dark = view.pattern_dark.rgb;
+    let kind = view.ways.w;
+    if kind > 3.5 {
+        return textureSample(picture, picture_sampler, vec2<f32>(p.x, -p.y) / 9.0).rgb;
+    } else if kind > 2.5 {
+        return coordinates(p);
+    } else if kind > 1.5 {
+        return ribbons(p.x);
+    } else if kind > 0.5 {
+        return mix(dark, light, circles(p));
+    }
+    return mix(dark, light, checker(p));
 }
 
 // One colour for every place of the target.
@@ -177,7 +232,6 @@ fn light_of(colour: vec3<f32>) -> vec3<f32> {
 @fragment
 fn surface_fragment(in: SurfaceOut) -> @location(0) vec4<f32> {
     let style = view.size_and_style.z;
-    let board = checker(in.uv * 36.0);
     let solid = solid_checker(in.image);
     let light = view.pattern_light.rgb;
     let dark = view.pattern_dark.rgb;
@@ -187,6 +241,9 @@ fn surface_fragment(in: SurfaceOut) -> @location(0) vec4<f32> {
         let sampled = textureSample(picture, picture_sampler, in.uv).rgb;
         let own = light_of(in.tint.rgb) * mix(vec3<f32>(1.0), sampled, step(0.5, in.tint.w));
         colour = select(own, colour, in.clip.x < view.wipe.x);
+    } else if style > 0.5 && style < 1.5 {
+        // Before the wipe parts the pixels, as a texture looks at its neighbours.
+        colour = select(texture_colour(in.uv), colour, in.clip.x < view.wipe.x);
     } else if style > 6.5 {
         colour = scale_colour(mix(in.uv.x, in.uv.y, view.wipe.z));
     } else if style > 5.5 {
@@ -201,11 +258,9 @@ fn surface_fragment(in: SurfaceOut) -> @location(0) vec4<f32> {
         // A breath of the place's own colour tells far parts of the pattern apart.
         colour = mix(dark, light, solid) * mix(vec3<f32>(1.0), 0.45 + 1.1 * place_colour(in.image), 0.5);
     } else if style > 2.5 {
-        colour = distortion_colour(in.values.x);
+        colour = scale_colour(in.values.x);
     } else if style > 1.5 {
         colour = place_colour(in.image);
-    } else if style > 0.5 {
-        colour = mix(dark, light, board);
     }
     return vec4<f32>(lit(colour, in.world, in.normal, in.values.y), 1.0);
 }

@@ -1,10 +1,10 @@
 //! The JSON of a glTF file as far as a mesh needs it, checked before anything of it is followed: numbers of elements, the
 //! tree of nodes, ranges of bytes, kinds.
 //!
-//! The library `gltf` looks numbers up before it knows that they are there, and makes much of small elements. So it gets
-//! only what was checked here: accessors, views, and the primitives' positions and indices.
+//! The library `gltf` looks numbers up before it knows that they are there, and makes much of small elements. So it follows
+//! only what was checked here, and gets no more than accessors, views and buffers (`super::gltf_library`).
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// More nodes than this are refused; a scene with one surface has a few.
 const MAX_NODES: usize = 100_000;
@@ -19,14 +19,14 @@ pub(super) struct Document {
     scenes: Vec<Scene>,
     pub(super) nodes: Vec<Node>,
     pub(super) meshes: Vec<Mesh>,
-    accessors: Vec<Accessor>,
-    buffer_views: Vec<View>,
+    pub(super) accessors: Vec<Accessor>,
+    pub(super) buffer_views: Vec<View>,
     pub(super) buffers: Vec<Buffer>,
     extensions_required: Vec<String>,
     extensions_used: Vec<String>,
 }
 
-#[derive(Debug, Default, Deserialize, Serialize)]
+#[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 struct Asset {
     version: String,
@@ -50,16 +50,15 @@ pub(super) struct Node {
     pub(super) scale: Option<Box<[f64; 3]>>,
 }
 
-#[derive(Debug, Deserialize, Serialize)]
+#[derive(Debug, Deserialize)]
 pub(super) struct Mesh {
     pub(super) primitives: Vec<Primitive>,
 }
 
-#[derive(Debug, Deserialize, Serialize)]
+#[derive(Debug, Deserialize)]
 pub(super) struct Primitive {
     #[serde(default)]
     pub(super) attributes: Attributes,
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) indices: Option<usize>,
     #[serde(default = "triangles")]
     pub(super) mode: u32,
@@ -70,77 +69,61 @@ const fn triangles() -> u32 {
     4
 }
 
-#[derive(Debug, Default, Deserialize, Serialize)]
+#[derive(Debug, Default, Deserialize)]
 pub(super) struct Attributes {
-    #[serde(rename = "POSITION", skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "POSITION")]
     pub(super) position: Option<usize>,
 }
 
-#[derive(Debug, Deserialize, Serialize)]
+#[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct Accessor {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    buffer_view: Option<usize>,
+pub(super) struct Accessor {
+    pub(super) buffer_view: Option<usize>,
     #[serde(default)]
-    byte_offset: u64,
-    component_type: u32,
-    count: u64,
+    pub(super) byte_offset: u64,
+    pub(super) component_type: u32,
+    pub(super) count: u64,
     #[serde(rename = "type")]
-    kind: String,
+    pub(super) kind: String,
     #[serde(default)]
-    normalized: bool,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    sparse: Option<Box<Sparse>>,
+    pub(super) normalized: bool,
+    pub(super) sparse: Option<Box<Sparse>>,
 }
 
-#[derive(Debug, Deserialize, Serialize)]
-struct Sparse {
-    count: u64,
-    indices: SparsePart,
-    values: SparsePart,
+#[derive(Debug, Deserialize)]
+pub(super) struct Sparse {
+    pub(super) count: u64,
+    pub(super) indices: SparsePart,
+    pub(super) values: SparsePart,
 }
 
-#[derive(Debug, Deserialize, Serialize)]
+#[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct SparsePart {
-    buffer_view: usize,
+pub(super) struct SparsePart {
+    pub(super) buffer_view: usize,
     #[serde(default)]
-    byte_offset: u64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    component_type: Option<u32>,
+    pub(super) byte_offset: u64,
+    pub(super) component_type: Option<u32>,
 }
 
-#[derive(Debug, Deserialize, Serialize)]
+#[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct View {
-    buffer: usize,
+pub(super) struct View {
+    pub(super) buffer: usize,
     #[serde(default)]
-    byte_offset: u64,
-    byte_length: u64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    byte_stride: Option<u64>,
+    pub(super) byte_offset: u64,
+    pub(super) byte_length: u64,
+    pub(super) byte_stride: Option<u64>,
 }
 
 /// A buffer.
-#[derive(Debug, Deserialize, Serialize)]
+#[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Buffer {
     /// Bytes that it should have.
     pub(super) byte_length: u64,
     /// Where it is; in the binary part of a GLB where there is none.
-    #[serde(skip_serializing)]
     pub(super) uri: Option<String>,
-}
-
-/// What the library gets.
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Checked<'a> {
-    asset: &'a Asset,
-    meshes: &'a [Mesh],
-    accessors: &'a [Accessor],
-    buffer_views: &'a [View],
-    buffers: &'a [Buffer],
 }
 
 impl Document {
@@ -250,17 +233,6 @@ impl Document {
             return Err("reaches past the end of its view: the file may be cut off".into());
         }
         Ok(())
-    }
-
-    /// Accessors, views and primitives as the library has them.
-    pub(super) fn to_library(&self) -> Result<gltf::Document, String> {
-        let Self { meshes, accessors, buffer_views, buffers, .. } = self;
-        let asset = &Asset { version: "2.0".into() };
-        let checked = Checked { asset, meshes, accessors, buffer_views, buffers };
-        let unreadable = |e: serde_json::Error| format!("it cannot be read: {e}");
-        let json = serde_json::to_vec(&checked).map_err(unreadable)?;
-        let root: gltf::json::Root = serde_json::from_slice(&json).map_err(unreadable)?;
-        Ok(gltf::Document::from_json_without_validation(root))
     }
 }
 

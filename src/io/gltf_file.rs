@@ -8,6 +8,7 @@
 use super::data_uri;
 use super::gltf_container::{self, Container};
 use super::gltf_document::{Buffer, Document, Node, Primitive};
+use super::gltf_library;
 use super::problem::{Place, Unread};
 use super::reading::weld;
 use crate::mesh::soup::PolygonSoup;
@@ -151,7 +152,7 @@ impl<'a> Reader<'a> {
         let buffers = buffers(&document.buffers, container.binary)?;
         Ok(Self {
             sizes: buffers.iter().map(|buffer| buffer.as_ref().map(|content| content.len())).collect(),
-            library: document.to_library()?,
+            library: gltf_library::of(document),
             most_corners: MAX_CORNERS.min(file_bytes.saturating_add(CORNERS_OF_COPIES)),
             document,
             buffers,

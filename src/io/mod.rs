@@ -10,6 +10,7 @@ mod format;
 mod gltf_container;
 mod gltf_document;
 mod gltf_file;
+mod gltf_library;
 mod gltf_look;
 pub mod gltf_parts;
 pub mod landmark_file;

@@ -15,8 +15,8 @@ pub struct SurfaceVertex {
     pub normal: [f32; 3],
     /// Texture coordinates.
     pub uv: [f32; 2],
-    /// Distortion of the map, 1 for none.
-    pub distortion: f32,
+    /// A place on the scale of colours, from 0 to 1.
+    pub scale_place: f32,
     /// The place on the target that the map takes it to, in the target's scene coordinates.
     pub image: [f32; 3],
     /// The target's unit normal there.
@@ -110,7 +110,6 @@ pub fn surface(mesh: &SurfaceMesh, shading: &Shading, frame: &Frame) -> (Vec<Sur
             position,
             normal,
             uv: [0.0; 2],
-            distortion: 1.0,
             image: position,
             image_normal: normal,
             hollow: shading.hollows[v.index()],
@@ -129,7 +128,6 @@ pub fn facets(points: &[Vec3], triangles: &[[u32; 3]]) -> (Vec<SurfaceVertex>, V
         [p, q, r].map(|position| SurfaceVertex {
             position: position.to_array(),
             normal,
-            distortion: 1.0,
             ..SurfaceVertex::default()
         })
     };

@@ -1,4 +1,4 @@
-//! Colours of landmarks and of the distortion, linear red, green and blue from 0 to 1.
+//! Colours of landmarks and of scales, linear red, green and blue from 0 to 1.
 
 /// As style sheets write colours: eight bits of red, green and blue.
 type Hex = u32;
@@ -22,27 +22,16 @@ const CIVIDIS: [Hex; 10] =
 const SHRINKING_TO_GROWING: [Hex; SCALE_COLOURS] =
     [0x2d004b, 0x542788, 0x8073ac, 0xb2abd2, 0xd8daeb, 0xfee0b6, 0xfdb863, 0xe08214, 0xb35806, 0x7f3b08];
 
-/// Number of colours on the scale of the distortion.
+/// Number of colours on a scale.
 pub const SCALE_COLOURS: usize = CIVIDIS.len();
-
-/// The distortion at the end of the scale; its logarithm goes evenly over the colours, from 1, which is none.
-pub const SCALE_END: f32 = 4.0;
-
-/// The distance to the true map at the end of the scale, in units of the root of the target's area; distances go evenly over the colours.
-pub const TRUTH_END: f32 = 0.01;
-
-/// The distortion that has the colour of a distance to the true map.
-pub fn truth_on_scale(distance: f32) -> f32 {
-    SCALE_END.powf((distance / TRUTH_END).clamp(0.0, 1.0))
-}
 
 /// The colour of a landmark by its number, from 0; after 40 they begin again.
 pub fn landmark_colour(k: usize) -> [f32; 3] {
     linear(LANDMARKS[k % LANDMARKS.len()])
 }
 
-/// Colours of the distortion, at even steps of its logarithm from 1 to [`SCALE_END`].
-pub fn distortion_scale() -> [[f32; 3]; SCALE_COLOURS] {
+/// Colours from little to much, at even steps.
+pub fn rising_scale() -> [[f32; 3]; SCALE_COLOURS] {
     CIVIDIS.map(linear)
 }
 
@@ -64,13 +53,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn distances_to_the_truth_go_from_one_end_of_the_scale_to_the_other() {
-        assert_eq!(truth_on_scale(0.0), 1.0);
-        assert!((truth_on_scale(0.5 * TRUTH_END) - SCALE_END.sqrt()).abs() < 1e-5);
-        assert_eq!([TRUTH_END, 0.5, f32::INFINITY].map(truth_on_scale), [SCALE_END; 3]);
-    }
-
-    #[test]
     fn no_two_landmarks_have_colours_that_are_alike() {
         for k in 0..LANDMARKS.len() {
             for l in 0..k {
@@ -84,7 +66,7 @@ mod tests {
 
     #[test]
     fn the_scale_darkens_evenly() {
-        let light = distortion_scale().map(|[r, g, b]| (0.2126 * r + 0.7152 * g + 0.0722 * b).cbrt());
+        let light = rising_scale().map(|[r, g, b]| (0.2126 * r + 0.7152 * g + 0.0722 * b).cbrt());
         let steps: Vec<f32> = light.windows(2).map(|w| w[0] - w[1]).collect();
         assert!(steps.iter().all(|step| (0.02..0.12).contains(step)), "{steps:?}");
     }

@@ -166,7 +166,6 @@ pub fn surface_as_read(
     let vertex = |(p, n): (&DVec3, &DVec3)| SurfaceVertex {
         position: frame.place(*p).to_array(),
         normal: n.normalize_or(DVec3::Z).as_vec3().to_array(),
-        distortion: 1.0,
         ..SurfaceVertex::default()
     };
     let vertices = defects.positions.iter().zip(normals).map(vertex).collect();
@@ -189,7 +188,6 @@ pub fn painted(defects: &Defects, normals: &[DVec3], frame: &Frame) -> DefectBuf
                             position: place(v).to_array(),
                             normal: normals[v as usize].normalize_or(DVec3::Z).as_vec3().to_array(),
                             uv: [fill.code(), 0.0],
-                            distortion: 1.0,
                             image: colour,
                             ..SurfaceVertex::default()
                         });

@@ -9,8 +9,6 @@ use parry3d_f64::shape::TriMesh;
 pub struct MapPicker {
     positions: [Vec<DVec3>; 2],
     triangles: Vec<[u32; 3]>,
-    /// Distortion by point; empty where it is not known.
-    distortion: Vec<f32>,
     /// A hierarchy over each side, made when it is first needed.
     shapes: [Option<TriMesh>; 2],
 }
@@ -20,19 +18,19 @@ pub struct MapPicker {
 pub struct MapPlace {
     /// On the source and on the target, in input coordinates.
     pub positions: [DVec3; 2],
-    /// Distortion of the map there, 1 for none; `None` where it is not known.
-    pub distortion: Option<f64>,
+    /// The points at the corners of the map's triangle that holds it.
+    pub corners: [u32; 3],
+    /// Their weights: values that the map's points have are their mean there.
+    pub weights: [f64; 3],
 }
 
 impl MapPicker {
-    /// Takes a map: places on the source and on the target of each point, its distortion (or none), and triangles of points.
+    /// Takes a map: places on the source and on the target of each point, and triangles of points.
     /// `None` where the numbers do not fit each other.
-    pub fn new(positions: [Vec<DVec3>; 2], distortion: Vec<f32>, triangles: Vec<[u32; 3]>) -> Option<Self> {
+    pub fn new(positions: [Vec<DVec3>; 2], triangles: Vec<[u32; 3]>) -> Option<Self> {
         let count = positions[0].len();
-        let fits = positions[1].len() == count
-            && (distortion.is_empty() || distortion.len() == count)
-            && triangles.iter().flatten().all(|&v| (v as usize) < count);
-        fits.then_some(Self { positions, triangles, distortion, shapes: [None, None] })
+        let fits = positions[1].len() == count && triangles.iter().flatten().all(|&v| (v as usize) < count);
+        fits.then_some(Self { positions, triangles, shapes: [None, None] })
     }
 
     /// The place where a ray first meets one side, 0 the source and 1 the target.
@@ -69,10 +67,11 @@ impl MapPicker {
 
     fn place(&self, triangle: [u32; 3], weights: [f64; 3]) -> MapPlace {
         let blend = |[a, b, c]: [DVec3; 3]| a * weights[0] + b * weights[1] + c * weights[2];
-        let known = |v: u32| self.distortion.get(v as usize).map(|&d| f64::from(d));
-        let [a, b, c] = triangle.map(known);
-        let distortion = a.zip(b).zip(c).map(|((a, b), c)| a * weights[0] + b * weights[1] + c * weights[2]);
-        MapPlace { positions: [0, 1].map(|side| blend(self.corners(side, triangle))), distortion }
+        MapPlace {
+            positions: [0, 1].map(|side| blend(self.corners(side, triangle))),
+            corners: triangle,
+            weights,
+        }
     }
 }
 
@@ -90,9 +89,8 @@ mod tests {
         let ball = icosphere(3);
         let source = ball.positions().raw.to_vec();
         let target = source.iter().map(|p| stretch(*p)).collect();
-        let distortion = source.iter().map(|p| 2.0 + p.x as f32).collect();
         let triangles = ball.triangles().iter().map(|t| t.map(|v| v.0)).collect();
-        MapPicker::new([source, target], distortion, triangles).unwrap()
+        MapPicker::new([source, target], triangles).unwrap()
     }
 
     #[test]
@@ -104,7 +102,9 @@ mod tests {
             let [on_source, on_target] = place.positions;
             assert!(on_source.normalize().distance(way.normalize()) < 1e-9);
             assert!(on_target.distance(stretch(on_source)) < 1e-12);
-            assert!((place.distortion.unwrap() - (2.0 + on_source.x)).abs() < 1e-6);
+            let blend: DVec3 =
+                (0..3).map(|k| picker.positions[0][place.corners[k] as usize] * place.weights[k]).sum();
+            assert!(blend.distance(on_source) < 1e-12);
             let back = picker.nearest(1, on_target).unwrap();
             assert!(back.positions[0].distance(on_source) < 1e-9);
         }
@@ -114,9 +114,8 @@ mod tests {
     #[test]
     fn numbers_that_do_not_fit_are_refused() {
         let points = || vec![DVec3::ZERO; 3];
-        assert!(MapPicker::new([points(), points()], Vec::new(), vec![[0, 1, 2]]).is_some());
-        assert!(MapPicker::new([points(), points()], Vec::new(), vec![[0, 1, 3]]).is_none());
-        assert!(MapPicker::new([points(), Vec::new()], Vec::new(), Vec::new()).is_none());
-        assert!(MapPicker::new([points(), points()], vec![1.0], Vec::new()).is_none());
+        assert!(MapPicker::new([points(), points()], vec![[0, 1, 2]]).is_some());
+        assert!(MapPicker::new([points(), points()], vec![[0, 1, 3]]).is_none());
+        assert!(MapPicker::new([points(), Vec::new()], Vec::new()).is_none());
     }
 }

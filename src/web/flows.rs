@@ -4,12 +4,13 @@ use super::compute::{Messenger, RunListener};
 use super::failure;
 use super::page_job::read_job;
 use crate::job::{Job, JobError};
-use crate::mesh::FaceId;
 use crate::mesh::packing::Packer;
 use crate::mesh::repair::Defects;
+use crate::mesh::{FaceId, SurfaceMesh, VertexId};
 use crate::monitor::{PlannedStage, Stage};
 use crate::pipeline::{FlowOptions, FlowRecord, PipelineOptions, Scheme};
 use serde_json::json;
+use typed_index_collections::TiVec;
 use wasm_bindgen::prelude::*;
 
 /// Both flows.
@@ -18,6 +19,8 @@ pub struct RecordedFlows {
     records: [FlowRecord; 2],
     /// Vertices of the checked meshes.
     vertices: [usize; 2],
+    /// Of each mesh by vertex, before the first step and at the last moment, in units of a sphere's.
+    curvatures: [[TiVec<VertexId, f64>; 2]; 2],
     stops: [Stops; 2],
 }
 
@@ -64,7 +67,9 @@ pub fn record_flows(
     let records =
         job.recorded_flows(cones, &options, &mut messenger).map_err(|error| failed(error.into()))?;
     let stops = [0, 1].map(|side| Stops::new(&job, side, &records[side]));
-    Ok(RecordedFlows { records, vertices: job.vertex_counts(), stops })
+    let areas = job.mapped_meshes().map(SurfaceMesh::vertex_areas);
+    let curvatures = [0, 1].map(|side| records[side].curvature_by_area(&areas[side]));
+    Ok(RecordedFlows { records, vertices: job.vertex_counts(), curvatures, stops })
 }
 
 #[wasm_bindgen]
@@ -100,5 +105,13 @@ impl RecordedFlows {
         let side = side.min(1);
         let moments = self.records[side].moments.iter();
         moments.flat_map(|m| m.log_factors.raw[..self.vertices[side]].iter().map(|&u| u as f32)).collect()
+    }
+
+    /// Gaussian curvatures by vertex of the checked mesh, in units of that of a sphere of the same area: before the first step (0) or at the
+    /// last moment (1).
+    pub fn curvatures(&self, side: usize, moment: usize) -> Vec<f32> {
+        let side = side.min(1);
+        let curvatures = &self.curvatures[side][moment.min(1)];
+        curvatures.iter().take(self.vertices[side]).map(|&k| k as f32).collect()
     }
 }

@@ -7,7 +7,7 @@ use crate::gpu::{Mesh, Picture, Renderer};
 use crate::io::landmark_file::LandmarkPoint;
 use crate::mesh::check::CheckedMesh;
 use crate::mesh::normals::vertex_normals;
-use crate::mesh::{FaceId, SurfacePoint};
+use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::scene::buffers::{Frame, surface};
 use crate::scene::colours::landmark_colour;
 use crate::scene::defects::{DefectBuffers, painted, surface_as_read};
@@ -136,6 +136,16 @@ impl Factors {
         let uvs = places[0].iter().zip(places[1]).map(|(from, to)| [*from, *to]);
         vertices.iter_mut().zip(uvs).for_each(|(vertex, uv)| vertex.uv = uv);
         Self { mesh: renderer.surface_mesh(&vertices, &indices), vertices, indices }
+    }
+
+    /// The place on the scale at a point of the mesh, this share of the way from the first places to the second.
+    pub fn at(&self, mesh: &SurfaceMesh, point: SurfacePoint, share: f32) -> f64 {
+        let value = |v: VertexId| {
+            let [from, to] = self.vertices[v.index()].uv;
+            f64::from(from + share * (to - from))
+        };
+        let corners = mesh.triangles()[point.face].map(value);
+        corners.iter().zip(point.barycentric).map(|(value, weight)| value * weight).sum()
     }
 }
 

@@ -56,8 +56,9 @@ impl Viewer {
     }
 
     /// Asks the map at a place of a view, and marks the place and its partner with rings: JSON `{"points", "positions",
-    /// "distortion", "patch"}`, the first two by side, the last two null where they are not known: the patch is that of the source, as
-    /// [`Viewer::set_patches`] numbers it. `undefined` where there is no map.
+    /// "corners", "weights", "places", "patch"}`: the first two by side; the points of the map's triangle there and their weights; by side
+    /// the place on the scale of factors, null where none is shown; the patch of the source, as [`Viewer::set_patches`] numbers it, null
+    /// where it is not known. `undefined` where there is no map.
     pub fn probe(&mut self, side: usize, x: f32, y: f32) -> Option<String> {
         self.clear_probe();
         let side = side.min(1);
@@ -105,17 +106,20 @@ impl Viewer {
 
 impl Viewer {
     fn show_probe(&mut self, place: MapPlace) -> Option<String> {
-        let mut points = Vec::new();
+        let (mut points, mut places) = (Vec::new(), Vec::new());
+        let share = self.factor_share;
         for (side, position) in self.sides.iter_mut().zip(place.positions) {
             let mesh = side.mesh.as_ref()?;
             let point = mesh.picker.as_ref()?.nearest(&mesh.checked.mesh, position)?;
+            places.push(side.factors.as_ref().map(|factors| factors.at(&mesh.checked.mesh, point, share)));
             points.push(mesh.in_file(point));
             side.probe = Some(mesh.frame.place(position));
         }
         let patch = self.sides[0].patches.as_mut().and_then(|patches| patches.nearest(place.positions[0]));
         let positions = place.positions.map(|p| p.to_array());
+        let MapPlace { corners, weights, .. } = place;
         let answer = json!({
-            "points": points, "positions": positions, "distortion": place.distortion, "patch": patch,
+            "points": points, "positions": positions, "corners": corners, "weights": weights, "places": places, "patch": patch,
         });
         Some(answer.to_string())
     }

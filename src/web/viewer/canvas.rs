@@ -5,7 +5,7 @@ use super::super::loaded_mesh::LoadedMesh;
 use super::super::view_side::{Look, Side, SideMesh};
 use super::compared_map::ComparedMap;
 use super::reading::parsed;
-use crate::gpu::{Paint, Renderer};
+use crate::gpu::{Paint, Picture, Renderer, Scale, Texture, TextureKind};
 use crate::scene::MapPicker;
 use glam::Mat4;
 use serde::Deserialize;
@@ -26,6 +26,8 @@ pub(super) struct Style {
     /// Share of the source's view, from the left, in which the source is plain.
     #[serde(default)]
     pub(super) wipe: Option<f32>,
+    #[serde(default)]
+    pub(super) texture: TexturePlace,
     /// Whether parts of the surfaces may be unmapped: the plain meshes are drawn behind.
     #[serde(default)]
     pub(super) holes: bool,
@@ -41,26 +43,63 @@ pub(super) enum SurfaceStyle {
     #[default]
     Shaded,
     Pattern,
-    Checkerboard,
     Colours,
-    Distortion,
-    Truth,
+    Checkerboard,
+    Circles,
+    Ribbons,
+    Coordinates,
+    Picture,
+    /// A scale from little to much, by the overlays' places on it.
+    Rising,
+    /// Likewise from what shrinks to what grows.
+    Diverging,
     Look,
 }
 
-impl SurfaceStyle {
-    pub(super) fn paint(self) -> Paint {
-        match self {
-            Self::Shaded => Paint::Plain,
-            Self::Pattern => Paint::Pattern,
-            Self::Checkerboard => Paint::Checkerboard,
-            Self::Colours => Paint::Places,
-            // Its overlay has distances in the place of the distortion.
-            Self::Distortion | Self::Truth => Paint::Distortion,
-            Self::Look => Paint::Look,
+/// How a texture lies on the flat metric.
+#[derive(Clone, Copy, Deserialize)]
+pub(super) struct TexturePlace {
+    /// Cells to a unit of texture coordinates.
+    cells: f32,
+    /// Counter-clockwise, in degrees.
+    turn: f32,
+    /// In cells.
+    shift: [f32; 2],
+}
+
+impl Default for TexturePlace {
+    fn default() -> Self {
+        Self { cells: 36.0, turn: 0.0, shift: [0.0; 2] }
+    }
+}
+
+impl TexturePlace {
+    fn of(self, kind: TextureKind) -> Paint {
+        let (sine, cosine) = self.turn.to_radians().sin_cos();
+        let [x, y] = self.shift;
+        Paint::Texture(Texture { kind, cells: [self.cells * cosine, self.cells * sine, x, y] })
+    }
+}
+
+impl Style {
+    pub(super) fn paint(&self) -> Paint {
+        match self.surface {
+            SurfaceStyle::Shaded => Paint::Plain,
+            SurfaceStyle::Pattern => Paint::Pattern,
+            SurfaceStyle::Colours => Paint::Places,
+            SurfaceStyle::Checkerboard => self.texture.of(TextureKind::Checkerboard),
+            SurfaceStyle::Circles => self.texture.of(TextureKind::Circles),
+            SurfaceStyle::Ribbons => self.texture.of(TextureKind::Ribbons),
+            SurfaceStyle::Coordinates => self.texture.of(TextureKind::Coordinates),
+            SurfaceStyle::Picture => self.texture.of(TextureKind::Picture),
+            SurfaceStyle::Rising => Paint::Scale(Scale::Rising),
+            SurfaceStyle::Diverging => Paint::Scale(Scale::Diverging),
+            SurfaceStyle::Look => Paint::Look,
         }
     }
+}
 
+impl SurfaceStyle {
     /// Whether the target's own mesh can show it: what follows from the place on the target alone.
     pub(super) fn is_of_places(self) -> bool {
         matches!(self, Self::Pattern | Self::Colours)
@@ -82,6 +121,8 @@ pub struct Viewer {
     pub(super) source_from_target: Mat4,
     /// Share of the way between the two moments of a flow that is shown.
     pub(super) factor_share: f32,
+    /// The user's own picture on the flat metric.
+    pub(super) texture: Option<Picture>,
     /// The side whose look the map carries.
     pub(super) look_giver: Option<usize>,
     pub(super) pixel_ratio: f32,
@@ -107,6 +148,7 @@ impl Viewer {
             morph: 0.0,
             source_from_target: Mat4::IDENTITY,
             factor_share: 0.0,
+            texture: None,
             look_giver: None,
             pixel_ratio: 1.0,
             now: 0.0,
@@ -159,6 +201,12 @@ impl Viewer {
         self.side_mut(side).picture = picture;
     }
 
+    /// Takes the picture that the style `picture` lays on the flat metric, as [`Viewer::set_picture`] does.
+    #[wasm_bindgen(js_name = setTexture)]
+    pub fn set_texture(&mut self, width: u32, height: u32, pixels: Vec<u8>) {
+        self.texture = self.renderer.picture(width, height, pixels);
+    }
+
     /// Empties a view.
     #[wasm_bindgen(js_name = clearMesh)]
     pub fn clear_mesh(&mut self, side: usize) {
@@ -193,7 +241,8 @@ impl Viewer {
     }
 
     /// What to show: JSON `{"surface", "patchLines", "textureBoundary"?, "cones", "markers", "dark"?, "holes"?,
-    /// "comparedHoles"?, "wipe"?}`; with `wipe`, a share of the source's view, the source is plain from the left to there.
+    /// "comparedHoles"?, "wipe"?, "texture"?}`; `texture` is `{"cells", "turn", "shift"}`, cells to a unit of texture coordinates, degrees and
+    /// cells; with `wipe`, a share of the source's view, the source is plain from the left to there.
     ///
     /// # Errors
     /// `{"code": "style", "message"}`.

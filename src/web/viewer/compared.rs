@@ -17,12 +17,12 @@ impl Viewer {
         positions: &[f32],
         normals: &[f32],
         uvs: &[f32],
-        distortion: &[f32],
+        scale_places: &[f32],
         triangles: &[u32],
         images: &[f32],
         image_normals: &[f32],
     ) {
-        let overlay = Overlay { positions, normals, uvs, distortion, triangles, images, image_normals };
+        let overlay = Overlay { positions, normals, uvs, scale_places, triangles, images, image_normals };
         self.compared = self.overlay_vertices(0, overlay).map(|vertices| ComparedMap {
             overlay: self.renderer.surface_mesh(&vertices, triangles),
             lines: None,
@@ -58,11 +58,12 @@ impl Viewer {
 
     /// The second view while it shows another map.
     pub(super) fn compared_view<'a>(&'a self, other: &'a ComparedMap, bare: ViewDraw<'a>) -> ViewDraw<'a> {
-        let paint = self.style.surface.paint();
+        let paint = self.style.paint();
         let own = self.sides[0].mesh.as_ref().map(|mesh| &mesh.surface);
         ViewDraw {
             // No look of its own is known for it.
             paint: if paint == Paint::Look { Paint::Plain } else { paint },
+            picture: self.texture.as_ref(),
             surface: Some(&other.overlay),
             under: own.filter(|_| self.style.compared_holes),
             lines: other.lines.as_ref().filter(|_| self.style.patch_lines),

@@ -95,7 +95,7 @@ impl Viewer {
             return shown;
         }
         // Without a look to show, surfaces are plain.
-        let paint = style.surface.paint();
+        let paint = style.paint();
         let paint = if paint == Paint::Look { Paint::Plain } else { paint };
         let morph = if k == 0 && side.overlay.is_some() { self.morph } else { 0.0 };
         let shows_own = morph == 0.0 && (paint == Paint::Plain || (k == 1 && style.surface.is_of_places()));
@@ -104,6 +104,7 @@ impl Viewer {
             paint: if overlay.is_some() || shows_own { paint } else { Paint::Plain },
             morph,
             wipe: style.wipe.filter(|_| k == 0).unwrap_or(0.0),
+            picture: self.texture.as_ref(),
             surface: overlay.or(own),
             under: own.filter(|_| style.holes && overlay.is_some() && morph == 0.0),
             tinted: side.lit.surface.as_ref().filter(|_| morph == 0.0),

@@ -23,7 +23,7 @@ pub(super) struct Overlay<'a> {
     pub(super) positions: &'a [f32],
     pub(super) normals: &'a [f32],
     pub(super) uvs: &'a [f32],
-    pub(super) distortion: &'a [f32],
+    pub(super) scale_places: &'a [f32],
     pub(super) triangles: &'a [u32],
     pub(super) images: &'a [f32],
     pub(super) image_normals: &'a [f32],
@@ -32,7 +32,7 @@ pub(super) struct Overlay<'a> {
 impl Viewer {
     /// The vertices of an overlay on a side; `None` where its arrays do not belong together, or a mesh is missing.
     pub(super) fn overlay_vertices(&self, side: usize, overlay: Overlay<'_>) -> Option<Vec<SurfaceVertex>> {
-        let Overlay { positions, normals, uvs, distortion, triangles, images, image_normals } = overlay;
+        let Overlay { positions, normals, uvs, scale_places, triangles, images, image_normals } = overlay;
         let [target, own] = [self.sides[1].mesh.as_ref()?, self.sides[side.min(1)].mesh.as_ref()?];
         let count = positions.len() / 3;
         let numbers = [normals.len(), images.len(), image_normals.len()];
@@ -47,7 +47,7 @@ impl Viewer {
             position: own.frame.place(point(three(positions, k))).to_array(),
             normal: three(normals, k),
             uv: [uvs[2 * k], uvs[2 * k + 1]],
-            distortion: distortion.get(k).copied().unwrap_or(1.0),
+            scale_place: scale_places.get(k).copied().unwrap_or(0.0),
             image: target.frame.place(point(three(images, k))).to_array(),
             image_normal: three(image_normals, k),
             hollow: hollows[k],
@@ -70,8 +70,8 @@ impl Viewer {
 
 #[wasm_bindgen]
 impl Viewer {
-    /// Takes the map's triangles as one side sees them: positions and normals there, texture coordinates, distortion by point
-    /// (or none), and the images on the target.
+    /// Takes the map's triangles as one side sees them: positions and normals there, texture coordinates, the place of
+    /// each point on the scale of colours (or none), and the images on the target.
     #[wasm_bindgen(js_name = setOverlay)]
     #[allow(clippy::too_many_arguments, reason = "typed arrays cannot be bundled")]
     pub fn set_overlay(
@@ -80,12 +80,12 @@ impl Viewer {
         positions: &[f32],
         normals: &[f32],
         uvs: &[f32],
-        distortion: &[f32],
+        scale_places: &[f32],
         triangles: &[u32],
         images: &[f32],
         image_normals: &[f32],
     ) {
-        let overlay = Overlay { positions, normals, uvs, distortion, triangles, images, image_normals };
+        let overlay = Overlay { positions, normals, uvs, scale_places, triangles, images, image_normals };
         let Some(vertices) = self.overlay_vertices(side, overlay) else { return };
         let uploaded = self.renderer.surface_mesh(&vertices, triangles);
         if side == 0 {
@@ -164,13 +164,12 @@ impl Viewer {
         self.side_mut(side).seams = uploaded;
     }
 
-    /// Takes the map to be asked by [`Viewer::probe`]: places of its points on both meshes, its distortion there (or none), and its
-    /// triangles.
+    /// Takes the map to be asked by [`Viewer::probe`]: places of its points on both meshes, and its triangles.
     #[wasm_bindgen(js_name = setMap)]
-    pub fn set_map(&mut self, source: &[f32], target: &[f32], distortion: &[f32], triangles: &[u32]) {
+    pub fn set_map(&mut self, source: &[f32], target: &[f32], triangles: &[u32]) {
         let points = |a: &[f32]| a.chunks_exact(3).map(|p| point([p[0], p[1], p[2]])).collect();
         let triangles = triangles.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
-        self.map = MapPicker::new([points(source), points(target)], distortion.to_vec(), triangles);
+        self.map = MapPicker::new([points(source), points(target)], triangles);
     }
 
     /// Shows the source's shape on its way to the target's: 0 the source's, 1 the target's, laid on it. Needs the source's overlay.
