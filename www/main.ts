@@ -19,6 +19,8 @@ import { leaveTask } from './app/task.ts';
 import { sharedLink } from './app/sharing.ts';
 import { suggest } from './app/suggest.ts';
 import { Comparer } from './app/compare.ts';
+import { Flattener } from './app/flatten.ts';
+import { openTexturePicture } from './app/texture-picture.ts';
 import { startFlowing, startLayingOut, startSimplifying } from './app/watch.ts';
 import { compilePage, coreSource } from './compute/core.ts';
 import { SENTENCES } from './messages.ts';
@@ -45,6 +47,7 @@ const links = new Links(store, reader);
 const maps = new Maps(store, () => runner.core);
 const finder = new Finder(store, () => runner.core);
 const comparer = new Comparer(store, () => runner.core);
+new Flattener(store, () => runner.core);
 /** Reloads the page into its newer build, when there is one. */
 let reload = (): void => undefined;
 const keeper = new Keeper(store, browserWith(reader));
@@ -63,6 +66,9 @@ const actions: Actions = {
     }
   },
   sharedLink: () => sharedLink(store.state, new URL(document.baseURI)),
+  openTexturePicture: (file) => {
+    void openTexturePicture(store, file);
+  },
   saveProject: () => {
     void saveProject(store);
   },

@@ -6,7 +6,7 @@ import { change } from '../../www/store/change.ts';
 import type { Event } from '../../www/store/events.ts';
 import type { Examined } from '../../www/store/defects.ts';
 import type { Refused, RefusedMesh } from '../../www/store/refused.ts';
-import type { Comparison, Offer, Proposal, State, Style, Ui } from '../../www/store/state.ts';
+import type { Comparison, Flattening, Offer, Proposal, State, Style, TexturePicture, Ui } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
 import { workOf } from '../../www/store/work.ts';
 import { AWAITED, DEMO, DONE, DOUBT, FOUR, MATCH, mesh, OPENED, OUTPUT, pair, READY, REFUSAL, REPORT, RESULT, RUNNING, suggestion, SWAPPED } from './fixtures.ts';
@@ -26,7 +26,7 @@ const TASK = { sentence: 'Reading the files…' };
 const PROGRESS = { stage: 'relaxation', sentence: 'Relaxing the map', share: 0.5, residual: null, energy: 5 };
 const [HORSE, A, B] = [mesh('horse.stl'), suggestion(5, 'A'), suggestion(6, 'B')];
 const OPTIONS: RunOptions = { method: 'thesis', base: 'qem', cones: 'uniform', class: 'runner-up', ownCones: 10, borders: 'missing' };
-const STYLE: Style = { surface: 'colours', patchLines: false, textureBoundary: true, cones: false, markers: false, morph: 0.25, wipe: 0.75 };
+const STYLE: Style = { surface: 'colours', texture: { cells: 12, turn: 30, x: 1, y: -0.5 }, patchLines: false, textureBoundary: true, cones: false, markers: false, morph: 0.25, wipe: 0.75 };
 const OFFER: Offer = { session: 'a', names: ['cat.off', 'lion.off'], pairs: 12, saved: 1 };
 const [CAT, LION] = READY.meshes;
 const PLACES = new Float32Array(9);
@@ -52,6 +52,8 @@ const during = (job: Partial<typeof RUNNING>): State => ({ ...READY, job: { ...R
 const ui = (state: State, patch: Partial<Ui>): Ui => ({ ...state.ui, ...patch });
 const METHOD: State = { ...DONE, ui: ui(DONE, { step: 'method' }) };
 const comparedBy = (which: Comparison['which'], progress: Comparison['progress']): Comparison => ({ of: RESULT, which, progress });
+const FLATTENING: Flattening = { of: RESULT, progress: { kind: 'computing', share: 0.5 } };
+const TEXTURE: TexturePicture = { name: 'tiles.png', width: 1, height: 1, pixels: new Uint8Array(4) };
 const toast = (sentence: string): Pick<State, 'toast'> => ({ toast: { sentence, undo: true } });
 const gone = (work: State): State['history'] => ({ past: [{ name: 'Place pair 9', work: workOf(work) }], future: [], gesture: 1 });
 
@@ -423,6 +425,18 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     event: {},
     step: null,
     changes: { comparison: null },
+  },
+  flattening: {
+    before: METHOD,
+    event: { flattening: FLATTENING },
+    step: null,
+    changes: { flattening: FLATTENING },
+  },
+  'texture-picture': {
+    before: METHOD,
+    event: { picture: TEXTURE },
+    step: null,
+    changes: { texturePicture: TEXTURE, ui: ui(METHOD, { style: { ...METHOD.ui.style, surface: 'picture' } }) },
   },
   'run-started': {
     before: { ...DOUBTED, error: 'Something failed.' },

@@ -110,7 +110,7 @@ function moment(step: number, residual: number): SideFlow['moments'][number] {
 
 const LN2 = Math.LN2;
 /** Stopped by no triangle. */
-const RESTING = { stops: [], packedStops: new Uint8Array() };
+const RESTING = { stops: [], packedStops: new Uint8Array(), curvatures: [new Float32Array(2), new Float32Array(2)] } as const;
 /** Two vertices each; the target's flow is over after one step. */
 const FLOWS: Flows = [
   { ...RESTING, moments: [moment(0, 1), moment(1, 0.02), moment(2, 1e-9)], converged: true, logFactors: new Float32Array([0, 0, LN2, -LN2, 2 * LN2, -2.5 * LN2]) },

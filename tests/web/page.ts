@@ -88,6 +88,6 @@ export async function runMap(page: Page): Promise<void> {
 /** Chooses what the surfaces show, on the canvas. */
 export async function showSurface(page: Page, name: string): Promise<void> {
   await page.getByRole('button', { name: /^Picture: / }).click();
-  await page.getByRole('radio', { name }).check();
+  await page.getByRole('radio', { name, exact: true }).check();
   await page.keyboard.press('Escape');
 }

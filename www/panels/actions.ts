@@ -36,6 +36,8 @@ export interface Actions {
   /** The link to what is on the page; `null` where there can be none. */
   readonly sharedLink: () => Promise<{ readonly url: string; readonly prospect: Parameters<typeof prospectSentence>[0] } | null>;
   readonly saveProject: () => void;
+  /** Lays a picture on the flat metric. */
+  readonly openTexturePicture: (file: File) => void;
   /** Saves the whole pairs: as the program's own file, or in another format that the core knows by this word. */
   readonly saveLandmarks: (format?: string) => void;
   /** Makes a file of the map, by the name `made` that the core has for it, and saves it under another. */

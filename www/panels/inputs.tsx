@@ -8,7 +8,7 @@ import type { State } from '../store/state.ts';
 import { landmarkEndings, meshEndings } from '../wasm/page.js';
 import type { Actions } from './actions.ts';
 
-export type Chooser = 'mesh-files' | 'source-file' | 'target-file' | 'landmark-file' | 'landmarks-of-source' | 'landmarks-of-target';
+export type Chooser = 'mesh-files' | 'source-file' | 'target-file' | 'landmark-file' | 'landmarks-of-source' | 'landmarks-of-target' | 'texture-file';
 
 /** Opens a chooser. */
 export function choose(chooser: Chooser): void {
@@ -65,6 +65,13 @@ export function FileInputs({ state, actions }: { readonly state: State; readonly
       <FileInput id="landmark-file" accept={landmarks} onFiles={open(null)} />
       <FileInput id="landmarks-of-source" accept={landmarks} onFiles={open(0)} />
       <FileInput id="landmarks-of-target" accept={landmarks} onFiles={open(1)} />
+      <FileInput
+        id="texture-file"
+        accept="image/*"
+        onFiles={(files) => {
+          files.slice(0, 1).forEach(actions.openTexturePicture);
+        }}
+      />
     </>
   );
 }

@@ -1,35 +1,58 @@
 /** What the surfaces show: chosen on the canvas, with a legend where colours mean something. */
 import type { VNode } from 'preact';
+import type { Scale } from '../heat/scales.ts';
+import { scaleOf } from '../heat/scales.ts';
+import { scaleEnd } from '../method/factors.ts';
 import { shownStyle } from '../store/compared.ts';
+import { needsFlows, shownFlows } from '../store/flat.ts';
 import { shownResult } from '../store/staleness.ts';
-import type { Result, State, Style } from '../store/state.ts';
-import { distortionScale } from '../wasm/page.js';
+import type { HeatMap, Result, State, Style } from '../store/state.ts';
+import { isThere } from '../store/surfaces.ts';
+import { factorScale, risingScale } from '../wasm/page.js';
 import type { PartProps } from './actions.ts';
 import type { Choice } from './controls.tsx';
 import { Check } from './controls.tsx';
 import { Popover } from './popover.tsx';
+import { TextureControls } from './texture-controls.tsx';
 
-const SURFACES: readonly Choice<Style['surface']>[] = [
-  { value: 'shaded', text: 'Plain' },
-  { value: 'look', text: 'Own colours' },
-  { value: 'pattern', text: 'Pattern' },
-  { value: 'checkerboard', text: 'Checkerboard' },
-  { value: 'colours', text: 'Colours' },
-  { value: 'distortion', text: 'Distortion' },
-  { value: 'truth', text: 'Distance to the truth' },
+type Surface = Choice<Style['surface']>;
+
+/** What surfaces can show, in groups with their titles. */
+const GROUPS: readonly { readonly title: string | null; readonly surfaces: readonly Surface[] }[] = [
+  {
+    title: null,
+    surfaces: [
+      { value: 'shaded', text: 'Plain' },
+      { value: 'look', text: 'Own colours' },
+      { value: 'pattern', text: 'Pattern' },
+      { value: 'colours', text: 'Colours' },
+    ],
+  },
+  {
+    title: 'Texture of the flat metric',
+    surfaces: [
+      { value: 'checkerboard', text: 'Checkerboard' },
+      { value: 'circles', text: 'Circles' },
+      { value: 'ribbons', text: 'Ribbons' },
+      { value: 'coordinates', text: 'Coordinates' },
+      { value: 'picture', text: 'Your picture' },
+    ],
+  },
+  {
+    title: 'Heat map',
+    surfaces: [
+      { value: 'distortion', text: 'Distortion' },
+      { value: 'angles', text: 'Angles' },
+      { value: 'areas', text: 'Areas' },
+      { value: 'factor', text: 'Conformal factor' },
+      { value: 'curvature', text: 'Curvature' },
+      { value: 'flat-curvature', text: 'Curvature, flat' },
+      { value: 'truth', text: 'Distance to the truth' },
+    ],
+  },
 ];
 
-/** Whether a surface can be shown now. */
-function isThere(state: State, surface: Style['surface']): boolean {
-  const result = shownResult(state);
-  if (surface === 'look') {
-    return state.meshes.some((mesh) => mesh?.look === 'colours');
-  }
-  if (surface === 'distortion' || surface === 'truth') {
-    return result !== null && result.output[surface].length > 0;
-  }
-  return surface === 'shaded' || result !== null;
-}
+const TEXTURES = GROUPS[1]?.surfaces ?? [];
 
 /** Whether it is known where the texture is cut that a map carries: only a map that is one-to-one has the target's cut on the source. */
 function hasSeams(result: Result | null): boolean {
@@ -43,23 +66,34 @@ interface SurfaceProps extends Pick<PartProps, 'state' | 'actions'> {
 
 /** What the surfaces show. */
 export function SurfaceChoice({ state, actions, group }: SurfaceProps): VNode {
+  const choose = (surface: Style['surface']): void => {
+    actions.dispatch({ kind: 'style', style: { surface } });
+  };
   return (
-    <div role="radiogroup" aria-label="Surface">
-      {SURFACES.filter(({ value }) => value !== 'truth' || isThere(state, value)).map(({ value, text }) => (
-        <label class="check" key={value}>
-          <input
-            type="radio"
-            name={group}
-            value={value}
-            checked={state.ui.style.surface === value}
-            disabled={!isThere(state, value)}
-            onChange={() => {
-              actions.dispatch({ kind: 'style', style: { surface: value } });
-            }}
-          />
-          <span>{text}</span>
-        </label>
+    <div role="radiogroup" aria-label="Surface" class="surfaces">
+      {GROUPS.map(({ title, surfaces }) => (
+        <div key={title} class="surface-group">
+          {title !== null && <p class="title">{title}</p>}
+          {surfaces
+            .filter(({ value }) => value !== 'truth' || isThere(state, value))
+            .map(({ value, text }) => (
+              <label class="check" key={value}>
+                <input
+                  type="radio"
+                  name={group}
+                  value={value}
+                  checked={state.ui.style.surface === value}
+                  disabled={!isThere(state, value)}
+                  onChange={() => {
+                    choose(value);
+                  }}
+                />
+                <span>{text}</span>
+              </label>
+            ))}
+        </div>
       ))}
+      {TEXTURES.some(({ value }) => value === state.ui.style.surface) && shownResult(state) !== null && <TextureControls state={state} actions={actions} />}
     </div>
   );
 }
@@ -102,7 +136,7 @@ export function PictureBar({ state, actions }: Pick<PartProps, 'state' | 'action
   if (state.meshes.includes(null)) {
     return null;
   }
-  const surface = SURFACES.find(({ value }) => value === state.ui.style.surface);
+  const surface = GROUPS.flatMap(({ surfaces }) => surfaces).find(({ value }) => value === state.ui.style.surface);
   return (
     <div class="picture-bar">
       <Popover icon="picture" label={`Picture: ${surface?.text ?? ''}`} text={surface?.text ?? ''} place="up end">
@@ -119,37 +153,60 @@ export function PictureBar({ state, actions }: Pick<PartProps, 'state' | 'action
   );
 }
 
-/** What the scale of colours tells, with its beginning, middle and end. */
-const SCALES = {
-  distortion: { label: 'Colours of the distortion from 1, which is none, to 4 and more', ticks: ['1, none', '2', '4 and more'] },
-  truth: {
-    label: 'Colours of the distance to the true image, from none to 1 % of the root of the area and more',
-    ticks: ['0', '0.5 %', '1 % and more'],
-  },
-} as const;
-
-/** The renderer's colours of the distortion as a gradient. */
-function scaleImage(): string {
-  const colours = distortionScale();
+/** The renderer's colours of a scale as a gradient. */
+function scaleImage(colours: Float32Array): string {
   const stops = Array.from({ length: colours.length / 3 }, (_, k) => `color(srgb-linear ${colours.slice(3 * k, 3 * k + 3).join(' ')})`);
   return `linear-gradient(90deg, ${stops.join(', ')})`;
+}
+
+/** The scale of the heat map that is shown; `null` where none is. */
+function shownScale(state: State): Scale | null {
+  const { surface } = shownStyle(state);
+  const heat = HEAT_MAPS.find((one) => one === surface);
+  if (heat === undefined || !isThere(state, heat)) {
+    return null;
+  }
+  const flows = shownFlows(state);
+  return needsFlows(heat) && flows === null ? null : scaleOf(heat, flows === null ? undefined : scaleEnd(flows));
+}
+
+const HEAT_MAPS: readonly HeatMap[] = ['distortion', 'angles', 'areas', 'truth', 'factor', 'curvature', 'flat-curvature'];
+
+/** How far the flows are that a heat map waits for, or why there are none; `null` where none waits. */
+function flowWords(state: State): string | null {
+  const { surface } = shownStyle(state);
+  const { flattening } = state;
+  if (!needsFlows(surface) || flattening?.of !== shownResult(state)) {
+    return null;
+  }
+  const { progress } = flattening;
+  switch (progress.kind) {
+    case 'computing':
+      return `Computing both flows: ${Math.round(100 * progress.share)} %`;
+    case 'failed':
+      return progress.sentence;
+    case 'there':
+      return null;
+  }
 }
 
 /** What the colours mean. */
 export function Legend({ state }: Pick<PartProps, 'state'>): VNode | null {
   const hasResult = shownResult(state) !== null;
-  const { surface, textureBoundary } = shownStyle(state);
-  const scale = (surface === 'distortion' || surface === 'truth') && isThere(state, surface) ? SCALES[surface] : null;
+  const { textureBoundary } = shownStyle(state);
+  const scale = shownScale(state);
+  const words = flowWords(state);
   const cones = hasResult && state.ui.style.cones;
   const boundary = textureBoundary && hasSeams(shownResult(state));
-  if (scale === null && !cones && !boundary) {
+  if (scale === null && words === null && !cones && !boundary) {
     return null;
   }
   return (
     <div class="legend small">
+      {words !== null && <p role="status">{words}</p>}
       {scale !== null && (
         <div class="scale" role="img" aria-label={scale.label}>
-          <div class="bar" style={{ backgroundImage: scaleImage() }} />
+          <div class="bar" style={{ backgroundImage: scaleImage(scale.colours === 'rising' ? risingScale() : factorScale()) }} />
           <div class="ticks">
             {scale.ticks.map((tick) => (
               <span key={tick}>{tick}</span>

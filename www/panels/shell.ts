@@ -7,6 +7,8 @@ export type Theme = State['ui']['theme'];
 export interface Probe {
   /** The distortion there, 1 for none; `null` where it is not known. */
   readonly distortion: number | null;
+  /** What the heat map that is shown has there: one value of the map, or one on each mesh; `null` where none is shown. */
+  readonly heat: readonly number[] | null;
   /** The base triangle in whose patch it lies; `null` where nobody looks at the base domain. */
   readonly patch: number | null;
 }

@@ -3,11 +3,13 @@ import type { VNode } from 'preact';
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { byId } from '../dom.ts';
 import { hint } from '../messages.ts';
+import { figure } from '../numbers.ts';
+import { shownStyle } from '../store/compared.ts';
 import type { Running } from '../store/job.ts';
 import { wholePairs } from '../store/order.ts';
 import { proposed } from '../store/proposal.ts';
 import { isCurrent } from '../store/staleness.ts';
-import type { State } from '../store/state.ts';
+import type { HeatMap, State, Style } from '../store/state.ts';
 import { asked, waitingCount } from '../store/waiting.ts';
 import type { PartProps } from './actions.ts';
 import { meshName } from './names.ts';
@@ -28,10 +30,32 @@ function nextClick(state: State): string {
   });
 }
 
+/** What heat maps say of a place, by its value, or by those of its two ends. */
+const PLACE: Readonly<Record<HeatMap, (value: string, onTarget: string) => string>> = {
+  distortion: (value) => `Distortion here: ${value} (1: none)`,
+  angles: (value) => `Angles here are distorted by ${value} (1: none)`,
+  areas: (value) => `Areas here grow by the factor ${value}`,
+  truth: (value) => `The true image is ${value} away, in units of the root of the area`,
+  factor: (onSource, onTarget) => `Lengths here grow by ${onSource} on the source, ${onTarget} on the target`,
+  curvature: (onSource, onTarget) => `Curvature here, in units of a sphere’s: ${onSource} on the source, ${onTarget} on the target`,
+  'flat-curvature': (onSource, onTarget) => `Curvature here after the flow, in units of a sphere’s: ${onSource} on the source, ${onTarget} on the target`,
+};
+
+/** What the heat map that is shown says of the place under the mouse; where none is, how much the map stretches it. */
+function placeSentence(surface: Style['surface'], { distortion, heat }: Probe): string | null {
+  const [value = 0, onTarget = 0] = heat ?? [];
+  const sentence = heat === null || !(surface in PLACE) ? null : PLACE[surface as HeatMap];
+  if (sentence !== null) {
+    return sentence(figure(value), figure(onTarget));
+  }
+  return distortion === null ? null : `Here stretched up to ${largestStretch(distortion).toFixed(2)} times`;
+}
+
 /** What the line says when nothing runs; empty where the hint says it all. */
 function restSentence(state: State, probe: Probe | null): string {
-  if (probe !== null && probe.distortion !== null && state.job.kind !== 'busy') {
-    return `Here stretched up to ${largestStretch(probe.distortion).toFixed(2)} times`;
+  const here = probe === null || state.job.kind === 'busy' ? null : placeSentence(shownStyle(state).surface, probe);
+  if (here !== null) {
+    return here;
   }
   switch (state.job.kind) {
     case 'busy':

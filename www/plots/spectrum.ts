@@ -98,25 +98,51 @@ function scaled({ length, along, height }: Flat, factor: number): Flat {
   return { length: length * factor, along: along * factor, height: height * factor };
 }
 
+/** A piece with its share of the source's area. */
+interface MeasuredPiece {
+  readonly share: number;
+  readonly measures: PieceMeasures;
+}
+
+/** What brings both meshes to area 1. */
+function factorsOf({ triangles, places }: Pieces): readonly [number, number] {
+  const factor = (points: Float32Array): number => 1 / Math.sqrt(totalArea(points, triangles));
+  return [factor(places[0]), factor(places[1])];
+}
+
+/** The piece whose first corner is this one; `null` where it has no area that could be told. */
+function measuredPiece({ triangles, places }: Pieces, factors: readonly [number, number], first: number): MeasuredPiece | null {
+  const corners = [triangles[first] ?? 0, triangles[first + 1] ?? 0, triangles[first + 2] ?? 0] as const;
+  const from = scaled(flat(places[0], ...corners), factors[0]);
+  const to = scaled(flat(places[1], ...corners), factors[1]);
+  const share = (from.length * from.height) / 2;
+  return share > LEAST_SHARE && to.length * to.height > 2 * LEAST_SHARE ? { share, measures: measure(from, to) } : null;
+}
+
+/** Tells each piece by the number of its first corner, both meshes scaled to area 1. */
+export function measurePieces(pieces: Pieces, each: (first: number, piece: MeasuredPiece) => void): void {
+  const factors = factorsOf(pieces);
+  for (let first = 0; first < pieces.triangles.length; first += 3) {
+    const piece = measuredPiece(pieces, factors, first);
+    if (piece !== null) {
+      each(first, piece);
+    }
+  }
+}
+
 /** Pieces that are measured before others get their turn: some milliseconds of work. */
 const AT_A_TIME = 30_000;
 
 /** Measures all pieces, both meshes scaled to area 1. It leaves the page room to draw meanwhile: `pause` is awaited again and again. */
-export async function spectraOf({ triangles, places }: Pieces, pause: () => Promise<void>): Promise<Spectra> {
-  const [source, target] = places;
-  const areas = [totalArea(source, triangles), totalArea(target, triangles)] as const;
+export async function spectraOf(pieces: Pieces, pause: () => Promise<void>): Promise<Spectra> {
+  const factors = factorsOf(pieces);
   await pause();
-  const factors = areas.map((area) => 1 / Math.sqrt(area));
   const sums = { density: new Sum(0), angle: new Sum(0), area: new Sum(-DECADES) };
-  for (let k = 0; k < triangles.length; k += 3) {
-    const corners = [triangles[k] ?? 0, triangles[k + 1] ?? 0, triangles[k + 2] ?? 0] as const;
-    const from = scaled(flat(source, ...corners), factors[0] ?? 1);
-    const to = scaled(flat(target, ...corners), factors[1] ?? 1);
-    const share = (from.length * from.height) / 2;
-    if (share > LEAST_SHARE && to.length * to.height > 2 * LEAST_SHARE) {
-      const measures = measure(from, to);
+  for (let k = 0; k < pieces.triangles.length; k += 3) {
+    const piece = measuredPiece(pieces, factors, k);
+    if (piece !== null) {
       for (const name of MEASURES) {
-        sums[name].add(measures[name], share);
+        sums[name].add(piece.measures[name], piece.share);
       }
     }
     if (k % (3 * AT_A_TIME) === 0) {

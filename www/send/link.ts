@@ -6,7 +6,8 @@
 import * as v from 'valibot';
 import type { Side } from '../landmarks.ts';
 import type { LinkFault } from '../messages.ts';
-import type { Camera } from '../store/state.ts';
+import type { Camera, Style } from '../store/state.ts';
+import { INITIAL } from '../store/state.ts';
 import type { Address } from './address.ts';
 import { addressOf, shownName } from './address.ts';
 import { pack, unpack } from './packing.ts';
@@ -195,10 +196,16 @@ function wireCamera(camera: Camera | null): number[] | null {
   return camera?.map((value) => Number(value.toPrecision(CAMERA_FIGURES))) ?? null;
 }
 
+/** Without usual choices that links had not before there was one. */
+function wireStyle({ textureBoundary, texture, ...style }: Style): WrittenLink['s'] {
+  const usual = INITIAL.ui.style.texture;
+  const isUsual = texture.cells === usual.cells && texture.turn === usual.turn && texture.x === usual.x && texture.y === usual.y;
+  return { ...style, ...(textureBoundary ? { textureBoundary } : {}), ...(isUsual ? {} : { texture }) };
+}
+
 function wireLink(link: Link, work: SentWork): WrittenLink {
   const { pairs } = work;
   const { borders, ...options } = work.options;
-  const { textureBoundary, ...style } = work.style;
   const points = (side: Side): WirePoint[] => pairs.map((pair) => wirePoint(pair.points[side]));
   const labels = pairs.map(({ label }) => label);
   const locked = pairs.flatMap((pair, index) => (pair.locked ? [index] : []));
@@ -213,7 +220,7 @@ function wireLink(link: Link, work: SentWork): WrittenLink {
     // Usual choices are left out, as they were before there was one.
     o: borders === 'guess' ? options : work.options,
     c: [wireCamera(work.cameras[0]), wireCamera(work.cameras[1])],
-    s: textureBoundary ? work.style : style,
+    s: wireStyle(work.style),
   };
 }
 

@@ -2,7 +2,7 @@
 import * as v from 'valibot';
 import type { Pair, SurfacePoint } from '../landmarks.ts';
 import type { RunOptions } from '../report.ts';
-import type { Camera, Style, Work } from '../store/state.ts';
+import type { Camera, Style, TexturePlace, Work } from '../store/state.ts';
 import { INITIAL } from '../store/state.ts';
 
 /** More pairs than a map was ever made of. */
@@ -12,6 +12,8 @@ const LONGEST_TEXT = 10_000;
 /** A camera is some ten numbers. */
 const LONGEST_CAMERA = 32;
 const MOST_OWN_CONES = 1000;
+/** Cells of a texture to a unit of texture coordinates. */
+const MOST_CELLS = 1000;
 
 const Share = v.pipe(v.number(), v.minValue(0), v.maxValue(1));
 
@@ -44,12 +46,24 @@ export const Cameras = v.strictTuple([
   v.nullable(v.pipe(v.array(v.pipe(v.number(), v.finite())), v.maxLength(LONGEST_CAMERA))),
   v.nullable(v.pipe(v.array(v.pipe(v.number(), v.finite())), v.maxLength(LONGEST_CAMERA))),
 ]) satisfies v.GenericSchema<readonly [Camera | null, Camera | null]>;
+const Cells = v.pipe(v.number(), v.minValue(-MOST_CELLS), v.maxValue(MOST_CELLS));
+const TexturePlaceSchema = v.object({
+  cells: v.pipe(v.number(), v.minValue(1), v.maxValue(MOST_CELLS)),
+  turn: v.pipe(v.number(), v.minValue(-180), v.maxValue(180)),
+  x: Cells,
+  y: Cells,
+}) satisfies v.GenericSchema<unknown, TexturePlace>;
+
 export const StyleSchema = v.object({
-  surface: v.picklist(['shaded', 'look', 'pattern', 'checkerboard', 'colours', 'distortion', 'truth']),
+  surface: v.picklist([
+    ...(['shaded', 'look', 'pattern', 'colours', 'checkerboard', 'circles', 'ribbons', 'coordinates', 'picture'] as const),
+    ...(['distortion', 'angles', 'areas', 'truth', 'factor', 'curvature', 'flat-curvature'] as const),
+  ]),
   patchLines: v.boolean(),
   cones: v.boolean(),
   markers: v.boolean(),
   // Links, projects and sessions of earlier pages do not have these.
+  texture: v.optional(TexturePlaceSchema, INITIAL.ui.style.texture),
   textureBoundary: v.optional(v.boolean(), false),
   morph: v.optional(Share, 0),
   wipe: v.optional(v.nullable(Share), null),

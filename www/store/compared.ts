@@ -30,7 +30,12 @@ export function otherMap({ comparison }: Pick<State, 'comparison'>): ComparedMap
 }
 
 /** Surfaces that every map carries. */
-const CARRIED: readonly Style['surface'][] = ['pattern', 'checkerboard', 'colours'];
+const CARRIED: readonly Style['surface'][] = ['pattern', 'colours', 'checkerboard', 'circles', 'ribbons', 'coordinates', 'picture'];
+
+/** Whether the values of a heat map are known of another map. */
+function isTold({ output }: ComparedMap, surface: Style['surface']): boolean {
+  return surface === 'truth' ? output.truth.length > 0 : ['distortion', 'angles', 'areas'].includes(surface) && output.distortion.length > 0;
+}
 
 /** How the views look: two maps are compared by what both carry, each in the shape of the source. */
 export function shownStyle(state: Pick<State, 'comparison' | 'ui'>): Style {
@@ -40,6 +45,5 @@ export function shownStyle(state: Pick<State, 'comparison' | 'ui'>): Style {
     return style;
   }
   const { surface } = style;
-  const isTold = (surface === 'distortion' || surface === 'truth') && other.output[surface].length > 0;
-  return { ...style, surface: isTold || CARRIED.includes(surface) ? surface : 'pattern', textureBoundary: false, morph: 0, wipe: null };
+  return { ...style, surface: isTold(other, surface) || CARRIED.includes(surface) ? surface : 'pattern', textureBoundary: false, morph: 0, wipe: null };
 }

@@ -11,7 +11,7 @@ import type { OpenedMap } from './opened.ts';
 import type { Receiving } from './receiving.ts';
 import type { Refused } from './refused.ts';
 import type { SidePoint } from './side-marks.ts';
-import type { Axis, Camera, Comparison, Demo, MeshFile, Offer, Proposal, Result, Style, Ui, Work } from './state.ts';
+import type { Axis, Camera, Comparison, Demo, Flattening, MeshFile, Offer, Proposal, Result, Style, TexturePicture, Ui, Work } from './state.ts';
 
 export type Event =
   /** The core is there. */
@@ -99,6 +99,10 @@ export type Event =
   /** The other one goes on, is there, or failed. */
   | { readonly kind: 'comparison'; readonly which: OtherMap; readonly progress: Comparison['progress'] }
   | { readonly kind: 'comparison-closed' }
+  /** The flows of a map begin, go on, are there, or failed. */
+  | { readonly kind: 'flattening'; readonly flattening: Flattening }
+  /** A picture lies on the flat metric. */
+  | { readonly kind: 'texture-picture'; readonly picture: TexturePicture }
 
   // The run.
 

@@ -31,6 +31,8 @@ import { withRestored } from './restore.ts';
 import { withFindings } from './settle.ts';
 import { withSideMarks } from './side-marks.ts';
 import { withFound, withSearch, withSearched, withTaken } from './search.ts';
+import { withFlattening } from './flat.ts';
+import { isKnown } from './surfaces.ts';
 import type { Result, State, Style } from './state.ts';
 import { shownResult } from './staleness.ts';
 import type { Axis, MeshFile } from './work.ts';
@@ -86,9 +88,7 @@ function withResult(state: State, result: Result): State {
   const earlier = state.result === null ? state.earlier : earlierOf(state.result);
   const done = { ...state, result, earlier };
   const { surface } = state.ui.style;
-  const { distortion, truth } = result.output;
-  const isTold = (surface !== 'distortion' || distortion.length > 0) && (surface !== 'truth' || truth.length > 0);
-  const isShown = surface !== 'shaded' && isTold;
+  const isShown = surface !== 'shaded' && isKnown(result, surface);
   return isShown ? done : withStyle(done, { surface: 'pattern' });
 }
 
@@ -189,6 +189,10 @@ export function update(state: State, event: Event): State {
       return withComparison(state, event.which);
     case 'comparison':
       return withCompared(state, event.which, event.progress);
+    case 'flattening':
+      return withFlattening(state, event.flattening);
+    case 'texture-picture':
+      return withStyle({ ...state, texturePicture: event.picture }, { surface: 'picture' });
     case 'comparison-closed':
       return patched(state, { comparison: null });
     case 'run-started':

@@ -1,6 +1,6 @@
 /** The state of the page: everything that it shows follows from it. */
 import type { RunOutput } from '../compute/messages.ts';
-import type { OtherOutput } from '../compute/watch-messages.ts';
+import type { Flows, OtherOutput } from '../compute/watch-messages.ts';
 import type { Side, Suggestion, SurfacePoint } from '../landmarks.ts';
 import type { Finding, OtherMap, ProofReport, Report } from '../report.ts';
 import type { AwaitedMap } from './awaited.ts';
@@ -17,9 +17,38 @@ import { NO_WORK } from './work.ts';
 
 export type { Axis, Demo, MeshFile, Work } from './work.ts';
 
+/** What can lie on the flat metric, which the map carries. */
+export type Texture = 'checkerboard' | 'circles' | 'ribbons' | 'coordinates' | 'picture';
+
+/**
+ * Values as colours: the distortion, that of angles, the factor of the area, and the distance to the true image, by place of the map; the
+ * conformal factor of the flow, and the Gaussian curvature before it and after, by vertex of either mesh.
+ */
+export type HeatMap = 'distortion' | 'angles' | 'areas' | 'truth' | 'factor' | 'curvature' | 'flat-curvature';
+
+/** How a texture lies on the flat metric. */
+export interface TexturePlace {
+  /** Cells to a unit of texture coordinates. */
+  readonly cells: number;
+  /** Counter-clockwise, in degrees. */
+  readonly turn: number;
+  /** Shifts in cells. */
+  readonly x: number;
+  readonly y: number;
+}
+
+/** A picture of the user's that lies on the flat metric: red, green, blue and opacity, row by row from the top. */
+export interface TexturePicture {
+  readonly name: string;
+  readonly width: number;
+  readonly height: number;
+  readonly pixels: Uint8Array;
+}
+
 export interface Style {
-  /** Plain clay; the colours of the mesh's file, which the map carries; a pattern in space, which the map carries to the source; the flat metric's checkerboard; colours of the place on the target; distortion; distance to the true map. */
-  readonly surface: 'shaded' | 'look' | 'pattern' | 'checkerboard' | 'colours' | 'distortion' | 'truth';
+  /** Plain clay; the colours of the mesh's file, which the map carries; a pattern in space, which the map carries to the source; colours of the place on the target; a texture; a heat map. */
+  readonly surface: 'shaded' | 'look' | 'pattern' | 'colours' | Texture | HeatMap;
+  readonly texture: TexturePlace;
   readonly patchLines: boolean;
   /** Where the texture is cut that the map carries. */
   readonly textureBoundary: boolean;
@@ -99,6 +128,16 @@ export interface Comparison {
     | { readonly kind: 'failed'; readonly sentence: string };
 }
 
+/** Both flows of a map to its flat metrics. */
+export interface Flattening {
+  readonly of: Result;
+  readonly progress:
+    | { readonly kind: 'computing'; readonly share: number }
+    | { readonly kind: 'there'; readonly flows: Flows }
+    /** There are none, for this reason. */
+    | { readonly kind: 'failed'; readonly sentence: string };
+}
+
 /** The pieces of a map, triangles that it takes to triangles. */
 export interface Pieces {
   /** Three corners each. */
@@ -156,6 +195,10 @@ export interface State extends Work {
   readonly earlier: EarlierMap | null;
   /** Another map beside the last one, while both are compared. */
   readonly comparison: Comparison | null;
+  /** The flows of the last map, once a heat map has asked for them. */
+  readonly flattening: Flattening | null;
+  /** The picture that lies on the flat metric where that style is chosen; it stays in this visit. */
+  readonly texturePicture: TexturePicture | null;
   /** The doubts of the last run, and what it was about. */
   readonly found: { readonly doubts: readonly Doubt[]; readonly inputs: Work } | null;
   /** Those doubts while they are about what is on the page; else none. */
@@ -195,7 +238,16 @@ export const INITIAL: State = {
     panel: 'open',
     link: 'linked',
     cameras: [null, null],
-    style: { surface: 'shaded', patchLines: false, cones: false, markers: true, textureBoundary: false, morph: 0, wipe: null },
+    style: {
+      surface: 'shaded',
+      texture: { cells: 36, turn: 0, x: 0, y: 0 },
+      patchLines: false,
+      cones: false,
+      markers: true,
+      textureBoundary: false,
+      morph: 0,
+      wipe: null,
+    },
     selected: null,
     hovered: null,
   },
@@ -204,6 +256,8 @@ export const INITIAL: State = {
   proof: null,
   earlier: null,
   comparison: null,
+  flattening: null,
+  texturePicture: null,
   found: null,
   findings: [],
   matching: null,

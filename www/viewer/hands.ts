@@ -218,7 +218,7 @@ export class Hands {
 
   /** The partner of what is seen at a place, as JSON; `null` without a map. */
   #partnerAt(viewer: Viewer, side: Side, at: Place): string | null {
-    const probe = this.#bench.picture.bringMap(viewer) ? probeOf(side, viewer.probe(side, at.x, at.y)) : null;
+    const probe = this.#bench.picture.bringMap(viewer) ? probeOf(side, viewer.probe(side, at.x, at.y), this.#bench.picture.known) : null;
     viewer.clearProbe();
     return probe === null ? null : JSON.stringify(probe.points[otherSide(side)]);
   }
@@ -251,7 +251,7 @@ export class Hands {
     // Rings that somebody else asked for go, too.
     const shown = viewer.clearProbe();
     this.#bench.picture.bringPatches(viewer);
-    const probe = probeOf(side, viewer.probe(side, at.x, at.y));
+    const probe = probeOf(side, viewer.probe(side, at.x, at.y), this.#bench.picture.known);
     const patch = probe?.patch ?? null;
     const lit = this.#bench.picture.light(viewer, patch === null ? null : { kind: 'face', index: patch });
     if (probe !== null || shown || lit || this.#probed) {

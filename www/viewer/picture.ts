@@ -1,12 +1,17 @@
 /** What a map brings to the picture: each of its buffers goes to the renderer when the picture needs it, and not before. */
+import type { Flows } from '../compute/watch-messages.ts';
+import { scaleOf } from '../heat/scales.ts';
+import type { VertexHeat } from '../heat/values.ts';
+import { heatByVertex, valuesByPoint } from '../heat/values.ts';
 import type { Side } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
 import type { FlowFrame } from '../method/hands.ts';
 import type { BasePart } from '../method/parts.ts';
 import { litBy } from '../method/parts.ts';
-import type { ComparedMap, Result, Style } from '../store/state.ts';
+import { needsFlows } from '../store/flat.ts';
+import type { ComparedMap, HeatMap, Result, Style, TexturePicture } from '../store/state.ts';
 import type { Viewer } from '../wasm/page.js';
-import { truthOnScale } from '../wasm/page.js';
+import type { Known } from './probe.ts';
 
 /** The sides on which a style is drawn on the map's own triangles; the meshes themselves can show the others. */
 const OVERLAYS: Readonly<Record<Style['surface'], readonly Side[]>> = {
@@ -16,17 +21,56 @@ const OVERLAYS: Readonly<Record<Style['surface'], readonly Side[]>> = {
   // What follows from the place on the target, the target's mesh shows.
   pattern: [0],
   colours: [0],
-  checkerboard: [0, 1],
-  distortion: [0, 1],
-  truth: [0, 1],
+  checkerboard: SIDES,
+  circles: SIDES,
+  ribbons: SIDES,
+  coordinates: SIDES,
+  picture: SIDES,
+  distortion: SIDES,
+  angles: SIDES,
+  areas: SIDES,
+  truth: SIDES,
+  // The meshes' own vertices show these.
+  factor: [],
+  curvature: [],
+  'flat-curvature': [],
 };
+
+/** What the renderer draws of a surface: the checkerboard in the place of a picture that is not there. */
+export function drawnSurface(surface: Style['surface'], picture: TexturePicture | null): string {
+  if (needsFlows(surface)) {
+    return 'shaded';
+  }
+  const heat = pointHeat(surface);
+  if (heat !== null) {
+    return scaleOf(heat).colours;
+  }
+  return surface === 'picture' && picture === null ? 'checkerboard' : surface;
+}
+
+/** The places on its scale of a heat map by point of a map, and its values; none where the surface is no such heat map. */
+function heatOf(output: ComparedMap['output'], surface: HeatMap | null): { readonly values: Float32Array; readonly places: Float32Array } | null {
+  const values = surface === null ? null : valuesByPoint(output, surface);
+  return surface === null || values === null ? null : { values, places: values.map(scaleOf(surface).place) };
+}
+
+/** The heat map of the map's points that a surface is; `null` where it is none. */
+function pointHeat(surface: Style['surface']): HeatMap | null {
+  return surface === 'distortion' || surface === 'angles' || surface === 'areas' || surface === 'truth' ? surface : null;
+}
+
+const NO_VALUES = new Float32Array();
 
 /** Knows what one renderer has. */
 export class Picture {
   #result: Result | null = null;
   #overlays = new Set<Side>();
-  /** What the overlays' colours tell where they are those of a scale. */
-  #scale: 'distortion' | 'truth' = 'distortion';
+  /** The heat map whose places the overlays have; `null` where they have none. */
+  #heat: HeatMap | null = null;
+  /** Its values by point of the map. */
+  #values: Float32Array | null = null;
+  /** The flows that a heat map of the vertices shows, and which. */
+  #vertices: { readonly flows: Flows; readonly heat: HeatMap; readonly shown: VertexHeat } | null = null;
   #lines = false;
   #seams = false;
   #carried = false;
@@ -37,7 +81,7 @@ export class Picture {
   #isMorphed = false;
   #compared: ComparedMap | null = null;
   /** What of the other map the renderer has, with the scale that its colours tell. */
-  #comparedScale: 'distortion' | 'truth' | null = null;
+  #comparedHeat: HeatMap | 'none' | null = null;
   #comparedLines = false;
   #moment: FlowFrame['places'] | null = null;
   /** Whether somebody looks at the base domain, whose parts light up on the meshes. */
@@ -63,12 +107,14 @@ export class Picture {
     this.#isMorphed = false;
     this.#compared = null;
     this.#moment = null;
+    this.#values = null;
+    this.#vertices = null;
   }
 
   /** The second view shows another map from now on, or its own side. */
   compare(viewer: Viewer, map: ComparedMap | null): void {
     this.#compared = map;
-    this.#comparedScale = null;
+    this.#comparedHeat = null;
     this.#comparedLines = false;
     viewer.clearCompared();
   }
@@ -76,10 +122,10 @@ export class Picture {
   /** Brings of the other map what a style needs. */
   #bringCompared(viewer: Viewer, { output }: ComparedMap, style: Style): void {
     const [source, target] = output.sides;
-    if (this.#comparedScale !== this.#scale) {
-      const values = this.#scale === 'truth' ? truthOnScale(output.truth) : output.distortion;
-      viewer.setCompared(source.positions, source.normals, output.uvs, values, output.triangles, target.positions, target.normals);
-      this.#comparedScale = this.#scale;
+    if (this.#comparedHeat !== (this.#heat ?? 'none')) {
+      const places = heatOf(output, this.#heat)?.places ?? NO_VALUES;
+      viewer.setCompared(source.positions, source.normals, output.uvs, places, output.triangles, target.positions, target.normals);
+      this.#comparedHeat = this.#heat ?? 'none';
       this.#comparedLines = false;
     }
     if (style.patchLines && !this.#comparedLines) {
@@ -93,9 +139,9 @@ export class Picture {
     const result = this.#result;
     if (result !== null && !this.#overlays.has(side)) {
       const { uvs, triangles, sides } = result.output;
-      const values = this.#scale === 'truth' ? truthOnScale(result.output.truth) : result.output.distortion;
+      const places = heatOf(result.output, this.#heat)?.places ?? NO_VALUES;
       const { positions, normals } = sides[side];
-      viewer.setOverlay(side, positions, normals, uvs, values, triangles, sides[1].positions, sides[1].normals);
+      viewer.setOverlay(side, positions, normals, uvs, places, triangles, sides[1].positions, sides[1].normals);
       this.#overlays.add(side);
     }
     return result !== null;
@@ -116,12 +162,24 @@ export class Picture {
     this.#carried = true;
   }
 
-  /** Has the overlays brought anew where a style's scale tells something else than theirs. */
-  #tell(surface: Style['surface']): void {
-    if ((surface === 'distortion' || surface === 'truth') && surface !== this.#scale) {
-      this.#scale = surface;
+  /** Has the overlays brought anew where a heat map shows something else than theirs. */
+  #tell(output: Result['output'], surface: Style['surface']): void {
+    const heat = pointHeat(surface);
+    if (heat !== null && heat !== this.#heat) {
+      this.#heat = heat;
       this.#overlays.clear();
     }
+    this.#values = heat === null ? null : valuesByPoint(output, heat);
+  }
+
+  /** What is known of the places that are asked for. */
+  get known(): Known {
+    const isFlow = this.#moment !== null;
+    return {
+      distortion: this.#result?.output.distortion ?? NO_VALUES,
+      values: isFlow ? null : this.#values,
+      valueAt: isFlow ? null : (this.#vertices?.shown.scale.value ?? null),
+    };
   }
 
   /** Brings what a style needs. */
@@ -134,7 +192,7 @@ export class Picture {
     if (style.surface === 'look') {
       this.#bringLook(viewer, output);
     }
-    this.#tell(style.surface);
+    this.#tell(output, style.surface);
     for (const side of OVERLAYS[style.surface]) {
       this.bringOverlay(viewer, side);
     }
@@ -165,8 +223,8 @@ export class Picture {
   /** Brings the map to be asked at single places; whether there is one. */
   bringMap(viewer: Viewer): boolean {
     if (this.#result !== null && !this.#map) {
-      const { sides, distortion, triangles } = this.#result.output;
-      viewer.setMap(sides[0].positions, sides[1].positions, distortion, triangles);
+      const { sides, triangles } = this.#result.output;
+      viewer.setMap(sides[0].positions, sides[1].positions, triangles);
       this.#map = true;
     }
     return this.#map;
@@ -202,8 +260,8 @@ export class Picture {
   /** Shows the flows on both meshes in the place of the style's picture; `null` for that again. */
   showFlow(viewer: Viewer, frame: FlowFrame | null): void {
     if (frame === null) {
-      viewer.clearFactors();
       this.#moment = null;
+      this.#layHeat(viewer);
       return;
     }
     if (this.#moment !== frame.places) {
@@ -213,6 +271,31 @@ export class Picture {
       this.#moment = frame.places;
     }
     viewer.blendFactors(frame.share);
+  }
+
+  /** Shows a heat map of the vertices where the surface is one and its flows are there, in the place of the style's picture. */
+  showHeat(viewer: Viewer, surface: Style['surface'], flows: Flows | null): void {
+    const heat = needsFlows(surface) ? surface : null;
+    if (heat === (this.#vertices?.heat ?? null) && flows === (this.#vertices?.flows ?? flows)) {
+      return;
+    }
+    const shown = heat === null || flows === null ? null : heatByVertex(flows, heat);
+    this.#vertices = shown === null || heat === null || flows === null ? null : { flows, heat, shown };
+    if (this.#moment === null) {
+      this.#layHeat(viewer);
+    }
+  }
+
+  #layHeat(viewer: Viewer): void {
+    if (this.#vertices === null) {
+      viewer.clearFactors();
+      return;
+    }
+    for (const side of SIDES) {
+      const places = this.#vertices.shown.places[side];
+      viewer.setFactors(side, places, places);
+    }
+    viewer.blendFactors(0);
   }
 
   /** Nobody looks at the base domain any more. */

@@ -10,6 +10,7 @@ import type { FlowFrame, StageFrame, Stops } from '../method/hands.ts';
 import type { BasePart } from '../method/parts.ts';
 import { otherMap, shownStyle } from '../store/compared.ts';
 import type { Event } from '../store/events.ts';
+import { shownFlows } from '../store/flat.ts';
 import { shownPreview } from '../store/job.ts';
 import { hasItsCones, shownResult } from '../store/staleness.ts';
 import type { Axis, Camera, Proposal, State } from '../store/state.ts';
@@ -24,7 +25,7 @@ import { Hands } from './hands.ts';
 import { showDefects, showPreview, showStage, showStops } from './instead.ts';
 import { HELP } from './keys.ts';
 import { Labels } from './labels.ts';
-import { Picture } from './picture.ts';
+import { drawnSurface, Picture } from './picture.ts';
 import { labelsOf, marksOf } from './pins.ts';
 import type { Probe } from './probe.ts';
 import { probeOf } from './probe.ts';
@@ -207,7 +208,7 @@ export class Views {
   ask(side: Side, point: SurfacePoint): Probe | null {
     let probe: Probe | null = null;
     this.#with((viewer) => {
-      probe = this.#picture.bringMap(viewer) ? probeOf(side, viewer.probePoint(side, JSON.stringify(point))) : null;
+      probe = this.#picture.bringMap(viewer) ? probeOf(side, viewer.probePoint(side, JSON.stringify(point)), this.#picture.known) : null;
     });
     return probe;
   }
@@ -302,7 +303,13 @@ export class Views {
     const isOtherMesh = previous?.meshes !== state.meshes;
     const changes = {
       compared: isOther || otherMap(previous) !== otherMap(state),
-      picture: isOther || isOtherMesh || previous.ui.style !== state.ui.style || previous.ui.theme !== state.ui.theme,
+      picture:
+        isOther ||
+        isOtherMesh ||
+        previous.ui.style !== state.ui.style ||
+        previous.ui.theme !== state.ui.theme ||
+        previous.flattening !== state.flattening ||
+        previous.texturePicture !== state.texturePicture,
       up: isOtherMesh || previous.up !== state.up,
       pins:
         isOther ||
@@ -326,6 +333,10 @@ export class Views {
       }
       if (isOtherMesh) {
         this.#setMeshes(viewer, previous);
+      }
+      if (previous?.texturePicture !== state.texturePicture && state.texturePicture !== null) {
+        const { width, height, pixels } = state.texturePicture;
+        viewer.setTexture(width, height, pixels);
       }
       if (changes.up) {
         this.#setUp(previous);
@@ -437,10 +448,11 @@ export class Views {
       this.#picture.bring(viewer, style);
       this.#picture.morph(viewer, style.morph);
     }
+    this.#picture.showHeat(viewer, style.surface, shownFlows(this.#state));
     viewer.setStyle(
       JSON.stringify({
         ...style,
-        surface: result === null && style.surface !== 'look' ? 'shaded' : style.surface,
+        surface: result === null && style.surface !== 'look' ? 'shaded' : drawnSurface(style.surface, this.#state.texturePicture),
         cones: style.cones && hasItsCones(this.#state),
         dark: theme === 'dark' || (theme === 'system' && this.#dark.matches),
         holes: result !== null && result.report.certificate === null,

@@ -63,21 +63,21 @@ pub(super) struct TexturePlace {
     cells: f32,
     /// Counter-clockwise, in degrees.
     turn: f32,
-    /// In cells.
-    shift: [f32; 2],
+    /// Shifts in cells.
+    x: f32,
+    y: f32,
 }
 
 impl Default for TexturePlace {
     fn default() -> Self {
-        Self { cells: 36.0, turn: 0.0, shift: [0.0; 2] }
+        Self { cells: 36.0, turn: 0.0, x: 0.0, y: 0.0 }
     }
 }
 
 impl TexturePlace {
     fn of(self, kind: TextureKind) -> Paint {
         let (sine, cosine) = self.turn.to_radians().sin_cos();
-        let [x, y] = self.shift;
-        Paint::Texture(Texture { kind, cells: [self.cells * cosine, self.cells * sine, x, y] })
+        Paint::Texture(Texture { kind, cells: [self.cells * cosine, self.cells * sine, self.x, self.y] })
     }
 }
 
@@ -241,8 +241,8 @@ impl Viewer {
     }
 
     /// What to show: JSON `{"surface", "patchLines", "textureBoundary"?, "cones", "markers", "dark"?, "holes"?,
-    /// "comparedHoles"?, "wipe"?, "texture"?}`; `texture` is `{"cells", "turn", "shift"}`, cells to a unit of texture coordinates, degrees and
-    /// cells; with `wipe`, a share of the source's view, the source is plain from the left to there.
+    /// "comparedHoles"?, "wipe"?, "texture"?}`; `texture` is `{"cells", "turn", "x", "y"}`, cells to a unit of texture coordinates, degrees
+    /// and cells; with `wipe`, a share of the source's view, the source is plain from the left to there.
     ///
     /// # Errors
     /// `{"code": "style", "message"}`.

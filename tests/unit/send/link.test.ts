@@ -57,9 +57,9 @@ describe('a link', () => {
       lengths.push(address.length);
     }
     const longest = Math.max(...lengths);
-    // 1591 to 1618 when it was written: there is room for labels.
+    // 1591 to 1618 when it was written, 30 more with a texture that was turned: there is room for labels.
     expect(SAFE_LENGTH).toBe(2000);
-    expect(longest).toBeLessThan(1650);
+    expect(longest).toBeLessThan(1680);
   });
 
   test('keeps points to the last bit, also those that no click made', () => {
@@ -111,7 +111,7 @@ describe('a link of version 1 from another day', () => {
         groundTruth: 'same',
         options: { method: 'relaxed', base: 'joint', cones: 'base-domain', class: 'best', ownCones: null, borders: 'guess' },
         cameras: [[1, 2], null],
-        style: { surface: 'shaded', patchLines: true, textureBoundary: false, cones: true, markers: true, morph: 0, wipe: null },
+        style: { surface: 'shaded', texture: { cells: 36, turn: 0, x: 0, y: 0 }, patchLines: true, textureBoundary: false, cones: true, markers: true, morph: 0, wipe: null },
       },
     });
   });

@@ -70,7 +70,8 @@ export function anyWork(random: Random): SentWork {
     },
     cameras: [random.of([null, camera(random)]), random.of([null, camera(random)])],
     style: {
-      surface: random.of(['shaded', 'checkerboard', 'colours', 'distortion', 'truth']),
+      surface: random.of(['shaded', 'checkerboard', 'picture', 'colours', 'distortion', 'truth', 'flat-curvature']),
+      texture: random.of([INITIAL.ui.style.texture, { cells: 7.5, turn: -90, x: 0.25, y: 9 }]),
       patchLines: random.of([true, false]),
       cones: random.of([true, false]),
       markers: random.of([true, false]),

@@ -1,0 +1,66 @@
+/** Computes the flows of the map on the page in a worker of their own, as soon as a heat map shows what they tell. */
+import type { Core } from '../compute/core.ts';
+import { wantsFlows } from '../store/flat.ts';
+import { shownResult } from '../store/staleness.ts';
+import type { Flattening, Result } from '../store/state.ts';
+import type { Store } from '../store/store.ts';
+import { startFlowing } from './watch.ts';
+
+/** The structure of the flow that the method goes by. */
+const SCHEME = 'inversive';
+
+/** Holds the worker. */
+export class Flattener {
+  readonly #store: Store;
+  readonly #core: () => Core | null;
+  #of: Result | null = null;
+  #end = (): void => undefined;
+
+  constructor(store: Store, core: () => Core | null) {
+    this.#store = store;
+    this.#core = core;
+    store.subscribe((state) => {
+      if (this.#of !== null && this.#of !== shownResult(state)) {
+        this.#of = null;
+        this.#end();
+      }
+      if (wantsFlows(state)) {
+        // Who listens is told of one change after the other.
+        queueMicrotask(() => {
+          this.#start();
+        });
+      }
+    });
+  }
+
+  #start(): void {
+    const { state, dispatch } = this.#store;
+    const [core, of] = [this.#core(), shownResult(state)];
+    if (core === null || of === null || !wantsFlows(state)) {
+      return;
+    }
+    const tell = (progress: Flattening['progress']): void => {
+      dispatch({ kind: 'flattening', flattening: { of, progress } });
+    };
+    this.#of = of;
+    tell({ kind: 'computing', share: 0 });
+    this.#end = startFlowing(
+      this.#store,
+      core,
+      {
+        progress: (share) => {
+          tell({ kind: 'computing', share });
+        },
+        done: (flows) => {
+          this.#of = null;
+          tell({ kind: 'there', flows });
+        },
+        failed: (sentence) => {
+          this.#of = null;
+          tell({ kind: 'failed', sentence });
+        },
+      },
+      SCHEME,
+    );
+  }
+}
