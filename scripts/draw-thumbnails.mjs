@@ -3,41 +3,26 @@
  * views show, without their ground, as www/public/demos/NAME.webp. To be run by `npm run thumbnails` after `npm run build`,
  * when the demos or the way in which they are drawn have changed; `npm run thumbnails -- NAME` draws those that are named.
  */
-import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
-import { chromium } from '@playwright/test';
-import { preview } from 'vite';
+import { mkdirSync, writeFileSync } from 'node:fs';
+import { exportedPicture, openMapped, PATIENCE, ROOT, withPage } from './page-in-browser.mjs';
 
-const ROOT = fileURLToPath(new URL('../', import.meta.url));
 const FOLDER = `${ROOT}www/public/demos`;
-const SYSTEM_CHROMIUM = process.env['CHROMIUM'] ?? '/usr/bin/chromium';
 /** Of a picture, in pixels: twice what the page shows. */
 const SIZE = { width: 480, height: 200 };
 /** In bytes. */
 const LARGEST = 12_000;
-/** How long a map may take, in ms. */
-const PATIENCE = 300_000;
 
 /** The views as the page exports them, in base64. */
 async function exported(page, colorScheme) {
   await page.emulateMedia({ colorScheme });
   // The views follow the theme with their next frame.
   await page.waitForTimeout(1000);
-  const download = page.waitForEvent('download');
-  await page.getByRole('button', { name: 'Export', exact: true }).click();
-  await page.getByRole('button', { name: 'Picture of the views' }).click();
-  return readFileSync(await (await download).path()).toString('base64');
+  return (await exportedPicture(page)).toString('base64');
 }
 
 /** Maps a demo; what the page exports of it in light and in dark. */
 async function mapped(page, address, demo) {
-  await page.goto('about:blank');
-  await page.goto(`${address}#demo=${encodeURIComponent(demo)}`);
-  await page.locator(`body[data-ready="true"][data-demo="${demo}"]`).waitFor({ timeout: PATIENCE });
-  await page.locator('#run').click();
-  await page.locator('body[data-state="done"]').waitFor({ timeout: PATIENCE });
-  await page.locator('#step-method').click();
-  await page.getByRole('checkbox', { name: 'Landmarks' }).uncheck();
+  await openMapped(page, address, demo);
   return [await exported(page, 'light'), await exported(page, 'dark')];
 }
 
@@ -101,14 +86,7 @@ async function composed([light, dark], { width, height }, largest) {
   }
 }
 
-const server = await preview({ root: ROOT, preview: { host: '127.0.0.1', port: 4179 }, logLevel: 'warn' });
-const browser = await chromium.launch({
-  ...(existsSync(SYSTEM_CHROMIUM) ? { executablePath: SYSTEM_CHROMIUM } : {}),
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-});
-try {
-  const [address] = server.resolvedUrls.local;
-  const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+await withPage(async (page, address) => {
   await page.goto(address);
   await page.locator('body[data-ready="true"]').waitFor({ timeout: PATIENCE });
   await page.locator('#step-meshes').click();
@@ -122,7 +100,4 @@ try {
     writeFileSync(`${FOLDER}/${demo}.webp`, bytes);
     process.stdout.write(`${demo}.webp: ${bytes.length} bytes\n`);
   }
-} finally {
-  await browser.close();
-  await server.close();
-}
+});

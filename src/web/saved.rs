@@ -3,6 +3,7 @@
 use super::compute::{MapOutput, Shown};
 use super::failure;
 use super::output_file::file;
+use crate::demo::true_map;
 use crate::job::{MapFiles, Normals, OpenMap, OpenMapError, ProofReport, TargetImage, prove};
 use crate::landmarks::MeshSide;
 use crate::monitor::Silent;
@@ -67,13 +68,14 @@ impl WrappedBase {
 #[wasm_bindgen]
 impl SavedMap {
     /// The map as a run gives it, for the views. Its report is that of the run, as the file tells it, with the distortion measured
-    /// anew from the pieces.
+    /// anew from the pieces. Where the meshes are a demo's, its id tells the true map, unless the map goes to the target's mirror image.
     ///
     /// # Errors
     /// `{"code": "map-file", "message"}` where the report is none.
-    pub fn output(&self) -> Result<MapOutput, JsValue> {
+    pub fn output(&self, demo: Option<String>) -> Result<MapOutput, JsValue> {
         let map = self.open.taken();
         let common = map.common();
+        let true_map = demo.filter(|_| !self.is_mirrored()).and_then(|id| true_map(&id));
         let mut report = map.map().report.clone();
         let fields = report
             .as_object_mut()
@@ -81,7 +83,7 @@ impl SavedMap {
         fields.insert("distortion".to_owned(), json!(map.distortion()));
         Ok(MapOutput::for_views(Shown {
             distortion: map.common_distortion(&common),
-            truth: Vec::new(),
+            truth: true_map.map_or_else(Vec::new, |image| common.distances_to(image)),
             common,
             patch_lines: map.patch_lines(),
             cones: map.map().cones.clone(),

@@ -27,7 +27,7 @@ vi.mock('../../www/compute/saved-client.ts', async (original) => {
   const opened = async ({ map, source, target }: SavedFiles): Promise<ReturnType<typeof openedOf>> => {
     await Promise.resolve();
     try {
-      return openedOf(openMap(map, source, target));
+      return openedOf(openMap(map, source, target), null);
     } catch (thrown) {
       throw new SavedMapError({ ...failureOf(thrown), side: null });
     }

@@ -127,7 +127,7 @@ const NUMBER = '(-?[\\d.]+(?:·10⁻[⁰¹²³⁴⁵⁶⁷⁸⁹]+)?)';
 test('heat maps of the map have a legend and tell the value under the mouse', async ({ page }) => {
   await mapped(page);
   await showSurface(page, 'Distortion');
-  const [distortion = 0] = await told(page, new RegExp(`Distortion here: ${NUMBER}`));
+  const [distortion = 0] = await told(page, new RegExp(`: distortion ${NUMBER} \\(1: none\\)`));
   expect(distortion).toBeGreaterThanOrEqual(1);
   await showSurface(page, 'Angles');
   await expect(page.getByRole('img', { name: /distortion of angles from 1/ })).toBeVisible();
@@ -156,8 +156,8 @@ test('heat maps of the flow: the conformal factor, and the curvature of a sphere
   await showSurface(page, 'Curvature, flat');
   const [flat = 1] = await told(page, new RegExp(`Curvature here after the flow, in units of a sphere’s: ${NUMBER} on the source`));
   expect(Math.abs(flat)).toBeLessThan(1e-3);
-  await expect(page.getByText('100 times a sphere’s')).toBeVisible();
+  await expect(page.getByText('100 × sphere')).toBeVisible();
   // Another surface, and the picture is the usual one again.
   await showSurface(page, 'Plain');
-  await expect(page.getByText('100 times a sphere’s')).toHaveCount(0);
+  await expect(page.getByText('100 × sphere')).toHaveCount(0);
 });

@@ -126,7 +126,7 @@ export class Maps {
     }
     let saved: SavedMapHandle | null = null;
     try {
-      saved = openSavedMap(core, { map: map.bytes, source: source.bytes, target: target.bytes }, 'views');
+      saved = openSavedMap(core, { map: map.bytes, source: source.bytes, target: target.bytes, demo: this.#store.state.demo?.id ?? null }, 'views');
       const opened = await saved.opened;
       if (opened === null) {
         throw new Error('the worker gave no map');

@@ -8,6 +8,8 @@ export interface SavedFiles {
   readonly map: Uint8Array;
   readonly source: Uint8Array;
   readonly target: Uint8Array;
+  /** The demo whose meshes these are, by its id; without it nothing is known of the true map. */
+  readonly demo?: string | null;
 }
 
 /** What the views show of a map, as a run gives it. */

@@ -32,8 +32,8 @@ let open: Promise<Open> | null = null;
 
 async function start(request: Extract<SavedRequest, { kind: 'open' }>): Promise<Open> {
   await init({ module_or_path: request.module });
-  const { map, source, target } = request;
-  return { map: openMap(map, source, target), files: { map, source, target } };
+  const { map, source, target, demo } = request;
+  return { map: openMap(map, source, target), files: { map, source, target, demo: demo ?? null } };
 }
 
 async function answer(request: SavedRequest): Promise<void> {
@@ -48,7 +48,7 @@ async function answer(request: SavedRequest): Promise<void> {
     const { map, files } = await open;
     switch (request.kind) {
       case 'open': {
-        const opened = request.show === 'views' ? openedOf(map) : null;
+        const opened = request.show === 'views' ? openedOf(map, files.demo ?? null) : null;
         post({ kind: 'opened', id, opened }, opened === null ? [] : transferable(opened.buffers, [opened.landmarks]));
         break;
       }

@@ -49,9 +49,9 @@ export function viewBuffers(output: MapOutput): MapBuffers {
   };
 }
 
-/** What the page takes of a saved map; the core's own copy of it is free again. */
-export function openedOf(map: SavedMap): OpenedMap {
-  const output = map.output();
+/** What the page takes of a saved map, of this demo where it is one; the core's own copy of it is free again. */
+export function openedOf(map: SavedMap, demo: string | null): OpenedMap {
+  const output = map.output(demo);
   const buffers = viewBuffers(output);
   output.free();
   return { buffers, landmarks: map.landmarks().slice(), options: map.options() ?? null, isMirrored: map.isMirrored() };

@@ -37,7 +37,7 @@ const CURVATURES = {
   colours: 'diverging',
   place: (value: number) => 0.5 + Math.asinh(value) / (2 * Math.asinh(CURVATURE_END)),
   value: (place: number) => Math.sinh((2 * place - 1) * Math.asinh(CURVATURE_END)),
-  ticks: [`−${CURVATURE_END}`, '0, flat', `${CURVATURE_END} times a sphere’s`],
+  ticks: [`−${CURVATURE_END}`, '0', `${CURVATURE_END} × sphere`],
 } as const;
 
 /** The scale of a heat map; `end` is that of conformal factors, which follows from the flows. */

@@ -17,6 +17,15 @@ import { TextureControls } from './texture-controls.tsx';
 
 type Surface = Choice<Style['surface']>;
 
+/** What can lie on the flat metric. */
+const TEXTURES: readonly Surface[] = [
+  { value: 'checkerboard', text: 'Checkerboard' },
+  { value: 'circles', text: 'Circles' },
+  { value: 'ribbons', text: 'Ribbons' },
+  { value: 'coordinates', text: 'Coordinates' },
+  { value: 'picture', text: 'Your picture' },
+];
+
 /** What surfaces can show, in groups with their titles. */
 const GROUPS: readonly { readonly title: string | null; readonly surfaces: readonly Surface[] }[] = [
   {
@@ -30,13 +39,7 @@ const GROUPS: readonly { readonly title: string | null; readonly surfaces: reado
   },
   {
     title: 'Texture of the flat metric',
-    surfaces: [
-      { value: 'checkerboard', text: 'Checkerboard' },
-      { value: 'circles', text: 'Circles' },
-      { value: 'ribbons', text: 'Ribbons' },
-      { value: 'coordinates', text: 'Coordinates' },
-      { value: 'picture', text: 'Your picture' },
-    ],
+    surfaces: TEXTURES,
   },
   {
     title: 'Heat map',
@@ -51,8 +54,6 @@ const GROUPS: readonly { readonly title: string | null; readonly surfaces: reado
     ],
   },
 ];
-
-const TEXTURES = GROUPS[1]?.surfaces ?? [];
 
 /** Whether it is known where the texture is cut that a map carries: only a map that is one-to-one has the target's cut on the source. */
 function hasSeams(result: Result | null): boolean {
@@ -69,6 +70,7 @@ export function SurfaceChoice({ state, actions, group }: SurfaceProps): VNode {
   const choose = (surface: Style['surface']): void => {
     actions.dispatch({ kind: 'style', style: { surface } });
   };
+  const isTexture = shownResult(state) !== null && TEXTURES.some(({ value }) => value === state.ui.style.surface);
   return (
     <div role="radiogroup" aria-label="Surface" class="surfaces">
       {GROUPS.map(({ title, surfaces }) => (
@@ -91,9 +93,9 @@ export function SurfaceChoice({ state, actions, group }: SurfaceProps): VNode {
                 <span>{text}</span>
               </label>
             ))}
+          {surfaces === TEXTURES && isTexture && <TextureControls state={state} actions={actions} />}
         </div>
       ))}
-      {TEXTURES.some(({ value }) => value === state.ui.style.surface) && shownResult(state) !== null && <TextureControls state={state} actions={actions} />}
     </div>
   );
 }

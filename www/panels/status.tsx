@@ -30,15 +30,19 @@ function nextClick(state: State): string {
   });
 }
 
+function stretchWords(distortion: number): string {
+  return `Here stretched up to ${largestStretch(distortion).toFixed(2)} times`;
+}
+
 /** What heat maps say of a place, by its value, or by those of its two ends. */
-const PLACE: Readonly<Record<HeatMap, (value: string, onTarget: string) => string>> = {
-  distortion: (value) => `Distortion here: ${value} (1: none)`,
-  angles: (value) => `Angles here are distorted by ${value} (1: none)`,
-  areas: (value) => `Areas here grow by the factor ${value}`,
-  truth: (value) => `The true image is ${value} away, in units of the root of the area`,
-  factor: (onSource, onTarget) => `Lengths here grow by ${onSource} on the source, ${onTarget} on the target`,
-  curvature: (onSource, onTarget) => `Curvature here, in units of a sphere’s: ${onSource} on the source, ${onTarget} on the target`,
-  'flat-curvature': (onSource, onTarget) => `Curvature here after the flow, in units of a sphere’s: ${onSource} on the source, ${onTarget} on the target`,
+const PLACE: Readonly<Record<HeatMap, (value: number, onTarget: number) => string>> = {
+  distortion: (value) => `${stretchWords(value)}: distortion ${figure(value)} (1: none)`,
+  angles: (value) => `Angles here are distorted by ${figure(value)} (1: none)`,
+  areas: (value) => `Areas here grow by the factor ${figure(value)}`,
+  truth: (value) => `The true image is ${figure(value)} away, in units of the root of the area`,
+  factor: (onSource, onTarget) => `Lengths here grow by ${figure(onSource)} on the source, ${figure(onTarget)} on the target`,
+  curvature: (onSource, onTarget) => `Curvature here, in units of a sphere’s: ${figure(onSource)} on the source, ${figure(onTarget)} on the target`,
+  'flat-curvature': (onSource, onTarget) => `Curvature here after the flow, in units of a sphere’s: ${figure(onSource)} on the source, ${figure(onTarget)} on the target`,
 };
 
 /** What the heat map that is shown says of the place under the mouse; where none is, how much the map stretches it. */
@@ -46,9 +50,9 @@ function placeSentence(surface: Style['surface'], { distortion, heat }: Probe): 
   const [value = 0, onTarget = 0] = heat ?? [];
   const sentence = heat === null || !(surface in PLACE) ? null : PLACE[surface as HeatMap];
   if (sentence !== null) {
-    return sentence(figure(value), figure(onTarget));
+    return sentence(value, onTarget);
   }
-  return distortion === null ? null : `Here stretched up to ${largestStretch(distortion).toFixed(2)} times`;
+  return distortion === null ? null : stretchWords(distortion);
 }
 
 /** What the line says when nothing runs; empty where the hint says it all. */

@@ -56,53 +56,51 @@ export function TextureControls({ state, actions }: Pick<PartProps, 'state' | 'a
   };
   const { cells, turn, x, y } = texture;
   return (
-    <>
-      <div class="texture-place" role="group" aria-label="How the texture lies">
-        <Slider
-          name="texture-cells"
-          text="Cells"
-          value={stepOf(cells)}
-          ends={[0, CELL_STEPS]}
-          step={1}
-          words={`${Math.round(cells)} cells across`}
-          onChange={(step) => {
-            set({ cells: cellsAt(step) });
-          }}
-        />
-        <Slider
-          name="texture-turn"
-          text="Turn"
-          value={turn}
-          ends={[-180, 180]}
-          step={1}
-          words={`${turn} degrees`}
-          onChange={(degrees) => {
-            set({ turn: degrees });
-          }}
-        />
-        <Slider
-          name="texture-x"
-          text="Shift across"
-          value={x}
-          ends={[-9, 9]}
-          step={0.05}
-          words={`${x} cells`}
-          onChange={(shift) => {
-            set({ x: shift });
-          }}
-        />
-        <Slider
-          name="texture-y"
-          text="Shift up"
-          value={y}
-          ends={[-9, 9]}
-          step={0.05}
-          words={`${y} cells`}
-          onChange={(shift) => {
-            set({ y: shift });
-          }}
-        />
-      </div>
+    <div class="texture-place" role="group" aria-label="How the texture lies">
+      <Slider
+        name="texture-cells"
+        text="Cells"
+        value={stepOf(cells)}
+        ends={[0, CELL_STEPS]}
+        step={1}
+        words={`${Math.round(cells)} cells across`}
+        onChange={(step) => {
+          set({ cells: cellsAt(step) });
+        }}
+      />
+      <Slider
+        name="texture-turn"
+        text="Turn"
+        value={turn}
+        ends={[-180, 180]}
+        step={1}
+        words={`${turn} degrees`}
+        onChange={(degrees) => {
+          set({ turn: degrees });
+        }}
+      />
+      <Slider
+        name="texture-x"
+        text="Shift across"
+        value={x}
+        ends={[-9, 9]}
+        step={0.05}
+        words={`${x} cells`}
+        onChange={(shift) => {
+          set({ x: shift });
+        }}
+      />
+      <Slider
+        name="texture-y"
+        text="Shift up"
+        value={y}
+        ends={[-9, 9]}
+        step={0.05}
+        words={`${y} cells`}
+        onChange={(shift) => {
+          set({ y: shift });
+        }}
+      />
       <button
         type="button"
         onClick={() => {
@@ -111,6 +109,6 @@ export function TextureControls({ state, actions }: Pick<PartProps, 'state' | 'a
       >
         {texturePicture === null ? 'Lay a picture of yours on it…' : 'Another picture…'}
       </button>
-    </>
+    </div>
   );
 }
