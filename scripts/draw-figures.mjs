@@ -162,4 +162,4 @@ await withPage(async (page, address) => {
       process.stdout.write(`${name}.webp: ${bytes.length} bytes\n`);
     }
   }
-}, { width: 1280, height: 760 });
+}, { width: 1280, height: 600 });
