@@ -116,7 +116,7 @@ async function compared(page) {
 const FIGURES = {
   'sphere-tetrahedron': [['sphere-tetrahedron', inStyle('Pattern')]],
   'ball-cone': [['texture-boundary', exportedPicture]],
-  'horse-cat': [
+  'horse-camel': [
     ['base-domain', baseDomain],
     ['patch-lines', patchLines],
     ['plane', plane],

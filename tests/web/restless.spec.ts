@@ -28,6 +28,13 @@ const FILES = [
   upload('empty.off', ''),
 ] as const;
 
+/** One red point. */
+const PICTURE = {
+  name: 'red.png',
+  mimeType: 'image/png',
+  buffer: Buffer.from('iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8DwHwAFBQIAX8jx0gAAAABJRU5ErkJggg==', 'base64'),
+};
+
 const KEYS = ['Escape', 'Escape', 'Control+z', 'Control+z', 'Control+Shift+Z', 'Delete', 'Enter', 'ArrowLeft', 'ArrowDown', 'f', 'm', '?', 'Tab', 'Home', 'End', 'q', '0', '+'];
 
 type Action = readonly [name: string, act: () => Promise<void>];
@@ -42,6 +49,7 @@ function nextAction(page: Page, random: Random): Action {
   const pick = random.below(1000);
   const kinds: readonly (readonly [number, Action])[] = [
     [6, [`choose ${file.name} for the ${side}`, () => page.locator(`#${side}-file`).setInputFiles(file)]],
+    [2, ['lay a picture on the flat metric', () => page.locator('#texture-file').setInputFiles(pick % 3 === 0 ? file : PICTURE)]],
     [3, ['choose the landmarks', () => page.locator('#landmark-file').setInputFiles(FILES[2])]],
     [3, [`drop ${[file, ...more].map(({ name }) => name).join(', ')}`, () => dropContents(page, [file, ...more].map(({ name, buffer }) => ({ name, content: buffer })))]],
     [10, [`press ${key}`, () => page.keyboard.press(key)]],
