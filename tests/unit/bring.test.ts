@@ -1,6 +1,6 @@
 /** Files that are brought across: what they may be, what is asked for them, and what becomes of answers that come late. */
 import { afterEach, beforeAll, beforeEach, describe, expect, test, vi } from 'vitest';
-import type { DeskState, MadeFile } from '../../www/bring/desk.ts';
+import type { Choices, DeskState, MadeFile } from '../../www/bring/desk.ts';
 import { Desk, wishOf } from '../../www/bring/desk.ts';
 import type { BringMessage, BringRequest, GivenFileReport } from '../../www/bring/messages.ts';
 import { bringSentence, hindrance, kindSentence, savedSentence, WORDS } from '../../www/bring/words.ts';
@@ -121,16 +121,16 @@ describe('files that were chosen', () => {
 
   test('keep what was said of their columns as long as they have the same', () => {
     taken([VALUES], 'heat.csv');
-    desk.choose({ columns: 'own', roles: { part: 'labels' } });
-    expect(taken([VALUES], 'heat-2.csv').choices).toMatchObject({ columns: 'own', roles: { part: 'labels' } });
-    expect(taken([{ ...VALUES, columns: ['bone'] }], 'skin.csv').choices).toMatchObject({ columns: 'numbers', roles: {} });
+    desk.choose({ columns: 'own', roles: new Map([['part', 'labels']]) });
+    expect(taken([VALUES], 'heat-2.csv').choices).toMatchObject({ columns: 'own', roles: new Map([['part', 'labels']]) });
+    expect(taken([{ ...VALUES, columns: ['bone'] }], 'skin.csv').choices).toMatchObject({ columns: 'numbers', roles: new Map() });
   });
 });
 
 describe('what is asked for', () => {
   test('follows the choices', () => {
     const { choices } = desk.state;
-    const own = { ...choices, columns: 'own', roles: { part: 'labels', left: 'weights' } } as const;
+    const own: Choices = { ...choices, columns: 'own', roles: new Map([['part', 'labels'], ['left', 'weights']]) };
     const columns = ['heat', 'part', 'left'];
     expect(wishOf({ kind: 'values', columns }, own)).toEqual({
       from: 'target',
@@ -220,7 +220,7 @@ test('why nothing can be brought across is said in a sentence', () => {
 
 test('what files are taken for is said in a sentence', () => {
   expect(kindSentence(['heat.csv'], 'values', ['heat'], 'target')).toBe('heat.csv: values of the target’s vertices, 1 column (heat).');
-  expect(kindSentence(['skin.csv'], 'values', [...'abcdefgh'], 'source')).toContain('8 columns (a, b, c, d, e, f and 2 more)');
+  expect(kindSentence(['skin.csv'], 'values', Array.from('abcdefgh'), 'source')).toContain('8 columns (a, b, c, d, e, f and 2 more)');
   expect(kindSentence(['belt.obj'], 'curves', [], 'source')).toBe('belt.obj: curves on the source.');
   expect(kindSentence(['skin.png'], 'texture', [], 'target')).toContain('over the source’s own texture coordinates');
   expect(kindSentence(['a.obj', 'b.obj'], 'frames', [], 'target')).toBe('2 files: the target in other poses. The source moves likewise.');

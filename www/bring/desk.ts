@@ -19,7 +19,7 @@ export interface Choices {
   /** What all columns hold, or each its own. */
   readonly columns: Role | 'own';
   /** What each column holds where each has its own; numbers where none is told. */
-  readonly roles: Readonly<Record<string, Role>>;
+  readonly roles: ReadonlyMap<string, Role>;
   readonly valueFormat: Values['format'];
   readonly curveFormat: Extract<TransferWhat, { readonly kind: 'curves' }>['format'];
   /** Texels in a row of a baked picture. */
@@ -67,7 +67,7 @@ const MOST_BYTES = 2 ** 30;
 const BEGINNING: DeskState = {
   work: null,
   given: null,
-  choices: { from: 'target', method: 'projection', columns: 'numbers', roles: {}, valueFormat: 'csv', curveFormat: 'json', size: 1024 },
+  choices: { from: 'target', method: 'projection', columns: 'numbers', roles: new Map(), valueFormat: 'csv', curveFormat: 'json', size: 1024 },
   error: null,
   made: null,
 };
@@ -88,7 +88,7 @@ function together(files: readonly File[], reports: readonly GivenFileReport[]): 
 
 /** What is asked of the core for these choices. */
 export function wishOf({ kind, columns }: Pick<Given, 'kind' | 'columns'>, choices: Choices): TransferWish {
-  const having = (role: Role): string[] => columns.filter((name) => (choices.columns === 'own' ? choices.roles[name] : choices.columns) === role);
+  const having = (role: Role): string[] => columns.filter((name) => (choices.columns === 'own' ? choices.roles.get(name) : choices.columns) === role);
   const { from, method, valueFormat, curveFormat, size } = choices;
   switch (kind) {
     case 'values':
@@ -252,7 +252,7 @@ export class Desk {
     const { choices } = this.#state;
     // What was said of columns goes with them.
     const isSame = given.columns.join() === this.#state.given?.columns.join();
-    const columns = isSame ? {} : ({ columns: 'numbers', roles: {} } as const);
+    const columns = isSame ? {} : ({ columns: 'numbers', roles: new Map<string, Role>() } as const);
     this.#set({ work: null, given, made: null, choices: { ...choices, valueFormat, ...columns } });
   }
 

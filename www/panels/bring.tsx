@@ -64,11 +64,11 @@ function OwnColumns({ desk, choices, columns }: PartOf & { readonly columns: rea
         <Select
           key={name}
           label={name}
-          value={choices.roles[name] ?? 'numbers'}
+          value={choices.roles.get(name) ?? 'numbers'}
           choices={ROLES}
           disabled={false}
           onChoice={(role) => {
-            desk.choose({ roles: { ...choices.roles, [name]: role } });
+            desk.choose({ roles: new Map([...choices.roles, [name, role]]) });
           }}
         />
       ))}
