@@ -90,6 +90,9 @@ test.afterAll(async () => {
 
 const panel = (): ReturnType<Page['locator']> => page.locator('#panel');
 
+/** A list of choices by its label. */
+const select = (label: string): ReturnType<Page['locator']> => panel().getByRole('combobox', { name: label, exact: true });
+
 /** Chooses files, and waits until the page says what they are. */
 async function choose(files: readonly Upload[], sentence: RegExp | string): Promise<void> {
   await page.locator('#bring-files').setInputFiles([...files]);
@@ -97,7 +100,7 @@ async function choose(files: readonly Upload[], sentence: RegExp | string): Prom
 }
 
 async function from(direction: string): Promise<void> {
-  await panel().getByLabel('From', { exact: true }).selectOption(direction);
+  await select('From').selectOption(direction);
 }
 
 interface Saved {
@@ -144,12 +147,12 @@ test('labels are not mixed, and a PLY file has them on the mesh', async () => {
   await from('Target onto source');
   const rows = TARGET.points.map(([x, y], v) => `${v},${x > 0 ? 3 : 8},${y}`);
   await choose([upload('parts.csv', `vertex,part,y\n${rows.join('\n')}\n`)], '2 columns (part, y)');
-  await panel().getByLabel('Columns hold').selectOption('Each its own');
-  await panel().getByLabel('part', { exact: true }).selectOption('Labels');
+  await select('Columns hold').selectOption('Each its own');
+  await select('part').selectOption('Labels');
   const there = (await saved('Bring onto the source')).bytes.toString().trim().split('\n').slice(1);
   expect(new Set(there.map((line) => line.split(',')[1]))).toEqual(new Set(['3', '8']));
-  await panel().getByLabel('Save as', { exact: true }).selectOption('PLY mesh');
-  await panel().getByLabel('Method', { exact: true }).selectOption('Sample: at the image');
+  await select('Save as').selectOption('PLY mesh');
+  await select('Method').selectOption('Sample');
   await page.screenshot({ path: test.info().outputPath('columns.png') });
   const ply = await saved('Bring onto the source');
   expect(ply.name).toBe('parts-on-source.ply');
@@ -208,7 +211,7 @@ async function halves(): Promise<Buffer> {
 
 test('a texture is baked over the other mesh’s own coordinates', async () => {
   await choose([upload('halves.png', await halves())], 'halves.png: the target’s texture.');
-  await panel().getByLabel('Size').selectOption('512 × 512');
+  await select('Size').selectOption('512 × 512');
   const baked = await saved('Bring onto the source');
   expect(baked.name).toBe('halves-on-source.png');
   const shares = await page.evaluate(async (base64) => {
@@ -294,8 +297,8 @@ test('files that are dropped on the section are for it, and not for the views', 
   await page.setViewportSize({ width: 1280, height: 800 });
 });
 
-test('without a map the section says what it is for', async () => {
-  const fresh = await page.context().newPage();
+test('without a map the section says what it is for', async ({ browser }) => {
+  const fresh = await browser.newPage();
   await open(fresh, '#demo=sphere-tetrahedron');
   await openStep(fresh, 'use');
   await expect(fresh.locator('#panel')).toContainText('Once there is a map, what belongs to one mesh can be brought onto the other');

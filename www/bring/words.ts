@@ -13,7 +13,7 @@ export function receiverOf(giver: Giver): Giver {
 
 /** What a file may be taken for, in a list of choices. */
 export const KIND_NAMES: Readonly<Record<Kind, string>> = {
-  values: 'Values of the vertices',
+  values: 'Values',
   curves: 'Curves',
   texture: 'Texture',
   frames: 'Poses',

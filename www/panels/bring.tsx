@@ -35,10 +35,16 @@ const DIRECTIONS: readonly Choice<Choices['from']>[] = [
 ];
 
 const METHODS: readonly Choice<Choices['method']>[] = [
-  { value: 'projection', text: 'Projection: nearest overall' },
-  { value: 'mean', text: 'Mean: never beyond what is given' },
-  { value: 'sample', text: 'Sample: at the image' },
+  { value: 'projection', text: 'Projection' },
+  { value: 'mean', text: 'Mean' },
+  { value: 'sample', text: 'Sample' },
 ];
+
+const ABOUT_METHODS: Readonly<Record<Choices['method'], string>> = {
+  projection: 'The function on the other mesh that is nearest over the whole area; at sharp steps it goes a little beyond what is given.',
+  mean: 'The mean over each vertex’s share of the area: a little blurred, and never beyond what is given.',
+  sample: 'The value at each vertex’s image: quick, but blind to what lies between the vertices.',
+};
 
 const ROLES: readonly Choice<Role>[] = [
   { value: 'numbers', text: 'Numbers' },
@@ -101,6 +107,7 @@ function ValueChoices({ desk, choices, columns }: PartOf & { readonly columns: r
           desk.choose({ method });
         }}
       />
+      <p class="quiet small">{ABOUT_METHODS[choices.method]}</p>
       <Select
         label="Save as"
         value={choices.valueFormat}
@@ -260,7 +267,7 @@ function Outcome({ desk, state: { work, error, made } }: { readonly desk: Desk; 
         </p>
       )}
       {made !== null && work === null && (
-        <div class="row">
+        <div class="bring-made">
           <p role="status" class="small">
             {made.sentence}
           </p>
@@ -316,7 +323,7 @@ export default function BringPanel({ state, actions }: PartProps): VNode {
       <ul class="export-list">
         <li>
           <div>
-            <p>Both meshes in the other’s shape</p>
+            <p>Each mesh in the other’s shape</p>
             <p class="quiet small">With their distances and how well the normals agree</p>
           </div>
           <button
