@@ -297,6 +297,29 @@ test('files that are dropped on the section are for it, and not for the views', 
   await page.setViewportSize({ width: 1280, height: 800 });
 });
 
+test('what goes on is shown, and left when it is cancelled', async () => {
+  await choose([upload('dots.csv', 'curve,vertex\nc,0\n')], 'dots.csv: curves on the target.');
+  // The worker's script never comes.
+  await page.route(/bring-worker/, () => undefined);
+  let downloads = 0;
+  page.on('download', () => {
+    downloads += 1;
+  });
+  await panel().getByRole('button', { name: 'Bring onto the source' }).click();
+  await expect(panel().getByText('Bringing it across…')).toBeVisible();
+  await expect(panel().getByRole('button', { name: 'Shapes' })).toBeDisabled();
+  await page.screenshot({ path: test.info().outputPath('working.png') });
+  // The page can be used meanwhile.
+  await openStep(page, 'map');
+  await openStep(page, 'use');
+  await panel().getByRole('button', { name: 'Cancel', exact: true }).click();
+  await expect(panel().getByText('Bringing it across…')).toHaveCount(0);
+  await page.unroute(/bring-worker/);
+  await expect(panel().locator('.bring-kind')).toHaveText('dots.csv: curves on the target.');
+  expect(downloads).toBe(0);
+  expect((await saved('Bring onto the source')).name).toBe('dots-on-source.json');
+});
+
 test('without a map the section says what it is for', async ({ browser }) => {
   const fresh = await browser.newPage();
   await open(fresh, '#demo=sphere-tetrahedron');
