@@ -77,7 +77,7 @@ function together(files: readonly File[], reports: readonly GivenFileReport[]): 
   const [first] = reports;
   const [kind] = first?.kinds ?? [];
   if (first === undefined || kind === undefined) {
-    return WORDS.noMap;
+    return notTogether(files[0]?.name ?? '');
   }
   if (files.length === 1) {
     return { files, kinds: first.kinds, kind, columns: first.columns };
