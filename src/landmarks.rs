@@ -7,7 +7,7 @@ use crate::mesh::check::CheckedMesh;
 use crate::mesh::insertion::{Insertion, insert};
 use crate::mesh::{FaceId, MeshError, SurfaceMesh, SurfacePoint, VertexId, ids_id as id};
 use rustc_hash::FxHashMap;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 id!(
     /// A landmark: the same number on the source, the target and the base domain.
@@ -27,7 +27,7 @@ pub struct Landmarks {
 }
 
 /// One of the two meshes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "snake_case")]
 pub enum MeshSide {

@@ -32,6 +32,7 @@ import { mountPage } from './panels/page.tsx';
 import { Reader } from './reading/reader.ts';
 import { guideSection } from './send/guide-link.ts';
 import type { Demo, State } from './store/state.ts';
+import { shownResult } from './store/staleness.ts';
 import { Store } from './store/store.ts';
 import { Views } from './viewer/viewer.ts';
 import init, { demoList } from './wasm/page.js';
@@ -84,6 +85,10 @@ const actions: Actions = {
     if (runner.core !== null) {
       void saveWrapped(store, runner.core);
     }
+  },
+  bring: {
+    core: () => runner.core,
+    shown: () => shownResult(store.state),
   },
   proveMap: () => {
     if (runner.core !== null) {

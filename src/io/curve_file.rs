@@ -53,10 +53,9 @@ pub fn read(bytes: &[u8], vertices: usize) -> Result<Vec<Curve>, CurveFileError>
         return Err(CurveFileError { place: Place::Header, problem });
     }
     let text = text(bytes)?;
-    let is_obj = |line: &str| line.split_whitespace().next().is_some_and(|word| OBJ_WORDS.contains(&word));
     let curves = match content_lines(&text).next() {
         Some((_, line)) if line.starts_with('{') => json(&text)?,
-        Some((_, line)) if is_obj(line) => obj(&text, vertices)?,
+        Some((_, line)) if is_of_obj(line) => obj(&text, vertices)?,
         _ => table(&text)?,
     };
     let curves: Vec<Curve> = curves.into_iter().map(closed_at_its_end).collect();
@@ -65,6 +64,39 @@ pub fn read(bytes: &[u8], vertices: usize) -> Result<Vec<Curve>, CurveFileError>
         return Err(CurveFileError { place: Place::Header, problem });
     }
     Ok(curves)
+}
+
+/// Whether a file is one of curves, without reading them: JSON with `curves`, an OBJ file with a line `l`, or a table whose rows begin
+/// with a curve's name. A table of nothing but numbers and other names is one of values.
+pub fn is_one(bytes: &[u8]) -> bool {
+    let Ok(text) = text(bytes) else { return false };
+    let mut lines = content_lines(&text).map(|(_, line)| line);
+    match lines.next() {
+        Some(line) if line.starts_with('{') => text.contains("\"curves\""),
+        Some(line) if is_of_obj(line) => obj::whole_lines(&text).any(|line| line.kind == "l"),
+        Some(line) => is_row_of_curve(line) || (is_curve_heading(line) && lines.next().is_some()),
+        None => false,
+    }
+}
+
+/// Whether a line begins as one of an OBJ file does.
+fn is_of_obj(line: &str) -> bool {
+    line.split_whitespace().next().is_some_and(|word| OBJ_WORDS.contains(&word))
+}
+
+/// Whether a row has a name and numbers behind it.
+fn is_row_of_curve(line: &str) -> bool {
+    let mut fields = line.split(',').take(6).map(str::trim);
+    let is_named = fields.next().is_some_and(|name| !name.is_empty() && name.parse::<f64>().is_err());
+    let mut numbers = fields.peekable();
+    is_named && numbers.peek().is_some() && numbers.all(|field| field.parse::<f64>().is_ok())
+}
+
+/// Whether a line names the columns of a table of curves, as this program writes them or others.
+fn is_curve_heading(line: &str) -> bool {
+    let mut fields = line.split(',').map(|field| field.trim().to_ascii_lowercase());
+    let is_point = |field: String| field.ends_with("vertex") || field.ends_with("face");
+    fields.next().is_some_and(|name| name == "curve") && fields.next().is_some_and(is_point)
 }
 
 /// A curve whose last point is its first is closed, and has the point once.
@@ -214,6 +246,30 @@ mod tests {
         assert_eq!(curves("\u{feff}a,1\ra,2\r").unwrap(), [over("a", false, &[1, 2])]);
         assert_eq!(curves("a,1\ra,x\r"), Err("line 2: \"x\" should be a vertex number".to_owned()));
         assert_eq!(curves("l 1 2\rl \\\r1 0\r"), Err("line 2: there is no vertex 0".to_owned()));
+    }
+
+    #[test]
+    fn files_of_curves_are_told_from_others() {
+        let curves = [
+            "{\"curves\": []}",
+            "v 0 0 0\nv 1 0 0\nl 1 2\n",
+            "curve,vertex\n1,0\n",
+            "Curve,target_face,b0,b1,b2,x,y,z\n1,0,1,0,0,0,0,0\n",
+            "belt,0\nbelt,1\n",
+            "a,3,0.5,0.5,0,1,2,3\n",
+        ];
+        assert!(curves.iter().all(|text| is_one(text.as_bytes())));
+        let others = [
+            "",
+            "{\"pairs\": []}",
+            "v 0 0 0\nf 1 1 1\n",
+            "vertex,heat\n0,1\n",
+            "heat\n1\n",
+            "0,1\n1,2\n",
+            "curve,vertex\n",
+        ];
+        assert!(!others.iter().any(|text| is_one(text.as_bytes())));
+        assert!(!is_one(&[0xff, 0xfe, 0, 1]));
     }
 
     #[test]

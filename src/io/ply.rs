@@ -63,6 +63,16 @@ pub(super) fn vertex_rows(bytes: &[u8]) -> Result<(ElementDef, Vec<Vec<f64>>), U
     Err((Place::Header, "it has no vertices".to_owned()).into())
 }
 
+/// What the header announces of the vertices.
+pub(super) fn vertex_element(bytes: &[u8]) -> Result<ElementDef, Problem> {
+    let file = File::split(bytes)?;
+    let (mut silent, stopped) = (Silent, Cell::new(None));
+    let mut pulse = Pulse::new(&mut silent, usize::MAX);
+    let (_, header) = file.opened(&mut pulse, &stopped)?;
+    let vertices = header.elements.get("vertex").cloned();
+    vertices.ok_or_else(|| (Place::Header, "it has no vertices".to_owned()))
+}
+
 /// All elements of a kind.
 fn elements<E: PropertyAccess, R: BufRead>(
     reader: &mut Reader<R>,

@@ -13,10 +13,13 @@ use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use crate::numerics::conjugate_gradients::{CgError, CgOptions, CgWorkspace};
 use crate::surface_map::correspondence::Correspondence;
+use serde::Deserialize;
 use typed_index_collections::{TiVec, ti_vec};
 
 /// How a value at a vertex is made of those of the other mesh.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
+#[serde(rename_all = "snake_case")]
 pub enum Carrying {
     /// The nearest piecewise linear function, in the sense of least squares over the area.
     #[default]

@@ -42,6 +42,8 @@ mod planes;
 mod saved;
 #[cfg(feature = "web-core")]
 mod simplification;
+#[cfg(feature = "web-core")]
+mod transfer;
 
 use serde_json::json;
 use wasm_bindgen::prelude::*;

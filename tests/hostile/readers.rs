@@ -5,6 +5,7 @@ use conemap::io::moved::{self, MoveError, Normals};
 use conemap::io::{Format, curve_file, detect, gltf_parts, read_mesh, texture_coordinates, vertex_table};
 use conemap::map_file::{self, FileMesh};
 use conemap::mesh::check::closed_genus_zero;
+use conemap::transfer::given_file;
 use std::sync::LazyLock;
 
 /// A reader of bytes; each is a target of the fuzzer.
@@ -84,6 +85,10 @@ impl Reader {
 
     /// Reads bytes, whatever they are.
     pub fn read(self, bytes: &[u8]) -> String {
+        if matches!(self, Self::VertexTable | Self::Curves) {
+            // The page asks first what a file may hold that is to be brought across a map.
+            drop(given_file(bytes));
+        }
         match self {
             Self::Mesh(format) => {
                 if format == Format::Gltf && !gltf_parts::parts_of(bytes).is_empty() {

@@ -243,6 +243,10 @@ fn a_texture_is_baked_over_the_source_s_own_coordinates() {
             assert_eq!(found, pixel(if middle.x > 0.0 { 63 } else { 0 }), "{f:?} at {middle}");
         }
     }
+    // Coordinates outside the picture are told with the file that has them.
+    files.write("source.obj", with_charts(&files.source, |f, p, k| grid(f, p, k).map(|x| 2.0 * x)));
+    let said = files.transfer(&["--texture", "@texture.png", "--out", "@b.png"]).unwrap_err();
+    assert!(said.contains("source.obj: face ") && said.contains("must be from 0 to 1"), "{said}");
     files.write("plain.obj", obj::mesh(&files.source));
     files.write("source.obj", obj::mesh(&files.source));
     let said = files.transfer(&["--texture", "@texture.png", "--out", "@b.png"]).unwrap_err();

@@ -1,4 +1,5 @@
 /** What the page's parts ask for, and what each of them is given. */
+import type { Core } from '../compute/core.ts';
 import type { Side, SurfacePoint } from '../landmarks.ts';
 import type { BaseHands, FlowHands, Listener, SimplificationHands } from '../method/hands.ts';
 import type { Planes } from '../method/plane-client.ts';
@@ -7,7 +8,7 @@ import type { OtherMap } from '../report.ts';
 import type { Event } from '../store/events.ts';
 import type { Examined } from '../store/defects.ts';
 import type { RefusedMesh } from '../store/refused.ts';
-import type { Axis, Doubt, State } from '../store/state.ts';
+import type { Axis, Doubt, Result, State } from '../store/state.ts';
 import type { Shell } from './shell.ts';
 
 /** A side to look from. */
@@ -44,6 +45,8 @@ export interface Actions {
   readonly saveMadeFile: (file: { readonly made: string; readonly name: string; readonly type: string }) => void;
   /** Saves the source's own file with its vertices laid onto the target. */
   readonly saveWrapped: () => void;
+  /** What is needed to bring files across the map on the page. */
+  readonly bring: { readonly core: () => Core | null; readonly shown: () => Result | null };
   /** Has the map proved by a second program. */
   readonly proveMap: () => void;
   /** Saves what the views show as a picture of twice the screen's size. */

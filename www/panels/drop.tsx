@@ -22,7 +22,12 @@ function sideAt(x: number, y: number): Side | null {
 type Over = { readonly side: Side | null } | null;
 
 function listen(actions: Actions, show: (over: Over) => void): () => void {
+  // A part of the page that takes files for itself prevents what others do with them.
   const over = (event: DragEvent): void => {
+    if (event.defaultPrevented) {
+      show(null);
+      return;
+    }
     event.preventDefault();
     if (event.dataTransfer?.types.includes('Files') === true) {
       show({ side: sideAt(event.clientX, event.clientY) });
@@ -39,8 +44,11 @@ function listen(actions: Actions, show: (over: Over) => void): () => void {
     }
   };
   const drop = (event: DragEvent): void => {
-    event.preventDefault();
     show(null);
+    if (event.defaultPrevented) {
+      return;
+    }
+    event.preventDefault();
     take(event.dataTransfer?.files, sideAt(event.clientX, event.clientY));
   };
   const paste = (event: ClipboardEvent): void => {

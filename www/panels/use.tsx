@@ -1,12 +1,17 @@
 /** The fourth step: what the map is good for, and what can be taken away. */
 import type { VNode } from 'preact';
+import { lateModule } from '../late-module.ts';
 import { shownResult } from '../store/staleness.ts';
 import type { PartProps } from './actions.ts';
 import { exportsOf } from './exports.ts';
+import { Late } from './late.tsx';
 import { SurfaceChoice } from './picture-bar.tsx';
 
+const loadBring = lateModule(() => import('./bring.tsx'));
+
 /** The panel's content. */
-export function UsePanel({ state, actions }: PartProps): VNode {
+export function UsePanel(props: PartProps): VNode {
+  const { state, actions } = props;
   const files = exportsOf(state, actions);
   return (
     <div class="content">
@@ -16,6 +21,10 @@ export function UsePanel({ state, actions }: PartProps): VNode {
           <SurfaceChoice state={state} actions={actions} group="carried" />
         </section>
       )}
+      <section>
+        <h3>Bring across</h3>
+        <Late isWanted load={loadBring} given={props} />
+      </section>
       <section>
         <h3>Take away</h3>
         {state.result === null && (

@@ -7,17 +7,13 @@ use crate::outputs;
 use crate::saved::SavedFiles;
 use crate::told::say;
 use conemap::export::vertex_image::Direction;
-use conemap::export::{self, ply};
-use conemap::io::{curve_file, picture, texture_coordinates, vertex_table};
-use conemap::job::{OpenMap, OutputKind};
-use conemap::landmarks::MeshSide;
-use conemap::map_file::FileMesh;
+use conemap::job::{MapFiles, OpenMap, OutputKind};
 use conemap::monitor::Stage;
-use conemap::transfer::attributes::{AttributeOptions, attributes};
-use conemap::transfer::deformation::DeformationTransfer;
 use conemap::transfer::shape::shape_report;
-use conemap::transfer::texture::{self, BakeOptions, GivenTexture};
-use conemap::transfer::{MappedFiles, curves, frames};
+use conemap::transfer::{
+    CurveFormat, FaultyFile, FileTransfer, MappedFiles, Raster, TransferError, ValueFormat, ValueOptions,
+    frame_name,
+};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
@@ -25,35 +21,47 @@ use std::path::{Path, PathBuf};
 const SHAPES: [OutputKind; 2] = [OutputKind::SourceShapeObj, OutputKind::TargetShapeObj];
 const SHAPE_REPORT: &str = "shape.json";
 
-/// The file of a frame.
-fn frame_name(number: usize) -> String {
-    format!("frame-{number:03}.obj")
-}
-
 /// Brings over what was asked for.
 pub fn run(arguments: &TransferArguments) -> Result<(), Failure> {
-    let out = &arguments.out;
-    // Asked before the work is done.
-    let format = match (&arguments.attributes, &arguments.curves, &arguments.texture) {
-        (Some(_), _, _) => ending(out, &["csv", "ply"])?,
-        (_, Some(_), _) => ending(out, &["json", "csv", "obj"])?,
-        (_, _, Some(_)) => ending(out, &["png"])?,
-        _ => "",
-    };
+    let what = What::of(arguments)?;
     outputs::check(inputs(arguments), outputs_of(arguments))?;
     let files = SavedFiles::read(&arguments.saved)?;
     let open = files.open()?;
-    let transfer = Transfer { arguments, files: &files, open: &open, direction: arguments.from.into() };
-    if let Some(path) = &arguments.attributes {
-        transfer.attributes(path, format)
-    } else if let Some(path) = &arguments.curves {
-        transfer.curves(path, format)
-    } else if let Some(path) = &arguments.texture {
-        transfer.texture(path)
-    } else if arguments.shape {
-        transfer.shapes()
-    } else {
-        transfer.motions()
+    let mapped = MappedFiles { files: open.meshes(), map: &open.taken().map().correspondence };
+    let by = FileTransfer::new(mapped, arguments.from.into());
+    let transfer = Transfer { arguments, files: &files, open: &open, mapped, by };
+    match what {
+        What::Values(path, format) => transfer.values(path, format),
+        What::Curves(path, format) => transfer.curves(path, format),
+        What::Texture(path) => transfer.texture(path),
+        What::Shapes => transfer.shapes(),
+        What::Frames => transfer.frames(),
+    }
+}
+
+/// What is asked for, with the format of what is written.
+enum What<'a> {
+    Values(&'a Path, ValueFormat),
+    Curves(&'a Path, CurveFormat),
+    Texture(&'a Path),
+    Shapes,
+    Frames,
+}
+
+impl<'a> What<'a> {
+    /// Asked before the work is done: the name of the file that is written says the format.
+    fn of(arguments: &'a TransferArguments) -> Result<Self, Failure> {
+        let out = &arguments.out;
+        Ok(match (&arguments.attributes, &arguments.curves, &arguments.texture) {
+            (Some(path), _, _) => Self::Values(path, by_ending(out, &ValueFormat::ALL, |f| f.ending())?),
+            (_, Some(path), _) => Self::Curves(path, by_ending(out, &CurveFormat::ALL, |f| f.ending())?),
+            (_, _, Some(path)) => {
+                by_ending(out, &["png"], |ending| ending)?;
+                Self::Texture(path)
+            }
+            _ if arguments.shape => Self::Shapes,
+            _ => Self::Frames,
+        })
     }
 }
 
@@ -76,18 +84,13 @@ fn outputs_of(arguments: &TransferArguments) -> Vec<PathBuf> {
     }
 }
 
-/// The one of some endings that a name has.
-fn ending(out: &Path, known: &[&'static str]) -> Result<&'static str, Failure> {
+/// The one of some formats that a name ends with.
+fn by_ending<F: Copy>(out: &Path, known: &[F], of: impl Fn(F) -> &'static str) -> Result<F, Failure> {
     let ending = out.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    known.iter().find(|known| known.eq_ignore_ascii_case(ending)).copied().ok_or_else(|| {
-        let known = known.iter().map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(", ");
+    known.iter().copied().find(|format| of(*format).eq_ignore_ascii_case(ending)).ok_or_else(|| {
+        let known = known.iter().map(|format| format!(".{}", of(*format))).collect::<Vec<_>>().join(", ");
         format!("{}: the name must end in one of {known}", out.display()).into()
     })
-}
-
-/// A sentence that names the file.
-fn of_file(path: &Path, error: &dyn std::fmt::Display) -> Failure {
-    format!("{}: {error}", path.display()).into()
 }
 
 /// A saved map, and what is to be brought over by it.
@@ -95,84 +98,61 @@ struct Transfer<'a> {
     arguments: &'a TransferArguments,
     files: &'a SavedFiles<'a>,
     open: &'a OpenMap,
-    direction: Direction,
+    mapped: MappedFiles<'a>,
+    by: FileTransfer<'a>,
 }
 
-impl<'a> Transfer<'a> {
-    fn mapped(&self) -> MappedFiles<'a> {
-        MappedFiles { files: self.open.meshes(), map: &self.open.taken().map().correspondence }
-    }
-
-    fn giver(&self) -> &'a FileMesh {
-        self.open.meshes()[self.direction.side()]
-    }
-
-    fn receiver(&self) -> &'a FileMesh {
-        self.open.meshes()[1 - self.direction.side()]
-    }
-
-    fn attributes(&self, path: &Path, format: &str) -> Result<(), Failure> {
-        let bytes = input::bytes(path)?;
-        let table =
-            vertex_table::read(&bytes, self.giver().file_vertices()).map_err(|e| of_file(path, &e))?;
-        if !table.left_out.is_empty() {
-            say(format_args!("{}: lists are left out: {}", path.display(), table.left_out.join(", ")));
+impl Transfer<'_> {
+    /// A sentence that names the file; `given` are those that are brought over.
+    fn told(&self, error: &TransferError, given: &[&Path]) -> Failure {
+        match error.file() {
+            Some(FaultyFile::Given(number)) => match given.get(number) {
+                Some(path) => format!("{}: {error}", path.display()).into(),
+                None => error.to_string().into(),
+            },
+            Some(FaultyFile::Mesh(side)) => self.files.told(Some(side), error),
+            None => error.to_string().into(),
         }
-        let options = AttributeOptions {
-            direction: self.direction,
+    }
+
+    fn values(&self, path: &Path, format: ValueFormat) -> Result<(), Failure> {
+        let bytes = input::bytes(path)?;
+        let options = ValueOptions {
             carrying: self.arguments.method.into(),
             labels: self.arguments.labels.clone(),
             weights: self.arguments.weights.clone(),
+            format,
         };
         let mut clock = Clock::start_only(Stage::Transfer);
-        let carried =
-            attributes(self.mapped(), &table, &options, &mut clock).map_err(|e| of_file(path, &e))?;
-        let bytes = if format == "ply" {
-            let receiver = self.receiver();
-            let positions = frames::of_file(receiver, receiver.mesh().positions());
-            ply::polygons_with(&positions, receiver.polygons(), &carried.columns)
-        } else {
-            export::vertex_table::csv(&carried)
-        };
-        outputs::write(&self.arguments.out, &bytes)
+        let carried = self.by.values(&bytes, &options, &mut clock).map_err(|e| self.told(&e, &[path]))?;
+        drop(clock);
+        if !carried.left_out.is_empty() {
+            say(format_args!("{}: lists are left out: {}", path.display(), carried.left_out.join(", ")));
+        }
+        outputs::write(&self.arguments.out, &carried.bytes)
     }
 
     fn texture(&self, path: &Path) -> Result<(), Failure> {
-        let picture = picture::read(&input::bytes(path)?).map_err(|e| of_file(path, &e))?;
-        let [source, target] = self.open.meshes();
-        let files = self.files.bytes();
-        let uvs = |mesh: &FileMesh, bytes: &[u8], side: MeshSide| -> Result<_, Failure> {
-            let corners = texture_coordinates::read(bytes).map_err(|e| self.files.told(Some(side), &e))?;
-            texture::face_uvs(mesh, &corners).map_err(|e| self.files.told(Some(side), &e))
-        };
-        let uvs =
-            [uvs(source, files.source, MeshSide::Source)?, uvs(target, files.target, MeshSide::Target)?];
-        let given = GivenTexture { uvs: uvs.each_ref(), picture: &picture };
-        let options = BakeOptions {
-            direction: self.direction,
-            size: self.arguments.size.into(),
-            border: self.arguments.border.into(),
-        };
+        let bytes = input::bytes(path)?;
+        let MapFiles { source, target, .. } = self.files.bytes();
+        let raster = Raster { size: self.arguments.size.into(), border: self.arguments.border.into() };
         let mut clock = Clock::start_only(Stage::Transfer);
-        let baked = texture::baked(self.mapped(), given, options, &mut clock)?;
-        outputs::write(&self.arguments.out, &export::picture::png(&baked)?)
+        let baked = self.by.texture(&bytes, [source, target], raster, &mut clock);
+        outputs::write(&self.arguments.out, &baked.map_err(|e| self.told(&e, &[path]))?)
     }
 
-    fn motions(&self) -> Result<(), Failure> {
-        let paths = &self.arguments.frames;
+    fn frames(&self) -> Result<(), Failure> {
+        let paths: Vec<&Path> = self.arguments.frames.iter().map(PathBuf::as_path).collect();
+        let told = |error: TransferError| self.told(&error, &paths);
         // All frames are looked at before the first is brought over.
         let mut shapes = Vec::new();
-        for path in paths {
-            let shape = frames::read(self.giver(), &input::mesh_bytes(path)?);
-            shapes.push(shape.map_err(|e| of_file(path, &e))?);
+        for (number, path) in paths.iter().enumerate() {
+            shapes.push(self.by.frame(number, &input::mesh_bytes(path)?).map_err(told)?);
         }
         let mut clock = Clock::start_only(Stage::Transfer);
-        let mapped = self.mapped();
-        let mut transfer = DeformationTransfer::new(mapped.meshes(), mapped.map, self.direction, &mut clock)?;
-        for (number, (shape, path)) in shapes.iter().zip(paths).enumerate() {
-            let moved = transfer.moved(shape, &mut clock).map_err(|e| of_file(path, &e))?;
-            let positions = frames::of_file(self.receiver(), &moved);
-            let bytes = export::obj::polygons(&positions, self.receiver().polygons());
+        let mut motion = self.by.motion(&mut clock)?;
+        for (number, shape) in shapes.iter().enumerate() {
+            let bytes = motion.moved(number, shape, &mut clock).map_err(told)?;
             outputs::write(&self.arguments.out.join(frame_name(number)), &bytes)?;
         }
         Ok(())
@@ -180,7 +160,7 @@ impl<'a> Transfer<'a> {
 
     fn shapes(&self) -> Result<(), Failure> {
         let out = &self.arguments.out;
-        let mapped = self.mapped();
+        let mapped = self.mapped;
         let mut reports = serde_json::Map::new();
         for (direction, kind) in
             [Direction::SourceToTarget, Direction::TargetToSource].into_iter().zip(SHAPES)
@@ -196,17 +176,10 @@ impl<'a> Transfer<'a> {
         outputs::write(&out.join(SHAPE_REPORT), &serde_json::to_vec_pretty(&reports)?)
     }
 
-    fn curves(&self, path: &Path, format: &str) -> Result<(), Failure> {
+    fn curves(&self, path: &Path, format: CurveFormat) -> Result<(), Failure> {
         let bytes = input::bytes(path)?;
-        let given = curve_file::read(&bytes, self.giver().file_vertices()).map_err(|e| of_file(path, &e))?;
         let mut clock = Clock::start_only(Stage::Transfer);
-        let carried = curves::of_files(self.mapped(), self.direction, &given, &mut clock)
-            .map_err(|e| of_file(path, &e))?;
-        let bytes = match format {
-            "obj" => export::curves::obj(&carried),
-            "csv" => export::curves::csv(self.direction, &carried),
-            _ => export::curves::json(self.direction, &carried),
-        };
-        outputs::write(&self.arguments.out, &bytes)
+        let carried = self.by.curves(&bytes, format, &mut clock).map_err(|e| self.told(&e, &[path]))?;
+        outputs::write(&self.arguments.out, &carried)
     }
 }

@@ -2,7 +2,7 @@
 //! calls the first one `vertex`, `source_vertex` or `target_vertex`, that column has the vertex numbers and lines may come in any
 //! order. What follows `#` is left out. A vertex that no face uses needs no values.
 
-use super::content::{Column, Heading, Rows, VertexTable};
+use super::content::{AnnouncedColumn, Column, Heading, Rows, VertexTable};
 use super::number_type::NumberType;
 use crate::io::problem::{Place, Problem};
 use crate::io::reading::{content_lines, number, text};
@@ -23,20 +23,10 @@ pub(super) fn read(bytes: &[u8], vertices: usize) -> Result<VertexTable, Problem
         return Err((Place::Line(1), "the table is empty".to_owned()));
     };
     check_length(first, line)?;
-    let mut names: Vec<String> = line.split(',').map(|name| name.trim().to_owned()).collect();
-    let is_named = names.iter().any(|name| name.parse::<f64>().is_err() && !name.is_empty());
-    let rows = if is_named {
+    let (names, rows) = heading(first, line)?;
+    if !matches!(rows, Rows::InOrder { heading: Heading::Missing }) {
         lines.next();
-        check_names(first, &names)?;
-        if NUMBERS.contains(&names[0].as_str()) {
-            Rows::Numbered(names.remove(0))
-        } else {
-            Rows::InOrder { heading: Heading::Named }
-        }
-    } else {
-        names = (1..=names.len()).map(|k| k.to_string()).collect();
-        Rows::InOrder { heading: Heading::Missing }
-    };
+    }
     if names.len().saturating_mul(vertices) > MAX_VALUES {
         let problem =
             format!("{} columns for {vertices} vertices are more than {MAX_VALUES} values", names.len());
@@ -48,6 +38,39 @@ pub(super) fn read(bytes: &[u8], vertices: usize) -> Result<VertexTable, Problem
         filling.line(line, row, content, &rows)?;
     }
     filling.finish(rows)
+}
+
+/// The names of the columns of values of a table that begins with this line, and how its rows tell their vertex.
+fn heading(number: usize, line: &str) -> Result<(Vec<String>, Rows), Problem> {
+    let mut names: Vec<String> = line.split(',').map(|name| name.trim().to_owned()).collect();
+    let is_named = names.iter().any(|name| name.parse::<f64>().is_err() && !name.is_empty());
+    if !is_named {
+        let numbered = (1..=names.len()).map(|k| k.to_string()).collect();
+        return Ok((numbered, Rows::InOrder { heading: Heading::Missing }));
+    }
+    check_names(number, &names)?;
+    if NUMBERS.contains(&names[0].as_str()) {
+        let rows = Rows::Numbered(names.remove(0));
+        return Ok((names, rows));
+    }
+    Ok((names, Rows::InOrder { heading: Heading::Named }))
+}
+
+/// The columns of values that the first line of a table announces, and whether the line is one of a table at all: it has commas, or
+/// nothing but a number, or a number below it.
+pub(super) fn announced(bytes: &[u8]) -> Result<Option<Vec<AnnouncedColumn>>, Problem> {
+    let text = text(bytes)?;
+    let mut lines = content_lines(&text);
+    let Some((first, line)) = lines.next() else { return Ok(None) };
+    check_length(first, line)?;
+    let is_number = |line: &str| line.trim().parse::<f64>().is_ok();
+    let is_table =
+        line.contains(',') || is_number(line) || lines.next().is_some_and(|(_, line)| is_number(line));
+    if !is_table {
+        return Ok(None);
+    }
+    let column = |name| AnnouncedColumn { name, number_type: NumberType::Double };
+    Ok(Some(heading(first, line)?.0.into_iter().map(column).collect()))
 }
 
 fn check_length(line: usize, content: &str) -> Result<(), Problem> {

@@ -46,6 +46,15 @@ pub struct Column {
     pub values: Vec<Option<f64>>,
 }
 
+/// A column that the beginning of a file announces.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AnnouncedColumn {
+    /// Its name.
+    pub name: String,
+    /// How its numbers are written.
+    pub number_type: NumberType,
+}
+
 /// What is wrong with a table, and where.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{place}: {problem}")]

@@ -8,6 +8,6 @@ mod reading;
 #[cfg(test)]
 mod tests;
 
-pub use content::{Column, Heading, Rows, TableError, VertexTable};
+pub use content::{AnnouncedColumn, Column, Heading, Rows, TableError, VertexTable};
 pub use number_type::NumberType;
-pub use reading::{of_ply, read};
+pub use reading::{announced, of_ply, read};

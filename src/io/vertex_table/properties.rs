@@ -1,10 +1,25 @@
 //! The vertex properties of PLY files, but for the coordinates.
 
-use super::content::{Column, Heading, Rows, VertexTable};
+use super::content::{AnnouncedColumn, Column, Heading, Rows, VertexTable};
 use super::number_type::NumberType;
-use crate::io::ply::vertex_rows;
+use crate::io::ply::{vertex_element, vertex_rows};
 use crate::io::problem::{Place, Problem};
-use ply_rs_bw::ply::{PropertyType, ScalarType};
+use ply_rs_bw::ply::{PropertyDef, PropertyType, ScalarType};
+
+/// The properties that are places, not values.
+const COORDINATES: [&str; 3] = ["x", "y", "z"];
+
+/// What the header announces: the properties that are no lists, but for the coordinates.
+pub(super) fn announced(bytes: &[u8]) -> Result<Vec<AnnouncedColumn>, Problem> {
+    let element = vertex_element(bytes)?;
+    let column = |(name, property): (&String, &PropertyDef)| match &property.data_type {
+        PropertyType::Scalar(scalar_type) if !COORDINATES.contains(&name.as_str()) => {
+            Some(AnnouncedColumn { name: name.clone(), number_type: number_type(scalar_type) })
+        }
+        _ => None,
+    };
+    Ok(element.properties.iter().filter_map(column).collect())
+}
 
 pub(super) fn read(bytes: &[u8], vertices: usize) -> Result<VertexTable, Problem> {
     let (announced, rows) = vertex_rows(bytes)?;
@@ -24,7 +39,7 @@ pub(super) fn read(bytes: &[u8], vertices: usize) -> Result<VertexTable, Problem
             PropertyType::Scalar(scalar_type) => number_type(scalar_type),
         };
         number += 1;
-        if ["x", "y", "z"].contains(&name.as_str()) {
+        if COORDINATES.contains(&name.as_str()) {
             continue;
         }
         let mut values = Vec::with_capacity(vertices);

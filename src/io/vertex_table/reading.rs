@@ -1,6 +1,6 @@
 //! Tables told by their content.
 
-use super::content::{TableError, VertexTable};
+use super::content::{AnnouncedColumn, TableError, VertexTable};
 use super::{comma_separated, properties};
 use crate::io::problem::{Place, Problem};
 use crate::io::reading::unmarked;
@@ -29,6 +29,19 @@ pub fn read(bytes: &[u8], vertices: usize) -> Result<VertexTable, TableError> {
 pub fn of_ply(bytes: &[u8], vertices: usize) -> Result<VertexTable, TableError> {
     check_size(bytes)?;
     Ok(properties::read(&unmarked(bytes), vertices)?)
+}
+
+/// The columns of values that the beginning of a file announces, whatever mesh they are of, and without reading them: of a PLY file
+/// the vertex properties but for the coordinates and lists, which may be none. `None` where the file is neither PLY nor a table.
+///
+/// # Errors
+/// [`TableError`] that names the line.
+pub fn announced(bytes: &[u8]) -> Result<Option<Vec<AnnouncedColumn>>, TableError> {
+    check_size(bytes)?;
+    if detect(bytes) == Some(Format::Ply) {
+        return Ok(Some(properties::announced(&unmarked(bytes))?));
+    }
+    Ok(comma_separated::announced(bytes)?)
 }
 
 fn check_size(bytes: &[u8]) -> Result<(), Problem> {

@@ -1,0 +1,97 @@
+/** Files that are brought across a map: answers one request, then is thrown away. */
+import { failureOf } from '../compute/messages.ts';
+import { writeArchive } from '../send/archive.ts';
+import init, { bringAcross, givenFile } from '../wasm/core.js';
+import type { Answers, BringFailure, BringMessage, BringRequest, Brought, GivenFileReport } from './messages.ts';
+
+declare const self: DedicatedWorkerGlobalScope;
+
+const LISTENER = {
+  progress: (_stage: string, _sentence: string, share: number): void => {
+    post({ kind: 'progress', share });
+  },
+  relaxes: (): void => undefined,
+  found: (): void => undefined,
+  preview: (): void => undefined,
+  wantsResult: (): boolean => false,
+};
+
+/** A failure that is not the core's. */
+class Failed extends Error {
+  readonly failure: BringFailure;
+
+  constructor(failure: BringFailure) {
+    super(failure.message);
+    this.failure = failure;
+  }
+}
+
+function post(message: BringMessage, transfer: Transferable[] = []): void {
+  self.postMessage(message, transfer);
+}
+
+/** The file that a failure of the core names. */
+function fileOf(thrown: unknown): BringFailure['file'] {
+  try {
+    const value: unknown = typeof thrown === 'string' ? JSON.parse(thrown) : null;
+    const file = typeof value === 'object' && value !== null && 'file' in value ? value.file : null;
+    return typeof file === 'number' || file === 'source' || file === 'target' ? file : null;
+  } catch {
+    return null;
+  }
+}
+
+async function bytesOf(file: Blob, number: number): Promise<Uint8Array> {
+  try {
+    return new Uint8Array(await file.arrayBuffer());
+  } catch {
+    throw new Failed({ code: 'unreadable', message: 'it could not be read from the disk', file: number });
+  }
+}
+
+/** What each file may hold; one is in memory at a time. */
+async function lookedAt(files: readonly Blob[]): Promise<readonly GivenFileReport[]> {
+  const reports: GivenFileReport[] = [];
+  for (const [number, file] of files.entries()) {
+    const bytes = await bytesOf(file, number);
+    try {
+      reports.push(JSON.parse(givenFile(bytes)) as GivenFileReport);
+    } catch (thrown) {
+      throw new Failed({ ...failureOf(thrown), file: number });
+    }
+    post({ kind: 'progress', share: (number + 1) / files.length });
+  }
+  return reports;
+}
+
+async function brought({ map, source, target, files, wish }: Extract<BringRequest, { kind: 'bring' }>): Promise<Brought> {
+  const given = await Promise.all(files.map(bytesOf));
+  const result = bringAcross(map, source, target, given, JSON.stringify(wish), LISTENER);
+  const count = result.count();
+  const entries = Object.fromEntries(Array.from({ length: count }, (_, k) => [result.name(k), result.take(k)]));
+  const [first] = Object.entries(entries);
+  const remark = result.remark() ?? null;
+  result.free();
+  if (first !== undefined && count === 1) {
+    return { only: first[0], bytes: first[1].slice(), count, remark };
+  }
+  return { only: null, bytes: writeArchive(entries), count, remark };
+}
+
+async function answerTo(request: BringRequest): Promise<Answers[keyof Answers]> {
+  await init({ module_or_path: request.module });
+  return request.kind === 'look' ? lookedAt(request.files) : brought(request);
+}
+
+async function hear(request: BringRequest): Promise<void> {
+  try {
+    const answer = await answerTo(request);
+    post({ kind: 'done', answer }, 'bytes' in answer ? [answer.bytes.buffer] : []);
+  } catch (thrown) {
+    post({ kind: 'failed', failure: thrown instanceof Failed ? thrown.failure : { ...failureOf(thrown), file: fileOf(thrown) } });
+  }
+}
+
+self.addEventListener('message', (event: MessageEvent<BringRequest>) => {
+  void hear(event.data);
+});

@@ -1,0 +1,291 @@
+/** What the user has chosen to bring across, and what becomes of it; it stays while other steps are open. */
+import type { Core } from '../compute/core.ts';
+import { endingOf } from '../named-file.ts';
+import type { Result } from '../store/state.ts';
+import { bringAcross, lookAt } from './client.ts';
+import type { BringFailure, Brought, GivenFileReport, Kind, TransferWhat, TransferWish } from './messages.ts';
+import type { Giver } from './words.ts';
+import { bringSentence, notTogether, receiverOf, savedSentence, WORDS } from './words.ts';
+
+/** What a column holds. */
+export type Role = 'numbers' | 'labels' | 'weights';
+
+type Values = Extract<TransferWhat, { readonly kind: 'values' }>;
+
+/** What is chosen beside the files. */
+export interface Choices {
+  readonly from: Giver;
+  readonly method: Values['method'];
+  /** What all columns hold, or each its own. */
+  readonly columns: Role | 'own';
+  /** What each column holds where each has its own; numbers where none is told. */
+  readonly roles: ReadonlyMap<string, Role>;
+  readonly valueFormat: Values['format'];
+  readonly curveFormat: Extract<TransferWhat, { readonly kind: 'curves' }>['format'];
+  /** Texels in a row of a baked picture. */
+  readonly size: number;
+}
+
+/** Files that were looked at. */
+export interface Given {
+  readonly files: readonly File[];
+  /** What they may be taken for; at least one. */
+  readonly kinds: readonly Kind[];
+  readonly kind: Kind;
+  readonly columns: readonly string[];
+}
+
+/** A file that came. */
+export interface MadeFile {
+  readonly name: string;
+  readonly bytes: Uint8Array<ArrayBuffer>;
+  readonly sentence: string;
+}
+
+export interface DeskState {
+  /** What is done now, with the share of it that is done; `null` for nothing. */
+  readonly work: { readonly kind: 'looking' | 'bringing'; readonly share: number } | null;
+  readonly given: Given | null;
+  readonly choices: Choices;
+  /** Why the last wish was not met; `null` where it was. */
+  readonly error: string | null;
+  /** What came last. */
+  readonly made: MadeFile | null;
+}
+
+/** What the page lends. */
+export interface DeskHands {
+  readonly core: () => Core | null;
+  /** The map of the meshes on the page. */
+  readonly shown: () => Result | null;
+  readonly save: (file: MadeFile) => void;
+}
+
+/** Bytes of all files together, at most. */
+const MOST_BYTES = 2 ** 30;
+
+const BEGINNING: DeskState = {
+  work: null,
+  given: null,
+  choices: { from: 'target', method: 'projection', columns: 'numbers', roles: new Map(), valueFormat: 'csv', curveFormat: 'json', size: 1024 },
+  error: null,
+  made: null,
+};
+
+/** What the files may be taken for together; a sentence where there is nothing. */
+function together(files: readonly File[], reports: readonly GivenFileReport[]): Given | string {
+  const [first] = reports;
+  const [kind] = first?.kinds ?? [];
+  if (first === undefined || kind === undefined) {
+    return notTogether(files[0]?.name ?? '');
+  }
+  if (files.length === 1) {
+    return { files, kinds: first.kinds, kind, columns: first.columns };
+  }
+  const other = reports.findIndex(({ kinds }) => !kinds.includes('frames'));
+  return other === -1 ? { files, kinds: ['frames'], kind: 'frames', columns: [] } : notTogether(files[other]?.name ?? '');
+}
+
+/** What is asked of the core for these choices. */
+export function wishOf({ kind, columns }: Pick<Given, 'kind' | 'columns'>, choices: Choices): TransferWish {
+  const having = (role: Role): string[] => columns.filter((name) => (choices.columns === 'own' ? choices.roles.get(name) : choices.columns) === role);
+  const { from, method, valueFormat, curveFormat, size } = choices;
+  switch (kind) {
+    case 'values':
+      return { from, what: { kind, method, labels: having('labels'), weights: having('weights'), format: valueFormat } };
+    case 'curves':
+      return { from, what: { kind, format: curveFormat } };
+    case 'texture':
+      return { from, what: { kind, size } };
+    case 'frames':
+      return { from, what: { kind } };
+  }
+}
+
+/** The name under which something is saved that came of a file. */
+function savedName(given: string, { only }: Brought, giver: Giver): string {
+  const stem = given.replace(/\.[^.]*$/, '');
+  return only === null ? `${stem}-and-others-on-${receiverOf(giver)}.zip` : `${stem}-on-${receiverOf(giver)}.${endingOf(only)}`;
+}
+
+/** Holds all of it, and the worker. */
+export class Desk {
+  readonly #hands: DeskHands;
+  #state = BEGINNING;
+  #listeners = new Set<() => void>();
+  #end = (): void => undefined;
+  /** The map by which something is being brought. */
+  #by: Result | null = null;
+
+  constructor(hands: DeskHands) {
+    this.#hands = hands;
+  }
+
+  get state(): DeskState {
+    return this.#state;
+  }
+
+  subscribe(listener: () => void): () => void {
+    this.#listeners.add(listener);
+    return () => {
+      this.#listeners.delete(listener);
+    };
+  }
+
+  choose(choices: Partial<Choices>): void {
+    this.#set({ choices: { ...this.#state.choices, ...choices } });
+  }
+
+  /** Takes the files for something else that they may be. */
+  takeFor(kind: Kind): void {
+    const { given } = this.#state;
+    if (given?.kinds.includes(kind) === true) {
+      this.#set({ given: { ...given, kind } });
+    }
+  }
+
+  /** Looks at files; those before stay until it is known what these are. */
+  take(files: readonly File[]): void {
+    const core = this.#begin('looking');
+    const large = files.find(({ size }) => size > MOST_BYTES);
+    if (large !== undefined) {
+      this.#fail(`${large.name} ${WORDS.tooLarge}`);
+    } else if (files.reduce((sum, { size }) => sum + size, 0) > MOST_BYTES) {
+      this.#fail(WORDS.tooMuch);
+    } else if (core !== null) {
+      this.#end = lookAt({ module: core, files }, {
+        progress: this.#progress,
+        done: (reports) => {
+          this.#looked(files, reports);
+        },
+        failed: (failure) => {
+          this.#failed(failure, files);
+        },
+      });
+    }
+  }
+
+  /** Brings the files across, and saves what comes. */
+  bring(): void {
+    const { given, choices } = this.#state;
+    if (given !== null) {
+      this.#ask(given.files, wishOf(given, choices), (brought) => savedName(given.files[0]?.name ?? 'file', brought, choices.from));
+    }
+  }
+
+  /** Makes each mesh in the shape of the other, with distances, and saves them. */
+  bringShapes(): void {
+    this.#ask([], { from: this.#state.choices.from, what: { kind: 'shapes' } }, () => 'shapes.zip');
+  }
+
+  /** Saves once more what came last. */
+  saveAgain(): void {
+    const { made } = this.#state;
+    if (made !== null) {
+      this.#hands.save(made);
+    }
+  }
+
+  /** Ends what is done now; files and choices stay. */
+  cancel(): void {
+    this.#end();
+    this.#set({ work: null });
+  }
+
+  /** Leaves what is being brought by another map than that on the page. */
+  follow(): void {
+    if (this.#state.work?.kind === 'bringing' && this.#hands.shown() !== this.#by) {
+      this.#end();
+      this.#fail(WORDS.mapChanged);
+    }
+  }
+
+  /** Ends what was done before; the core, or `null` where it is missing, which is told. */
+  #begin(kind: 'looking' | 'bringing'): Core | null {
+    this.#end();
+    this.#end = () => undefined;
+    const core = this.#hands.core();
+    this.#set(core === null ? { work: null, error: WORDS.noCore } : { work: { kind, share: 0 }, error: null });
+    return core;
+  }
+
+  #ask(files: readonly File[], wish: TransferWish, name: (brought: Brought) => string): void {
+    const result = this.#hands.shown();
+    const [source, target] = result?.inputs.meshes ?? [];
+    const map = result?.output.map ?? null;
+    if (map === null || source === null || source === undefined || target === null || target === undefined) {
+      return;
+    }
+    const core = this.#begin('bringing');
+    this.#by = result;
+    this.#set({ made: null });
+    if (core === null) {
+      return;
+    }
+    const request = { module: core, files, wish, map, source: source.bytes, target: target.bytes };
+    this.#end = bringAcross(request, {
+      progress: this.#progress,
+      done: (brought) => {
+        this.#came(brought, name(brought));
+      },
+      failed: (failure) => {
+        this.#failed(failure, files, { source: source.name, target: target.name });
+      },
+    });
+  }
+
+  readonly #progress = (share: number): void => {
+    const { work } = this.#state;
+    if (work !== null) {
+      this.#set({ work: { ...work, share } });
+      this.follow();
+    }
+  };
+
+  #looked(files: readonly File[], reports: readonly GivenFileReport[]): void {
+    const given = together(files, reports);
+    if (typeof given === 'string') {
+      this.#fail(given);
+      return;
+    }
+    const valueFormat = endingOf(files[0]?.name ?? '') === 'ply' ? 'ply' : 'csv';
+    const { choices } = this.#state;
+    // What was said of columns goes with them.
+    const isSame = given.columns.join() === this.#state.given?.columns.join();
+    const columns = isSame ? {} : ({ columns: 'numbers', roles: new Map<string, Role>() } as const);
+    this.#set({ work: null, given, made: null, choices: { ...choices, valueFormat, ...columns } });
+  }
+
+  #came(brought: Brought, name: string): void {
+    this.follow();
+    if (this.#state.work === null) {
+      return;
+    }
+    const remark = brought.remark === null ? '' : ` ${brought.remark.charAt(0).toUpperCase()}${brought.remark.slice(1)}.`;
+    const made = { name, bytes: brought.bytes, sentence: `${savedSentence(name, brought.count)}${remark}` };
+    this.#set({ work: null, made });
+    this.#hands.save(made);
+  }
+
+  #failed(failure: BringFailure, files: readonly File[], meshes: Readonly<Record<Giver, string>> = { source: 'source', target: 'target' }): void {
+    console.error(failure);
+    this.#fail(
+      bringSentence(
+        failure,
+        files.map(({ name }) => name),
+        meshes,
+      ),
+    );
+  }
+
+  #fail(error: string): void {
+    this.#set({ work: null, error });
+  }
+
+  #set(change: Partial<DeskState>): void {
+    this.#state = { ...this.#state, ...change };
+    this.#listeners.forEach((listener) => {
+      listener();
+    });
+  }
+}
