@@ -6,10 +6,13 @@ pub mod attributes;
 mod cells;
 pub mod curves;
 pub mod deformation;
+mod face_turns;
 pub mod frames;
 mod gradients;
 mod mapped_files;
 mod mass;
+pub mod morph;
+mod poisson;
 pub mod shape;
 #[cfg(test)]
 mod tests;
