@@ -5,6 +5,7 @@ use crate::scene::buffers::unit_ball;
 use crate::scene::colours::{SCALE_END, distortion_scale, factor_scale};
 use crate::scene::defects::MarkedLineVertex;
 use crate::scene::looks::levels;
+use crate::scene::morph::bend_weights;
 use crate::scene::{LineVertex, MarkerInstance, PinInstance, Pose, SurfaceVertex};
 use glam::Mat4;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -82,6 +83,8 @@ pub struct ViewDraw<'a> {
     pub line_half_width: f32,
     /// Share of the way that every vertex of the surface has gone to its image.
     pub morph: f32,
+    /// The length for which 1 stands in the bends of that way; 0 where it is straight.
+    pub bend_range: f32,
     /// From the images' coordinates to the view's.
     pub world_from_image: Mat4,
     /// Share of the view's width, from the left, in which the surface is plain and has no lines.
@@ -216,6 +219,7 @@ impl Renderer {
             push(bytes, &v.image_normal);
             push(bytes, &[v.hollow]);
             bytes.extend_from_slice(&v.tint);
+            bytes.extend(v.bends.as_flattened().iter().flat_map(|x| x.to_le_bytes()));
         };
         mesh(&self.device, &packed(vertices, floats), indices)
     }
@@ -330,6 +334,7 @@ impl Renderer {
             Paint::Factors(share) => (share, factor_scale()),
             _ => (0.0, distortion_scale()),
         };
+        let [first, second, third] = bend_weights(view.morph);
         ViewUniform {
             clip_from_world: pose.view_projection(width / height.max(1.0)).to_cols_array_2d(),
             world_from_image: view.world_from_image.to_cols_array_2d(),
@@ -344,6 +349,7 @@ impl Renderer {
             pattern_dark: with_alpha(palette.pattern[1]),
             rim: with_alpha(palette.rim),
             wipe: [left + view.wipe * width, view.dash, share, 0.0],
+            bends: [first, second, third, view.bend_range],
             scale: scale.map(with_alpha),
         }
     }

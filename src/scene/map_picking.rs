@@ -22,6 +22,10 @@ pub struct MapPlace {
     pub positions: [DVec3; 2],
     /// Distortion of the map there, 1 for none; `None` where it is not known.
     pub distortion: Option<f64>,
+    /// The points of its triangle.
+    pub corners: [u32; 3],
+    /// Its shares of them.
+    pub weights: [f64; 3],
 }
 
 impl MapPicker {
@@ -72,7 +76,8 @@ impl MapPicker {
         let known = |v: u32| self.distortion.get(v as usize).map(|&d| f64::from(d));
         let [a, b, c] = triangle.map(known);
         let distortion = a.zip(b).zip(c).map(|((a, b), c)| a * weights[0] + b * weights[1] + c * weights[2]);
-        MapPlace { positions: [0, 1].map(|side| blend(self.corners(side, triangle))), distortion }
+        let positions = [0, 1].map(|side| blend(self.corners(side, triangle)));
+        MapPlace { positions, distortion, corners: triangle, weights }
     }
 }
 

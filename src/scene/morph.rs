@@ -26,6 +26,11 @@ pub type PackedBends = [[i16; 4]; KEYS.len()];
 /// The largest turn that is packed, in radians; beyond it only shading is wrong.
 pub const TURN_RANGE: f64 = 4.0 * PI;
 
+/// The weights of the bends at a time from 0 to 1.
+pub fn bend_weights(time: f32) -> [f32; KEYS.len()] {
+    weights(f64::from(time)).map(|weight| weight as f32)
+}
+
 /// How points are off their straight ways, packed for the graphics card.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PackedWay {
@@ -50,11 +55,16 @@ impl PackedWay {
         Self { range, points: bends.iter().zip(turns).map(point).collect() }
     }
 
+    /// The bends of a point; none of one that there is not.
+    pub fn at(&self, point: usize) -> PackedBends {
+        self.points.get(point).copied().unwrap_or_default()
+    }
+
     /// How far a point of a triangle is off its straight way at a time from 0 to 1.
     pub fn bend(&self, corners: [u32; 3], share: [f64; 3], time: f32) -> Vec3 {
         let by_key = weights(f64::from(time));
         let at = |v: u32| -> DVec3 {
-            let Some(packed) = self.points.get(v as usize) else { return DVec3::ZERO };
+            let packed = self.at(v as usize);
             let key = |k: usize| {
                 let [x, y, z, _] = packed[k].map(f64::from);
                 DVec3::new(x, y, z) * by_key[k]
@@ -74,13 +84,17 @@ mod tests {
 
     #[test]
     fn bends_are_unpacked_as_they_were() {
-        let bends = [[DVec3::X * 3.0, DVec3::Y, DVec3::new(-0.1, 0.2, -3.0)], [DVec3::Z; 3], [DVec3::ZERO; 3]];
+        let bends =
+            [[DVec3::X * 3.0, DVec3::Y, DVec3::new(-0.1, 0.2, -3.0)], [DVec3::Z; 3], [DVec3::ZERO; 3]];
         let way = PackedWay::new(&bends, &[DVec3::new(PI, 0.0, -PI), DVec3::ZERO, DVec3::ZERO]);
         assert_eq!(way.range, 3.0);
         assert_eq!(way.points[0].map(|key| key[3]), [8192, 0, -8192]);
         for (k, key) in KEYS.into_iter().enumerate() {
             let there = bends[0][k] * 0.25 + bends[1][k] * 0.75;
-            assert!(way.bend([0, 1, 2], [0.25, 0.75, 0.0], key as f32).as_dvec3().distance(there) < 1e-4, "{key}");
+            assert!(
+                way.bend([0, 1, 2], [0.25, 0.75, 0.0], key as f32).as_dvec3().distance(there) < 1e-4,
+                "{key}"
+            );
         }
         assert_eq!(way.bend([0, 1, 2], [0.2, 0.3, 0.5], 1.0), Vec3::ZERO);
         // Nothing is packed of a way that is straight.

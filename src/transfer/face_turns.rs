@@ -33,7 +33,8 @@ pub fn face_turns(mesh: &SurfaceMesh, gradients: &TiSlice<FaceId, DMat3>) -> TiV
             continue;
         }
         is_done[face] = true;
-        turns[face] = rotations[face].map_or(turns[before], |rotation| nearest_turn(&rotation, turns[before]));
+        turns[face] =
+            rotations[face].map_or(turns[before], |rotation| nearest_turn(&rotation, turns[before]));
         for h in face.halfedges() {
             let other = mesh.twin(h).face();
             if !is_done[other] {
@@ -49,7 +50,8 @@ pub fn face_turns(mesh: &SurfaceMesh, gradients: &TiSlice<FaceId, DMat3>) -> TiV
 
 /// The face with the smallest turn.
 fn least_turned(rotations: &TiSlice<FaceId, Option<DMat3>>) -> Option<FaceId> {
-    let sizes = rotations.iter_enumerated().filter_map(|(f, r)| Some((f, unlikeness(&DMat3::IDENTITY, r.as_ref()?))));
+    let sizes =
+        rotations.iter_enumerated().filter_map(|(f, r)| Some((f, unlikeness(&DMat3::IDENTITY, r.as_ref()?))));
     sizes.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(f, _)| f)
 }
 

@@ -198,7 +198,7 @@ mod tests {
         let round = |p: &DVec3| {
             // By height on the ball, so that rings are as far from each other in the middle as along it.
             let along = 5.0 * (1.0 + p.x);
-            let radius = 0.5 * (p.y * p.y + p.z * p.z).sqrt().max(1e-12).powf(0.25);
+            let radius = 0.5 * (p.y * p.y + p.z * p.z).sqrt().max(1e-12).sqrt().sqrt();
             let around = DVec3::new(0.0, p.y, p.z).normalize_or_zero() * radius;
             DVec3::new(along, around.y, around.z)
         };
@@ -250,7 +250,8 @@ mod tests {
         for (angle, least) in [(FRAC_PI_2, 0.25), (PI, 0.9), (1.5 * PI, 0.9)] {
             let end = bent(&bar, angle);
             let shape = Morph::new(&bar, &end).shape(0.5, &mut Silent).unwrap();
-            let (on_lines, bends) = (worst_edge(&bar, &end, &straight(&bar, &end, 0.5)), worst_edge(&bar, &end, &shape));
+            let (on_lines, bends) =
+                (worst_edge(&bar, &end, &straight(&bar, &end, 0.5)), worst_edge(&bar, &end, &shape));
             assert!(on_lines > least && bends < 0.05, "{angle}: {on_lines} on straight lines, {bends} bent");
         }
     }

@@ -38,6 +38,7 @@ pub fn run(arguments: &TransferArguments) -> Result<(), Failure> {
         (Some(_), _, _) => ending(out, &["csv", "ply"])?,
         (_, Some(_), _) => ending(out, &["json", "csv", "obj"])?,
         (_, _, Some(_)) => ending(out, &["png"])?,
+        _ if arguments.morph => ending(out, &["glb"])?,
         _ => "",
     };
     outputs::check(inputs(arguments), outputs_of(arguments))?;
@@ -52,6 +53,9 @@ pub fn run(arguments: &TransferArguments) -> Result<(), Failure> {
         transfer.texture(path)
     } else if arguments.shape {
         transfer.shapes()
+    } else if arguments.morph {
+        let bytes = open.taken().morph_glb(&mut Clock::start_only(Stage::Transfer))?;
+        outputs::write(out, &bytes)
     } else {
         transfer.motions()
     }

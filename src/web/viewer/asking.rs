@@ -105,6 +105,7 @@ impl Viewer {
 
 impl Viewer {
     fn show_probe(&mut self, place: MapPlace) -> Option<String> {
+        self.probed = Some((place.corners, place.weights));
         let mut points = Vec::new();
         for (side, position) in self.sides.iter_mut().zip(place.positions) {
             let mesh = side.mesh.as_ref()?;
