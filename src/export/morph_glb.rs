@@ -202,7 +202,7 @@ mod tests {
         let places: Vec<DVec3> = mesh.positions().iter().map(|p| *p + DVec3::X * 3.0).collect();
         let turned =
             |time: f64| -> Vec<DVec3> { places.iter().map(|p| turned_by(turn * time) * *p).collect() };
-        let normals = mesh.positions().raw.clone();
+        let normals = mesh.positions().raw.to_vec();
         let [ends, end_normals] = [turned(1.0), normals.iter().map(|n| turned_by(turn) * *n).collect()];
         let bend = |k: usize| KEYS.map(|key| turned(key)[k] - places[k].lerp(ends[k], key));
         let bends: Vec<_> = (0..places.len()).map(bend).collect();
