@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn turns_are_told_by_their_vectors() {
-        for vector in [DVec3::ZERO, DVec3::new(1e-9, 0.0, 0.0), DVec3::new(0.4, -0.7, 1.1), DVec3::Y * 3.14] {
+        for vector in [DVec3::ZERO, DVec3::new(1e-9, 0.0, 0.0), DVec3::new(0.4, -0.7, 1.1), DVec3::Y * 3.1] {
             let rotation = turned_by(vector);
             assert!((rotation * rotation.transpose()).abs_diff_eq(DMat3::IDENTITY, 1e-14));
             assert!(turn_of(&rotation).distance(vector) < 1e-9, "{vector}");
