@@ -6,6 +6,7 @@ import { browserWith, Keeper } from './app/keep.ts';
 import { listenForLeaving, listenForProposal, listenForUndo } from './app/keys.ts';
 import { saveLandmarks } from './app/landmarks.ts';
 import { mark } from './app/mark.ts';
+import { bendMorphs } from './app/morph.ts';
 import { Links } from './app/links.ts';
 import { Maps } from './app/maps.ts';
 import { followDemo, freeForgotten, openDemo, showOwnLink } from './app/open.ts';
@@ -49,6 +50,13 @@ const maps = new Maps(store, () => runner.core);
 const finder = new Finder(store, () => runner.core);
 const comparer = new Comparer(store, () => runner.core);
 new Flattener(store, () => runner.core);
+const wantWay = bendMorphs(
+  store,
+  () => runner.core,
+  (output, way) => {
+    views.takeWay(output, way);
+  },
+);
 /** Reloads the page into its newer build, when there is one. */
 let reload = (): void => undefined;
 const keeper = new Keeper(store, browserWith(reader));
@@ -143,6 +151,7 @@ const actions: Actions = {
     turn(side, command);
   },
   morph: (share) => {
+    wantWay();
     views.morph(share);
   },
   baseView: {

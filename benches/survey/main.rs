@@ -35,6 +35,7 @@ mod hostile;
 mod job_files;
 mod matched;
 mod memory;
+mod morph;
 mod pairs;
 mod remesh;
 mod remeshed;
@@ -121,6 +122,11 @@ const SURVEYS: &[Survey] = &[
         name: "structures",
         about: "each demo's flows by each discrete conformal structure; --pairs NAME,...",
         run: structures::table,
+    },
+    Survey {
+        name: "morph",
+        about: "shapes half-way between each demo's meshes, on straight lines and bent; --pairs NAME,...",
+        run: morph::table,
     },
     Survey {
         name: "stages",

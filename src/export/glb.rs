@@ -98,21 +98,21 @@ pub fn textured_source(
 
 /// Where the node lies: a surface far from the origin has its own origin in the node, so that its positions keep all 24 bits of f32
 /// for its shape.
-struct NodePlace {
+pub(super) struct NodePlace {
     /// The node's origin, in the source's coordinates.
     origin: DVec3,
     frame: FileFrame,
 }
 
 impl NodePlace {
-    fn of(positions: &[DVec3], frame: FileFrame) -> Self {
+    pub(super) fn of(positions: &[DVec3], frame: FileFrame) -> Self {
         let [low, high] = box_of(positions);
         let (middle, size) = (0.5 * (low + high), (high - low).max_element());
         let is_far = middle.abs().max_element() > size && middle.is_finite();
         Self { origin: if is_far { middle } else { DVec3::ZERO }, frame }
     }
 
-    fn local(&self, positions: &[DVec3]) -> Vec<DVec3> {
+    pub(super) fn local(&self, positions: &[DVec3]) -> Vec<DVec3> {
         positions.iter().map(|p| *p - self.origin).collect()
     }
 
@@ -136,7 +136,7 @@ impl NodePlace {
         positions.iter().map(|p| *p - middle).collect()
     }
 
-    fn json(&self) -> serde_json::Value {
+    pub(super) fn json(&self) -> serde_json::Value {
         let mut node = json!({ "mesh": 0, "name": "source" });
         let translation = self.frame.in_file(self.origin);
         if translation != DVec3::ZERO {
@@ -157,26 +157,26 @@ fn box_of(positions: &[DVec3]) -> [DVec3; 2] {
 }
 
 /// Two squares of the board make one period of the texture.
-fn square_uvs(uv: DVec2) -> [f32; 2] {
+pub(super) fn square_uvs(uv: DVec2) -> [f32; 2] {
     (uv * (0.5 * SQUARES)).to_array().map(|x| x as f32)
 }
 
-fn flat(points: &[DVec3]) -> Vec<f32> {
+pub(super) fn flat(points: &[DVec3]) -> Vec<f32> {
     points.iter().flat_map(|p| p.to_array().map(|x| x as f32)).collect()
 }
 
 /// What is added to numbers in f32 to give points.
-fn difference(points: &[DVec3], from: &[f32]) -> Vec<f32> {
+pub(super) fn difference(points: &[DVec3], from: &[f32]) -> Vec<f32> {
     let there = points.iter().flat_map(|p| p.to_array());
     there.zip(from).map(|(there, &here)| (there - f64::from(here)) as f32).collect()
 }
 
-fn floats(values: &[f32]) -> Vec<u8> {
+pub(super) fn floats(values: &[f32]) -> Vec<u8> {
     values.iter().flat_map(|x| x.to_le_bytes()).collect()
 }
 
 /// Lowest and highest coordinates.
-fn bounds(positions: &[f32]) -> [[f32; 3]; 2] {
+pub(super) fn bounds(positions: &[f32]) -> [[f32; 3]; 2] {
     let fold = |start: f32, pick: fn(f32, f32) -> f32| {
         positions
             .chunks_exact(3)
@@ -186,13 +186,13 @@ fn bounds(positions: &[f32]) -> [[f32; 3]; 2] {
 }
 
 #[derive(Default)]
-struct Body {
-    bytes: Vec<u8>,
+pub(super) struct Body {
+    pub(super) bytes: Vec<u8>,
 }
 
 impl Body {
     /// Appends a view, aligned to 4 bytes.
-    fn push(&mut self, data: &[u8], target: Option<u32>) -> serde_json::Value {
+    pub(super) fn push(&mut self, data: &[u8], target: Option<u32>) -> serde_json::Value {
         let offset = self.bytes.len();
         self.bytes.extend_from_slice(data);
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
@@ -204,7 +204,7 @@ impl Body {
     }
 }
 
-fn assemble(mut document: Vec<u8>, body: Vec<u8>) -> Vec<u8> {
+pub(super) fn assemble(mut document: Vec<u8>, body: Vec<u8>) -> Vec<u8> {
     document.resize(document.len().next_multiple_of(4), b' ');
     let total = 12 + 8 + document.len() + 8 + body.len();
     let mut bytes = Vec::with_capacity(total);
@@ -220,7 +220,7 @@ fn assemble(mut document: Vec<u8>, body: Vec<u8>) -> Vec<u8> {
 }
 
 /// Two by two squares, 64 pixels each.
-fn checkerboard() -> Result<Vec<u8>, png::EncodingError> {
+pub(super) fn checkerboard() -> Result<Vec<u8>, png::EncodingError> {
     const SIZE: u32 = 128;
     let shade =
         |x: u32, y: u32| if (x < SIZE / 2) == (y < SIZE / 2) { [240, 240, 235] } else { [52, 98, 140] };

@@ -6,6 +6,7 @@ pub mod flat_sheet;
 pub mod glb;
 pub mod layout;
 mod mesh_format;
+pub mod morph_glb;
 pub mod obj;
 pub mod off;
 pub mod picture;

@@ -24,6 +24,7 @@ pub(super) struct ViewUniform {
     pub rim: [f32; 4],
     pub wipe: [f32; 4],
     pub cells: [f32; 4],
+    pub bends: [f32; 4],
     pub scale: [[f32; 4]; SCALE_COLOURS],
 }
 
@@ -43,6 +44,7 @@ impl ViewUniform {
             &self.rim,
             &self.wipe,
             &self.cells,
+            &self.bends,
         ];
         let rows = self.clip_from_world.iter().chain(&self.world_from_image).chain(single).chain(&self.scale);
         rows.flatten().flat_map(|x| x.to_le_bytes()).collect()
@@ -159,7 +161,7 @@ impl Pipelines {
         let workshop = Workshop { device, shader, layout, format, samples };
         let surface = wgpu::vertex_attr_array![
             0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Float32, 4 => Float32x3, 5 => Float32x3, 6 => Float32,
-            7 => Unorm8x4
+            7 => Unorm8x4, 8 => Snorm16x4, 9 => Snorm16x4, 10 => Snorm16x4
         ];
         let surface = [Some(stepping(wgpu::VertexStepMode::Vertex, size_of::<SurfaceVertex>(), &surface))];
         let line = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32];

@@ -5,6 +5,7 @@ use crate::scene::buffers::unit_ball;
 use crate::scene::colours::{factor_scale, rising_scale};
 use crate::scene::defects::MarkedLineVertex;
 use crate::scene::looks::levels;
+use crate::scene::morph::bend_weights;
 use crate::scene::{LineVertex, MarkerInstance, PinInstance, Pose, SurfaceVertex};
 use glam::Mat4;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -115,6 +116,8 @@ pub struct ViewDraw<'a> {
     pub line_half_width: f32,
     /// Share of the way that every vertex of the surface has gone to its image.
     pub morph: f32,
+    /// The length for which 1 stands in the bends of that way; 0 where it is straight.
+    pub bend_range: f32,
     /// From the images' coordinates to the view's.
     pub world_from_image: Mat4,
     /// Share of the view's width, from the left, in which the surface is plain and has no lines.
@@ -249,6 +252,7 @@ impl Renderer {
             push(bytes, &v.image_normal);
             push(bytes, &[v.hollow]);
             bytes.extend_from_slice(&v.tint);
+            bytes.extend(v.bends.as_flattened().iter().flat_map(|x| x.to_le_bytes()));
         };
         mesh(&self.device, &packed(vertices, floats), indices)
     }
@@ -368,6 +372,7 @@ impl Renderer {
             Paint::Texture(Texture { kind, cells }) => (f32::from(kind as u8), cells),
             _ => (0.0, [0.0; 4]),
         };
+        let [first, second, third] = bend_weights(view.morph);
         ViewUniform {
             clip_from_world: pose.view_projection(width / height.max(1.0)).to_cols_array_2d(),
             world_from_image: view.world_from_image.to_cols_array_2d(),
@@ -383,6 +388,7 @@ impl Renderer {
             rim: with_alpha(palette.rim),
             wipe: [left + view.wipe * width, view.dash, share, 0.0],
             cells,
+            bends: [first, second, third, view.bend_range],
             scale: scale.map(with_alpha),
         }
     }

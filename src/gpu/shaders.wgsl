@@ -33,6 +33,8 @@ struct View {
     wipe: vec4<f32>,
     // From texture coordinates to cells of the texture: xy the axis of the first coordinate, zw where the origin lies.
     cells: vec4<f32>,
+    // xyz: the weights of the bends of the way to the image at this moment; w: the length for which 1 stands in them.
+    bends: vec4<f32>,
     // rgb: the colours of the scale.
     scale: array<vec4<f32>, 10>,
 };
@@ -54,6 +56,16 @@ struct SurfaceOut {
     @location(5) tint: vec4<f32>,
 };
 
+// The largest turn that a vertex is told, in radians.
+const TURN_RANGE: f32 = 12.5663706;
+
+// A vector turned about an axis by an angle: together the turn (Rodrigues).
+fn turned(v: vec3<f32>, turn: vec3<f32>) -> vec3<f32> {
+    let angle = length(turn);
+    let axis = turn / max(angle, 1e-6);
+    return v * cos(angle) + cross(axis, v) * sin(angle) + axis * dot(axis, v) * (1.0 - cos(angle));
+}
+
 @vertex
 fn surface_vertex(
     @location(0) position: vec3<f32>,
@@ -64,17 +76,24 @@ fn surface_vertex(
     @location(5) image_normal: vec3<f32>,
     @location(6) hollow: f32,
     @location(7) tint: vec4<f32>,
+    // xyz: how far the vertex is off its straight way at three moments; w: x, y and z of its turn over the whole way.
+    @location(8) first_bend: vec4<f32>,
+    @location(9) second_bend: vec4<f32>,
+    @location(10) third_bend: vec4<f32>,
 ) -> SurfaceOut {
     let way = view.ways.x;
     let end = (view.world_from_image * vec4<f32>(image, 1.0)).xyz;
     let end_normal = (view.world_from_image * vec4<f32>(image_normal, 0.0)).xyz;
     var out: SurfaceOut;
-    out.world = mix(position, end, way);
+    let weights = view.bends.w * view.bends.xyz;
+    let bend = weights.x * first_bend.xyz + weights.y * second_bend.xyz + weights.z * third_bend.xyz;
+    let turn = TURN_RANGE * vec3<f32>(first_bend.w, second_bend.w, third_bend.w);
+    out.world = mix(position, end, way) + bend;
     if view.size_and_style.z > 5.5 && view.size_and_style.z < 6.5 {
         out.world = mix(out.world, view.eye.xyz, 0.0012);
     }
     out.clip = view.clip_from_world * vec4<f32>(out.world, 1.0);
-    out.normal = mix(normal, end_normal, way);
+    out.normal = mix(turned(normal, way * turn), turned(end_normal, (way - 1.0) * turn), way);
     out.uv = uv;
     out.values = vec2<f32>(scale_place, hollow);
     out.image = image;

@@ -11,6 +11,7 @@ mod held;
 mod matching;
 mod memory;
 mod mesh_file;
+mod morph;
 mod outputs;
 mod proof;
 mod proof_report;
@@ -30,6 +31,7 @@ pub use matching::{
 };
 pub use memory::{LEAST_MEMORY, MEMORY_PER_FACE, expected_memory};
 pub use mesh_file::{MeshFaults, MeshFileError, ReadMesh, read_mesh};
+pub use morph::{DrawnPoints, DrawnWay, MORPH_FILE, MorphError};
 pub use outputs::OutputFile;
 pub use proof::{ProofError, prove};
 pub use proof_report::{

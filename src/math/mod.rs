@@ -1,6 +1,7 @@
 //! Formulas and small algorithms on numbers. Knows no mesh.
 
 pub mod barycentric;
+pub mod bends;
 pub mod decorated;
 pub mod disjoint_sets;
 pub mod golden;

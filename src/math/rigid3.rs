@@ -1,5 +1,6 @@
-//! Rigid motions of space, small turns and the rotation nearest to a matrix.
+//! Rigid motions of space, turns, and the rotation nearest to a matrix.
 
+use super::scalar::{atan2, cos, sin};
 use glam::{DMat3, DQuat, DVec3};
 
 /// The rigid motion p -> R p + t.
@@ -28,6 +29,67 @@ impl Rigid3 {
 pub fn small_turn(turn: DVec3) -> DMat3 {
     let half = 0.5 * turn;
     DMat3::from_quat(DQuat::from_xyzw(half.x, half.y, half.z, 1.0).normalize())
+}
+
+/// The turn about the axis `turn` by the angle |turn|, in radians.
+pub fn turned_by(turn: DVec3) -> DMat3 {
+    let angle = turn.length();
+    if angle == 0.0 {
+        return DMat3::IDENTITY;
+    }
+    let along = turn * (sin(0.5 * angle) / angle);
+    DMat3::from_quat(DQuat::from_xyzw(along.x, along.y, along.z, cos(0.5 * angle)))
+}
+
+/// The turn of a rotation by at most half a turn: its axis, as long as its angle in radians. [`turned_by`] gives the rotation back.
+pub fn turn_of(rotation: &DMat3) -> DVec3 {
+    let q = DQuat::from_mat3(rotation);
+    let q = if q.w < 0.0 { -q } else { q };
+    let along = DVec3::new(q.x, q.y, q.z);
+    let length = along.length();
+    if length == 0.0 { DVec3::ZERO } else { along * (2.0 * atan2(length, q.w) / length) }
+}
+
+/// The rotation R of the polar decomposition m = R S, with S symmetric and positive definite; `None` where m mirrors, or has lost a
+/// dimension as far as f64 can tell. Newton's method with scaling (Higham, "Computing the polar decomposition - with
+/// applications", 1986), which doubles the right digits with each step.
+pub fn polar_rotation(m: &DMat3) -> Option<DMat3> {
+    const STEPS: usize = 40;
+    const FLATTEST: f64 = 1e-12;
+    let norm = |m: &DMat3| [0, 1, 2].map(|k| m.col(k).length_squared()).iter().sum::<f64>().sqrt();
+    let size = norm(m);
+    let volume = m.determinant();
+    if !(volume.is_finite() && volume > FLATTEST * size * size * size) {
+        return None;
+    }
+    let mut rotation = *m;
+    for _ in 0..STEPS {
+        let inverse = rotation.inverse().transpose();
+        let scale = (norm(&inverse) / norm(&rotation)).sqrt();
+        let next = (rotation * scale + inverse * (1.0 / scale)) * 0.5;
+        let moved = norm(&(next - rotation));
+        rotation = next;
+        // After a step this small the next one is below rounding.
+        if moved < 1e-9 {
+            return Some((rotation + rotation.inverse().transpose()) * 0.5);
+        }
+    }
+    None
+}
+
+/// The rigid motion that brings points nearest to their partners in the sense of least squares (Kabsch 1976).
+pub fn laid_on(points: &[DVec3], partners: &[DVec3]) -> Rigid3 {
+    let mean = |all: &[DVec3]| all.iter().sum::<DVec3>() / all.len().max(1) as f64;
+    let (from, onto) = (mean(points), mean(partners));
+    let pairs = points.iter().zip(partners);
+    let spread: DMat3 = pairs.map(|(p, q)| outer(*q - onto, *p - from)).fold(DMat3::ZERO, |sum, m| sum + m);
+    // From any start the search ends at the best rotation, but for starts a half turn away from it.
+    let starts =
+        [DVec3::ONE, DVec3::new(1.0, -1.0, -1.0), DVec3::new(-1.0, 1.0, -1.0), DVec3::new(-1.0, -1.0, 1.0)];
+    let rotations = starts.map(|diagonal| nearest_rotation(&spread, DMat3::from_diagonal(diagonal)));
+    let agreement = |r: &DMat3| (0..3).map(|k| r.col(k).dot(spread.col(k))).sum::<f64>();
+    let best = rotations.into_iter().max_by(|a, b| agreement(a).total_cmp(&agreement(b)));
+    Rigid3::with_point(best.unwrap_or(DMat3::IDENTITY), from, onto)
 }
 
 /// The matrix u v^T.
@@ -80,6 +142,35 @@ mod tests {
             DMat3::from_cols(DVec3::new(1.5, 0.1, 0.0), DVec3::new(0.1, 1.0, 0.2), DVec3::new(0.0, 0.2, 0.7));
         let found = nearest_rotation(&(turn() * stretch), DMat3::IDENTITY);
         assert!(found.abs_diff_eq(turn(), 1e-6), "{found}");
+    }
+
+    #[test]
+    fn turns_are_told_by_their_vectors() {
+        for vector in [DVec3::ZERO, DVec3::new(1e-9, 0.0, 0.0), DVec3::new(0.4, -0.7, 1.1), DVec3::Y * 3.1] {
+            let rotation = turned_by(vector);
+            assert!((rotation * rotation.transpose()).abs_diff_eq(DMat3::IDENTITY, 1e-14));
+            assert!(turn_of(&rotation).distance(vector) < 1e-9, "{vector}");
+        }
+        let axis = DVec3::new(2.0, 1.0, -2.0) / 3.0;
+        let (p, along) = (DVec3::new(0.3, 2.0, -1.0), axis * axis.dot(DVec3::new(0.3, 2.0, -1.0)));
+        // Rodrigues' formula.
+        let expected = along + (p - along) * cos(2.0) + axis.cross(p) * sin(2.0);
+        assert!((turned_by(axis * 2.0) * p).distance(expected) < 1e-14);
+    }
+
+    #[test]
+    fn the_polar_rotation_leaves_a_symmetric_stretch() {
+        let stretch =
+            DMat3::from_cols(DVec3::new(1.5, 0.1, 0.0), DVec3::new(0.1, 1.0, 0.2), DVec3::new(0.0, 0.2, 0.7));
+        for size in [1e-6, 1.0, 1e7] {
+            let found = polar_rotation(&(turn() * stretch * size)).unwrap();
+            assert!(found.abs_diff_eq(turn(), 1e-13), "{found}");
+        }
+        let thin = DMat3::from_diagonal(DVec3::new(1.0, 1e-5, 30.0));
+        assert!(polar_rotation(&(turn() * thin)).unwrap().abs_diff_eq(turn(), 1e-9));
+        for lost in [DMat3::ZERO, DMat3::from_diagonal(DVec3::new(1.0, 1.0, 0.0)), DMat3::IDENTITY * -1.0] {
+            assert!(polar_rotation(&lost).is_none(), "{lost}");
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Vertex data, centred and scaled to radius 1.
 
+use super::morph::PackedBends;
 use super::shading::Shading;
 use crate::mesh::generators::icosphere;
 use crate::mesh::{SurfaceMesh, VertexId};
@@ -25,6 +26,8 @@ pub struct SurfaceVertex {
     pub hollow: f32,
     /// Its colour in a look, red, green and blue as a screen shows them, and 255 where the picture is laid on it, or else 0.
     pub tint: [u8; 4],
+    /// How it is off its straight way to the image, and turned there.
+    pub bends: PackedBends,
 }
 
 /// A corner of the ribbon that draws a line segment.
@@ -92,7 +95,12 @@ impl Frame {
 
     /// A point in scene coordinates.
     pub fn place(&self, p: DVec3) -> Vec3 {
-        ((p - self.centre) * self.scale).as_vec3()
+        self.exact_place(p).as_vec3()
+    }
+
+    /// Likewise in full precision.
+    pub fn exact_place(&self, p: DVec3) -> DVec3 {
+        (p - self.centre) * self.scale
     }
 
     /// A scene point in input coordinates.

@@ -8,43 +8,19 @@
 
 use super::cells::Cells;
 use super::gradients::{centre, gradients};
+use super::poisson::Poisson;
+pub use super::poisson::{DeformationError, Shape};
 use crate::export::vertex_image::Direction;
 use crate::mesh::{FaceId, SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
-use crate::numerics::approximate_cholesky::ApproximateCholesky;
-use crate::numerics::conjugate_gradients::{CgError, CgOptions, CgWorkspace};
-use crate::numerics::graph::Graph;
 use crate::surface_map::correspondence::Correspondence;
 use glam::{DMat3, DVec3};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-/// Positions by vertex of a mesh.
-pub type Shape = TiVec<VertexId, DVec3>;
-
-/// Why a frame could not be brought over.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum DeformationError {
-    /// The user asked to stop.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-    /// The system could not be solved.
-    #[error("the deformation: {0}")]
-    Solve(#[from] CgError),
-}
-
-/// Accuracy of the displacements, in units of the right-hand side.
-const SOLVE: CgOptions = CgOptions { tolerance: 1e-11, max_iterations: 4000 };
-
-/// A right-hand side that is this small beside its terms is rounding.
-const ROUNDING: f64 = 1e-13;
-
-/// Weights of the preconditioner are at least this share of their mean: cotangents may be negative.
-const LEAST_WEIGHT: f64 = 1e-3;
-
 /// Pieces after which progress is told.
 const PIECES_A_STEP: usize = 1 << 14;
 
-/// What every frame needs: the overlay's shares, and the receiving mesh's system with its factor.
+/// What every frame needs: the overlay's shares, and the receiving mesh's system.
 pub struct DeformationTransfer<'a> {
     giving: &'a SurfaceMesh,
     receiving: &'a SurfaceMesh,
@@ -52,9 +28,7 @@ pub struct DeformationTransfer<'a> {
     begins: Vec<u32>,
     /// Faces of the giving mesh with the share of the receiving face that they have.
     shares: Vec<(FaceId, f64)>,
-    laplacian: Graph,
-    factor: ApproximateCholesky,
-    workspace: CgWorkspace<f64>,
+    poisson: Poisson<'a>,
 }
 
 impl<'a> DeformationTransfer<'a> {
@@ -71,10 +45,7 @@ impl<'a> DeformationTransfer<'a> {
         let giver = direction.side();
         let (giving, receiving) = (meshes[giver], meshes[1 - giver]);
         let Shares { begins, shares } = shares(meshes, map, giver, monitor)?;
-        let laplacian = cotangent_laplacian(receiving);
-        let factor = ApproximateCholesky::new(&preconditioning(&laplacian));
-        let workspace = CgWorkspace::default();
-        Ok(Self { giving, receiving, begins, shares, laplacian, factor, workspace })
+        Ok(Self { giving, receiving, begins, shares, poisson: Poisson::new(receiving) })
     }
 
     /// The receiving mesh moved as the giving one is from its own shape to a frame.
@@ -89,7 +60,7 @@ impl<'a> DeformationTransfer<'a> {
         let mut gradients = self.carried(&gradients(self.giving, frame));
         let mean = self.mean(&gradients);
         gradients.iter_mut().for_each(|gradient| *gradient -= mean);
-        let displacements = self.displacements(&gradients, mean, monitor)?;
+        let displacements = self.poisson.displacements(&gradients, mean, monitor)?;
         let areas = self.receiving.vertex_areas();
         let giving_areas = self.giving.vertex_areas();
         let middle = centre(&areas, self.receiving.positions());
@@ -112,43 +83,6 @@ impl<'a> DeformationTransfer<'a> {
         let sum = |sum: DMat3, f: FaceId| sum + gradients[f] * self.receiving.face_area(f);
         self.receiving.faces().fold(DMat3::ZERO, sum) * (1.0 / self.receiving.area())
     }
-
-    /// Displacements whose gradients are nearest to these; their mean is any. `mean` tells the size of what was taken away.
-    fn displacements(
-        &mut self,
-        gradients: &TiSlice<FaceId, DMat3>,
-        mean: DMat3,
-        monitor: &mut dyn Monitor,
-    ) -> Result<Shape, DeformationError> {
-        let n = self.receiving.vertex_count();
-        let mut sides = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
-        let mut terms = 0.0;
-        for f in self.receiving.faces() {
-            for (v, hat) in self.receiving.triangles()[f].into_iter().zip(weighted_hats(self.receiving, f)) {
-                let term = gradients[f] * hat;
-                (0..3).for_each(|k| sides[k][v.index()] += term[k]);
-                terms += (mean * hat).length_squared();
-            }
-        }
-        let mut found = [Vec::new(), Vec::new(), Vec::new()];
-        for k in 0..3 {
-            monitor.step(Step { fraction: k as f64 / 3.0, residual: None })?;
-            found[k].resize(n, 0.0);
-            let size: f64 = sides[k].iter().map(|x| x * x).sum();
-            if size > ROUNDING * ROUNDING * terms {
-                self.workspace.solve(&self.laplacian, &self.factor, &sides[k], &mut found[k], &SOLVE)?;
-            }
-        }
-        let [x, y, z] = &found;
-        Ok((0..n).map(|v| DVec3::new(x[v], y[v], z[v])).collect())
-    }
-}
-
-/// The gradients of a face's hat functions times its area.
-fn weighted_hats(mesh: &SurfaceMesh, f: FaceId) -> [DVec3; 3] {
-    let [p, q, r] = mesh.corners(f);
-    let normal = (q - p).cross(r - p).normalize_or_zero();
-    [r - q, p - r, q - p].map(|side| 0.5 * normal.cross(side))
 }
 
 /// Faces of the giving mesh by face of the receiving one.
@@ -186,35 +120,13 @@ fn shares(
     Ok(Shares { begins, shares })
 }
 
-/// The Laplacian of a surface: half the cotangents opposite each edge.
-fn cotangent_laplacian(mesh: &SurfaceMesh) -> Graph {
-    let half_cotangent = |h: crate::mesh::HalfedgeId| {
-        let [tail, head, apex] =
-            [mesh.tail(h), mesh.head(h), mesh.tail(h.prev())].map(|v| mesh.positions()[v]);
-        let (u, v) = (tail - apex, head - apex);
-        0.5 * u.dot(v) / u.cross(v).length()
-    };
-    let edge = |h| {
-        let weight = half_cotangent(h) + half_cotangent(mesh.twin(h));
-        (mesh.tail(h).0, mesh.head(h).0, if weight.is_finite() { weight } else { 0.0 })
-    };
-    Graph { vertices: mesh.vertex_count(), edges: mesh.edges().map(edge).collect() }
-}
-
-/// A graph with positive weights that is like a Laplacian.
-fn preconditioning(laplacian: &Graph) -> Graph {
-    let edges = &laplacian.edges;
-    let mean = edges.iter().map(|edge| edge.2.abs()).sum::<f64>() / edges.len() as f64;
-    let positive = |&(i, j, weight): &(u32, u32, f64)| (i, j, weight.max(LEAST_WEIGHT * mean));
-    Graph { vertices: laplacian.vertices, edges: edges.iter().map(positive).collect() }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::export::vertex_image::Direction::{SourceToTarget, TargetToSource};
     use crate::math::scalar::{cos, sin};
     use crate::monitor::Silent;
+    use crate::transfer::poisson::weighted_hats;
     use crate::transfer::tests::ball_on_egg;
 
     /// The receiving mesh moved as `motion` moves the giving one.

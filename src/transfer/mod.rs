@@ -6,6 +6,7 @@ pub mod attributes;
 mod cells;
 pub mod curves;
 pub mod deformation;
+mod face_turns;
 mod fault;
 mod files;
 mod formats;
@@ -14,6 +15,8 @@ mod given_kind;
 mod gradients;
 mod mapped_files;
 mod mass;
+pub mod morph;
+mod poisson;
 pub mod shape;
 #[cfg(test)]
 mod tests;

@@ -31,6 +31,8 @@ mod flows;
 #[cfg(feature = "web-core")]
 mod matching;
 #[cfg(feature = "web-core")]
+mod morph;
+#[cfg(feature = "web-core")]
 mod other_map;
 #[cfg(feature = "web-core")]
 mod output_file;

@@ -45,6 +45,12 @@ pub fn prove_map(map: &[u8], source: &[u8], target: &[u8]) -> Result<String, JsV
     serde_json::to_string(&ProofReport::of(&outcome)).map_err(|e| failure("map-file", e))
 }
 
+impl SavedMap {
+    pub(super) fn open(&self) -> &OpenMap {
+        &self.open
+    }
+}
+
 /// A base file that was laid onto a scan.
 #[wasm_bindgen]
 pub struct WrappedBase {

@@ -198,6 +198,21 @@ fn shapes_come_with_their_figures() {
     assert_eq!(soup.polygons.len(), 512);
 }
 
+#[test]
+fn the_way_to_the_target_is_an_animated_mesh() {
+    let files = Files::new("the_way_to_the_target_is_an_animated_mesh");
+    files.transfer(&["--morph", "--out", "@way.glb"]).unwrap();
+    let bytes = files.read("way.glb");
+    let soup = read_mesh(&bytes).unwrap();
+    assert!(soup.polygons.len() > 512, "the map's pieces");
+    let length = u32::from_le_bytes([bytes[12], bytes[13], bytes[14], bytes[15]]) as usize;
+    let document: serde_json::Value = serde_json::from_slice(&bytes[20..20 + length]).unwrap();
+    assert_eq!(document["animations"][0]["channels"][0]["target"]["path"], "weights");
+    assert_eq!(document["meshes"][0]["primitives"][0]["targets"].as_array().unwrap().len(), 4);
+    let refused = files.transfer(&["--morph", "--out", "@way.obj"]).unwrap_err();
+    assert!(refused.contains("the name must end in one of .glb"), "{refused}");
+}
+
 /// A mesh as OBJ with texture coordinates, told by face, position and corner.
 fn with_charts(mesh: &SurfaceMesh, chart: impl Fn(usize, DVec3, usize) -> [f64; 2]) -> String {
     let mut text = String::from_utf8(obj::mesh(mesh)).unwrap();

@@ -96,6 +96,9 @@ test('landmarks and exports can be read again', async ({ page }) => {
   const targetFaces = Number(/([\d,]+) triangles/.exec(await page.locator('#view-target').innerText())?.[1]?.replace(',', ''));
   const map = await downloaded(page, 'Map file');
   expect(map.subarray(0, 7).toString()).toBe('CONEMAP');
+  const morph = await downloaded(page, 'Morph');
+  expect(trianglesOfGlb(morph)).toBe(trianglesOfGlb(glb));
+  expect(await faultsOfGlb(morph)).toEqual([]);
   const [inverse, ...images] = (await downloaded(page, 'Inverse table')).toString().trim().split('\n');
   expect(inverse).toBe('target_vertex,source_face,b0,b1,b2,x,y,z');
   expect(images).toHaveLength(targetFaces / 2 + 2);

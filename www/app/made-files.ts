@@ -10,7 +10,7 @@ import type { Store } from '../store/store.ts';
 import { perform, errorOf } from './task.ts';
 
 /** What a map's own worker gives for `use`. Throws `FileRefused`. */
-async function askMap<T>(core: Core, { output, inputs }: Result, use: (saved: SavedMapHandle) => Promise<T>): Promise<T> {
+export async function askMap<T>(core: Core, { output, inputs }: Result, use: (saved: SavedMapHandle) => Promise<T>): Promise<T> {
   const [source, target] = inputs.meshes;
   if (output.map === null || source === null || target === null) {
     throw new FileRefused('This map has no map file, from which more could be made: the relaxed method gives one.');

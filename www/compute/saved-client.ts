@@ -2,7 +2,7 @@
 import type { ProofReport } from '../report.ts';
 import type { Core } from './core.ts';
 import { postWithCore } from './core.ts';
-import type { OpenedMap, SavedAnswer, SavedFailure, SavedFiles, SavedRequest, WrappedFile } from './saved-messages.ts';
+import type { OpenedMap, SavedAnswer, SavedFailure, SavedFiles, SavedRequest, Way, WayPoints, WrappedFile } from './saved-messages.ts';
 
 /** What a saved map's promises fail with. */
 export class SavedMapError extends Error {
@@ -23,6 +23,8 @@ export interface SavedMapHandle {
   file(name: string): Promise<Uint8Array<ArrayBuffer>>;
   /** The source's file with its vertices laid onto the target. */
   wrapped(): Promise<WrappedFile>;
+  /** How points of the map go from the source's shape to the target's. */
+  way(points: WayPoints): Promise<Way>;
   /** What a program says of the map that shares nothing with what made it. */
   proof(): Promise<ProofReport>;
   /** Ends the worker; what was asked and not answered fails with the code `closed`. */
@@ -95,6 +97,10 @@ export function openSavedMap(module: Core, files: SavedFiles, show: 'views' | 'f
     wrapped: async () => {
       const answer = await ask({ kind: 'wrap' });
       return answer.kind === 'wrapped' ? answer.wrapped : wrong();
+    },
+    way: async (points) => {
+      const answer = await ask({ kind: 'way', points });
+      return answer.kind === 'way' ? answer.way : wrong();
     },
     proof: async () => {
       const answer = await ask({ kind: 'prove' });

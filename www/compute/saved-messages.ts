@@ -26,11 +26,33 @@ export interface OpenedMap {
   readonly isMirrored: boolean;
 }
 
+/** Points of a map as the views have them. */
+export interface WayPoints {
+  /** Places on the source, three numbers each. */
+  readonly source: Float32Array;
+  readonly target: Float32Array;
+  /** Three points each. */
+  readonly triangles: Uint32Array;
+  /** The source's face of each triangle. */
+  readonly faces: Uint32Array;
+}
+
+/** How the points go from the source's shape to the target's, as the core packs it. */
+export interface Way {
+  /** The matrix that lays the target on the source, in the views' coordinates. */
+  readonly laid: Float32Array;
+  /** The length for which 32767 stands in the bends. */
+  readonly range: number;
+  /** 12 numbers a point. */
+  readonly bends: Int16Array;
+}
+
 /** To the worker. It opens one map, then answers. */
 export type SavedRequest =
   | ({ readonly kind: 'open'; readonly id: number; readonly module: WebAssembly.Module; readonly show: 'views' | 'files' } & SavedFiles)
   | { readonly kind: 'file'; readonly id: number; readonly name: string }
   | { readonly kind: 'wrap'; readonly id: number }
+  | { readonly kind: 'way'; readonly id: number; readonly points: WayPoints }
   | { readonly kind: 'prove'; readonly id: number };
 
 /** The source's file laid onto the target. */
@@ -50,5 +72,6 @@ export type SavedAnswer =
   | { readonly kind: 'opened'; readonly id: number; readonly opened: OpenedMap | null }
   | { readonly kind: 'file'; readonly id: number; readonly bytes: Uint8Array<ArrayBuffer> }
   | { readonly kind: 'wrapped'; readonly id: number; readonly wrapped: WrappedFile }
+  | { readonly kind: 'way'; readonly id: number; readonly way: Way }
   | { readonly kind: 'proved'; readonly id: number; readonly proof: ProofReport }
   | { readonly kind: 'failed'; readonly id: number; readonly failure: SavedFailure };

@@ -65,6 +65,14 @@ async function answer(request: SavedRequest): Promise<void> {
         post({ kind: 'wrapped', id, wrapped: { bytes, sentence } }, [bytes.buffer]);
         break;
       }
+      case 'way': {
+        const { source, target, triangles, faces } = request.points;
+        const made = map.way(source, target, triangles, faces);
+        const way = { laid: made.laid(), range: made.range(), bends: made.bends() };
+        made.free();
+        post({ kind: 'way', id, way }, [way.bends.buffer]);
+        break;
+      }
       case 'prove': {
         const proof = JSON.parse(proveMap(files.map, files.source, files.target)) as ProofReport;
         post({ kind: 'proved', id, proof });

@@ -29,9 +29,13 @@ interface MapExport extends Omit<Export, 'save'> {
 const GLB = 'model/gltf-binary';
 const OBJ = 'model/obj';
 
+/** What the core calls the file that no map to a mirror image has: nothing turns into that. */
+const MORPH = 'source-to-target.glb';
+
 /** The files of a map, the most wanted first. */
 const MAP_EXPORTS: readonly MapExport[] = [
   { format: 'GLB', title: 'Textured mesh', about: 'The source with the texture of the target', name: 'conemap.glb', type: GLB, made: 'source-with-target-texture.glb', key: 'glb' },
+  { format: 'Morph', title: 'Animated mesh', about: 'The source on its way to the target’s shape: limbs turn instead of shrinking', name: 'morph.glb', type: GLB, made: MORPH, key: null },
   { format: 'CSV', title: 'Images of the vertices', about: 'Where every vertex of the source lies on the target', name: 'conemap.csv', type: 'text/csv', made: 'vertex-images.csv', key: 'csv' },
   { format: 'Base OBJ', title: 'Base domain', about: 'The coarse mesh between the landmarks', name: 'base-domain.obj', type: OBJ, made: 'base-domain.obj', key: 'baseObj' },
   { format: 'Inverse table', title: 'Images of the target’s vertices', about: 'Where on the source every vertex of the target comes from', name: 'target-vertex-images.csv', type: 'text/csv', made: 'target-vertex-images.csv', key: null },
@@ -41,7 +45,10 @@ const MAP_EXPORTS: readonly MapExport[] = [
 ];
 
 /** A file of a map, made when it is asked for, or there already; `null` where the map gives no such file. */
-function exportOf({ output }: Result, { key, made, name, type, ...shown }: MapExport, { saveMadeFile }: Saving): Export | null {
+function exportOf({ output, opened }: Result, { key, made, name, type, ...shown }: MapExport, { saveMadeFile }: Saving): Export | null {
+  if (made === MORPH && opened?.isMirrored === true) {
+    return null;
+  }
   const data = key === null ? null : (output.made?.[key] ?? null);
   if (data !== null) {
     return {

@@ -1,4 +1,5 @@
 /** What a map brings to the picture: each of its buffers goes to the renderer when the picture needs it, and not before. */
+import type { Way } from '../compute/saved-messages.ts';
 import type { Flows } from '../compute/watch-messages.ts';
 import { scaleOf } from '../heat/scales.ts';
 import type { VertexHeat } from '../heat/values.ts';
@@ -79,6 +80,9 @@ export class Picture {
   #patches = false;
   #lit: BasePart | null = null;
   #isMorphed = false;
+  /** The ways of maps to the target's shape, as far as they are known; they outlast the renderer. */
+  readonly #ways = new WeakMap<Result['output'], Way>();
+  #way = false;
   #compared: ComparedMap | null = null;
   /** What of the other map the renderer has, with the scale that its colours tell. */
   #comparedHeat: HeatMap | 'none' | null = null;
@@ -105,6 +109,7 @@ export class Picture {
     this.#patches = false;
     this.#lit = null;
     this.#isMorphed = false;
+    this.#way = false;
     this.#compared = null;
     this.#moment = null;
     this.#values = null;
@@ -134,9 +139,38 @@ export class Picture {
     }
   }
 
+  /** From now on a map's points go this way; what of the source's triangles the renderer has goes straight, and is brought anew. */
+  takeWay(viewer: Viewer, output: Result['output'], way: Way): void {
+    this.#ways.set(output, way);
+    if (this.#result?.output !== output) {
+      return;
+    }
+    const isCarried = this.#carried;
+    this.#overlays.delete(0);
+    this.#carried = false;
+    if (isCarried) {
+      this.#bringLook(viewer, output);
+    }
+    if (this.#isMorphed) {
+      this.bringOverlay(viewer, 0);
+    }
+  }
+
+  /** Brings the way of the map, where it is known: before the triangles that go it. */
+  #bringWay(viewer: Viewer, output: Result['output']): void {
+    const way = this.#ways.get(output);
+    if (way !== undefined && !this.#way) {
+      viewer.setWay(way.laid, way.range, way.bends);
+      this.#way = true;
+    }
+  }
+
   /** Brings the map's triangles on one side; whether there is a map. */
   bringOverlay(viewer: Viewer, side: Side): boolean {
     const result = this.#result;
+    if (result !== null) {
+      this.#bringWay(viewer, result.output);
+    }
     if (result !== null && !this.#overlays.has(side)) {
       const { uvs, triangles, sides } = result.output;
       const places = heatOf(result.output, this.#heat)?.places ?? NO_VALUES;
@@ -148,11 +182,13 @@ export class Picture {
   }
 
   /** Brings the map's triangles in the look that it carries: the target's, or else the source's. */
-  #bringLook(viewer: Viewer, { sides, triangles, faces }: Result['output']): void {
+  #bringLook(viewer: Viewer, output: Result['output']): void {
+    const { sides, triangles, faces } = output;
     const giver = this.#giver;
     if (this.#carried || giver === null || faces[giver].length === 0) {
       return;
     }
+    this.#bringWay(viewer, output);
     const [{ positions: places }, target] = [sides[giver], sides[1]];
     // The giver itself goes on its own way to the target's shape where it is the source.
     for (const side of giver === 0 ? SIDES : ([0] as const)) {

@@ -1,5 +1,6 @@
 /** Both views on one canvas: drawn on demand, kept in step with the state, rebuilt after a lost context. */
 import { failureOf } from '../compute/messages.ts';
+import type { Way } from '../compute/saved-messages.ts';
 import { byId } from '../dom.ts';
 import type { Side, SurfacePoint } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
@@ -13,7 +14,7 @@ import type { Event } from '../store/events.ts';
 import { shownFlows } from '../store/flat.ts';
 import { shownPreview } from '../store/job.ts';
 import { hasItsCones, shownResult } from '../store/staleness.ts';
-import type { Axis, Camera, Proposal, State } from '../store/state.ts';
+import type { Axis, Camera, Proposal, Result, State } from '../store/state.ts';
 import type { MeshFile } from '../store/work.ts';
 import { giverOf } from '../store/work.ts';
 import type { MeshDefects } from '../wasm/page.js';
@@ -130,6 +131,13 @@ export class Views {
   morph(share: number): void {
     this.#with((viewer) => {
       this.#picture.morph(viewer, share);
+    });
+  }
+
+  /** From now on a map's points go this way to the target's shape. */
+  takeWay(output: Result['output'], way: Way): void {
+    this.#with((viewer) => {
+      this.#picture.takeWay(viewer, output, way);
     });
   }
 

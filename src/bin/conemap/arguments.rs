@@ -327,6 +327,9 @@ pub struct TransferArguments {
     /// Each mesh's triangles in the shape of the other, with distances and how well the normals agree.
     #[arg(long, group = "what", conflicts_with = "from")]
     pub shape: bool,
+    /// The source on its way to the target's shape, as an animated GLB: limbs turn instead of shrinking.
+    #[arg(long, group = "what", conflicts_with = "from")]
+    pub morph: bool,
     /// The mesh that gives.
     #[arg(long, value_enum, default_value_t = Side::Target)]
     pub from: Side,
@@ -345,7 +348,7 @@ pub struct TransferArguments {
     /// Texels by which colours are carried on beyond the charts.
     #[arg(long, value_name = "TEXELS", default_value_t = 8, requires = "texture", value_parser = clap::value_parser!(u8).range(..=64))]
     pub border: u8,
-    /// File for values (csv or ply by its ending), curves (json, csv or obj) or a texture (png); folder for frames and shapes.
+    /// File for values (csv or ply by its ending), curves (json, csv or obj), a texture (png) or a morph (glb); folder for frames and shapes.
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
 }

@@ -35,6 +35,7 @@ pub fn run(arguments: &TransferArguments) -> Result<(), Failure> {
         What::Curves(path, format) => transfer.curves(path, format),
         What::Texture(path) => transfer.texture(path),
         What::Shapes => transfer.shapes(),
+        What::Morph => transfer.morph(),
         What::Frames => transfer.frames(),
     }
 }
@@ -45,6 +46,7 @@ enum What<'a> {
     Curves(&'a Path, CurveFormat),
     Texture(&'a Path),
     Shapes,
+    Morph,
     Frames,
 }
 
@@ -60,6 +62,10 @@ impl<'a> What<'a> {
                 Self::Texture(path)
             }
             _ if arguments.shape => Self::Shapes,
+            _ if arguments.morph => {
+                by_ending(out, &["glb"], |ending| ending)?;
+                Self::Morph
+            }
             _ => Self::Frames,
         })
     }
@@ -130,6 +136,12 @@ impl Transfer<'_> {
             say(format_args!("{}: lists are left out: {}", path.display(), carried.left_out.join(", ")));
         }
         outputs::write(&self.arguments.out, &carried.bytes)
+    }
+
+    /// The source on its way to the target's shape.
+    fn morph(&self) -> Result<(), Failure> {
+        let bytes = self.open.taken().morph_glb(&mut Clock::start_only(Stage::Transfer))?;
+        outputs::write(&self.arguments.out, &bytes)
     }
 
     fn texture(&self, path: &Path) -> Result<(), Failure> {

@@ -106,6 +106,7 @@ impl Viewer {
 
 impl Viewer {
     fn show_probe(&mut self, place: MapPlace) -> Option<String> {
+        self.probed = Some((place.corners, place.weights));
         let (mut points, mut places) = (Vec::new(), Vec::new());
         let share = self.factor_share;
         for (side, position) in self.sides.iter_mut().zip(place.positions) {

@@ -7,6 +7,7 @@ use super::compared_map::ComparedMap;
 use super::reading::parsed;
 use crate::gpu::{Paint, Picture, Renderer, Scale, Texture, TextureKind};
 use crate::scene::MapPicker;
+use crate::scene::morph::PackedWay;
 use glam::Mat4;
 use serde::Deserialize;
 use wasm_bindgen::prelude::*;
@@ -119,6 +120,10 @@ pub struct Viewer {
     pub(super) morph: f32,
     /// Lays the target on the source, in scene coordinates.
     pub(super) source_from_target: Mat4,
+    /// How the map's points are off straight lines on that way, once that is known.
+    pub(super) way: Option<PackedWay>,
+    /// Where the places of the rings are among the map's points: a triangle, and the shares of its corners.
+    pub(super) probed: Option<([u32; 3], [f64; 3])>,
     /// Share of the way between the two moments of a flow that is shown.
     pub(super) factor_share: f32,
     /// The user's own picture on the flat metric.
@@ -147,6 +152,8 @@ impl Viewer {
             compared: None,
             morph: 0.0,
             source_from_target: Mat4::IDENTITY,
+            way: None,
+            probed: None,
             factor_share: 0.0,
             texture: None,
             look_giver: None,

@@ -51,6 +51,7 @@ impl Viewer {
             palette: self.palette(),
             line_half_width: 0.9 * self.pixel_ratio,
             morph: 0.0,
+            bend_range: self.way.as_ref().map_or(0.0, |way| way.range),
             world_from_image: self.source_from_target,
             wipe: 0.0,
             surface: None,
@@ -154,7 +155,9 @@ impl Viewer {
             return Some(place);
         }
         let image = self.source_from_target.transform_point3(self.sides[1].probe?);
-        Some(place.lerp(image, self.morph))
+        let bend = self.way.as_ref().zip(self.probed);
+        let bend = bend.map_or(Vec3::ZERO, |(way, (corners, share))| way.bend(corners, share, self.morph));
+        Some(place.lerp(image, self.morph) + bend)
     }
 
     /// Linear RGB, chosen by eye.

@@ -7,9 +7,9 @@ use crate::gpu::Mesh;
 use crate::mesh::FaceId;
 use crate::scene::buffers::ribbons;
 use crate::scene::looks::{Giver, carried};
-use crate::scene::morph::laid_on;
+use crate::scene::morph::{PackedBends, PackedWay, laid_on};
 use crate::scene::{MapPicker, SurfaceVertex, seams};
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec3, Mat4, Vec2, Vec3};
 use wasm_bindgen::prelude::*;
 
 /// The numbers of a point.
@@ -51,9 +51,15 @@ impl Viewer {
             image: target.frame.place(point(three(images, k))).to_array(),
             image_normal: three(image_normals, k),
             hollow: hollows[k],
+            bends: self.bends_at(side, k),
             ..SurfaceVertex::default()
         };
         Some((0..count).map(vertex).collect())
+    }
+
+    /// How a point of the map is off its straight way; only the source goes on a way.
+    fn bends_at(&self, side: usize, point: usize) -> PackedBends {
+        self.way.as_ref().filter(|_| side == 0).map(|way| way.at(point)).unwrap_or_default()
     }
 
     /// Patch lines on a side.
@@ -88,7 +94,7 @@ impl Viewer {
         let overlay = Overlay { positions, normals, uvs, scale_places, triangles, images, image_normals };
         let Some(vertices) = self.overlay_vertices(side, overlay) else { return };
         let uploaded = self.renderer.surface_mesh(&vertices, triangles);
-        if side == 0 {
+        if side == 0 && self.way.is_none() {
             let (images, places): (Vec<Vec3>, Vec<Vec3>) =
                 vertices.iter().map(|v| (Vec3::from_array(v.image), Vec3::from_array(v.position))).unzip();
             self.source_from_target = laid_on(&images, &places);
@@ -127,6 +133,7 @@ impl Viewer {
             image: target.frame.place(point(three(images, k))).to_array(),
             image_normal: three(image_normals, k),
             hollow: hollows[k],
+            bends: self.bends_at(side, k),
             ..SurfaceVertex::default()
         };
         let bare: Vec<SurfaceVertex> = (0..count).map(vertex).collect();
@@ -179,6 +186,17 @@ impl Viewer {
         self.morph = share.clamp(0.0, 1.0);
     }
 
+    /// Takes how the map's points are off straight lines on the way to the target's shape: 12 numbers a point, which with the range are
+    /// those of `MorphWay` in the core's module, and the 16 numbers of the matrix, column by column, that lays the target on the source
+    /// there. Overlays of the source that come next go that way.
+    #[wasm_bindgen(js_name = setWay)]
+    pub fn set_way(&mut self, laid: &[f32], range: f32, bends: &[i16]) {
+        let Ok(laid) = <[f32; 16]>::try_from(laid) else { return };
+        self.source_from_target = Mat4::from_cols_array(&laid);
+        let points = bends.as_chunks::<4>().0.as_chunks::<3>().0.to_vec();
+        self.way = Some(PackedWay { range, points });
+    }
+
     /// Everything of a result goes.
     #[wasm_bindgen(js_name = clearResult)]
     pub fn clear_result(&mut self) {
@@ -186,6 +204,7 @@ impl Viewer {
         self.map = None;
         self.compared = None;
         self.look_giver = None;
+        self.way = None;
         self.morph = 0.0;
     }
 }
