@@ -199,7 +199,7 @@ mod tests {
     fn the_animation_plays_the_way() {
         let mesh = icosphere(1);
         let turn = DVec3::new(0.3, 2.0, -0.5);
-        let places: Vec<DVec3> = mesh.positions().iter().map(|p| *p + DVec3::X * 3.0).collect();
+        let places: Vec<DVec3> = mesh.positions().iter().map(|p| *p + DVec3::X * 1.5).collect();
         let turned =
             |time: f64| -> Vec<DVec3> { places.iter().map(|p| turned_by(turn * time) * *p).collect() };
         let normals = mesh.positions().raw.to_vec();
