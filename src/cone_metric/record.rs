@@ -17,6 +17,8 @@ pub struct FlowRecord {
     pub converged: bool,
     /// The faces that a flow without flips stopped at, because they degenerate beyond the last moment.
     pub degenerate_faces: Vec<FaceId>,
+    /// Logarithms of the radii before the first step, in the mesh's unit of length; 0 where the structure has no circles.
+    pub log_radii: TiVec<VertexId, f64>,
     /// By vertex the curvature, in radians, before the first step and at the last moment.
     pub curvature: [TiVec<VertexId, f64>; 2],
 }
@@ -63,6 +65,13 @@ impl FlowRecord {
         let [first, last] = &self.curvature;
         [by_area(self.moments.first(), first), by_area(self.moments.last(), last)]
     }
+
+    /// By vertex the radii of the circles before the first step, in units of the root of the mesh's area; `areas` are the vertices' shares of
+    /// it.
+    pub fn radii(&self, areas: &TiSlice<VertexId, f64>) -> Vec<f64> {
+        let unit = areas.iter().sum::<f64>().sqrt();
+        self.log_radii.iter().map(|&u| exp(u) / unit).collect()
+    }
 }
 
 /// Takes moments of a flow; memory stays bounded however long it is.
@@ -107,7 +116,13 @@ impl Recorder {
     pub fn record(self, stopped_at: Option<Vec<FaceId>>) -> FlowRecord {
         let converged = stopped_at.is_none();
         let degenerate_faces = stopped_at.unwrap_or_default();
-        FlowRecord { moments: self.moments, converged, degenerate_faces, curvature: self.curvature }
+        FlowRecord {
+            moments: self.moments,
+            converged,
+            degenerate_faces,
+            log_radii: self.start,
+            curvature: self.curvature,
+        }
     }
 }
 

@@ -50,6 +50,8 @@ pub enum Paint {
     /// A place on a scale from what shrinks to what grows: between the two texture coordinates of each vertex, this share of the way
     /// from the first to the second.
     Factors(f32),
+    /// Circles around the vertices, on the scale from what shrinks to what grows.
+    Circles,
     /// The look of a mesh's file.
     Look,
 }
@@ -362,10 +364,11 @@ impl Renderer {
             Paint::Refused => 5.0,
             Paint::Factors(_) => 7.0,
             Paint::Look => 8.0,
+            Paint::Circles => 9.0,
         };
         let (share, scale) = match view.paint {
             Paint::Factors(share) => (share, factor_scale()),
-            Paint::Scale(Scale::Diverging) => (0.0, factor_scale()),
+            Paint::Scale(Scale::Diverging) | Paint::Circles => (0.0, factor_scale()),
             _ => (0.0, rising_scale()),
         };
         let (texture, cells) = match view.paint {

@@ -13,7 +13,8 @@ struct View {
     up: vec4<f32>,
     // xy: size of the view in pixels; z: surface style (-1 plain and a little behind, 0 plain, 1 a texture of the flat metric,
     // 2 colours of the place on the target, 3 a scale by vertex values, 4 solid pattern, 5 faint and hatched, 6 faces in their own
-    // colours, a little in front, 7 a scale by texture coordinates, 8 the look of a mesh's file); w: half width of lines in pixels.
+    // colours, a little in front, 7 a scale by texture coordinates, 8 the look of a mesh's file, 9 circles around
+    // the vertices); w: half width of lines in pixels.
     size_and_style: vec4<f32>,
     // x: share of the way that every vertex has gone to its image; y: how strongly hollows are darkened;
     // z: opacity of lines behind the surface; w: which texture (0 checkerboard, 1 circles, 2 ribbons, 3 coordinates, 4 the picture).
@@ -256,7 +257,15 @@ fn surface_fragment(in: SurfaceOut) -> @location(0) vec4<f32> {
     let dark = view.pattern_dark.rgb;
     var colour = view.surface.rgb;
     let unit = view.size_and_style.w / 0.9;
-    if style > 7.5 {
+    if style > 8.5 {
+        // The powers of the place with respect to the circles around the corners: below 0 inside, 0 on the circle.
+        let powers = dot(in.uv, in.uv) + in.image;
+        let change = max(fwidth(powers), vec3<f32>(1e-9));
+        let rings = clamp(0.5 + 0.8 * unit - abs(powers) / change, vec3<f32>(0.0), vec3<f32>(1.0));
+        let inside = select(0.0, 0.25, min(powers.x, min(powers.y, powers.z)) < 0.0);
+        colour = mix(scale_colour(in.values.x), vec3<f32>(0.95), inside);
+        colour = mix(colour, vec3<f32>(0.06), max(rings.x, max(rings.y, rings.z)));
+    } else if style > 7.5 {
         let sampled = textureSample(picture, picture_sampler, in.uv).rgb;
         let own = light_of(in.tint.rgb) * mix(vec3<f32>(1.0), sampled, step(0.5, in.tint.w));
         colour = select(own, colour, in.clip.x < view.wipe.x);

@@ -2,6 +2,7 @@
 
 pub mod buffers;
 pub mod camera;
+pub mod circles;
 pub mod colours;
 pub mod defects;
 pub mod glide;

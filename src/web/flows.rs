@@ -21,6 +21,8 @@ pub struct RecordedFlows {
     vertices: [usize; 2],
     /// Of each mesh by vertex, before the first step and at the last moment, in units of a sphere's.
     curvatures: [[TiVec<VertexId, f64>; 2]; 2],
+    /// Of each mesh by vertex, before the first step, in units of the root of the mesh's area; empty where there are no circles.
+    radii: [Vec<f64>; 2],
     stops: [Stops; 2],
 }
 
@@ -69,7 +71,11 @@ pub fn record_flows(
     let stops = [0, 1].map(|side| Stops::new(&job, side, &records[side]));
     let areas = job.mapped_meshes().map(SurfaceMesh::vertex_areas);
     let curvatures = [0, 1].map(|side| records[side].curvature_by_area(&areas[side]));
-    Ok(RecordedFlows { records, vertices: job.vertex_counts(), curvatures, stops })
+    let radii = [0, 1].map(|side| match scheme {
+        Scheme::VertexScaling => Vec::new(),
+        _ => records[side].radii(&areas[side]),
+    });
+    Ok(RecordedFlows { records, vertices: job.vertex_counts(), curvatures, radii, stops })
 }
 
 #[wasm_bindgen]
@@ -89,6 +95,13 @@ impl RecordedFlows {
             })
         });
         json!({ "converged": converged, "moments": told.collect::<Vec<_>>(), "stops": stops }).to_string()
+    }
+
+    /// By vertex of the checked mesh the radii of the circles before the first step, in units of the root of the mesh's area; they grow with the
+    /// conformal factor. None where the structure has no circles.
+    pub fn radii(&self, side: usize) -> Vec<f32> {
+        let side = side.min(1);
+        self.radii[side].iter().take(self.vertices[side]).map(|&r| r as f32).collect()
     }
 
     /// The faces that the flow stopped at, in the order of their numbers, as bytes of which `unpackDefects` makes what a view shows.

@@ -9,6 +9,7 @@ use crate::mesh::check::CheckedMesh;
 use crate::mesh::normals::vertex_normals;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::scene::buffers::{Frame, surface};
+use crate::scene::circles::circled;
 use crate::scene::colours::landmark_colour;
 use crate::scene::defects::{DefectBuffers, painted, surface_as_read};
 use crate::scene::hollows::carried;
@@ -123,6 +124,8 @@ pub(super) struct Factors {
     vertices: Vec<SurfaceVertex>,
     indices: Vec<u32>,
     pub mesh: Mesh,
+    /// The circles of a packing, drawn in its place while they are shown.
+    pub circles: Option<Mesh>,
 }
 
 impl Factors {
@@ -135,7 +138,17 @@ impl Factors {
         };
         let uvs = places[0].iter().zip(places[1]).map(|(from, to)| [*from, *to]);
         vertices.iter_mut().zip(uvs).for_each(|(vertex, uv)| vertex.uv = uv);
-        Self { mesh: renderer.surface_mesh(&vertices, &indices), vertices, indices }
+        Self { mesh: renderer.surface_mesh(&vertices, &indices), vertices, indices, circles: None }
+    }
+
+    /// Draws circles around the vertices, of these radii in units of the root of the mesh's area, at a share of the way from the first places
+    /// to the second.
+    pub fn draw_circles(&mut self, radii: &[f32], share: f32, renderer: &Renderer) {
+        let place = |vertex: &SurfaceVertex| vertex.uv[0] + share * (vertex.uv[1] - vertex.uv[0]);
+        let places: Vec<f32> = self.vertices.iter().map(place).collect();
+        let corners = circled(&self.vertices, self.indices.as_chunks().0, &places, radii);
+        let indices: Vec<u32> = (0..corners.len() as u32).collect();
+        self.circles = Some(renderer.surface_mesh(&corners, &indices));
     }
 
     /// The place on the scale at a point of the mesh, this share of the way from the first places to the second.

@@ -73,6 +73,7 @@ test('of flows the last moment is shown, by its own scale', () => {
     converged: true,
     stops: [],
     packedStops: new Uint8Array(),
+    radii: new Float32Array(3),
     logFactors: Float32Array.from([0, 0, 0, -scale, 0, scale]),
     curvatures: [Float32Array.from([1, 1, 1]), Float32Array.from([100, 0, -100])],
   });

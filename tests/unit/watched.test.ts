@@ -1,7 +1,7 @@
 /** What is watched: the flows of the run, on a scale that holds them, as numbers and as a table; the simplification, stage by stage. */
 import { beforeAll, describe, expect, test } from 'vitest';
 import type { Flows, SideFlow, Simplification } from '../../www/compute/watch-messages.ts';
-import { momentCount, placeOf, placesAt, scaleEnd } from '../../www/method/factors.ts';
+import { momentCount, placeOf, placesAt, radiiAt, scaleEnd } from '../../www/method/factors.ts';
 import { flowCsv, momentAt, residualRange } from '../../www/method/flow-table.ts';
 import { countAt, stageAt, stageCount } from '../../www/method/stages.ts';
 import { STRUCTURES } from '../../www/method/structures.ts';
@@ -110,7 +110,7 @@ function moment(step: number, residual: number): SideFlow['moments'][number] {
 
 const LN2 = Math.LN2;
 /** Stopped by no triangle. */
-const RESTING = { stops: [], packedStops: new Uint8Array(), curvatures: [new Float32Array(2), new Float32Array(2)] } as const;
+const RESTING = { stops: [], packedStops: new Uint8Array(), radii: new Float32Array([0.1, 0.2]), curvatures: [new Float32Array(2), new Float32Array(2)] } as const;
 /** Two vertices each; the target's flow is over after one step. */
 const FLOWS: Flows = [
   { ...RESTING, moments: [moment(0, 1), moment(1, 0.02), moment(2, 1e-9)], converged: true, logFactors: new Float32Array([0, 0, LN2, -LN2, 2 * LN2, -2.5 * LN2]) },
@@ -134,6 +134,10 @@ describe('the scale', () => {
     [1.5, -0.75].forEach((place, v) => { expect(source.to[v]).toBeCloseTo(place, 6); });
     expect(target.from).toEqual(target.to);
     expect(placesAt(FLOWS, 2, 2)[0].from).toEqual(placesAt(FLOWS, 2, 2)[0].to);
+    // Circles grow with the factor.
+    const [radii] = radiiAt(FLOWS, 1) ?? [];
+    expect([...(radii ?? [])].map((radius) => Math.round(1000 * radius) / 1000)).toEqual([0.2, 0.1]);
+    expect(radiiAt([FLOWS[0], { ...FLOWS[1], radii: new Float32Array() }], 1)).toBeNull();
   });
 });
 

@@ -37,6 +37,18 @@ test('every structure has its flow, and the triangle that stops the one without 
     await page.keyboard.press('End');
     await expect.poll(() => Promise.all([converged(0), converged(1)]), { message: name }).toEqual([true, true]);
   }
+  // Around each vertex a circle, but not where there is none.
+  const circles = page.getByRole('checkbox', { name: 'Circles on the meshes' });
+  const dark = async (view: string): Promise<number> => countPixels(await pixelsOf(page, view), (r, g, b) => Math.max(r, g, b) < 60);
+  const ringless = [await dark('#view-source'), await dark('#view-target')] as const;
+  await circles.check();
+  await expect.poll(() => dark('#view-source')).toBeGreaterThan(ringless[0] + 200);
+  await expect.poll(() => dark('#view-target')).toBeGreaterThan(ringless[1] + 200);
+  await page.screenshot({ path: `${ROOT}test-results/flow-circles.png` });
+  await circles.uncheck();
+  await expect.poll(() => dark('#view-source')).toBeLessThan(ringless[0] + 50);
+  await structures.getByRole('radio', { name: 'Vertex scaling', exact: true }).check();
+  await expect(circles).toBeDisabled({ timeout: 60_000 });
   const before = await painted(page, '#view-source');
   await structures.getByRole('radio', { name: 'Inversive distance, no flips', exact: true }).check();
   const told = page.locator('[data-stopped="0"]');

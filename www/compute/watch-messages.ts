@@ -58,6 +58,8 @@ export interface SideFlow {
   readonly packedStops: Uint8Array;
   /** Logarithm of the conformal factor, moment after moment, by vertex of the mesh. */
   readonly logFactors: Float32Array;
+  /** By vertex the radii of the circles before the first step, in units of the root of the mesh's area; none where there are no circles. */
+  readonly radii: Float32Array;
   /** Gaussian curvature by vertex before the first step and at the last moment, in units of a sphere's of the same area. */
   readonly curvatures: readonly [Float32Array, Float32Array];
 }

@@ -23,7 +23,7 @@ function post(message: WatchMessage, transfer: Transferable[] = []): void {
 
 function flowOf(flows: RecordedFlows, side: number): SideFlow {
   const steps = JSON.parse(flows.steps(side)) as Pick<SideFlow, 'moments' | 'converged' | 'stops'>;
-  return { ...steps, logFactors: flows.logFactors(side), curvatures: [flows.curvatures(side, 0), flows.curvatures(side, 1)], packedStops: flows.packedStops(side) };
+  return { ...steps, logFactors: flows.logFactors(side), radii: flows.radii(side), curvatures: [flows.curvatures(side, 0), flows.curvatures(side, 1)], packedStops: flows.packedStops(side) };
 }
 
 function simplificationOf(stages: RecordedSimplifications, side: number): Simplification {

@@ -33,6 +33,12 @@ export function scaleEnd(flows: Flows): number {
   return 2 ** Math.max(1, Math.ceil(Math.max(...sizes) / Math.LN2 - 1e-6));
 }
 
+/** The renderer's colours of a scale, linear red, green and blue one after the other, as a gradient. */
+export function gradientOf(colours: Float32Array): string {
+  const stops = Array.from({ length: colours.length / 3 }, (_, k) => `color(srgb-linear ${colours.slice(3 * k, 3 * k + 3).join(' ')})`);
+  return `linear-gradient(90deg, ${stops.join(', ')})`;
+}
+
 /** Where the logarithm of a factor lies on the scale: 0 at the inverse of its end, 1/2 at 1, 1 at its end. */
 export function placeOf(logFactor: number, end: number): number {
   return 0.5 + logFactor / (2 * Math.log(end));
@@ -41,6 +47,12 @@ export function placeOf(logFactor: number, end: number): number {
 function placesOf(flow: SideFlow, moment: number, end: number): FactorPlaces {
   const places = (at: number): Float32Array => momentOf(flow, at).map((logFactor) => placeOf(logFactor, end));
   return { from: places(moment), to: places(moment + 1) };
+}
+
+/** The radii of both meshes' circles at a moment, in units of the roots of the meshes' areas; `null` where the flows have no circles. */
+export function radiiAt(flows: Flows, moment: number): readonly [Float32Array, Float32Array] | null {
+  const radii = (flow: SideFlow): Float32Array => momentOf(flow, moment).map((logFactor, v) => (flow.radii[v] ?? 0) * Math.exp(logFactor));
+  return flows.some((flow) => flow.radii.length === 0) ? null : [radii(flows[0]), radii(flows[1])];
 }
 
 /** The places of both meshes at a moment and the next one; a flow that has ended stays at its last moment. */

@@ -8,7 +8,7 @@ import { logMarks, markText } from '../plots/chart.ts';
 import type { Scheme } from '../report.ts';
 import type { MeshDefects } from '../wasm/page.js';
 import { factorScale, unpackDefects } from '../wasm/page.js';
-import { momentCount, placesAt, scaleEnd } from './factors.ts';
+import { gradientOf, momentCount, placesAt, radiiAt, scaleEnd } from './factors.ts';
 import './flow.css';
 import { flowCsv, momentAt, residualRange } from './flow-table.ts';
 import type { FlowHands, Listener } from './hands.ts';
@@ -35,17 +35,10 @@ function eased(share: number): number {
   return (1 - Math.cos(Math.PI * share)) / 2;
 }
 
-/** The colours of the scale as a gradient. */
-function scaleImage(): string {
-  const colours = factorScale();
-  const stops = Array.from({ length: colours.length / 3 }, (_, k) => `color(srgb-linear ${colours.slice(3 * k, 3 * k + 3).join(' ')})`);
-  return `linear-gradient(90deg, ${stops.join(', ')})`;
-}
-
 function Scale({ end }: { readonly end: number }): VNode {
   return (
     <div class="scale" role="img" aria-label={`Colours of the conformal factor: lengths shrink to 1/${end} on the left, stay in the middle, grow by ${end} on the right`}>
-      <div class="bar" style={{ backgroundImage: scaleImage() }} />
+      <div class="bar" style={{ backgroundImage: gradientOf(factorScale()) }} />
       <div class="ticks">
         <span>1/{end} of its length</span>
         <span>1</span>
@@ -192,9 +185,11 @@ function Player({ flows, hands, onClose }: FlowPlayerProps & { readonly flows: F
   const end = useMemo(() => scaleEnd(flows), [flows]);
   const moment = Math.min(Math.floor(time), last);
   const places = useMemo(() => placesAt(flows, moment, end), [flows, moment, end]);
+  const [hasCircles, setCircles] = useState(false);
+  const radii = useMemo(() => (hasCircles ? radiiAt(flows, moment) : null), [flows, moment, hasCircles]);
   useEffect(() => {
-    hands.show({ places, share: eased(time - moment) });
-  }, [places, time]);
+    hands.show({ places, share: eased(time - moment), radii });
+  }, [places, time, radii]);
   useEffect(
     () => () => {
       hands.show(null);
@@ -205,6 +200,18 @@ function Player({ flows, hands, onClose }: FlowPlayerProps & { readonly flows: F
   return (
     <div class="watched">
       <Scale end={end} />
+      <label class="check">
+        <input
+          type="checkbox"
+          name="flow-circles"
+          checked={hasCircles}
+          disabled={flows.some((flow) => flow.radii.length === 0)}
+          onChange={(event) => {
+            setCircles(event.currentTarget.checked);
+          }}
+        />
+        <span>Circles on the meshes</span>
+      </label>
       <Transport name="flow" {...{ last, time, isPlaying, words, rest, toggle }} />
       <Residuals flows={flows} time={time} />
       <Numbers flows={flows} moment={moment} />

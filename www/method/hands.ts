@@ -23,6 +23,8 @@ export interface FlowFrame {
   readonly places: readonly [FactorPlaces, FactorPlaces];
   /** How far it is from the one to the other, 0 to 1. */
   readonly share: number;
+  /** By side and vertex the radii of the circles at the first moment, in units of the root of the mesh's area; `null` for no circles. */
+  readonly radii: readonly [Float32Array, Float32Array] | null;
 }
 
 /** Places on the scale by vertex. */

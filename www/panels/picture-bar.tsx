@@ -2,7 +2,7 @@
 import type { VNode } from 'preact';
 import type { Scale } from '../heat/scales.ts';
 import { scaleOf } from '../heat/scales.ts';
-import { scaleEnd } from '../method/factors.ts';
+import { gradientOf, scaleEnd } from '../method/factors.ts';
 import { shownStyle } from '../store/compared.ts';
 import { needsFlows, shownFlows } from '../store/flat.ts';
 import { shownResult } from '../store/staleness.ts';
@@ -155,12 +155,6 @@ export function PictureBar({ state, actions }: Pick<PartProps, 'state' | 'action
   );
 }
 
-/** The renderer's colours of a scale as a gradient. */
-function scaleImage(colours: Float32Array): string {
-  const stops = Array.from({ length: colours.length / 3 }, (_, k) => `color(srgb-linear ${colours.slice(3 * k, 3 * k + 3).join(' ')})`);
-  return `linear-gradient(90deg, ${stops.join(', ')})`;
-}
-
 /** The scale of the heat map that is shown; `null` where none is. */
 function shownScale(state: State): Scale | null {
   const { surface } = shownStyle(state);
@@ -208,7 +202,7 @@ export function Legend({ state }: Pick<PartProps, 'state'>): VNode | null {
       {words !== null && <p role="status">{words}</p>}
       {scale !== null && (
         <div class="scale" role="img" aria-label={scale.label}>
-          <div class="bar" style={{ backgroundImage: scaleImage(scale.colours === 'rising' ? risingScale() : factorScale()) }} />
+          <div class="bar" style={{ backgroundImage: gradientOf(scale.colours === 'rising' ? risingScale() : factorScale()) }} />
           <div class="ticks">
             {scale.ticks.map((tick) => (
               <span key={tick}>{tick}</span>

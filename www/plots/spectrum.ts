@@ -38,12 +38,17 @@ interface Flat {
   readonly height: number;
 }
 
+/** Quicker by far than `Math.hypot`, which guards against numbers that no mesh has. */
+function norm(x: number, y: number, z: number): number {
+  return Math.sqrt(x * x + y * y + z * z);
+}
+
 function flat(places: Float32Array, a: number, b: number, c: number): Flat {
   const p = (corner: number, axis: number): number => places[3 * corner + axis] ?? NaN;
   const [ux, uy, uz] = [p(b, 0) - p(a, 0), p(b, 1) - p(a, 1), p(b, 2) - p(a, 2)];
   const [vx, vy, vz] = [p(c, 0) - p(a, 0), p(c, 1) - p(a, 1), p(c, 2) - p(a, 2)];
-  const length = Math.hypot(ux, uy, uz);
-  const doubleArea = Math.hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx);
+  const length = norm(ux, uy, uz);
+  const doubleArea = norm(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx);
   return { length, along: (ux * vx + uy * vy + uz * vz) / length, height: doubleArea / length };
 }
 

@@ -88,6 +88,7 @@ export class Picture {
   #comparedHeat: HeatMap | 'none' | null = null;
   #comparedLines = false;
   #moment: FlowFrame['places'] | null = null;
+  #radii: FlowFrame['radii'] = null;
   /** Whether somebody looks at the base domain, whose parts light up on the meshes. */
   wantsPatches = false;
 
@@ -300,13 +301,21 @@ export class Picture {
       this.#layHeat(viewer);
       return;
     }
-    if (this.#moment !== frame.places) {
+    const isOther = this.#moment !== frame.places || this.#radii !== frame.radii;
+    if (isOther) {
       for (const side of SIDES) {
         viewer.setFactors(side, frame.places[side].from, frame.places[side].to);
       }
       this.#moment = frame.places;
+      this.#radii = frame.radii;
     }
-    viewer.blendFactors(frame.share);
+    // Circles are of one moment.
+    viewer.blendFactors(frame.radii === null ? frame.share : 0);
+    if (isOther && frame.radii !== null) {
+      for (const side of SIDES) {
+        viewer.setCircles(side, frame.radii[side]);
+      }
+    }
   }
 
   /** Shows a heat map of the vertices where the surface is one and its flows are there, in the place of the style's picture. */

@@ -26,6 +26,17 @@ impl Viewer {
         }
     }
 
+    /// Draws circles around the vertices of a side that is shown in such colours: by vertex the radius, in units of the root of the mesh's
+    /// area. They stay until the colours change.
+    #[wasm_bindgen(js_name = setCircles)]
+    pub fn set_circles(&mut self, side: usize, radii: &[f32]) {
+        let side = &mut self.sides[side.min(1)];
+        let (Some(factors), Some(own)) = (&mut side.factors, &side.mesh) else { return };
+        if radii.len() == own.checked.mesh.vertex_count() {
+            factors.draw_circles(radii, self.factor_share, &self.renderer);
+        }
+    }
+
     /// How far the colours have gone from the first places to the second, 0 to 1.
     #[wasm_bindgen(js_name = blendFactors)]
     pub fn blend_factors(&mut self, share: f32) {

@@ -87,8 +87,10 @@ impl Viewer {
             && !self.is_morphed(k)
         {
             let lines = side.lines.as_ref().filter(|_| style.patch_lines);
-            let paint = Paint::Factors(self.factor_share);
-            return ViewDraw { paint, surface: Some(&factors.mesh), lines, ..bare() };
+            let paint =
+                if factors.circles.is_some() { Paint::Circles } else { Paint::Factors(self.factor_share) };
+            let surface = Some(factors.circles.as_ref().unwrap_or(&factors.mesh));
+            return ViewDraw { paint, surface, lines, ..bare() };
         }
         if style.surface == SurfaceStyle::Look
             && let Some(shown) = self.in_look(k, bare())
