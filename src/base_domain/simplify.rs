@@ -140,9 +140,10 @@ impl<'a> Simplification<'a> {
     }
 
     fn collapse(&mut self, halfedge: HalfedgeId) {
+        let [gone, onto] = [self.mesh.tail(halfedge), self.mesh.head(halfedge)];
         self.mesh.collapse(halfedge);
         if let Some(stages) = &mut self.stages {
-            stages.collapsed(&self.mesh);
+            stages.collapsed(&self.mesh, gone, onto);
         }
     }
 
@@ -280,6 +281,29 @@ mod tests {
         let number = |v: &VertexId| landmarks.iter().position(|l| l == v).map(VertexId::from).unwrap();
         let named: Vec<[VertexId; 3]> = last.triangles.iter().map(|t| t.each_ref().map(number)).collect();
         assert_eq!(named, base.mesh.triangles().raw);
+    }
+
+    #[test]
+    fn every_vertex_goes_once_and_its_history_ends_at_a_landmark() {
+        let sphere = icosphere(3);
+        let landmarks: Vec<_> = (0..12).map(|k| VertexId(k * 97 % 642)).collect();
+        let stages = simplification_stages(&sphere, &landmarks, &mut Silent).unwrap();
+        let mut onto = ti_vec![None; sphere.vertex_count()];
+        for stage in &stages {
+            for &[gone, kept] in &stage.collapses {
+                assert_eq!((onto[gone], onto[kept]), (None, None), "both are there until then");
+                onto[gone] = Some(kept);
+            }
+            let left = onto.iter().filter(|kept| kept.is_none()).count();
+            assert_eq!(left, stage.vertices, "the collapses lead to the stage");
+            assert!(stage.triangles.iter().flatten().all(|&v| onto[v].is_none()));
+        }
+        for mut v in sphere.vertices() {
+            while let Some(kept) = onto[v] {
+                v = kept;
+            }
+            assert!(landmarks.contains(&v));
+        }
     }
 
     #[test]

@@ -73,6 +73,12 @@ impl Simplifications {
         flat3(&self.positions[side.min(1)])
     }
 
+    /// All collapses in their order, two vertices each: the one that went, and the one that it went onto.
+    pub fn collapses(&self, side: usize) -> Vec<u32> {
+        let stages = self.stages[side.min(1)].iter();
+        stages.flat_map(|stage| stage.collapses.iter().flatten().map(|v| v.0)).collect()
+    }
+
     /// The triangles of all stages, one stage after the other, the whole mesh first.
     pub fn triangles(&self, side: usize) -> Vec<u32> {
         let stages = self.stages[side.min(1)].iter();

@@ -117,6 +117,8 @@ pub(super) struct CoarseStage {
     pub surface: Mesh,
     /// `None` where they would lie too close to be told apart.
     pub edges: Option<Mesh>,
+    /// The way of a vertex to its landmark, where one is shown.
+    pub trail: Option<Mesh>,
 }
 
 /// A mesh in colours of factors of length.

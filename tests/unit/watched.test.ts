@@ -4,6 +4,7 @@ import type { Flows, SideFlow, Simplification } from '../../www/compute/watch-me
 import { momentCount, placeOf, placesAt, radiiAt, scaleEnd } from '../../www/method/factors.ts';
 import { flowCsv, momentAt, residualRange } from '../../www/method/flow-table.ts';
 import { countAt, stageAt, stageCount } from '../../www/method/stages.ts';
+import { historyOf, nearestVertex, trailOf } from '../../www/method/trails.ts';
 import { STRUCTURES } from '../../www/method/structures.ts';
 import type { DefectGroup } from '../../www/store/defects.ts';
 import type { Report } from '../../www/report.ts';
@@ -60,12 +61,20 @@ describe('the flows of a map', () => {
 
   test('have a simplification that ends at the base domain', () => {
     const { base_domain: base } = JSON.parse(output.report()) as Report;
-    const found: Simplification = { positions: stages.positions(0), triangles: stages.triangles(0), counts: stages.counts(0) };
+    const found: Simplification = { positions: stages.positions(0), triangles: stages.triangles(0), counts: stages.counts(0), collapses: stages.collapses(0) };
     expect(found.positions.length).toBe(3 * vertices);
     expect(found.counts[0]).toBe(2 * vertices - 4);
     expect(found.counts.at(-1)).toBe(base.faces);
     expect(found.triangles.length).toBe(3 * found.counts.reduce((sum, count) => sum + count, 0));
     expect(new Set(stageAt(found, 1, 1).triangles).size).toBe(base.vertices);
+    // All vertices but the base domain's go, each to one of these.
+    expect(found.collapses.length).toBe(2 * (vertices - base.vertices));
+    const corners = new Set(stageAt(found, 1, 1).triangles);
+    for (let vertex = 0; vertex < vertices; vertex++) {
+      const history = historyOf(found, vertex);
+      expect(corners.has(history.at(-1)?.vertex ?? vertex)).toBe(true);
+      expect(history.length === 0).toBe(corners.has(vertex));
+    }
   });
 
   test('refuse curvatures that no closed surface has', () => {
@@ -166,6 +175,7 @@ describe('the stages', () => {
     positions: new Float32Array(),
     triangles: Uint32Array.from({ length: 3 * counts.reduce((sum, count) => sum + count, 0) }, (_, k) => k),
     counts: Uint32Array.from(counts),
+    collapses: new Uint32Array(),
   });
 
   test('of both meshes begin and end together', () => {
@@ -180,5 +190,17 @@ describe('the stages', () => {
     const found = stages(3, 2, 1);
     expect([...stageAt(found, 1, 2).triangles]).toEqual([9, 10, 11, 12, 13, 14]);
     expect([...stageAt(found, 2, 2).triangles]).toEqual([15, 16, 17]);
+  });
+
+  test('have a history of each vertex, from place to place to one that stays', () => {
+    const found: Simplification = { ...stages(4), positions: Float32Array.from([0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0]), collapses: Uint32Array.from([0, 1, 3, 2, 1, 2]) };
+    expect(nearestVertex(found, [0.6, 0.1, -0.2])).toBe(1);
+    expect(historyOf(found, 0)).toEqual([
+      { vertex: 1, collapse: 1 },
+      { vertex: 2, collapse: 3 },
+    ]);
+    expect([...trailOf(found, 0, historyOf(found, 0))]).toEqual([0, 0, 0, 1, 0, 0, 2, 0, 0]);
+    expect(historyOf(found, 2)).toEqual([]);
+    expect([...trailOf(found, 2, [])]).toEqual([2, 0, 0]);
   });
 });

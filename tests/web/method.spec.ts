@@ -7,7 +7,7 @@ import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
 import type { Spot } from './canvas.ts';
-import { countPixels, pixelsOf, SETTLED } from './canvas.ts';
+import { countPixels, pixelsOf, seen, SETTLED } from './canvas.ts';
 import { fail, openDemo, openStep, ROOT, runMap } from './page.ts';
 
 const RULES = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
@@ -327,6 +327,19 @@ test('both meshes are simplified to their landmarks, and come back', async () =>
   }
   await page.waitForTimeout(300);
   await page.screenshot({ path: `${ROOT}test-results/simplification-middle.png` });
+  // The vertex under the mouse has a history, which is drawn in red.
+  const history = page.locator('.history-words');
+  await expect(history).toContainText('Point at a mesh');
+  const red = async (): Promise<number> => (await seen(page, 'source')).red;
+  const without = await red();
+  const box = (await page.locator('#view-source').boundingBox()) ?? fail('no view');
+  await page.mouse.move(box.x + 0.45 * box.width, box.y + 0.48 * box.height, { steps: 4 });
+  await expect(history).toHaveText(/^On the source: gone with collapse [\d,]+ of 2,5\d\d.* On the target: /);
+  await expect.poll(red).toBeGreaterThan(without + 0.0003);
+  await page.screenshot({ path: `${ROOT}test-results/simplification-history.png` });
+  await page.mouse.move(box.x + 3, box.y + 3);
+  await expect(history).toContainText('Point at a mesh');
+  await expect.poll(red).toBeLessThan(without + 0.0001);
   // Of one mesh, carried to the other: both have as many triangles from the beginning.
   for (const [choice, count] of [['From the target', '4,574'], ['Jointly', '5,114']] as const) {
     await page.getByRole('radio', { name: choice }).check();

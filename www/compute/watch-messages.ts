@@ -75,6 +75,8 @@ export interface Simplification {
   readonly triangles: Uint32Array;
   /** How many triangles each stage has. */
   readonly counts: Uint32Array;
+  /** All collapses in their order, two vertices each: the one that went, and the one that it went onto. */
+  readonly collapses: Uint32Array;
 }
 
 /** The source and the target on their way. */

@@ -27,7 +27,7 @@ function flowOf(flows: RecordedFlows, side: number): SideFlow {
 }
 
 function simplificationOf(stages: RecordedSimplifications, side: number): Simplification {
-  return { positions: stages.positions(side), triangles: stages.triangles(side), counts: stages.counts(side) };
+  return { positions: stages.positions(side), triangles: stages.triangles(side), counts: stages.counts(side), collapses: stages.collapses(side) };
 }
 
 function flowsOf({ source, target, landmarks, cones, scheme }: WatchRequest): Flows {

@@ -37,6 +37,8 @@ export interface FactorPlaces {
 export interface StageFrame {
   /** By side the places of the vertices, and the triangles of the stage. */
   readonly sides: readonly [StageTriangles, StageTriangles];
+  /** By side the places that a vertex takes on its way to its landmark, three numbers each; `null` where none is looked at. */
+  readonly trails: readonly [Float32Array | null, Float32Array | null];
 }
 
 /** Triangles of points. */

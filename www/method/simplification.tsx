@@ -2,14 +2,21 @@
 import type { VNode } from 'preact';
 import { useEffect, useMemo, useState } from 'preact/hooks';
 import type { Simplifications, SimplifiedFrom } from '../compute/watch-messages.ts';
+import type { Side } from '../landmarks.ts';
 import { integer } from '../numbers.ts';
 import type { Listener, SimplificationHands } from './hands.ts';
 import { usePlayed } from './played.ts';
 import { countAt, stageAt, stageCount } from './stages.ts';
+import type { Step } from './trails.ts';
+import { historyOf, nearestVertex, trailOf } from './trails.ts';
 import { Computed, Transport } from './watched.tsx';
+
+type Place = readonly [number, number, number];
 
 export interface SimplificationPlayerProps {
   readonly hands: SimplificationHands;
+  /** The place under the mouse on both meshes, in the files' coordinates; `null` while it is elsewhere. */
+  readonly places: readonly [Place, Place] | null;
   /** Whether the map can draw one mesh on the other: it has a map file. */
   readonly isCarried: boolean;
   /** Leaves it. */
@@ -23,14 +30,46 @@ interface PlayerProps extends Omit<SimplificationPlayerProps, 'isCarried'> {
   readonly found: Simplifications;
 }
 
-function Player({ found, hands, onClose }: PlayerProps): VNode {
+/** A vertex with its history. */
+interface Trail {
+  readonly steps: readonly Step[];
+  readonly trail: Float32Array;
+}
+
+/** The history of the vertex at a place of one mesh. */
+function trailAt(found: Simplifications, side: Side, places: SimplificationPlayerProps['places']): Trail | null {
+  if (places === null) {
+    return null;
+  }
+  const vertex = nearestVertex(found[side], places[side]);
+  const steps = historyOf(found[side], vertex);
+  return { steps, trail: trailOf(found[side], vertex, steps) };
+}
+
+/** The history of the vertices under the mouse, in words. */
+function historyWords(found: Simplifications, trails: readonly [Trail | null, Trail | null]): string {
+  const of = (name: string, side: Side): string => {
+    const steps = trails[side]?.steps ?? [];
+    const [first] = steps;
+    const all = integer(found[side].collapses.length / 2);
+    if (first === undefined) {
+      return `On the ${name}: a landmark, which stays.`;
+    }
+    const then = steps.length === 1 ? '' : `, ${steps.length === 2 ? 'and one more' : `and ${integer(steps.length - 1)} more`} until collapse ${integer(steps.at(-1)?.collapse ?? 0)}`;
+    return `On the ${name}: gone with collapse ${integer(first.collapse)} of ${all}${then}.`;
+  };
+  return `${of('source', 0)} ${of('target', 1)}`;
+}
+
+function Player({ found, hands, places, onClose }: PlayerProps): VNode {
   const last = stageCount(found) - 1;
   const { time, isPlaying, rest, toggle } = usePlayed(last, STAGE_TIME);
   const stage = Math.min(Math.floor(time), last);
   const sides = useMemo(() => [stageAt(found[0], stage, last), stageAt(found[1], stage, last)] as const, [found, stage]);
+  const trails = useMemo(() => [trailAt(found, 0, places), trailAt(found, 1, places)] as const, [found, places]);
   useEffect(() => {
-    hands.show({ sides });
-  }, [sides]);
+    hands.show({ sides, trails: [trails[0]?.trail ?? null, trails[1]?.trail ?? null] });
+  }, [sides, trails]);
   useEffect(
     () => () => {
       hands.show(null);
@@ -43,6 +82,9 @@ function Player({ found, hands, onClose }: PlayerProps): VNode {
       <Transport name="simplification" {...{ last, time, isPlaying, words, rest, toggle }} />
       <p class="small stage-words" role="status">
         {words}
+      </p>
+      <p class="small quiet history-words">
+        {places === null ? 'Point at a mesh: the way of the vertex there to its landmark is drawn.' : historyWords(found, [trails[0], trails[1]])}
       </p>
       <div class="watched-row">
         <button type="button" id="close-simplification" onClick={onClose}>
@@ -61,7 +103,7 @@ const CHOICES: readonly (readonly [SimplifiedFrom, string, string])[] = [
 ];
 
 /** The stages, once they are computed, of what is chosen. */
-export default function SimplificationPlayer({ hands, isCarried, onClose }: SimplificationPlayerProps): VNode {
+export default function SimplificationPlayer({ hands, places, isCarried, onClose }: SimplificationPlayerProps): VNode {
   const [from, setFrom] = useState<SimplifiedFrom>('each');
   return (
     <div class="watched">
@@ -92,7 +134,7 @@ export default function SimplificationPlayer({ hands, isCarried, onClose }: Simp
         sentence={from === 'each' ? 'Collapsing both meshes to their landmarks…' : 'Collapsing one mesh to its landmarks…'}
         onClose={onClose}
       >
-        {(found) => <Player hands={hands} onClose={onClose} found={found} />}
+        {(found) => <Player hands={hands} places={places} onClose={onClose} found={found} />}
       </Computed>
     </div>
   );

@@ -5,6 +5,8 @@ export type Theme = State['ui']['theme'];
 
 /** What the map says of the place under the mouse. */
 export interface Probe {
+  /** The place on the source and on the target, in the files' coordinates. */
+  readonly positions: readonly [readonly [number, number, number], readonly [number, number, number]];
   /** The distortion there, 1 for none; `null` where it is not known. */
   readonly distortion: number | null;
   /** What the heat map that is shown has there: one value of the map, or one on each mesh; `null` where none is shown. */

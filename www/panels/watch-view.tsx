@@ -32,7 +32,7 @@ function WatchButton({ part, about, onOpen }: ButtonProps): VNode {
   );
 }
 
-function PartsOf({ state, actions, isCarried }: Pick<PartProps, 'state' | 'actions'> & { readonly isCarried: boolean }): VNode {
+function PartsOf({ state, actions, shell, isCarried }: PartProps & { readonly isCarried: boolean }): VNode {
   const [open, setOpen] = useState<Part | null>(null);
   const close = (): void => {
     setOpen(null);
@@ -52,7 +52,7 @@ function PartsOf({ state, actions, isCarried }: Pick<PartProps, 'state' | 'actio
       <section id="simplification">
         <h3>The simplification</h3>
         {open === 'simplification' ? (
-          <Late isWanted load={loadSimplification} given={{ hands: actions.simplification, isCarried, onClose: close }} />
+          <Late isWanted load={loadSimplification} given={{ hands: actions.simplification, places: shell.state.probe?.positions ?? null, isCarried, onClose: close }} />
         ) : (
           <WatchButton
             part="simplification"
@@ -78,7 +78,7 @@ function PartsOf({ state, actions, isCarried }: Pick<PartProps, 'state' | 'actio
 }
 
 /** What can be watched of the map on the page. */
-export function WatchView({ state, actions }: PartProps): VNode | null {
+export function WatchView({ state, actions, shell }: PartProps): VNode | null {
   const result = shownResult(state);
-  return result === null ? null : <PartsOf key={result.output.report} state={state} actions={actions} isCarried={result.output.map !== null} />;
+  return result === null ? null : <PartsOf key={result.output.report} state={state} actions={actions} shell={shell} isCarried={result.output.map !== null} />;
 }

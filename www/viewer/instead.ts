@@ -47,13 +47,24 @@ export function showPreview(viewer: Viewer, state: State): void {
   }
 }
 
+/** The stages that a renderer has. */
+const STAGES = new WeakMap<Viewer, StageFrame['sides']>();
+
+const NO_PLACES = new Float32Array();
+
 /** Both meshes on their way to their landmarks, or as they are. */
 export function showStage(viewer: Viewer, frame: StageFrame | null): void {
   if (frame === null) {
+    STAGES.delete(viewer);
     viewer.clearStages();
     return;
   }
+  const isOther = STAGES.get(viewer) !== frame.sides;
+  STAGES.set(viewer, frame.sides);
   for (const side of SIDES) {
-    viewer.setStage(side, frame.sides[side].positions, frame.sides[side].triangles);
+    if (isOther) {
+      viewer.setStage(side, frame.sides[side].positions, frame.sides[side].triangles);
+    }
+    viewer.setTrail(side, frame.trails[side] ?? NO_PLACES);
   }
 }

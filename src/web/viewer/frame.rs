@@ -81,7 +81,15 @@ impl Viewer {
             let palette = Palette { line: [0.03, 0.03, 0.03], ..self.palette() };
             let line_half_width = 0.55 * self.pixel_ratio;
             let lines = stage.edges.as_ref();
-            return ViewDraw { palette, line_half_width, surface: Some(&stage.surface), lines, ..bare() };
+            let traced = [stage.trail.as_ref(), None];
+            return ViewDraw {
+                palette,
+                line_half_width,
+                surface: Some(&stage.surface),
+                lines,
+                traced,
+                ..bare()
+            };
         }
         if let Some(factors) = &side.factors
             && !self.is_morphed(k)

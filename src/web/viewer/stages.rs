@@ -4,6 +4,7 @@ use super::super::view_side::CoarseStage;
 use super::canvas::Viewer;
 use super::reading::point;
 use crate::scene::buffers::{edges, facets, ribbons};
+use crate::scene::seams;
 use glam::Vec3;
 use wasm_bindgen::prelude::*;
 
@@ -27,7 +28,23 @@ impl Viewer {
             let (vertices, indices) = ribbons(&edges(&points, &triangles));
             self.renderer.line_mesh(&vertices, &indices)
         });
-        side.stage = Some(CoarseStage { surface: self.renderer.surface_mesh(&vertices, &indices), edges });
+        side.stage = Some(CoarseStage {
+            surface: self.renderer.surface_mesh(&vertices, &indices),
+            edges,
+            trail: None,
+        });
+    }
+
+    /// Draws the way of a vertex, from place to place, over the triangles that one side shows; without places there is none.
+    #[wasm_bindgen(js_name = setTrail)]
+    pub fn set_trail(&mut self, side: usize, positions: &[f32]) {
+        let side = &mut self.sides[side.min(1)];
+        let (Some(stage), Some(mesh)) = (&mut side.stage, &side.mesh) else { return };
+        let points: Vec<Vec3> =
+            positions.chunks_exact(3).map(|p| mesh.frame.place(point([p[0], p[1], p[2]]))).collect();
+        let steps: Vec<[u32; 2]> = (1..points.len() as u32).map(|k| [k - 1, k]).collect();
+        let (vertices, indices) = seams::drawn(&points, &steps);
+        stage.trail = (!indices.is_empty()).then(|| self.renderer.marked_line_mesh(&vertices, &indices));
     }
 
     /// Both sides look as before.
