@@ -16,6 +16,7 @@ import { after, candidate, DEMO, DONE, FOUR, MATCH, mesh, pair, READY } from './
 
 const SEARCH: Event = { kind: 'search-begun' };
 const FOUND: Event = { kind: 'search-done', report: MATCH };
+const REFUSED: Event = { kind: 'error', sentence: 'marks.json: There is no pair.' };
 const TWO: State = { ...READY, pairs: FOUR.slice(0, 2) };
 const take = (number: number): Event => ({ kind: 'candidate-taken', candidate: number });
 /** An answer with these candidates of which the first is sure. */
@@ -59,6 +60,14 @@ describe('found pairs', () => {
     expect(found.history).toBe(READY.history);
     expect(found.matching).toMatchObject({ kind: 'found' });
     expect(stepAfter(found, begun)).toBe('landmarks');
+  });
+
+  test('leave a sentence that came while they were looked for', () => {
+    const found = after(TWO, SEARCH, REFUSED, FOUND);
+    expect(found.pairs).toHaveLength(4);
+    expect(found.error).toBe('marks.json: There is no pair.');
+    // Whoever takes another answer has read it.
+    expect(after(found, { kind: 'undo' }, take(0)).error).toBeNull();
   });
 
   test('are shown in their list from every step', () => {

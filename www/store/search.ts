@@ -81,9 +81,12 @@ export function withFound(state: State, report: MatchReport): State {
   }
   const [best] = report.candidates;
   const found: State = { ...state, matching: { kind: 'found', report, isSettled: false } };
-  return best === undefined || report.verdict.kind === 'unknown'
-    ? { ...found, suggestions: withSuggestions(state, 0, ringsAt(report.verdict.places)) }
-    : withCandidate(found, best);
+  if (best === undefined || report.verdict.kind === 'unknown') {
+    return { ...found, suggestions: withSuggestions(state, 0, ringsAt(report.verdict.places)) };
+  }
+  const taken = withCandidate(found, best);
+  // What was said meanwhile, of a file that was refused, is not for the search to take back.
+  return { ...taken, error: taken.error ?? state.error };
 }
 
 /** The pairs of a candidate are taken, since the user chose it. */
