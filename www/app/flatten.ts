@@ -2,7 +2,7 @@
 import type { Core } from '../compute/core.ts';
 import { wantsFlows } from '../store/flat.ts';
 import { shownResult } from '../store/staleness.ts';
-import type { Flattening, Result } from '../store/state.ts';
+import type { Flattening } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { startFlowing } from './watch.ts';
 
@@ -13,15 +13,14 @@ const SCHEME = 'inversive';
 export class Flattener {
   readonly #store: Store;
   readonly #core: () => Core | null;
-  #of: Result | null = null;
   #end = (): void => undefined;
 
   constructor(store: Store, core: () => Core | null) {
     this.#store = store;
     this.#core = core;
-    store.subscribe((state) => {
-      if (this.#of !== null && this.#of !== shownResult(state)) {
-        this.#of = null;
+    store.subscribe((state, previous) => {
+      // Whatever takes the flows off the page ends the worker.
+      if (previous.flattening?.progress.kind === 'computing' && state.flattening === null) {
         this.#end();
       }
       if (wantsFlows(state)) {
@@ -42,7 +41,6 @@ export class Flattener {
     const tell = (progress: Flattening['progress']): void => {
       dispatch({ kind: 'flattening', flattening: { of, progress } });
     };
-    this.#of = of;
     tell({ kind: 'computing', share: 0 });
     this.#end = startFlowing(
       this.#store,
@@ -52,11 +50,9 @@ export class Flattener {
           tell({ kind: 'computing', share });
         },
         done: (flows) => {
-          this.#of = null;
           tell({ kind: 'there', flows });
         },
         failed: (sentence) => {
-          this.#of = null;
           tell({ kind: 'failed', sentence });
         },
       },

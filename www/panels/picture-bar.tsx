@@ -172,7 +172,7 @@ const HEAT_MAPS: readonly HeatMap[] = ['distortion', 'angles', 'areas', 'truth',
 function flowWords(state: State): string | null {
   const { surface } = shownStyle(state);
   const { flattening } = state;
-  if (!needsFlows(surface) || flattening?.of !== shownResult(state)) {
+  if (!needsFlows(surface) || flattening === null) {
     return null;
   }
   const { progress } = flattening;

@@ -1,6 +1,7 @@
 /** The one way to change the state: events make a step, and the step is recorded, so that it can be taken back. */
 import { withLookedAt } from './compared.ts';
 import type { Event } from './events.ts';
+import { withOwnFlows } from './flat.ts';
 import { recorded } from './history.ts';
 import { update } from './reducer.ts';
 import { inLine } from './settle.ts';
@@ -31,7 +32,7 @@ export function change(state: State, events: readonly Event[]): State {
   const at = events.findIndex(({ kind }) => MOVES.includes(kind));
   const move = events[at];
   if (move === undefined) {
-    return withLookedAt(stepped(state, events));
+    return withOwnFlows(withLookedAt(stepped(state, events)));
   }
   const before = stepped(state, events.slice(0, at));
   const after = update(before, move);

@@ -2,7 +2,7 @@
 import type { Flows } from '../compute/watch-messages.ts';
 import { shownStyle } from './compared.ts';
 import { shownResult } from './staleness.ts';
-import type { Flattening, State, Style } from './state.ts';
+import type { State, Style } from './state.ts';
 
 /** The heat maps that flows tell. */
 const OF_FLOWS = ['factor', 'curvature', 'flat-curvature'] as const;
@@ -16,17 +16,16 @@ export function needsFlows(surface: Style['surface']): surface is (typeof OF_FLO
 export function wantsFlows(state: State): boolean {
   const { job, flattening } = state;
   const isFree = job.kind !== 'running' && job.kind !== 'busy';
-  const of = shownResult(state);
-  return isFree && of !== null && needsFlows(shownStyle(state).surface) && flattening?.of !== of;
+  return isFree && flattening === null && shownResult(state) !== null && needsFlows(shownStyle(state).surface);
 }
 
-/** Flows of the map on the page begin, go on, are there, or failed; what is of another map is left out. */
-export function withFlattening(state: State, flattening: Flattening): State {
-  return flattening.of === shownResult(state) ? { ...state, flattening } : state;
+/** The state without flows that are not of the map on the page: who comes back to their map has them computed again. */
+export function withOwnFlows(state: State): State {
+  const { flattening } = state;
+  return flattening === null || flattening.of === shownResult(state) ? state : { ...state, flattening: null };
 }
 
 /** The flows, where they are there to be shown. */
-export function shownFlows(state: State): Flows | null {
-  const { flattening } = state;
-  return flattening?.progress.kind === 'there' && flattening.of === shownResult(state) ? flattening.progress.flows : null;
+export function shownFlows({ flattening }: Pick<State, 'flattening'>): Flows | null {
+  return flattening?.progress.kind === 'there' ? flattening.progress.flows : null;
 }

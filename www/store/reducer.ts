@@ -31,7 +31,6 @@ import { withRestored } from './restore.ts';
 import { withFindings } from './settle.ts';
 import { withSideMarks } from './side-marks.ts';
 import { withFound, withSearch, withSearched, withTaken } from './search.ts';
-import { withFlattening } from './flat.ts';
 import { isKnown } from './surfaces.ts';
 import type { Result, State, Style } from './state.ts';
 import { shownResult } from './staleness.ts';
@@ -190,7 +189,7 @@ export function update(state: State, event: Event): State {
     case 'comparison':
       return withCompared(state, event.which, event.progress);
     case 'flattening':
-      return withFlattening(state, event.flattening);
+      return { ...state, flattening: event.flattening };
     case 'texture-picture':
       return withStyle({ ...state, texturePicture: event.picture }, { surface: 'picture' });
     case 'comparison-closed':
