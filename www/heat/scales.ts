@@ -1,4 +1,5 @@
 /** The scales of heat maps: from values to places on a scale of colours, 0 to 1, and back. */
+import { placeOf } from '../method/factors.ts';
 import type { HeatMap } from '../store/state.ts';
 
 export interface Scale {
@@ -29,7 +30,7 @@ function logarithmic(end: number): Pick<Scale, 'colours' | 'place' | 'value'> {
 
 /** Factors from the inverse of the end through 1 to the end. */
 function factors(end: number): Pick<Scale, 'colours' | 'place' | 'value'> {
-  return { colours: 'diverging', place: (value) => 0.5 + Math.log(value) / (2 * Math.log(end)), value: (place) => end ** (2 * place - 1) };
+  return { colours: 'diverging', place: (value) => placeOf(Math.log(value), end), value: (place) => end ** (2 * place - 1) };
 }
 
 /** Curvatures of either sign: even around 0, by their logarithm where they are large. */

@@ -1,9 +1,8 @@
 /** What heat maps show: values by point of the map, or by vertex of both meshes. */
 import type { Flows } from '../compute/watch-messages.ts';
-import { scaleEnd } from '../method/factors.ts';
+import { momentCount, placesAt, scaleEnd } from '../method/factors.ts';
 import { measurePieces } from '../plots/spectrum.ts';
-import type { HeatMap, Result } from '../store/state.ts';
-import { needsFlows } from '../store/flat.ts';
+import type { FlowHeat, MapHeat, Result } from '../store/state.ts';
 import type { Scale } from './scales.ts';
 import { scaleOf } from './scales.ts';
 
@@ -28,13 +27,10 @@ function aroundPoints({ sides, triangles }: Output, heat: 'angles' | 'areas'): F
   return Float32Array.from(sums, (sum, point) => Math.exp(sum / Math.max(weights[point] ?? 0, Number.MIN_VALUE)));
 }
 
-/** The values of a heat map by point of the map; `null` where it is one of the meshes' vertices. */
-export function valuesByPoint(output: Output, heat: HeatMap): Float32Array | null {
+/** The values of a heat map by point of the map. */
+export function valuesByPoint(output: Output, heat: MapHeat): Float32Array {
   if (heat === 'distortion' || heat === 'truth') {
     return output[heat];
-  }
-  if (heat !== 'angles' && heat !== 'areas') {
-    return null;
   }
   const known = MEASURED.get(output.triangles) ?? new Map<'angles' | 'areas', Float32Array>();
   MEASURED.set(output.triangles, known);
@@ -49,19 +45,14 @@ export interface VertexHeat {
   readonly places: readonly [Float32Array, Float32Array];
 }
 
-/** What flows tell of the vertices; `null` where the heat map is none of the vertices. */
-export function heatByVertex(flows: Flows, heat: HeatMap): VertexHeat | null {
-  if (!needsFlows(heat)) {
-    return null;
+/** What flows tell of the vertices. */
+export function heatByVertex(flows: Flows, heat: FlowHeat): VertexHeat {
+  const end = scaleEnd(flows);
+  const scale = scaleOf(heat, end);
+  if (heat === 'factor') {
+    const [source, target] = placesAt(flows, momentCount(flows) - 1, end);
+    return { scale, places: [source.from, target.from] };
   }
-  const scale = scaleOf(heat, scaleEnd(flows));
-  const places = (side: 0 | 1): Float32Array => {
-    const { logFactors, moments, curvatures } = flows[side];
-    if (heat === 'factor') {
-      const last = logFactors.subarray(logFactors.length - logFactors.length / Math.max(1, moments.length));
-      return last.map((logFactor) => scale.place(Math.exp(logFactor)));
-    }
-    return curvatures[heat === 'curvature' ? 0 : 1].map(scale.place);
-  };
+  const places = (side: 0 | 1): Float32Array => flows[side].curvatures[heat === 'curvature' ? 0 : 1].map(scale.place);
   return { scale, places: [places(0), places(1)] };
 }

@@ -4,10 +4,10 @@ import type { Scale } from '../heat/scales.ts';
 import { scaleOf } from '../heat/scales.ts';
 import { gradientOf, scaleEnd } from '../method/factors.ts';
 import { shownStyle } from '../store/compared.ts';
-import { needsFlows, shownFlows } from '../store/flat.ts';
+import { shownFlows } from '../store/flat.ts';
 import { shownResult } from '../store/staleness.ts';
-import type { HeatMap, Result, State, Style } from '../store/state.ts';
-import { isThere } from '../store/surfaces.ts';
+import type { Result, State, Style } from '../store/state.ts';
+import { isFlowHeat, isHeatMap, isTexture, isThere } from '../store/surfaces.ts';
 import { factorScale, risingScale } from '../wasm/page.js';
 import type { PartProps } from './actions.ts';
 import type { Choice } from './controls.tsx';
@@ -18,7 +18,7 @@ import { TextureControls } from './texture-controls.tsx';
 type Surface = Choice<Style['surface']>;
 
 /** What can lie on the flat metric. */
-const TEXTURES: readonly Surface[] = [
+const TEXTURE_CHOICES: readonly Surface[] = [
   { value: 'checkerboard', text: 'Checkerboard' },
   { value: 'circles', text: 'Circles' },
   { value: 'ribbons', text: 'Ribbons' },
@@ -39,7 +39,7 @@ const GROUPS: readonly { readonly title: string | null; readonly surfaces: reado
   },
   {
     title: 'Texture of the flat metric',
-    surfaces: TEXTURES,
+    surfaces: TEXTURE_CHOICES,
   },
   {
     title: 'Heat map',
@@ -70,7 +70,7 @@ export function SurfaceChoice({ state, actions, group }: SurfaceProps): VNode {
   const choose = (surface: Style['surface']): void => {
     actions.dispatch({ kind: 'style', style: { surface } });
   };
-  const isTexture = shownResult(state) !== null && TEXTURES.some(({ value }) => value === state.ui.style.surface);
+  const hasControls = shownResult(state) !== null && isTexture(state.ui.style.surface);
   return (
     <div role="radiogroup" aria-label="Surface" class="surfaces">
       {GROUPS.map(({ title, surfaces }) => (
@@ -93,7 +93,7 @@ export function SurfaceChoice({ state, actions, group }: SurfaceProps): VNode {
                 <span>{text}</span>
               </label>
             ))}
-          {surfaces === TEXTURES && isTexture && <TextureControls state={state} actions={actions} />}
+          {surfaces === TEXTURE_CHOICES && hasControls && <TextureControls state={state} actions={actions} />}
         </div>
       ))}
     </div>
@@ -158,21 +158,18 @@ export function PictureBar({ state, actions }: Pick<PartProps, 'state' | 'action
 /** The scale of the heat map that is shown; `null` where none is. */
 function shownScale(state: State): Scale | null {
   const { surface } = shownStyle(state);
-  const heat = HEAT_MAPS.find((one) => one === surface);
-  if (heat === undefined || !isThere(state, heat)) {
+  if (!isHeatMap(surface) || !isThere(state, surface)) {
     return null;
   }
   const flows = shownFlows(state);
-  return needsFlows(heat) && flows === null ? null : scaleOf(heat, flows === null ? undefined : scaleEnd(flows));
+  return isFlowHeat(surface) && flows === null ? null : scaleOf(surface, flows === null ? undefined : scaleEnd(flows));
 }
-
-const HEAT_MAPS: readonly HeatMap[] = ['distortion', 'angles', 'areas', 'truth', 'factor', 'curvature', 'flat-curvature'];
 
 /** How far the flows are that a heat map waits for, or why there are none; `null` where none waits. */
 function flowWords(state: State): string | null {
   const { surface } = shownStyle(state);
   const { flattening } = state;
-  if (!needsFlows(surface) || flattening === null) {
+  if (!isFlowHeat(surface) || flattening === null) {
     return null;
   }
   const { progress } = flattening;

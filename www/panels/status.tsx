@@ -10,6 +10,7 @@ import { wholePairs } from '../store/order.ts';
 import { proposed } from '../store/proposal.ts';
 import { isCurrent } from '../store/staleness.ts';
 import type { HeatMap, State, Style } from '../store/state.ts';
+import { isHeatMap } from '../store/surfaces.ts';
 import { asked, waitingCount } from '../store/waiting.ts';
 import type { PartProps } from './actions.ts';
 import { meshName } from './names.ts';
@@ -47,10 +48,9 @@ const PLACE: Readonly<Record<HeatMap, (value: number, onTarget: number) => strin
 
 /** What the heat map that is shown says of the place under the mouse; where none is, how much the map stretches it. */
 function placeSentence(surface: Style['surface'], { distortion, heat }: Probe): string | null {
-  const [value = 0, onTarget = 0] = heat ?? [];
-  const sentence = heat === null || !(surface in PLACE) ? null : PLACE[surface as HeatMap];
-  if (sentence !== null) {
-    return sentence(value, onTarget);
+  if (heat !== null && isHeatMap(surface)) {
+    const [value = 0, onTarget = 0] = heat;
+    return PLACE[surface](value, onTarget);
   }
   return distortion === null ? null : stretchWords(distortion);
 }

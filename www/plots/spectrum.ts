@@ -38,7 +38,7 @@ interface Flat {
   readonly height: number;
 }
 
-/** Quicker by far than `Math.hypot`, which guards against numbers that no mesh has. */
+/** Quicker than `Math.hypot`, which guards against numbers that no mesh has. */
 function norm(x: number, y: number, z: number): number {
   return Math.sqrt(x * x + y * y + z * z);
 }

@@ -3,7 +3,7 @@ import * as v from 'valibot';
 import type { Pair, SurfacePoint } from '../landmarks.ts';
 import type { RunOptions } from '../report.ts';
 import type { Camera, Style, TexturePlace, Work } from '../store/state.ts';
-import { INITIAL } from '../store/state.ts';
+import { FLOW_HEATS, INITIAL, MAP_HEATS, TEXTURES } from '../store/state.ts';
 
 /** More pairs than a map was ever made of. */
 export const MOST_PAIRS = 10_000;
@@ -56,8 +56,10 @@ const TexturePlaceSchema = v.object({
 
 export const StyleSchema = v.object({
   surface: v.picklist([
-    ...(['shaded', 'look', 'pattern', 'colours', 'checkerboard', 'circles', 'ribbons', 'coordinates', 'picture'] as const),
-    ...(['distortion', 'angles', 'areas', 'truth', 'factor', 'curvature', 'flat-curvature'] as const),
+    ...(['shaded', 'look', 'pattern', 'colours'] as const),
+    ...TEXTURES,
+    ...MAP_HEATS,
+    ...FLOW_HEATS,
   ]),
   patchLines: v.boolean(),
   cones: v.boolean(),

@@ -2,6 +2,7 @@
 import type { OtherMap } from '../report.ts';
 import { shownResult } from './staleness.ts';
 import type { ComparedMap, Comparison, State, Style } from './state.ts';
+import { isKnown, isMapHeat, isTexture } from './surfaces.ts';
 
 /** Begins a comparison, where there is a map; nothing runs beside it. */
 export function withComparison(state: State, which: OtherMap): State {
@@ -29,12 +30,9 @@ export function otherMap({ comparison }: Pick<State, 'comparison'>): ComparedMap
   return comparison?.progress.kind === 'there' ? comparison.progress.map : null;
 }
 
-/** Surfaces that every map carries. */
-const CARRIED: readonly Style['surface'][] = ['pattern', 'colours', 'checkerboard', 'circles', 'ribbons', 'coordinates', 'picture'];
-
-/** Whether the values of a heat map are known of another map. */
-function isTold({ output }: ComparedMap, surface: Style['surface']): boolean {
-  return surface === 'truth' ? output.truth.length > 0 : ['distortion', 'angles', 'areas'].includes(surface) && output.distortion.length > 0;
+/** Whether the other map can show a surface: what every map carries, and values by its own place. */
+function isCarried(other: ComparedMap, surface: Style['surface']): boolean {
+  return surface === 'pattern' || surface === 'colours' || isTexture(surface) || (isMapHeat(surface) && isKnown(other, surface));
 }
 
 /** How the views look: two maps are compared by what both carry, each in the shape of the source. */
@@ -45,5 +43,5 @@ export function shownStyle(state: Pick<State, 'comparison' | 'ui'>): Style {
     return style;
   }
   const { surface } = style;
-  return { ...style, surface: isTold(other, surface) || CARRIED.includes(surface) ? surface : 'pattern', textureBoundary: false, morph: 0, wipe: null };
+  return { ...style, surface: isCarried(other, surface) ? surface : 'pattern', textureBoundary: false, morph: 0, wipe: null };
 }

@@ -2,21 +2,14 @@
 import type { Flows } from '../compute/watch-messages.ts';
 import { shownStyle } from './compared.ts';
 import { shownResult } from './staleness.ts';
-import type { State, Style } from './state.ts';
-
-/** The heat maps that flows tell. */
-const OF_FLOWS = ['factor', 'curvature', 'flat-curvature'] as const;
-
-/** Whether a surface shows what the flows tell. */
-export function needsFlows(surface: Style['surface']): surface is (typeof OF_FLOWS)[number] {
-  return OF_FLOWS.some((one) => one === surface);
-}
+import type { State } from './state.ts';
+import { isFlowHeat } from './surfaces.ts';
 
 /** Whether somebody looks at a heat map whose flows are to be computed. */
 export function wantsFlows(state: State): boolean {
   const { job, flattening } = state;
   const isFree = job.kind !== 'running' && job.kind !== 'busy';
-  return isFree && flattening === null && shownResult(state) !== null && needsFlows(shownStyle(state).surface);
+  return isFree && flattening === null && shownResult(state) !== null && isFlowHeat(shownStyle(state).surface);
 }
 
 /** The state without flows that are not of the map on the page: who comes back to their map has them computed again. */

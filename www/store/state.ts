@@ -18,13 +18,17 @@ import { NO_WORK } from './work.ts';
 export type { Axis, Demo, MeshFile, Work } from './work.ts';
 
 /** What can lie on the flat metric, which the map carries. */
-export type Texture = 'checkerboard' | 'circles' | 'ribbons' | 'coordinates' | 'picture';
+export const TEXTURES = ['checkerboard', 'circles', 'ribbons', 'coordinates', 'picture'] as const;
 
-/**
- * Values as colours: the distortion, that of angles, the factor of the area, and the distance to the true image, by place of the map; the
- * conformal factor of the flow, and the Gaussian curvature before it and after, by vertex of either mesh.
- */
-export type HeatMap = 'distortion' | 'angles' | 'areas' | 'truth' | 'factor' | 'curvature' | 'flat-curvature';
+/** Values by place of the map as colours: the distortion, that of angles, the factor of the area, and the distance to the true image. */
+export const MAP_HEATS = ['distortion', 'angles', 'areas', 'truth'] as const;
+
+/** Values by vertex of either mesh as colours: the conformal factor of the flow, and the Gaussian curvature before it and after. */
+export const FLOW_HEATS = ['factor', 'curvature', 'flat-curvature'] as const;
+
+export type MapHeat = (typeof MAP_HEATS)[number];
+export type FlowHeat = (typeof FLOW_HEATS)[number];
+export type HeatMap = MapHeat | FlowHeat;
 
 /** How a texture lies on the flat metric. */
 export interface TexturePlace {
@@ -47,7 +51,7 @@ export interface TexturePicture {
 
 export interface Style {
   /** Plain clay; the colours of the mesh's file, which the map carries; a pattern in space, which the map carries to the source; colours of the place on the target; a texture; a heat map. */
-  readonly surface: 'shaded' | 'look' | 'pattern' | 'colours' | Texture | HeatMap;
+  readonly surface: 'shaded' | 'look' | 'pattern' | 'colours' | (typeof TEXTURES)[number] | HeatMap;
   readonly texture: TexturePlace;
   readonly patchLines: boolean;
   /** Where the texture is cut that the map carries. */

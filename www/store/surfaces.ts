@@ -1,17 +1,36 @@
-/** What the surfaces can show now. */
+/** The kinds of what surfaces show, and what they can show now. */
 import { shownResult } from './staleness.ts';
-import type { Result, State, Style } from './state.ts';
+import type { FlowHeat, HeatMap, MapHeat, Result, State, Style } from './state.ts';
+import { FLOW_HEATS, MAP_HEATS, TEXTURES } from './state.ts';
 
-/** Surfaces whose values only a map that is one-to-one has. */
-const OF_PIECES: readonly Style['surface'][] = ['distortion', 'angles', 'areas'];
+type Surface = Style['surface'];
 
-/** Whether a map can show a surface. */
-export function isKnown({ output }: Pick<Result, 'output'>, surface: Style['surface']): boolean {
-  return surface === 'truth' ? output.truth.length > 0 : !OF_PIECES.includes(surface) || output.distortion.length > 0;
+/** Whether it lies on the flat metric. */
+export function isTexture(surface: Surface): boolean {
+  return TEXTURES.some((one) => one === surface);
+}
+
+/** Whether it is told by place of the map. */
+export function isMapHeat(surface: Surface): surface is MapHeat {
+  return MAP_HEATS.some((one) => one === surface);
+}
+
+/** Whether it is told by the flows. */
+export function isFlowHeat(surface: Surface): surface is FlowHeat {
+  return FLOW_HEATS.some((one) => one === surface);
+}
+
+export function isHeatMap(surface: Surface): surface is HeatMap {
+  return isMapHeat(surface) || isFlowHeat(surface);
+}
+
+/** Whether a map can show a surface: distortions are those of a map that is one-to-one. */
+export function isKnown({ output }: { readonly output: Pick<Result['output'], 'distortion' | 'truth'> }, surface: Surface): boolean {
+  return !isMapHeat(surface) || output[surface === 'truth' ? 'truth' : 'distortion'].length > 0;
 }
 
 /** Whether a surface can be shown now. */
-export function isThere(state: State, surface: Style['surface']): boolean {
+export function isThere(state: State, surface: Surface): boolean {
   if (surface === 'look') {
     return state.meshes.some((mesh) => mesh?.look === 'colours');
   }

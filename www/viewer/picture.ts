@@ -9,8 +9,8 @@ import { SIDES } from '../landmarks.ts';
 import type { FlowFrame } from '../method/hands.ts';
 import type { BasePart } from '../method/parts.ts';
 import { litBy } from '../method/parts.ts';
-import { needsFlows } from '../store/flat.ts';
-import type { ComparedMap, HeatMap, Result, Style, TexturePicture } from '../store/state.ts';
+import type { ComparedMap, FlowHeat, MapHeat, Result, Style, TexturePicture } from '../store/state.ts';
+import { isFlowHeat, isMapHeat } from '../store/surfaces.ts';
 import type { Viewer } from '../wasm/page.js';
 import type { Known } from './probe.ts';
 
@@ -39,39 +39,33 @@ const OVERLAYS: Readonly<Record<Style['surface'], readonly Side[]>> = {
 
 /** What the renderer draws of a surface: the checkerboard in the place of a picture that is not there. */
 export function drawnSurface(surface: Style['surface'], picture: TexturePicture | null): string {
-  if (needsFlows(surface)) {
+  if (isFlowHeat(surface)) {
     return 'shaded';
   }
-  const heat = pointHeat(surface);
-  if (heat !== null) {
-    return scaleOf(heat).colours;
+  if (isMapHeat(surface)) {
+    return scaleOf(surface).colours;
   }
   return surface === 'picture' && picture === null ? 'checkerboard' : surface;
 }
 
-/** The places on its scale of a heat map by point of a map, and its values; none where the surface is no such heat map. */
-function heatOf(output: ComparedMap['output'], surface: HeatMap | null): { readonly values: Float32Array; readonly places: Float32Array } | null {
-  const values = surface === null ? null : valuesByPoint(output, surface);
-  return surface === null || values === null ? null : { values, places: values.map(scaleOf(surface).place) };
-}
-
-/** The heat map of the map's points that a surface is; `null` where it is none. */
-function pointHeat(surface: Style['surface']): HeatMap | null {
-  return surface === 'distortion' || surface === 'angles' || surface === 'areas' || surface === 'truth' ? surface : null;
-}
-
 const NO_VALUES = new Float32Array();
+
+/** The places of a map's points on the scale of a heat map; none without one. */
+function placesOf(output: ComparedMap['output'], heat: MapHeat | null): Float32Array {
+  return heat === null ? NO_VALUES : valuesByPoint(output, heat).map(scaleOf(heat).place);
+}
 
 /** Knows what one renderer has. */
 export class Picture {
   #result: Result | null = null;
   #overlays = new Set<Side>();
   /** The heat map whose places the overlays have; `null` where they have none. */
-  #heat: HeatMap | null = null;
-  /** Its values by point of the map. */
+  #heat: MapHeat | null = null;
+  #places: Float32Array = NO_VALUES;
+  /** By point of the map the values of the heat map that is shown. */
   #values: Float32Array | null = null;
   /** The flows that a heat map of the vertices shows, and which. */
-  #vertices: { readonly flows: Flows; readonly heat: HeatMap; readonly shown: VertexHeat } | null = null;
+  #vertices: { readonly flows: Flows; readonly heat: FlowHeat; readonly shown: VertexHeat } | null = null;
   #lines = false;
   #seams = false;
   #carried = false;
@@ -85,7 +79,7 @@ export class Picture {
   #way = false;
   #compared: ComparedMap | null = null;
   /** What of the other map the renderer has, with the scale that its colours tell. */
-  #comparedHeat: HeatMap | 'none' | null = null;
+  #comparedHeat: MapHeat | 'none' | null = null;
   #comparedLines = false;
   #moment: FlowFrame['places'] | null = null;
   #radii: FlowFrame['radii'] = null;
@@ -113,6 +107,8 @@ export class Picture {
     this.#way = false;
     this.#compared = null;
     this.#moment = null;
+    this.#heat = null;
+    this.#places = NO_VALUES;
     this.#values = null;
     this.#vertices = null;
   }
@@ -129,8 +125,7 @@ export class Picture {
   #bringCompared(viewer: Viewer, { output }: ComparedMap, style: Style): void {
     const [source, target] = output.sides;
     if (this.#comparedHeat !== (this.#heat ?? 'none')) {
-      const places = heatOf(output, this.#heat)?.places ?? NO_VALUES;
-      viewer.setCompared(source.positions, source.normals, output.uvs, places, output.triangles, target.positions, target.normals);
+      viewer.setCompared(source.positions, source.normals, output.uvs, placesOf(output, this.#heat), output.triangles, target.positions, target.normals);
       this.#comparedHeat = this.#heat ?? 'none';
       this.#comparedLines = false;
     }
@@ -174,9 +169,8 @@ export class Picture {
     }
     if (result !== null && !this.#overlays.has(side)) {
       const { uvs, triangles, sides } = result.output;
-      const places = heatOf(result.output, this.#heat)?.places ?? NO_VALUES;
       const { positions, normals } = sides[side];
-      viewer.setOverlay(side, positions, normals, uvs, places, triangles, sides[1].positions, sides[1].normals);
+      viewer.setOverlay(side, positions, normals, uvs, this.#places, triangles, sides[1].positions, sides[1].normals);
       this.#overlays.add(side);
     }
     return result !== null;
@@ -201,9 +195,10 @@ export class Picture {
 
   /** Has the overlays brought anew where a heat map shows something else than theirs. */
   #tell(output: Result['output'], surface: Style['surface']): void {
-    const heat = pointHeat(surface);
+    const heat = isMapHeat(surface) ? surface : null;
     if (heat !== null && heat !== this.#heat) {
       this.#heat = heat;
+      this.#places = placesOf(output, heat);
       this.#overlays.clear();
     }
     this.#values = heat === null ? null : valuesByPoint(output, heat);
@@ -320,12 +315,11 @@ export class Picture {
 
   /** Shows a heat map of the vertices where the surface is one and its flows are there, in the place of the style's picture. */
   showHeat(viewer: Viewer, surface: Style['surface'], flows: Flows | null): void {
-    const heat = needsFlows(surface) ? surface : null;
-    if (heat === (this.#vertices?.heat ?? null) && flows === (this.#vertices?.flows ?? flows)) {
+    const heat = flows !== null && isFlowHeat(surface) ? surface : null;
+    if (heat === (this.#vertices?.heat ?? null) && (heat === null || flows === this.#vertices?.flows)) {
       return;
     }
-    const shown = heat === null || flows === null ? null : heatByVertex(flows, heat);
-    this.#vertices = shown === null || heat === null || flows === null ? null : { flows, heat, shown };
+    this.#vertices = heat === null || flows === null ? null : { flows, heat, shown: heatByVertex(flows, heat) };
     if (this.#moment === null) {
       this.#layHeat(viewer);
     }
