@@ -114,6 +114,25 @@ export function moves(before: ReadonlyMap<string, Spot>, after: ReadonlyMap<stri
   });
 }
 
+/** A picture with a left and a right half, as PNG. */
+export async function halvesPicture(page: Page, colours: readonly [string, string], size: readonly [number, number]): Promise<Buffer> {
+  const url = await page.evaluate(
+    ([[left, right], [width, height]]) => {
+      const canvas = Object.assign(document.createElement('canvas'), { width, height });
+      const context = canvas.getContext('2d');
+      for (const [colour, x] of [[left, 0], [right, width / 2]] as const) {
+        if (context !== null) {
+          context.fillStyle = colour;
+          context.fillRect(x, 0, width / 2, height);
+        }
+      }
+      return canvas.toDataURL('image/png');
+    },
+    [colours, size] as const,
+  );
+  return Buffer.from(url.slice(url.indexOf(',') + 1), 'base64');
+}
+
 /** The pixels of what is seen of an element, four bytes each: red, green, blue, opacity. */
 export async function pixelsOf(page: Page, element: string): Promise<Uint8Array> {
   const clip = (await page.locator(element).boundingBox()) ?? fail(`${element} has no box`);

@@ -1,42 +1,10 @@
 /** What surfaces show of the flat metric: textures, an own picture among them, and heat maps with their values under the mouse. */
-import { deflateSync } from 'node:zlib';
 import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
-import { countPixels, pixelsOf, seen } from './canvas.ts';
+import { countPixels, halvesPicture, pixelsOf, seen } from './canvas.ts';
 import { fail, openDemo, openStep, runMap, showSurface } from './page.ts';
 
 const VIEWS = ['source', 'target'] as const;
-
-/** What a table of CRC-32 sums gives for bytes, as PNG has it. */
-function checksum(bytes: Buffer): number {
-  let sum = ~0;
-  for (const byte of bytes) {
-    sum ^= byte;
-    for (let bit = 0; bit < 8; bit++) {
-      sum = (sum >>> 1) ^ (sum & 1 ? 0xedb88320 : 0);
-    }
-  }
-  return ~sum >>> 0;
-}
-
-/** A picture of two colours, the left half red, the right half green. */
-function twoColours(): Buffer {
-  const size = 64;
-  const row = Buffer.concat([Buffer.from([0]), ...Array.from({ length: size }, (_, x) => Buffer.from(x < size / 2 ? [230, 10, 10] : [10, 200, 10]))]);
-  const chunk = (kind: string, data: Buffer): Buffer => {
-    const body = Buffer.concat([Buffer.from(kind), data]);
-    const [length, sum] = [Buffer.alloc(4), Buffer.alloc(4)];
-    length.writeUInt32BE(data.length);
-    sum.writeUInt32BE(checksum(body));
-    return Buffer.concat([length, body, sum]);
-  };
-  const header = Buffer.alloc(13);
-  header.writeUInt32BE(size, 0);
-  header.writeUInt32BE(size, 4);
-  header.set([8, 2, 0, 0, 0], 8);
-  const data = deflateSync(Buffer.concat(Array.from({ length: size }, () => row)));
-  return Buffer.concat([Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]), chunk('IHDR', header), chunk('IDAT', data), chunk('IEND', Buffer.alloc(0))]);
-}
 
 /** The share of a view's pixels that are so. */
 async function share(page: Page, view: string, isSo: (red: number, green: number, blue: number) => boolean): Promise<number> {
@@ -95,7 +63,7 @@ test('ribbons, circles and coordinates lie on both meshes, as large and turned a
 
 test('a picture of one’s own lies on both meshes; what is no picture is told, and nothing is lost', async ({ page }) => {
   await mapped(page);
-  await page.locator('#texture-file').setInputFiles({ name: 'two.png', mimeType: 'image/png', buffer: twoColours() });
+  await page.locator('#texture-file').setInputFiles({ name: 'two.png', mimeType: 'image/png', buffer: await halvesPicture(page, ['#e60a0a', '#0ac80a'], [64, 64]) });
   await expect(page.getByRole('button', { name: 'Picture: Your picture' })).toBeVisible();
   for (const view of VIEWS) {
     await expect.poll(async () => (await seen(page, view)).red).toBeGreaterThan(0.01);

@@ -2,7 +2,7 @@
 import { zipSync } from 'fflate';
 import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
-import { seen } from './canvas.ts';
+import { halvesPicture, seen } from './canvas.ts';
 import type { OwnFiles } from './own-files.ts';
 import { ownFiles } from './own-files.ts';
 import { dropContents, open, openStep, ROOT, runMap, showSurface } from './page.ts';
@@ -51,19 +51,8 @@ function placed(text: string): string {
 }
 
 /** A picture whose left half is green and whose right half is red. */
-async function picture(page: Page): Promise<Buffer> {
-  const url = await page.evaluate(() => {
-    const canvas = Object.assign(document.createElement('canvas'), { width: 64, height: 16 });
-    const context = canvas.getContext('2d');
-    for (const [colour, x] of [['#00d000', 0], ['#e00000', 32]] as const) {
-      if (context !== null) {
-        context.fillStyle = colour;
-        context.fillRect(x, 0, 32, 16);
-      }
-    }
-    return canvas.toDataURL('image/png');
-  });
-  return Buffer.from(url.slice(url.indexOf(',') + 1), 'base64');
+function picture(page: Page): Promise<Buffer> {
+  return halvesPicture(page, ['#00d000', '#e00000'], [64, 16]);
 }
 
 async function dropped(page: Page, files: readonly { name: string; content: Buffer | string }[]): Promise<void> {

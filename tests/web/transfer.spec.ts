@@ -7,6 +7,7 @@ import { unzipSync } from 'fflate';
 import { buildDemo, initSync } from '../../www/wasm/page.js';
 import type { Upload } from './own-files.ts';
 import { upload } from './own-files.ts';
+import { halvesPicture } from './canvas.ts';
 import { fail, open, openStep, runMap } from './page.ts';
 
 type Point = readonly [number, number, number];
@@ -192,25 +193,8 @@ test('the other mesh moves as a mesh does in two poses', async () => {
   expect((await saved('Bring onto the source')).name).toBe('turned-on-source.obj');
 });
 
-/** A picture that is blue on the left and red on the right. */
-async function halves(): Promise<Buffer> {
-  const url = await page.evaluate(() => {
-    const canvas = document.createElement('canvas');
-    [canvas.width, canvas.height] = [64, 64];
-    const context = canvas.getContext('2d');
-    for (const [k, colour] of ['#00f', '#f00'].entries()) {
-      if (context !== null) {
-        context.fillStyle = colour;
-        context.fillRect(32 * k, 0, 32, 64);
-      }
-    }
-    return canvas.toDataURL('image/png');
-  });
-  return Buffer.from(url.split(',')[1] ?? '', 'base64');
-}
-
 test('a texture is baked over the other mesh’s own coordinates', async () => {
-  await choose([upload('halves.png', await halves())], 'halves.png: the target’s texture.');
+  await choose([upload('halves.png', await halvesPicture(page, ['#00f', '#f00'], [64, 64]))], 'halves.png: the target’s texture.');
   await select('Size').selectOption('512 × 512');
   const baked = await saved('Bring onto the source');
   expect(baked.name).toBe('halves-on-source.png');

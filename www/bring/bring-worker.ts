@@ -1,20 +1,15 @@
 /** Files that are brought across a map: answers one request, then is thrown away. */
-import { failureOf } from '../compute/messages.ts';
+import { failureField, failureOf } from '../compute/messages.ts';
+import { progressListener } from '../compute/progress-listener.ts';
 import { writeArchive } from '../send/archive.ts';
 import init, { bringAcross, givenFile } from '../wasm/core.js';
 import type { Answers, BringFailure, BringMessage, BringRequest, Brought, GivenFileReport } from './messages.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
 
-const LISTENER = {
-  progress: (_stage: string, _sentence: string, share: number): void => {
-    post({ kind: 'progress', share });
-  },
-  relaxes: (): void => undefined,
-  found: (): void => undefined,
-  preview: (): void => undefined,
-  wantsResult: (): boolean => false,
-};
+const LISTENER = progressListener((share) => {
+  post({ kind: 'progress', share });
+});
 
 /** A failure that is not the core's. */
 class Failed extends Error {
@@ -32,13 +27,8 @@ function post(message: BringMessage, transfer: Transferable[] = []): void {
 
 /** The file that a failure of the core names. */
 function fileOf(thrown: unknown): BringFailure['file'] {
-  try {
-    const value: unknown = typeof thrown === 'string' ? JSON.parse(thrown) : null;
-    const file = typeof value === 'object' && value !== null && 'file' in value ? value.file : null;
-    return typeof file === 'number' || file === 'source' || file === 'target' ? file : null;
-  } catch {
-    return null;
-  }
+  const file = failureField(thrown, 'file');
+  return typeof file === 'number' || file === 'source' || file === 'target' ? file : null;
 }
 
 async function bytesOf(file: Blob, number: number): Promise<Uint8Array> {

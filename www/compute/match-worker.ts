@@ -2,6 +2,7 @@
 import init, { matchLandmarks } from '../wasm/core.js';
 import type { MatchMessage, MatchRequest } from './match-messages.ts';
 import { failureOf } from './messages.ts';
+import { progressListener } from './progress-listener.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
 
@@ -12,15 +13,10 @@ function post(message: MatchMessage): void {
 async function search({ module, source, target, landmarks }: MatchRequest): Promise<void> {
   try {
     await init({ module_or_path: module });
-    const report = matchLandmarks(source, target, landmarks, {
-      progress: (_stage, _sentence, share) => {
-        post({ kind: 'progress', share });
-      },
-      relaxes: () => undefined,
-      found: () => undefined,
-      preview: () => undefined,
-      wantsResult: () => false,
+    const listener = progressListener((share) => {
+      post({ kind: 'progress', share });
     });
+    const report = matchLandmarks(source, target, landmarks, listener);
     post({ kind: 'done', report });
   } catch (thrown) {
     post({ kind: 'failed', failure: failureOf(thrown) });

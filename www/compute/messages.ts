@@ -140,6 +140,16 @@ function lastPanic(): string | null {
   return typeof said === 'string' ? said : null;
 }
 
+/** What the core throws says of itself under a name, beside code and message; `undefined` where it says nothing. */
+export function failureField(thrown: unknown, name: string): unknown {
+  try {
+    const value: unknown = typeof thrown === 'string' ? JSON.parse(thrown) : null;
+    return typeof value === 'object' && value !== null ? Reflect.get(value, name) : undefined;
+  } catch {
+    return undefined;
+  }
+}
+
 /** Reads what the core throws: a string that holds `{code, message}`, or a trap. */
 export function failureOf(thrown: unknown): Failure {
   if (typeof thrown === 'string') {

@@ -2,7 +2,7 @@
 import type { ProofReport } from '../report.ts';
 import init, { openMap, proveMap } from '../wasm/core.js';
 import type { SavedMap } from '../wasm/core.js';
-import { failureOf } from './messages.ts';
+import { failureField, failureOf } from './messages.ts';
 import type { SavedAnswer, SavedFailure, SavedFiles, SavedRequest } from './saved-messages.ts';
 import { openedOf, transferable } from './view-buffers.ts';
 
@@ -14,13 +14,8 @@ function post(answer: SavedAnswer, transfer: Transferable[] = []): void {
 
 /** The mesh that a failure of the core names. */
 function sideOf(thrown: unknown): SavedFailure['side'] {
-  try {
-    const value: unknown = typeof thrown === 'string' ? JSON.parse(thrown) : null;
-    const side = typeof value === 'object' && value !== null && 'side' in value ? value.side : null;
-    return side === 'source' || side === 'target' ? side : null;
-  } catch {
-    return null;
-  }
+  const side = failureField(thrown, 'side');
+  return side === 'source' || side === 'target' ? side : null;
 }
 
 interface Open {

@@ -1,6 +1,7 @@
 /** Makes a small map and throws it away: the browser optimises code that has run, for all workers with the same module. */
 import init, { buildDemo, runMap } from '../wasm/core.js';
 import type { WarmUpRequest } from './messages.ts';
+import { progressListener } from './progress-listener.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
 
@@ -9,9 +10,7 @@ async function warm(request: WarmUpRequest): Promise<void> {
   const demo = buildDemo(request.demo);
   if (demo !== undefined) {
     const landmarks = new TextDecoder().decode(demo.landmarks());
-    const nothing = (): void => undefined;
-    const listener = { relaxes: nothing, progress: nothing, preview: nothing, found: nothing, wantsResult: () => false };
-    runMap(demo.source(), demo.target(), landmarks, '{}', listener);
+    runMap(demo.source(), demo.target(), landmarks, '{}', progressListener(() => undefined));
   }
 }
 

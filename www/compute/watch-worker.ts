@@ -2,20 +2,15 @@
 import init, { recordCarriedSimplification, recordFlows, recordSimplifications, runOtherMap } from '../wasm/core.js';
 import type { RecordedFlows, Simplifications as RecordedSimplifications } from '../wasm/core.js';
 import { failureOf } from './messages.ts';
+import { progressListener } from './progress-listener.ts';
 import { viewBuffers } from './view-buffers.ts';
 import type { Flows, OtherOutput, SideFlow, Simplification, Simplifications, Watchable, Watched, WatchMessage, WatchRequest } from './watch-messages.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
 
-const LISTENER = {
-  progress: (_stage: string, _sentence: string, share: number): void => {
-    post({ kind: 'progress', share });
-  },
-  relaxes: (): void => undefined,
-  found: (): void => undefined,
-  preview: (): void => undefined,
-  wantsResult: (): boolean => false,
-};
+const LISTENER = progressListener((share) => {
+  post({ kind: 'progress', share });
+});
 
 function post(message: WatchMessage, transfer: Transferable[] = []): void {
   self.postMessage(message, transfer);

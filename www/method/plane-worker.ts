@@ -1,5 +1,6 @@
 /** Both flat metrics in the plane: the flows once, then layouts and pictures as they are asked for. */
 import { failureOf } from '../compute/messages.ts';
+import { progressListener } from '../compute/progress-listener.ts';
 import type { Side } from '../landmarks.ts';
 import type { FlatPlanes } from '../wasm/core.js';
 import init, { flatPlanes } from '../wasm/core.js';
@@ -26,15 +27,9 @@ interface Laid {
   readonly painter: PlanePainter;
 }
 
-const LISTENER = {
-  progress: (_stage: string, _sentence: string, share: number): void => {
-    post({ kind: 'progress', share });
-  },
-  relaxes: (): void => undefined,
-  found: (): void => undefined,
-  preview: (): void => undefined,
-  wantsResult: (): boolean => false,
-};
+const LISTENER = progressListener((share) => {
+  post({ kind: 'progress', share });
+});
 
 let desk: Desk | null = null;
 
