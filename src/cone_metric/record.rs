@@ -50,9 +50,7 @@ impl FlowRecord {
         }
         self
     }
-}
 
-impl FlowRecord {
     /// Gaussian curvatures by vertex before the first step and at the last moment, in units of the curvature of a sphere of the same area;
     /// `areas` are the vertices' shares of the mesh's, which grow with the squares of their conformal factors.
     pub fn curvature_by_area(&self, areas: &TiSlice<VertexId, f64>) -> [TiVec<VertexId, f64>; 2] {

@@ -29,6 +29,11 @@ impl Scheme {
     pub const ALL: [Self; 5] =
         [Self::Inversive, Self::VertexScaling, Self::FixedTriangulation, Self::Tangential, Self::Thurston];
 
+    /// Whether its vertices have circles.
+    pub fn has_circles(self) -> bool {
+        self != Self::VertexScaling
+    }
+
     /// Whether edges are flipped on the way, so that no triangle degenerates.
     pub fn flips(self) -> bool {
         matches!(self, Self::Inversive | Self::VertexScaling)

@@ -70,7 +70,7 @@ pub fn textured_source(
         views.push(body.push(&floats(values), Some(34962)));
         accessors.push(if k == 0 { bounded(view, values) } else { accessor(view, "VEC3") });
     }
-    let document = json!({
+    let mut document = json!({
         "asset": { "version": "2.0", "generator": "Conemap" },
         "scene": 0,
         "scenes": [{ "nodes": [0] }],
@@ -83,17 +83,22 @@ pub fn textured_source(
             "weights": [0.0],
             "extras": { "targetNames": ["target"] }
         }],
-        "materials": [{ "pbrMetallicRoughness": {
-            "baseColorTexture": { "index": 0 }, "metallicFactor": 0.0, "roughnessFactor": 0.8
-        } }],
-        "textures": [{ "source": 0, "sampler": 0 }],
-        "samplers": [{ "wrapS": 10497, "wrapT": 10497, "magFilter": 9729, "minFilter": 9987 }],
-        "images": [{ "bufferView": 4, "mimeType": "image/png" }],
         "accessors": accessors,
         "bufferViews": views,
         "buffers": [{ "byteLength": body.bytes.len() }],
     });
+    lay_picture(&mut document, 4);
     Ok(assemble(document.to_string().into_bytes(), body.bytes))
+}
+
+/// Gives a document the material 0, on which the picture of a buffer view is repeated.
+pub(super) fn lay_picture(document: &mut serde_json::Value, view: usize) {
+    document["materials"] = json!([{ "pbrMetallicRoughness": {
+        "baseColorTexture": { "index": 0 }, "metallicFactor": 0.0, "roughnessFactor": 0.8
+    } }]);
+    document["textures"] = json!([{ "source": 0, "sampler": 0 }]);
+    document["samplers"] = json!([{ "wrapS": 10497, "wrapT": 10497, "magFilter": 9729, "minFilter": 9987 }]);
+    document["images"] = json!([{ "bufferView": view, "mimeType": "image/png" }]);
 }
 
 /// Where the node lies: a surface far from the origin has its own origin in the node, so that its positions keep all 24 bits of f32

@@ -5,7 +5,8 @@
 //! close to each other that what lies between them is straight.
 
 use super::glb::{
-    Body, GlbError, NodePlace, assemble, bounds, checkerboard, difference, flat, floats, square_uvs,
+    Body, GlbError, NodePlace, assemble, bounds, checkerboard, difference, flat, floats, lay_picture,
+    square_uvs,
 };
 use crate::math::bends::{KEYS, weights};
 use crate::math::rigid3::turned_by;
@@ -151,7 +152,7 @@ pub fn morphing_source(mesh: &MorphingMesh<'_>, frame: FileFrame) -> Result<Vec<
         std::iter::once("target".to_owned()).chain(KEYS.iter().map(|key| format!("bend at {key}"))).collect();
     let animation = parts.animation();
     let image = parts.view(&checkerboard()?, None);
-    let document = json!({
+    let mut document = json!({
         "asset": { "version": "2.0", "generator": "Conemap" },
         "scene": 0,
         "scenes": [{ "nodes": [0] }],
@@ -162,16 +163,11 @@ pub fn morphing_source(mesh: &MorphingMesh<'_>, frame: FileFrame) -> Result<Vec<
             "extras": { "targetNames": names }
         }],
         "animations": [animation],
-        "materials": [{ "pbrMetallicRoughness": {
-            "baseColorTexture": { "index": 0 }, "metallicFactor": 0.0, "roughnessFactor": 0.8
-        } }],
-        "textures": [{ "source": 0, "sampler": 0 }],
-        "samplers": [{ "wrapS": 10497, "wrapT": 10497, "magFilter": 9729, "minFilter": 9987 }],
-        "images": [{ "bufferView": image, "mimeType": "image/png" }],
         "accessors": parts.accessors,
         "bufferViews": parts.views,
         "buffers": [{ "byteLength": parts.body.bytes.len() }],
     });
+    lay_picture(&mut document, image);
     Ok(assemble(document.to_string().into_bytes(), parts.body.bytes))
 }
 

@@ -71,10 +71,8 @@ pub fn record_flows(
     let stops = [0, 1].map(|side| Stops::new(&job, side, &records[side]));
     let areas = job.mapped_meshes().map(SurfaceMesh::vertex_areas);
     let curvatures = [0, 1].map(|side| records[side].curvature_by_area(&areas[side]));
-    let radii = [0, 1].map(|side| match scheme {
-        Scheme::VertexScaling => Vec::new(),
-        _ => records[side].radii(&areas[side]),
-    });
+    let radii =
+        [0, 1].map(|side| if scheme.has_circles() { records[side].radii(&areas[side]) } else { Vec::new() });
     Ok(RecordedFlows { records, vertices: job.vertex_counts(), curvatures, radii, stops })
 }
 
