@@ -36,14 +36,9 @@ export function meshFile({ file, reading }: ReadFile): MeshFile {
     vertexCount: mesh.vertexCount,
     faceCount: mesh.faceCount,
     turnedFaces: mesh.turnedFaces,
-    look: lookOf(mesh.lookKind() as LookKind, file.picture),
+    look: mesh.lookKind() as LookKind,
     repairs: reading.repairs,
   };
-}
-
-/** A picture that came with a mesh is seen where its file has places in it. */
-function lookOf(kind: LookKind, picture: Uint8Array | undefined): LookKind {
-  return kind === 'places' && picture !== undefined ? 'colours' : kind;
 }
 
 /** What was found wrong with a mesh, as the reader has packed it. */

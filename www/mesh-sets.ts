@@ -5,7 +5,7 @@ import { failureOf } from './compute/messages.ts';
 import { fileSentence, missingParts, SENTENCES } from './messages.ts';
 import type { NamedBytes } from './named-file.ts';
 import { endingOf, FileRefused } from './named-file.ts';
-import { meshParts, packMesh } from './wasm/page.js';
+import { meshParts, packMaterials, packMesh } from './wasm/page.js';
 
 /** Files that belong to a mesh and are none themselves. */
 const COMPANIONS = new Set(['mtl', 'png', 'jpg', 'jpeg', 'webp', 'bmp', 'tga', 'tif', 'tiff', 'bin', 'ktx2']);
@@ -100,43 +100,31 @@ function packed(mesh: NamedBytes, files: readonly NamedBytes[]): NamedBytes {
 const PICTURES = new Set(['png', 'jpg', 'jpeg', 'webp']);
 /** Meshes that can have places in a picture that is a file of its own. */
 const PICTURED = new Set(['obj', 'ply']);
-/** Of a mesh, in bytes: before its vertices it names its materials. */
-const HEAD = 2 ** 16;
 
 function stem(path: string): string {
   return path.replace(/^.*\//, '').replace(/\.[^.]*$/, '');
 }
 
-/** The pictures that the materials of an OBJ file name, in their order. */
-function namedPictures(mesh: NamedBytes, files: readonly NamedBytes[]): NamedBytes[] {
-  const text = (bytes: Uint8Array): string => new TextDecoder().decode(bytes);
-  const libraries = [...text(mesh.bytes.subarray(0, HEAD)).matchAll(/^mtllib[ \t]+(.+)$/gm)].map(([, name]) => name?.trim() ?? '');
-  const materials = libraries.map((name) => called(name, mesh, files)).filter((file) => file !== null);
-  return materials.flatMap((file) =>
-    // Options may come before the name.
-    [...text(file.bytes).matchAll(/^[ \t]*map_Kd[ \t]+(.+)$/gim)].flatMap(([, words]) => {
-      const whole = words?.trim() ?? '';
-      const found = called(whole, file, files) ?? called(whole.split(/[ \t]+/).at(-1) ?? '', file, files);
-      return found === null ? [] : [found];
-    }),
-  );
-}
-
-/** The picture that belongs on a mesh: one that its materials name, that is called like it, or the only one beside the only mesh. */
+/** What comes with a mesh: the materials that it names with their pictures, or one that is called like it, or is the only one beside the only mesh. */
 function pictureOf(mesh: NamedBytes, files: readonly NamedBytes[]): Uint8Array | null {
   if (!PICTURED.has(endingOf(mesh.name))) {
     return null;
   }
+  const set = packMaterials(mesh.bytes, (name: string) => called(name, mesh, files)?.bytes);
+  const [materials, found] = [set?.bytes() ?? null, set?.found() ?? 0];
+  set?.free();
+  if (found > 0) {
+    return materials;
+  }
   const pictures = files.filter(({ name }) => PICTURES.has(endingOf(name)));
   const isAlone = files.filter(({ name }) => PICTURED.has(endingOf(name))).length === 1;
   const alone = isAlone && pictures.length === 1 ? pictures[0] : undefined;
-  const [named] = pictures.length === 0 ? [] : namedPictures(mesh, files);
-  return (named ?? pictures.find(({ name }) => stem(name) === stem(mesh.name)) ?? alone)?.bytes ?? null;
+  return (pictures.find(({ name }) => stem(name) === stem(mesh.name)) ?? alone)?.bytes ?? materials;
 }
 
 /**
- * The files with zips unpacked and what belongs to a mesh packed into it; names are without folders. Of the materials
- * and pictures of an OBJ or PLY file one picture stays with it. Throws {@link FileRefused}.
+ * The files with zips unpacked and what belongs to a mesh packed into it; names are without folders. What lies on an OBJ
+ * or PLY file stays with it. Throws {@link FileRefused}.
  */
 export function gathered(given: readonly NamedBytes[]): NamedBytes[] {
   const files = unzipped(given);

@@ -102,6 +102,11 @@ export function remarksSentence(remarks: readonly string[]): string {
   return `${asSentence(first)}${more.length === 0 ? '' : ` ${count(more.length, 'more remark')}.`}`;
 }
 
+/** Pictures of a mesh that the browser cannot show. */
+export function unreadPictures(name: string, number: number): string {
+  return `${name}: this browser cannot decode ${count(number, 'picture')} of it; the mesh is shown without.`;
+}
+
 /** Pairs that went with meshes or were replaced. */
 export function pairsGone(number: number): string {
   return `${count(number, 'landmark pair')} went.`;

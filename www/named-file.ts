@@ -6,7 +6,7 @@ import type { RepairOffer } from './report.ts';
 export interface NamedBytes {
   readonly name: string;
   readonly bytes: Uint8Array;
-  /** The file of a picture that belongs on the mesh in them; there is none where they hold it themselves. */
+  /** What comes with the mesh in them to be laid on it: a picture, or an OBJ file's materials with theirs, as the core packs them. */
   readonly picture?: Uint8Array;
   /** Where a link found them; there is none for a file from a disk. */
   readonly address?: string;

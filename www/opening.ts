@@ -189,6 +189,8 @@ interface ReadMeshes {
   readonly refused: readonly RefusedMesh[];
   /** Why the others were refused. */
   readonly faults: readonly FileRefused[];
+  /** What of the colours of the good ones cannot be used, in sentences. */
+  readonly remarks: readonly string[];
 }
 
 /** Gives back the core's memory of what does not come onto the page. */
@@ -208,13 +210,14 @@ function refusedMesh(given: Pick<RefusedMesh, 'side' | 'file' | 'allowed'>, { se
 
 /** Meshes for these sides, each by itself: a good one is not given up for a bad one. */
 function metMeshes(meshes: readonly ReadFile[], sides: readonly Side[]): ReadMeshes {
-  const [loaded, refused, faults]: [{ side: Side; file: MeshFile }[], RefusedMesh[], FileRefused[]] = [[], [], []];
-  const read = { loaded, refused, faults };
+  const [loaded, refused, faults, remarks]: [{ side: Side; file: MeshFile }[], RefusedMesh[], FileRefused[], string[]] = [[], [], [], []];
+  const read = { loaded, refused, faults, remarks };
   try {
     meshes.forEach(({ file, reading }, index) => {
       const side = sides[index] ?? 0;
       if (reading.kind === 'good') {
         loaded.push({ side, file: meshFile({ file, reading }) });
+        remarks.push(...remarksOn({ file, reading }));
         return;
       }
       const mesh = refusedMesh({ side, file, allowed: {} }, reading);
@@ -229,6 +232,16 @@ function metMeshes(meshes: readonly ReadFile[], sides: readonly Side[]): ReadMes
     throw thrown;
   }
   return read;
+}
+
+/** What of a mesh's colours cannot be used, in sentences with its name. */
+function remarksOn({ file, reading }: ReadFile): string[] {
+  return reading.kind === 'bad' || reading.remarks.length === 0 ? [] : [`${file.name}: ${remarksSentence(reading.remarks)}`];
+}
+
+/** Sentences as an event. */
+function saidOfLooks(sentences: readonly string[]): Event[] {
+  return sentences.length === 0 ? [] : [{ kind: 'error', sentence: sentences.join(' ') }];
 }
 
 /** Read meshes on the sides that a map wants, where all were good. */
@@ -255,7 +268,7 @@ function eventsBesideBad(read: ReadMeshes, landmarks: readonly GivenMarks[], sta
   const refused: Event[] = read.refused.length === 0 ? [] : [{ kind: 'refused', refused: { meshes: read.refused, landmarks } }];
   const leftOut = landmarks.length > 0 && read.refused.length === 0 ? ` ${SENTENCES.landmarksLeftOut}` : '';
   const errors = read.faults.map(({ message, failure }): Event => ({ kind: 'error', sentence: `${message}${leftOut}`, ...(failure === null ? {} : { failure }) }));
-  return [...meshes, ...(meshes.length === 0 ? [] : keptMisfit(meshes, state)), ...refused, ...errors];
+  return [...meshes, ...saidOfLooks(read.remarks), ...(meshes.length === 0 ? [] : keptMisfit(meshes, state)), ...refused, ...errors];
 }
 
 /** The events that landmark files mean beside those of meshes; all or none. Throws {@link FileRefused}. */
@@ -291,7 +304,7 @@ function eventsOfRead(read: ReadMeshes, { landmarkFiles, landmarks, map }: Compa
     if (map !== null) {
       checkMeshes(map, events.reduce(update, state).meshes, state);
     }
-    return withLandmarkFiles(events, landmarks, state);
+    return [...withLandmarkFiles(events, landmarks, state), ...saidOfLooks(read.remarks)];
   } catch (thrown) {
     free(read);
     throw thrown;
@@ -319,7 +332,8 @@ export function repairedEvents(mesh: RefusedMesh, reading: MeshReading, state: S
     const repaired = meshFile({ file, reading });
     const event: Event = { kind: 'mesh', side, file: repaired };
     const sentence = repairedSentence(file.name, repaired.repairs);
-    return [...withWaiting(event, side, others.length === 0 ? waiting : [], state), { kind: 'toast', sentence, undo: true }];
+    const remarks = saidOfLooks(remarksOn({ file, reading }));
+    return [...withWaiting(event, side, others.length === 0 ? waiting : [], state), ...remarks, { kind: 'toast', sentence, undo: true }];
   }
   const next = refusedMesh({ side, file, allowed: allowedBy(mesh) }, reading);
   if (next === null) {

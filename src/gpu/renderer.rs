@@ -4,10 +4,11 @@ use super::pipelines::{DEPTH, Pipelines, ViewUniform};
 use crate::scene::buffers::unit_ball;
 use crate::scene::colours::{factor_scale, rising_scale};
 use crate::scene::defects::MarkedLineVertex;
-use crate::scene::looks::levels;
+use crate::scene::looks::{DressedSurface, levels};
 use crate::scene::morph::bend_weights;
 use crate::scene::{LineVertex, MarkerInstance, PinInstance, Pose, SurfaceVertex};
 use glam::Mat4;
+use std::ops::Range;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 /// Why nothing can be drawn.
@@ -25,6 +26,8 @@ pub struct Mesh {
     vertices: wgpu::Buffer,
     indices: wgpu::Buffer,
     index_count: u32,
+    /// The indices on which each picture lies; none where the first picture lies on all.
+    runs: Vec<(Option<u8>, Range<u32>)>,
 }
 
 /// The background, linear RGB.
@@ -144,8 +147,8 @@ pub struct ViewDraw<'a> {
     pub balls: &'a [MarkerInstance],
     /// Pins over everything, the lowest first.
     pub pins: &'a [PinInstance],
-    /// What is laid on a surface in a look; white where there is none.
-    pub picture: Option<&'a Picture>,
+    /// What is laid on the surface; white where there is none.
+    pub pictures: &'a [Option<Picture>],
 }
 
 /// A picture on the GPU.
@@ -257,6 +260,12 @@ impl Renderer {
             bytes.extend(v.bends.as_flattened().iter().flat_map(|x| x.to_le_bytes()));
         };
         mesh(&self.device, &packed(vertices, floats), indices)
+    }
+
+    /// Uploads a surface in a look.
+    pub fn dressed_mesh(&self, dressed: DressedSurface) -> Mesh {
+        let DressedSurface { vertices, indices, runs } = dressed;
+        Mesh { runs, ..self.surface_mesh(&vertices, &indices) }
     }
 
     /// Uploads a picture: 8-bit colours with opacity, row by row from the top. `None` where these are not so many pixels, or more than
@@ -455,14 +464,24 @@ impl Renderer {
             pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed(0..mesh.index_count, 0, 0..1);
         };
-        pass.set_bind_group(1, &view.picture.unwrap_or(&self.white).0, &[]);
+        let picture =
+            |number: usize| &view.pictures.get(number).and_then(Option::as_ref).unwrap_or(&self.white).0;
+        pass.set_bind_group(1, picture(0), &[]);
         if let Some(mesh) = view.under {
             pass.set_bind_group(0, &under.1, &[]);
             draw(pass, mesh, surface);
         }
         pass.set_bind_group(0, &front.1, &[]);
-        if let Some(mesh) = view.surface {
+        if let Some(mesh) = view.surface.filter(|mesh| mesh.runs.is_empty()) {
             draw(pass, mesh, surface);
+        } else if let Some(mesh) = view.surface {
+            pass.set_pipeline(surface);
+            pass.set_vertex_buffer(0, mesh.vertices.slice(..));
+            pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
+            for (number, run) in &mesh.runs {
+                pass.set_bind_group(1, number.map_or(&self.white.0, |number| picture(number.into())), &[]);
+                pass.draw_indexed(run.clone(), 0, 0..1);
+            }
         }
         if let Some(mesh) = view.painted {
             pass.set_bind_group(0, &painted.1, &[]);
@@ -523,6 +542,7 @@ fn mesh(device: &wgpu::Device, vertices: &[u8], indices: &[u32]) -> Mesh {
         vertices: buffer(device, vertices, wgpu::BufferUsages::VERTEX),
         indices: buffer(device, &index_bytes, wgpu::BufferUsages::INDEX),
         index_count: indices.len() as u32,
+        runs: Vec::new(),
     }
 }
 

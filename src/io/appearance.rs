@@ -1,38 +1,89 @@
-//! How a mesh file says that its surface looks: the colours of its vertices, and a picture with its places.
+//! How a mesh file says that its surface looks: the colours of its vertices, and pictures with the places in them.
 //!
 //! Read are the vertices' colours of PLY files (`red`, `green`, `blue`) and of OBJ files (three numbers after the coordinates), texture
 //! coordinates of both, the colours of vertices or faces of OFF files, and what a glTF file's materials say of their base colours.
+//! The pictures of OBJ and PLY files come beside them: one, or a set of materials ([`super::material_set`]).
 
 use super::gltf_look;
+use super::material_set::MaterialSet;
 use super::obj;
 use super::off;
 use super::off_colours::{self, OffColours};
 use super::reading::text;
-use super::texture_coordinates;
+use super::texture_coordinates::{self, TextureCoordinateError};
 use super::vertex_table::{self, Column, NumberType, VertexTable};
 use super::{Format, detect};
-use crate::mesh::look::{CornerLook, PolygonLook};
+use crate::mesh::look::{CornerLook, MOST_PICTURES, PicturePlace, PolygonLook};
 use crate::mesh::soup::PolygonSoup;
-use glam::DVec2;
 
-/// The look that a mesh file gives to its polygons, which were read of the same bytes. `None` where it says nothing of it, or
-/// nothing that can be used.
-pub fn read(bytes: &[u8], soup: &PolygonSoup) -> Option<PolygonLook> {
-    let look = match detect(bytes)? {
-        Format::Gltf => gltf_look::read(bytes)?,
-        Format::Ply => of_ply(bytes, soup)?,
-        Format::Obj => of_obj(bytes, soup)?,
-        Format::Off => of_off(bytes, soup)?,
-        Format::Stl => return None,
-    };
-    (look.corners.len() == soup.polygons.len()).then_some(look)
+/// How a mesh looks, and what of its look cannot be used.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Appearance {
+    /// The look of the file's polygons; `None` where nothing is said of it.
+    pub look: Option<PolygonLook>,
+    /// What is left out.
+    pub remarks: Vec<LookRemark>,
 }
 
-fn of_ply(bytes: &[u8], soup: &PolygonSoup) -> Option<PolygonLook> {
-    let table = vertex_table::of_ply(bytes, soup.positions.len()).ok()?;
+/// What cannot be used of a look. The mesh is good without it.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LookRemark {
+    /// A picture is not there.
+    #[error("the picture {name} is missing: give it together with the mesh")]
+    Missing {
+        /// What the file calls it.
+        name: String,
+    },
+    /// A file that should be a picture is none.
+    #[error("the picture {name} is no PNG, JPEG or WebP file, and is left out")]
+    NoPicture {
+        /// What the file calls it.
+        name: String,
+    },
+    /// More pictures than are told apart.
+    #[error("only {MOST_PICTURES} pictures are shown; what others lie on has none")]
+    TooMany,
+    /// Numbers that cannot be used.
+    #[error("its colours are incomplete: {problem}")]
+    Unusable {
+        /// What is wrong.
+        problem: String,
+    },
+}
+
+/// How the polygons of a mesh file look, which were read of the same bytes. `companion` is what comes with it: a picture, or the set of an
+/// OBJ file's materials.
+pub fn read(bytes: &[u8], soup: &PolygonSoup, companion: Option<&[u8]>) -> Appearance {
+    let mut appearance = match detect(bytes) {
+        Some(Format::Gltf) => gltf_look::read(bytes),
+        Some(Format::Ply) => of_ply(bytes, soup, &companion.map(MaterialSet::read).unwrap_or_default()),
+        Some(Format::Obj) => of_obj(bytes, soup, &companion.map(MaterialSet::read).unwrap_or_default()),
+        Some(Format::Off) => Appearance { look: of_off(bytes, soup), remarks: Vec::new() },
+        Some(Format::Stl) | None => Appearance::default(),
+    };
+    appearance.look = appearance.look.filter(|look| look.corners.len() == soup.polygons.len());
+    appearance
+}
+
+fn of_ply(bytes: &[u8], soup: &PolygonSoup, set: &MaterialSet) -> Appearance {
+    let mut remarks = set.remarks.clone();
+    let Ok(table) = vertex_table::of_ply(bytes, soup.positions.len()) else {
+        return Appearance { look: None, remarks };
+    };
     let colours = colours_of(&table);
     let places = texture_coordinates::of_table(&table, &soup.polygons);
-    joined(soup, colours.as_deref(), places.as_deref())
+    let is_usable = places.iter().flatten().flatten().all(|uv| uv.is_finite());
+    if !is_usable {
+        let problem = "texture coordinates have values that are no numbers".to_owned();
+        remarks.push(LookRemark::Unusable { problem });
+    }
+    let place = |polygon: usize, k: usize| {
+        let uv = places.as_ref().filter(|_| is_usable)?.get(polygon)?.get(k)?;
+        Some(PicturePlace { picture: 0, at: uv.as_vec2().to_array() })
+    };
+    let colour = |_, v: usize| colours.as_ref().and_then(|colours| colours.get(v).copied());
+    Appearance { look: joined(soup, colour, place, &set.pictures), remarks }
 }
 
 /// Colours by vertex; `None` where a channel is missing.
@@ -49,55 +100,76 @@ fn colours_of(table: &VertexTable) -> Option<Vec<[u8; 3]>> {
     Some((0..count).map(|v| channels.map(|column| byte(column, v))).collect())
 }
 
-fn of_obj(bytes: &[u8], soup: &PolygonSoup) -> Option<PolygonLook> {
-    let text = text(bytes).ok()?;
-    let mut colours = Vec::new();
-    for line in obj::whole_lines(&text).filter(|line| line.kind == "v") {
+fn of_obj(bytes: &[u8], soup: &PolygonSoup, set: &MaterialSet) -> Appearance {
+    let mut remarks = set.remarks.clone();
+    let Ok(text) = text(bytes) else { return Appearance { look: None, remarks } };
+    let colours = vertex_colours(&text).filter(|colours| colours.len() == soup.positions.len());
+    let places = match texture_coordinates::of_obj(bytes) {
+        Ok(places) => places,
+        Err(TextureCoordinateError::None) => Vec::new(),
+        Err(error) => {
+            remarks.push(LookRemark::Unusable { problem: error.to_string() });
+            Vec::new()
+        }
+    };
+    let materials = set.by_polygon(&text);
+    let place = |polygon: usize, k: usize| {
+        let uv = places.get(polygon)?.corners.get(k).copied().flatten()?;
+        // Without pictures the places are those in one that may come.
+        let picture = if set.pictures.is_empty() { Some(0) } else { materials.get(polygon)?.picture };
+        Some(PicturePlace { picture: picture?, at: uv.as_vec2().to_array() })
+    };
+    let colour = |polygon: usize, v: usize| match &colours {
+        Some(colours) => colours.get(v).copied(),
+        None => materials.get(polygon).map(|material| material.colour),
+    };
+    Appearance { look: joined(soup, colour, place, &set.pictures), remarks }
+}
+
+/// The colours behind the coordinates of an OBJ file's vertices, up to the first without one.
+fn vertex_colours(text: &str) -> Option<Vec<[u8; 3]>> {
+    let share = |word: Option<&str>| word?.parse::<f64>().ok().filter(|x| (0.0..=1.0).contains(x));
+    let colour = |line: obj::WholeLine<'_>| {
         let mut words = line.words().skip(3);
-        let share = |word: Option<&str>| word?.parse::<f64>().ok().filter(|x| (0.0..=1.0).contains(x));
         // A fourth number alone is a weight.
-        let Some(colour) = share(words.next()).zip(share(words.next())).zip(share(words.next())) else {
-            break;
-        };
-        let ((r, g), b) = colour;
-        colours.push([r, g, b].map(|x| (255.0 * x).round() as u8));
-    }
-    let colours = (colours.len() == soup.positions.len()).then_some(colours);
-    let places = texture_coordinates::read(bytes).ok();
-    joined(soup, colours.as_deref(), places.as_deref())
+        let shares = [share(words.next())?, share(words.next())?, share(words.next())?];
+        Some(shares.map(|x| (255.0 * x).round() as u8))
+    };
+    let colours: Vec<[u8; 3]> =
+        obj::whole_lines(text).filter(|line| line.kind == "v").map_while(colour).collect();
+    (!colours.is_empty()).then_some(colours)
 }
 
 fn of_off(bytes: &[u8], soup: &PolygonSoup) -> Option<PolygonLook> {
     if off::is_binary(bytes) {
         return None;
     }
-    let faces = match off_colours::read(&text(bytes).ok()?)? {
-        OffColours::OfVertices(colours) => return joined(soup, Some(&colours), None),
-        OffColours::OfFaces(colours) => colours,
+    let colours = off_colours::read(&text(bytes).ok()?)?;
+    let colour = |polygon: usize, v: usize| match &colours {
+        OffColours::OfVertices(colours) => colours.get(v).copied(),
+        OffColours::OfFaces(colours) => colours.get(polygon).copied(),
     };
-    let corners = |(polygon, colour): (&Vec<u32>, &[u8; 3])| {
-        vec![CornerLook { colour: *colour, place: None }; polygon.len()]
-    };
-    Some(PolygonLook { corners: soup.polygons.iter().zip(&faces).map(corners).collect(), picture: None })
+    joined(soup, colour, |_, _| None, &[])
 }
 
-/// Colours of vertices and texture coordinates of corners as one; `None` where neither is there.
+/// Colours by polygon and vertex, white where there is none, and places by polygon and corner as one; `None` where nothing is seen of them.
 fn joined(
     soup: &PolygonSoup,
-    colours: Option<&[[u8; 3]]>,
-    places: Option<&[Vec<DVec2>]>,
+    colour: impl Fn(usize, usize) -> Option<[u8; 3]>,
+    place: impl Fn(usize, usize) -> Option<PicturePlace>,
+    pictures: &[Vec<u8>],
 ) -> Option<PolygonLook> {
-    if colours.is_none() && places.is_none() {
-        return None;
-    }
     let corner = |polygon: usize, k: usize, v: usize| CornerLook {
-        colour: colours.and_then(|colours| colours.get(v).copied()).unwrap_or([u8::MAX; 3]),
-        place: places.and_then(|places| Some(places.get(polygon)?.get(k)?.as_vec2().to_array())),
+        colour: colour(polygon, v).unwrap_or(CornerLook::WHITE.colour),
+        place: place(polygon, k),
     };
     let corners = soup.polygons.iter().enumerate().map(|(number, polygon)| {
         polygon.iter().enumerate().map(|(k, v)| corner(number, k, *v as usize)).collect()
     });
-    Some(PolygonLook { corners: corners.collect(), picture: None })
+    let corners: Vec<Vec<CornerLook>> = corners.collect();
+    let says = |corner: &CornerLook| *corner != CornerLook::WHITE;
+    let has_look = corners.iter().flatten().any(says);
+    has_look.then(|| PolygonLook { corners, pictures: pictures.to_vec() })
 }
 
 #[cfg(test)]
@@ -106,8 +178,16 @@ mod tests {
     use crate::io::read_mesh;
     use serde_json::json;
 
+    fn appearance(bytes: &[u8]) -> Appearance {
+        read(bytes, &read_mesh(bytes).unwrap(), None)
+    }
+
     fn of(bytes: &[u8]) -> Option<PolygonLook> {
-        read(bytes, &read_mesh(bytes).unwrap())
+        appearance(bytes).look
+    }
+
+    fn at(picture: u8, at: [f32; 2]) -> Option<PicturePlace> {
+        Some(PicturePlace { picture, at })
     }
 
     fn coloured(colours: [[u8; 3]; 3]) -> Vec<Vec<CornerLook>> {
@@ -154,7 +234,7 @@ mod tests {
         let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 0.5 1\nf 1/1 2/2 3/1\n";
         let places: Vec<_> =
             of(obj.as_bytes()).unwrap().corners[0].iter().map(|corner| corner.place).collect();
-        assert_eq!(places, [Some([0.0, 0.0]), Some([0.5, 1.0]), Some([0.0, 0.0])]);
+        assert_eq!(places, [at(0, [0.0, 0.0]), at(0, [0.5, 1.0]), at(0, [0.0, 0.0])]);
     }
 
     /// Two triangles of two materials: one with a picture, one of a base colour with colours at its vertices.
@@ -191,24 +271,82 @@ mod tests {
         .into_bytes()
     }
 
+    fn data_uri(content: &[u8]) -> String {
+        format!(
+            "data:image/png;base64,{}",
+            base64::Engine::encode(&base64::prelude::BASE64_STANDARD, content)
+        )
+    }
+
     #[test]
     fn materials_of_gltf_files_are_read() {
-        let png = base64::Engine::encode(&base64::prelude::BASE64_STANDARD, b"\x89PNG and so on");
-        let look = of(&gltf(&format!("data:image/png;base64,{png}"))).unwrap();
-        assert_eq!(look.picture.as_deref(), Some(&b"\x89PNG and so on"[..]));
+        let look = of(&gltf(&data_uri(b"\x89PNG and so on"))).unwrap();
+        assert_eq!(look.pictures, [b"\x89PNG and so on"]);
         // The picture's rows go down, places go up.
         let places: Vec<_> = look.corners[0].iter().map(|corner| corner.place).collect();
-        assert_eq!(places, [Some([0.0, 1.0]), Some([1.0, 1.0]), Some([0.0, 0.75])]);
+        assert_eq!(places, [at(0, [0.0, 1.0]), at(0, [1.0, 1.0]), at(0, [0.0, 0.75])]);
         // Light of 0.5 and 0.25 is shown as 188 and 137.
         assert_eq!(look.corners[1], coloured([[255, 188, 255], [0, 137, 0], [255, 188, 255]])[0]);
     }
 
     #[test]
-    fn a_picture_that_is_none_is_left_out() {
-        let look = of(&gltf("missing.png")).unwrap();
-        assert_eq!(look.picture, None);
-        assert!(look.corners.iter().flatten().all(|corner| corner.place.is_none()));
-        let text = base64::Engine::encode(&base64::prelude::BASE64_STANDARD, b"<script>");
-        assert_eq!(of(&gltf(&format!("data:image/png;base64,{text}"))).unwrap().picture, None);
+    fn each_material_keeps_its_picture() {
+        let mut root: serde_json::Value = serde_json::from_slice(&gltf("")).unwrap();
+        root["meshes"][0]["primitives"][1]["attributes"]["TEXCOORD_0"] = json!(1);
+        root["materials"][1]["pbrMetallicRoughness"]["baseColorTexture"] = json!({ "index": 1 });
+        let webp = json!({ "extensions": { "EXT_texture_webp": { "source": 1 } }, "source": 0 });
+        root["textures"] = json!([{ "source": 0 }, webp]);
+        let [png, riff] = [data_uri(b"\x89PNG"), data_uri(b"RIFF....WEBP")];
+        root["images"] = json!([{ "uri": png }, { "uri": riff }]);
+        let look = of(root.to_string().as_bytes()).unwrap();
+        assert_eq!(look.pictures, [&b"\x89PNG"[..], b"RIFF....WEBP"]);
+        let numbers = look.corners.iter().map(|corners| corners[0].place.unwrap().picture);
+        assert_eq!(numbers.collect::<Vec<_>>(), [0, 1]);
+    }
+
+    #[test]
+    fn a_picture_that_is_none_is_left_out_and_told() {
+        let told = |picture: &str| {
+            let Appearance { look, remarks } = appearance(&gltf(picture));
+            let look = look.unwrap();
+            assert_eq!(look.pictures.len(), 0);
+            assert!(look.corners.iter().flatten().all(|corner| corner.place.is_none()));
+            remarks
+        };
+        assert_eq!(told("missing.png"), [LookRemark::Missing { name: "missing.png".into() }]);
+        assert_eq!(told(&data_uri(b"<script>")), [LookRemark::NoPicture { name: "number 0".into() }]);
+    }
+
+    #[test]
+    fn places_that_are_no_numbers_are_left_out_and_told() {
+        let obj = "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nvt nan 0\nf 1/1 2/1 3/1\n";
+        let Appearance { look, remarks } = appearance(obj.as_bytes());
+        assert_eq!(look.unwrap().corners, coloured([[255, 0, 0]; 3]));
+        assert!(remarks[0].to_string().starts_with("its colours are incomplete: line 4: "), "{remarks:?}");
+        let mut root: serde_json::Value = serde_json::from_slice(&gltf(&data_uri(b"\x89PNG"))).unwrap();
+        let floats = [f32::NAN, 0.0, 1.0, 0.0, 0.0, 0.25];
+        let bytes: Vec<u8> = floats.iter().flat_map(|x| x.to_le_bytes()).collect();
+        root["buffers"].as_array_mut().unwrap().push(json!({ "byteLength": 24, "uri": data_uri(&bytes) }));
+        root["bufferViews"][1] = json!({ "buffer": 1, "byteLength": 24 });
+        let Appearance { look, remarks } = appearance(root.to_string().as_bytes());
+        assert!(look.unwrap().corners[0].iter().all(|corner| corner.place.is_none()));
+        let problem = "TEXCOORD_0 of primitive 0 of mesh 0 has values that are no numbers".into();
+        assert_eq!(remarks, [LookRemark::Unusable { problem }]);
+    }
+
+    #[test]
+    fn materials_that_come_with_an_obj_file_lay_several_pictures_on_it() {
+        let obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl b\nf 1/1 2/1 3/1\nusemtl c\nf 1 2 3\nusemtl a\n\
+                   f 1/1 2/1 3/1\n";
+        let find = |name: &str| match name {
+            "a.mtl" => Some(b"newmtl a\nmap_Kd a.png\nnewmtl b\nmap_Kd b.png\nnewmtl c\nKd 1 0 0\n".to_vec()),
+            name => Some(format!("\u{89}PNG {name}").chars().map(|c| c as u8).collect()),
+        };
+        let set = crate::io::material_set::packed(obj.as_bytes(), find).unwrap();
+        let look = read(obj.as_bytes(), &read_mesh(obj.as_bytes()).unwrap(), Some(&set.bytes)).look.unwrap();
+        assert_eq!(look.pictures, [b"\x89PNG a.png", b"\x89PNG b.png"]);
+        let places: Vec<_> = look.corners.iter().map(|corners| corners[0].place).collect();
+        assert_eq!(places, [at(1, [0.0; 2]), None, at(0, [0.0; 2])]);
+        assert_eq!(look.corners[1], coloured([[255, 0, 0]; 3])[0]);
     }
 }

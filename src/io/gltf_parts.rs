@@ -1,6 +1,7 @@
 //! glTF files whose buffers and textures are files of their own: the names of these files, and all of them packed into one GLB.
 
 use super::data_uri;
+use super::picture::media_type;
 use super::reading::unmarked;
 use super::{Format, MAX_BYTES, Place, ReadError, detect};
 use serde_json::{Map, Value, json};
@@ -133,13 +134,13 @@ fn embedded(buffer: &Value) -> Result<Vec<u8>, String> {
 
 /// The one buffer of a GLB.
 #[derive(Default)]
-struct Packer {
-    bytes: Vec<u8>,
+pub(super) struct Packer {
+    pub(super) bytes: Vec<u8>,
 }
 
 impl Packer {
     /// Where the content begins: at a multiple of 4, as accessors need it.
-    fn add(&mut self, content: &[u8]) -> Result<usize, ReadError> {
+    pub(super) fn add(&mut self, content: &[u8]) -> Result<usize, ReadError> {
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
         let start = self.bytes.len();
         if start + content.len() > MAX_BYTES {
@@ -188,8 +189,7 @@ fn pack_images<'a>(
             None => packer.add(content)?,
         };
         packed.insert(name.clone(), start);
-        let is_jpeg = content.starts_with(&[0xff, 0xd8]);
-        let kind = if is_jpeg { "image/jpeg" } else { "image/png" };
+        let kind = media_type(content).unwrap_or("image/png");
         views.push(json!({ "buffer": 0, "byteOffset": start, "byteLength": content.len() }));
         *image = json!({ "bufferView": views.len() - 1, "mimeType": kind, "name": name });
     }
@@ -198,7 +198,7 @@ fn pack_images<'a>(
 }
 
 /// The two chunks of a GLB.
-fn glb(root: &Map<String, Value>, mut buffer: Vec<u8>) -> Result<Vec<u8>, ReadError> {
+pub(super) fn glb(root: &Map<String, Value>, mut buffer: Vec<u8>) -> Result<Vec<u8>, ReadError> {
     let mut text = serde_json::to_vec(root).unwrap_or_default();
     text.resize(text.len().next_multiple_of(4), b' ');
     buffer.resize(buffer.len().next_multiple_of(4), 0);

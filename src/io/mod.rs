@@ -15,6 +15,7 @@ mod gltf_look;
 pub mod gltf_parts;
 pub mod landmark_file;
 pub mod landmark_formats;
+pub mod material_set;
 pub mod moved;
 mod obj;
 mod off;

@@ -37,6 +37,20 @@ pub enum PictureError {
     Malformed(String),
 }
 
+/// The media type of a file that begins as a picture which browsers show; `None` for any other.
+pub fn media_type(bytes: &[u8]) -> Option<&'static str> {
+    let is_webp = bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP");
+    let kinds = [
+        (bytes.starts_with(b"\x89PNG"), "image/png"),
+        (bytes.starts_with(b"\xff\xd8\xff"), "image/jpeg"),
+        (is_webp, WEBP),
+    ];
+    kinds.into_iter().find(|(is_so, _)| *is_so).map(|(_, name)| name)
+}
+
+/// The media type of WebP pictures.
+pub const WEBP: &str = "image/webp";
+
 /// Reads a PNG file.
 ///
 /// # Errors

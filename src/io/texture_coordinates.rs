@@ -2,7 +2,7 @@
 //! properties `u`, `v`, or `s`, `t`, or `texture_u`, `texture_v`.
 
 use super::problem::{Place, Problem};
-use super::reading::{number, short, text};
+use super::reading::{number, text};
 use super::vertex_table::{TableError, VertexTable};
 use super::{Format, MAX_BYTES, ReadError, detect, obj, read_mesh, vertex_table};
 use glam::DVec2;
@@ -41,19 +41,35 @@ impl From<Problem> for TextureCoordinateError {
 /// Texture coordinates of each corner of each polygon, in the file's order.
 ///
 /// # Errors
-/// [`TextureCoordinateError`].
+/// [`TextureCoordinateError`], also where a corner has none.
 pub fn read(bytes: &[u8]) -> Result<Vec<Vec<DVec2>>, TextureCoordinateError> {
     if bytes.len() > MAX_BYTES {
         return Err(ReadError::TooLarge { bytes: bytes.len() }.into());
     }
     match detect(bytes) {
-        Some(Format::Obj) => obj(bytes),
+        Some(Format::Obj) => {
+            let whole = |polygon: PolygonPlaces| {
+                let problem = "a corner of the face has no texture coordinates".to_owned();
+                let corners: Option<Vec<DVec2>> = polygon.corners.into_iter().collect();
+                corners.ok_or_else(|| (Place::Line(polygon.line), problem).into())
+            };
+            of_obj(bytes)?.into_iter().map(whole).collect()
+        }
         Some(Format::Ply) => ply(bytes),
         _ => Err(TextureCoordinateError::None),
     }
 }
 
-fn obj(bytes: &[u8]) -> Result<Vec<Vec<DVec2>>, TextureCoordinateError> {
+/// The texture coordinates of a polygon of an OBJ file.
+pub(super) struct PolygonPlaces {
+    /// The line of the polygon, from 1.
+    line: usize,
+    /// By corner; `None` for one that has none.
+    pub(super) corners: Vec<Option<DVec2>>,
+}
+
+/// Those of an OBJ file, polygon by polygon.
+pub(super) fn of_obj(bytes: &[u8]) -> Result<Vec<PolygonPlaces>, TextureCoordinateError> {
     let (mut given, mut polygons) = (Vec::new(), Vec::new());
     for line in obj::whole_lines(&text(bytes)?) {
         match line.kind {
@@ -69,21 +85,22 @@ fn obj(bytes: &[u8]) -> Result<Vec<Vec<DVec2>>, TextureCoordinateError> {
             }
             "f" => {
                 let corner = |word: &str| of_corner(word, &given, line.number);
-                polygons.push(obj::corners(&line)?.map(corner).collect::<Result<_, _>>()?);
+                let corners = obj::corners(&line)?.map(corner).collect::<Result<_, _>>()?;
+                polygons.push(PolygonPlaces { line: line.number, corners });
             }
             _ => {}
         }
     }
-    if given.is_empty() { Err(TextureCoordinateError::None) } else { Ok(polygons) }
+    Ok(polygons)
 }
 
-/// The texture coordinates of a corner `v/t` or `v/t/n`; negative numbers count back from the last ones so far.
-fn of_corner(word: &str, given: &[DVec2], line: usize) -> Result<DVec2, Problem> {
-    let token = word.split('/').nth(1).filter(|token| !token.is_empty());
-    let none = || (Place::Line(line), format!("the corner {} has no texture coordinates", short(word)));
-    let value: i64 = number(Some(token.ok_or_else(none)?), line, "a number of texture coordinates")?;
+/// The texture coordinates of a corner `v/t` or `v/t/n`, and none of `v` or `v//n`; negative numbers count back from the last ones so far.
+fn of_corner(word: &str, given: &[DVec2], line: usize) -> Result<Option<DVec2>, Problem> {
+    let Some(token) = word.split('/').nth(1).filter(|token| !token.is_empty()) else { return Ok(None) };
+    let value: i64 = number(Some(token), line, "a number of texture coordinates")?;
     let known = obj::index(value, given.len()).and_then(|index| given.get(index as usize));
-    known.copied().ok_or_else(|| (Place::Line(line), format!("there are no texture coordinates {value}")))
+    let none = || (Place::Line(line), format!("there are no texture coordinates {value}"));
+    known.copied().map(Some).ok_or_else(none)
 }
 
 fn ply(bytes: &[u8]) -> Result<Vec<Vec<DVec2>>, TextureCoordinateError> {
@@ -126,7 +143,9 @@ mod tests {
     fn faults_are_told_with_their_line() {
         let vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
         let told = |rest: &str| read(format!("{vertices}{rest}").as_bytes()).unwrap_err().to_string();
-        assert!(told("f 1 2 3\nf 1 2 4\n").starts_with("line 5: the corner 1 has no texture coordinates"));
+        let told_of_none = told("vt 0 0\nf 1/1 2 3//1\n");
+        assert_eq!(told_of_none, "line 6: a corner of the face has no texture coordinates");
+        assert_eq!(told("f 1 2 3\n"), "line 5: a corner of the face has no texture coordinates");
         assert_eq!(told("vt 0 0\nf 1/1 2/2 3/1\n"), "line 6: there are no texture coordinates 2");
         assert_eq!(told("vt 0 inf\nf 1/1 2/1 3/1\n"), "line 5: [0, inf] are no usable texture coordinates");
         assert_eq!(told("vt 0\n"), "line 5: a texture coordinate is missing: the file may be cut off");

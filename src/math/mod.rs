@@ -14,4 +14,5 @@ pub mod random;
 pub mod rigid2;
 pub mod rigid3;
 pub mod scalar;
+pub mod screen_light;
 pub mod triangle;

@@ -1,9 +1,10 @@
-//! How the corners of a mesh's faces look: colours, and places in a picture that is laid over the mesh.
+//! How the corners of a mesh's faces look: colours, and places in the pictures that are laid over the mesh.
 
 use super::check::CheckedMesh;
 use super::packing::{PackedError, Packer, Unpacker};
 use super::soup::PolygonSoup;
 use super::{FaceId, VertexId};
+use glam::DVec3;
 use typed_index_collections::TiVec;
 
 /// How one corner of a face looks.
@@ -11,10 +12,21 @@ use typed_index_collections::TiVec;
 pub struct CornerLook {
     /// Red, green and blue as a screen shows them (sRGB); the picture's colours are multiplied by them.
     pub colour: [u8; 3],
-    /// Where it lies in the picture, whose left lower corner is (0, 0) and whose right upper one is (1, 1); beyond, the picture repeats.
-    /// `None` where no picture is laid on the face.
-    pub place: Option<[f32; 2]>,
+    /// Where it lies in a picture; `None` where none is laid on the face.
+    pub place: Option<PicturePlace>,
 }
+
+/// A place in one of a look's pictures.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PicturePlace {
+    /// The number of the picture.
+    pub picture: u8,
+    /// The picture's left lower corner is (0, 0) and its right upper one (1, 1); beyond, it repeats.
+    pub at: [f32; 2],
+}
+
+/// More pictures than this are not told apart.
+pub const MOST_PICTURES: usize = u8::MAX as usize;
 
 impl CornerLook {
     /// White, without a picture.
@@ -28,8 +40,8 @@ impl CornerLook {
 pub struct PolygonLook {
     /// By polygon of the file and its corners.
     pub corners: Vec<Vec<CornerLook>>,
-    /// The picture's file (PNG or JPEG), where the mesh file holds it.
-    pub picture: Option<Vec<u8>>,
+    /// The files of the pictures (PNG, JPEG or WebP), at most [`MOST_PICTURES`]; none where they are not there.
+    pub pictures: Vec<Vec<u8>>,
 }
 
 /// The look of a checked mesh.
@@ -37,14 +49,22 @@ pub struct PolygonLook {
 pub struct Look {
     /// By face, corner by corner.
     pub corners: TiVec<FaceId, [CornerLook; 3]>,
-    /// The picture's file (PNG or JPEG), where the mesh file holds it.
-    pub picture: Option<Vec<u8>>,
+    /// The files of the pictures (PNG, JPEG or WebP), at most [`MOST_PICTURES`]; none where they are not there.
+    pub pictures: Vec<Vec<u8>>,
 }
 
+/// In packed looks, in the place of a picture's number.
+const NO_PICTURE: u8 = u8::MAX;
+
 impl PolygonLook {
-    /// The look of a mesh that was made of the file's polygons. Faces that a repair made are grey. `None` where the numbers of
-    /// polygons or corners do not fit.
-    pub fn by_face(self, soup: &PolygonSoup, mesh: &CheckedMesh) -> Option<Look> {
+    /// The look of a mesh that was made of the file's polygons; `place` tells where its vertices are in the file. Faces that a repair made
+    /// are grey. `None` where the numbers of polygons or corners do not fit.
+    pub fn by_face(
+        self,
+        soup: &PolygonSoup,
+        mesh: &CheckedMesh,
+        place: impl Fn(VertexId) -> DVec3,
+    ) -> Option<Look> {
         let fits = |(polygon, corners): (&Vec<u32>, &Vec<CornerLook>)| polygon.len() == corners.len();
         if self.corners.len() != soup.polygons.len() || !soup.polygons.iter().zip(&self.corners).all(fits) {
             return None;
@@ -56,7 +76,6 @@ impl PolygonLook {
             .zip(0_u32..)
             .flat_map(|(polygon, number)| std::iter::repeat_n(number, polygon.len().saturating_sub(2)));
         let polygon_of_face: Vec<u32> = faces.collect();
-        let place = |v: VertexId| mesh.frame.in_file(mesh.mesh.positions()[v]);
         let corners = mesh.mesh.faces().map(|face| {
             let number = polygon_of_face.get(mesh.file_from_face(face).index());
             let Some(number) = number.map(|number| *number as usize) else { return [CornerLook::MADE_UP; 3] };
@@ -70,7 +89,7 @@ impl PolygonLook {
                 nearest.map_or(CornerLook::MADE_UP, |(_, look)| *look)
             })
         });
-        Some(Look { corners: corners.collect(), picture: self.picture })
+        Some(Look { corners: corners.collect(), pictures: self.pictures })
     }
 }
 
@@ -80,10 +99,10 @@ impl Look {
         let is_white = |corner: &CornerLook| corner.colour == CornerLook::WHITE.colour;
         // What a repair made up has no colour of the file.
         let says_nothing = |corner: &CornerLook| is_white(corner) || *corner == CornerLook::MADE_UP;
-        self.picture.is_some() || !self.corners.iter().flatten().all(says_nothing)
+        !self.pictures.is_empty() || !self.corners.iter().flatten().all(says_nothing)
     }
 
-    /// The look at a point of a face, given by barycentric coordinates: its colour, and its place in the picture. The look of a face
+    /// The look at a point of a face, given by barycentric coordinates: its colour, and its place in a picture. The look of a face
     /// is blended between its corners.
     pub fn at(&self, face: FaceId, weights: [f64; 3]) -> CornerLook {
         let Some(corners) = self.corners.get(face) else { return CornerLook::MADE_UP };
@@ -91,9 +110,11 @@ impl Look {
             corners.iter().zip(weights).map(|(corner, weight)| weight * value(corner)).sum::<f64>()
         };
         let channel = |k: usize| blend(&|corner| f64::from(corner.colour[k])).round().clamp(0.0, 255.0) as u8;
-        let along = |k: usize| blend(&|corner| f64::from(corner.place.unwrap_or_default()[k])) as f32;
-        let has_place = corners.iter().all(|corner| corner.place.is_some());
-        CornerLook { colour: [0, 1, 2].map(channel), place: has_place.then(|| [0, 1].map(along)) }
+        let along = |k: usize| blend(&|corner| f64::from(corner.place.unwrap_or_default().at[k])) as f32;
+        let [first, rest @ ..] = corners.map(|corner| corner.place.map(|place| place.picture));
+        let picture = first.filter(|_| rest.iter().all(|other| *other == first));
+        let place = picture.map(|picture| PicturePlace { picture, at: [0, 1].map(along) });
+        CornerLook { colour: [0, 1, 2].map(channel), place }
     }
 
     /// All of it.
@@ -102,13 +123,14 @@ impl Look {
         let colours: Vec<u32> = corners()
             .map(|corner| {
                 let [r, g, b] = corner.colour;
-                u32::from_le_bytes([r, g, b, u8::from(corner.place.is_some())])
+                u32::from_le_bytes([r, g, b, corner.place.map_or(NO_PICTURE, |place| place.picture)])
             })
             .collect();
         packer.wholes(colours.into_iter());
-        let places: Vec<f32> = corners().flat_map(|corner| corner.place.unwrap_or_default()).collect();
+        let places: Vec<f32> = corners().flat_map(|corner| corner.place.unwrap_or_default().at).collect();
         packer.singles(places.into_iter());
-        packer.bytes(self.picture.as_deref().unwrap_or_default());
+        packer.count(self.pictures.len());
+        self.pictures.iter().for_each(|picture| packer.bytes(picture));
     }
 
     /// The look of so many faces that [`Self::pack`] took.
@@ -117,19 +139,19 @@ impl Look {
     /// [`PackedError`] where it is of another number of faces.
     pub fn unpack(unpacker: &mut Unpacker<'_>, faces: usize) -> Result<Self, PackedError> {
         let (colours, places) = (unpacker.wholes()?, unpacker.singles()?);
-        let picture = unpacker.bytes()?;
-        if colours.len() != 3 * faces || places.len() != 6 * faces {
+        let count = unpacker.count()?;
+        if colours.len() != 3 * faces || places.len() != 6 * faces || count > MOST_PICTURES {
             return Err(PackedError::new("the look is that of another mesh"));
         }
         let corner = |k: usize| {
-            let [r, g, b, has_place] = colours[k].to_le_bytes();
-            CornerLook {
-                colour: [r, g, b],
-                place: (has_place != 0).then(|| [places[2 * k], places[2 * k + 1]]),
-            }
+            let [r, g, b, picture] = colours[k].to_le_bytes();
+            let place = PicturePlace { picture, at: [places[2 * k], places[2 * k + 1]] };
+            CornerLook { colour: [r, g, b], place: (picture != NO_PICTURE).then_some(place) }
         };
         let corners = (0..faces).map(|face| [0, 1, 2].map(|k| corner(3 * face + k))).collect();
-        Ok(Self { corners, picture: (!picture.is_empty()).then(|| picture.to_vec()) })
+        let pictures =
+            (0..count).map(|_| Ok(unpacker.bytes()?.to_vec())).collect::<Result<_, PackedError>>()?;
+        Ok(Self { corners, pictures })
     }
 }
 
@@ -140,20 +162,24 @@ mod tests {
     use crate::mesh::generators::icosphere;
     use crate::mesh::repair::{RepairOptions, repaired};
     use crate::monitor::Silent;
-    use glam::DVec3;
 
     /// A look by place: the colour and the place in the picture tell where a corner is.
     fn of_place(p: DVec3) -> CornerLook {
         let byte = |x: f64| (127.0 + 100.0 * x).round() as u8;
-        CornerLook { colour: [byte(p.x), byte(p.y), byte(p.z)], place: Some([p.x as f32, p.y as f32]) }
+        let place = PicturePlace { picture: 1, at: [p.x as f32, p.y as f32] };
+        CornerLook { colour: [byte(p.x), byte(p.y), byte(p.z)], place: Some(place) }
     }
 
     fn look_of(soup: &PolygonSoup) -> PolygonLook {
         let corner = |v: &u32| of_place(soup.positions[*v as usize]);
         PolygonLook {
             corners: soup.polygons.iter().map(|polygon| polygon.iter().map(corner).collect()).collect(),
-            picture: Some(vec![1, 2, 3]),
+            pictures: vec![vec![1, 2, 3], Vec::new()],
         }
+    }
+
+    fn in_file(checked: &CheckedMesh) -> impl Fn(VertexId) -> DVec3 {
+        |v| checked.frame.in_file(checked.mesh.positions()[v])
     }
 
     /// A cube of quads.
@@ -173,7 +199,7 @@ mod tests {
         // One face looks inwards.
         soup.polygons[3].reverse();
         let checked = closed_genus_zero(&soup).unwrap();
-        let look = look_of(&soup).by_face(&soup, &checked).unwrap();
+        let look = look_of(&soup).by_face(&soup, &checked, in_file(&checked)).unwrap();
         for (face, corners) in checked.mesh.triangles().iter_enumerated() {
             for (v, corner) in corners.iter().zip(look.corners[face]) {
                 assert_eq!(corner, of_place(checked.frame.in_file(checked.mesh.positions()[*v])));
@@ -181,7 +207,7 @@ mod tests {
         }
         let mut short = look_of(&soup);
         short.corners[2].pop();
-        assert_eq!(short.by_face(&soup, &checked), None);
+        assert_eq!(short.by_face(&soup, &checked, in_file(&checked)), None);
     }
 
     #[test]
@@ -196,7 +222,7 @@ mod tests {
             ..PolygonSoup::default()
         };
         let checked = repaired(&soup, &RepairOptions::default(), &mut Silent).unwrap().checked;
-        let look = look_of(&soup).by_face(&soup, &checked).unwrap();
+        let look = look_of(&soup).by_face(&soup, &checked, in_file(&checked)).unwrap();
         let made =
             look.corners.iter_enumerated().filter(|(_, corners)| **corners == [CornerLook::MADE_UP; 3]);
         assert!(made.clone().count() > 0 && made.clone().all(|(face, _)| checked.is_cap(face)));
@@ -212,7 +238,7 @@ mod tests {
     fn looks_are_blended_and_come_back_from_their_bytes() {
         let soup = cube();
         let checked = closed_genus_zero(&soup).unwrap();
-        let look = look_of(&soup).by_face(&soup, &checked).unwrap();
+        let look = look_of(&soup).by_face(&soup, &checked, in_file(&checked)).unwrap();
         let face = FaceId(4);
         assert_eq!(look.at(face, [0.0, 1.0, 0.0]), look.corners[face][1]);
         let [p, q, r] = checked.mesh.corners(face);

@@ -5,6 +5,7 @@ pub mod check;
 pub mod closest_point;
 pub mod coarsening;
 pub mod collapsible;
+pub mod dressing;
 mod face_frame;
 pub mod face_weights;
 mod file_frame;

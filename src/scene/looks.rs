@@ -1,79 +1,39 @@
-//! Surfaces in the look of a mesh's file: its colours, and its picture by the places in it.
+//! Surfaces in the look of a mesh's file as they are drawn, and pictures in all sizes.
 
 use super::SurfaceVertex;
-use crate::mesh::closest_point::closest_in_triangle;
-use crate::mesh::look::{CornerLook, Look};
-use crate::mesh::{FaceId, SurfaceMesh};
-use glam::DVec3;
-use rustc_hash::FxHashMap;
+use crate::mesh::dressing::{Dressed, DressedPoint};
+use std::ops::Range;
 
-/// A mesh and its look, which it gives to what is drawn.
-#[derive(Clone, Copy)]
-pub struct Giver<'a> {
-    /// The mesh.
-    pub mesh: &'a SurfaceMesh,
-    /// Its look.
-    pub look: &'a Look,
+/// A surface in a look as it is drawn.
+#[derive(Clone, Debug, Default)]
+pub struct DressedSurface {
+    /// Its vertices.
+    pub vertices: Vec<SurfaceVertex>,
+    /// Triples of vertices, picture after picture.
+    pub indices: Vec<u32>,
+    /// The indices on which each picture lies; `None` for no picture.
+    pub runs: Vec<(Option<u8>, Range<u32>)>,
 }
 
-/// Vertices and indices in a look. A vertex of the picture is made once for each look that it has in the triangles around it, as on
-/// both sides of a seam.
-#[derive(Default)]
-struct Dressed {
-    vertices: Vec<SurfaceVertex>,
-    indices: Vec<u32>,
-    known: FxHashMap<(u32, [u8; 4], [u32; 2]), u32>,
-}
-
-impl Dressed {
-    fn push(&mut self, number: u32, bare: &SurfaceVertex, look: CornerLook) {
-        let [r, g, b] = look.colour;
-        let tint = [r, g, b, if look.place.is_some() { u8::MAX } else { 0 }];
-        let uv = look.place.map_or([0.0; 2], |[u, v]| [u, 1.0 - v]);
-        let next = self.vertices.len() as u32;
-        let index = *self.known.entry((number, tint, uv.map(f32::to_bits))).or_insert(next);
-        if index == next {
-            self.vertices.push(SurfaceVertex { uv, tint, ..*bare });
-        }
-        self.indices.push(index);
+/// A surface in a look; `bare` are its points as they are drawn without it.
+pub fn drawn(dressed: &Dressed, bare: &[SurfaceVertex]) -> DressedSurface {
+    let vertex = |at: &DressedPoint| {
+        let bare = bare.get(at.point as usize).copied().unwrap_or_default();
+        let [r, g, b] = at.look.colour;
+        let tint = [r, g, b, if at.look.place.is_some() { u8::MAX } else { 0 }];
+        let uv = at.look.place.map_or([0.0; 2], |place| [place.at[0], 1.0 - place.at[1]]);
+        SurfaceVertex { uv, tint, ..bare }
+    };
+    let mut surface = DressedSurface {
+        vertices: dressed.vertices.iter().map(vertex).collect(),
+        ..DressedSurface::default()
+    };
+    for (picture, triangles) in &dressed.triangles {
+        let begin = surface.indices.len() as u32;
+        surface.indices.extend_from_slice(triangles.as_flattened());
+        surface.runs.push((*picture, begin..surface.indices.len() as u32));
     }
-}
-
-/// The mesh itself in its look; `bare` are its vertices as they are drawn without one.
-pub fn dressed(giver: Giver<'_>, bare: &[SurfaceVertex]) -> (Vec<SurfaceVertex>, Vec<u32>) {
-    let mut dressed = Dressed::default();
-    for (corners, looks) in giver.mesh.triangles().iter().zip(&giver.look.corners) {
-        for (v, look) in corners.iter().zip(looks) {
-            if let Some(vertex) = bare.get(v.index()) {
-                dressed.push(v.0, vertex, *look);
-            }
-        }
-    }
-    (dressed.vertices, dressed.indices)
-}
-
-/// The triangles of a map in the look of the mesh in whose faces they lie: `bare` are their vertices as they are drawn without it,
-/// `places` where these are on the giver, and `faces` the giver's face of each triangle.
-pub fn carried(
-    giver: Giver<'_>,
-    bare: &[SurfaceVertex],
-    places: &[DVec3],
-    triangles: &[[u32; 3]],
-    faces: &[FaceId],
-) -> (Vec<SurfaceVertex>, Vec<u32>) {
-    let mut dressed = Dressed::default();
-    for (triangle, &face) in triangles.iter().zip(faces) {
-        if face.index() >= giver.mesh.face_count() {
-            continue;
-        }
-        let corners = giver.mesh.corners(face);
-        for &v in triangle {
-            if let Some((vertex, place)) = bare.get(v as usize).zip(places.get(v as usize)) {
-                dressed.push(v, vertex, giver.look.at(face, closest_in_triangle(*place, corners)));
-            }
-        }
-    }
-    (dressed.vertices, dressed.indices)
+    surface
 }
 
 /// A picture of 8-bit colours with opacity, and its smaller copies, each half as wide and high, down to one pixel.
@@ -108,68 +68,25 @@ fn halved(width: u32, height: u32, pixels: &[u8]) -> (u32, u32, Vec<u8>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::generators::icosphere;
-
-    /// A look with a seam: faces below the equator lie elsewhere in the picture.
-    fn with_seam(mesh: &SurfaceMesh) -> Look {
-        let corners = mesh.faces().map(|face| {
-            let points = mesh.corners(face);
-            let shift = if points.iter().map(|p| p.z).sum::<f64>() < 0.0 { 5.0 } else { 0.0 };
-            points.map(|p| CornerLook { colour: [10, 20, 30], place: Some([p.x as f32 + shift, p.y as f32]) })
-        });
-        Look { corners: corners.collect(), picture: None }
-    }
-
-    fn bare(points: impl Iterator<Item = DVec3>) -> Vec<SurfaceVertex> {
-        points
-            .map(|p| SurfaceVertex { position: p.as_vec3().to_array(), ..SurfaceVertex::default() })
-            .collect()
-    }
+    use crate::mesh::look::{CornerLook, PicturePlace};
 
     #[test]
-    fn a_seam_parts_vertices_and_nothing_else() {
-        let mesh = icosphere(2);
-        let look = with_seam(&mesh);
-        let (vertices, indices) =
-            dressed(Giver { mesh: &mesh, look: &look }, &bare(mesh.positions().iter().copied()));
-        assert_eq!(indices.len(), 3 * mesh.face_count());
-        let parted = vertices.len() - mesh.vertex_count();
-        assert!(parted > 0 && parted < mesh.vertex_count() / 2, "{parted}");
-        for (index, corner) in indices.iter().zip(look.corners.iter().flatten()) {
-            let vertex = vertices[*index as usize];
-            let [u, v] = corner.place.unwrap();
-            assert_eq!((vertex.uv, vertex.tint), ([u, 1.0 - v], [10, 20, 30, 255]));
-        }
-    }
-
-    #[test]
-    fn the_triangles_of_a_map_take_the_look_where_they_lie() {
-        let mesh = icosphere(1);
-        let look = with_seam(&mesh);
-        // Every face in four; one triangle lies in no face.
-        let (mut places, mut triangles, mut faces) = (Vec::new(), Vec::new(), Vec::new());
-        for face in mesh.faces() {
-            let [a, b, c] = mesh.corners(face);
-            let first = places.len() as u32;
-            places.extend([a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)]);
-            for t in [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]] {
-                triangles.push(t.map(|k| first + k));
-                faces.push(face);
-            }
-        }
-        triangles.push([0, 1, 2]);
-        faces.push(FaceId::from(mesh.face_count()));
-        let giver = Giver { mesh: &mesh, look: &look };
-        let (vertices, indices) = carried(giver, &bare(places.iter().copied()), &places, &triangles, &faces);
-        assert_eq!(indices.len(), 12 * mesh.face_count());
-        for (index, (triangle, face)) in
-            indices.iter().zip(triangles.iter().zip(&faces).flat_map(|(t, f)| t.map(|v| (v, *f))))
-        {
-            let p = places[triangle as usize];
-            let shift = look.corners[face][0].place.unwrap()[0] - mesh.corners(face)[0].x as f32;
-            let [u, v] = vertices[*index as usize].uv;
-            assert!((u - p.x as f32 - shift).abs() < 1e-5 && (1.0 - v - p.y as f32).abs() < 1e-5);
-        }
+    fn each_picture_has_a_run_of_its_own() {
+        let place = |picture, at| Some(PicturePlace { picture, at });
+        let point = |point, place| DressedPoint { point, look: CornerLook { colour: [1, 2, 3], place } };
+        let vertices = vec![point(1, place(0, [0.25, 0.0])), point(0, place(2, [0.0, 1.0])), point(1, None)];
+        let triangles = [(None, vec![[2; 3]]), (Some(0), vec![[0; 3], [0; 3]]), (Some(2), vec![[1; 3]])];
+        let bare = [0.5, 1.5].map(|x| SurfaceVertex { position: [x; 3], ..SurfaceVertex::default() });
+        let surface = drawn(&Dressed { vertices, triangles: triangles.into() }, &bare);
+        assert_eq!(surface.runs, [(None, 0..3), (Some(0), 3..9), (Some(2), 9..12)]);
+        assert_eq!(surface.indices, [2, 2, 2, 0, 0, 0, 0, 0, 0, 1, 1, 1]);
+        let told: Vec<_> = surface.vertices.iter().map(|v| (v.position[0], v.uv, v.tint)).collect();
+        let expected = [
+            (1.5, [0.25, 1.0], [1, 2, 3, 255]),
+            (0.5, [0.0, 0.0], [1, 2, 3, 255]),
+            (1.5, [0.0, 0.0], [1, 2, 3, 0]),
+        ];
+        assert_eq!(told, expected);
     }
 
     #[test]

@@ -4,6 +4,7 @@ use super::failure;
 use super::loaded_mesh::LoadedMesh;
 use crate::io::gltf_parts::{self, GltfParts};
 use crate::io::landmark_file::{self, LandmarkPoint};
+use crate::io::material_set::{self, PackedMaterials};
 use crate::landmark_suggestion::{Suggestion, kept, suggest};
 use crate::landmarks::{self, MeshSide};
 use crate::mesh::check::CheckedMesh;
@@ -54,6 +55,36 @@ pub fn pack_mesh(
         names.iter().zip(&contents).find(|(name, _)| *name == wanted).map(|(_, content)| content.as_slice())
     };
     Ok(gltf_parts::packed(bytes, find).map_err(|e| failure("file", e))?.bytes)
+}
+
+/// The materials of an OBJ file with their pictures, packed to go along with it.
+#[wasm_bindgen]
+pub struct PackedSet {
+    set: PackedMaterials,
+}
+
+#[wasm_bindgen]
+impl PackedSet {
+    /// All of them as one file.
+    pub fn bytes(&self) -> Vec<u8> {
+        self.set.bytes.clone()
+    }
+
+    /// How many of the pictures that the materials name were found.
+    pub fn found(&self) -> usize {
+        self.set.found
+    }
+}
+
+/// The materials of an OBJ file with the pictures that they name; `undefined` where they name none. `find` gives a file by its name as an
+/// array of bytes, and anything else where it is not there.
+#[wasm_bindgen(js_name = packMaterials)]
+pub fn pack_materials(mesh: &[u8], find: &js_sys::Function) -> Option<PackedSet> {
+    let find = |name: &str| {
+        let found = find.call1(&JsValue::UNDEFINED, &JsValue::from_str(name)).ok()?;
+        Some(found.dyn_into::<js_sys::Uint8Array>().ok()?.to_vec())
+    };
+    material_set::packed(mesh, find).map(|set| PackedSet { set })
 }
 
 /// The mesh formats in words.

@@ -18,7 +18,7 @@ pub struct LoadedMesh {
     pub(super) shading: Rc<Shading>,
     /// The coordinate system that its file names.
     pub(super) space: Space,
-    /// The colours and the picture that its file gives it.
+    /// The colours and the pictures that its file gives it.
     pub(super) look: Option<Rc<Look>>,
 }
 
@@ -74,8 +74,7 @@ impl LoadedMesh {
         self.checked.turned_faces()
     }
 
-    /// What its file gives it of a look: `"none"`, `"places"` in a picture that the file does not hold, or `"colours"`, with or without
-    /// a picture.
+    /// What its file gives it of a look: `"none"`, `"places"` in a picture that is not there, or `"colours"`, with or without pictures.
     #[wasm_bindgen(js_name = lookKind)]
     pub fn look_kind(&self) -> String {
         let kind = match self.look.as_deref() {
@@ -86,9 +85,15 @@ impl LoadedMesh {
         kind.to_owned()
     }
 
-    /// The file of the picture that is laid on it (PNG, JPEG or WebP); `undefined` where its file holds none.
-    pub fn picture(&self) -> Option<Vec<u8>> {
-        self.look.as_ref()?.picture.clone()
+    /// How many pictures are laid on it.
+    #[wasm_bindgen(getter, js_name = pictureCount)]
+    pub fn picture_count(&self) -> usize {
+        self.look.as_ref().map_or(0, |look| look.pictures.len())
+    }
+
+    /// The file of one of these pictures (PNG, JPEG or WebP); `undefined` where there are not so many.
+    pub fn picture(&self, number: usize) -> Option<Vec<u8>> {
+        self.look.as_ref()?.pictures.get(number).cloned()
     }
 
     /// All of it as bytes, of which `unpackMesh` of the same build makes it again.

@@ -2,8 +2,10 @@
 
 use super::failure;
 use super::loaded_mesh::LoadedMesh;
+use crate::io;
+use crate::io::appearance::{self, Appearance};
 use crate::io::landmark_formats::Space;
-use crate::io::{self, appearance};
+use crate::mesh::VertexId;
 use crate::mesh::check::CheckedMesh;
 use crate::mesh::look::Look;
 use crate::mesh::repair::{ChangeReport, RepairOptions, RepairRefusal, RepairReport, RepairedMesh, repaired};
@@ -16,6 +18,8 @@ use wasm_bindgen::prelude::*;
 pub struct MeshReport {
     checked: Option<CheckedMesh>,
     look: Option<Look>,
+    /// What of its look cannot be used.
+    remarks: Vec<String>,
     report: RepairReport,
     /// The coordinate system that its file names.
     space: Space,
@@ -40,6 +44,11 @@ impl MeshReport {
         if report.fault.is_some() { report.sentence() } else { String::new() }
     }
 
+    /// What of its look cannot be used, each in a sentence without a full stop.
+    pub fn remarks(&self) -> Vec<String> {
+        self.remarks.clone()
+    }
+
     /// The report as JSON `{"fault": {"kind", "sentence"} | null, "changes": [...], "capShare"}`; a change has `kind`, `sentence`,
     /// `count`, the first `vertices`, `edges`, `faces`, `holes` or `handles` by their numbers in the file, and `area_share`.
     pub fn report(&self) -> String {
@@ -53,14 +62,15 @@ impl MeshReport {
 
 /// Reads a mesh file of any known format and repairs what does not change its shape, holes being capped, and what is allowed.
 ///
-/// `allowed` is JSON: `{"parts": "largest-alone", "handles": "cut"}`, each left out where it is not allowed.
+/// `allowed` is JSON: `{"parts": "largest-alone", "handles": "cut"}`, each left out where it is not allowed. `companion` is what comes with it
+/// for its look: a picture, or what [`pack_materials`](super::files::pack_materials) has packed.
 ///
 /// # Errors
 /// `{"code": "file" | "mesh" | "options", "message"}`, and where a repair that was not allowed would help, `"offer"` with it: `{"kind":
 /// "cut-handles", "handles", "longest"}` (the length of the longest loop in units of the square root of the area) or `{"kind":
 /// "keep-largest", "parts", "share"}` (of the largest part in the area).
 #[wasm_bindgen(js_name = repairMesh)]
-pub fn repair_mesh(bytes: &[u8], allowed: &str) -> Result<MeshReport, JsValue> {
+pub fn repair_mesh(bytes: &[u8], allowed: &str, companion: Option<Vec<u8>>) -> Result<MeshReport, JsValue> {
     let options: RepairOptions = serde_json::from_str(allowed).map_err(|e| failure("options", e))?;
     let soup = io::read_mesh(bytes).map_err(|e| failure("file", e))?;
     let mesh = repaired(&soup, &options, &mut Silent).map_err(|refusal| {
@@ -68,8 +78,11 @@ pub fn repair_mesh(bytes: &[u8], allowed: &str) -> Result<MeshReport, JsValue> {
         JsValue::from_str(&value.to_string())
     })?;
     let RepairedMesh { checked, report } = mesh;
-    let look = appearance::read(bytes, &soup).and_then(|look| look.by_face(&soup, &checked));
-    Ok(MeshReport { checked: Some(checked), look, report, space: Space::of_mesh(bytes) })
+    let Appearance { look, remarks } = appearance::read(bytes, &soup, companion.as_deref());
+    let place = |v: VertexId| checked.frame.in_file(checked.mesh.positions()[v]);
+    let look = look.and_then(|look| look.by_face(&soup, &checked, place));
+    let remarks = remarks.iter().map(ToString::to_string).collect();
+    Ok(MeshReport { checked: Some(checked), look, remarks, report, space: Space::of_mesh(bytes) })
 }
 
 /// The repair that would help.

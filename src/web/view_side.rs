@@ -6,6 +6,7 @@ use super::loaded_mesh::LoadedMesh;
 use crate::gpu::{Mesh, Picture, Renderer};
 use crate::io::landmark_file::LandmarkPoint;
 use crate::mesh::check::CheckedMesh;
+use crate::mesh::dressing::{Giver, dressed};
 use crate::mesh::normals::vertex_normals;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::scene::buffers::{Frame, surface};
@@ -13,7 +14,7 @@ use crate::scene::circles::circled;
 use crate::scene::colours::landmark_colour;
 use crate::scene::defects::{DefectBuffers, painted, surface_as_read};
 use crate::scene::hollows::carried;
-use crate::scene::looks::{Giver, dressed};
+use crate::scene::looks::drawn;
 use crate::scene::pins::{Pin, STEM, Stand, distance_to_pin};
 use crate::scene::{Camera, Glide, Patches, Picker, PinInstance, Pose, Ray, Shading, SurfaceVertex, UpAxis};
 use glam::{DVec3, Vec2, Vec3};
@@ -65,8 +66,8 @@ pub(super) struct Side {
     pub overlay: Option<Mesh>,
     /// The map's triangles in the look of the mesh that gives its look.
     pub carried: Option<Mesh>,
-    /// What is laid on the side's own look.
-    pub picture: Option<Picture>,
+    /// What is laid on the side's own look; `None` where a picture has not come.
+    pub pictures: Vec<Option<Picture>>,
     pub lines: Option<Mesh>,
     /// Where the texture that the map carries is cut.
     pub seams: Option<Mesh>,
@@ -488,8 +489,7 @@ impl SideMesh {
         let (vertices, indices) = surface(&checked.mesh, shading, &frame);
         let surface = renderer.surface_mesh(&vertices, &indices);
         let dressed = look.as_deref().map(|look| {
-            let (vertices, indices) = dressed(Giver { mesh: &checked.mesh, look }, &vertices);
-            renderer.surface_mesh(&vertices, &indices)
+            renderer.dressed_mesh(drawn(&dressed(Giver { mesh: &checked.mesh, look }), &vertices))
         });
         let picker = Picker::begun(&checked.mesh);
         let (checked, shading, look) = (checked.clone(), shading.clone(), look.clone());

@@ -265,7 +265,7 @@ fn a_texture_is_baked_over_the_source_s_own_coordinates() {
     files.write("plain.obj", obj::mesh(&files.source));
     files.write("source.obj", obj::mesh(&files.source));
     let said = files.transfer(&["--texture", "@texture.png", "--out", "@b.png"]).unwrap_err();
-    assert!(said.contains("source.obj: line 259: the corner 1 has no texture coordinates"), "{said}");
+    assert!(said.contains("source.obj: line 259: a corner of the face has no texture coordinates"), "{said}");
     let said = files.transfer(&["--texture", "@plain.obj", "--out", "@b.png"]).unwrap_err();
     assert!(said.contains("plain.obj: this is no PNG file"), "{said}");
 }

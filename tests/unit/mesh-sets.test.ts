@@ -17,11 +17,22 @@ function sets(...files: readonly ReturnType<typeof file>[]): Record<string, stri
   return Object.fromEntries(entries);
 }
 
+/** Bytes that begin as a PNG file. */
+function png(name: string): { readonly name: string; readonly bytes: Uint8Array } {
+  return { name, bytes: Uint8Array.from([0x89, ...new TextEncoder().encode(`PNG ${name}`)]) };
+}
+
 describe('a picture stays with its mesh', () => {
-  test('by the mesh’s materials', () => {
-    const mesh = file('a/cat.obj', '# made by hand\r\nmtllib skins.mtl\r\nv 0 0 0\r\n');
-    const materials = file('a/skins.mtl', 'newmtl eye\nKd 1 0 0\nnewmtl coat\n  map_kd -o 1 1 1 textures/coat.png\r\n');
-    expect(sets(mesh, materials, file('a/textures/coat.png'), file('a/cat.png'))).toEqual({ 'cat.obj': 'a/textures/coat.png' });
+  test('by the mesh’s materials, of which each has its own', () => {
+    const mesh = file('a/cat.obj', '# made by hand\r\nmtllib skins.mtl\r\nv 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n');
+    const materials = file('a/skins.mtl', 'newmtl eye\nmap_Kd C:\\x\\eye.png\nnewmtl coat\n  map_kd -o 1 1 1 textures/coat.png\r\n');
+    const found = sets(mesh, materials, png('a/textures/coat.png'), png('a/eye.png'), png('a/cat.png'))['cat.obj'] ?? '';
+    expect(found).toContain('PNG a/textures/coat.png');
+    expect(found).toContain('PNG a/eye.png');
+    expect(found).not.toContain('PNG a/cat.png');
+    // Materials whose pictures are missing give way to one that is called like the mesh.
+    expect(sets(mesh, materials, file('cat.png'))).toEqual({ 'cat.obj': 'cat.png' });
+    expect(sets(mesh, materials)['cat.obj']).toContain('textures/coat.png');
   });
 
   test('by its name', () => {

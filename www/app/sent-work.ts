@@ -18,7 +18,7 @@ export interface ArrivingMesh {
   readonly bytes: Uint8Array;
   /** Where it was loaded from; `null` where it was given by hand. */
   readonly address: string | null;
-  /** The file of a picture that came with it. */
+  /** What came with it to be laid on it. */
   readonly picture?: Uint8Array;
 }
 

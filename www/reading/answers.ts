@@ -44,13 +44,13 @@ function defectsOf(bytes: Uint8Array, allowed: string): OwnBytes | null {
 export function meshReading(file: NamedBytes, allowed: Allowed): MeshReading {
   const choices = JSON.stringify(allowed);
   try {
-    const report = repairMesh(file.bytes, choices);
-    const repairs = report.sentence();
+    const report = repairMesh(file.bytes, choices, file.picture);
+    const [repairs, remarks] = [report.sentence(), report.remarks()];
     const mesh = report.takeMesh();
     report.free();
     const packed = mesh.packed() as OwnBytes;
     mesh.free();
-    return { kind: 'good', packed, repairs };
+    return { kind: 'good', packed, repairs, remarks };
   } catch (thrown) {
     // What the core throws itself is a string; everything else broke it.
     if (typeof thrown !== 'string') {

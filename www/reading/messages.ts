@@ -15,6 +15,8 @@ export interface GoodMesh {
   readonly packed: OwnBytes;
   /** What was repaired, in a sentence without a full stop; empty where the mesh was good as given. */
   readonly repairs: string;
+  /** What of its colours and pictures cannot be used, each in a sentence without a full stop. */
+  readonly remarks: readonly string[];
 }
 
 /** A reason to refuse a file. */

@@ -29,7 +29,7 @@ export interface ProjectMesh {
   readonly bytes: Uint8Array;
   /** Where it was loaded from; `null` where it was given by hand. */
   readonly address: string | null;
-  /** The file of a picture that came with it; there is none where its own file holds it. */
+  /** What came with it to be laid on it; there is none where its own file holds all. */
   readonly picture?: Uint8Array;
 }
 

@@ -17,15 +17,15 @@ export interface MeshFile {
   readonly vertexCount: number;
   readonly faceCount: number;
   readonly turnedFaces: number;
-  /** The file of a picture that came with it; there is none where its own file holds it. */
+  /** What came with it to be laid on it: a picture, or its materials with theirs; there is none where its own file holds all. */
   readonly picture?: Uint8Array;
-  /** What its file says of its colours, that picture included. */
+  /** What its file says of its colours, with what came with it. */
   readonly look: LookKind;
   /** What was repaired, in a sentence without a full stop; empty where the mesh was good as given. */
   readonly repairs: string;
 }
 
-/** None; places in a picture that is not there; colours, or a picture with its places. */
+/** None; places in a picture that is not there; colours, or pictures with places in them. */
 export type LookKind = 'none' | 'places' | 'colours';
 
 export interface Demo {

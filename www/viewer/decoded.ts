@@ -9,12 +9,15 @@ export interface Pixels {
 
 /** Pixels on the longer side: more is not seen at the views' size. */
 const LARGEST = 2048;
+/** So many pictures may be as large; of more each is smaller, so that all take no more memory. */
+const LARGE_PICTURES = 4;
 
-/** The pixels of a picture's file, made smaller where there are many; `null` where it cannot be read. */
-export async function decoded(file: Uint8Array<ArrayBuffer>): Promise<Pixels | null> {
+/** The pixels of a picture's file, one of so many, made smaller where there are many; `null` where it cannot be read. */
+export async function decoded(file: Uint8Array<ArrayBuffer>, pictures = 1): Promise<Pixels | null> {
   try {
     const picture = await createImageBitmap(new Blob([file]));
-    const scale = Math.min(1, LARGEST / Math.max(picture.width, picture.height));
+    const largest = LARGEST / Math.sqrt(Math.max(1, pictures / LARGE_PICTURES));
+    const scale = Math.min(1, largest / Math.max(picture.width, picture.height));
     const [width, height] = [Math.max(1, Math.round(scale * picture.width)), Math.max(1, Math.round(scale * picture.height))];
     const context = new OffscreenCanvas(width, height).getContext('2d');
     context?.drawImage(picture, 0, 0, width, height);

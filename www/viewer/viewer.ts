@@ -4,7 +4,7 @@ import type { Way } from '../compute/saved-messages.ts';
 import { byId } from '../dom.ts';
 import type { Side, SurfacePoint } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
-import { failureSentence, SENTENCES } from '../messages.ts';
+import { failureSentence, SENTENCES, unreadPictures } from '../messages.ts';
 import type { Axes } from '../method/axes.ts';
 import { axesOf } from '../method/axes.ts';
 import type { FlowFrame, StageFrame, Stops } from '../method/hands.ts';
@@ -387,23 +387,33 @@ export class Views {
         viewer.clearMesh(side);
       } else {
         viewer.setMesh(side, file.mesh);
-        void this.#layPicture(viewer, side, file);
+        void this.#layPictures(viewer, side, file);
       }
     }
     this.#prepare();
   }
 
-  /** Lays the picture of a mesh's file on it, once it is read. */
-  async #layPicture(viewer: Viewer, side: Side, file: MeshFile): Promise<void> {
-    const picture = file.look === 'colours' ? (file.picture ?? file.mesh.picture()) : undefined;
-    const pixels = picture === undefined ? null : await decoded(picture as Uint8Array<ArrayBuffer>);
-    // Meanwhile another mesh may have come, or another renderer.
-    if (pixels === null || this.#viewer !== viewer || this.#state.meshes[side] !== file) {
-      return;
+  /** Lays the pictures of a mesh on it, each once it is read. */
+  async #layPictures(viewer: Viewer, side: Side, file: MeshFile): Promise<void> {
+    const count = file.mesh.pictureCount;
+    let unread = 0;
+    for (let number = 0; number < count; number++) {
+      // Meanwhile another mesh may have come, or another renderer.
+      if (this.#viewer !== viewer || this.#state.meshes[side] !== file) {
+        return;
+      }
+      const pixels = await decoded(file.mesh.picture(number) as Uint8Array<ArrayBuffer>, count);
+      if (pixels === null) {
+        unread += 1;
+      } else if (this.#viewer === viewer && this.#state.meshes[side] === file) {
+        this.#with((viewer) => {
+          viewer.setPicture(side, number, pixels.width, pixels.height, pixels.pixels);
+        });
+      }
     }
-    this.#with((viewer) => {
-      viewer.setPicture(side, pixels.width, pixels.height, pixels.pixels);
-    });
+    if (unread > 0) {
+      this.#listener.dispatch({ kind: 'error', sentence: unreadPictures(file.name, unread) });
+    }
   }
 
   /** Has large meshes made ready to be pointed at, bit by bit, so that frames go on. */

@@ -127,7 +127,7 @@ pub struct Viewer {
     /// Share of the way between the two moments of a flow that is shown.
     pub(super) factor_share: f32,
     /// The user's own picture on the flat metric.
-    pub(super) texture: Option<Picture>,
+    pub(super) texture: [Option<Picture>; 1],
     /// The side whose look the map carries.
     pub(super) look_giver: Option<usize>,
     pub(super) pixel_ratio: f32,
@@ -155,7 +155,7 @@ impl Viewer {
             way: None,
             probed: None,
             factor_share: 0.0,
-            texture: None,
+            texture: [None],
             look_giver: None,
             pixel_ratio: 1.0,
             now: 0.0,
@@ -189,7 +189,7 @@ impl Viewer {
         let side = self.side_mut(side);
         side.uncover();
         side.preview = None;
-        side.picture = None;
+        side.pictures.clear();
         side.mesh = Some(shown);
         side.clear_marks();
         side.glide = None;
@@ -201,17 +201,21 @@ impl Viewer {
         self.sides.iter_mut().filter_map(|side| side.mesh.as_mut()).any(SideMesh::prepare)
     }
 
-    /// Lays a picture on a side's look: 8-bit colours with opacity, row by row from the top. One that cannot be drawn is left out.
+    /// Lays the picture of this number on a side's look: 8-bit colours with opacity, row by row from the top. One that cannot be drawn is
+    /// left out.
     #[wasm_bindgen(js_name = setPicture)]
-    pub fn set_picture(&mut self, side: usize, width: u32, height: u32, pixels: Vec<u8>) {
+    pub fn set_picture(&mut self, side: usize, number: u8, width: u32, height: u32, pixels: Vec<u8>) {
         let picture = self.renderer.picture(width, height, pixels);
-        self.side_mut(side).picture = picture;
+        let pictures = &mut self.side_mut(side).pictures;
+        let count = pictures.len().max(usize::from(number) + 1);
+        pictures.resize_with(count, || None);
+        pictures[usize::from(number)] = picture;
     }
 
     /// Takes the picture that the style `picture` lays on the flat metric, as [`Viewer::set_picture`] does.
     #[wasm_bindgen(js_name = setTexture)]
     pub fn set_texture(&mut self, width: u32, height: u32, pixels: Vec<u8>) {
-        self.texture = self.renderer.picture(width, height, pixels);
+        self.texture = [self.renderer.picture(width, height, pixels)];
     }
 
     /// Empties a view.

@@ -63,7 +63,7 @@ impl Viewer {
         ViewDraw {
             // No look of its own is known for it.
             paint: if paint == Paint::Look { Paint::Plain } else { paint },
-            picture: self.texture.as_ref(),
+            pictures: &self.texture,
             surface: Some(&other.overlay),
             under: own.filter(|_| self.style.compared_holes),
             lines: other.lines.as_ref().filter(|_| self.style.patch_lines),

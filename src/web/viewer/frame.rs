@@ -64,7 +64,7 @@ impl Viewer {
             dash: self.dash(side, pose),
             balls: marks.balls,
             pins: marks.pins,
-            picture: None,
+            pictures: &[],
         };
         if let Some(refused) = side.refused() {
             return ViewDraw { paint: Paint::Refused, surface: Some(refused), ..bare() };
@@ -115,7 +115,7 @@ impl Viewer {
             paint: if overlay.is_some() || shows_own { paint } else { Paint::Plain },
             morph,
             wipe: style.wipe.filter(|_| k == 0).unwrap_or(0.0),
-            picture: self.texture.as_ref(),
+            pictures: &self.texture,
             surface: overlay.or(own),
             under: own.filter(|_| style.holes && overlay.is_some() && morph == 0.0),
             tinted: side.lit.surface.as_ref().filter(|_| morph == 0.0),
@@ -138,7 +138,7 @@ impl Viewer {
             morph,
             wipe: self.style.wipe.filter(|_| k == 0).unwrap_or(0.0),
             surface: Some(surface?),
-            picture: self.sides[giver.unwrap_or(k)].picture.as_ref(),
+            pictures: &self.sides[giver.unwrap_or(k)].pictures,
             tinted: side.lit.surface.as_ref().filter(|_| is_still),
             traced: self.traced(side).map(|lines| lines.filter(|_| is_still)),
             lines: side.lines.as_ref().filter(|_| self.style.patch_lines && is_still),

@@ -5,8 +5,9 @@ use super::canvas::Viewer;
 use super::reading::{point, strips};
 use crate::gpu::Mesh;
 use crate::mesh::FaceId;
+use crate::mesh::dressing::{Giver, carried};
 use crate::scene::buffers::ribbons;
-use crate::scene::looks::{Giver, carried};
+use crate::scene::looks::drawn;
 use crate::scene::morph::{PackedBends, PackedWay, laid_on};
 use crate::scene::{MapPicker, SurfaceVertex, seams};
 use glam::{DVec3, Mat4, Vec2, Vec3};
@@ -140,8 +141,8 @@ impl Viewer {
         let places: Vec<DVec3> = (0..count).map(|k| point(three(places, k))).collect();
         let faces: Vec<FaceId> = faces.iter().map(|face| FaceId(*face)).collect();
         let from = Giver { mesh: &given.checked.mesh, look };
-        let (vertices, indices) = carried(from, &bare, &places, triangles.as_chunks().0, &faces);
-        let uploaded = self.renderer.surface_mesh(&vertices, &indices);
+        let dressed = carried(from, &places, triangles.as_chunks().0, &faces);
+        let uploaded = self.renderer.dressed_mesh(drawn(&dressed, &bare));
         self.side_mut(side).carried = Some(uploaded);
         self.look_giver = Some(giver.min(1));
     }
