@@ -1,12 +1,11 @@
-//! Textured meshes as binary glTF 2.0, with a checkerboard inside.
+//! Textured meshes as binary glTF 2.0.
 
+use super::glb_document::GlbDocument;
+use super::skin::Skin;
 use crate::mesh::FileFrame;
 use crate::surface_map::measures::transfer::CommonMesh;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use serde_json::json;
-
-/// Squares of the checkerboard along one unit of texture coordinates (the whole surface has area 1 there).
-const SQUARES: f64 = 24.0;
 
 /// Why a file cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -16,89 +15,40 @@ pub enum GlbError {
     Texture(#[from] png::EncodingError),
 }
 
-/// The source's surface with the target's texture, a morph target that turns it into the target's shape (positions and normals),
-/// and a value by vertex as the attribute `_DISTORTION` where there are any. `frames` are those of source and target.
-///
-/// # Errors
-/// [`GlbError`].
+/// The source's surface in a skin of its points, with a morph target that turns it into the target's shape (positions and normals), and a
+/// value by point as the attribute `_DISTORTION` where there are any. `frames` are those of source and target.
 pub fn textured_source(
     common: &CommonMesh,
     distortion: &[f64],
     frames: [FileFrame; 2],
-) -> Result<Vec<u8>, GlbError> {
+    skin: &Skin,
+) -> Vec<u8> {
     let node = NodePlace::of(&common.source_positions, frames[0]);
-    let positions: Vec<f32> = flat(&node.local(&common.source_positions));
-    let target_positions = node.target(&common.target_positions, frames);
-    let normals: Vec<f32> = flat(&common.source_normals);
-    let uvs: Vec<f32> = common.uvs.iter().flat_map(|uv| square_uvs(*uv)).collect();
-    let indices: Vec<u8> = common.triangles.iter().flatten().flat_map(|i| i.to_le_bytes()).collect();
-    let image = checkerboard()?;
-    let vertices = common.source_positions.len();
-    let mut body = Body::default();
-    // glTF 2.0 numbers things as OpenGL: 34962 ARRAY_BUFFER, 34963 ELEMENT_ARRAY_BUFFER, 5126 FLOAT, 5125 UNSIGNED_INT,
-    // 10497 REPEAT, 9729 LINEAR, 9987 LINEAR_MIPMAP_LINEAR.
-    let mut views = vec![
-        body.push(&floats(&positions), Some(34962)),
-        body.push(&floats(&normals), Some(34962)),
-        body.push(&floats(&uvs), Some(34962)),
-        body.push(&indices, Some(34963)),
-        body.push(&image, None),
-    ];
-    let accessor = |view: usize, kind: &str| json!({ "bufferView": view, "componentType": 5126, "count": vertices, "type": kind });
-    let bounded = |view: usize, values: &[f32]| {
-        let [low, high] = bounds(values);
-        let mut accessor = accessor(view, "VEC3");
-        accessor["min"] = json!(low);
-        accessor["max"] = json!(high);
-        accessor
-    };
-    let first = bounded(0, &positions);
-    let indices = json!({ "bufferView": 3, "componentType": 5125, "count": common.triangles.len() * 3, "type": "SCALAR" });
-    let mut attributes = json!({ "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 });
-    let mut accessors = vec![first, accessor(1, "VEC3"), accessor(2, "VEC2"), indices];
-    if distortion.len() == vertices {
-        let values: Vec<f32> = distortion.iter().map(|&d| d as f32).collect();
-        views.push(body.push(&floats(&values), Some(34962)));
-        attributes["_DISTORTION"] = json!(accessors.len());
-        accessors.push(accessor(views.len() - 1, "SCALAR"));
+    let vectors = |values: &[DVec3]| flat(&skin.gathered(values));
+    let positions = vectors(&node.local(&common.source_positions));
+    let normals = vectors(&common.source_normals);
+    let mut document = GlbDocument::default();
+    let mut attributes = json!({
+        "POSITION": document.places(&positions),
+        "NORMAL": document.attribute(&normals, "VEC3", 3)
+    });
+    if distortion.len() == common.source_positions.len() {
+        let values: Vec<f32> = skin.gathered(distortion).into_iter().map(|d| d as f32).collect();
+        attributes["_DISTORTION"] = json!(document.attribute(&values, "SCALAR", 1));
     }
     // A morph target holds differences: with the weight 1 the sum is the target's.
-    let morph = [difference(&target_positions, &positions), difference(&common.target_normals, &normals)];
-    let targets = accessors.len();
-    for (k, values) in morph.iter().enumerate() {
-        let view = views.len();
-        views.push(body.push(&floats(values), Some(34962)));
-        accessors.push(if k == 0 { bounded(view, values) } else { accessor(view, "VEC3") });
-    }
-    let mut document = json!({
-        "asset": { "version": "2.0", "generator": "Conemap" },
-        "scene": 0,
-        "scenes": [{ "nodes": [0] }],
-        "nodes": [node.json()],
-        "meshes": [{
-            "primitives": [{
-                "attributes": attributes, "indices": 3, "material": 0,
-                "targets": [{ "POSITION": targets, "NORMAL": targets + 1 }]
-            }],
-            "weights": [0.0],
-            "extras": { "targetNames": ["target"] }
-        }],
-        "accessors": accessors,
-        "bufferViews": views,
-        "buffers": [{ "byteLength": body.bytes.len() }],
+    let ends = skin.gathered(&node.target(&common.target_positions, frames));
+    let end_normals = skin.gathered(&common.target_normals);
+    let targets = json!([{
+        "POSITION": document.places(&difference(&ends, &positions)),
+        "NORMAL": document.attribute(&difference(&end_normals, &normals), "VEC3", 3)
+    }]);
+    let mesh = json!({
+        "primitives": document.primitives(skin, &attributes, &targets),
+        "weights": [0.0],
+        "extras": { "targetNames": ["target"] }
     });
-    lay_picture(&mut document, 4);
-    Ok(assemble(document.to_string().into_bytes(), body.bytes))
-}
-
-/// Gives a document the material 0, on which the picture of a buffer view is repeated.
-pub(super) fn lay_picture(document: &mut serde_json::Value, view: usize) {
-    document["materials"] = json!([{ "pbrMetallicRoughness": {
-        "baseColorTexture": { "index": 0 }, "metallicFactor": 0.0, "roughnessFactor": 0.8
-    } }]);
-    document["textures"] = json!([{ "source": 0, "sampler": 0 }]);
-    document["samplers"] = json!([{ "wrapS": 10497, "wrapT": 10497, "magFilter": 9729, "minFilter": 9987 }]);
-    document["images"] = json!([{ "bufferView": view, "mimeType": "image/png" }]);
+    document.into_glb(node.json(), mesh, None)
 }
 
 /// Where the node lies: a surface far from the origin has its own origin in the node, so that its positions keep all 24 bits of f32
@@ -161,11 +111,6 @@ fn box_of(positions: &[DVec3]) -> [DVec3; 2] {
     positions.iter().fold(corners, |[low, high], p| [low.min(*p), high.max(*p)])
 }
 
-/// Two squares of the board make one period of the texture.
-pub(super) fn square_uvs(uv: DVec2) -> [f32; 2] {
-    (uv * (0.5 * SQUARES)).to_array().map(|x| x as f32)
-}
-
 pub(super) fn flat(points: &[DVec3]) -> Vec<f32> {
     points.iter().flat_map(|p| p.to_array().map(|x| x as f32)).collect()
 }
@@ -176,75 +121,12 @@ pub(super) fn difference(points: &[DVec3], from: &[f32]) -> Vec<f32> {
     there.zip(from).map(|(there, &here)| (there - f64::from(here)) as f32).collect()
 }
 
-pub(super) fn floats(values: &[f32]) -> Vec<u8> {
-    values.iter().flat_map(|x| x.to_le_bytes()).collect()
-}
-
-/// Lowest and highest coordinates.
-pub(super) fn bounds(positions: &[f32]) -> [[f32; 3]; 2] {
-    let fold = |start: f32, pick: fn(f32, f32) -> f32| {
-        positions
-            .chunks_exact(3)
-            .fold([start; 3], |m, p| [pick(m[0], p[0]), pick(m[1], p[1]), pick(m[2], p[2])])
-    };
-    [fold(f32::INFINITY, f32::min), fold(f32::NEG_INFINITY, f32::max)]
-}
-
-#[derive(Default)]
-pub(super) struct Body {
-    pub(super) bytes: Vec<u8>,
-}
-
-impl Body {
-    /// Appends a view, aligned to 4 bytes.
-    pub(super) fn push(&mut self, data: &[u8], target: Option<u32>) -> serde_json::Value {
-        let offset = self.bytes.len();
-        self.bytes.extend_from_slice(data);
-        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
-        let mut view = json!({ "buffer": 0, "byteOffset": offset, "byteLength": data.len() });
-        if let Some(target) = target {
-            view["target"] = json!(target);
-        }
-        view
-    }
-}
-
-pub(super) fn assemble(mut document: Vec<u8>, body: Vec<u8>) -> Vec<u8> {
-    document.resize(document.len().next_multiple_of(4), b' ');
-    let total = 12 + 8 + document.len() + 8 + body.len();
-    let mut bytes = Vec::with_capacity(total);
-    bytes.extend(b"glTF");
-    bytes.extend(2_u32.to_le_bytes());
-    bytes.extend((total as u32).to_le_bytes());
-    for (kind, chunk) in [(b"JSON", document), (b"BIN\0", body)] {
-        bytes.extend((chunk.len() as u32).to_le_bytes());
-        bytes.extend(kind);
-        bytes.extend(chunk);
-    }
-    bytes
-}
-
-/// Two by two squares, 64 pixels each.
-pub(super) fn checkerboard() -> Result<Vec<u8>, png::EncodingError> {
-    const SIZE: u32 = 128;
-    let shade =
-        |x: u32, y: u32| if (x < SIZE / 2) == (y < SIZE / 2) { [240, 240, 235] } else { [52, 98, 140] };
-    let pixels: Vec<u8> = (0..SIZE * SIZE).flat_map(|k| shade(k % SIZE, k / SIZE)).collect();
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, SIZE, SIZE);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(&pixels)?;
-    writer.finish()?;
-    Ok(bytes)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::io::read_mesh;
     use crate::mesh::generators::octahedron;
+    use glam::DVec2;
 
     /// The JSON of a GLB, and where its binary chunk begins.
     fn document(bytes: &[u8]) -> (serde_json::Value, usize) {
@@ -292,8 +174,9 @@ mod tests {
             faces: Vec::new(),
             source_positions: positions,
         };
+        let skin = Skin::checkerboard(&common).unwrap();
         for distortion in [&[][..], &[1.0, 1.5, 2.0, 1.0, 1.25, 3.0]] {
-            let bytes = textured_source(&common, distortion, [FileFrame::default(); 2]).unwrap();
+            let bytes = textured_source(&common, distortion, [FileFrame::default(); 2], &skin);
             let soup = read_mesh(&bytes).unwrap();
             assert_eq!((soup.positions.len(), soup.polygons.len()), (6, 8));
             let named = bytes.windows(11).any(|word| word == b"_DISTORTION");
@@ -325,7 +208,8 @@ mod tests {
             faces: Vec::new(),
             source_positions: places(1.0),
         };
-        let bytes = textured_source(&common, &[], [FileFrame::default(); 2]).unwrap();
+        let bytes =
+            textured_source(&common, &[], [FileFrame::default(); 2], &Skin::checkerboard(&common).unwrap());
         let soup = read_mesh(&bytes).unwrap();
         // f64 at 2e8 has steps of 3e-8.
         for (read, given) in soup.positions.iter().zip(&common.source_positions) {

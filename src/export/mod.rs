@@ -4,6 +4,7 @@ pub mod csv;
 pub mod curves;
 pub mod flat_sheet;
 pub mod glb;
+mod glb_document;
 pub mod layout;
 mod mesh_format;
 pub mod morph_glb;
@@ -11,6 +12,7 @@ pub mod obj;
 pub mod off;
 pub mod picture;
 pub mod ply;
+pub mod skin;
 pub mod vertex_image;
 pub mod vertex_table;
 

@@ -4,14 +4,13 @@
 //! ([`crate::math::bends`]), whose weights are the polynomials of the time that mix them. The animation tells all weights at moments so
 //! close to each other that what lies between them is straight.
 
-use super::glb::{
-    Body, GlbError, NodePlace, assemble, bounds, checkerboard, difference, flat, floats, lay_picture,
-    square_uvs,
-};
+use super::glb::{NodePlace, difference, flat};
+use super::glb_document::GlbDocument;
+use super::skin::Skin;
 use crate::math::bends::{KEYS, weights};
 use crate::math::rigid3::turned_by;
 use crate::mesh::FileFrame;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use serde_json::{Value, json};
 
 /// Moments at which the animation tells the weights.
@@ -30,10 +29,6 @@ pub struct MorphingMesh<'a> {
     pub bends: &'a [[DVec3; KEYS.len()]],
     /// How their surroundings turn over the whole way, axis by radians.
     pub turns: &'a [DVec3],
-    /// Texture coordinates.
-    pub uvs: &'a [DVec2],
-    /// Counter-clockwise triples.
-    pub triangles: &'a [[u32; 3]],
 }
 
 impl MorphingMesh<'_> {
@@ -49,61 +44,7 @@ impl MorphingMesh<'_> {
     }
 }
 
-/// A document as it grows.
-#[derive(Default)]
-struct Parts {
-    body: Body,
-    views: Vec<Value>,
-    accessors: Vec<Value>,
-}
-
-// glTF 2.0 numbers things as OpenGL: 34962 ARRAY_BUFFER, 34963 ELEMENT_ARRAY_BUFFER, 5126 FLOAT, 5125 UNSIGNED_INT,
-// 10497 REPEAT, 9729 LINEAR, 9987 LINEAR_MIPMAP_LINEAR.
-impl Parts {
-    fn view(&mut self, data: &[u8], target: Option<u32>) -> usize {
-        self.views.push(self.body.push(data, target));
-        self.views.len() - 1
-    }
-
-    fn accessor(&mut self, accessor: Value) -> usize {
-        self.accessors.push(accessor);
-        self.accessors.len() - 1
-    }
-
-    /// Numbers by vertex.
-    fn attribute(&mut self, values: &[f32], kind: &str, width: usize) -> usize {
-        let view = self.view(&floats(values), Some(34962));
-        self.accessor(
-            json!({ "bufferView": view, "componentType": 5126, "count": values.len() / width, "type": kind }),
-        )
-    }
-
-    /// Places by vertex, whose bounds are told.
-    fn places(&mut self, values: &[f32]) -> usize {
-        let number = self.attribute(values, "VEC3", 3);
-        let [low, high] = bounds(values);
-        self.accessors[number]["min"] = json!(low);
-        self.accessors[number]["max"] = json!(high);
-        number
-    }
-
-    /// Numbers of an animation.
-    fn numbers(&mut self, values: &[f32]) -> usize {
-        let view = self.view(&floats(values), None);
-        let [low, high] = [f32::min, f32::max].map(|pick| values.iter().copied().reduce(pick));
-        self.accessor(json!({
-            "bufferView": view, "componentType": 5126, "count": values.len(), "type": "SCALAR",
-            "min": [low], "max": [high]
-        }))
-    }
-
-    fn indices(&mut self, triangles: &[[u32; 3]]) -> usize {
-        let bytes: Vec<u8> = triangles.iter().flatten().flat_map(|i| i.to_le_bytes()).collect();
-        let view = self.view(&bytes, Some(34963));
-        let count = 3 * triangles.len();
-        self.accessor(json!({ "bufferView": view, "componentType": 5125, "count": count, "type": "SCALAR" }))
-    }
-
+impl GlbDocument {
     /// The straight way and the bends, places and normals of each.
     fn targets(&mut self, mesh: &MorphingMesh<'_>, ends: [&[DVec3]; 2], begins: [&[f32]; 2]) -> Vec<Value> {
         let mut pairs = vec![[0, 1].map(|k| difference(ends[k], begins[k]))];
@@ -130,45 +71,34 @@ impl Parts {
     }
 }
 
-/// The mesh at its begin with a checkerboard, morph targets that lead it to its end, and an animation that plays the way. `frame` is that of
-/// the mesh's file.
-///
-/// # Errors
-/// [`GlbError`].
-pub fn morphing_source(mesh: &MorphingMesh<'_>, frame: FileFrame) -> Result<Vec<u8>, GlbError> {
-    let node = NodePlace::of(mesh.positions[0], frame);
-    let [begins, ends] = mesh.positions.map(|positions| node.local(positions));
-    let begins = [flat(&begins), flat(mesh.normals[0])];
-    let uvs: Vec<f32> = mesh.uvs.iter().flat_map(|uv| square_uvs(*uv)).collect();
-    let mut parts = Parts::default();
+/// The mesh at its begin in a skin of its points, morph targets that lead it to its end, and an animation that plays the way. `frame` is
+/// that of the mesh's file.
+pub fn morphing_source(points: &MorphingMesh<'_>, frame: FileFrame, skin: &Skin) -> Vec<u8> {
+    let node = NodePlace::of(points.positions[0], frame);
+    let [places, ends] = points.positions.map(|positions| skin.gathered(&node.local(positions)));
+    let normals = points.normals.map(|normals| skin.gathered(normals));
+    let mesh = MorphingMesh {
+        positions: [&places, &ends],
+        normals: normals.each_ref().map(Vec::as_slice),
+        bends: &skin.gathered(points.bends),
+        turns: &skin.gathered(points.turns),
+    };
+    let begins = [flat(&places), flat(&normals[0])];
+    let mut document = GlbDocument::default();
     let attributes = json!({
-        "POSITION": parts.places(&begins[0]),
-        "NORMAL": parts.attribute(&begins[1], "VEC3", 3),
-        "TEXCOORD_0": parts.attribute(&uvs, "VEC2", 2)
+        "POSITION": document.places(&begins[0]),
+        "NORMAL": document.attribute(&begins[1], "VEC3", 3)
     });
-    let indices = parts.indices(mesh.triangles);
-    let targets = parts.targets(mesh, [&ends, mesh.normals[1]], [&begins[0], &begins[1]]);
+    let targets = document.targets(&mesh, [&ends, &normals[1]], [&begins[0], &begins[1]]);
     let names: Vec<String> =
         std::iter::once("target".to_owned()).chain(KEYS.iter().map(|key| format!("bend at {key}"))).collect();
-    let animation = parts.animation();
-    let image = parts.view(&checkerboard()?, None);
-    let mut document = json!({
-        "asset": { "version": "2.0", "generator": "Conemap" },
-        "scene": 0,
-        "scenes": [{ "nodes": [0] }],
-        "nodes": [node.json()],
-        "meshes": [{
-            "primitives": [{ "attributes": attributes, "indices": indices, "material": 0, "targets": targets }],
-            "weights": vec![0.0; 1 + KEYS.len()],
-            "extras": { "targetNames": names }
-        }],
-        "animations": [animation],
-        "accessors": parts.accessors,
-        "bufferViews": parts.views,
-        "buffers": [{ "byteLength": parts.body.bytes.len() }],
+    let animation = document.animation();
+    let mesh = json!({
+        "primitives": document.primitives(skin, &attributes, &json!(targets)),
+        "weights": vec![0.0; 1 + KEYS.len()],
+        "extras": { "targetNames": names }
     });
-    lay_picture(&mut document, image);
-    Ok(assemble(document.to_string().into_bytes(), parts.body.bytes))
+    document.into_glb(node.json(), mesh, Some(animation))
 }
 
 #[cfg(test)]
@@ -176,6 +106,8 @@ mod tests {
     use super::*;
     use crate::io::read_mesh;
     use crate::mesh::generators::icosphere;
+    use crate::surface_map::measures::transfer::CommonMesh;
+    use glam::DVec2;
 
     /// The JSON of a GLB, and its binary chunk.
     fn document(bytes: &[u8]) -> (Value, &[u8]) {
@@ -208,10 +140,10 @@ mod tests {
             normals: [&normals, &end_normals],
             bends: &bends,
             turns: &vec![turn; places.len()],
-            uvs: &vec![DVec2::ZERO; places.len()],
-            triangles: &triangles,
         };
-        let bytes = morphing_source(&morphing, FileFrame::default()).unwrap();
+        let common = CommonMesh { uvs: vec![DVec2::ZERO; places.len()], triangles, ..CommonMesh::default() };
+        let skin = Skin::checkerboard(&common).unwrap();
+        let bytes = morphing_source(&morphing, FileFrame::default(), &skin);
         assert_eq!(read_mesh(&bytes).unwrap().polygons.len(), 80);
         let glb = document(&bytes);
         let primitive = &glb.0["meshes"][0]["primitives"][0];

@@ -8,6 +8,7 @@
 mod base_picture;
 mod error;
 mod held;
+mod look;
 mod matching;
 mod memory;
 mod mesh_file;
@@ -25,6 +26,7 @@ pub use crate::mesh::mirror::TargetImage;
 pub use base_picture::{BasePicture, BaseShape};
 pub use conemap_verify::Proof;
 pub use error::{JobError, JobFile};
+pub use look::{LookFiles, MapLook};
 pub use matching::{
     CandidateReport, DifferenceReport, FewLandmarks, MatchReport, Matched, QuestionReport, VerdictReport,
     match_meshes,
@@ -221,6 +223,11 @@ impl Job {
     /// Whether its maps have a map file: not those of repaired meshes, whose numbers are not those of their files.
     pub fn has_map_file(&self) -> bool {
         taken::have_map_file(self.meshes.each_ref())
+    }
+
+    /// The look that its maps carry, by the contents of its mesh files and what comes with them.
+    pub fn look(&self, files: [LookFiles<'_>; 2]) -> MapLook {
+        MapLook::read(self.meshes.each_ref(), files)
     }
 
     /// Number of landmark pairs.

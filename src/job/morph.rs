@@ -133,10 +133,8 @@ impl TakenMap<'_> {
             normals: [&common.source_normals, &common.target_normals.iter().map(turned).collect::<Vec<_>>()],
             bends: &drawn.way.bends,
             turns: &drawn.way.turns,
-            uvs: &common.uvs,
-            triangles: &common.triangles,
         };
-        Ok(morphing_source(&mesh, self.meshes()[0].frame())?)
+        Ok(morphing_source(&mesh, self.meshes()[0].frame(), &self.skin(&common)?))
     }
 }
 

@@ -1,10 +1,12 @@
 //! The files that a job gives.
 
 use super::Job;
+use super::look::MapLook;
 use super::taken::{OutputKind, TakenMap};
 use crate::base_domain::BaseDomain;
 use crate::export;
 use crate::export::glb::GlbError;
+use crate::export::skin::Skin;
 use crate::export::vertex_image::{self, Direction, PointImage};
 use crate::map_file::{FileMesh, MapFile};
 use crate::mesh::mirror::mirrored;
@@ -50,34 +52,48 @@ impl Job {
         TakenMap::new(self.meshes.each_ref(), map)
     }
 
-    /// All files of a result of this job, the places in them those of the job's files.
+    /// All files of a result of this job, the places in them those of the job's files; `look` is what the map carries.
     ///
     /// # Errors
     /// [`GlbError`].
-    pub fn outputs(&self, result: &MapResult, choices: &Choices) -> Result<Vec<OutputFile>, GlbError> {
+    pub fn outputs(
+        &self,
+        result: &MapResult,
+        choices: &Choices,
+        look: &MapLook,
+    ) -> Result<Vec<OutputFile>, GlbError> {
         let file = |kind: OutputKind, bytes| OutputFile { name: kind.file_name(), bytes };
         if let Some(map) = self.map_file(result, choices) {
-            let taken = self.taken(&map);
+            let taken = self.taken(&map).wearing(look);
             return taken.kinds().into_iter().map(|kind| Ok(file(kind, taken.output(kind)?))).collect();
         }
         Ok(vec![
-            file(OutputKind::Glb, self.textured_source(result)?),
+            file(OutputKind::Glb, self.bare_glb(result)?),
             file(OutputKind::SourceImagesCsv, self.vertex_images(result)),
             file(OutputKind::BaseDomain, self.base_domain(result)),
         ])
     }
 
-    /// The source with the target's texture, as GLB.
+    /// The source in the look that a result of this job carries, as GLB; a checkerboard where the map has no pieces.
     ///
     /// # Errors
     /// [`GlbError`].
-    pub fn textured_source(&self, result: &MapResult) -> Result<Vec<u8>, GlbError> {
+    pub fn glb(&self, result: &MapResult, choices: &Choices, look: &MapLook) -> Result<Vec<u8>, GlbError> {
+        match self.map_file(result, choices) {
+            Some(map) => self.taken(&map).wearing(look).output(OutputKind::Glb),
+            None => self.bare_glb(result),
+        }
+    }
+
+    /// The source with a checkerboard over the target's texture coordinates.
+    fn bare_glb(&self, result: &MapResult) -> Result<Vec<u8>, GlbError> {
         let mut common = result.common.clone();
         for vectors in [&mut common.target_positions, &mut common.target_normals] {
             vectors.iter_mut().for_each(|p| *p = self.meshes[1].as_given(*p));
         }
         let frames = self.meshes.each_ref().map(FileMesh::frame);
-        export::glb::textured_source(&common, &result.common_vertex_distortion(), frames)
+        let skin = Skin::checkerboard(&common)?;
+        Ok(export::glb::textured_source(&common, &result.common_vertex_distortion(), frames, &skin))
     }
 
     /// The image of each vertex of the source's file, as CSV; where the target has caps, with a column that tells whether the image

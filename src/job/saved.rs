@@ -1,5 +1,6 @@
 //! A map that was saved, opened with its meshes: nothing is computed.
 
+use super::look::{LookFiles, MapLook};
 use super::taken::TakenMap;
 use crate::landmarks::MeshSide;
 use crate::map_file::{self, FileMesh, FileMeshError, MapFile, MapFileError};
@@ -86,6 +87,11 @@ impl OpenMap {
     /// Both meshes.
     pub fn meshes(&self) -> [&FileMesh; 2] {
         self.meshes.each_ref()
+    }
+
+    /// The look that the map carries, by the contents of its mesh files and what comes with them.
+    pub fn look(&self, files: [LookFiles<'_>; 2]) -> MapLook {
+        MapLook::read(self.meshes.each_ref(), files)
     }
 
     /// The map with both meshes: its files and answers.

@@ -1,7 +1,9 @@
 //! What is taken away of a map with pieces: every file of it, and answers about points.
 
+use super::look::MapLook;
 use crate::export;
 use crate::export::glb::GlbError;
+use crate::export::skin::Skin;
 use crate::export::vertex_image::{self, Direction, PointImage};
 use crate::map_file::{self, FileMesh, MapFile};
 use crate::mesh::cap_faces::CapFaces;
@@ -17,7 +19,7 @@ use glam::DVec3;
 pub enum OutputKind {
     /// The map itself, from which all others can be made.
     Map,
-    /// The source with the target's texture and the target's shape as morph target.
+    /// The source in the look that the map carries, or a checkerboard, with the target's shape as morph target.
     Glb,
     /// The image of each source vertex.
     SourceImagesCsv,
@@ -108,12 +110,19 @@ pub(super) fn have_map_file(meshes: [&FileMesh; 2]) -> bool {
 pub struct TakenMap<'a> {
     meshes: [&'a FileMesh; 2],
     map: &'a MapFile,
+    look: Option<&'a MapLook>,
 }
 
 impl<'a> TakenMap<'a> {
     /// A map between these meshes, for which it was made or read.
     pub fn new(meshes: [&'a FileMesh; 2], map: &'a MapFile) -> Self {
-        Self { meshes, map }
+        Self { meshes, map, look: None }
+    }
+
+    /// The same map, whose files carry a look that was read for its meshes.
+    #[must_use]
+    pub fn wearing(self, look: &'a MapLook) -> Self {
+        Self { look: Some(look), ..self }
     }
 
     /// The files that there are: those of the flat layout are missing where there is none, and the map file where a mesh was
@@ -282,11 +291,16 @@ impl<'a> TakenMap<'a> {
 
     fn textured_source(&self) -> Result<Vec<u8>, GlbError> {
         let common = self.common();
-        export::glb::textured_source(
-            &common,
-            &self.common_distortion(&common),
-            self.meshes.map(FileMesh::frame),
-        )
+        let (distortion, skin) = (self.common_distortion(&common), self.skin(&common)?);
+        Ok(export::glb::textured_source(&common, &distortion, self.meshes.map(FileMesh::frame), &skin))
+    }
+
+    /// What lies on the triangles of the map: the look that it carries, or a checkerboard.
+    pub(super) fn skin(&self, common: &CommonMesh) -> Result<Skin, GlbError> {
+        Ok(match self.look {
+            Some(look) => look.skin(common, self.meshes)?,
+            None => Skin::checkerboard(common)?,
+        })
     }
 
     /// The polygons of one file with its vertices at their images on the other mesh. A vertex that no face uses is put where the

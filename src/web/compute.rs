@@ -3,7 +3,7 @@
 use super::page_job::read_job;
 use super::{failure, output_file};
 use crate::demo::true_map;
-use crate::job::{BasePicture, Job, JobError, OutputKind};
+use crate::job::{BasePicture, Job, JobError, LookFiles, OutputKind};
 use crate::monitor::{Cancelled, MapPreview, Monitor, PlannedStage, PreviewOf, Progress, Stage, Step};
 use crate::pipeline::{Choices, MapResult, PipelineOptions};
 use crate::surface_map::measures::transfer::CommonMesh;
@@ -191,7 +191,11 @@ pub(super) struct Shown {
 impl Shown {
     /// Of a run; the map loses its patch lines to it.
     pub(super) fn of_run(job: &Job, result: &mut MapResult, true_map: Option<fn(DVec3) -> DVec3>) -> Self {
-        let common = result.common.clone();
+        let mut common = result.common.clone();
+        // Where a landmark lies inside a face the mapped mesh has more faces than the checked one.
+        for faces in &mut common.faces {
+            *faces = [0, 1].map(|k| job.checked_faces()[k][faces[k].index()]);
+        }
         Self {
             distortion: result.common_vertex_distortion(),
             truth: true_map.map_or_else(Vec::new, |image| common.distances_to(image)),
@@ -271,6 +275,14 @@ pub fn run_map(
     result.report.findings = findings;
     let shown = Shown::of_run(&job, &mut result, true_map);
     Ok(MapOutput { shown, run: Some(FinishedRun { job, result, choices }) })
+}
+
+/// What says how both meshes look.
+pub(super) fn look_files<'a>(
+    meshes: [&'a [u8]; 2],
+    companions: [&'a Option<Vec<u8>>; 2],
+) -> [LookFiles<'a>; 2] {
+    [0, 1].map(|k| LookFiles { mesh: meshes[k], companion: companions[k].as_deref() })
 }
 
 /// Coordinates of points in single precision, one after the other.
@@ -358,13 +370,20 @@ impl MapOutput {
         map.map(|map| output_file::file(job.taken(&map), OutputKind::Map.file_name())).transpose()
     }
 
-    /// The source with the target's texture.
+    /// The source in the look that the map carries, by the meshes' files of the run and what comes with them, or with a checkerboard.
     ///
     /// # Errors
     /// `{"code": "export", "message"}`.
-    pub fn glb(&self) -> Result<Vec<u8>, JsValue> {
-        let FinishedRun { job, result, .. } = self.run()?;
-        job.textured_source(result).map_err(|e| failure("export", e))
+    pub fn glb(
+        &self,
+        source: &[u8],
+        target: &[u8],
+        source_companion: Option<Vec<u8>>,
+        target_companion: Option<Vec<u8>>,
+    ) -> Result<Vec<u8>, JsValue> {
+        let FinishedRun { job, result, choices } = self.run()?;
+        let look = job.look(look_files([source, target], [&source_companion, &target_companion]));
+        job.glb(result, choices, &look).map_err(|e| failure("export", e))
     }
 
     /// The vertex images.

@@ -1,10 +1,10 @@
 //! Maps that were saved: opened with their meshes, shown, asked and exported, without computing.
 
-use super::compute::{MapOutput, Shown};
+use super::compute::{MapOutput, Shown, look_files};
 use super::failure;
 use super::output_file::file;
 use crate::demo::true_map;
-use crate::job::{MapFiles, Normals, OpenMap, OpenMapError, ProofReport, TargetImage, prove};
+use crate::job::{MapFiles, MapLook, Normals, OpenMap, OpenMapError, ProofReport, TargetImage, prove};
 use crate::landmarks::MeshSide;
 use crate::monitor::Silent;
 use crate::pipeline::Choices;
@@ -16,6 +16,7 @@ use wasm_bindgen::prelude::*;
 #[wasm_bindgen]
 pub struct SavedMap {
     open: OpenMap,
+    look: MapLook,
 }
 
 /// An error as the page takes it, with the mesh at fault: `{"code", "message", "side": "source" | "target" | null}`.
@@ -32,7 +33,7 @@ fn opening_failure(error: &OpenMapError) -> JsValue {
 #[wasm_bindgen(js_name = openMap)]
 pub fn open_map(map: &[u8], source: &[u8], target: &[u8]) -> Result<SavedMap, JsValue> {
     let open = OpenMap::read(MapFiles { map, source, target }).map_err(|e| opening_failure(&e))?;
-    Ok(SavedMap { open })
+    Ok(SavedMap { open, look: MapLook::default() })
 }
 
 /// Proves a map file with its meshes by a program that shares nothing with what made it. The answer is a [`ProofReport`] as JSON.
@@ -125,11 +126,23 @@ impl SavedMap {
         Ok(WrappedBase { sentence: wrapped.report.sentence(), bytes: wrapped.bytes })
     }
 
+    /// Takes the look that the map carries, by the files of its meshes and what comes with them; its files that have one have it from then on.
+    #[wasm_bindgen(js_name = takeLook)]
+    pub fn take_look(
+        &mut self,
+        source: &[u8],
+        target: &[u8],
+        source_companion: Option<Vec<u8>>,
+        target_companion: Option<Vec<u8>>,
+    ) {
+        self.look = self.open.look(look_files([source, target], [&source_companion, &target_companion]));
+    }
+
     /// One of its files by name.
     ///
     /// # Errors
     /// `{"code": "export", "message"}`.
     pub fn file(&self, name: &str) -> Result<Vec<u8>, JsValue> {
-        file(self.open.taken(), name)
+        file(self.open.taken().wearing(&self.look), name)
     }
 }

@@ -4,7 +4,9 @@
 use crate::hostile_geometry::HostileCase;
 use conemap::export::off;
 use conemap::io::landmark_file::LandmarkFile;
-use conemap::job::{Job, JobError, JobFiles, MapFiles, OpenMap, OutputFile, OutputKind, ReadOptions, prove};
+use conemap::job::{
+    Job, JobError, JobFiles, MapFiles, MapLook, OpenMap, OutputFile, OutputKind, ReadOptions, prove,
+};
 use conemap::landmark_exchange::GivenFile;
 use conemap::monitor::Monitor;
 use conemap::pipeline::{Choices, MapResult, PipelineOptions, Report};
@@ -69,7 +71,7 @@ impl Mapped {
         if !result.report.certificate.as_ref().is_some_and(|certificate| certificate.bijective) {
             return Outcome::Wrong("a map without its certificate".into());
         }
-        if let Err(error) = job.outputs(result, &Choices::default()) {
+        if let Err(error) = job.outputs(result, &Choices::default(), &MapLook::default()) {
             return Outcome::refused(&error);
         }
         let Some(map) = job.map_file(result, &Choices::default()) else {
@@ -95,7 +97,7 @@ impl Mapped {
 
     /// All files of the map, by name.
     pub fn outputs(&self) -> Vec<OutputFile> {
-        self.job.outputs(&self.result, &Choices::default()).expect("the map has files")
+        self.job.outputs(&self.result, &Choices::default(), &MapLook::default()).expect("the map has files")
     }
 
     /// The numbers of the map.

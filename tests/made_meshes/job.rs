@@ -5,7 +5,7 @@ use conemap::cone_metric::FlowOptions;
 use conemap::demo;
 use conemap::export;
 use conemap::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
-use conemap::job::{Job, JobError, JobFile, JobFiles, TargetImage, TruthError};
+use conemap::job::{Job, JobError, JobFile, JobFiles, MapLook, TargetImage, TruthError};
 use conemap::landmark_exchange::GivenFile;
 use conemap::landmarks::MeshSide;
 use conemap::mesh::SurfaceMesh;
@@ -155,8 +155,12 @@ fn a_map_stands_where_no_texture_can_be_made() {
     let warning = json["warnings"].as_array().unwrap().iter().find(|w| w["side"] == "target").unwrap();
     assert!(warning["sentence"].as_str().unwrap().contains("did not converge"), "{warning}");
 
-    let names: Vec<_> =
-        job.outputs(&bare, &Choices::default()).unwrap().into_iter().map(|file| file.name).collect();
+    let names: Vec<_> = job
+        .outputs(&bare, &Choices::default(), &MapLook::default())
+        .unwrap()
+        .into_iter()
+        .map(|file| file.name)
+        .collect();
     assert!(
         names.contains(&"source-with-target-texture.glb") && names.contains(&"vertex-images.csv"),
         "{names:?}"

@@ -47,6 +47,9 @@ mod few;
 mod finish_now;
 mod flow;
 mod geodesic;
+#[cfg(feature = "cli")]
+mod glb_files;
+mod glb_look;
 mod handles;
 mod holes;
 mod job;

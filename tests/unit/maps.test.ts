@@ -62,7 +62,7 @@ beforeAll(() => {
   landmarks = { name: 'pairs.json', bytes: new TextEncoder().encode(JSON.stringify(file)) };
   const output = runMap(source.bytes, target.bytes, JSON.stringify(file), '{"ownCones": 0}', NO_LISTENER);
   made = { report: JSON.parse(output.report()) as Report, buffers: viewBuffers(output) };
-  files = { glb: output.glb(), csv: output.csv(), baseObj: output.baseObj() };
+  files = { glb: output.glb(source.bytes, target.bytes), csv: output.csv(), baseObj: output.baseObj() };
   const bytes = output.mapFile();
   if (bytes === undefined) {
     throw new Error('the map has no file');

@@ -1,41 +1,15 @@
 /** What the page gives back: landmark files that load again, and exports that other programs can read. */
 import { readFileSync, writeFileSync } from 'node:fs';
-import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
-import { validateBytes } from 'gltf-validator';
+import { downloaded, glbFaults, readGlb } from './glb.ts';
 import { DATA, finished, needsSharedData, openDemo, openStep, pairs, runMap } from './page.ts';
-
-async function downloaded(page: Page, button: string): Promise<Buffer> {
-  const download = page.waitForEvent('download');
-  await page.getByRole('button', { name: button, exact: true }).click();
-  const file = await download;
-  const path = test.info().outputPath(file.suggestedFilename());
-  await file.saveAs(path);
-  return readFileSync(path);
-}
-
-interface Accessor {
-  readonly bufferView: number;
-  readonly componentType: number;
-  readonly count: number;
-  readonly type: string;
-}
-
-interface Gltf {
-  readonly asset: { readonly version: string };
-  readonly meshes: readonly { readonly primitives: readonly { readonly indices: number; readonly attributes: Readonly<Record<string, number>> }[] }[];
-  readonly accessors: readonly Accessor[];
-  readonly bufferViews: readonly { readonly byteOffset?: number; readonly byteLength: number }[];
-}
 
 /** Checks the container and that every index names a vertex; the number of triangles. */
 function trianglesOfGlb(glb: Buffer): number {
   expect(glb.subarray(0, 4).toString()).toBe('glTF');
   expect([glb.readUInt32LE(4), glb.readUInt32LE(8)]).toEqual([2, glb.length]);
-  const length = glb.readUInt32LE(12);
-  const gltf = JSON.parse(glb.subarray(20, 20 + length).toString()) as Gltf;
+  const { document: gltf, binary } = readGlb(glb);
   expect(gltf.asset.version).toBe('2.0');
-  const binary = glb.subarray(28 + length);
   const primitive = gltf.meshes[0]?.primitives[0];
   const indices = gltf.accessors[primitive?.indices ?? -1];
   const positions = gltf.accessors[primitive?.attributes['POSITION'] ?? -1];
@@ -50,12 +24,6 @@ function trianglesOfGlb(glb: Buffer): number {
   }
   expect(largest).toBe(positions.count - 1);
   return indices.count / 3;
-}
-
-/** What the Khronos validator says of a GLB, without hints. */
-async function faultsOfGlb(glb: Buffer): Promise<string[]> {
-  const report = await validateBytes(new Uint8Array(glb), { maxIssues: 20 });
-  return report.issues.messages.filter(({ severity }) => severity <= 1).map(({ code, message, pointer }) => `${code}: ${message} ${pointer ?? ''}`);
 }
 
 test('landmarks and exports can be read again', async ({ page }) => {
@@ -77,7 +45,7 @@ test('landmarks and exports can be read again', async ({ page }) => {
   const vertices = faces / 2 + 2;
   const glb = await downloaded(page, 'GLB');
   expect(trianglesOfGlb(glb)).toBeGreaterThan(faces);
-  expect(await faultsOfGlb(glb)).toEqual([]);
+  expect(await glbFaults(glb)).toEqual([]);
   const [header, ...lines] = (await downloaded(page, 'CSV')).toString().trim().split('\n');
   expect(header?.split(',')).toHaveLength(8);
   expect(lines).toHaveLength(vertices);
@@ -98,7 +66,7 @@ test('landmarks and exports can be read again', async ({ page }) => {
   expect(map.subarray(0, 7).toString()).toBe('CONEMAP');
   const morph = await downloaded(page, 'Morph');
   expect(trianglesOfGlb(morph)).toBe(trianglesOfGlb(glb));
-  expect(await faultsOfGlb(morph)).toEqual([]);
+  expect(await glbFaults(morph)).toEqual([]);
   const [inverse, ...images] = (await downloaded(page, 'Inverse table')).toString().trim().split('\n');
   expect(inverse).toBe('target_vertex,source_face,b0,b1,b2,x,y,z');
   expect(images).toHaveLength(targetFaces / 2 + 2);

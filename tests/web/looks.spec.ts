@@ -5,6 +5,7 @@ import { expect, test } from '@playwright/test';
 import { halvesPicture, seen } from './canvas.ts';
 import type { OwnFiles } from './own-files.ts';
 import { ownFiles } from './own-files.ts';
+import { glbOf, glbFaults, savedFile } from './glb.ts';
 import { dropContents, open, openStep, ROOT, runMap, showSurface } from './page.ts';
 
 const own: OwnFiles = ownFiles();
@@ -128,4 +129,148 @@ test('colours of the source are carried where the target has none; files without
   ]);
   await page.getByRole('button', { name: /^Picture: / }).click();
   await expect(page.getByRole('radio', { name: 'Own colours' })).toBeDisabled();
+});
+
+/** The file with a material on either half, each of which has a place in its picture at every corner. */
+function halved(text: string): string {
+  const shape = shapeOf(text);
+  const places = shape.vertices.map((v) => `vt ${0.02 + 0.96 * along(shape, v)} 0.5`).join('\n');
+  const isFront = (number: string): boolean => along(shape, shape.vertices[Number(number) - 1] ?? []) < 0.5;
+  const faces = text.replace(/^f (\S+) (\S+) (\S+)/gm, (_, a: string, b: string, c: string) =>
+    `usemtl ${isFront(a) ? 'front' : 'back'}\nf ${a}/${a} ${b}/${b} ${c}/${c}`,
+  );
+  return `mtllib cat.mtl\n${faces.replace(/^usemtl /m, `${places}\nusemtl `)}`;
+}
+
+const MATERIALS = 'newmtl front\nmap_Kd front.png\nnewmtl back\nmap_Kd back.png\n';
+
+/** A picture of one colour. */
+function plain(page: Page, colour: string): Promise<Buffer> {
+  return halvesPicture(page, [colour, colour], [16, 16]);
+}
+
+/** The mesh as GLB with two primitives, each with a material and a picture of its own. */
+function twoPictures(text: string, pictures: readonly [Buffer, Buffer]): Buffer {
+  const shape = shapeOf(text);
+  const faces = [...text.matchAll(/^f (\S+) (\S+) (\S+)/gm)].map(([, ...corners]) => corners.map((corner) => Number(corner) - 1));
+  const isFront = (face: readonly number[]): boolean => along(shape, shape.vertices[face[0] ?? 0] ?? []) < 0.5;
+  const numbers = (values: readonly number[]): Buffer => Buffer.from(Float32Array.from(values).buffer);
+  const indices = (front: boolean): Buffer => Buffer.from(Uint32Array.from(faces.filter((face) => isFront(face) === front).flat()).buffer);
+  const contents = [numbers(shape.vertices.flat()), numbers(shape.vertices.flatMap((v) => [along(shape, v), 0.5])), indices(true), indices(false), ...pictures];
+  const padded = contents.map((content) => Buffer.concat([content, Buffer.alloc((4 - (content.length % 4)) % 4)]));
+  const begins = padded.map((_, k) => padded.slice(0, k).reduce((sum, { length }) => sum + length, 0));
+  const count = shape.vertices.length;
+  const material = (index: number): object => ({ pbrMetallicRoughness: { baseColorTexture: { index } } });
+  const primitive = (k: number): object => ({ attributes: { POSITION: 0, TEXCOORD_0: 1 }, indices: 2 + k, material: k });
+  const document = {
+    asset: { version: '2.0' },
+    scene: 0,
+    scenes: [{ nodes: [0] }],
+    nodes: [{ mesh: 0 }],
+    meshes: [{ primitives: [primitive(0), primitive(1)] }],
+    materials: [material(0), material(1)],
+    textures: [{ source: 0 }, { source: 1 }],
+    images: [4, 5].map((bufferView) => ({ bufferView, mimeType: 'image/png' })),
+    accessors: [
+      { bufferView: 0, componentType: 5126, count, type: 'VEC3' },
+      { bufferView: 1, componentType: 5126, count, type: 'VEC2' },
+      ...[2, 3].map((bufferView) => ({ bufferView, componentType: 5125, count: (contents[bufferView]?.length ?? 0) / 4, type: 'SCALAR' })),
+    ],
+    bufferViews: contents.map(({ length }, k) => ({ buffer: 0, byteOffset: begins[k], byteLength: length })),
+    buffers: [{ byteLength: padded.reduce((sum, { length }) => sum + length, 0) }],
+  };
+  return glbOf(document, Buffer.concat(padded));
+}
+
+/** Both colours are seen on the target at once. */
+async function expectBoth(page: Page, view: 'source' | 'target'): Promise<void> {
+  await expect
+    .poll(async () => {
+      const { red, green } = await seen(page, view);
+      return Math.min(red, green);
+    })
+    .toBeGreaterThan(0.01);
+}
+
+test('a GLB with two pictures is seen with both, and the GLB of its map has both, byte for byte', async ({ page }) => {
+  await open(page);
+  const pictures = [await plain(page, '#00d000'), await plain(page, '#e00000')] as const;
+  const cat = twoPictures(own.cat.buffer.toString(), pictures);
+  await dropped(page, [{ name: 'horse.obj', content: own.horse.buffer }, { name: 'cat.glb', content: cat }, { ...landmarks, content: landmarks.content.toString().replace('cat.obj', 'cat.glb') }]);
+  await expectBoth(page, 'target');
+  await openStep(page, 'map');
+  await runMap(page);
+  await expectBoth(page, 'source');
+  await page.screenshot({ path: `${ROOT}test-results/look-two-pictures.png` });
+  await openStep(page, 'use');
+  for (const button of ['GLB', 'Morph']) {
+    const { bytes, document, view } = await savedFile(page, button);
+    expect(document.meshes[0]?.primitives).toHaveLength(2);
+    const images = (document.images ?? []).map(({ bufferView }) => view(bufferView));
+    expect(images.map((image) => pictures.findIndex((picture) => picture.equals(image)))).toEqual([0, 1]);
+    expect(await glbFaults(bytes)).toEqual([]);
+  }
+});
+
+test('materials of an OBJ file with two pictures are seen, from a zip too, and kept over a reload', async ({ page }) => {
+  await open(page);
+  const set = {
+    'cat.obj': Buffer.from(halved(own.cat.buffer.toString())),
+    'cat.mtl': Buffer.from(MATERIALS),
+    'front.png': await plain(page, '#00d000'),
+    'back.png': await plain(page, '#e00000'),
+  };
+  const loose = Object.entries(set).map(([name, content]) => ({ name, content }));
+  await dropped(page, [{ name: 'horse.obj', content: own.horse.buffer }, ...loose, landmarks]);
+  await expectBoth(page, 'target');
+  await page.reload();
+  await expect(page.locator('body')).toHaveAttribute('data-ready', 'true', { timeout: 120_000 });
+  await expect(page.locator('#view-target')).toContainText('cat.obj');
+  await expectBoth(page, 'target');
+  await dropped(page, [{ name: 'horse.obj', content: own.horse.buffer }, { name: 'cat.zip', content: Buffer.from(zipSync(set)) }, landmarks]);
+  await expectBoth(page, 'target');
+  await openStep(page, 'map');
+  await runMap(page);
+  await openStep(page, 'use');
+  const { bytes, document, view } = await savedFile(page, 'GLB');
+  const images = (document.images ?? []).map(({ bufferView }) => view(bufferView));
+  expect(images.map((image) => image.equals(set['front.png']) || image.equals(set['back.png']))).toEqual([true, true]);
+  expect(await glbFaults(bytes)).toEqual([]);
+});
+
+test('pictures that cannot be shown are told, and the mesh and the other pictures stay', async ({ page }) => {
+  await open(page);
+  const mesh = { name: 'cat.obj', content: halved(own.cat.buffer.toString()) };
+  const materials = { name: 'cat.mtl', content: MATERIALS };
+  const back = { name: 'back.png', content: await plain(page, '#e00000') };
+  const horse = { name: 'horse.obj', content: own.horse.buffer };
+  const error = page.locator('#error');
+  // One is missing.
+  await dropped(page, [horse, mesh, materials, back, landmarks]);
+  await expect(error).toContainText('cat.obj: The picture front.png is missing');
+  await expect.poll(async () => (await seen(page, 'target')).red).toBeGreaterThan(0.01);
+  // One is none.
+  await dropped(page, [horse, mesh, materials, back, { name: 'front.png', content: '<script>' }, landmarks]);
+  await expect(error).toContainText('cat.obj: The picture front.png is no PNG, JPEG or WebP file');
+  // One begins as one and is none, as the browser finds.
+  await dropped(page, [horse, mesh, materials, back, { name: 'front.png', content: back.content.subarray(0, 40) }, landmarks]);
+  await expect(error).toContainText('cat.obj: this browser cannot decode 1 picture of it');
+  await expect.poll(async () => (await seen(page, 'target')).red).toBeGreaterThan(0.01);
+  // Places that are no numbers.
+  await dropped(page, [horse, { ...mesh, content: mesh.content.replace(/^vt \S+/m, 'vt nan') }, materials, back, landmarks]);
+  await expect(error).toContainText('cat.obj: Its colours are incomplete: line');
+  await expect(page.locator('#run')).toBeEnabled();
+});
+
+test('a picture larger than the graphics card takes is made smaller', async ({ page }) => {
+  await open(page);
+  const large = await halvesPicture(page, ['#00d000', '#e00000'], [12_000, 4]);
+  const set = [
+    { name: 'cat.obj', content: placed(own.cat.buffer.toString()) },
+    { name: 'cat.mtl', content: 'newmtl skin\nmap_Kd coat.png\n' },
+    { name: 'coat.png', content: large },
+  ];
+  await dropped(page, [{ name: 'horse.obj', content: own.horse.buffer }, ...set, landmarks]);
+  await expectBoth(page, 'target');
+  await expect(page.locator('#error')).toBeHidden();
 });

@@ -17,7 +17,7 @@ export async function askMap<T>(core: Core, { output, inputs }: Result, use: (sa
   }
   let saved: SavedMapHandle | null = null;
   try {
-    saved = openSavedMap(core, { map: output.map, source: source.bytes, target: target.bytes }, 'files');
+    saved = openSavedMap(core, { map: output.map, source: source.bytes, target: target.bytes, pictures: [source.picture, target.picture] }, 'files');
     await saved.opened;
     return await use(saved);
   } catch (thrown) {

@@ -57,6 +57,7 @@ export class Runner {
         module: core,
         source: source.bytes,
         target: target.bytes,
+        pictures: [source.picture, target.picture],
         landmarks: JSON.stringify(landmarkFileOf(state)),
         options: state.options,
         demo: state.demo?.id ?? null,

@@ -2,11 +2,16 @@
 
 import type { Finding, RepairOffer, RunOptions } from '../report.ts';
 
+/** What came with the source and the target to be laid on them: a picture, or materials with theirs. */
+export type Companions = readonly [Uint8Array | undefined, Uint8Array | undefined];
+
 /** Everything one run needs. */
 export interface RunRequest {
   readonly module: WebAssembly.Module;
   readonly source: Uint8Array;
   readonly target: Uint8Array;
+  /** What came with both to be laid on them. */
+  readonly pictures: Companions;
   readonly landmarks: string;
   readonly options: RunOptions;
   /** The demo whose meshes these are, by its id; `null` for other meshes. */

@@ -1,13 +1,15 @@
 /** What the page and the worker of a saved map say to each other. */
 
 import type { ProofReport } from '../report.ts';
-import type { Failure, RunOutput } from './messages.ts';
+import type { Companions, Failure, RunOutput } from './messages.ts';
 
 /** A map file with the meshes that it was made with. */
 export interface SavedFiles {
   readonly map: Uint8Array;
   readonly source: Uint8Array;
   readonly target: Uint8Array;
+  /** What came with both meshes to be laid on them. */
+  readonly pictures?: Companions;
   /** The demo whose meshes these are, by its id; without it nothing is known of the true map. */
   readonly demo?: string | null;
 }

@@ -27,8 +27,8 @@ let open: Promise<Open> | null = null;
 
 async function start(request: Extract<SavedRequest, { kind: 'open' }>): Promise<Open> {
   await init({ module_or_path: request.module });
-  const { map, source, target, demo } = request;
-  return { map: openMap(map, source, target), files: { map, source, target, demo: demo ?? null } };
+  const { map, source, target, pictures, demo } = request;
+  return { map: openMap(map, source, target), files: { map, source, target, ...(pictures === undefined ? {} : { pictures }), demo: demo ?? null } };
 }
 
 async function answer(request: SavedRequest): Promise<void> {
@@ -48,6 +48,9 @@ async function answer(request: SavedRequest): Promise<void> {
         break;
       }
       case 'file': {
+        if (request.name.endsWith('.glb')) {
+          map.takeLook(files.source, files.target, ...(files.pictures ?? []));
+        }
         const bytes = map.file(request.name).slice();
         post({ kind: 'file', id, bytes }, [bytes.buffer]);
         break;

@@ -12,10 +12,10 @@ function post(message: WorkerMessage, transfer: Transferable[] = []): void {
   self.postMessage(message, transfer);
 }
 
-function read(output: MapOutput): RunOutput {
+function read(output: MapOutput, { source, target, pictures }: RunRequest): RunOutput {
   const map = output.mapFile()?.slice() ?? null;
   // What can be made of the map file later is not made now.
-  const made = map === null ? { glb: output.glb().slice(), csv: output.csv().slice(), baseObj: output.baseObj().slice() } : null;
+  const made = map === null ? { glb: output.glb(source, target, ...pictures).slice(), csv: output.csv().slice(), baseObj: output.baseObj().slice() } : null;
   return { ...viewBuffers(output), map, made };
 }
 
@@ -75,7 +75,7 @@ async function run(request: RunRequest): Promise<void> {
       },
       request.demo,
     );
-    const copy = read(output);
+    const copy = read(output, request);
     output.free();
     post({ kind: 'done', output: copy }, buffersOf(copy));
   } catch (thrown) {

@@ -3,8 +3,8 @@
 use crate::arguments::FaultArguments;
 use crate::told::say;
 use conemap::export::MeshFormat;
-use conemap::io::{self, gltf_parts};
-use conemap::job::{ReadMesh, read_mesh};
+use conemap::io::{self, Format, gltf_parts, material_set};
+use conemap::job::{LookFiles, MapLook, ReadMesh, read_mesh};
 use conemap::landmark_exchange::{GivenFile, PairLandmarks, Surface, compare_names, read_pairs};
 use conemap::mesh::check::CheckedMesh;
 use conemap::mesh::soup::PolygonSoup;
@@ -68,6 +68,48 @@ pub fn mesh_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     let find = |name: &str| contents.get(name).map(Vec::as_slice);
     let packed = gltf_parts::packed(&own, find).map_err(|e| format!("{}: {e}", path.display()))?;
     Ok(packed.bytes)
+}
+
+/// What comes with a mesh file for its look: the materials that an OBJ file names, with their pictures, from its own folder and those below;
+/// or else a picture beside it that is called like it.
+pub fn companion(path: &Path, mesh: &[u8]) -> Option<Vec<u8>> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let is_below = |name: &str| Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+    let find = |name: &str| limited(&folder.join(name)).ok().filter(|_| is_below(name));
+    let set = material_set::packed(mesh, find);
+    if set.as_ref().is_some_and(|set| set.found > 0) {
+        return set.map(|set| set.bytes);
+    }
+    let is_pictured = matches!(io::detect(mesh), Some(Format::Obj | Format::Ply));
+    let beside = |ending: &&str| limited(&path.with_extension(ending)).ok().filter(|_| is_pictured);
+    PICTURE_ENDINGS.iter().find_map(beside).or_else(|| set.map(|set| set.bytes))
+}
+
+/// The endings of pictures that can be laid on a mesh.
+const PICTURE_ENDINGS: [&str; 4] = ["png", "jpg", "jpeg", "webp"];
+
+/// The mesh files of a map with what comes with them.
+pub struct MeshSets<'a> {
+    paths: [&'a Path; 2],
+    meshes: [&'a [u8]; 2],
+    companions: [Option<Vec<u8>>; 2],
+}
+
+impl<'a> MeshSets<'a> {
+    /// Reads what comes with mesh files that were read.
+    pub fn of(paths: [&'a Path; 2], meshes: [&'a [u8]; 2]) -> Self {
+        Self { paths, meshes, companions: [0, 1].map(|k| companion(paths[k], meshes[k])) }
+    }
+
+    /// The look that a map of these files carries; what cannot be used of it is told.
+    pub fn look(&self, read: impl FnOnce([LookFiles<'_>; 2]) -> MapLook) -> MapLook {
+        let files = |k: usize| LookFiles { mesh: self.meshes[k], companion: self.companions[k].as_deref() };
+        let look = read([files(0), files(1)]);
+        for (path, remarks) in self.paths.iter().zip(&look.remarks) {
+            remarks.iter().for_each(|remark| say(format_args!("warning: {}: {remark}", path.display())));
+        }
+        look
+    }
 }
 
 /// A file with those beside it in which it keeps its data.

@@ -2,7 +2,7 @@
 
 use crate::arguments::MapArguments;
 use crate::clock::Clock;
-use crate::input::{self, Failure};
+use crate::input::{self, Failure, MeshSets};
 use crate::told::say;
 use crate::{interrupt, matching, outputs};
 use conemap::job::{
@@ -57,7 +57,10 @@ fn write_map(arguments: &MapArguments, job: &Job, result: &MapResult) -> Result<
 
 fn write_folder(arguments: &MapArguments, job: &Job, result: &MapResult) -> Result<(), Failure> {
     let Some(folder) = &arguments.out else { return Ok(()) };
-    let files = job.outputs(result, &arguments.choices)?;
+    let paths = [&arguments.source, &arguments.target];
+    let meshes = [input::mesh_bytes(paths[0])?, input::mesh_bytes(paths[1])?];
+    let sets = MeshSets::of(paths.map(PathBuf::as_path), meshes.each_ref().map(Vec::as_slice));
+    let files = job.outputs(result, &arguments.choices, &sets.look(|files| job.look(files)))?;
     outputs::write_all(folder, files.into_iter().map(|file| Ok((file.name, file.bytes))))
 }
 

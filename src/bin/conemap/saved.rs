@@ -1,10 +1,10 @@
 //! Saved maps: opened with their meshes, measured, and written as files (`conemap report`, `conemap export`).
 
 use crate::arguments::{ExportArguments, ReportArguments, SavedMapArguments};
-use crate::input::{self, Failure};
+use crate::input::{self, Failure, MeshSets};
 use crate::outputs;
 use crate::told::print;
-use conemap::job::{MapFiles, OpenMap};
+use conemap::job::{MapFiles, MapLook, OpenMap};
 use conemap::landmarks::MeshSide;
 use serde_json::json;
 use std::fmt::Display;
@@ -32,6 +32,13 @@ impl<'a> SavedFiles<'a> {
     /// Opens the map; a fault is told with the file's name.
     pub fn open(&self) -> Result<OpenMap, Failure> {
         OpenMap::read(self.bytes()).map_err(|error| self.told(error.side(), &error))
+    }
+
+    /// The look that the map carries; what cannot be used of it is told.
+    pub fn look(&self, open: &OpenMap) -> MapLook {
+        let paths = [&*self.paths.source, &*self.paths.target];
+        let sets = MeshSets::of(paths, self.meshes.each_ref().map(Vec::as_slice));
+        sets.look(|files| open.look(files))
     }
 
     /// A sentence on a mesh's file, or on the map's where it is about neither.
@@ -64,8 +71,10 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Failure> {
 /// Writes all files of the map.
 pub fn export(arguments: &ExportArguments) -> Result<(), Failure> {
     outputs::check(arguments.saved.files(), outputs::of_folder(&arguments.out))?;
-    let open = SavedFiles::read(&arguments.saved)?.open()?;
-    let map = open.taken();
+    let saved = SavedFiles::read(&arguments.saved)?;
+    let open = saved.open()?;
+    let look = saved.look(&open);
+    let map = open.taken().wearing(&look);
     let files = map.kinds().into_iter().map(|kind| Ok((kind.file_name(), map.output(kind)?)));
     outputs::write_all(&arguments.out, files)
 }

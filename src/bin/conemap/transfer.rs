@@ -140,7 +140,8 @@ impl Transfer<'_> {
 
     /// The source on its way to the target's shape.
     fn morph(&self) -> Result<(), Failure> {
-        let bytes = self.open.taken().morph_glb(&mut Clock::start_only(Stage::Transfer))?;
+        let look = self.files.look(self.open);
+        let bytes = self.open.taken().wearing(&look).morph_glb(&mut Clock::start_only(Stage::Transfer))?;
         outputs::write(&self.arguments.out, &bytes)
     }
 
