@@ -5,6 +5,7 @@
 //! The pictures of OBJ and PLY files come beside them: one, or a set of materials ([`super::material_set`]).
 
 use super::gltf_look;
+use super::look_remark::LookRemark;
 use super::material_set::MaterialSet;
 use super::obj;
 use super::off;
@@ -13,7 +14,7 @@ use super::reading::text;
 use super::texture_coordinates::{self, TextureCoordinateError};
 use super::vertex_table::{self, Column, NumberType, VertexTable};
 use super::{Format, detect};
-use crate::mesh::look::{CornerLook, MOST_PICTURES, PicturePlace, PolygonLook};
+use crate::mesh::look::{CornerLook, PicturePlace, PolygonLook};
 use crate::mesh::soup::PolygonSoup;
 
 /// How a mesh looks, and what of its look cannot be used.
@@ -25,38 +26,14 @@ pub struct Appearance {
     pub remarks: Vec<LookRemark>,
 }
 
-/// What cannot be used of a look. The mesh is good without it.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum LookRemark {
-    /// A picture is not there.
-    #[error("the picture {name} is missing: give it together with the mesh")]
-    Missing {
-        /// What the file calls it.
-        name: String,
-    },
-    /// A file that should be a picture is none.
-    #[error("the picture {name} is no PNG, JPEG or WebP file, and is left out")]
-    NoPicture {
-        /// What the file calls it.
-        name: String,
-    },
-    /// More pictures than are told apart.
-    #[error("only {MOST_PICTURES} pictures are shown; what others lie on has none")]
-    TooMany,
-    /// Numbers that cannot be used.
-    #[error("its colours are incomplete: {problem}")]
-    Unusable {
-        /// What is wrong.
-        problem: String,
-    },
-}
-
 /// How the polygons of a mesh file look, which were read of the same bytes. `companion` is what comes with it: a picture, or the set of an
 /// OBJ file's materials.
 pub fn read(bytes: &[u8], soup: &PolygonSoup, companion: Option<&[u8]>) -> Appearance {
     let mut appearance = match detect(bytes) {
-        Some(Format::Gltf) => gltf_look::read(bytes),
+        Some(Format::Gltf) => {
+            let (look, remarks) = gltf_look::read(bytes);
+            Appearance { look, remarks }
+        }
         Some(Format::Ply) => of_ply(bytes, soup, &companion.map(MaterialSet::read).unwrap_or_default()),
         Some(Format::Obj) => of_obj(bytes, soup, &companion.map(MaterialSet::read).unwrap_or_default()),
         Some(Format::Off) => Appearance { look: of_off(bytes, soup), remarks: Vec::new() },

@@ -3,11 +3,11 @@
 //!
 //! Nothing here refuses a mesh: what cannot be used is left out, and told.
 
-use super::appearance::{Appearance, LookRemark};
 use super::data_uri;
 use super::gltf_container;
 use super::gltf_document::Document;
 use super::gltf_file::{Part, Reader, Scene, scene};
+use super::look_remark::LookRemark;
 use super::picture::media_type;
 use crate::math::screen_light::screen_byte;
 use crate::mesh::look::{CornerLook, MOST_PICTURES, PicturePlace, PolygonLook};
@@ -16,16 +16,16 @@ use gltf::accessor::Dimensions;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// What a file says of its look.
-pub(super) fn read(bytes: &[u8]) -> Appearance {
-    let Ok(container) = gltf_container::split(bytes) else { return Appearance::default() };
+/// What a file says of its look, and what of it cannot be used.
+pub(super) fn read(bytes: &[u8]) -> (Option<PolygonLook>, Vec<LookRemark>) {
+    let Ok(container) = gltf_container::split(bytes) else { return Default::default() };
     // Most files without a look are told from others before their triangles are read again.
     let says_something = ["COLOR_0", "TEXCOORD_0", "baseColorFactor"];
     let named = |name: &&str| container.json.windows(name.len()).any(|part| part == name.as_bytes());
     if !says_something.iter().any(named) {
-        return Appearance::default();
+        return Default::default();
     }
-    let of_scene = || -> Option<Appearance> {
+    let of_scene = || {
         let document = Document::read(container.json).ok()?;
         let reader = Reader::new(&document, container, bytes.len()).ok()?;
         let scene = scene(&reader, &mut Pulse::new(&mut Silent, usize::MAX)).ok()?;
@@ -55,17 +55,20 @@ struct PartLook {
     image: Option<usize>,
 }
 
-/// The pictures that are used, by their numbers in the document.
+/// The pictures of a document that are used, in the order in which they were asked for.
 #[derive(Default)]
-struct Used {
+pub(super) struct Used {
+    /// By their numbers in the document.
     numbers: BTreeMap<usize, Option<u8>>,
-    pictures: Vec<Vec<u8>>,
-    remarks: Vec<LookRemark>,
+    /// Their files.
+    pub(super) pictures: Vec<Vec<u8>>,
+    /// What cannot be used.
+    pub(super) remarks: Vec<LookRemark>,
 }
 
 impl Used {
     /// The number of an image among the pictures; `None` where it cannot be used, which is told once.
-    fn number(&mut self, image: usize, document: &Images<'_>) -> Option<u8> {
+    pub(super) fn number(&mut self, image: usize, document: &Images<'_>) -> Option<u8> {
         if let Some(known) = self.numbers.get(&image) {
             return *known;
         }
@@ -101,7 +104,7 @@ pub(super) struct Images<'a> {
 
 impl Images<'_> {
     /// The file of a picture that is in the document.
-    pub(super) fn picture(&self, number: usize) -> Result<Vec<u8>, LookRemark> {
+    fn picture(&self, number: usize) -> Result<Vec<u8>, LookRemark> {
         let image = &self.root["images"][number];
         let name = || {
             let given =
@@ -130,7 +133,7 @@ impl Images<'_> {
 }
 
 impl Looks<'_> {
-    fn of(&self, scene: &Scene) -> Appearance {
+    fn of(&self, scene: &Scene) -> (Option<PolygonLook>, Vec<LookRemark>) {
         let mut used = Used::default();
         let images = Images { root: self.root, buffer: self.buffer };
         let mut corners = Vec::with_capacity(scene.soup.polygons.len());
@@ -147,7 +150,7 @@ impl Looks<'_> {
         let says = |corner: &CornerLook| *corner != CornerLook::WHITE;
         let look = PolygonLook { corners, pictures: used.pictures };
         let has_look = look.corners.iter().flatten().any(says);
-        Appearance { look: has_look.then_some(look), remarks: used.remarks }
+        (has_look.then_some(look), used.remarks)
     }
 
     fn of_part(&self, part: &Part, remarks: &mut Vec<LookRemark>) -> PartLook {

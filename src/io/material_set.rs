@@ -3,15 +3,14 @@
 //!
 //! Read are `newmtl`, `Kd` and `map_Kd` of the files that `mtllib` names. A picture that is not found stays in the set by its name alone.
 
-use super::appearance::LookRemark;
 use super::gltf_container;
-use super::gltf_look::{Images, index};
+use super::gltf_look::{Images, Used, index};
 use super::gltf_parts::{Packer, glb};
+use super::look_remark::LookRemark;
 use super::obj::{WholeLine, whole_lines};
 use super::picture::media_type;
 use super::reading::text;
 use super::{Format, detect};
-use crate::mesh::look::MOST_PICTURES;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
@@ -181,40 +180,19 @@ impl MaterialSet {
     }
 
     fn of_document(root: &Value, binary: &[u8]) -> Self {
-        let mut set = Self::default();
+        let mut used = Used::default();
         let images = Images { root, buffer: &|number| (number == 0).then_some(binary) };
-        let list = |key: &str| root[key].as_array().map(Vec::as_slice).unwrap_or_default();
-        let mut numbers = Vec::new();
-        for image in 0..list("images").len() {
-            let picture = if set.pictures.len() < MOST_PICTURES {
-                images.picture(image)
-            } else {
-                Err(LookRemark::TooMany)
-            };
-            numbers.push(match picture {
-                Ok(picture) => {
-                    set.pictures.push(picture);
-                    u8::try_from(set.pictures.len() - 1).ok()
-                }
-                Err(remark) => {
-                    if !set.remarks.contains(&remark) {
-                        set.remarks.push(remark);
-                    }
-                    None
-                }
-            });
-        }
-        for material in list("materials") {
+        let mut by_name = BTreeMap::new();
+        for material in root["materials"].as_array().map(Vec::as_slice).unwrap_or_default() {
             let told = &material["extras"];
-            let picture = index(&told["image"]).and_then(|image| numbers.get(image).copied().flatten());
-            let channel = |k: usize| {
-                (255.0 * told["colour"][k].as_f64().unwrap_or(1.0)).round().clamp(0.0, 255.0) as u8
-            };
+            let picture = index(&told["image"]).and_then(|image| used.number(image, &images));
+            let share = |k: usize| told["colour"][k].as_f64().unwrap_or(1.0);
+            let channel = |k: usize| (255.0 * share(k)).round().clamp(0.0, 255.0) as u8;
             let colour = if picture.is_some() { [u8::MAX; 3] } else { [0, 1, 2].map(channel) };
             let name = material["name"].as_str().unwrap_or_default().to_owned();
-            set.by_name.insert(name, Material { colour, picture });
+            by_name.insert(name, Material { colour, picture });
         }
-        set
+        Self { by_name, pictures: used.pictures, remarks: used.remarks }
     }
 
     /// By polygon of an OBJ file what its material says. A picture alone lies on all.

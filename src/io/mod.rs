@@ -15,6 +15,7 @@ mod gltf_look;
 pub mod gltf_parts;
 pub mod landmark_file;
 pub mod landmark_formats;
+mod look_remark;
 pub mod material_set;
 pub mod moved;
 mod obj;
@@ -32,6 +33,7 @@ mod written_text;
 
 pub use detection::detect;
 pub use format::Format;
+pub use look_remark::LookRemark;
 pub use other_file::OtherFile;
 pub use problem::Place;
 

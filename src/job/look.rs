@@ -1,8 +1,8 @@
 //! The look that a map carries: the target's own colours and pictures, or the source's where the target has none.
 
 use crate::export::skin::Skin;
-use crate::io::appearance::{self, Appearance, LookRemark};
-use crate::io::read_mesh;
+use crate::io::appearance::{self, Appearance};
+use crate::io::{LookRemark, read_mesh};
 use crate::map_file::FileMesh;
 use crate::mesh::dressing::{Giver, carried};
 use crate::mesh::look::Look;

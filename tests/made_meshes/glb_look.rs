@@ -3,9 +3,9 @@
 
 use conemap::export::vertex_image::Direction;
 use conemap::export::{obj, ply};
-use conemap::io::appearance::{self, LookRemark};
+use conemap::io::appearance;
 use conemap::io::landmark_file::{LandmarkFile, LandmarkPoint, write};
-use conemap::io::{material_set, read_mesh};
+use conemap::io::{LookRemark, material_set, read_mesh};
 use conemap::job::{Job, JobFiles, LookFiles, MapLook, OutputKind, ReadOptions, TakenMap, TargetImage};
 use conemap::landmark_exchange::GivenFile;
 use conemap::map_file::MapFile;

@@ -257,7 +257,8 @@ test('pictures that cannot be shown are told, and the mesh and the other picture
   await expect(error).toContainText('cat.obj: this browser cannot decode 1 picture of it');
   await expect.poll(async () => (await seen(page, 'target')).red).toBeGreaterThan(0.01);
   // Places that are no numbers.
-  await dropped(page, [horse, { ...mesh, content: mesh.content.replace(/^vt \S+/m, 'vt nan') }, materials, back, landmarks]);
+  const nowhere = { ...mesh, content: mesh.content.replace(/^vt \S+/m, 'vt nan') };
+  await dropped(page, [horse, nowhere, materials, back, { ...back, name: 'front.png' }, landmarks]);
   await expect(error).toContainText('cat.obj: Its colours are incomplete: line');
   await expect(page.locator('#run')).toBeEnabled();
 });

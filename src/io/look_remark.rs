@@ -1,0 +1,30 @@
+//! What cannot be used of how a mesh file says that its surface looks.
+
+use crate::mesh::look::MOST_PICTURES;
+
+/// What cannot be used of a look. The mesh is good without it.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LookRemark {
+    /// A picture is not there.
+    #[error("the picture {name} is missing: give it together with the mesh")]
+    Missing {
+        /// What the file calls it.
+        name: String,
+    },
+    /// A file that should be a picture is none.
+    #[error("the picture {name} is no PNG, JPEG or WebP file, and is left out")]
+    NoPicture {
+        /// What the file calls it.
+        name: String,
+    },
+    /// More pictures than are told apart.
+    #[error("only {MOST_PICTURES} pictures are shown; what others lie on has none")]
+    TooMany,
+    /// Numbers that cannot be used.
+    #[error("its colours are incomplete: {problem}")]
+    Unusable {
+        /// What is wrong.
+        problem: String,
+    },
+}
