@@ -9,7 +9,7 @@ mod tips;
 
 pub use crate::math::mirror_plane::MirrorPlane;
 pub use limbs::unmarked_limbs;
-pub use mirror::{Mirror, best_mirror, centre, mirror_of};
+pub use mirror::{Mirror, best_mirror, mirror_of};
 pub use partner::{Partner, partner};
 pub use symmetry::partners;
 pub use tips::tips;

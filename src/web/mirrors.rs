@@ -3,7 +3,7 @@
 use super::failure;
 use super::loaded_mesh::{LoadedMesh, surface_point};
 use crate::io::landmark_file::LandmarkPoint;
-use crate::landmark_suggestion::{Mirror, MirrorPlane, best_mirror, centre, mirror_of};
+use crate::landmark_suggestion::{Mirror, MirrorPlane, best_mirror, mirror_of};
 use crate::monitor::Silent;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -49,7 +49,7 @@ fn wished(loaded: &LoadedMesh, wish: Wish) -> Option<Mirror> {
         // Who has enough of it ends the worker.
         Wish::Found => best_mirror(mesh, &mut Silent).ok()?,
         Wish::Axis { axis } => {
-            mirror_of(mesh, MirrorPlane::across(DVec3::AXES.get(axis).copied()?, centre(mesh)?)?)
+            mirror_of(mesh, MirrorPlane::across(DVec3::AXES.get(axis).copied()?, mesh.centre()?)?)
         }
         Wish::Points { points: [p, q] } => {
             let place = |point| Some(surface_point(&loaded.checked, point)?.position(mesh));

@@ -14,6 +14,18 @@ async function places(page: Page, view: string): Promise<ReadonlyMap<string, Spo
   return new Map(seen.map(([number, { x, y }]) => [names[Number(number) - 1] ?? '', { x, y: y + STEM }]));
 }
 
+/** Waits until both views stand still, however slowly frames come. */
+async function stillness(page: Page): Promise<void> {
+  let before = '';
+  await expect(async () => {
+    await page.waitForTimeout(SETTLED);
+    const now = JSON.stringify([...(await heads(page, VIEWS[0])), ...(await heads(page, VIEWS[1]))]);
+    const isStill = now === before;
+    before = now;
+    expect(isStill).toBe(true);
+  }).toPass();
+}
+
 /** Clicks, and waits until a second click would be another one. */
 async function click(page: Page, { x, y }: Spot): Promise<void> {
   await page.mouse.click(x, y);
@@ -35,7 +47,7 @@ test('a click on each mesh makes two whole pairs, which go together', async ({ p
     await page.locator(view).focus();
     await page.keyboard.press('Shift+T');
   }
-  await page.waitForTimeout(SETTLED);
+  await stillness(page);
   const known = [await places(page, VIEWS[0]), await places(page, VIEWS[1])] as const;
   const spot = (side: 0 | 1, name: string): Spot => known[side].get(name) ?? fail(`${name} is not seen: ${[...known[side].keys()].join(', ')}`);
   await page.getByRole('button', { name: 'Clear all' }).click();
@@ -99,6 +111,14 @@ test('a click on each mesh makes two whole pairs, which go together', async ({ p
   await click(page, spot(1, 'right flank'));
   await expect(pairs(page)).toHaveCount(5);
   await runMap(page);
+
+  // What the map proposes is taken for both sides.
+  const [flank, croup] = [spot(0, 'right flank'), spot(0, 'croup')];
+  await click(page, { x: (flank.x + croup.x) / 2, y: (flank.y + croup.y) / 2 });
+  await expect(page.locator('#hint')).toContainText('Pair 6: click the see-through pin that the map proposes on the target');
+  await page.locator('#view-target').focus();
+  await page.keyboard.press('Enter');
+  await expect(page.locator('body')).toHaveAttribute('data-pairs', '7');
 });
 
 test('a plane may be given, and a body without one says so', async ({ page }) => {
