@@ -6,6 +6,8 @@ import { browserWith, Keeper } from './app/keep.ts';
 import { listenForLeaving, listenForProposal, listenForUndo } from './app/keys.ts';
 import { saveLandmarks } from './app/landmarks.ts';
 import { mark } from './app/mark.ts';
+import { completed, Planes } from './app/left-right.ts';
+import type { Mirror } from './app/left-right.ts';
 import { bendMorphs } from './app/morph.ts';
 import { Links } from './app/links.ts';
 import { Maps } from './app/maps.ts';
@@ -57,6 +59,7 @@ const wantWay = bendMorphs(
     views.takeWay(output, way);
   },
 );
+const across: Mirror = (side, point) => views.across(side, point);
 /** Reloads the page into its newer build, when there is one. */
 let reload = (): void => undefined;
 const keeper = new Keeper(store, browserWith(reader));
@@ -118,6 +121,9 @@ const actions: Actions = {
   },
   findLandmarks: () => {
     finder.start();
+  },
+  choosePlane: (side, choice) => {
+    planes.choose(side, choice);
   },
   suggest: (side) => {
     void suggest(store, reader, side);
@@ -259,10 +265,13 @@ store.subscribe((state, previous) => {
   page.sync(state, previous);
   views.sync(state, previous);
 });
+store.completeBy((state, event) => completed(state, event, across));
 listenForHalves(store, views);
 findUnasked(store, () => {
   finder.start();
 });
+// The views know a plane before anybody asks for what lies across.
+const planes = new Planes(store, reader, across);
 store.subscribe(freeForgotten);
 store.subscribe(freeExamined);
 store.subscribe(mark);

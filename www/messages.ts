@@ -197,6 +197,28 @@ export function pairLocked(pair: number): string {
   return `Pair ${pair} is locked. Unlock it first.`;
 }
 
+/** A length in units of a mesh's size, as a share of that. */
+function ofItsSize(length: number): string {
+  const percent = 100 * length;
+  return `${percent.toFixed(percent < 0.995 ? 2 : 1)} % of its size`;
+}
+
+/** A partner that is not quite where the mirror has it. */
+export function farPartner(side: 0 | 1, distance: number): string {
+  return `The partner on the ${side === 0 ? 'source' : 'target'} lies ${ofItsSize(distance)} off its mirror image. Look whether it fits, or drag it.`;
+}
+
+/** A plane that mirrors a mesh: the best one, which fits or not, or one that was chosen. */
+export function planeSentence(name: string, { misfit, fits }: { readonly misfit: number; readonly fits: boolean }, isChosen: boolean): string {
+  const off = ofItsSize(misfit);
+  if (isChosen) {
+    return `By this plane the mirror image of the ${name} is ${off} off on average.`;
+  }
+  return fits
+    ? `The ${name} mirrors itself: its mirror image is ${off} off on average.`
+    : `The ${name} has no plane that mirrors it: by the best one its mirror image is ${off} off on average. Choose a plane, or place both sides yourself.`;
+}
+
 /** What has changed since the map was made, in words. */
 export function staleSentence(changes: {
   readonly meshes: readonly (0 | 1)[];

@@ -384,12 +384,14 @@ fn mark_vertex(
     return out;
 }
 
-// How much of a pixel a stroke covers: solid, dashed, dotted, dashes with points, double.
+// How much of a pixel a stroke covers: solid, dashed, dotted, dashes with points, double, fine.
 fn stroke_cover(in: MarkOut) -> f32 {
     let half = view.size_and_style.w;
     let place = fract(in.at.y);
     let body = cover(abs(in.at.x) - 2.0 * half);
-    if in.stroke > 3.5 {
+    if in.stroke > 4.5 {
+        return 0.7 * cover(abs(in.at.x) - 0.6 * half);
+    } else if in.stroke > 3.5 {
         return cover(abs(abs(in.at.x) - 2.4 * half) - 1.1 * half);
     } else if in.stroke > 2.5 {
         return select(0.0, body, place < 0.5 || (place > 0.68 && place < 0.82));

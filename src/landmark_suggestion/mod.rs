@@ -1,11 +1,16 @@
 //! Points of one mesh that are worth a landmark: ends of limbs, and points far from all others; which of them are partners
-//! under a symmetry; and limbs without a landmark.
+//! under a symmetry; the plane that mirrors a mesh, and the partner of a point across it; and limbs without a landmark.
 
 mod limbs;
+mod mirror;
+mod partner;
 mod symmetry;
 mod tips;
 
+pub use crate::math::mirror_plane::MirrorPlane;
 pub use limbs::unmarked_limbs;
+pub use mirror::{Mirror, best_mirror, mirror_of};
+pub use partner::{Partner, partner};
 pub use symmetry::partners;
 pub use tips::tips;
 

@@ -7,6 +7,7 @@ pub mod disjoint_sets;
 pub mod golden;
 pub mod matrix2;
 pub mod min_queue;
+pub mod mirror_plane;
 pub mod predicates;
 pub mod quadric;
 pub mod quantile;

@@ -206,6 +206,17 @@ impl SurfaceMesh {
         self.faces().map(|f| self.face_area(f)).sum()
     }
 
+    /// The middle of its area; `None` for a surface without area.
+    pub fn centre(&self) -> Option<DVec3> {
+        let (mut sum, mut total) = (DVec3::ZERO, 0.0);
+        for [a, b, c] in self.faces().map(|f| self.corners(f)) {
+            let area = (b - a).cross(c - a).length();
+            sum += area * (a + b + c) / 3.0;
+            total += area;
+        }
+        (total > 0.0).then(|| sum / total)
+    }
+
     /// The same connectivity with other positions.
     ///
     /// # Panics

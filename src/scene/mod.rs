@@ -13,6 +13,7 @@ pub mod morph;
 pub mod patches;
 pub mod picking;
 pub mod pins;
+pub mod plane_cut;
 pub mod pose;
 pub mod seams;
 pub mod shading;

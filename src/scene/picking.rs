@@ -6,7 +6,7 @@
 use crate::mesh::closest_point::closest_in_triangle;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use glam::DVec3;
-use parry3d_f64::query::{PointQueryWithLocation, Ray, RayCast};
+use parry3d_f64::query::{PointQuery, PointQueryWithLocation, Ray, RayCast};
 use parry3d_f64::shape::TriMesh;
 use rustc_hash::FxHashMap;
 
@@ -81,6 +81,30 @@ impl Picker {
         Some(SurfacePoint { face, barycentric: closest_in_triangle(point, mesh.corners(face)) })
     }
 
+    /// The point of the mesh nearest to a point in space, among those of the faces that look within a right angle of a direction; among
+    /// all where no face does.
+    pub fn nearest_facing(&self, mesh: &SurfaceMesh, point: DVec3, direction: DVec3) -> Option<SurfacePoint> {
+        let place = point.to_array().into();
+        let on_face = |face: FaceId| {
+            let corners = mesh.corners(face);
+            let [a, b, c] = corners;
+            let barycentric = closest_in_triangle(point, corners);
+            let found = SurfacePoint { face, barycentric };
+            let facing = (b - a).cross(c - a).dot(direction) > 0.0;
+            facing.then(|| (found.position(mesh).distance(point), found))
+        };
+        let mut best: Option<(f64, SurfacePoint)> = None;
+        for (part, shape) in self.ready_parts()?.iter().enumerate() {
+            let found = shape.bvh().find_best(
+                best.map_or(f64::MAX, |best| best.0),
+                |node, _| node.aabb().distance_to_local_point(place, true),
+                |face, _| on_face(FaceId::from(PART * part + face as usize)),
+            );
+            best = found.map(|found| found.1).or(best);
+        }
+        best.map(|best| best.1).or_else(|| self.nearest(mesh, point))
+    }
+
     fn ready_parts(&self) -> Option<&[TriMesh]> {
         self.is_ready().then_some(&self.parts)
     }
@@ -112,6 +136,25 @@ mod tests {
             assert!(nearest.position(&sphere).distance(hit.position(&sphere)) < 1e-3);
         }
         assert!(picker.pick(&sphere, DVec3::splat(3.0), DVec3::X).is_none());
+    }
+
+    #[test]
+    fn of_a_thin_sheet_the_nearest_point_lies_on_the_side_that_is_asked_for() {
+        let ball = icosphere(4);
+        let flat = ball.positions().iter().map(|p| *p * DVec3::new(1.0, 1.0, 0.001)).collect();
+        let sheet = ball.with_positions(flat);
+        let picker = Picker::begun(&sheet).unwrap();
+        for k in 0..50 {
+            let t = 0.1 * f64::from(k);
+            let p = DVec3::new(0.15 * (t - 2.5), 0.1 * (t - 1.0), 0.01);
+            for side in [DVec3::Z, DVec3::NEG_Z] {
+                let at = picker.nearest_facing(&sheet, p, side).unwrap().position(&sheet);
+                assert!(at.z * side.z > 0.0 && (at - p).truncate().length() < 1e-3, "{at}");
+            }
+            // No face looks nowhere.
+            let any = picker.nearest_facing(&sheet, p, DVec3::ZERO).unwrap();
+            assert_eq!(Some(any), picker.nearest(&sheet, p));
+        }
     }
 
     #[test]

@@ -19,7 +19,7 @@ const CLEARER: f64 = 1.3;
 
 /// The axis that seems to point up; `None` where the shape does not tell.
 pub fn proposed_up(mesh: &SurfaceMesh) -> Option<UpAxis> {
-    let centre = centre(mesh);
+    let centre = mesh.centre().unwrap_or_default();
     let wider = |axis: UpAxis| base(mesh, axis, centre) - base(mesh, axis.reversed(), centre);
     let mut axes: Vec<(UpAxis, f64)> = [UpAxis::X, UpAxis::Y, UpAxis::Z]
         .map(|axis| (axis, wider(axis)))
@@ -27,18 +27,6 @@ pub fn proposed_up(mesh: &SurfaceMesh) -> Option<UpAxis> {
         .to_vec();
     axes.sort_by(|a, b| b.1.total_cmp(&a.1));
     (axes[0].1 > CLEAR && axes[0].1 > CLEARER * axes[1].1).then(|| axes[0].0)
-}
-
-/// The middle of the surface's area.
-fn centre(mesh: &SurfaceMesh) -> DVec3 {
-    let (mut sum, mut total) = (DVec3::ZERO, 0.0);
-    for f in mesh.faces() {
-        let [a, b, c] = mesh.corners(f);
-        let area = (b - a).cross(c - a).length();
-        sum += area * (a + b + c) / 3.0;
-        total += area;
-    }
-    if total > 0.0 { sum / total } else { sum }
 }
 
 /// How wide the base is when this axis points up: area of the hull of the lowest points as a share of the box around all points,

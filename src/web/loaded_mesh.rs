@@ -1,12 +1,14 @@
 //! A mesh of the page: read and checked in a worker, handed over as bytes, shown here.
 
 use super::failure;
+use crate::io::landmark_file::LandmarkPoint;
 use crate::io::landmark_formats::Space;
 use crate::landmark_exchange::Surface;
 use crate::map_file::Hash;
 use crate::mesh::check::CheckedMesh;
 use crate::mesh::look::Look;
 use crate::mesh::packing::{PackedError, Packer, Unpacker};
+use crate::mesh::{FaceId, SurfacePoint};
 use crate::scene::Shading;
 use std::rc::Rc;
 use wasm_bindgen::prelude::*;
@@ -107,6 +109,20 @@ impl LoadedMesh {
             look.pack(&mut packer);
         }
         packer.into_bytes()
+    }
+}
+
+/// The point of a mesh that a landmark point names; `None` where there is none.
+pub(super) fn surface_point(checked: &CheckedMesh, point: LandmarkPoint) -> Option<SurfacePoint> {
+    match point {
+        LandmarkPoint::Vertex(v) => {
+            let known = checked.vertex_from_file.get(v as usize).copied().flatten();
+            known.map(|v| SurfacePoint::at_vertex(&checked.mesh, v))
+        }
+        LandmarkPoint::OnFace { face, barycentric } => {
+            let face = checked.face_from_file(FaceId(face))?;
+            Some(checked.with_file_corners(SurfacePoint { face, barycentric }))
+        }
     }
 }
 

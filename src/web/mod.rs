@@ -16,6 +16,8 @@ mod loaded_mesh;
 #[cfg(feature = "web-page")]
 mod map_headers;
 #[cfg(feature = "web-page")]
+mod mirrors;
+#[cfg(feature = "web-page")]
 mod repair;
 #[cfg(feature = "web-page")]
 mod view_side;

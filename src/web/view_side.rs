@@ -2,13 +2,14 @@
 
 use super::defects::MeshDefects;
 use super::failure;
-use super::loaded_mesh::LoadedMesh;
+use super::loaded_mesh::{LoadedMesh, surface_point};
 use crate::gpu::{Mesh, Picture, Renderer};
 use crate::io::landmark_file::LandmarkPoint;
+use crate::landmark_suggestion::MirrorPlane;
 use crate::mesh::check::CheckedMesh;
 use crate::mesh::dressing::{Giver, dressed};
 use crate::mesh::normals::vertex_normals;
-use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
+use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use crate::scene::buffers::{Frame, surface};
 use crate::scene::circles::circled;
 use crate::scene::colours::landmark_colour;
@@ -87,6 +88,8 @@ pub(super) struct Side {
     pub suggestions: Vec<Option<Vec3>>,
     /// A place that is asked for, or its partner.
     pub probe: Option<Vec3>,
+    /// The plane that mirrors the mesh, while it is shown.
+    pub mirror: Option<ShownMirror>,
     /// What is wrong with a mesh, which may be one that is shown in the place of the side's own.
     pub defects: Option<ShownDefects>,
     /// How the side's own mesh was looked at before another one was shown in its place.
@@ -111,6 +114,12 @@ impl Preview {
         vertices.iter_mut().zip(places).for_each(|(vertex, place)| vertex.image = place.to_array());
         Self { mesh: renderer.surface_mesh(&vertices, &indices), vertices, indices }
     }
+}
+
+/// A plane that mirrors a mesh, with the line in which it cuts the surface; `None` where it cuts none.
+pub(super) struct ShownMirror {
+    pub plane: MirrorPlane,
+    pub line: Option<Mesh>,
 }
 
 /// A mesh some collapses on.
@@ -306,6 +315,7 @@ impl Side {
     pub fn clear_marks(&mut self) {
         self.landmarks.clear();
         self.suggestions.clear();
+        self.mirror = None;
         self.probe = None;
     }
 
@@ -523,17 +533,7 @@ impl SideMesh {
 
     /// The point of the mesh that a landmark point names; `None` where there is none.
     pub fn surface_point(&self, point: LandmarkPoint) -> Option<SurfacePoint> {
-        let mesh = &self.checked.mesh;
-        match point {
-            LandmarkPoint::Vertex(v) => {
-                let known = self.checked.vertex_from_file.get(v as usize).copied().flatten();
-                known.map(|v| SurfacePoint::at_vertex(mesh, v))
-            }
-            LandmarkPoint::OnFace { face, barycentric } => {
-                let face = self.checked.face_from_file(FaceId(face))?;
-                Some(self.checked.with_file_corners(SurfacePoint { face, barycentric }))
-            }
-        }
+        surface_point(&self.checked, point)
     }
 
     /// A point of the mesh as landmark files write it, as JSON; `None` in a cap, where no landmark can be.

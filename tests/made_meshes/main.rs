@@ -58,6 +58,7 @@ mod landmark_matching;
 mod layout;
 mod map;
 mod map_file;
+mod mirror;
 mod pipeline;
 mod preview;
 mod remesh;

@@ -60,6 +60,7 @@ mod landmark_matching;
 mod layout;
 mod limbs;
 mod map;
+mod mirror;
 mod pipeline;
 mod poses;
 mod remesh;
@@ -108,6 +109,7 @@ fn modules() -> Vec<(&'static str, Vec<Test>)> {
         ("remesh", remesh::tests()),
         #[cfg(feature = "cli")]
         ("cli", cli::tests()),
+        ("mirror", mirror::tests()),
         ("repair", repair::tests()),
         ("geodesic", geodesic::tests()),
         ("bad_input", bad_input::tests()),

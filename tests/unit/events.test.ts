@@ -5,6 +5,7 @@ import type { RunOptions } from '../../www/report.ts';
 import { change } from '../../www/store/change.ts';
 import type { Event } from '../../www/store/events.ts';
 import type { Examined } from '../../www/store/defects.ts';
+import type { MeshPlane } from '../../www/store/left-right.ts';
 import type { Refused, RefusedMesh } from '../../www/store/refused.ts';
 import type { Comparison, Flattening, Offer, Proposal, State, Style, TexturePicture, Ui } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
@@ -40,6 +41,7 @@ const ringAt = (side: Side): RefusedMesh => ({
   examined: EXAMINED,
 });
 const REFUSED: Refused = { meshes: [ringAt(0), ringAt(1)], landmarks: [] };
+const PLANE: MeshPlane = { of: LION ?? HORSE, choice: 'x', answer: 'awaited' };
 const HALF: State = { ...READY, pairs: [...FOUR, pair(5, 7, null)], nextId: 6 };
 /** A map is there, and has proposed a place for the half pair. */
 const PROPOSAL: Proposal = { id: 5, of: 7, side: 1, point: 17 };
@@ -349,6 +351,24 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     event: { side: 1, suggestions: [A, B] },
     step: null,
     changes: { suggestions: [[A], [A, B]] },
+  },
+  'left-right': {
+    before: READY,
+    event: { isOn: true },
+    step: null,
+    changes: { leftRight: { ...READY.leftRight, isOn: true } },
+  },
+  plane: {
+    before: READY,
+    event: { side: 1, plane: PLANE },
+    step: null,
+    changes: { leftRight: { ...READY.leftRight, planes: [null, PLANE] } },
+  },
+  twins: {
+    before: READY,
+    event: { twins: [[1, 2]] },
+    step: null,
+    changes: { leftRight: { ...READY.leftRight, twins: [[1, 2]] } },
   },
   'proposal-accepted': {
     before: PROPOSED,

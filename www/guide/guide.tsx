@@ -110,6 +110,10 @@ function Landmarks(): VNode {
           <strong>Left is left.</strong> Mind the side: a left paw on one mesh and a right one on the other make the map wind. Where all
           pairs are the wrong way round, the page offers to mirror the target.
         </li>
+        <li>
+          <strong>Both sides at once.</strong> With “Left and right together” in the step Landmarks a click gives its mirror image, too,
+          as a pair of its own. Of a body that is bent to one side no plane is found: place both sides yourself.
+        </li>
       </ul>
       <LimbLandmarks />
       <p>

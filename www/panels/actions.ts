@@ -7,6 +7,7 @@ import type { prospectSentence } from '../messages.ts';
 import type { OtherMap } from '../report.ts';
 import type { Event } from '../store/events.ts';
 import type { Examined } from '../store/defects.ts';
+import type { PlaneChoice } from '../store/left-right.ts';
 import type { RefusedMesh } from '../store/refused.ts';
 import type { Axis, Doubt, Result, State } from '../store/state.ts';
 import type { Shell } from './shell.ts';
@@ -57,6 +58,8 @@ export interface Actions {
   readonly run: () => void;
   /** Looks for landmark pairs of both meshes. */
   readonly findLandmarks: () => void;
+  /** Takes another plane that mirrors a mesh. */
+  readonly choosePlane: (side: Side, choice: PlaneChoice) => void;
   /** Looks for places of one mesh that are worth a landmark. */
   readonly suggest: (side: Side) => void;
   /** Asks the run for its result. */

@@ -3,6 +3,7 @@ import type { VNode } from 'preact';
 import { wholePairs } from '../store/order.ts';
 import type { PartProps } from './actions.ts';
 import { choose } from './inputs.tsx';
+import { LeftAndRight } from './left-right.tsx';
 import { LandmarkFormats } from './landmark-formats.tsx';
 import { LandmarkTable } from './landmark-table.tsx';
 import { FindLandmarks, Matched } from './matching.tsx';
@@ -55,6 +56,7 @@ export function LandmarksPanel({ state, actions }: PartProps): VNode {
       <FileButtons state={state} actions={actions} />
       <FindLandmarks state={state} actions={actions} />
       <Matched state={state} actions={actions} />
+      <LeftAndRight state={state} actions={actions} />
       <ProposalNote state={state} actions={actions} />
       <Suggestions state={state} actions={actions} />
       <div class="table">

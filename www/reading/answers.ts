@@ -9,6 +9,7 @@ import type { Allowed } from '../store/refused.ts';
 import {
   buildDemo,
   meshDefects,
+  mirrorPlane,
   mirrorTarget,
   repairedDefects,
   repairMesh,
@@ -93,6 +94,13 @@ function suggestions(packed: Uint8Array, marked: string, count: number): string 
   return answer;
 }
 
+function plane(packed: Uint8Array, wish: string): string {
+  const mesh = unpackMesh(packed);
+  const answer = mirrorPlane(mesh, wish);
+  mesh.free();
+  return answer;
+}
+
 function demo(id: string): DemoFiles | null {
   const built = buildDemo(id);
   if (built === undefined) {
@@ -119,6 +127,8 @@ export function answerTo(question: Question): Answers[keyof Answers] {
       return mirrored(question.mesh, question.landmarks, question.name);
     case 'suggest':
       return suggestions(question.mesh, question.marked, question.count);
+    case 'plane':
+      return plane(question.mesh, question.wish);
     case 'demo':
       return demo(question.id);
   }

@@ -73,6 +73,8 @@ export type Question =
   | { readonly kind: 'mirror'; readonly mesh: Uint8Array; readonly landmarks: Uint8Array; readonly name: string }
   /** At most `count` places that are worth a landmark beside the `marked` ones, a JSON array of points. */
   | { readonly kind: 'suggest'; readonly mesh: Uint8Array; readonly marked: string; readonly count: number }
+  /** A plane that mirrors a mesh; `wish` says which in the core's words. */
+  | { readonly kind: 'plane'; readonly mesh: Uint8Array; readonly wish: string }
   | { readonly kind: 'demo'; readonly id: string };
 
 /** To the worker: the core first, then questions. */
@@ -88,6 +90,8 @@ export interface Answers {
   readonly mirror: MirroredMesh;
   /** JSON, as the core gives it. */
   readonly suggest: string;
+  /** JSON, as the core gives it. */
+  readonly plane: string;
   /** `null` where there is no such demo. */
   readonly demo: DemoFiles | null;
 }

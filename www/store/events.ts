@@ -7,6 +7,7 @@ import type { AwaitedMap } from './awaited.ts';
 import type { Examined } from './defects.ts';
 import type { History } from './history.ts';
 import type { Task } from './job.ts';
+import type { Across, MeshPlane } from './left-right.ts';
 import type { OpenedMap } from './opened.ts';
 import type { Receiving } from './receiving.ts';
 import type { Refused } from './refused.ts';
@@ -35,14 +36,21 @@ export type Event =
   | { readonly kind: 'side-marks'; readonly side: Side; readonly points: readonly SidePoint[]; readonly name: string }
   /** The meshes and landmarks that came before it are this demo's. */
   | { readonly kind: 'demo'; readonly demo: Demo }
-  /** A point is placed: it completes the pair that waits for it, or begins one. */
-  | { readonly kind: 'point-picked'; readonly side: Side; readonly point: SurfacePoint }
-  /** A pair's point is elsewhere; all moves with one `gesture` number are one step. */
-  | { readonly kind: 'point-moved'; readonly id: number; readonly side: Side; readonly point: SurfacePoint; readonly gesture: number }
+  /** A point is placed: it completes the pair that waits for it, or begins one. With what lies `across`, that is placed likewise. */
+  | { readonly kind: 'point-picked'; readonly side: Side; readonly point: SurfacePoint; readonly across?: Across | null }
+  /** A pair's point is elsewhere; all moves with one `gesture` number are one step. With what lies `across`, its partner goes there. */
+  | {
+      readonly kind: 'point-moved';
+      readonly id: number;
+      readonly side: Side;
+      readonly point: SurfacePoint;
+      readonly gesture: number;
+      readonly across?: Across | null;
+    }
   /** The half pair whose turn it is goes; without one, nothing is selected any more. */
   | { readonly kind: 'pick-dropped' }
   /** The place that the map proposes becomes the partner of the half pair whose turn it is. */
-  | { readonly kind: 'proposal-accepted' }
+  | { readonly kind: 'proposal-accepted'; readonly across?: Across | null }
   /** All suggestions of a side become half pairs. */
   | { readonly kind: 'suggestions-taken'; readonly side: Side }
   | { readonly kind: 'pair-deleted'; readonly id: number }
@@ -88,6 +96,12 @@ export type Event =
   | { readonly kind: 'proposed'; readonly proposal: Proposal }
   /** The place is not the partner; the half pair waits for a click. */
   | { readonly kind: 'proposal-dropped' }
+  /** From now on points come in pairs of left and right, or no more. */
+  | { readonly kind: 'left-right'; readonly isOn: boolean }
+  /** A plane that mirrors a mesh is asked for, or known. */
+  | { readonly kind: 'plane'; readonly side: Side; readonly plane: MeshPlane }
+  /** Pairs that are there, by their ids, stand across from each other. */
+  | { readonly kind: 'twins'; readonly twins: readonly (readonly [number, number])[] }
   /** A search for landmarks begins. */
   | { readonly kind: 'search-begun' }
   | { readonly kind: 'search-progress'; readonly share: number }

@@ -7,20 +7,20 @@ import type { State } from './state.ts';
 import { asked, waitingFor } from './waiting.ts';
 
 /** Points by side, one of them exchanged. */
-function withPoint(points: Pair['points'], side: Side, point: SurfacePoint | null): Pair['points'] {
+export function withPoint(points: Pair['points'], side: Side, point: SurfacePoint | null): Pair['points'] {
   return side === 0 ? [point, points[1]] : [points[0], point];
 }
 
 /** A pair in place of the one with its id. */
-function replaced(pairs: readonly Pair[], pair: Pair): readonly Pair[] {
+export function replaced(pairs: readonly Pair[], pair: Pair): readonly Pair[] {
   return pairs.map((other) => (other.id === pair.id ? pair : other));
 }
 
-function pairOf(state: State, id: number): Pair | null {
+export function pairOf(state: State, id: number): Pair | null {
   return state.pairs.find((pair) => pair.id === id) ?? null;
 }
 
-function selecting(state: State, selected: number | null): State {
+export function selecting(state: State, selected: number | null): State {
   return state.ui.selected === selected ? state : { ...state, ui: { ...state.ui, selected } };
 }
 
@@ -43,7 +43,7 @@ export function withNewPairs(state: State, made: readonly Pick<Pair, 'points' | 
 }
 
 /** The pair that holds a point of a side, other than `except`. */
-function holder(state: State, side: Side, point: SurfacePoint, except: number | null): Pair | null {
+export function holder(state: State, side: Side, point: SurfacePoint, except: number | null): Pair | null {
   return state.pairs.find(({ id, points }) => id !== except && isSamePoint(points[side], point)) ?? null;
 }
 

@@ -1,5 +1,6 @@
 /** What each event makes of the state: `update(state, event)`, without side effects and without a record of the steps. */
 import type { Side } from '../landmarks.ts';
+import { withPlane, withTwins } from './across.ts';
 import type { Event } from './events.ts';
 import { breakdownOf } from './breakdown.ts';
 import { withCompared, withComparison } from './compared.ts';
@@ -10,19 +11,14 @@ import type { ProofReport } from '../report.ts';
 import { advanced, begun, ended, started } from './job.ts';
 import type { Running } from './job.ts';
 import { withLandmarks, withMesh, withMirrored, withSwap } from './loads.ts';
+import { withAllMirrored, withMirroredDrop, withMirroredLabel, withMirroredMove, withMirroredPick, withMirroredProposal } from './mirrored.ts';
 import { withOpened } from './opened.ts';
 import { doubtsOf } from './order.ts';
 import {
-  withAllTaken,
-  withLabel,
   withLock,
   withPairAt,
   withPairDeleted,
   withPairsCleared,
-  withPick,
-  withPickDropped,
-  withPointMoved,
-  withProposalAccepted,
   withSuggestions,
   withTargetsExchanged,
 } from './pairs.ts';
@@ -123,19 +119,19 @@ export function update(state: State, event: Event): State {
     case 'demo':
       return { ...withStyle(state, pictureOf(event.demo)), demo: event.demo, error: null };
     case 'point-picked':
-      return withPick(state, event.side, event.point);
+      return withMirroredPick(state, event.side, event.point, event.across ?? null);
     case 'point-moved':
-      return withPointMoved(state, event.id, event.side, event.point);
+      return withMirroredMove(state, event.id, event.side, event.point, event.across ?? null);
     case 'pick-dropped':
-      return withPickDropped(state);
+      return withMirroredDrop(state);
     case 'proposal-accepted':
-      return withProposalAccepted(state);
+      return withMirroredProposal(state, event.across ?? null);
     case 'suggestions-taken':
-      return withAllTaken(state, event.side);
+      return withAllMirrored(state, event.side);
     case 'pair-deleted':
       return withPairDeleted(state, event.id);
     case 'pair-labelled':
-      return withLabel(state, event.id, event.label);
+      return withMirroredLabel(state, event.id, event.label);
     case 'pair-locked':
       return withLock(state, event.id, event.locked);
     case 'pair-moved':
@@ -174,6 +170,12 @@ export function update(state: State, event: Event): State {
       return { ...state, proposal: event.proposal };
     case 'proposal-dropped':
       return patched(state, { proposal: null });
+    case 'left-right':
+      return patched(state, { leftRight: patched(state.leftRight, { isOn: event.isOn }) });
+    case 'plane':
+      return withPlane(state, event.side, event.plane);
+    case 'twins':
+      return event.twins.reduce((present, [a, b]) => withTwins(present, a, b), state);
     case 'search-begun':
       return withSearch(state);
     case 'search-progress':

@@ -54,11 +54,13 @@ export function inLine(state: State, before: State): State {
     };
     return [of(next.meshes[0]), of(next.meshes[1])];
   };
+  const isUnknown = before.leftRight.planes.every((plane) => plane === null);
   // A session that comes back brings its cameras and its style along.
   const { cameras, style } = next.ui;
   return {
     ...next,
     suggestions: follow(before.suggestions, []),
+    leftRight: isUnknown ? next.leftRight : { ...next.leftRight, planes: follow(before.leftRight.planes, null) },
     examined: before.examined.every((one) => one === null) ? before.examined : follow(before.examined, null),
     ui: {
       ...next.ui,

@@ -9,6 +9,8 @@ import type { Examined } from './defects.ts';
 import type { History } from './history.ts';
 import { NO_HISTORY } from './history.ts';
 import type { Job } from './job.ts';
+import type { LeftRight } from './left-right.ts';
+import { NO_LEFT_RIGHT } from './left-right.ts';
 import type { Matching } from './matching.ts';
 import type { Receiving } from './receiving.ts';
 import type { Refused } from './refused.ts';
@@ -187,6 +189,8 @@ export interface State extends Work {
   readonly nextId: number;
   /** Suggested landmarks by side. */
   readonly suggestions: readonly [readonly Suggestion[], readonly Suggestion[]];
+  /** Whether points come in pairs of left and right, and by which planes. */
+  readonly leftRight: LeftRight;
   /** The last place that the map proposed; `proposed` tells whether it still is about what is on the page. */
   readonly proposal: Proposal | null;
   readonly ui: Ui;
@@ -235,6 +239,7 @@ export const INITIAL: State = {
   history: NO_HISTORY,
   nextId: 1,
   suggestions: [[], []],
+  leftRight: NO_LEFT_RIGHT,
   proposal: null,
   ui: {
     step: 'meshes',

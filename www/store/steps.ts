@@ -24,11 +24,12 @@ function called(state: State, id: number): string {
   return `pair ${state.pairs.find((pair) => pair.id === id)?.number ?? ''}`.trim();
 }
 
-/** What a pick did: the pair that is there or changed after it. */
+/** What a pick did: the pair that is there or changed after it, or both where it came with its mirror image. */
 function pickName(before: State, after: State): string {
-  const pair = after.pairs.find((candidate) => !before.pairs.includes(candidate));
+  const numbers = after.pairs.filter((candidate) => !before.pairs.includes(candidate)).map(({ number }) => number);
   const isBegun = after.pairs.length > before.pairs.length;
-  return pair === undefined ? 'Place a point' : `${isBegun ? 'Begin' : 'Place'} pair ${pair.number}`;
+  const called = `pair${numbers.length > 1 ? 's' : ''} ${numbers.join(' and ')}`;
+  return numbers.length === 0 ? 'Place a point' : `${isBegun ? 'Begin' : 'Place'} ${called}`;
 }
 
 const OPTION_NAMES = {

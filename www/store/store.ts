@@ -7,8 +7,12 @@ import { INITIAL } from './state.ts';
 /** Hears of a change. */
 export type Listener = (state: State, previous: State) => void;
 
+/** An event with what it lacks and others know. */
+export type Complete = (state: State, event: Event) => Event;
+
 export class Store {
   #state = INITIAL;
+  #complete: Complete = (_, event) => event;
   #listeners: readonly Listener[] = [];
 
   get state(): State {
@@ -23,10 +27,18 @@ export class Store {
     };
   }
 
+  /** From now on every event comes with what this adds to it. */
+  completeBy(complete: Complete): void {
+    this.#complete = complete;
+  }
+
   /** Changes the state; events that come together are one change and one step. */
   readonly dispatch = (...events: readonly Event[]): void => {
     const previous = this.#state;
-    this.#state = change(previous, events);
+    this.#state = change(
+      previous,
+      events.map((event) => this.#complete(previous, event)),
+    );
     if (this.#state === previous) {
       return;
     }

@@ -1,5 +1,6 @@
 /** Landmarks under the hand: which pin is under the pointer, taken, dragged, nudged. */
 import type { Pair, Side, SurfacePoint } from '../landmarks.ts';
+import { twinOf } from '../store/across.ts';
 import type { Event } from '../store/events.ts';
 import { wholePairs } from '../store/order.ts';
 import { proposed } from '../store/proposal.ts';
@@ -18,6 +19,8 @@ const HOVER_SLACK = 2;
 interface Drag {
   readonly side: Side;
   readonly pair: Pair;
+  /** Where the point across from it was. */
+  readonly twin: SurfacePoint | null;
   readonly gesture: number;
   /** From the pointer to the point, in places of the view. */
   readonly offset: Place;
@@ -100,7 +103,8 @@ export class Pins {
     }
     this.#gesture += 1;
     const offset = { x: (place[0] ?? 0) - at.x, y: (place[1] ?? 0) - at.y };
-    this.#drag = { side, pair, gesture: this.#gesture, offset, at: null, placed: false };
+    const twin = twinOf(state, pair.id)?.points[side] ?? null;
+    this.#drag = { side, pair, twin, gesture: this.#gesture, offset, at: null, placed: false };
     return true;
   }
 
@@ -134,12 +138,12 @@ export class Pins {
     if (drag === null) {
       return;
     }
-    const { side, pair, gesture, placed } = drag;
+    const { side, pair, twin, gesture, placed } = drag;
     const point = pair.points[side];
     if (outcome === 'clicked') {
       this.#dispatch(point === null ? { kind: 'proposal-accepted' } : { kind: 'pair-selected', id: pair.id });
     } else if (outcome === 'given up' && point !== null) {
-      this.#dispatch({ kind: 'point-moved', id: pair.id, side, point, gesture });
+      this.#dispatch({ kind: 'point-moved', id: pair.id, side, point, gesture, across: { point: twin, distance: 0, pair: null } });
     } else if (outcome === 'given up' && placed) {
       this.#dispatch({ kind: 'undo' });
     }

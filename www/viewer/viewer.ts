@@ -9,10 +9,12 @@ import type { Axes } from '../method/axes.ts';
 import { axesOf } from '../method/axes.ts';
 import type { FlowFrame, StageFrame, Stops } from '../method/hands.ts';
 import type { BasePart } from '../method/parts.ts';
+import { planeInUse } from '../store/across.ts';
 import { otherMap, shownStyle } from '../store/compared.ts';
 import type { Event } from '../store/events.ts';
 import { shownFlows } from '../store/flat.ts';
 import { shownPreview } from '../store/job.ts';
+import type { Across } from '../store/left-right.ts';
 import { hasItsCones, shownResult } from '../store/staleness.ts';
 import type { Axis, Camera, Proposal, Result, State } from '../store/state.ts';
 import type { MeshFile } from '../store/work.ts';
@@ -230,6 +232,19 @@ export class Views {
     return image === undefined ? null : (JSON.parse(image) as SurfacePoint);
   }
 
+  /** What lies across the plane of a side from a point; `null` without a plane, and where no landmark can be. */
+  across(side: Side, point: SurfacePoint): Across | null {
+    let found: string | undefined;
+    this.#with((viewer) => {
+      found = viewer.across(side, JSON.stringify(point));
+    });
+    if (found === undefined) {
+      return null;
+    }
+    const { near, ...across } = JSON.parse(found) as Omit<Across, 'pair'> & { readonly near: number | null };
+    return { ...across, pair: near === null ? null : (this.#state.pairs[near]?.id ?? null) };
+  }
+
   /** Turns a view to a proposed place that is not seen: behind the body, or beyond the view. */
   bringIntoSight({ id, side, point }: Proposal): void {
     const index = this.#state.pairs.findIndex((pair) => pair.id === id);
@@ -327,6 +342,7 @@ export class Views {
         previous.ui.selected !== state.ui.selected ||
         previous.ui.hovered !== state.ui.hovered,
       suggestions: isOtherMesh || previous.suggestions !== state.suggestions,
+      mirrors: isOtherMesh || previous.leftRight !== state.leftRight,
       cameras: previous?.ui.cameras !== state.ui.cameras,
       preview: isOtherMesh || shownPreview(previous) !== shownPreview(state),
       defects: isOtherMesh || previous.refused !== state.refused || previous.examined !== state.examined,
@@ -357,6 +373,9 @@ export class Views {
       }
       if (changes.suggestions) {
         this.#setSuggestions(viewer);
+      }
+      if (changes.mirrors) {
+        this.#setMirrors(viewer, previous);
       }
       if (changes.preview) {
         showPreview(viewer, state);
@@ -494,6 +513,16 @@ export class Views {
       this.#rings[side].show(suggestions, ({ point }) => {
         this.#listener.dispatch({ kind: 'point-picked', side, point });
       });
+    }
+  }
+
+  #setMirrors(viewer: Viewer, previous: State | null): void {
+    for (const side of SIDES) {
+      const plane = planeInUse(this.#state, side);
+      const isOther = previous?.meshes[side] !== this.#state.meshes[side] || planeInUse(previous, side) !== plane;
+      if (isOther && this.#state.meshes[side] !== null) {
+        viewer.setMirror(side, JSON.stringify(plane));
+      }
     }
   }
 

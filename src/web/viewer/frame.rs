@@ -44,6 +44,7 @@ impl Viewer {
         let (side, style): (&Side, _) = (&self.sides[k], &self.style);
         let pose = side.pose(self.now);
         let defects = side.defects.as_ref().filter(|_| !self.is_morphed(k));
+        let mirror = side.mirror.as_ref().filter(|_| side.defects.is_none() && !self.is_morphed(k));
         let bare = || ViewDraw {
             rectangle: self.sides[view].rectangle,
             pose,
@@ -60,7 +61,9 @@ impl Viewer {
             tinted: None,
             traced: [None; 2],
             lines: None,
-            marks: defects.and_then(|defects| defects.lines.as_ref()),
+            marks: defects
+                .and_then(|defects| defects.lines.as_ref())
+                .or_else(|| mirror.and_then(|mirror| mirror.line.as_ref())),
             dash: self.dash(side, pose),
             balls: marks.balls,
             pins: marks.pins,

@@ -10,6 +10,7 @@ mod defects;
 mod factors;
 mod frame;
 mod maps;
+mod mirror;
 mod patches;
 mod preview;
 mod reading;

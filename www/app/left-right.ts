@@ -1,0 +1,131 @@
+/** Asks for the planes that mirror the meshes while left and right go together, and for the points across them. */
+import type { Side, SurfacePoint } from '../landmarks.ts';
+import { SIDES } from '../landmarks.ts';
+import type { FileReader } from '../reading/reader.ts';
+import { lastTwo, planeInUse, twinOf } from '../store/across.ts';
+import type { Event } from '../store/events.ts';
+import type { Across, PlaneAnswer, PlaneChoice } from '../store/left-right.ts';
+import { proposed } from '../store/proposal.ts';
+import type { State } from '../store/state.ts';
+import type { Store } from '../store/store.ts';
+import type { MeshFile } from '../store/work.ts';
+import { errorOf } from './task.ts';
+
+/** What knows which point lies across the plane of a side; `null` where none can be told. */
+export type Mirror = (side: Side, point: SurfacePoint) => Across | null;
+
+/** What the core is asked for. */
+function wishOf(state: State, side: Side, choice: PlaneChoice): string | null {
+  if (choice === 'found') {
+    return JSON.stringify({ kind: 'found' });
+  }
+  if (choice !== 'pins') {
+    return JSON.stringify({ kind: 'axis', axis: ['x', 'y', 'z'].indexOf(choice) });
+  }
+  const two = lastTwo(state, side);
+  return two === null ? null : JSON.stringify({ kind: 'points', points: two.map(({ points }) => points[side]) });
+}
+
+/** The point that an event places, with its side; `null` where it places none. */
+function placedBy(state: State, event: Event): { readonly side: Side; readonly point: SurfacePoint } | null {
+  if (event.kind === 'proposal-accepted') {
+    return proposed(state);
+  }
+  return event.kind === 'point-picked' || event.kind === 'point-moved' ? event : null;
+}
+
+/** An event with what lies across from the point that it places, where left and right go together. */
+export function completed(state: State, event: Event, mirror: Mirror): Event {
+  const placed = placedBy(state, event);
+  const isAsked = placed !== null && planeInUse(state, placed.side) !== null && !('across' in event);
+  return isAsked ? ({ ...event, across: mirror(placed.side, placed.point) } as Event) : event;
+}
+
+/** Pairs that are there already and stand across from each other on a side. */
+function twinsOn(state: State, side: Side, mirror: Mirror): [number, number][] {
+  const across = new Map<number, number | null>();
+  for (const { id, points } of state.pairs) {
+    const point = points[side];
+    if (point !== null && twinOf(state, id) === null) {
+      across.set(id, mirror(side, point)?.pair ?? null);
+    }
+  }
+  return [...across].flatMap(([a, b]) => (b !== null && a < b && across.get(b) === a ? [[a, b] as [number, number]] : []));
+}
+
+/** Holds what is known of the meshes. */
+export class Planes {
+  readonly #store: Store;
+  readonly #reader: FileReader;
+  readonly #mirror: Mirror;
+  readonly #found = new WeakMap<MeshFile, PlaneAnswer | null>();
+
+  constructor(store: Store, reader: FileReader, mirror: Mirror) {
+    this.#store = store;
+    this.#reader = reader;
+    this.#mirror = mirror;
+    store.subscribe((state) => {
+      for (const side of SIDES) {
+        const file = state.meshes[side];
+        if (state.leftRight.isOn && file !== null && state.leftRight.planes[side]?.of !== file) {
+          // The change that is being told comes first.
+          queueMicrotask(() => {
+            this.#askOnce(side, file);
+          });
+        }
+      }
+    });
+  }
+
+  /** Takes another plane for a side. */
+  choose(side: Side, choice: PlaneChoice): void {
+    const of = this.#store.state.meshes[side];
+    const wish = wishOf(this.#store.state, side, choice);
+    if (of === null || wish === null) {
+      return;
+    }
+    const known = choice === 'found' ? this.#found.get(of) : undefined;
+    this.#store.dispatch({ kind: 'plane', side, plane: { of, choice, answer: known === undefined ? 'awaited' : known } });
+    if (known === undefined) {
+      void this.#ask(side, of, choice, wish);
+    } else {
+      this.#findTwins(side);
+    }
+  }
+
+  #askOnce(side: Side, file: MeshFile): void {
+    const { leftRight, meshes } = this.#store.state;
+    if (leftRight.isOn && meshes[side] === file && leftRight.planes[side]?.of !== file) {
+      this.choose(side, 'found');
+    }
+  }
+
+  async #ask(side: Side, of: MeshFile, choice: PlaneChoice, wish: string): Promise<void> {
+    const { dispatch } = this.#store;
+    let answer: PlaneAnswer | null = null;
+    try {
+      answer = JSON.parse(await this.#reader.ask({ kind: 'plane', mesh: of.mesh.packed(), wish }, null)) as PlaneAnswer | null;
+    } catch (thrown) {
+      dispatch(errorOf(thrown));
+    }
+    if (choice === 'found') {
+      this.#found.set(of, answer);
+    }
+    // Meanwhile the meshes may have changed sides, or another plane may have been chosen.
+    const at = SIDES.find((candidate) => this.#store.state.meshes[candidate] === of) ?? side;
+    const waiting = this.#store.state.leftRight.planes[at];
+    if (waiting?.of === of && waiting.choice === choice && waiting.answer === 'awaited') {
+      dispatch({ kind: 'plane', side: at, plane: { of, choice, answer } });
+      this.#findTwins(at);
+    }
+  }
+
+  /** Pairs that came in left and right before go together from now on. */
+  #findTwins(side: Side): void {
+    const { state, dispatch } = this.#store;
+    const twins = planeInUse(state, side) === null ? [] : twinsOn(state, side, this.#mirror);
+    if (twins.length > 0) {
+      dispatch({ kind: 'twins', twins });
+    }
+  }
+}
