@@ -1,7 +1,7 @@
 //! PLY, text and binary; the vertex order of the file is kept.
 //!
-//! The library reads the elements, into types that hold no more than a mesh needs: an element of one byte must not become
-//! hundreds.
+//! The library reads the elements, some at a time, so that no more of them are held than those: an element of one byte must not become
+//! hundreds. Elements of all kinds are read as one type, since the program has a copy of the library's parser for each.
 
 use super::problem::{Place, Problem, Unread};
 use crate::mesh::soup::PolygonSoup;
@@ -9,7 +9,7 @@ use crate::monitor::{Cancelled, Pulse, Silent};
 use glam::DVec3;
 use std::cell::Cell;
 use std::collections::BTreeSet;
-use std::io::{BufRead, Read};
+use std::io::{BufRead, ErrorKind, Read};
 
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{
@@ -27,20 +27,27 @@ pub(super) fn read(bytes: &[u8], pulse: &mut Pulse<'_>) -> Result<PolygonSoup, U
     check_sizes(&header, bytes.len())?;
     let mut soup = PolygonSoup::default();
     for (name, element) in &header.elements {
+        let elements = Elements { element, header: &header, stopped: &stopped };
         match name.as_str() {
             "vertex" => {
-                let vertices = elements::<Vertex, _>(&mut reader, element, &header, &stopped)?;
-                soup.positions = vertices.into_iter().map(|vertex| DVec3::from(vertex.0)).collect();
+                soup.positions.reserve_exact(element.count);
+                elements.each(&mut reader, |vertex: MeshElement| {
+                    soup.positions.push(DVec3::from(vertex.place));
+                    Ok(())
+                })?;
             }
             "face" => {
-                let faces = elements::<Face, _>(&mut reader, element, &header, &stopped)?;
-                soup.polygons = faces
-                    .into_iter()
-                    .enumerate()
-                    .map(|(f, face)| face.polygon(f))
-                    .collect::<Result<_, _>>()?;
+                soup.polygons.reserve_exact(element.count);
+                elements.each(&mut reader, |face: MeshElement| {
+                    let corners = face.corners.ok_or_else(|| {
+                        let face = Place::Face(soup.polygons.len());
+                        (face, "it has no usable list of vertex numbers".to_owned())
+                    })?;
+                    soup.polygons.push(corners);
+                    Ok(())
+                })?;
             }
-            _ => drop(elements::<Passed, _>(&mut reader, element, &header, &stopped)?),
+            _ => elements.pass_over(&mut reader)?,
         }
     }
     Ok(soup)
@@ -54,11 +61,16 @@ pub(super) fn vertex_rows(bytes: &[u8]) -> Result<(ElementDef, Vec<Vec<f64>>), U
     let (mut reader, header) = file.opened(&mut pulse, &stopped)?;
     check_sizes(&header, bytes.len())?;
     for (name, element) in &header.elements {
+        let elements = Elements { element, header: &header, stopped: &stopped };
         if name == "vertex" {
-            let rows = elements::<Row, _>(&mut reader, element, &header, &stopped)?;
-            return Ok((element.clone(), rows.into_iter().map(|row| row.0).collect()));
+            let mut rows = Vec::with_capacity(element.count);
+            elements.each(&mut reader, |row: Row| {
+                rows.push(row.0);
+                Ok(())
+            })?;
+            return Ok((element.clone(), rows));
         }
-        drop(elements::<Passed, _>(&mut reader, element, &header, &stopped)?);
+        elements.pass_over(&mut reader)?;
     }
     Err((Place::Header, "it has no vertices".to_owned()).into())
 }
@@ -73,21 +85,53 @@ pub(super) fn vertex_element(bytes: &[u8]) -> Result<ElementDef, Problem> {
     vertices.ok_or_else(|| (Place::Header, "it has no vertices".to_owned()))
 }
 
-/// All elements of a kind.
-fn elements<E: PropertyAccess, R: BufRead>(
-    reader: &mut Reader<R>,
-    element: &ElementDef,
-    header: &Header,
-    stopped: &Cell<Option<Cancelled>>,
-) -> Result<Vec<E>, Unread> {
-    Parser::<E>::new().read_payload_for_element(reader, element, header).map_err(|e| {
-        if let Some(stop) = stopped.get() {
+/// Elements that are read together.
+const TOGETHER: usize = 4096;
+
+/// The elements of a kind.
+struct Elements<'a> {
+    element: &'a ElementDef,
+    header: &'a Header,
+    stopped: &'a Cell<Option<Cancelled>>,
+}
+
+impl Elements<'_> {
+    /// Reads the elements in turn.
+    fn each<E: PropertyAccess, R: BufRead>(
+        &self,
+        reader: &mut Reader<R>,
+        mut take: impl FnMut(E) -> Result<(), Unread>,
+    ) -> Result<(), Unread> {
+        let parser = Parser::<E>::new();
+        let mut some = self.element.clone();
+        let mut left = self.element.count;
+        while left > 0 {
+            some.count = left.min(TOGETHER);
+            left -= some.count;
+            let read = parser.read_payload_for_element(reader, &some, self.header);
+            read.map_err(|error| self.unread(&error))?.into_iter().try_for_each(&mut take)?;
+        }
+        Ok(())
+    }
+
+    fn pass_over<R: BufRead>(&self, reader: &mut Reader<R>) -> Result<(), Unread> {
+        self.each(reader, |_: MeshElement| Ok(()))
+    }
+
+    fn unread(&self, error: &ParseError) -> Unread {
+        if let Some(stop) = self.stopped.get() {
             return stop.into();
         }
-        let problem = short(&e);
-        (Place::Header, format!("its contents do not match its header ({problem}): the file may be cut off"))
-            .into()
-    })
+        let problem = match error.kind() {
+            ErrorKind::UnexpectedEof => {
+                let name: String = self.element.name.chars().take(40).collect();
+                format!("it ends before the last of {} elements \"{name}\"", self.element.count)
+            }
+            _ => short(error),
+        };
+        let words = format!("its contents do not match its header ({problem}): the file may be cut off");
+        (Place::Header, words).into()
+    }
 }
 
 /// The first words of what the library says, which may be whole lines of the file.
@@ -175,7 +219,7 @@ impl<'a> File<'a> {
         check_names(&self.header)?;
         let bytes = self.header.as_bytes().chain(&self.body[..]);
         let mut reader = Reader::new(Asking { bytes, pulse, stopped });
-        let header = Parser::<Passed>::new().read_header(&mut reader);
+        let header = Parser::<MeshElement>::new().read_header(&mut reader);
         let header = header.map_err(|e| (Place::Header, format!("it cannot be read: {}", short(&e))))?;
         Ok((reader, header))
     }
@@ -278,19 +322,41 @@ impl PropertyAccess for Row {
     }
 }
 
-/// A vertex's place.
-struct Vertex([f64; 3]);
+/// What a mesh needs of an element: a vertex's place, a face's vertices.
+#[derive(Default)]
+struct MeshElement {
+    place: [f64; 3],
+    /// None where there is no list of them, or where one is negative.
+    corners: Option<Vec<u32>>,
+}
 
-impl PropertyAccess for Vertex {
+impl PropertyAccess for MeshElement {
     fn new() -> Self {
-        Self([0.0; 3])
+        Self::default()
     }
 
     fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
+        if CORNERS.contains(&name) {
+            self.corners = corners(property);
+            return PropertyAccessResult::Set;
+        }
         let axis = ["x", "y", "z"].iter().position(|axis| *axis == name);
         let Some((axis, value)) = axis.zip(scalar(&property)) else { return PropertyAccessResult::Ignored };
-        self.0[axis] = value;
+        self.place[axis] = value;
         PropertyAccessResult::Set
+    }
+}
+
+/// Vertex numbers; none where one is negative, or no whole number.
+fn corners(list: Property) -> Option<Vec<u32>> {
+    match list {
+        Property::ListChar(x) => x.iter().map(|&v| u32::try_from(v).ok()).collect(),
+        Property::ListUChar(x) => Some(x.iter().map(|&v| u32::from(v)).collect()),
+        Property::ListShort(x) => x.iter().map(|&v| u32::try_from(v).ok()).collect(),
+        Property::ListUShort(x) => Some(x.iter().map(|&v| u32::from(v)).collect()),
+        Property::ListInt(x) => x.iter().map(|&v| u32::try_from(v).ok()).collect(),
+        Property::ListUInt(x) => Some(x),
+        _ => None,
     }
 }
 
@@ -307,44 +373,4 @@ fn scalar(property: &Property) -> Option<f64> {
         Property::Double(x) => *x,
         _ => return None,
     })
-}
-
-/// A face's vertices; none where a number of one is negative.
-struct Face(Option<Vec<u32>>);
-
-impl Face {
-    fn polygon(self, f: usize) -> Result<Vec<u32>, Problem> {
-        self.0.ok_or_else(|| (Place::Face(f), "it has no usable list of vertex numbers".into()))
-    }
-}
-
-impl PropertyAccess for Face {
-    fn new() -> Self {
-        Self(None)
-    }
-
-    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
-        if !CORNERS.contains(&name) {
-            return PropertyAccessResult::Ignored;
-        }
-        self.0 = match property {
-            Property::ListChar(x) => x.iter().map(|&v| u32::try_from(v).ok()).collect(),
-            Property::ListUChar(x) => Some(x.iter().map(|&v| u32::from(v)).collect()),
-            Property::ListShort(x) => x.iter().map(|&v| u32::try_from(v).ok()).collect(),
-            Property::ListUShort(x) => Some(x.iter().map(|&v| u32::from(v)).collect()),
-            Property::ListInt(x) => x.iter().map(|&v| u32::try_from(v).ok()).collect(),
-            Property::ListUInt(x) => Some(x),
-            _ => None,
-        };
-        PropertyAccessResult::Set
-    }
-}
-
-/// An element that is passed over.
-struct Passed;
-
-impl PropertyAccess for Passed {
-    fn new() -> Self {
-        Self
-    }
 }
