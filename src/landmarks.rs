@@ -164,10 +164,19 @@ pub fn place(
     meshes: [&CheckedMesh; 2],
     pairs: &[[LandmarkPoint; 2]],
 ) -> Result<PlacedLandmarks, LandmarkError> {
-    let side = |k: usize| -> Result<Insertion, LandmarkError> {
-        Ok(insert(&meshes[k].mesh, &points(meshes[k], SIDES[k], pairs)?)?)
-    };
-    let (source, target) = (side(0)?, side(1)?);
+    let [source, target] = [0, 1].map(|k| points(meshes[k], SIDES[k], pairs));
+    place_points(meshes.map(|checked| &checked.mesh), [&source?, &target?])
+}
+
+/// Makes vertices of points of both meshes, as many on each.
+///
+/// # Errors
+/// [`LandmarkError`] with the number of the pair.
+pub fn place_points(
+    [source, target]: [&SurfaceMesh; 2],
+    [on_source, on_target]: [&[SurfacePoint]; 2],
+) -> Result<PlacedLandmarks, LandmarkError> {
+    let (source, target) = (insert(source, on_source)?, insert(target, on_target)?);
     let vertices = source.vertices.iter().zip(&target.vertices).map(|(s, t)| [s.0, t.0]).collect::<Vec<_>>();
     let landmarks = Landmarks::from_vertices(&source.mesh, &target.mesh, &vertices)?;
     Ok(PlacedLandmarks { source, target, landmarks })

@@ -31,6 +31,7 @@ pub mod pipeline;
 pub mod registration;
 pub mod remesh;
 pub mod scene;
+pub mod soft_landmarks;
 pub mod surface_map;
 pub mod transfer;
 pub mod wrap;

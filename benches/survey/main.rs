@@ -42,6 +42,7 @@ mod remeshed;
 mod repaired;
 mod silence;
 mod soak;
+mod soft;
 mod stages;
 mod structures;
 mod table;
@@ -180,6 +181,11 @@ const SURVEYS: &[Survey] = &[
     },
     Survey { name: "memory-case", about: "some of them in this process, for the table", run: memory::case },
     Survey { name: "hostile-case", about: "one of them in this process, for the table", run: hostile::case },
+    Survey {
+        name: "soft",
+        about: "landmarks clicked beside their places, held there and soft, on pairs with a known truth; --pairs NAME,... --seeds N",
+        run: soft::table,
+    },
     Survey {
         name: "match",
         about: "pairs matched without a landmark, both directions: known landmarks, verdict; --seeds N: varied targets, --variants full: whole maps, --depth 2: all candidates",

@@ -62,7 +62,11 @@ impl LandmarkPoint {
     }
 }
 
-/// A landmark file: `{"source"?, "target"?, "pairs": [[s, t], ...], "labels"?, "ground_truth"?}`.
+/// A landmark may be moved at most so far from where it was given, in units of the root of the target's area: about half the length of a
+/// leg.
+pub const MAX_RADIUS: f64 = 0.25;
+
+/// A landmark file: `{"source"?, "target"?, "pairs": [[s, t], ...], "radii"?, "labels"?, "ground_truth"?}`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LandmarkFile {
     /// Path of the source mesh.
@@ -73,6 +77,10 @@ pub struct LandmarkFile {
     pub target: Option<String>,
     /// Corresponding points of source and target.
     pub pairs: Vec<[LandmarkPoint; 2]>,
+    /// One radius per pair, in units of the root of the target's area: how far the point on the target may be moved from where it is
+    /// given; 0 for a landmark that is held.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radii: Option<Vec<f64>>,
     /// One name per pair.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub labels: Option<Vec<String>>,
@@ -116,6 +124,26 @@ pub enum LandmarkFileError {
         /// As given.
         weights: String,
     },
+    /// As many radii as pairs are needed, or none.
+    #[error("the landmark file has {count} radii for {pairs} pairs: give one for each pair, or none")]
+    RadiusCount {
+        /// Of the radii.
+        count: usize,
+        /// Of the pairs.
+        pairs: usize,
+    },
+    /// No distance by which a landmark may be moved.
+    #[error(
+        "landmark pair {} (the first is 1) has the radius {radius}: it must lie between 0 and {MAX_RADIUS} times the root of the target's \
+         area",
+        pair + 1
+    )]
+    Radius {
+        /// The pair, 0-based.
+        pair: usize,
+        /// As given.
+        radius: String,
+    },
     /// One point in two pairs.
     #[error("landmark pairs {} and {} (the first is 1) have the same point of the {}", pairs[0] + 1, pairs[1] + 1, SIDES[side % 2])]
     SharedPoint {
@@ -150,7 +178,21 @@ pub fn check(file: &LandmarkFile) -> Result<(), LandmarkFileError> {
     if file.pairs.len() > MAX_PAIRS {
         return Err(LandmarkFileError::TooMany { count: file.pairs.len() });
     }
+    check_radii(file)?;
     check_points(&file.pairs)
+}
+
+fn check_radii(file: &LandmarkFile) -> Result<(), LandmarkFileError> {
+    let Some(radii) = &file.radii else { return Ok(()) };
+    let (count, pairs) = (radii.len(), file.pairs.len());
+    if count != pairs {
+        return Err(LandmarkFileError::RadiusCount { count, pairs });
+    }
+    let wrong = radii.iter().position(|radius| !(0.0..=MAX_RADIUS).contains(radius));
+    match wrong {
+        Some(pair) => Err(LandmarkFileError::Radius { pair, radius: radii[pair].to_string() }),
+        None => Ok(()),
+    }
 }
 
 fn check_points(pairs: &[[LandmarkPoint; 2]]) -> Result<(), LandmarkFileError> {

@@ -17,6 +17,7 @@ mod outputs;
 mod proof;
 mod proof_report;
 mod saved;
+mod settling;
 mod taken;
 mod truth;
 mod wrapping;
@@ -40,6 +41,7 @@ pub use proof_report::{
     DoubtfulReport, FaceCounts, LandmarkFigures, MatrixFigures, ProofFigures, ProofReport, SignCounts,
 };
 pub use saved::{MapFiles, OpenMap, OpenMapError};
+pub use settling::SettledLandmark;
 pub use taken::{OutputKind, TakenMap};
 pub use truth::TruthError;
 pub use wrapping::{QuadAngles, WrapFileError, WrappedFile, WrappedFileReport};
@@ -48,7 +50,7 @@ use crate::io::landmark_file::LandmarkFile;
 use crate::io::landmark_formats::Space;
 use crate::landmark_exchange::{GivenFile, PairLandmarks, Remark, Surface, compare_names, read_pairs};
 use crate::landmark_matching::MatchOptions;
-use crate::landmarks::{LEAST_LANDMARKS, MeshSide, PlacedLandmarks, place};
+use crate::landmarks::{LEAST_LANDMARKS, MeshSide, PlacedLandmarks, place_points, points};
 use crate::map_file::FileMesh;
 use crate::mesh::check::CheckedMesh;
 use crate::mesh::insertion::Insertion;
@@ -84,6 +86,9 @@ pub struct JobReport<'a> {
     /// Of landmarks that the program found.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub matching: Option<&'a MatchReport>,
+    /// Where soft landmarks settled.
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    pub settled: &'a [SettledLandmark],
 }
 
 /// How the files of a job are read.
@@ -119,6 +124,8 @@ pub struct Job {
     truth: Truth,
     /// What is told of landmarks that the program found; `None` where enough were given.
     matching: Option<MatchReport>,
+    /// Where soft landmarks settled.
+    settled: Vec<SettledLandmark>,
 }
 
 /// A mesh on its way to its landmarks, drawn on both meshes.
@@ -187,7 +194,15 @@ impl Job {
             None
         };
         monitor.step(Step { fraction: 1.0, residual: None })?;
-        let placed = place([source.checked(), target.checked()], &pairs)?;
+        let (on_source, on_target) = (
+            points(source.checked(), MeshSide::Source, &pairs)?,
+            points(target.checked(), MeshSide::Target, &pairs)?,
+        );
+        let mut ends: Vec<[SurfacePoint; 2]> =
+            on_source.into_iter().zip(on_target).map(|(s, t)| [s, t]).collect();
+        let settled = settling::settle_landmarks([&source, &target], &mut landmarks, &mut ends, monitor)?;
+        let [on_source, on_target] = [0, 1].map(|k| ends.iter().map(|ends| ends[k]).collect::<Vec<_>>());
+        let placed = place_points([source.mesh(), target.mesh()], [&on_source, &on_target])?;
         monitor.step(Step { fraction: 1.0, residual: None })?;
         held::tell(&mut landmarks, &placed, [&source, &target]);
         let is_same = source.mesh().triangles() == target.mesh().triangles();
@@ -196,7 +211,17 @@ impl Job {
             _ => Truth::Unknown,
         };
         let caps = [caps(source.checked(), &placed.source), caps(target.checked(), &placed.target)];
-        Ok(Self { meshes: [source, target], repairs, placed, caps, landmarks, remarks, truth, matching })
+        Ok(Self {
+            meshes: [source, target],
+            repairs,
+            placed,
+            caps,
+            landmarks,
+            remarks,
+            truth,
+            matching,
+            settled,
+        })
     }
 
     /// Takes the true images of the source's vertices, so that reports tell how far a map is from them: a table by the source file's
@@ -251,9 +276,14 @@ impl Job {
         self.matching.as_ref()
     }
 
+    /// Where soft landmarks settled, by pair; none where all are held.
+    pub fn settled(&self) -> &[SettledLandmark] {
+        &self.settled
+    }
+
     /// The report of a result of this job, with what is told of landmarks that the program found.
     pub fn report<'a>(&'a self, result: &'a MapResult) -> JobReport<'a> {
-        JobReport { report: &result.report, matching: self.matching.as_ref() }
+        JobReport { report: &result.report, matching: self.matching.as_ref(), settled: &self.settled }
     }
 
     /// Landmark pairs that do not fit and limbs without one, with the numbers of the files.

@@ -12,6 +12,8 @@ pub enum Stage {
     Landmarks,
     /// Landmark pairs that nobody gave are looked for.
     Matching,
+    /// Landmarks whose clicks are uncertain are moved to where the map around them leads.
+    Settling,
     /// Landmark pairs that do not fit and limbs without a landmark are looked for.
     Findings,
     /// The base domain is drawn on both meshes at full resolution (the methods that map patch by patch).
@@ -48,6 +50,7 @@ impl Stage {
         match self {
             Self::Landmarks => "Placing the landmarks",
             Self::Matching => "Matching the two bodies",
+            Self::Settling => "Letting the soft landmarks settle",
             Self::Findings => "Comparing the landmark pairs",
             Self::BaseDomain => "Drawing the base domain on both meshes",
             Self::ClassSearch => "Choosing the class of the map",

@@ -6,7 +6,8 @@ use crate::input::{self, Failure, MeshSets};
 use crate::told::say;
 use crate::{interrupt, matching, outputs};
 use conemap::job::{
-    FewLandmarks, Job, JobError, JobFile, JobFiles, OutputKind, ReadOptions, TargetImage, TruthError,
+    FewLandmarks, Job, JobError, JobFile, JobFiles, OutputKind, ReadOptions, SettledLandmark, TargetImage,
+    TruthError,
 };
 use conemap::monitor::{PlannedStage, Stage};
 use conemap::pipeline::{Choices, FindingReport, MapResult, Method, PipelineOptions, RepairKind};
@@ -128,7 +129,8 @@ impl Asked<'_> {
         if let Some(time) = self.deadline {
             clock.end_within(time);
         }
-        clock.plan(vec![PlannedStage { stage: Stage::Matching, time: 1.0 }]);
+        let planned = |stage| PlannedStage { stage, time: 1.0 };
+        clock.plan(vec![planned(Stage::Matching), planned(Stage::Settling)]);
         clock
     }
 
@@ -149,6 +151,7 @@ impl Asked<'_> {
         });
         let mut job = job?;
         clock.suspend(|| job.matching().into_iter().for_each(matching::tell));
+        clock.suspend(|| job.settled().iter().for_each(tell_settled));
         let names = [source, target].map(|path| path.to_string_lossy());
         job.compare_names(names.each_ref().map(|name| &**name));
         Ok(job)
@@ -167,6 +170,13 @@ impl Asked<'_> {
         result.report.findings = findings;
         Ok(result)
     }
+}
+
+fn tell_settled(landmark: &SettledLandmark) {
+    let (pair, moved) = (landmark.pair + 1, 100.0 * landmark.moved);
+    say(format_args!(
+        "landmarks: the soft pair {pair} settled {moved:.2} % of the target's size away from its point"
+    ));
 }
 
 fn tell_finding(finding: &FindingReport) {
