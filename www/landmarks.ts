@@ -25,7 +25,16 @@ export interface Pair {
   readonly label: string;
   /** A locked pair is neither moved nor deleted. */
   readonly locked: boolean;
+  /**
+   * Of a soft pair: how far the run may move its point on the target, in units of the root of that mesh's area. A pair without one is held
+   * where it is.
+   */
+  readonly radius?: number;
 }
+
+/** The radius that a pair has when it is made soft, and the largest one that the core takes. */
+export const USUAL_RADIUS = 0.02;
+export const MAX_RADIUS = 0.25;
 
 /** A pair with both its points. */
 export interface WholePair extends Pair {
@@ -74,6 +83,8 @@ export interface LandmarkFile {
   readonly source?: string;
   readonly target?: string;
   readonly pairs: readonly (readonly [SurfacePoint, SurfacePoint])[];
+  /** By pair, in units of the root of the target's area; 0 for one that is held. */
+  readonly radii?: readonly number[];
   readonly labels?: readonly string[];
   readonly ground_truth?: string;
 }

@@ -124,6 +124,12 @@ export function takenSentence(came: number, went: number): string {
   return `${count(came, 'landmark pair')} placed as in the chosen answer.${others}`;
 }
 
+/** Soft pairs that a run has moved, the farthest by so much in units of the root of the target's area. */
+export function settledSentence(settled: number, farthest: number): string {
+  const pairs = settled === 1 ? 'The soft pair' : count(settled, 'soft pair');
+  return `${pairs} settled, ${settled === 1 ? '' : 'at most '}${(100 * farthest).toFixed(1)} % of the target’s size away, and ${settled === 1 ? 'is' : 'are'} held there.`;
+}
+
 /** Pairs whose points on one mesh went with it. */
 export function pointsGone(number: number): string {
   return `${count(number, 'landmark pair')} lost a point with its mesh; the partners wait for new ones.`;
@@ -224,16 +230,18 @@ export function staleSentence(changes: {
   readonly meshes: readonly (0 | 1)[];
   readonly placed: readonly number[];
   readonly moved: readonly number[];
+  readonly softened: readonly number[];
   readonly removed: readonly number[];
   readonly options: readonly string[];
 }): string {
-  const { meshes, placed, moved, removed, options } = changes;
+  const { meshes, placed, moved, softened, removed, options } = changes;
   const pairs = (numbers: readonly number[], verb: string): string[] =>
     numbers.length === 0 ? [] : [`${numbers.length === 1 ? `pair ${numbers[0] ?? ''}` : count(numbers.length, 'pair')} ${verb}`];
   const words = [
     ...meshes.map((side) => `the ${side === 0 ? 'source' : 'target'} was replaced`),
     ...pairs(placed, 'came'),
     ...pairs(moved, 'moved'),
+    ...pairs(softened, 'became soft, or held'),
     ...pairs(removed, 'went'),
     ...(options.length === 0 ? [] : ['the options changed']),
   ];

@@ -1,7 +1,10 @@
 /** The report of a run and the choices of one, as the core declares them. */
-import type { CandidateReport, Choices, FindingReport, QuestionReport } from './wasm/core.js';
+import type { CandidateReport, Choices, FindingReport, QuestionReport, Report as RunReport, SettledLandmark } from './wasm/core.js';
 
-export type { CertificateReport, ConeMetricReport, CoverageReport, LayoutSearchReport, ProofReport, Report } from './wasm/core.js';
+export type { CertificateReport, ConeMetricReport, CoverageReport, LayoutSearchReport, ProofReport, SettledLandmark } from './wasm/core.js';
+
+/** The numbers of a run, and where its soft landmarks settled. */
+export type Report = RunReport & { readonly settled?: readonly SettledLandmark[] };
 
 export type { MatchReport, OtherMap, Scheme } from './wasm/core.js';
 

@@ -203,7 +203,7 @@ impl Shown {
             patch_lines: std::mem::take(&mut result.patch_lines),
             cones: result.cone_curvatures.clone(),
             base: Some(job.base_picture(result)),
-            report: serde_json::to_string_pretty(&result.report).unwrap_or_default(),
+            report: serde_json::to_string_pretty(&job.report(result)).unwrap_or_default(),
         }
     }
 }

@@ -228,6 +228,12 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     step: 'Lock pair 1',
     changes: { pairs: [{ ...pair(1, 0, 10), locked: true }, ...FOUR.slice(1)] },
   },
+  'pair-softened': {
+    before: DOUBTED,
+    event: { id: 1, radius: 0.02 },
+    step: 'Soften pair 1',
+    changes: { pairs: [{ ...pair(1, 0, 10), radius: 0.02 }, ...FOUR.slice(1)] },
+  },
   'pair-moved': {
     before: DOUBTED,
     event: { id: 4, to: 1 },

@@ -8,7 +8,7 @@
  */
 import * as v from 'valibot';
 import type { Pair } from '../landmarks.ts';
-import { Axis, Cameras, Index, MOST_PAIRS, Options, StyleSchema, Weight } from '../send/schema.ts';
+import { Axis, Cameras, Index, MOST_PAIRS, Options, Radius, StyleSchema, Weight } from '../send/schema.ts';
 import type { History, Step } from '../store/history.ts';
 import type { State, Ui } from '../store/state.ts';
 import { INITIAL } from '../store/state.ts';
@@ -39,6 +39,7 @@ const PairRecord = v.object({
   ),
   label: Text,
   locked: v.boolean(),
+  radius: v.exactOptional(Radius),
 });
 /** Places in the table of pairs. There are thousands of them, so that each is looked at as quickly as can be. */
 const PairList = v.custom<readonly number[]>(

@@ -1,7 +1,7 @@
 /** A row of the landmark table. */
 import type { VNode } from 'preact';
 import type { Pair } from '../landmarks.ts';
-import { isWhole } from '../landmarks.ts';
+import { isWhole, USUAL_RADIUS } from '../landmarks.ts';
 import type { Actions } from './actions.ts';
 import { IconButton } from './controls.tsx';
 import type { Fit } from './fits.ts';
@@ -33,9 +33,18 @@ function missingText(pair: Pair): string {
 }
 
 function RowTools({ pair, actions }: Pick<RowProps, 'pair' | 'actions'>): VNode {
-  const { id, number, locked } = pair;
+  const { id, number, locked, radius } = pair;
   return (
     <div class="row-tools">
+      <IconButton
+        icon="soft"
+        label={`Soft pair ${number}`}
+        pressed={radius !== undefined}
+        onClick={() => {
+          actions.dispatch({ kind: 'pair-selected', id });
+          actions.dispatch({ kind: 'pair-softened', id, radius: radius === undefined ? USUAL_RADIUS : null });
+        }}
+      />
       <IconButton
         icon={locked ? 'lock' : 'unlock'}
         label={`Lock pair ${number}`}

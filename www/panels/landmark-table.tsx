@@ -139,7 +139,7 @@ export function LandmarkTable({ state, actions }: Pick<PartProps, 'state' | 'act
             <span class="unseen">How sure it is</span>
           </th>
           <th scope="col">
-            <span class="unseen">Lock and delete</span>
+            <span class="unseen">Soften, lock and delete</span>
           </th>
         </tr>
       </thead>

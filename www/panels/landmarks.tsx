@@ -8,6 +8,7 @@ import { LandmarkFormats } from './landmark-formats.tsx';
 import { LandmarkTable } from './landmark-table.tsx';
 import { FindLandmarks, Matched } from './matching.tsx';
 import { ProposalNote } from './proposal.tsx';
+import { SoftRadius } from './soft.tsx';
 import { Suggestions } from './suggestions.tsx';
 
 function FileButtons({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
@@ -57,6 +58,7 @@ export function LandmarksPanel({ state, actions }: PartProps): VNode {
       <FindLandmarks state={state} actions={actions} />
       <Matched state={state} actions={actions} />
       <LeftAndRight state={state} actions={actions} />
+      <SoftRadius state={state} actions={actions} />
       <ProposalNote state={state} actions={actions} />
       <Suggestions state={state} actions={actions} />
       <div class="table">

@@ -151,16 +151,21 @@ function linkOf(wire: WireLink, base: URL): Link {
   return { demo: wire.d ?? null, files: [source, target], landmarks: null, work: workOf(wire) };
 }
 
-function pairsOf({ p, i, n, x }: WireLink): readonly SentPair[] {
+function pairsOf({ p, i, n, x, r }: WireLink): readonly SentPair[] {
   const [source, target] = p;
   const locked = new Set(x);
+  const radii = new Map(r);
   const numbers = i ?? source.map((_, index) => index + 1);
-  const pairs = source.map((point, index) => ({
-    number: numbers[index] ?? 0,
-    points: [surfacePoint(point), surfacePoint(target[index] ?? [])] as const,
-    label: n?.[index] ?? '',
-    locked: locked.has(index),
-  }));
+  const pairs = source.map((point, index) => {
+    const radius = radii.get(index);
+    return {
+      number: numbers[index] ?? 0,
+      points: [surfacePoint(point), surfacePoint(target[index] ?? [])] as const,
+      label: n?.[index] ?? '',
+      locked: locked.has(index),
+      ...(radius === undefined ? {} : { radius }),
+    };
+  });
   if (source.length !== target.length || numbers.length !== source.length || !areSound(pairs)) {
     throw new Refused('damaged');
   }
@@ -209,12 +214,14 @@ function wireLink(link: Link, work: SentWork): WrittenLink {
   const points = (side: Side): WirePoint[] => pairs.map((pair) => wirePoint(pair.points[side]));
   const labels = pairs.map(({ label }) => label);
   const locked = pairs.flatMap((pair, index) => (pair.locked ? [index] : []));
+  const radii = pairs.flatMap(({ radius }, index) => (radius === undefined ? [] : [[index, radius] as [number, number]]));
   return {
     ...(link.demo === null ? { f: [wireFile(link.files[0]), wireFile(link.files[1])] } : { d: link.demo }),
     p: [points(0), points(1)],
     ...(pairs.every(({ number }, index) => number === index + 1) ? {} : { i: pairs.map(({ number }) => number) }),
     ...(labels.every((label) => label === '') ? {} : { n: labels }),
     ...(locked.length === 0 ? {} : { x: locked }),
+    ...(radii.length === 0 ? {} : { r: radii }),
     ...(work.groundTruth === null ? {} : { g: work.groundTruth }),
     u: [...work.up],
     // Usual choices are left out, as they were before there was one.

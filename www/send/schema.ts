@@ -1,6 +1,7 @@
 /** The shape of what comes by links and project files beside the meshes, and the bounds of its parts. */
 import * as v from 'valibot';
 import type { Pair, SurfacePoint } from '../landmarks.ts';
+import { MAX_RADIUS } from '../landmarks.ts';
 import type { RunOptions } from '../report.ts';
 import type { Camera, Style, TexturePlace, Work } from '../store/state.ts';
 import { FLOW_HEATS, INITIAL, MAP_HEATS, TEXTURES } from '../store/state.ts';
@@ -75,6 +76,9 @@ const Point = v.nullable(
   v.union([Index, v.object({ face: Index, barycentric: v.strictTuple([Weight, Weight, Weight]) })]),
 ) satisfies v.GenericSchema<SurfacePoint | null>;
 
+/** How far a soft pair may be moved. An older reader holds it. */
+export const Radius = v.pipe(v.number(), v.gtValue(0), v.maxValue(MAX_RADIUS));
+
 /** A pair without its id, which is of one page only. */
 export type SentPair = Omit<Pair, 'id'>;
 
@@ -100,6 +104,7 @@ export const SentWorkSchema = v.object({
         points: v.strictTuple([Point, Point]),
         label: Text,
         locked: v.boolean(),
+        radius: v.exactOptional(Radius),
       }),
     ),
     v.maxLength(MOST_PAIRS),

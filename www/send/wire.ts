@@ -8,7 +8,7 @@ import type { SurfacePoint } from '../landmarks.ts';
 import { isSamePoint } from '../landmarks.ts';
 import { INITIAL } from '../store/state.ts';
 import { LONGEST_ADDRESS } from './address.ts';
-import { Axis, Cameras, Index, MOST_PAIRS, Options, StyleSchema, Text, Weight } from './schema.ts';
+import { Axis, Cameras, Index, MOST_PAIRS, Options, Radius, StyleSchema, Text, Weight } from './schema.ts';
 
 export const VERSION = 1;
 
@@ -56,6 +56,8 @@ export const WireLink = v.object({
   n: v.optional(v.pipe(v.array(Text), v.maxLength(MOST_PAIRS))),
   /** Places in the list of those that are locked. */
   x: v.optional(v.pipe(v.array(Index), v.maxLength(MOST_PAIRS))),
+  /** Places in the list of those that are soft, each with its radius. */
+  r: v.optional(v.pipe(v.array(v.strictTuple([Index, Radius])), v.maxLength(MOST_PAIRS))),
   /** What is known of the true map, as landmark files say it. */
   g: v.optional(Text),
   /** Which direction of each file is up. */

@@ -56,6 +56,8 @@ export type Event =
   | { readonly kind: 'pair-deleted'; readonly id: number }
   | { readonly kind: 'pair-labelled'; readonly id: number; readonly label: string }
   | { readonly kind: 'pair-locked'; readonly id: number; readonly locked: boolean }
+  /** A pair is soft, with this radius in units of the root of the target's area, or held (`null`). */
+  | { readonly kind: 'pair-softened'; readonly id: number; readonly radius: number | null }
   /** A pair comes to another place of the list, from 0. */
   | { readonly kind: 'pair-moved'; readonly id: number; readonly to: number }
   /** All pairs go but the locked ones. */

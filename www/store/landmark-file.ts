@@ -1,11 +1,16 @@
 /** The landmarks of a state as a file. */
-import type { LandmarkFile } from '../landmarks.ts';
+import type { LandmarkFile, Pair } from '../landmarks.ts';
 import { wholePairs } from './order.ts';
 import type { Work } from './work.ts';
 
 /** The file's name without folders. */
 export function baseName(path: string): string {
   return path.slice(Math.max(path.lastIndexOf('/'), path.lastIndexOf('\\')) + 1);
+}
+
+/** How far a run may move the point of a pair on the target. */
+function radiusOf({ radius, locked }: Pair): number {
+  return locked ? 0 : (radius ?? 0);
 }
 
 /** The landmark file of the whole pairs; a file has no half ones. */
@@ -16,6 +21,7 @@ export function landmarkFileOf(work: Pick<Work, 'meshes' | 'pairs' | 'groundTrut
     ...(source === null ? {} : { source: source.name }),
     ...(target === null ? {} : { target: target.name }),
     pairs: pairs.map(({ points }) => points),
+    ...(pairs.some((pair) => radiusOf(pair) > 0) ? { radii: pairs.map(radiusOf) } : {}),
     ...(pairs.some(({ label }) => label !== '') ? { labels: pairs.map(({ label }) => label) } : {}),
     ...(work.groundTruth === null ? {} : { ground_truth: work.groundTruth }),
   };

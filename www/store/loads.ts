@@ -66,7 +66,10 @@ export function withSwap(state: State): State {
 
 /** The pairs of a file in place of the present ones. */
 export function withLandmarks(state: State, file: LandmarkFile): State {
-  const made = file.pairs.map((points, index) => ({ points, label: file.labels?.[index] ?? '' }));
+  const made = file.pairs.map((points, index) => {
+    const radius = file.radii?.[index] ?? 0;
+    return { points, label: file.labels?.[index] ?? '', ...(radius > 0 ? { radius } : {}) };
+  });
   return {
     ...withNewPairs({ ...state, pairs: [] }, made),
     named: [

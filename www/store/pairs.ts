@@ -30,15 +30,9 @@ export function withSuggestions(state: State, side: Side, suggestions: readonly 
 }
 
 /** Pairs made of points, with the next ids and numbers. */
-export function withNewPairs(state: State, made: readonly Pick<Pair, 'points' | 'label'>[]): State {
+export function withNewPairs(state: State, made: readonly Pick<Pair, 'points' | 'label' | 'radius'>[]): State {
   const highest = state.pairs.reduce((most, { number }) => Math.max(most, number), 0);
-  const pairs = made.map(({ points, label }, index) => ({
-    id: state.nextId + index,
-    number: highest + 1 + index,
-    points,
-    label,
-    locked: false,
-  }));
+  const pairs = made.map((pair, index) => ({ ...pair, id: state.nextId + index, number: highest + 1 + index, locked: false }));
   return { ...state, pairs: [...state.pairs, ...pairs], nextId: state.nextId + made.length };
 }
 

@@ -26,6 +26,7 @@ import { withoutSide } from './refused.ts';
 import { withRestored } from './restore.ts';
 import { withFindings } from './settle.ts';
 import { withSideMarks } from './side-marks.ts';
+import { withRadius, withSettled } from './soft.ts';
 import { withFound, withSearch, withSearched, withTaken } from './search.ts';
 import { isKnown } from './surfaces.ts';
 import type { Result, State, Style } from './state.ts';
@@ -134,6 +135,8 @@ export function update(state: State, event: Event): State {
       return withMirroredLabel(state, event.id, event.label);
     case 'pair-locked':
       return withLock(state, event.id, event.locked);
+    case 'pair-softened':
+      return withRadius(state, event.id, event.radius);
     case 'pair-moved':
       return withPairAt(state, event.id, event.to);
     case 'pairs-cleared':
@@ -219,10 +222,14 @@ export function update(state: State, event: Event): State {
       return state.job.kind === 'running'
         ? withFindings({ ...state, found: { doubts: doubtsOf(event.findings, state.job.inputs), inputs: state.job.inputs } })
         : state;
-    case 'run-done':
-      return state.job.kind === 'running'
-        ? withResult({ ...state, job: { kind: 'done' } }, { output: event.output, report: event.report, inputs: state.job.inputs, opened: null })
-        : state;
+    case 'run-done': {
+      if (state.job.kind !== 'running') {
+        return state;
+      }
+      const { output, report } = event;
+      const settled = withSettled(state, state.job.inputs, report.settled ?? []);
+      return withResult({ ...settled.state, job: { kind: 'done' } }, { output, report, inputs: settled.inputs, opened: null });
+    }
     case 'map-opened': {
       const { state: settled, result } = withOpened(state, event.map);
       return withFindings(withResult(settled, result));

@@ -14,6 +14,8 @@ export interface Changes {
   readonly placed: readonly number[];
   /** Numbers of pairs that moved. */
   readonly moved: readonly number[];
+  /** Numbers of pairs that became soft, held or have another radius. */
+  readonly softened: readonly number[];
   /** Numbers of pairs that went. */
   readonly removed: readonly number[];
   readonly options: readonly (keyof RunOptions)[];
@@ -29,15 +31,18 @@ export function changesBetween(before: Work, after: Work): Changes | null {
   const oldById = new Map(old.map((pair) => [pair.id, pair]));
   const ids = new Set(present.map(({ id }) => id));
   const numbers = (pairs: readonly Pair[]): number[] => pairs.map(({ number }) => number);
+  const differing = (differ: (before: Pair, after: Pair) => boolean): number[] =>
+    numbers(
+      present.filter((pair) => {
+        const earlier = oldById.get(pair.id);
+        return earlier !== undefined && differ(earlier, pair);
+      }),
+    );
   const changes: Changes = {
     meshes: SIDES.filter((side) => before.meshes[side] !== after.meshes[side]),
     placed: numbers(present.filter(({ id }) => !oldById.has(id))),
-    moved: numbers(
-      present.filter((pair) => {
-        const earlier = oldById.get(pair.id);
-        return earlier !== undefined && isMoved(earlier, pair);
-      }),
-    ),
+    moved: differing(isMoved),
+    softened: differing((earlier, pair) => earlier.radius !== pair.radius),
     removed: numbers(old.filter(({ id }) => !ids.has(id))),
     options: (Object.keys(after.options) as (keyof RunOptions)[]).filter((key) => before.options[key] !== after.options[key]),
   };

@@ -63,6 +63,8 @@ const NAMES: Names = {
   'pair-deleted': ({ id }, before) => `Delete ${called(before, id)}`,
   'pair-labelled': ({ id }, before) => `Rename ${called(before, id)}`,
   'pair-locked': ({ id, locked }, before) => `${locked ? 'Lock' : 'Unlock'} ${called(before, id)}`,
+  'pair-softened': ({ id, radius }, before) => `${radius === null ? 'Hold' : 'Soften'} ${called(before, id)}`,
+  'run-done': ({ report }) => `Settle ${count(report.settled?.length ?? 0, 'soft pair')}`,
   'pair-moved': ({ id }, before) => `Reorder ${called(before, id)}`,
   'pairs-cleared': () => 'Delete all pairs',
   'search-done': () => 'Find landmarks',

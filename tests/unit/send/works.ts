@@ -46,6 +46,7 @@ function anyPairs(random: Random): SentPair[] {
       points: [half === 0 ? null : anyPoint(random), half === 1 ? null : anyPoint(random)],
       label: named ? random.of(['', 'left ear', 'Schwanz', '左の耳', '"\\ \u2028<b>']) : '',
       locked: random.unit() < 0.1,
+      ...(random.unit() < 0.2 ? { radius: 0.001 + 0.2 * random.unit() } : {}),
     };
   });
 }
