@@ -1,6 +1,6 @@
 /** Soft pairs: made, settled by a run, held, taken back; what a lock and changes meanwhile do. */
 import { describe, expect, test } from 'vitest';
-import type { Report, SettledLandmark } from '../../www/report.ts';
+import type { SettledLandmark } from '../../www/report.ts';
 import type { Event } from '../../www/store/events.ts';
 import { landmarkFileOf } from '../../www/store/landmark-file.ts';
 import { hasItsCones, isCurrent, staleness } from '../../www/store/staleness.ts';
@@ -9,7 +9,7 @@ import { after, DONE, OUTPUT, pair, READY, REPORT } from './fixtures.ts';
 
 const PLACE = { face: 4, barycentric: [0.25, 0.5, 0.25] } as const;
 const soften = (id: number, radius: number | null): Event => ({ kind: 'pair-softened', id, radius });
-const done = (settled: readonly SettledLandmark[]): Event => ({ kind: 'run-done', output: OUTPUT, report: { ...REPORT, settled } as Report });
+const done = (settled: readonly SettledLandmark[]): Event => ({ kind: 'run-done', output: OUTPUT, report: { ...REPORT, settled } });
 const SETTLED: SettledLandmark = { pair: 1, point: { face: 4, barycentric: [0.25, 0.5, 0.25] }, moved: 0.012 };
 
 /** Pair 2 is soft, and a run has begun. */

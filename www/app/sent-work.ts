@@ -25,7 +25,7 @@ export interface ArrivingMesh {
 /** The work on the page and how it is looked at, without the meshes. */
 export function sentWorkOf({ pairs, up, groundTruth, options, ui }: State): SentWork {
   return {
-    pairs: pairs.map(({ id: _, ...pair }) => pair),
+    pairs: pairs.map(({ number, points, label, locked, radius }) => ({ number, points, label, locked, ...(radius === undefined ? {} : { radius }) })),
     up,
     groundTruth,
     options,

@@ -9,9 +9,8 @@ import type { State } from './state.ts';
 import type { Work } from './work.ts';
 
 /** A pair without its radius. */
-function held(pair: Pair): Pair {
-  const { radius: _, ...rest } = pair;
-  return rest;
+function held({ id, number, points, label, locked }: Pair): Pair {
+  return { id, number, points, label, locked };
 }
 
 /** A pair made soft, with another radius, or held again (`null`). */
