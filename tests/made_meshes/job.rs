@@ -8,7 +8,7 @@ use conemap::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 use conemap::job::{Job, JobError, JobFile, JobFiles, MapLook, TargetImage, TruthError};
 use conemap::landmark_exchange::GivenFile;
 use conemap::landmarks::MeshSide;
-use conemap::mesh::SurfaceMesh;
+use conemap::mesh::{FaceId, SurfaceMesh, SurfacePoint};
 use conemap::monitor::{Cancelled, Monitor, Progress, Silent, Stage, Step};
 use conemap::pipeline::{Base, Borders, Choices, MapResult, Method, PipelineOptions, Warning};
 
@@ -119,6 +119,46 @@ fn a_run_passes_the_stages_that_are_told_in_their_order() {
             }
         }
     }
+}
+
+#[test]
+fn a_soft_landmark_settles_within_its_radius_and_the_map_takes_it_there() {
+    const SOFT: usize = 2;
+    const RADIUS: f64 = 0.03;
+    let mut files = Files::of_demo("horse-cat", usize::MAX);
+    let held = landmark_file::read(&files.landmarks).unwrap();
+    let radii: Vec<f64> = (0..held.pairs.len()).map(|k| if k == SOFT { RADIUS } else { 0.0 }).collect();
+    files.landmarks = landmark_file::write(&LandmarkFile { radii: Some(radii), ..held.clone() });
+
+    let options = PipelineOptions::default();
+    let mut recorder = Recorder::default();
+    let (job, result) = run(&files, &options, &mut recorder);
+    let passed: Vec<Stage> = recorder.stages.iter().map(|stage| stage.0).take(3).collect();
+    assert_eq!(passed, [Stage::Landmarks, Stage::Settling, Stage::Findings]);
+    assert!(recorder.stages.iter().all(|(_, fractions)| fractions.is_sorted()));
+    assert!(result.report.certificate.as_ref().unwrap().bijective);
+
+    let [settled] = job.settled() else { panic!("{:?}", job.settled()) };
+    assert_eq!(settled.pair, SOFT);
+    assert!(settled.moved > 0.0 && settled.moved <= RADIUS, "{settled:?}");
+    let LandmarkPoint::OnFace { face, barycentric } = settled.point else { panic!("{settled:?}") };
+    let (target, vertex) = (&job.mapped_meshes()[1], job.landmark_vertices()[1][SOFT]);
+    let demo = demo::build("horse-cat").unwrap();
+    let at = SurfacePoint::clamped(FaceId(face), barycentric).position(&demo.target);
+    assert!(at.distance(target.positions()[vertex]) < 1e-9, "{at} {}", target.positions()[vertex]);
+    let image = result.target_from_source[job.landmark_vertices()[0][SOFT]].unwrap().position(target);
+    assert!(image.distance(target.positions()[vertex]) < 1e-9);
+    let report = serde_json::to_value(job.report(&result)).unwrap();
+    assert_eq!(report["settled"].as_array().map(Vec::len), Some(1));
+
+    // What it settled to is an ordinary landmark.
+    let mut pairs = held.pairs.clone();
+    pairs[SOFT][1] = settled.point;
+    files.landmarks = landmark_file::write(&LandmarkFile { pairs, ..held });
+    let (again, same) = run(&files, &options, &mut Silent);
+    assert!(again.settled().is_empty());
+    let [first, second] = [&result, &same].map(|result| result.report.distortion.energy);
+    assert!((first / second - 1.0).abs() < 1e-6, "{first} {second}");
 }
 
 /// A flow that may take no step does not converge.
