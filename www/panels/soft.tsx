@@ -1,7 +1,40 @@
 /** How far the point of a soft pair may be moved. */
 import type { VNode } from 'preact';
+import { useState } from 'preact/hooks';
 import { MAX_RADIUS } from '../landmarks.ts';
 import type { PartProps } from './actions.ts';
+
+interface RadiusProps {
+  readonly label: string;
+  /** As a share of the target's size. */
+  readonly radius: number;
+  readonly chosen: (radius: number) => void;
+}
+
+/** The radius in percent. What is typed stays as it is, whatever is drawn anew meanwhile, until it is entered. */
+function Radius({ label, radius, chosen }: RadiusProps): VNode {
+  const [typed, setTyped] = useState<string | null>(null);
+  return (
+    <input
+      type="number"
+      min={0.1}
+      max={100 * MAX_RADIUS}
+      step={0.1}
+      value={typed ?? String(Number((100 * radius).toFixed(2)))}
+      aria-label={label}
+      onInput={(event) => {
+        setTyped(event.currentTarget.value);
+      }}
+      onChange={(event) => {
+        const percent = event.currentTarget.valueAsNumber;
+        setTyped(null);
+        if (!Number.isNaN(percent)) {
+          chosen(Math.min(Math.max(percent, 0.1), 100 * MAX_RADIUS) / 100);
+        }
+      }}
+    />
+  );
+}
 
 /** The radius of the selected pair, where that is soft, in percent of the target's size. */
 export function SoftRadius({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode | null {
@@ -10,27 +43,14 @@ export function SoftRadius({ state, actions }: Pick<PartProps, 'state' | 'action
     return null;
   }
   const { id, number, radius } = pair;
+  const label = `Radius of pair ${number}, in percent of the target’s size`;
+  const chosen = (wanted: number): void => {
+    actions.dispatch({ kind: 'pair-softened', id, radius: wanted });
+  };
   return (
     <div class="soft-radius">
       <label>
-        Pair {number} may move by{' '}
-        <input
-          type="number"
-          min={0.1}
-          max={100 * MAX_RADIUS}
-          step={0.1}
-          value={Number((100 * radius).toFixed(2))}
-          aria-label={`Radius of pair ${number}, in percent of the target’s size`}
-          onChange={(event) => {
-            const percent = event.currentTarget.valueAsNumber;
-            const limited = Math.min(Math.max(percent, 0.1), 100 * MAX_RADIUS);
-            event.currentTarget.valueAsNumber = Number.isNaN(percent) ? 100 * radius : limited;
-            if (!Number.isNaN(percent)) {
-              actions.dispatch({ kind: 'pair-softened', id, radius: limited / 100 });
-            }
-          }}
-        />{' '}
-        % of the target’s size
+        Pair {number} may move by <Radius key={id} label={label} radius={radius} chosen={chosen} /> % of the target’s size
       </label>
       <p class="quiet small">When the map is made, its point on the target goes to where the map around it leads, and is held there.</p>
     </div>

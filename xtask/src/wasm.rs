@@ -13,19 +13,26 @@ pub enum Names {
     Removed,
 }
 
-/// The modules, each a package in `wasm/`: what the page needs at once, and what the workers of maps need.
-const MODULES: [&str; 2] = ["page", "core"];
+/// A module: a package in `wasm/`, with the profile that it is compiled by.
+struct Module {
+    name: &'static str,
+    profile: &'static str,
+}
+
+/// What the page needs at once, small; and what the workers of maps need, fast.
+const MODULES: [Module; 2] =
+    [Module { name: "page", profile: "web-page" }, Module { name: "core", profile: "web" }];
 
 /// Builds, of each module, `www/wasm/NAME.js`, its types and `NAME_bg.wasm`.
 pub fn build(names: Names) -> Result<(), String> {
     ensure_target()?;
-    MODULES.iter().try_for_each(|name| build_one(name, names))
+    MODULES.iter().try_for_each(|module| build_one(module, names))
 }
 
-fn build_one(name: &str, names: Names) -> Result<(), String> {
+fn build_one(Module { name, profile }: &Module, names: Names) -> Result<(), String> {
     let package = format!("conemap-{name}");
-    run(&cargo(), &["build", "--package", &package, "--target", TARGET, "--profile", "web"])?;
-    let module = target_folder().join(TARGET).join(format!("web/conemap_{name}.wasm"));
+    run(&cargo(), &["build", "--package", &package, "--target", TARGET, "--profile", profile])?;
+    let module = target_folder().join(TARGET).join(format!("{profile}/conemap_{name}.wasm"));
     bind(&module, name, names).map_err(|e| format!("wasm-bindgen failed: {e:#}"))
 }
 
