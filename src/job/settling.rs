@@ -14,7 +14,10 @@ pub struct SettledLandmark {
     /// The pair, 0-based.
     pub pair: usize,
     /// Its point on the target's file.
-    #[cfg_attr(all(feature = "web", target_arch = "wasm32"), tsify(type = "number | { face: number; barycentric: [number, number, number] }"))]
+    #[cfg_attr(
+        all(feature = "web", target_arch = "wasm32"),
+        tsify(type = "number | { face: number; barycentric: [number, number, number] }")
+    )]
     pub point: LandmarkPoint,
     /// How far that is from where it was given, in units of the root of the target's area.
     pub moved: f64,
