@@ -30,6 +30,7 @@ import { SENTENCES } from './messages.ts';
 import { download } from './dom.ts';
 import { keepOffline } from './offline/register.ts';
 import type { Side } from './landmarks.ts';
+import type { TurnedViews } from './method/hands.ts';
 import type { Actions, CameraCommand } from './panels/actions.ts';
 import { mountPage } from './panels/page.tsx';
 import { Reader } from './reading/reader.ts';
@@ -63,6 +64,11 @@ const across: Mirror = (side, point) => views.across(side, point);
 /** Reloads the page into its newer build, when there is one. */
 let reload = (): void => undefined;
 const keeper = new Keeper(store, browserWith(reader));
+
+const turnedViews: TurnedViews = {
+  whenTurned: (heard) => views.whenTurned(heard),
+  axes: (side) => views.axes(side),
+};
 
 const actions: Actions = {
   dispatch: store.dispatch,
@@ -160,9 +166,10 @@ const actions: Actions = {
     wantWay();
     views.morph(share);
   },
+  turnedViews,
   baseView: {
-    open: (turned) => views.openBase(turned),
-    axes: (side) => views.axes(side),
+    ...turnedViews,
+    open: () => views.openBase(),
     orbit: (side, dx, dy, way) => {
       views.orbit(side, dx, dy, way);
     },

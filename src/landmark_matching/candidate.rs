@@ -6,6 +6,7 @@ use super::pair::{MatchedPair, PairOrigin};
 use super::search::Assignment;
 use super::shape::Shape;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use glam::DVec3;
 use typed_index_collections::TiVec;
 
 /// The coarse map of a candidate, in the units of the two meshes.
@@ -17,6 +18,13 @@ pub struct CoarsePicture {
     pub target: SurfaceMesh,
     /// The image of each vertex of the coarse source on the coarse target.
     pub target_from_source: TiVec<VertexId, SurfacePoint>,
+}
+
+impl CoarsePicture {
+    /// By vertex of the coarse source where its image is.
+    pub fn images(&self) -> Vec<DVec3> {
+        self.target_from_source.iter().map(|image| image.position(&self.target)).collect()
+    }
 }
 
 /// Pairs with the coarse map that they lead to.

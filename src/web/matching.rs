@@ -3,13 +3,49 @@
 use super::compute::{Messenger, RunListener};
 use super::failure;
 use crate::io::landmark_file;
-use crate::job::{MatchReport, MeshFaults, ReadMesh, match_meshes, read_mesh};
-use crate::landmark_matching::MatchOptions;
+use crate::job::{Matched, MeshFaults, ReadMesh, match_meshes, read_mesh};
+use crate::landmark_matching::{CoarsePicture, MatchOptions};
 use crate::mesh::repair::RepairOptions;
 use crate::monitor::{PlannedStage, Stage};
+use glam::DVec3;
 use wasm_bindgen::prelude::*;
 
-/// Finds landmarks of two mesh files beside given ones, which are held and may be none. The answer is a [`MatchReport`] as JSON.
+/// Landmarks that were found, with the coarse map of each candidate.
+#[wasm_bindgen]
+pub struct FoundLandmarks {
+    report: String,
+    pictures: Vec<CoarsePicture>,
+}
+
+#[wasm_bindgen]
+impl FoundLandmarks {
+    /// A [`MatchReport`](crate::job::MatchReport) as JSON.
+    pub fn report(&self) -> String {
+        self.report.clone()
+    }
+
+    /// The coarse source of a candidate's map: its triangles' vertices, three numbers each; empty for a candidate that there is not.
+    pub fn triangles(&self, candidate: usize) -> Vec<u32> {
+        let triangles = self.pictures.get(candidate).map(|picture| picture.source.triangles());
+        triangles.into_iter().flatten().flatten().map(|v| v.0).collect()
+    }
+
+    /// Where the vertices of the coarse source are on the source (0) or on the target (1), three coordinates each: the middle of
+    /// their bounding box is 0 and half its diagonal 1. Empty for a candidate that there is not.
+    pub fn places(&self, candidate: usize, side: usize) -> Vec<f32> {
+        let places = self.pictures.get(candidate).map(|picture| match side {
+            0 => picture.source.positions().iter().copied().collect(),
+            _ => picture.images(),
+        });
+        let places = places.unwrap_or_default();
+        let corner = |of: fn(DVec3, DVec3) -> DVec3| places.iter().copied().reduce(of).unwrap_or_default();
+        let [low, high] = [corner(DVec3::min), corner(DVec3::max)];
+        let (middle, half) = (0.5 * (low + high), 0.5 * low.distance(high));
+        places.iter().flat_map(|&p| ((p - middle) / half).as_vec3().to_array()).collect()
+    }
+}
+
+/// Finds landmarks of two mesh files beside given ones, which are held and may be none.
 ///
 /// # Errors
 /// `{"code", "message"}`.
@@ -19,7 +55,7 @@ pub fn match_landmarks(
     target: &[u8],
     landmarks: &str,
     listener: &RunListener,
-) -> Result<String, JsValue> {
+) -> Result<FoundLandmarks, JsValue> {
     let mut messenger = Messenger::new(listener);
     messenger.plan(vec![PlannedStage { stage: Stage::Matching, time: 1.0 }]);
     // Meshes that are on the page were allowed what they needed.
@@ -32,6 +68,7 @@ pub fn match_landmarks(
     let meshes = [read(source)?, read(target)?];
     let given = landmark_file::read(landmarks.as_bytes()).map_err(|e| failure("landmarks", e))?;
     let found = match_meshes([&meshes[0], &meshes[1]], &given, &MatchOptions::default(), &mut messenger);
-    let report: MatchReport = found.map_err(|error| failure(error.code(), error))?.report;
-    serde_json::to_string(&report).map_err(|e| failure("landmarks", e))
+    let Matched { report, pictures } = found.map_err(|error| failure(error.code(), error))?;
+    let report = serde_json::to_string(&report).map_err(|e| failure("landmarks", e))?;
+    Ok(FoundLandmarks { report, pictures })
 }

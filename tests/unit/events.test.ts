@@ -10,7 +10,7 @@ import type { Refused, RefusedMesh } from '../../www/store/refused.ts';
 import type { Comparison, Flattening, Offer, Proposal, State, Style, TexturePicture, Ui } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';
 import { workOf } from '../../www/store/work.ts';
-import { AWAITED, DEMO, DONE, DOUBT, FOUR, MATCH, mesh, OPENED, OUTPUT, pair, READY, REFUSAL, REPORT, RESULT, RUNNING, suggestion, SWAPPED } from './fixtures.ts';
+import { AWAITED, DEMO, DONE, DOUBT, FOUR, MATCH, mesh, OPENED, OUTPUT, pair, PICTURES, READY, REFUSAL, REPORT, RESULT, RUNNING, suggestion, SWAPPED } from './fixtures.ts';
 import type { MeshDefects } from '../../www/wasm/page.js';
 
 interface Case<K extends Event['kind']> {
@@ -408,21 +408,21 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
   },
   'search-done': {
     before: SEARCHING,
-    event: { report: MATCH },
+    event: { report: MATCH, pictures: PICTURES },
     step: 'Find landmarks',
     changes: {
-      matching: { kind: 'found', report: MATCH, isSettled: false },
+      matching: { kind: 'found', report: MATCH, pictures: PICTURES, isSettled: false },
       pairs: [...TWO.pairs, { ...pair(5, 4, 14, 'end 3'), number: 3 }, { ...pair(6, 5, 15, 'end 4'), number: 4 }],
       nextId: 7,
       ...toast('2 landmark pairs found.'),
     },
   },
   'candidate-taken': {
-    before: { ...TWO, matching: { kind: 'found', report: MATCH, isSettled: false } },
+    before: { ...TWO, matching: { kind: 'found', report: MATCH, pictures: PICTURES, isSettled: false } },
     event: { candidate: 0 },
     step: 'Take answer 1 of the search',
     changes: {
-      matching: { kind: 'found', report: MATCH, isSettled: true },
+      matching: { kind: 'found', report: MATCH, pictures: PICTURES, isSettled: true },
       pairs: [...TWO.pairs, { ...pair(5, 4, 14, 'end 3'), number: 3 }, { ...pair(6, 5, 15, 'end 4'), number: 4 }],
       nextId: 7,
       ...toast('2 landmark pairs placed as in the chosen answer.'),

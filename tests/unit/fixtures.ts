@@ -1,4 +1,5 @@
 /** States and files to test with. */
+import type { AnswerPicture } from '../../www/compute/match-messages.ts';
 import type { RunOutput, SideOutput } from '../../www/compute/messages.ts';
 import type { Pair, Suggestion, SurfacePoint } from '../../www/landmarks.ts';
 import type { Candidate, Finding, MatchReport, ProofReport, Report } from '../../www/report.ts';
@@ -119,6 +120,12 @@ export const MATCH: MatchReport = {
   verdict: { kind: 'doubtful', sentence: 'The landmarks are doubtful.', question: { source: 4, targets: [14, 15], rival: 1 }, places: [] },
   candidates: [candidate([0, 10], [1, 11], [4, 14], [5, 15]), candidate([0, 10], [1, 11], [4, 15], [5, 14], [6, 16])],
 };
+
+/** What their coarse maps look like: a corner of a cube and where it goes, the same for both. */
+export const PICTURES: readonly AnswerPicture[] = MATCH.candidates.map(() => ({
+  triangles: new Uint32Array([0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2]),
+  places: [new Float32Array([-1, -1, -1, 1, -1, -1, -1, 1, -1, -1, -1, 1]), new Float32Array([1, 1, 1, -1, 1, 1, 1, -1, 1, 1, 1, -1])],
+}));
 
 /** The state after these events, each a step of its own. */
 export function after(state: State, ...events: readonly Event[]): State {

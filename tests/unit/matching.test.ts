@@ -12,10 +12,10 @@ import { Store } from '../../www/store/store.ts';
 import type { State } from '../../www/store/state.ts';
 import { staleness } from '../../www/store/staleness.ts';
 import { fakeWorkers } from './fake-worker.ts';
-import { after, candidate, DEMO, DONE, FOUR, MATCH, mesh, pair, READY } from './fixtures.ts';
+import { after, candidate, DEMO, DONE, FOUR, MATCH, mesh, pair, PICTURES, READY } from './fixtures.ts';
 
 const SEARCH: Event = { kind: 'search-begun' };
-const FOUND: Event = { kind: 'search-done', report: MATCH };
+const FOUND: Event = { kind: 'search-done', report: MATCH, pictures: PICTURES };
 const REFUSED: Event = { kind: 'error', sentence: 'marks.json: There is no pair.' };
 const TWO: State = { ...READY, pairs: FOUR.slice(0, 2) };
 const take = (number: number): Event => ({ kind: 'candidate-taken', candidate: number });
@@ -23,6 +23,7 @@ const take = (number: number): Event => ({ kind: 'candidate-taken', candidate: n
 const sure = (...candidates: MatchReport['candidates']): Event => ({
   kind: 'search-done',
   report: { verdict: { kind: 'sure', sentence: 'Sure.', question: null, places: [] }, candidates },
+  pictures: PICTURES,
 });
 const pointsOf = ({ pairs }: State): Pair['points'][] => pairs.map(({ points }) => points);
 
@@ -77,7 +78,7 @@ describe('found pairs', () => {
 
   test('that nobody could tell leave the pairs, and places to mark are ringed', () => {
     const verdict = { kind: 'unknown' as const, sentence: 'Mark three places.', question: null, places: [7, 8, 9] };
-    const found = after(TWO, SEARCH, { kind: 'search-done', report: { ...MATCH, verdict } });
+    const found = after(TWO, SEARCH, { kind: 'search-done', report: { ...MATCH, verdict }, pictures: PICTURES });
     expect(found.pairs).toBe(TWO.pairs);
     expect(found.suggestions[0].map(({ point, letter }) => [letter, point])).toEqual([['A', 7], ['B', 8], ['C', 9]]);
     expect(found.suggestions[1]).toEqual([]);
@@ -157,7 +158,7 @@ describe('an answer', () => {
     const question = { source: 6, targets: [16, 17] as [number, number], rival: 1 };
     const report: MatchReport = { verdict: { ...MATCH.verdict, question }, candidates: [best, { ...best, pairs: [...best.pairs].reverse() }] };
     expect(listed(report).map(({ number }) => number)).toEqual([0]);
-    const asked = after(TWO, SEARCH, { kind: 'search-done', report });
+    const asked = after(TWO, SEARCH, { kind: 'search-done', report, pictures: PICTURES });
     const settled = change(asked, answered(report, question, 1));
     expect(pointsOf(settled)).toEqual([...pointsOf(asked), [6, 17]]);
     expect([isDoubtful(settled), takenCandidate(settled)]).toEqual([false, 0]);
@@ -255,10 +256,10 @@ describe('the worker of a search', () => {
     const worker = started();
     worker.says({ kind: 'progress', share: 0.5 });
     expect(store.state.matching).toMatchObject({ kind: 'searching', share: 0.5 });
-    worker.says({ kind: 'done', report: JSON.stringify(MATCH) });
+    worker.says({ kind: 'done', report: JSON.stringify(MATCH), pictures: PICTURES });
     expect(worker.ended).toBe(true);
     expect(pointsOf(store.state)).toEqual([[0, 10], [1, 11], [4, 14], [5, 15]]);
-    expect(store.state.matching).toEqual({ kind: 'found', report: MATCH, isSettled: false });
+    expect(store.state.matching).toEqual({ kind: 'found', report: MATCH, pictures: PICTURES, isSettled: false });
   });
 
   test.each<[string, Event]>([
@@ -271,7 +272,7 @@ describe('the worker of a search', () => {
     store.dispatch(event);
     expect(worker.ended).toBe(true);
     const { state } = store;
-    worker.says({ kind: 'done', report: JSON.stringify(MATCH) });
+    worker.says({ kind: 'done', report: JSON.stringify(MATCH), pictures: PICTURES });
     worker.says({ kind: 'failed', failure: { code: 'worker', message: 'it stopped' } });
     expect(store.state).toBe(state);
   });
@@ -281,9 +282,9 @@ describe('the worker of a search', () => {
     store.dispatch({ kind: 'search-closed' });
     const second = started();
     expect(second).not.toBe(first);
-    first.says({ kind: 'done', report: JSON.stringify(MATCH) });
+    first.says({ kind: 'done', report: JSON.stringify(MATCH), pictures: PICTURES });
     expect(store.state.matching).toMatchObject({ kind: 'searching' });
-    second.says({ kind: 'done', report: JSON.stringify(MATCH) });
+    second.says({ kind: 'done', report: JSON.stringify(MATCH), pictures: PICTURES });
     expect(store.state.matching).toMatchObject({ kind: 'found' });
   });
 

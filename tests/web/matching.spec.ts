@@ -1,7 +1,28 @@
 /** Landmarks that the program finds: from no pair to a certified map, and back by one step. */
+import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
 import { ownFiles } from './own-files.ts';
 import { openDemo, openStep, pairs, ROOT, runMap } from './page.ts';
+
+/** Each answer has a picture of both meshes, which turns with the views. */
+async function seePictures(page: Page): Promise<void> {
+  const pictures = page.locator('.answers canvas');
+  await expect(pictures).toHaveCount(await page.locator('.answers li').count());
+  for (const picture of [pictures.last(), pictures.first()]) {
+    await picture.scrollIntoViewIfNeeded();
+    const painted = (): Promise<number> =>
+      picture.evaluate((canvas: HTMLCanvasElement) => {
+        const { data } = canvas.getContext('2d')?.getImageData(0, 0, canvas.width, canvas.height) ?? { data: [] };
+        return data.filter((value, index) => index % 4 === 3 && value > 128).length / (canvas.width * canvas.height);
+      });
+    await expect.poll(painted, { message: 'it shows both meshes' }).toBeGreaterThan(0.1);
+  }
+  const first = (): Promise<string> => pictures.first().evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
+  const before = await first();
+  await page.locator('#view-source').focus();
+  await page.keyboard.press('ArrowLeft');
+  await expect.poll(first, { message: 'it turns with the views' }).not.toBe(before);
+}
 
 test('landmarks are found for meshes without any, and the map goes through them', async ({ page }) => {
   await openDemo(page);
@@ -42,6 +63,7 @@ test('landmarks are found for meshes without any, and the map goes through them'
   await page.keyboard.press('Control+z');
   await expect(pairs(page)).toHaveCount(0);
   await page.getByText(/^\d+ other answers?$/).click();
+  await seePictures(page);
   const best = page.getByRole('button', { name: /^The best answer/ });
   await expect(best).toHaveAttribute('aria-pressed', 'false');
   await best.click();

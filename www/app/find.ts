@@ -41,8 +41,8 @@ export class Finder {
         progress: (share) => {
           dispatch({ kind: 'search-progress', share });
         },
-        done: (report) => {
-          dispatch({ kind: 'search-done', report: JSON.parse(report) as MatchReport });
+        done: (report, pictures) => {
+          dispatch({ kind: 'search-done', report: JSON.parse(report) as MatchReport, pictures });
         },
         failed: (failure) => {
           console.error(failure);

@@ -1,14 +1,14 @@
 /** Starts searches for landmarks in a worker and ends them. */
 import type { With } from './core.ts';
-import type { MatchMessage, MatchRequest } from './match-messages.ts';
+import type { AnswerPicture, MatchMessage, MatchRequest } from './match-messages.ts';
 import type { Failure } from './messages.ts';
 import { askOnce } from './one-request.ts';
 
 /** What a search reports while it goes and when it ends. */
 export interface MatchListener {
   progress(share: number): void;
-  /** The report is JSON. */
-  done(report: string): void;
+  /** The report is JSON; a picture of each of its candidates. */
+  done(report: string, pictures: readonly AnswerPicture[]): void;
   failed(failure: Failure): void;
 }
 
@@ -20,7 +20,7 @@ export function startMatch(request: With<MatchRequest>, listener: MatchListener)
       if (message.kind === 'progress') {
         listener.progress(message.share);
       } else {
-        listener.done(message.report);
+        listener.done(message.report, message.pictures);
       }
     },
     failed: (failure) => {

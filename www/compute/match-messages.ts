@@ -10,10 +10,18 @@ export interface MatchRequest {
   readonly landmarks: string;
 }
 
+/** The coarse map of a candidate, to be looked at. */
+export interface AnswerPicture {
+  /** The coarse source's triangles, three vertices each. */
+  readonly triangles: Uint32Array;
+  /** Where its vertices are on the source and on the target, three coordinates each: the middle of their box is 0, half its diagonal 1. */
+  readonly places: readonly [Float32Array, Float32Array];
+}
+
 /** From the worker. */
 export type MatchMessage =
   /** The share that is done, 0 to 1. */
   | { readonly kind: 'progress'; readonly share: number }
-  /** The report is JSON. */
-  | { readonly kind: 'done'; readonly report: string }
+  /** The report is JSON; a picture of each of its candidates. */
+  | { readonly kind: 'done'; readonly report: string; readonly pictures: readonly AnswerPicture[] }
   | { readonly kind: 'failed'; readonly failure: Failure };

@@ -1,13 +1,27 @@
 /** One search for landmarks: answers one request, then is thrown away. */
 import init, { matchLandmarks } from '../wasm/core.js';
-import type { MatchMessage, MatchRequest } from './match-messages.ts';
+import type { MatchReport } from '../report.ts';
+import type { FoundLandmarks } from '../wasm/core.js';
+import type { AnswerPicture, MatchMessage, MatchRequest } from './match-messages.ts';
 import { failureOf } from './messages.ts';
 import { progressListener } from './progress-listener.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
 
-function post(message: MatchMessage): void {
-  self.postMessage(message);
+function post(message: MatchMessage, handedOver: Transferable[] = []): void {
+  self.postMessage(message, handedOver);
+}
+
+function pictureOf(found: FoundLandmarks, candidate: number): AnswerPicture {
+  return { triangles: found.triangles(candidate), places: [found.places(candidate, 0), found.places(candidate, 1)] };
+}
+
+function tell(found: FoundLandmarks): void {
+  const report = found.report();
+  const { candidates } = JSON.parse(report) as MatchReport;
+  const pictures = candidates.map((_, candidate) => pictureOf(found, candidate));
+  const buffers = pictures.flatMap(({ triangles, places }) => [triangles, ...places].map(({ buffer }) => buffer as ArrayBuffer));
+  post({ kind: 'done', report, pictures }, buffers);
 }
 
 async function search({ module, source, target, landmarks }: MatchRequest): Promise<void> {
@@ -16,8 +30,7 @@ async function search({ module, source, target, landmarks }: MatchRequest): Prom
     const listener = progressListener((share) => {
       post({ kind: 'progress', share });
     });
-    const report = matchLandmarks(source, target, landmarks, listener);
-    post({ kind: 'done', report });
+    tell(matchLandmarks(source, target, landmarks, listener));
   } catch (thrown) {
     post({ kind: 'failed', failure: failureOf(thrown) });
   }

@@ -157,9 +157,10 @@ interface Turning {
 function useTurning({ hands, isLinked, up }: Pick<BaseDomainProps, 'hands' | 'isLinked' | 'up'>, side: Side): Turning {
   const [, setTurned] = useState(0);
   const [own, setOwn] = useState<Axes | null>(null);
+  useEffect(hands.open, []);
   useEffect(
     () =>
-      hands.open(() => {
+      hands.whenTurned(() => {
         setTurned((count) => count + 1);
       }),
     [],

@@ -6,11 +6,17 @@ import type { MeshDefects } from '../wasm/page.js';
 import type { Axes } from './axes.ts';
 import type { BasePart } from './parts.ts';
 
-export interface BaseHands {
-  /** From now on patches light up under the mouse on the meshes, and `turned` hears when a camera has turned; returns what ends it. */
-  readonly open: (turned: () => void) => () => void;
+/** How the cameras of the views are turned, for pictures that turn with them. */
+export interface TurnedViews {
+  /** From now on `heard` hears when a camera has turned; returns what ends it. */
+  readonly whenTurned: (heard: () => void) => () => void;
   /** How the camera of a side is turned; `null` while nothing is drawn. */
   readonly axes: (side: Side) => Axes | null;
+}
+
+export interface BaseHands extends TurnedViews {
+  /** From now on patches light up under the mouse on the meshes; returns what ends it. */
+  readonly open: () => () => void;
   /** Turns the view of a side, and the other one where they are linked, in units of the picture's height, y up. */
   readonly orbit: (side: Side, dx: number, dy: number, way: 'smoothly' | 'at once') => void;
   /** Lights up what a part is on both meshes; `null` for nothing. */

@@ -1,7 +1,7 @@
 /** What the page's parts ask for, and what each of them is given. */
 import type { Core } from '../compute/core.ts';
 import type { Side, SurfacePoint } from '../landmarks.ts';
-import type { BaseHands, FlowHands, Listener, SimplificationHands } from '../method/hands.ts';
+import type { BaseHands, FlowHands, Listener, SimplificationHands, TurnedViews } from '../method/hands.ts';
 import type { Planes } from '../method/plane-client.ts';
 import type { prospectSentence } from '../messages.ts';
 import type { OtherMap } from '../report.ts';
@@ -78,6 +78,8 @@ export interface Actions {
   readonly camera: (side: Side, command: CameraCommand) => void;
   /** Shows the source on its way to the target's shape until the style changes: 0 is the source's shape, 1 the target's. */
   readonly morph: (share: number) => void;
+  /** For pictures that turn with the views. */
+  readonly turnedViews: TurnedViews;
   /** What the picture of the base domain needs of the views. */
   readonly baseView: BaseHands;
   /** What the flows that are watched need of the page. */

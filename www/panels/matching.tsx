@@ -7,6 +7,7 @@ import type { Found } from '../store/matching.ts';
 import { answered, canSearch, isDoubtful, listed, takenCandidate } from '../store/search.ts';
 import type { State } from '../store/state.ts';
 import type { PartProps } from './actions.ts';
+import { AnswerPicture } from './answer-picture.tsx';
 import { Fold } from './controls.tsx';
 import { Icon } from './icons.tsx';
 import type { IconName } from './icons.tsx';
@@ -120,7 +121,9 @@ function Asked({ report, question, state, actions }: { readonly report: MatchRep
 
 /** Other pairs that were found, the best first. */
 function Alternatives({ found, state, actions }: { readonly found: Found } & Props): VNode | null {
-  const answers = listed(found.report).slice(0, LISTED + 1);
+  const answers = listed(found.report)
+    .slice(0, LISTED + 1)
+    .map((answer) => ({ ...answer, picture: found.pictures[answer.number] }));
   const taken = takenCandidate(state);
   if (answers.length < 2) {
     return null;
@@ -128,7 +131,7 @@ function Alternatives({ found, state, actions }: { readonly found: Found } & Pro
   return (
     <Fold title={count(answers.length - 1, 'other answer')}>
       <ol class="answers">
-        {answers.map(({ candidate: { score, difference }, number }) => (
+        {answers.map(({ candidate: { score, difference }, number, picture }) => (
           <li key={number}>
             <button
               type="button"
@@ -138,13 +141,16 @@ function Alternatives({ found, state, actions }: { readonly found: Found } & Pro
                 actions.dispatch({ kind: 'candidate-taken', candidate: number });
               }}
             >
+              {picture !== undefined && <AnswerPicture picture={picture} views={actions.turnedViews} />}
               <span>{difference === null ? 'The best answer.' : difference.sentence}</span>
               <span class="quiet">{score.toFixed(2)}</span>
             </button>
           </li>
         ))}
       </ol>
-      <p class="quiet small">The number says how badly an answer fits: the smaller the better.</p>
+      <p class="quiet small">
+        Both meshes in small: what belongs together has one colour. The number says how badly an answer fits: the smaller the better.
+      </p>
     </Fold>
   );
 }

@@ -1,4 +1,5 @@
 /** Everything that can happen to the state. */
+import type { AnswerPicture } from '../compute/match-messages.ts';
 import type { Failure, Progress, RunOutput } from '../compute/messages.ts';
 import type { RunOptions } from '../report.ts';
 import type { LandmarkFile, Side, Suggestion, SurfacePoint } from '../landmarks.ts';
@@ -63,7 +64,7 @@ export type Event =
   /** All pairs go but the locked ones. */
   | { readonly kind: 'pairs-cleared' }
   /** A search for landmarks is over: the best pairs that it found come beside those that were held. */
-  | { readonly kind: 'search-done'; readonly report: MatchReport }
+  | { readonly kind: 'search-done'; readonly report: MatchReport; readonly pictures: readonly AnswerPicture[] }
   /** The pairs of another candidate of the search come in the place of the present ones. */
   | { readonly kind: 'candidate-taken'; readonly candidate: number }
   /** Two pairs get each other's target. */

@@ -1,4 +1,5 @@
 /** Landmarks that the program looks for or has found. */
+import type { AnswerPicture } from '../compute/match-messages.ts';
 import type { Pair } from '../landmarks.ts';
 import type { MatchReport } from '../report.ts';
 import type { Work } from './work.ts';
@@ -16,6 +17,8 @@ export interface Searching {
 export interface Found {
   readonly kind: 'found';
   readonly report: MatchReport;
+  /** What the coarse map of each candidate looks like. */
+  readonly pictures: readonly AnswerPicture[];
   /** Whether the user has chosen among the candidates, which settles a doubt. */
   readonly isSettled: boolean;
 }

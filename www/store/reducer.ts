@@ -184,7 +184,7 @@ export function update(state: State, event: Event): State {
     case 'search-progress':
       return withSearched(state, event.share);
     case 'search-done':
-      return withFound(state, event.report);
+      return withFound(state, event.report, event.pictures);
     case 'candidate-taken':
       return withTaken(state, event.candidate);
     case 'search-closed':

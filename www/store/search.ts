@@ -1,4 +1,5 @@
 /** The search for landmarks: how it begins and ends, and the pairs that are taken of what it found. */
+import type { AnswerPicture } from '../compute/match-messages.ts';
 import type { Pair, Suggestion, WholePair } from '../landmarks.ts';
 import { isSamePoint, isWhole, SIDES } from '../landmarks.ts';
 import { pairLocked } from '../messages.ts';
@@ -75,12 +76,12 @@ function ringsAt(places: readonly number[]): Suggestion[] {
 }
 
 /** A search is over: the best pairs are taken, or places are shown where there are none. */
-export function withFound(state: State, report: MatchReport): State {
+export function withFound(state: State, report: MatchReport, pictures: readonly AnswerPicture[]): State {
   if (state.matching?.kind !== 'searching') {
     return state;
   }
   const [best] = report.candidates;
-  const found: State = { ...state, matching: { kind: 'found', report, isSettled: false } };
+  const found: State = { ...state, matching: { kind: 'found', report, pictures, isSettled: false } };
   if (best === undefined || report.verdict.kind === 'unknown') {
     return { ...found, suggestions: withSuggestions(state, 0, ringsAt(report.verdict.places)) };
   }

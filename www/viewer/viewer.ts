@@ -76,8 +76,10 @@ export class Views {
   #rest = 0;
   #preparing = 0;
   #isPreparing = false;
-  /** Who looks at the base domain, and how the cameras were turned when they were last told. */
-  #base: { readonly turned: () => void; told: string } | null = null;
+  /** Who hears that a camera has turned. */
+  readonly #turned = new Set<() => void>();
+  /** How the cameras were turned when that was last told. */
+  #toldTurns = '';
 
   constructor(state: State, listener: ViewListener) {
     const canvas = byId('canvas');
@@ -254,18 +256,23 @@ export class Views {
     }
   }
 
-  /** From now on patches light up under the mouse, and `turned` hears when a camera has turned; the returned function ends it. */
-  openBase(turned: () => void): () => void {
-    const base = { turned, told: '' };
-    this.#base = base;
+  /** From now on `heard` hears when a camera has turned; the returned function ends it. */
+  whenTurned(heard: () => void): () => void {
+    this.#turned.add(heard);
+    // The next frame tells how they are turned to begin with.
+    this.#toldTurns = '';
+    return () => {
+      this.#turned.delete(heard);
+    };
+  }
+
+  /** From now on patches light up under the mouse; the returned function ends it. */
+  openBase(): () => void {
     this.#picture.wantsPatches = true;
     return () => {
-      if (this.#base === base) {
-        this.#base = null;
-        this.#with((viewer) => {
-          this.#picture.leavePatches(viewer);
-        });
-      }
+      this.#with((viewer) => {
+        this.#picture.leavePatches(viewer);
+      });
     };
   }
 
@@ -568,7 +575,7 @@ export class Views {
       this.#hands.follow(viewer);
       const more = viewer.render(now);
       this.#placeMarks(viewer);
-      this.#tellBase(viewer);
+      this.#tellTurns(viewer);
       return more;
     } catch (thrown) {
       console.error(thrown);
@@ -578,12 +585,17 @@ export class Views {
     }
   }
 
-  /** The base domain turns with the views. */
-  #tellBase(viewer: Viewer): void {
-    const turns = this.#base === null ? '' : SIDES.map((side) => viewer.axes(side).join(' ')).join(';');
-    if (this.#base !== null && this.#base.told !== turns) {
-      this.#base.told = turns;
-      this.#base.turned();
+  /** Pictures of the panel turn with the views. */
+  #tellTurns(viewer: Viewer): void {
+    if (this.#turned.size === 0) {
+      return;
+    }
+    const turns = SIDES.map((side) => viewer.axes(side).join(' ')).join(';');
+    if (this.#toldTurns !== turns) {
+      this.#toldTurns = turns;
+      this.#turned.forEach((heard) => {
+        heard();
+      });
     }
   }
 
