@@ -34,6 +34,14 @@ pub struct MatchReport {
     pub candidates: Vec<CandidateReport>,
 }
 
+impl MatchReport {
+    /// Tells points of the target's mirror image of the target itself: a vertex has the same number on both.
+    pub(super) fn mirror_target(&mut self) {
+        let pairs = self.candidates.iter_mut().flat_map(|candidate| &mut candidate.pairs);
+        pairs.for_each(|[_, point]| *point = point.mirrored());
+    }
+}
+
 /// How sure a match is.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]

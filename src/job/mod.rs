@@ -182,14 +182,18 @@ impl Job {
             let given = LandmarkFile { pairs, ..landmarks.clone() };
             let options = MatchOptions::default();
             let found = match_meshes([source.checked(), target.checked()], &given, &options, monitor)?;
-            let best = found.landmarks(0);
-            let unmatched = || JobError::Unmatched { sentence: found.report.verdict.sentence.clone() };
-            let best = best.ok_or_else(unmatched)?;
-            pairs = best.pairs.clone();
-            // What was given stays as it is told of the file; a vertex has the same number on a mesh and on its mirror image.
-            landmarks.pairs.extend_from_slice(&best.pairs[landmarks.pairs.len()..]);
+            let Some(best) = found.landmarks(0) else {
+                return Err(JobError::Unmatched { sentence: found.report.verdict.sentence });
+            };
+            pairs = best.pairs;
+            let mut report = found.report;
+            if target_image == TargetImage::Mirrored {
+                report.mirror_target();
+            }
+            // What was given stays as it is told of the file.
+            landmarks.pairs.extend_from_slice(&report.candidates[0].pairs[landmarks.pairs.len()..]);
             landmarks.labels = best.labels;
-            Some(found.report)
+            Some(report)
         } else {
             None
         };

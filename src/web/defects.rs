@@ -1,11 +1,8 @@
 //! What is wrong with a mesh, for the page: a list, and what the views draw of it.
 
 use super::failure;
-use super::loaded_mesh::LoadedMesh;
-use crate::io;
-use crate::mesh::packing::{PackedError, Packer, Unpacker};
-use crate::mesh::repair::{DefectGroup, Defects, RepairOptions, defects};
-use crate::monitor::Silent;
+use crate::mesh::packing::{PackedError, Unpacker};
+use crate::mesh::repair::{DefectGroup, Defects};
 use crate::scene::defects::Look;
 use glam::DVec3;
 use serde_json::{Value, json};
@@ -23,15 +20,11 @@ pub struct MeshDefects {
 }
 
 impl MeshDefects {
-    fn new(defects: Defects) -> Self {
-        Self { normals: defects.normals(), defects }
-    }
-
     fn unpacked(bytes: &[u8]) -> Result<Self, PackedError> {
         let mut unpacker = Unpacker::new(bytes);
         let defects = Defects::unpack(&mut unpacker)?;
         unpacker.end()?;
-        Ok(Self::new(defects))
+        Ok(Self { normals: defects.normals(), defects })
     }
 }
 
@@ -66,13 +59,6 @@ impl MeshDefects {
         };
         Value::from(self.defects.groups.iter().map(group).collect::<Vec<_>>()).to_string()
     }
-
-    /// All of it as bytes, of which `unpackDefects` of the same build makes it again.
-    pub fn packed(&self) -> Vec<u8> {
-        let mut packer = Packer::default();
-        self.defects.pack(&mut packer);
-        packer.into_bytes()
-    }
 }
 
 /// The defects that another instance of this build has packed.
@@ -82,27 +68,4 @@ impl MeshDefects {
 #[wasm_bindgen(js_name = unpackDefects)]
 pub fn unpack_defects(bytes: &[u8]) -> Result<MeshDefects, JsValue> {
     MeshDefects::unpacked(bytes).map_err(|e| failure("packed", e))
-}
-
-/// What is wrong with a mesh file. `allowed` is as for `repairMesh`: parts that may go and handles that may be cut are told all the
-/// same.
-///
-/// # Errors
-/// `{"code": "file" | "mesh" | "options", "message"}` where there is nothing to look at.
-#[wasm_bindgen(js_name = meshDefects)]
-pub fn mesh_defects(bytes: &[u8], allowed: &str) -> Result<MeshDefects, JsValue> {
-    let options: RepairOptions = serde_json::from_str(allowed).map_err(|e| failure("options", e))?;
-    let soup = io::read_mesh(bytes).map_err(|e| failure("file", e))?;
-    let found = defects(&soup, &options, &mut Silent).map_err(|e| failure("mesh", e))?;
-    Ok(MeshDefects::new(found))
-}
-
-/// What was wrong with the file of a mesh that was repaired, with the caps that it got.
-///
-/// # Errors
-/// As `meshDefects`.
-#[wasm_bindgen(js_name = repairedDefects)]
-pub fn repaired_defects(bytes: &[u8], mesh: &LoadedMesh) -> Result<MeshDefects, JsValue> {
-    let MeshDefects { defects, .. } = mesh_defects(bytes, "{}")?;
-    Ok(MeshDefects::new(defects.with_caps(&mesh.checked)))
 }

@@ -1,6 +1,13 @@
 //! Demos as files, for the page and for the workers of maps.
 
+#[cfg(feature = "web-page")]
+use super::{failure, loaded_mesh::LoadedMesh};
 use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
+#[cfg(feature = "web-page")]
+use crate::io::landmark_formats::Space;
+use crate::mesh::SurfaceMesh;
+#[cfg(feature = "web-page")]
+use crate::mesh::{check::closed_genus_zero, soup::PolygonSoup};
 use crate::{demo, export};
 use serde_json::json;
 use wasm_bindgen::prelude::*;
@@ -15,8 +22,7 @@ pub fn demo_list() -> String {
 /// A demo as files.
 #[wasm_bindgen]
 pub struct DemoFiles {
-    source: Vec<u8>,
-    target: Vec<u8>,
+    meshes: [SurfaceMesh; 2],
     landmarks: Vec<u8>,
 }
 
@@ -24,17 +30,31 @@ pub struct DemoFiles {
 impl DemoFiles {
     /// The source as OBJ.
     pub fn source(&self) -> Vec<u8> {
-        self.source.clone()
+        export::obj::mesh(&self.meshes[0])
     }
 
     /// The target as OBJ.
     pub fn target(&self) -> Vec<u8> {
-        self.target.clone()
+        export::obj::mesh(&self.meshes[1])
     }
 
     /// The landmark file.
     pub fn landmarks(&self) -> Vec<u8> {
         self.landmarks.clone()
+    }
+}
+
+#[cfg(feature = "web-page")]
+#[wasm_bindgen]
+impl DemoFiles {
+    /// One of the meshes, 0 the source and 1 the target: what reading its file would give, without the core.
+    ///
+    /// # Errors
+    /// `{"code": "mesh", "message"}` where the demo is none that can be mapped.
+    pub fn mesh(&self, side: usize) -> Result<LoadedMesh, JsValue> {
+        let mesh = self.meshes.get(side).ok_or_else(|| failure("mesh", "a demo has two meshes"))?;
+        let checked = closed_genus_zero(&PolygonSoup::from(mesh)).map_err(|e| failure("mesh", e))?;
+        Ok(LoadedMesh::new(checked, Space::of_mesh(&export::obj::mesh(mesh)), None))
     }
 }
 
@@ -47,9 +67,5 @@ pub fn build_demo(id: &str) -> Option<DemoFiles> {
         labels: Some(demo.labels),
         ..LandmarkFile::default()
     };
-    Some(DemoFiles {
-        source: export::obj::mesh(&demo.source),
-        target: export::obj::mesh(&demo.target),
-        landmarks: landmark_file::write(&file),
-    })
+    Some(DemoFiles { meshes: [demo.source, demo.target], landmarks: landmark_file::write(&file) })
 }

@@ -1,18 +1,12 @@
-//! Mesh files, landmark files and demos.
+//! What files hold and need, before a mesh is read; and the program's own landmark files.
 
 use super::failure;
 use super::loaded_mesh::LoadedMesh;
+use crate::io;
 use crate::io::gltf_parts::{self, GltfParts};
-use crate::io::landmark_file::{self, LandmarkPoint};
+use crate::io::landmark_file;
 use crate::io::material_set::{self, PackedMaterials};
-use crate::landmark_suggestion::{Suggestion, kept, suggest};
 use crate::landmarks::{self, MeshSide};
-use crate::mesh::check::CheckedMesh;
-use crate::mesh::mirror::mirrored;
-use crate::mesh::{FaceId, SurfacePoint, VertexId};
-use crate::monitor::Silent;
-use crate::{export, io};
-use serde_json::json;
 use wasm_bindgen::prelude::*;
 
 /// The files that a mesh file names and needs beside it: buffers, and pictures of textures.
@@ -123,85 +117,4 @@ pub fn check_landmarks(mesh: &LoadedMesh, side: usize, bytes: &[u8]) -> Result<(
         MissingFace { .. } | MissingVertex { .. } | UnusedVertex { .. } => failure("other-meshes", e),
         _ => failure("landmarks", e),
     })
-}
-
-/// Vertices of one mesh that are worth a landmark beside those that there are: JSON
-/// `[{"point", "reason": "tip" | "far", "partner": number | null}]`, the best first; `point` is a vertex of the file, `partner`
-/// the number of the suggestion that looks alike. `landmarks` is a JSON array of landmark points.
-///
-/// # Errors
-/// `{"code": "landmarks", "message"}`.
-#[wasm_bindgen(js_name = suggestLandmarks)]
-pub fn suggest_landmarks(loaded: &LoadedMesh, landmarks: &str, count: usize) -> Result<String, JsValue> {
-    let points: Vec<LandmarkPoint> = serde_json::from_str(landmarks).map_err(|e| failure("landmarks", e))?;
-    let checked: &CheckedMesh = &loaded.checked;
-    let CheckedMesh { mesh, vertex_from_file, .. } = checked;
-    let nearest = |point: LandmarkPoint| match point {
-        LandmarkPoint::Vertex(v) => vertex_from_file.get(v as usize).copied().flatten(),
-        LandmarkPoint::OnFace { face, barycentric } => {
-            let face = checked.face_from_file(FaceId(face))?;
-            let w = checked.with_file_corners(SurfacePoint { face, barycentric }).barycentric;
-            (0..3).max_by(|&a: &usize, &b| w[a].total_cmp(&w[b])).map(|k| mesh.triangles()[face][k])
-        }
-    };
-    let mut marked: Vec<VertexId> = points.into_iter().filter_map(nearest).collect();
-    marked.sort_unstable();
-    marked.dedup();
-    let numbers = checked.file_from_vertex();
-    let entry = |s: &Suggestion| json!({ "point": numbers[s.vertex.index()], "reason": s.reason, "partner": s.partner });
-    // Who has enough of it ends the worker.
-    let suggestions = suggest(mesh, &marked, count, &mut Silent).map_err(|e| failure("cancelled", e))?;
-    // What a repair made up has no number in the file, and takes no landmark.
-    let suggestions = kept(&suggestions, |v| numbers[v.index()] < vertex_from_file.len());
-    let found: Vec<_> = suggestions.iter().map(entry).collect();
-    Ok(serde_json::Value::from(found).to_string())
-}
-
-/// The mirror image of a target with the landmarks carried along.
-#[wasm_bindgen]
-pub struct MirroredTarget {
-    mesh: Vec<u8>,
-    landmarks: Vec<u8>,
-}
-
-#[wasm_bindgen]
-impl MirroredTarget {
-    /// The mirror image as OBJ.
-    pub fn mesh(&self) -> Vec<u8> {
-        self.mesh.clone()
-    }
-
-    /// The landmark file; nothing is said of a true map.
-    pub fn landmarks(&self) -> Vec<u8> {
-        self.landmarks.clone()
-    }
-}
-
-/// Mirrors a target, for landmarks whose left and right are exchanged.
-///
-/// # Errors
-/// `{"code": "landmarks" | "mesh", "message"}`.
-#[wasm_bindgen(js_name = mirrorTarget)]
-pub fn mirror_target(target: &LoadedMesh, landmarks: &[u8]) -> Result<MirroredTarget, JsValue> {
-    let mut file = landmark_file::read(landmarks).map_err(|e| failure("landmarks", e))?;
-    let mesh = mirrored(&target.checked.mesh).map_err(|e| failure("mesh", e))?;
-    // The image's file has the checked mesh's vertices only, and its faces as they were turned.
-    for [_, point] in &mut file.pairs {
-        let on_mesh = match *point {
-            LandmarkPoint::Vertex(v) => {
-                let known = target.checked.vertex_from_file.get(v as usize).copied().flatten();
-                LandmarkPoint::Vertex(known.map_or(v, |v| v.0))
-            }
-            LandmarkPoint::OnFace { face, barycentric } => {
-                let known = target.checked.face_from_file(FaceId(face));
-                known.map_or(*point, |face| {
-                    let on_mesh = target.checked.with_file_corners(SurfacePoint { face, barycentric });
-                    LandmarkPoint::OnFace { face: face.0, barycentric: on_mesh.barycentric }
-                })
-            }
-        };
-        *point = on_mesh.mirrored();
-    }
-    file.ground_truth = None;
-    Ok(MirroredTarget { mesh: export::obj::mesh(&mesh), landmarks: landmark_file::write(&file) })
 }

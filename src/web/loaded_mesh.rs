@@ -3,6 +3,7 @@
 use super::failure;
 use crate::io::landmark_file::LandmarkPoint;
 use crate::io::landmark_formats::Space;
+#[cfg(feature = "web-page")]
 use crate::landmark_exchange::Surface;
 use crate::map_file::Hash;
 use crate::mesh::check::CheckedMesh;
@@ -32,6 +33,7 @@ impl LoadedMesh {
     }
 
     /// The mesh as landmark files are brought onto it.
+    #[cfg(feature = "web-page")]
     pub(super) fn surface(&self) -> Surface<'_> {
         Surface { mesh: &self.checked, space: self.space }
     }

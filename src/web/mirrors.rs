@@ -1,9 +1,13 @@
-//! The planes that mirror meshes.
+//! The planes that mirror meshes, and mirrored targets.
 
 use super::failure;
 use super::loaded_mesh::{LoadedMesh, surface_point};
-use crate::io::landmark_file::LandmarkPoint;
+use super::plane_numbers::PlaneNumbers;
+use crate::export;
+use crate::io::landmark_file::{self, LandmarkPoint};
 use crate::landmark_suggestion::{Mirror, MirrorPlane, best_mirror, mirror_of};
+use crate::mesh::mirror::mirrored;
+use crate::mesh::{FaceId, SurfacePoint};
 use crate::monitor::Silent;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -19,20 +23,6 @@ enum Wish {
     Axis { axis: usize },
     /// That between two points.
     Points { points: [LandmarkPoint; 2] },
-}
-
-/// A plane in the numbers of the mesh.
-#[derive(Deserialize, Serialize)]
-pub(super) struct PlaneNumbers {
-    normal: [f64; 3],
-    through: [f64; 3],
-}
-
-impl PlaneNumbers {
-    /// The plane; `None` where the numbers are none.
-    pub(super) fn plane(&self) -> Option<MirrorPlane> {
-        MirrorPlane::across(self.normal.into(), self.through.into())
-    }
 }
 
 /// What is answered.
@@ -67,11 +57,59 @@ fn wished(loaded: &LoadedMesh, wish: Wish) -> Option<Mirror> {
 #[wasm_bindgen(js_name = mirrorPlane)]
 pub fn mirror_plane(loaded: &LoadedMesh, wish: &str) -> Result<String, JsValue> {
     let wish: Wish = serde_json::from_str(wish).map_err(|e| failure("mirror", e))?;
-    let answer = wished(loaded, wish).map(|mirror| {
-        let normal = mirror.plane.normal();
-        let through = normal * -mirror.plane.height(DVec3::ZERO);
-        let plane = PlaneNumbers { normal: normal.to_array(), through: through.to_array() };
-        Answer { plane, misfit: mirror.misfit, fits: mirror.fits() }
+    let answer = wished(loaded, wish).map(|mirror| Answer {
+        plane: PlaneNumbers::of(&mirror.plane),
+        misfit: mirror.misfit,
+        fits: mirror.fits(),
     });
     serde_json::to_string(&answer).map_err(|e| failure("mirror", e))
+}
+
+/// The mirror image of a target with the landmarks carried along.
+#[wasm_bindgen]
+pub struct MirroredTarget {
+    mesh: Vec<u8>,
+    landmarks: Vec<u8>,
+}
+
+#[wasm_bindgen]
+impl MirroredTarget {
+    /// The mirror image as OBJ.
+    pub fn mesh(&self) -> Vec<u8> {
+        self.mesh.clone()
+    }
+
+    /// The landmark file; nothing is said of a true map.
+    pub fn landmarks(&self) -> Vec<u8> {
+        self.landmarks.clone()
+    }
+}
+
+/// Mirrors a target, for landmarks whose left and right are exchanged.
+///
+/// # Errors
+/// `{"code": "landmarks" | "mesh", "message"}`.
+#[wasm_bindgen(js_name = mirrorTarget)]
+pub fn mirror_target(target: &LoadedMesh, landmarks: &[u8]) -> Result<MirroredTarget, JsValue> {
+    let mut file = landmark_file::read(landmarks).map_err(|e| failure("landmarks", e))?;
+    let mesh = mirrored(&target.checked.mesh).map_err(|e| failure("mesh", e))?;
+    // The image's file has the checked mesh's vertices only, and its faces as they were turned.
+    for [_, point] in &mut file.pairs {
+        let on_mesh = match *point {
+            LandmarkPoint::Vertex(v) => {
+                let known = target.checked.vertex_from_file.get(v as usize).copied().flatten();
+                LandmarkPoint::Vertex(known.map_or(v, |v| v.0))
+            }
+            LandmarkPoint::OnFace { face, barycentric } => {
+                let known = target.checked.face_from_file(FaceId(face));
+                known.map_or(*point, |face| {
+                    let on_mesh = target.checked.with_file_corners(SurfacePoint { face, barycentric });
+                    LandmarkPoint::OnFace { face: face.0, barycentric: on_mesh.barycentric }
+                })
+            }
+        };
+        *point = on_mesh.mirrored();
+    }
+    file.ground_truth = None;
+    Ok(MirroredTarget { mesh: export::obj::mesh(&mesh), landmarks: landmark_file::write(&file) })
 }

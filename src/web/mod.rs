@@ -1,9 +1,12 @@
 //! The wasm boundary: typed arrays in and out, errors as JSON with a stable code and a sentence.
 //!
-//! It makes two modules, so that the page need not wait for what makes maps: `web-page` reads, checks, repairs and draws meshes,
-//! `web-core` makes maps and opens them, in workers.
+//! It makes two modules, so that the page need not wait for what reads meshes and makes maps: `web-page` has the demos, landmark
+//! files and the views, `web-core` reads, checks and repairs meshes, makes maps and opens them, in workers. Meshes go from the
+//! one to the other packed.
 
 mod demos;
+mod loaded_mesh;
+mod plane_numbers;
 
 #[cfg(feature = "web-page")]
 mod defects;
@@ -12,13 +15,7 @@ mod files;
 #[cfg(feature = "web-page")]
 mod landmark_files;
 #[cfg(feature = "web-page")]
-mod loaded_mesh;
-#[cfg(feature = "web-page")]
 mod map_headers;
-#[cfg(feature = "web-page")]
-mod mirrors;
-#[cfg(feature = "web-page")]
-mod repair;
 #[cfg(feature = "web-page")]
 mod view_side;
 #[cfg(feature = "web-page")]
@@ -29,9 +26,13 @@ mod base_output;
 #[cfg(feature = "web-core")]
 mod compute;
 #[cfg(feature = "web-core")]
+mod defect_search;
+#[cfg(feature = "web-core")]
 mod flows;
 #[cfg(feature = "web-core")]
 mod matching;
+#[cfg(feature = "web-core")]
+mod mirrors;
 #[cfg(feature = "web-core")]
 mod morph;
 #[cfg(feature = "web-core")]
@@ -43,9 +44,13 @@ mod page_job;
 #[cfg(feature = "web-core")]
 mod planes;
 #[cfg(feature = "web-core")]
+mod repair;
+#[cfg(feature = "web-core")]
 mod saved;
 #[cfg(feature = "web-core")]
 mod simplification;
+#[cfg(feature = "web-core")]
+mod suggestions;
 #[cfg(feature = "web-core")]
 mod transfer;
 

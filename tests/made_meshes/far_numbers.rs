@@ -29,6 +29,7 @@ fn bounds(soup: &PolygonSoup) -> [DVec3; 2] {
 }
 
 #[test]
+#[ignore = "long: run by `cargo xtask test --all`"]
 fn a_map_does_not_depend_on_size_and_place() {
     let files = Files::of_demo("horse-cat", usize::MAX);
     let options: PipelineOptions = Choices { own_cones: Some(0), ..Choices::default() }.into();

@@ -8,6 +8,7 @@ use conemap::monitor::Silent;
 use conemap::pipeline::PipelineOptions;
 
 #[test]
+#[ignore = "long: run by `cargo xtask test --all`"]
 fn own_cones_lower_the_distortion_of_eight_landmarks() {
     let results = maps_with_and_without_own_cones(&farthest_landmarks(&fixtures::bent_horse(), 8));
     let [own, none] = results.each_ref().map(|result| &result.report.distortion);

@@ -115,6 +115,7 @@ fn without_a_landmark_horse_and_cat_are_right_or_doubtful() {
 }
 
 #[test]
+#[ignore = "long: run by `cargo xtask test --all`"]
 fn a_turned_larger_target_in_another_order_is_matched_alike() {
     let demo = demo::build("horse-cat").unwrap();
     let plain = limbs(&demo, &matched(&demo.source, &demo.target), &demo.target, |p| p);

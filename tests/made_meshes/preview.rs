@@ -32,6 +32,7 @@ impl Monitor for Looker {
 /// Previews come with the first coarse map and with each level, nearer and nearer to the map, and change nothing of it; also where
 /// the meshes change their roles for the work.
 #[test]
+#[ignore = "long: run by `cargo xtask test --all`"]
 fn previews_come_near_the_map_and_do_not_change_it() {
     let demo = demo::build("horse-cat").expect("the demo is there");
     let given = [&demo.source, &demo.target];

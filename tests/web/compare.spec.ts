@@ -126,7 +126,7 @@ test('each of four maps is shown beside the map on the page by one click in the 
   }
 });
 
-test('the second view takes no clicks, and Escape, None, the button on it and another step bring the target back', async () => {
+test('the second view takes no clicks, and Escape, None, the button on it and another step bring the target back', { tag: '@long' }, async () => {
   const box = (await page.locator('#view-target').boundingBox()) ?? fail('no view');
   await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
   await page.waitForTimeout(SETTLED);
@@ -170,7 +170,7 @@ test('both views turn together, also where the cameras go by themselves, and wha
   expect(grey).toBeGreaterThan(20);
 });
 
-test('it fits a phone and a wide window, light and dark, without findings', async () => {
+test('it fits a phone and a wide window, light and dark, without findings', { tag: '@long' }, async () => {
   for (const width of [360, 1280]) {
     await page.setViewportSize({ width, height: 800 });
     const content = page.locator('#panel .content');

@@ -14,7 +14,7 @@ async function painted(page: Page, view: string): Promise<number> {
   return countPixels(await pixelsOf(page, view), (r, g, b) => Math.hypot(r - 208, g - 28, b - 139) < 40);
 }
 
-test('every structure has its flow, and the triangle that stops the one without flips is painted, told and brought into sight', async ({ page }) => {
+test('every structure has its flow, and the triangle that stops the one without flips is painted, told and brought into sight', { tag: '@long' }, async ({ page }) => {
   await open(page);
   // One after the other, faster than they are read.
   await page.locator('#source-file').setInputFiles(upload('rod.obj', rod(8)));

@@ -83,7 +83,7 @@ test('the guide opens by its link, draws its equations, and closes by Escape', a
   expect(errors).toEqual([]);
 });
 
-test('a guide that cannot be fetched says so, and comes when it can', async ({ page }) => {
+test('a guide that cannot be fetched says so, and comes when it can', { tag: '@long' }, async ({ page }) => {
   await openDemo(page);
   const chunk = /assets\/guide-[\w-]+\.js/;
   await page.route(chunk, (route) => route.abort());

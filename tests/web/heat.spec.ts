@@ -22,7 +22,7 @@ async function mapped(page: Page): Promise<void> {
   await page.getByRole('checkbox', { name: 'Landmarks' }).uncheck();
 }
 
-test('ribbons, circles and coordinates lie on both meshes, as large and turned as one likes', async ({ page }) => {
+test('ribbons, circles and coordinates lie on both meshes, as large and turned as one likes', { tag: '@long' }, async ({ page }) => {
   await mapped(page);
   await showSurface(page, 'Ribbons');
   for (const view of VIEWS) {
@@ -110,7 +110,7 @@ test('heat maps of the map have a legend and tell the value under the mouse', as
   expect((angles * (areas + 1 / areas)) / 2 / distortion).toBeCloseTo(1, 0);
 });
 
-test('heat maps of the flow: the conformal factor, and the curvature of a sphere before it and after', async ({ page }) => {
+test('heat maps of the flow: the conformal factor, and the curvature of a sphere before it and after', { tag: '@long' }, async ({ page }) => {
   await mapped(page);
   await showSurface(page, 'Conformal factor');
   await expect(page.getByText(/1\/\d+ of its length/)).toBeVisible({ timeout: 60_000 });

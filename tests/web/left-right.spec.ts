@@ -121,7 +121,7 @@ test('a click on each mesh makes two whole pairs, which go together', async ({ p
   await expect(page.locator('body')).toHaveAttribute('data-pairs', '7');
 });
 
-test('a plane may be given, and a body without one says so', async ({ page }) => {
+test('a plane may be given, and a body without one says so', { tag: '@long' }, async ({ page }) => {
   await openDemo(page, '#demo=horse-turning');
   await openStep(page, 'landmarks');
   const planes = page.getByRole('region', { name: 'Left and right' });

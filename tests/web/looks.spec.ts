@@ -110,7 +110,7 @@ test('a picture that an OBJ file’s material names lies on it, from a zip too',
   expect(source.red).toBeGreaterThan(0.01);
 });
 
-test('colours of the source are carried where the target has none; files without any stay plain', async ({ page }) => {
+test('colours of the source are carried where the target has none; files without any stay plain', { tag: '@long' }, async ({ page }) => {
   await open(page);
   await dropped(page, [
     { name: 'horse.obj', content: coloured(own.horse.buffer.toString()) },
@@ -192,7 +192,7 @@ async function expectBoth(page: Page, view: 'source' | 'target'): Promise<void> 
     .toBeGreaterThan(0.01);
 }
 
-test('a GLB with two pictures is seen with both, and the GLB of its map has both, byte for byte', async ({ page }) => {
+test('a GLB with two pictures is seen with both, and the GLB of its map has both, byte for byte', { tag: '@long' }, async ({ page }) => {
   await open(page);
   const pictures = [await plain(page, '#00d000'), await plain(page, '#e00000')] as const;
   const cat = twoPictures(own.cat.buffer.toString(), pictures);

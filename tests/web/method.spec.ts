@@ -186,7 +186,7 @@ test('both meshes are laid out in the plane, cut from cone to cone', async () =>
   await expect(page.locator(SOURCE_PLANE)).toHaveAttribute('data-drawn', '5114');
 });
 
-test('the layout grows from the patch that is chosen in the base domain or in the plane', async () => {
+test('the layout grows from the patch that is chosen in the base domain or in the plane', { tag: '@long' }, async () => {
   await page.locator('#base-picture').focus();
   await page.keyboard.press('f');
   await page.keyboard.press('f');
@@ -377,7 +377,7 @@ test('where motion is not wanted the flow goes step by step', async () => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
 });
 
-test('all of it fits a phone and a wide window, light and dark, without findings', async () => {
+test('all of it fits a phone and a wide window, light and dark, without findings', { tag: '@long' }, async () => {
   for (const width of [360, 1280]) {
     await page.setViewportSize({ width, height: 800 });
     await openStep(page, 'method');

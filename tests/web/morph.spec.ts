@@ -49,7 +49,7 @@ async function shownAt(page: Page, percent: number): Promise<Uint8Array> {
   return pixelsOf(page, '#view-source');
 }
 
-test('half-way limbs are turned where straight lines shrink them, and both ends are as before', async ({ page }) => {
+test('half-way limbs are turned where straight lines shrink them, and both ends are as before', { tag: '@long' }, async ({ page }) => {
   await holdWay(page);
   await openDemo(page, '#demo=poses');
   await runMap(page);

@@ -5,7 +5,7 @@ import { openDemo, openStep, runMap } from './page.ts';
 
 const VIEWS = ['source', 'target'] as const;
 
-test('the demo of the cone shows where its texture is cut, on the ball as well', async ({ page }) => {
+test('the demo of the cone shows where its texture is cut, on the ball as well', { tag: '@long' }, async ({ page }) => {
   await openDemo(page, '#demo=ball-cone');
   await runMap(page);
   await openStep(page, 'method');

@@ -4,7 +4,7 @@ import { openDemo, openStep, runMap, showSurface } from './page.ts';
 
 const TRUTH = 'Distance to the truth';
 
-test('a demo with a known map has the distance to it in figures and in colours', async ({ page }) => {
+test('a demo with a known map has the distance to it in figures and in colours', { tag: '@long' }, async ({ page }) => {
   await openDemo(page, '#demo=horse-turning');
   await page.getByRole('button', { name: /^Picture: / }).click();
   await expect(page.getByRole('radio', { name: 'Distortion' })).toBeVisible();

@@ -63,7 +63,7 @@ test('frames are drawn only when something is seen to change', async ({ page }) 
   expect((await drawn(page)).triangles).toBeGreaterThan(1.5 * faces);
 });
 
-test('the cameras turn together and glide', async ({ page }) => {
+test('the cameras turn together and glide', { tag: '@long' }, async ({ page }) => {
   await open(page);
   const before = [await heads(page, '#view-source'), await heads(page, '#view-target')] as const;
   const box = (await page.locator('#view-source').boundingBox()) ?? fail('no box');
@@ -87,7 +87,7 @@ test('the cameras turn together and glide', async ({ page }) => {
   }
 });
 
-test('the wheel brings nearer what is under the mouse, which stays there', async ({ page }) => {
+test('the wheel brings nearer what is under the mouse, which stays there', { tag: '@long' }, async ({ page }) => {
   await open(page);
   const number = await lonelyPin(page, '#view-source');
   const before = await heads(page, '#view-source');
@@ -152,7 +152,7 @@ test('a pin is dragged on its surface, and one step takes it back', async ({ pag
   expect(distance(start, await headOf(page, '#view-source', number))).toBeLessThan(1);
 });
 
-test('a pin that was clicked obeys the keys', async ({ page }) => {
+test('a pin that was clicked obeys the keys', { tag: '@long' }, async ({ page }) => {
   await open(page);
   await openStep(page, 'landmarks');
   const number = await lonelyPin(page, '#view-source');

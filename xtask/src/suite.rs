@@ -31,7 +31,7 @@ pub fn test(extent: Extent) -> Outcome {
         all([
             ("formatting", Box::new(formatting)),
             ("build helper", Box::new(helper)),
-            ("lints", Box::new(lints)),
+            ("lints", Box::new(move || lints(extent))),
             ("documentation", Box::new(documentation)),
             ("core", Box::new(move || core(extent))),
             ("page", Box::new(move || built().and_then(|()| checks()))),
@@ -68,10 +68,14 @@ fn helper() -> Outcome {
     run(&cargo(), &["test", "--package", "xtask", "--profile", "tool"])
 }
 
-fn lints() -> Outcome {
+/// Those of the wasm boundary compile the libraries once more: only where all are asked for.
+fn lints(extent: Extent) -> Outcome {
     deny::check()?;
     audit::check()?;
     run(&cargo(), &[&["clippy"][..], &PACKAGES, &["--all-targets", "--", "-D", "warnings"]].concat())?;
+    if extent == Extent::Usual {
+        return Ok(());
+    }
     let web = [
         "clippy",
         "--lib",
@@ -99,8 +103,13 @@ fn core(extent: Extent) -> Outcome {
     run(&cargo(), &["test", "--test", "made_meshes", "--test", "real_meshes", "--", "--ignored"])
 }
 
+/// Types and lints beside the unit tests: each keeps one processor busy.
 fn checks() -> Outcome {
-    run("npm", &["run", "--silent", "check"])?;
-    run("npm", &["run", "--silent", "lint"])?;
-    run("npm", &["run", "--silent", "unit"])
+    let script = |name: &str| run("npm", &["run", "--silent", name]);
+    std::thread::scope(|scope| {
+        let unit = scope.spawn(|| script("unit"));
+        let told = script("check").and_then(|()| script("lint"));
+        let unit = unit.join().unwrap_or_else(|_| Err("the unit tests' thread panicked".into()));
+        told.and(unit)
+    })
 }

@@ -1,6 +1,6 @@
 //! Left and right: the planes that mirror the meshes, and what lies across from a point.
 
-use super::super::mirrors::PlaneNumbers;
+use super::super::plane_numbers::PlaneNumbers;
 use super::super::view_side::{ShownMirror, Side};
 use super::canvas::Viewer;
 use super::reading::parsed;

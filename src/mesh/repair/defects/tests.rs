@@ -8,14 +8,6 @@ use crate::monitor::Silent;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
-fn soup_of(mesh: &SurfaceMesh) -> PolygonSoup {
-    PolygonSoup {
-        positions: mesh.positions().iter().copied().collect(),
-        polygons: mesh.triangles().iter().map(|t| t.iter().map(|v| v.0).collect()).collect(),
-        ..PolygonSoup::default()
-    }
-}
-
 fn found(soup: &PolygonSoup) -> Defects {
     defects(soup, &RepairOptions::default(), &mut Silent).unwrap()
 }
@@ -37,7 +29,7 @@ fn star(soup: &PolygonSoup, v: u32) -> Vec<u32> {
 }
 
 fn punched() -> PolygonSoup {
-    let mut soup = soup_of(&icosphere(2));
+    let mut soup = PolygonSoup::from(&icosphere(2));
     soup.polygons.retain(|polygon| !polygon.contains(&40));
     soup
 }
@@ -52,7 +44,7 @@ fn beside(one: &PolygonSoup, other: &PolygonSoup, by: DVec3) -> PolygonSoup {
 
 #[test]
 fn a_good_mesh_has_none_even_where_no_vertices_are_shared() {
-    let sphere = soup_of(&icosphere(2));
+    let sphere = PolygonSoup::from(&icosphere(2));
     assert_eq!(kinds(&found(&sphere)), []);
     let corners: Vec<u32> = sphere.polygons.iter().flatten().copied().collect();
     let apart = PolygonSoup {
@@ -106,7 +98,7 @@ fn the_cap_of_a_hole_is_told_with_its_rim() {
 
 #[test]
 fn a_torus_has_the_loop_that_would_be_cut() {
-    let found = found(&soup_of(&torus(16, 7)));
+    let found = found(&PolygonSoup::from(&torus(16, 7)));
     assert_eq!(kinds(&found), [DefectKind::HandleLoop]);
     let handle = only(&found, DefectKind::HandleLoop);
     let [line] = &handle.lines[..] else { panic!("{handle:?}") };
@@ -119,7 +111,7 @@ fn a_torus_has_the_loop_that_would_be_cut() {
 
 #[test]
 fn the_smaller_of_two_spheres_is_the_loose_part() {
-    let (large, small) = (soup_of(&icosphere(2)), soup_of(&icosphere(1)));
+    let (large, small) = (PolygonSoup::from(&icosphere(2)), PolygonSoup::from(&icosphere(1)));
     let found = found(&beside(&small, &large, DVec3::X * 5.0));
     assert_eq!(kinds(&found), [DefectKind::LoosePart]);
     let part = only(&found, DefectKind::LoosePart);
@@ -129,7 +121,7 @@ fn the_smaller_of_two_spheres_is_the_loose_part() {
 
 #[test]
 fn a_vertex_where_two_spheres_touch_is_pinched() {
-    let (large, small) = (soup_of(&icosphere(2)), soup_of(&icosphere(1)));
+    let (large, small) = (PolygonSoup::from(&icosphere(2)), PolygonSoup::from(&icosphere(1)));
     let mut both = beside(&large, &small, DVec3::X * 5.0);
     let first = large.positions.len() as u32;
     both.polygons.iter_mut().flatten().filter(|v| **v == first).for_each(|v| *v = 3);
@@ -142,7 +134,7 @@ fn a_vertex_where_two_spheres_touch_is_pinched() {
 
 #[test]
 fn a_patch_that_looks_inwards_is_told_with_its_border() {
-    let mut soup = soup_of(&icosphere(2));
+    let mut soup = PolygonSoup::from(&icosphere(2));
     let patch = star(&soup, 40);
     patch.iter().for_each(|&f| soup.polygons[f as usize].reverse());
     let found = found(&soup);
@@ -161,7 +153,7 @@ fn a_patch_that_looks_inwards_is_told_with_its_border() {
 
 #[test]
 fn a_fin_a_needle_and_a_copy_are_told_apart() {
-    let mut soup = soup_of(&icosphere(1));
+    let mut soup = PolygonSoup::from(&icosphere(1));
     let [a, b] = [soup.polygons[5][0], soup.polygons[5][1]];
     let copy = soup.polygons[9].clone();
     soup.positions.push(DVec3::splat(2.0));
@@ -238,7 +230,8 @@ fn placed(soup: &PolygonSoup, factor: f64, shift: DVec3) -> PolygonSoup {
 
 #[test]
 fn the_same_is_found_of_meshes_of_any_size_and_far_from_the_origin() {
-    let mut soup = beside(&soup_of(&torus(16, 7)), &soup_of(&icosphere(1)), DVec3::X * 9.0);
+    let mut soup =
+        beside(&PolygonSoup::from(&torus(16, 7)), &PolygonSoup::from(&icosphere(1)), DVec3::X * 9.0);
     soup.polygons[20].reverse();
     let [a, b] = [soup.polygons[5][0], soup.polygons[5][1]];
     soup.polygons.extend([vec![a, b, a], soup.polygons[9].clone()]);

@@ -1,0 +1,43 @@
+//! Places that are worth a landmark.
+
+use super::failure;
+use super::loaded_mesh::LoadedMesh;
+use crate::io::landmark_file::LandmarkPoint;
+use crate::landmark_suggestion::{Suggestion, kept, suggest};
+use crate::mesh::check::CheckedMesh;
+use crate::mesh::{FaceId, SurfacePoint, VertexId};
+use crate::monitor::Silent;
+use serde_json::json;
+use wasm_bindgen::prelude::*;
+
+/// Vertices of one mesh that are worth a landmark beside those that there are: JSON
+/// `[{"point", "reason": "tip" | "far", "partner": number | null}]`, the best first; `point` is a vertex of the file, `partner`
+/// the number of the suggestion that looks alike. `landmarks` is a JSON array of landmark points.
+///
+/// # Errors
+/// `{"code": "landmarks", "message"}`.
+#[wasm_bindgen(js_name = suggestLandmarks)]
+pub fn suggest_landmarks(loaded: &LoadedMesh, landmarks: &str, count: usize) -> Result<String, JsValue> {
+    let points: Vec<LandmarkPoint> = serde_json::from_str(landmarks).map_err(|e| failure("landmarks", e))?;
+    let checked: &CheckedMesh = &loaded.checked;
+    let CheckedMesh { mesh, vertex_from_file, .. } = checked;
+    let nearest = |point: LandmarkPoint| match point {
+        LandmarkPoint::Vertex(v) => vertex_from_file.get(v as usize).copied().flatten(),
+        LandmarkPoint::OnFace { face, barycentric } => {
+            let face = checked.face_from_file(FaceId(face))?;
+            let w = checked.with_file_corners(SurfacePoint { face, barycentric }).barycentric;
+            (0..3).max_by(|&a: &usize, &b| w[a].total_cmp(&w[b])).map(|k| mesh.triangles()[face][k])
+        }
+    };
+    let mut marked: Vec<VertexId> = points.into_iter().filter_map(nearest).collect();
+    marked.sort_unstable();
+    marked.dedup();
+    let numbers = checked.file_from_vertex();
+    let entry = |s: &Suggestion| json!({ "point": numbers[s.vertex.index()], "reason": s.reason, "partner": s.partner });
+    // Who has enough of it ends the worker.
+    let suggestions = suggest(mesh, &marked, count, &mut Silent).map_err(|e| failure("cancelled", e))?;
+    // What a repair made up has no number in the file, and takes no landmark.
+    let suggestions = kept(&suggestions, |v| numbers[v.index()] < vertex_from_file.len());
+    let found: Vec<_> = suggestions.iter().map(entry).collect();
+    Ok(serde_json::Value::from(found).to_string())
+}
