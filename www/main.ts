@@ -335,16 +335,16 @@ function followGuide(): boolean {
 async function start(): Promise<void> {
   followGuide();
   const finding = keeper.find(links.named);
+  const core = coreSource();
   try {
     const module = await compilePage();
-    reader.use(module);
+    reader.use(module, core);
     await init({ module_or_path: module });
   } catch (thrown) {
     console.error(thrown);
     fail(SENTENCES.noCore);
     return;
   }
-  const core = coreSource();
   runner.use(core);
   const demos = JSON.parse(demoList()) as Demo[];
   const found = await finding;

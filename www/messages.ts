@@ -23,7 +23,7 @@ const ABOUT: Readonly<Record<string, string>> = {
 const INSTEAD: Readonly<Record<string, string>> = {
   cancelled: `The computation stopped before it had a map. ${KEPT}`,
   trap: `The computation stopped unexpectedly, perhaps for want of memory. ${KEPT}`,
-  'no-core': `The part of the program that makes maps could not be fetched. ${KEPT} Look at your connection and try again.`,
+  'no-core': `The part of the program that reads meshes and makes maps could not be fetched. ${KEPT} Look at your connection and try again.`,
   worker: `The computation could not be started or broke off. ${KEPT} Try again, or reload the page.`,
 };
 

@@ -5,13 +5,13 @@ import { leaveTask } from '../../www/app/task.ts';
 import { Store } from '../../www/store/store.ts';
 import { buildDemo } from '../../www/wasm/page.js';
 import { READER } from './reading.ts';
-import { startPageModule } from './modules.ts';
+import { startModules } from './modules.ts';
 
 let store: Store;
 let own: Record<'source' | 'target' | 'landmarks' | 'bad', File>;
 
 beforeAll(() => {
-  startPageModule();
+  startModules();
   const demo = buildDemo('sphere-tetrahedron');
   if (demo === undefined) {
     throw new Error('no demo');

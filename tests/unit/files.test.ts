@@ -3,15 +3,18 @@ import { beforeAll, expect, test } from 'vitest';
 import { areMarksGood } from '../../www/files.ts';
 import type { MeshFile } from '../../www/store/state.ts';
 import { after, mesh, pair, READY } from './fixtures.ts';
+import { fileAnswer } from '../../www/reading/file-answers.ts';
+import { meshReading } from '../../www/reading/mesh-answers.ts';
+import type { DemoFiles } from '../../www/reading/messages.ts';
 import { meshFile, mirroredTarget } from './reading.ts';
-import { startPageModule } from './modules.ts';
+import { startModules } from './modules.ts';
 
 /** A tetrahedron whose corners differ, with a vertex in front that no face uses. */
 const OBJ = 'v 9 9 9\nv 0 0 0\nv 2 0 0\nv 0 3 0\nv 0 0 4\nf 2 4 3\nf 2 3 5\nf 3 4 5\nf 4 2 5\n';
 let file: MeshFile;
 
 beforeAll(() => {
-  startPageModule();
+  startModules();
   file = meshFile({ name: 'corner.obj', bytes: new TextEncoder().encode(OBJ) });
 });
 
@@ -79,4 +82,16 @@ test('a mesh with faults is repaired, and one that cannot be is refused in the c
   expect([at(0), at(1), at(2), at(3), at(4)]).toEqual([true, true, true, false, false]);
   const twin = 'v 10 0 0\nv 12 0 0\nv 10 3 0\nv 10 0 4\nf 6 8 7\nf 6 7 9\nf 7 8 9\nf 8 6 9\n';
   expect(() => meshFile({ name: 'twins.obj', bytes: bytes(OBJ + twin) })).toThrow(/^twins\.obj: .*2 separate parts/);
+});
+
+test.each(['sphere-tetrahedron', 'horse-cat', 'hands'])('the page’s module has the meshes of the demo %s as the core reads them', (id) => {
+  const demo = fileAnswer({ kind: 'demo', id }) as DemoFiles;
+  for (const { file, reading } of demo.meshes) {
+    const read = meshReading(file, {});
+    if (reading.kind === 'bad' || read.kind === 'bad') {
+      throw new Error('a demo was refused');
+    }
+    expect(Buffer.from(reading.packed).equals(read.packed), file.name).toBe(true);
+    expect([reading.repairs, reading.remarks]).toEqual([read.repairs, read.remarks]);
+  }
 });

@@ -90,14 +90,14 @@ function reached(file: string, seen = new Set<string>()): ReadonlySet<string> {
   return seen;
 }
 
-test('workers of maps run by the core alone, the page and its reader without it', () => {
+test('workers of meshes and maps run by the core alone, the page and its worker of files without it', () => {
   const [core, page] = [join('wasm', 'core.js'), join('wasm', 'page.js')];
   const files = [...imports().keys()];
   const workers = files.filter((file) => reached(file).has(core));
-  expect(workers).toEqual(expect.arrayContaining([join('compute', 'worker.ts'), join('method', 'plane-worker.ts')]));
+  expect(workers).toEqual(expect.arrayContaining([join('compute', 'worker.ts'), join('method', 'plane-worker.ts'), join('reading', 'mesh-worker.ts')]));
   expect(workers.filter((file) => reached(file).has(page))).toEqual([]);
-  expect(workers.filter((file) => !/worker\.ts$|warmer\.ts$/.test(file))).toEqual([]);
-  expect(reached(join('reading', 'reader-worker.ts'))).toContain(page);
+  expect(workers.filter((file) => !/worker\.ts$|warmer\.ts$|mesh-answers\.ts$/.test(file))).toEqual([]);
+  expect(reached(join('reading', 'file-worker.ts'))).toContain(page);
   expect(reached('main.ts')).toContain(page);
 });
 

@@ -8,6 +8,7 @@ import { Keeper } from '../../www/app/keep.ts';
 import { Database } from '../../www/keep/database.ts';
 import type { SessionRecord } from '../../www/keep/record.ts';
 import { keptOf, readSession, recordOf } from '../../www/keep/record.ts';
+import { FileRefused } from '../../www/named-file.ts';
 import type { Event } from '../../www/store/events.ts';
 import type { MeshFile, State } from '../../www/store/state.ts';
 import { Store } from '../../www/store/store.ts';
@@ -490,6 +491,16 @@ describe('what cannot be read', () => {
     tab.does(pick(1));
     await tab.close();
     expect((await records()).map(({ id }) => id)).toEqual(['session-1', 'session-2']);
+  });
+
+  test('for want of the program is offered again', async () => {
+    const memory = await (await catAndLion()).close();
+    const read = (): Promise<never> => Promise.reject(new FileRefused('cat.off: no program', { failure: { code: 'no-core', message: 'status 503' } }));
+    const tab = await new Tab(memory, { read }).visit();
+    expect([tab.isResumed, tab.state.error]).toEqual([false, 'cat.off: no program']);
+    await tab.close();
+    const next = await new Tab().visit();
+    expect(next.state.offer?.names).toEqual(['cat.off', 'lion.off']);
   });
 
   test.each<[string, () => Promise<void>]>([

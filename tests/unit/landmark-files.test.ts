@@ -12,7 +12,7 @@ import { after } from './fixtures.ts';
 import { meshFile, openingOf } from './reading.ts';
 import { refusal } from './refusal.ts';
 import { tetrahedron } from './tetrahedron.ts';
-import { startPageModule } from './modules.ts';
+import { startModules } from './modules.ts';
 
 let source: MeshFile;
 let target: MeshFile;
@@ -20,7 +20,7 @@ let landmarks: LandmarkFile;
 let open: State;
 
 beforeAll(() => {
-  startPageModule();
+  startModules();
   const demo = buildDemo('horse-cat');
   if (demo === undefined) {
     throw new Error('the demo is gone');

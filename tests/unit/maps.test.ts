@@ -20,7 +20,7 @@ import { buildDemo, demoList, openMap, runMap } from '../../www/wasm/core.js';
 import { after } from './fixtures.ts';
 import { meshFile, READER } from './reading.ts';
 import { refusal } from './refusal.ts';
-import { startCoreModule, startPageModule } from './modules.ts';
+import { startCoreModule, startModules } from './modules.ts';
 
 vi.mock('../../www/compute/saved-client.ts', async (original) => {
   const { SavedMapError } = await original<typeof import('../../www/compute/saved-client.ts')>();
@@ -51,7 +51,7 @@ let maps: Maps;
 
 beforeAll(() => {
   startCoreModule();
-  startPageModule();
+  startModules();
   const demo = buildDemo((JSON.parse(demoList()) as Demo[]).at(-1)?.id ?? '');
   if (demo === undefined) {
     throw new Error('the demo is gone');

@@ -7,12 +7,18 @@ function module(name: string): Buffer {
   return readFileSync(new URL(`../../www/wasm/${name}_bg.wasm`, import.meta.url));
 }
 
-/** Starts the module that reads and draws meshes. */
+/** Starts the module of the page, which draws meshes. */
 export function startPageModule(): void {
   initPage({ module: module('page') });
 }
 
-/** Starts the module that makes maps. */
+/** Starts the core, which reads meshes and makes maps. */
 export function startCoreModule(): void {
   initCore({ module: module('core') });
+}
+
+/** Starts both. */
+export function startModules(): void {
+  startPageModule();
+  startCoreModule();
 }

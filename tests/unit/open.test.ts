@@ -6,13 +6,13 @@ import { Store } from '../../www/store/store.ts';
 import { demoList } from '../../www/wasm/page.js';
 import { mesh } from './fixtures.ts';
 import { READER } from './reading.ts';
-import { startPageModule } from './modules.ts';
+import { startModules } from './modules.ts';
 
 let demos: Demo[];
 let store: Store;
 
 beforeAll(() => {
-  startPageModule();
+  startModules();
   demos = JSON.parse(demoList()) as Demo[];
 });
 

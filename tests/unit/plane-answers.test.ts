@@ -3,13 +3,13 @@ import { beforeAll, expect, test } from 'vitest';
 import type { PlaneAnswer } from '../../www/store/left-right.ts';
 import type { MeshFile } from '../../www/store/work.ts';
 import { buildDemo } from '../../www/wasm/page.js';
-import { startPageModule } from './modules.ts';
+import { startModules } from './modules.ts';
 import { meshFile, READER } from './reading.ts';
 
 let horse: MeshFile;
 
 beforeAll(() => {
-  startPageModule();
+  startModules();
   const demo = buildDemo('horse-cat');
   horse = meshFile({ name: 'horse.obj', bytes: demo?.source() ?? new Uint8Array() });
 });

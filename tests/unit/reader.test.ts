@@ -1,25 +1,37 @@
-/** The page's reader with a worker that only listens. */
+/** The page's reader with workers that only listen. */
 import { beforeEach, expect, test, vi } from 'vitest';
 import type { Question, ReaderAnswer, ReaderRequest } from '../../www/reading/messages.ts';
-import { Reader, ReaderBroken, readMesh } from '../../www/reading/reader.ts';
+import { AskedWorker, ReaderBroken } from '../../www/reading/asked-worker.ts';
+import { Reader, readMesh } from '../../www/reading/reader.ts';
 import { fakeWorkers } from './fake-worker.ts';
 
 const FakeWorker = fakeWorkers<ReaderAnswer>();
 type FakeWorker = InstanceType<typeof FakeWorker>;
 
-const CORE = {} as WebAssembly.Module;
+const [PAGE, CORE] = [{ name: 'page' }, { name: 'core' }] as unknown as readonly [WebAssembly.Module, WebAssembly.Module];
 const FEW = 2 ** 20;
 const SUGGEST: Extract<Question, { kind: 'suggest' }> = { kind: 'suggest', mesh: new Uint8Array(), marked: '[]', count: 3 };
 const TRAP = { code: 'trap', message: 'unreachable' };
 const file = (name: string): { name: string; bytes: Uint8Array } => ({ name, bytes: new Uint8Array([1]) });
-let reader: Reader;
+let reader: AskedWorker<Question>;
 
 beforeEach(() => {
   FakeWorker.made = [];
   vi.stubGlobal('Worker', FakeWorker);
-  reader = new Reader();
-  reader.use(CORE);
+  reader = new AskedWorker(() => new Worker('reader.js'));
+  reader.use(() => Promise.resolve(CORE));
 });
+
+/** The page's reader, with both modules there. */
+function pageReader(): Reader {
+  const both = new Reader();
+  both.use(PAGE, () => Promise.resolve(CORE));
+  return both;
+}
+
+/** The modules that a worker was given. */
+const modules = (worker: FakeWorker | undefined): unknown[] =>
+  ((worker?.posted ?? []) as ReaderRequest[]).flatMap((request) => (request.kind === 'module' ? [request.module] : []));
 
 function last(): FakeWorker {
   const worker = FakeWorker.made.at(-1);
@@ -41,7 +53,8 @@ test('answers come to whoever asked, in whatever order', async () => {
   const first = reader.ask(SUGGEST, null);
   const second = reader.ask({ kind: 'demo', id: 'hands' }, null);
   expect(FakeWorker.made).toHaveLength(1);
-  expect(last().posted[0]).toEqual({ kind: 'core', module: CORE });
+  await Promise.resolve();
+  expect(modules(last())).toEqual([CORE]);
   last().says({ kind: 'answer', id: idOf(last(), 1), memory: FEW, answer: null });
   last().says({ kind: 'answer', id: idOf(last(), 0), memory: FEW, answer: '[7]' });
   expect([await first, await second]).toEqual(['[7]', null]);
@@ -64,7 +77,7 @@ test('a worker that breaks off fails its question alone: a fresh one goes on wit
   await expect(broken).rejects.toThrow(ReaderBroken);
   await expect(broken).rejects.toThrow(/^The computation stopped unexpectedly, perhaps for want of memory/);
   expect(first?.ended).toBe(true);
-  expect([last().posted[0], kinds(last())]).toEqual([{ kind: 'core', module: CORE }, ['sort']]);
+  expect([modules(last()), kinds(last())]).toEqual([[CORE], ['sort']]);
   last().says({ kind: 'answer', id: idOf(last(), 0), memory: FEW, answer: [] });
   expect(await other).toEqual([]);
 });
@@ -108,33 +121,63 @@ test('a worker with much memory is let go when it has nothing to do, and the nex
   expect([FakeWorker.made.length, kinds(last())]).toEqual([2, ['suggest']]);
 });
 
+test('a module that does not come fails what was asked, and is asked for again by the next question', async () => {
+  const source = vi.fn<() => Promise<WebAssembly.Module>>();
+  source.mockRejectedValueOnce(new Error('status 404')).mockResolvedValue(CORE);
+  const fetching = new AskedWorker<Question>(() => new Worker('reader.js'));
+  fetching.use(source);
+  expect(source).not.toHaveBeenCalled();
+  const lost = [fetching.ask(SUGGEST, null), fetching.ask(SUGGEST, null)];
+  await Promise.all(lost.map((answer) => expect(answer).rejects.toThrow(/could not be fetched/)));
+  expect(last().ended).toBe(true);
+  const answer = fetching.ask(SUGGEST, null);
+  await Promise.resolve();
+  expect([FakeWorker.made.length, modules(last()), source.mock.calls.length]).toEqual([2, [CORE], 2]);
+  last().says({ kind: 'answer', id: idOf(last(), 0), memory: FEW, answer: '[]' });
+  expect(await answer).toBe('[]');
+});
+
+test('files and demos go to one worker with the page’s module, meshes to another with the core', async () => {
+  const both = pageReader();
+  const [files] = FakeWorker.made;
+  void both.ask({ kind: 'sort', files: [] }, null);
+  expect(FakeWorker.made).toHaveLength(1);
+  void both.ask(SUGGEST, null);
+  await Promise.resolve();
+  expect([FakeWorker.made.length, modules(files), modules(last())]).toEqual([2, [PAGE], [CORE]]);
+  expect([kinds(files ?? last()), kinds(last())]).toEqual([['sort'], ['suggest']]);
+});
+
 test('a foreseen demo is begun once, and gives way to any other question', async () => {
-  reader.foresee('hands');
-  const demo = reader.ask({ kind: 'demo', id: 'hands' }, null);
+  const both = pageReader();
+  both.foresee('hands');
+  const demo = both.ask({ kind: 'demo', id: 'hands' }, null);
   expect(kinds(last())).toEqual(['demo']);
   last().says({ kind: 'answer', id: idOf(last(), 0), memory: FEW, answer: null });
   expect(await demo).toBeNull();
-  reader.foresee('poses');
-  void reader.ask({ kind: 'sort', files: [] }, null);
+  both.foresee('poses');
+  void both.ask({ kind: 'sort', files: [] }, null);
   expect([FakeWorker.made.length, kinds(last())]).toEqual([2, ['sort']]);
 });
 
 test('a foreseen demo that is left ends, too', async () => {
+  const both = pageReader();
   const leaving = new AbortController();
-  reader.foresee('hands');
-  const demo = reader.ask({ kind: 'demo', id: 'hands' }, leaving.signal);
+  both.foresee('hands');
+  const demo = both.ask({ kind: 'demo', id: 'hands' }, leaving.signal);
   leaving.abort();
   await expect(demo).rejects.toThrow('left');
   expect(last().ended).toBe(true);
 });
 
 test('a mesh that breaks the reader is refused by its name, and one that is left is not', async () => {
+  const both = pageReader();
   const { signal } = new AbortController();
-  const reading = readMesh(reader, file('big.obj'), {}, signal);
+  const reading = readMesh(both, file('big.obj'), {}, signal);
   last().says({ kind: 'failed', id: idOf(last(), 0), memory: FEW, failure: TRAP });
   expect(await reading).toMatchObject({ kind: 'bad', what: 'file', defects: null, sentence: expect.stringMatching(/^big\.obj: The computation stopped/) as string });
   const leaving = new AbortController();
-  const left = readMesh(reader, file('big.obj'), {}, leaving.signal);
+  const left = readMesh(both, file('big.obj'), {}, leaving.signal);
   leaving.abort();
   await expect(left).rejects.toThrow('left');
 });

@@ -1,10 +1,11 @@
-/** Files that are read by the tests' own core: what the page has a worker for. */
+/** Files that are read by the tests' own modules: what the page has workers for. */
 import { examinedOf, meshFile as takenMesh, mirroredEvent, mirrorQuestion } from '../../www/files.ts';
 import type { Pair, Side } from '../../www/landmarks.ts';
 import type { NamedBytes } from '../../www/named-file.ts';
 import type { Opening } from '../../www/opening.ts';
 import * as opening from '../../www/opening.ts';
-import { answerTo, meshReading } from '../../www/reading/answers.ts';
+import { fileAnswer } from '../../www/reading/file-answers.ts';
+import { meshAnswer, meshReading } from '../../www/reading/mesh-answers.ts';
 import type { Answers, Question, ReadFile } from '../../www/reading/messages.ts';
 import type { FileReader } from '../../www/reading/reader.ts';
 import type { Examined } from '../../www/store/defects.ts';
@@ -14,7 +15,9 @@ import { allowedBy } from '../../www/store/refused.ts';
 import type { MeshFile, State } from '../../www/store/state.ts';
 
 function answer<Kind extends Question['kind']>(question: Extract<Question, { readonly kind: Kind }>): Answers[Kind] {
-  return answerTo(question) as Answers[Kind];
+  const asked: Question = question;
+  const given = asked.kind === 'sort' || asked.kind === 'demo' ? fileAnswer(asked) : meshAnswer(asked);
+  return given as Answers[Kind];
 }
 
 /** Answers in the next turn. */

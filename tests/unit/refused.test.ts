@@ -14,11 +14,11 @@ import { workOf } from '../../www/store/work.ts';
 import { runMap } from '../../www/wasm/core.js';
 import { after, mesh, READY } from './fixtures.ts';
 import { eventsOfSides, examinedRepair, meshFile, openingOf, repairedEvents } from './reading.ts';
-import { startCoreModule, startPageModule } from './modules.ts';
+import { startCoreModule, startModules } from './modules.ts';
 
 beforeAll(() => {
   startCoreModule();
-  startPageModule();
+  startModules();
 });
 
 /** Vertices and faces, numbered from 0. */

@@ -10,12 +10,12 @@ import type { SentWork } from '../../www/send/schema.ts';
 import { Store } from '../../www/store/store.ts';
 import { Random } from './random.ts';
 import { meshFile, READER, readFile } from './reading.ts';
-import { startPageModule } from './modules.ts';
+import { startModules } from './modules.ts';
 
 const BASE = 'https://maps.example/conemap/';
 
 beforeAll(() => {
-  startPageModule();
+  startModules();
 });
 
 /** The bytes of an octahedron, pulled to this height. */

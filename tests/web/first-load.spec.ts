@@ -49,7 +49,7 @@ const CORE = /\/core_bg[^/]*\.wasm$/;
 /** The gallery's pictures: they come when the demos can be opened. */
 const PICTURE = /\/demos\/[^/]*$/;
 /** In bytes, of all files, packed with brotli. */
-const BUDGET = 1_200_000;
+const BUDGET = 1_000_000;
 
 async function packedSize(request: Request): Promise<number> {
   const response = await request.response();

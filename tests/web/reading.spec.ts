@@ -105,7 +105,10 @@ test('reading can be left, and what was there stays', async ({ page }) => {
 test('a reader that breaks is told in a sentence, and the next file has a fresh one', async ({ page }) => {
   await open(page);
   await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
-  const reader = page.workers().find((worker) => worker.url().includes('/reader-worker-')) ?? fail('there is no reader');
+  // It is begun with the first mesh.
+  await dropContents(page, [{ name: 'first.obj', content: TETRAHEDRON }]);
+  await expect(page.locator('body')).toContainText('first');
+  const reader = page.workers().find((worker) => worker.url().includes('/mesh-worker-')) ?? fail('there is no reader');
   await reader.evaluate(() => {
     self.postMessage = () => {
       throw new Error('no memory');

@@ -1,4 +1,5 @@
 /** Keeps the work in the browser as it changes, and brings it back: after a reload at once, on a new visit when asked for. */
+import type { Failure } from '../compute/messages.ts';
 import type { NamedBytes } from '../files.ts';
 import { areMarksGood, FileRefused, meshFile } from '../files.ts';
 import type { Choice } from '../keep/choice.ts';
@@ -38,6 +39,11 @@ export interface Surroundings {
   readonly delay: number;
 }
 
+/** Whether the program that reads meshes did not come: then nothing is wrong with what was kept. */
+function isNotThere(failure: Failure | null | undefined): boolean {
+  return failure?.code === 'no-core';
+}
+
 /** The browser that the page is in. */
 export function browserWith(reader: FileReader): Surroundings {
   return {
@@ -49,6 +55,9 @@ export function browserWith(reader: FileReader): Surroundings {
     hash: hashOf,
     read: async (file, signal) => {
       const reading = await readMesh(reader, file, ALL_ALLOWED, signal);
+      if (reading.kind === 'bad' && isNotThere(reading.failure)) {
+        throw new FileRefused(reading.sentence, reading);
+      }
       return () => meshFile({ file, reading });
     },
     delay: 400,
@@ -257,10 +266,16 @@ export class Keeper {
 
   /** Puts a session's work onto the page; `false` where it does not come, and says why where it cannot be read. */
   async #restore(record: SessionRecord): Promise<boolean> {
+    // What the reading is found to want.
+    const wants = { program: false };
     const outcome = await perform(
       this.#store,
       SENTENCES.bringingBack,
-      (signal) => this.#read(meshesOf(record), signal),
+      (signal) =>
+        this.#read(meshesOf(record), signal).catch((thrown: unknown) => {
+          wants.program = thrown instanceof FileRefused && isNotThere(thrown.failure);
+          throw thrown;
+        }),
       (read) => {
         const files = this.#taken(read);
         try {
@@ -275,7 +290,7 @@ export class Keeper {
         }
       },
     );
-    if (outcome === 'failed') {
+    if (outcome === 'failed' && !wants.program) {
       await this.#quietly((database) => database.decline([record.id]));
     }
     return outcome === 'done';

@@ -1,4 +1,4 @@
-/** The two modules of the program: one reads and draws meshes, the other, the core, makes maps and comes after it. */
+/** The two modules of the program: one draws meshes, the other, the core, reads them and makes maps, and comes after it. */
 import type { Failure } from './messages.ts';
 import { failureOf } from './messages.ts';
 
@@ -19,7 +19,7 @@ async function compiled(url: URL): Promise<WebAssembly.Module> {
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
-/** Compiles the module that reads and draws meshes, for the page and its reader. */
+/** Compiles the page's module, for the page and its worker of files. */
 export function compilePage(): Promise<WebAssembly.Module> {
   return compiled(new URL('../wasm/page_bg.wasm', import.meta.url));
 }

@@ -1,4 +1,4 @@
-/** What the page and the worker that reads files say to each other. */
+/** What the page and the workers that read files and meshes say to each other. */
 import type { Failure } from '../compute/messages.ts';
 import type { LandmarkContent } from '../landmark-files.ts';
 import type { NamedBytes } from '../named-file.ts';
@@ -11,7 +11,7 @@ export type OwnBytes = Uint8Array<ArrayBuffer>;
 /** A mesh that was read, and repaired where it had to be. */
 export interface GoodMesh {
   readonly kind: 'good';
-  /** As the core packs it. */
+  /** As both modules pack it. */
   readonly packed: OwnBytes;
   /** What was repaired, in a sentence without a full stop; empty where the mesh was good as given. */
   readonly repairs: string;
@@ -62,10 +62,14 @@ export interface MirroredMesh {
   readonly landmarks: OwnBytes;
 }
 
-/** What the worker is asked; meshes of the page go to it as the core packs them. */
-export type Question =
+/** What the worker of files is asked, which has the page's module. */
+export type FileQuestion =
   /** Which files there are when zips are unpacked and the parts of meshes packed into them, and what each holds. */
   | { readonly kind: 'sort'; readonly files: readonly NamedBytes[] }
+  | { readonly kind: 'demo'; readonly id: string };
+
+/** What the worker of meshes is asked, which has the core; meshes of the page go to it as they are packed. */
+export type MeshQuestion =
   | { readonly kind: 'mesh'; readonly file: NamedBytes; readonly allowed: Allowed }
   /** What was wrong with a file whose mesh was repaired. */
   | { readonly kind: 'repairs'; readonly bytes: Uint8Array; readonly mesh: Uint8Array }
@@ -74,13 +78,14 @@ export type Question =
   /** At most `count` places that are worth a landmark beside the `marked` ones, a JSON array of points. */
   | { readonly kind: 'suggest'; readonly mesh: Uint8Array; readonly marked: string; readonly count: number }
   /** A plane that mirrors a mesh; `wish` says which in the core's words. */
-  | { readonly kind: 'plane'; readonly mesh: Uint8Array; readonly wish: string }
-  | { readonly kind: 'demo'; readonly id: string };
+  | { readonly kind: 'plane'; readonly mesh: Uint8Array; readonly wish: string };
 
-/** To the worker: the core first, then questions. */
-export type ReaderRequest =
-  | { readonly kind: 'core'; readonly module: WebAssembly.Module }
-  | { readonly kind: 'question'; readonly id: number; readonly question: Question };
+export type Question = FileQuestion | MeshQuestion;
+
+/** To a worker: its module once, and questions, before it or after. */
+export type ReaderRequest<Asked extends Question = Question> =
+  | { readonly kind: 'module'; readonly module: WebAssembly.Module }
+  | { readonly kind: 'question'; readonly id: number; readonly question: Asked };
 
 /** What is answered to each kind of question. */
 export interface Answers {
@@ -96,7 +101,7 @@ export interface Answers {
   readonly demo: DemoFiles | null;
 }
 
-/** From the worker: what became of the question of the same number, and how much memory its core has in bytes. */
+/** From a worker: what became of the question of the same number, and how much memory its module has in bytes. */
 export type ReaderAnswer = { readonly id: number; readonly memory: number } & (
   | { readonly kind: 'answer'; readonly answer: Answers[keyof Answers] }
   | { readonly kind: 'refused'; readonly refusal: Refusal }

@@ -1,4 +1,4 @@
-//! The module of the workers that make maps. What it exports is `conemap::web` with the feature `web-core`.
+//! The core: the module of the workers that read meshes and make maps. What it exports is `conemap::web` with the feature `web-core`.
 
 #[cfg(target_arch = "wasm32")]
 pub use conemap::web;

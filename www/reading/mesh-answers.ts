@@ -1,13 +1,9 @@
-/** Answers about files, by the core of whoever asks: in the page that is the worker's alone. */
+/** Answers about meshes, by the core of whoever asks: in the page that is a worker's alone. */
 import { failureOf } from '../compute/messages.ts';
-import { contentOf } from '../landmark-files.ts';
-import { isMapFile } from '../map-files.ts';
-import { gathered } from '../mesh-sets.ts';
 import { fileSentence } from '../messages.ts';
 import type { NamedBytes } from '../named-file.ts';
 import type { Allowed } from '../store/refused.ts';
 import {
-  buildDemo,
   meshDefects,
   mirrorPlane,
   mirrorTarget,
@@ -15,24 +11,13 @@ import {
   repairMesh,
   suggestLandmarks,
   unpackMesh,
-} from '../wasm/page.js';
-import type { Answers, DemoFiles, MeshReading, MirroredMesh, OwnBytes, Question, ReadFile, SortedFile } from './messages.ts';
-
-/** The files by what they hold. Throws `FileRefused` for those that belong to nothing, and for bad landmark files. */
-function sorted(files: readonly NamedBytes[]): SortedFile[] {
-  return gathered(files).map(({ name, bytes, picture }) => {
-    const content = isMapFile({ bytes }) ? 'map' : (contentOf({ name, bytes }) ?? 'mesh');
-    return { name, bytes, ...(picture === undefined ? {} : { picture }), content };
-  });
-}
+} from '../wasm/core.js';
+import type { Answers, MeshQuestion, MeshReading, MirroredMesh, OwnBytes, ReadFile } from './messages.ts';
 
 /** What is wrong with a mesh that was refused; `null` where there is nothing to be seen of it. */
 function defectsOf(bytes: Uint8Array, allowed: string): OwnBytes | null {
   try {
-    const found = meshDefects(bytes, allowed);
-    const packed = found.packed() as OwnBytes;
-    found.free();
-    return packed;
+    return meshDefects(bytes, allowed) as OwnBytes;
   } catch (thrown) {
     if (typeof thrown === 'string' && failureOf(thrown).code === 'mesh') {
       return null;
@@ -71,10 +56,8 @@ function readFile(name: string, bytes: Uint8Array): ReadFile {
 
 function repairs(bytes: Uint8Array, packed: Uint8Array): OwnBytes {
   const mesh = unpackMesh(packed);
-  const found = repairedDefects(bytes, mesh);
+  const answer = repairedDefects(bytes, mesh) as OwnBytes;
   mesh.free();
-  const answer = found.packed() as OwnBytes;
-  found.free();
   return answer;
 }
 
@@ -101,24 +84,9 @@ function plane(packed: Uint8Array, wish: string): string {
   return answer;
 }
 
-function demo(id: string): DemoFiles | null {
-  const built = buildDemo(id);
-  if (built === undefined) {
-    return null;
-  }
-  const [source, target, landmarks] = [built.source(), built.target(), built.landmarks()];
-  built.free();
-  return {
-    meshes: [readFile(`${id}-source.obj`, source), readFile(`${id}-target.obj`, target)],
-    landmarks: { name: `${id}.json`, bytes: landmarks },
-  };
-}
-
 /** The answer to a question. Throws `FileRefused`, and what the core throws where it breaks off. */
-export function answerTo(question: Question): Answers[keyof Answers] {
+export function meshAnswer(question: MeshQuestion): Answers[MeshQuestion['kind']] {
   switch (question.kind) {
-    case 'sort':
-      return sorted(question.files);
     case 'mesh':
       return meshReading(question.file, question.allowed);
     case 'repairs':
@@ -129,7 +97,5 @@ export function answerTo(question: Question): Answers[keyof Answers] {
       return suggestions(question.mesh, question.marked, question.count);
     case 'plane':
       return plane(question.mesh, question.wish);
-    case 'demo':
-      return demo(question.id);
   }
 }
