@@ -33,8 +33,9 @@ async function click(page: Page, { x, y }: Spot): Promise<void> {
   await page.mouse.move(5, 5);
 }
 
-/** The pin of a number, at its place. */
+/** The pin of a number, at its place: it comes with the next frame. */
 async function pin(page: Page, view: string, number: string): Promise<Spot> {
+  await expect.poll(async () => (await heads(page, view)).has(number), { message: `pin ${number} of ${view} is seen` }).toBe(true);
   const head = (await heads(page, view)).get(number) ?? fail(`pin ${number} of ${view} is not seen`);
   return { x: head.x, y: head.y + STEM };
 }

@@ -25,7 +25,7 @@ export function fail(message: string): never {
 /** Opens the page and waits for the core. */
 export async function open(page: Page, hash = ''): Promise<void> {
   await page.goto(`/${hash}`);
-  await expect(page.locator('body')).toHaveAttribute('data-ready', 'true', { timeout: 120_000 });
+  await expect.poll(() => page.locator('body').getAttribute('data-ready'), { intervals: [50], timeout: 120_000 }).toBe('true');
 }
 
 /** Opens the page with a demo, ready to be mapped. */
@@ -74,7 +74,9 @@ export async function dropContents(page: Page, given: readonly { readonly name: 
 
 /** Waits for the end of a run, which must have gone well. */
 export async function finished(page: Page): Promise<void> {
-  await expect(page.locator('body')).toHaveAttribute('data-state', /done|error/, { timeout: RUN_TIMEOUT });
+  // Asked often: the usual intervals grow to a second, which many runs would wait for.
+  const state = (): Promise<string | null> => page.locator('body').getAttribute('data-state');
+  await expect.poll(state, { intervals: [50], timeout: RUN_TIMEOUT }).toMatch(/done|error/);
   await expect(page.locator('#error')).toBeHidden();
 }
 

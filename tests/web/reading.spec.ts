@@ -106,8 +106,8 @@ test('a reader that breaks is told in a sentence, and the next file has a fresh 
   await open(page);
   await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
   // It is begun with the first mesh.
-  await dropContents(page, [{ name: 'first.obj', content: TETRAHEDRON }]);
-  await expect(page.locator('body')).toContainText('first');
+  await dropContents(page, [{ name: 'earliest.obj', content: TETRAHEDRON }]);
+  await expect(page.locator('body')).toContainText('earliest');
   const reader = page.workers().find((worker) => worker.url().includes('/mesh-worker-')) ?? fail('there is no reader');
   await reader.evaluate(() => {
     self.postMessage = () => {
