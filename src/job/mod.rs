@@ -41,7 +41,7 @@ pub use proof_report::{
     DoubtfulReport, FaceCounts, LandmarkFigures, MatrixFigures, ProofFigures, ProofReport, SignCounts,
 };
 pub use saved::{MapFiles, OpenMap, OpenMapError};
-pub use settling::SettledLandmark;
+pub use settling::{SettledLandmark, planned_stages};
 pub use taken::{OutputKind, TakenMap};
 pub use truth::TruthError;
 pub use wrapping::{QuadAngles, WrapFileError, WrappedFile, WrappedFileReport};

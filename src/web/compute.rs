@@ -3,7 +3,8 @@
 use super::page_job::read_job;
 use super::{failure, output_file};
 use crate::demo::true_map;
-use crate::job::{BasePicture, Job, JobError, LookFiles, OutputKind};
+use crate::io::landmark_file;
+use crate::job::{BasePicture, Job, JobError, LookFiles, OutputKind, planned_stages};
 use crate::monitor::{Cancelled, MapPreview, Monitor, PlannedStage, PreviewOf, Progress, Stage, Step};
 use crate::pipeline::{Choices, MapResult, PipelineOptions};
 use crate::surface_map::measures::transfer::CommonMesh;
@@ -257,12 +258,14 @@ pub fn run_map(
     let choices: Choices = serde_json::from_str(options).map_err(|e| failure("options", e))?;
     let options = PipelineOptions::from(choices);
     let failed = |error: JobError| failure(error.code(), error);
+    // What cannot be read is told by the job.
+    let given = landmark_file::read(landmarks.as_bytes()).unwrap_or_default();
+    messenger.plan(planned_stages(&given, &options));
     let mut job = read_job([source, target], landmarks, &mut messenger)?;
     let true_map = demo.and_then(|id| true_map(&id));
     if let Some(image) = true_map {
         job.know_true_map(image);
     }
-    messenger.plan(options.stages(job.landmark_count()));
     let findings = job.findings(&mut messenger).map_err(|stop| failed(stop.into()))?;
     let json = serde_json::to_string(&findings).unwrap_or_default();
     // A page that does not listen is not a reason to stop.

@@ -5,10 +5,14 @@ use conemap::cone_metric::FlowOptions;
 use conemap::demo;
 use conemap::export;
 use conemap::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
-use conemap::job::{Job, JobError, JobFile, JobFiles, MapLook, TargetImage, TruthError};
+use conemap::job::{
+    FewLandmarks, Job, JobError, JobFile, JobFiles, MapLook, ReadOptions, TargetImage, TruthError,
+    planned_stages,
+};
 use conemap::landmark_exchange::GivenFile;
 use conemap::landmarks::MeshSide;
-use conemap::mesh::{FaceId, SurfaceMesh, SurfacePoint};
+use conemap::mesh::mirror::mirrored;
+use conemap::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use conemap::monitor::{Cancelled, Monitor, Progress, Silent, Stage, Step};
 use conemap::pipeline::{Base, Borders, Choices, MapResult, Method, PipelineOptions, Warning};
 
@@ -144,8 +148,10 @@ fn a_soft_landmark_settles_within_its_radius_and_the_map_takes_it_there() {
     let options = PipelineOptions::default();
     let mut recorder = Recorder::default();
     let (job, result) = run(&files, &options, &mut recorder);
-    let passed: Vec<Stage> = recorder.stages.iter().map(|stage| stage.0).take(3).collect();
-    assert_eq!(passed, [Stage::Landmarks, Stage::Settling, Stage::Findings]);
+    let passed: Vec<Stage> = recorder.stages.iter().map(|stage| stage.0).collect();
+    let plan = planned_stages(&landmark_file::read(&files.landmarks).unwrap(), &options);
+    assert_eq!(passed, plan.iter().map(|planned| planned.stage).collect::<Vec<_>>());
+    assert_eq!(passed[..3], [Stage::Landmarks, Stage::Settling, Stage::Findings]);
     assert!(recorder.stages.iter().all(|(_, fractions)| fractions.is_sorted()));
     assert!(result.report.certificate.as_ref().unwrap().bijective);
 
@@ -170,6 +176,34 @@ fn a_soft_landmark_settles_within_its_radius_and_the_map_takes_it_there() {
     assert!(again.settled().is_empty());
     let [first, second] = [&result, &same].map(|result| result.report.distortion.energy);
     assert!((first / second - 1.0).abs() < 1e-6, "{first} {second}");
+}
+
+/// The search sees the mirror image of the target; what was given is told of the target's file all the same.
+#[test]
+#[ignore = "long: run by `cargo xtask test --all`"]
+fn given_points_are_told_of_the_file_where_the_target_is_mirrored() {
+    let demo = demo::build("horse-cat").unwrap();
+    let target = mirrored(&demo.target).unwrap();
+    let [on_source, vertex] = demo.landmarks[0];
+    let vertex = VertexId(vertex);
+    let face = target.faces().find(|&f| target.triangles()[f].contains(&vertex)).unwrap();
+    let weights = target.triangles()[face].map(|v| if v == vertex { 0.7 } else { 0.15 });
+    let given =
+        [LandmarkPoint::Vertex(on_source), LandmarkPoint::OnFace { face: face.0, barycentric: weights }];
+    let landmarks = landmark_file::write(&LandmarkFile { pairs: vec![given], ..LandmarkFile::default() });
+    let [source, target] = [&demo.source, &target].map(export::obj::mesh);
+    let files = [GivenFile { name: "landmarks.json", bytes: &landmarks }];
+    let options = ReadOptions { few_landmarks: FewLandmarks::Matched, ..TargetImage::Mirrored.into() };
+    let files = JobFiles { source: &source, target: &target, landmarks: &files };
+    let job = Job::read(files, options, &mut Silent).unwrap();
+
+    for candidate in &job.matching().unwrap().candidates {
+        let LandmarkPoint::OnFace { face: told, barycentric } = candidate.pairs[0][1] else {
+            panic!("{:?}", candidate.pairs[0])
+        };
+        assert_eq!(told, face.0);
+        assert!(barycentric.iter().zip(weights).all(|(a, b)| (a - b).abs() < 1e-12), "{barycentric:?}");
+    }
 }
 
 /// A flow that may take no step does not converge.

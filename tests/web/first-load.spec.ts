@@ -1,13 +1,13 @@
 /**
  * What the browser fetches before a mesh can be dropped: no equations and no plots, which come when they are asked for, and not what
- * makes maps, which comes after it.
+ * reads meshes and makes maps, which comes after it.
  */
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { brotliCompressSync, constants, gzipSync } from 'node:zlib';
 import type { Request } from '@playwright/test';
 import { expect, test } from '@playwright/test';
-import { fail, open, openDemo, ROOT, runMap } from './page.ts';
+import { dropContents, fail, open, openDemo, ROOT, runMap } from './page.ts';
 
 const ASSETS = join(ROOT, 'dist/assets');
 /** In bytes, packed with gzip. */
@@ -97,4 +97,34 @@ test('a run that is asked for before the core is there begins when it comes', as
   await expect(page.locator('#cancel')).toBeVisible();
   letThrough();
   await expect(page.locator('#result')).toContainText('Certified bijective', { timeout: 200_000 });
+});
+
+const TETRAHEDRON = { name: 'small.obj', content: 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' };
+
+test('a mesh that is dropped before the core is there is read when it comes', async ({ page }) => {
+  let letThrough = (): void => undefined;
+  const opened = new Promise<void>((resolve) => {
+    letThrough = resolve;
+  });
+  await page.route(CORE, async (route) => {
+    await opened;
+    await route.continue();
+  });
+  await openDemo(page);
+  await dropContents(page, [TETRAHEDRON]);
+  await expect(page.locator('#status')).toHaveText('Reading the files…');
+  letThrough();
+  await expect(page.locator('.caption').filter({ hasText: 'small' })).toHaveCount(1);
+  await expect(page.locator('#error')).toBeHidden();
+});
+
+test('a mesh that cannot be read for want of the core is told, and read by the next try', async ({ page }) => {
+  await page.route(CORE, (route) => route.abort());
+  await openDemo(page);
+  await dropContents(page, [TETRAHEDRON]);
+  await expect(page.locator('#error p')).toHaveText(/^small\.obj: The part of the program that reads meshes and makes maps could not be fetched\./);
+  await page.unroute(CORE);
+  await dropContents(page, [TETRAHEDRON]);
+  await expect(page.locator('.caption').filter({ hasText: 'small' })).toHaveCount(1);
+  await expect(page.locator('#error')).toBeHidden();
 });

@@ -5,8 +5,12 @@ import { decoded } from '../viewer/decoded.ts';
 /** Bytes of a picture's file; no camera makes larger ones. */
 const LARGEST = 64 * 2 ** 20;
 
+/** How many were asked for: a slow one does not take the place of one that was chosen after it. */
+let asked = 0;
+
 /** Reads a picture and shows it; what cannot be read is told, and the last picture stays. */
 export async function openTexturePicture(store: Store, file: File): Promise<void> {
+  const number = ++asked;
   const tell = (sentence: string): void => {
     store.dispatch({ kind: 'error', sentence });
   };
@@ -18,6 +22,9 @@ export async function openTexturePicture(store: Store, file: File): Promise<void
     (bytes) => decoded(new Uint8Array(bytes)),
     () => null,
   );
+  if (number !== asked) {
+    return;
+  }
   if (picture === null) {
     tell(`${file.name} is no picture that this browser can read: choose a PNG, JPEG or WebP file`);
     return;

@@ -1,9 +1,9 @@
 use super::*;
 use crate::math::scalar::{cos, sin};
+use crate::mesh::VertexId;
 use crate::mesh::generators::{icosphere, torus};
 use crate::mesh::repair::{Change, Handle, Handles, Parts, RepairOptions, RepairRefusal, repaired};
 use crate::mesh::soup::PolygonSoup;
-use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::Silent;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
