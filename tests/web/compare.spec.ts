@@ -187,7 +187,7 @@ test('it fits a phone and a wide window, light and dark, without findings', { ta
   expect(errors).toEqual([]);
 });
 
-test('a map that cannot be made is a sentence in the section, and the map on the page stays', async ({ page }) => {
+test('a map that cannot be made is a sentence in the section, and the map on the page stays', { tag: '@long' }, async ({ page }) => {
   await page.route(/\/core_bg-[^/]*\.wasm$/u, async (route) => {
     const response = await route.fetch();
     await route.fulfill({ response, body: trapping(await response.body(), 'runOtherMap') });

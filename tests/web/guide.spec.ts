@@ -167,7 +167,7 @@ test('a map is plotted, read by keys, saved, and compared with the one before it
   expect(errors).toEqual([]);
 });
 
-test('the gallery shows each demo with its picture, and copies its link', async ({ page, context }) => {
+test('the gallery shows each demo with its picture, and copies its link', { tag: '@long' }, async ({ page, context }) => {
   await context.grantPermissions(['clipboard-read', 'clipboard-write']);
   await openDemo(page);
   await openStep(page, 'meshes');

@@ -61,7 +61,7 @@ test('ribbons, circles and coordinates lie on both meshes, as large and turned a
   }
 });
 
-test('a picture of one’s own lies on both meshes; what is no picture is told, and nothing is lost', async ({ page }) => {
+test('a picture of one’s own lies on both meshes; what is no picture is told, and nothing is lost', { tag: '@long' }, async ({ page }) => {
   await mapped(page);
   await page.locator('#texture-file').setInputFiles({ name: 'two.png', mimeType: 'image/png', buffer: await halvesPicture(page, ['#e60a0a', '#0ac80a'], [64, 64]) });
   await expect(page.getByRole('button', { name: 'Picture: Your picture' })).toBeVisible();

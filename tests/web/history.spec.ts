@@ -164,7 +164,7 @@ test('a step made just before the page goes is kept', async ({ page }) => {
   await shows(page, 'horse.obj', 'cat.obj', 0);
 });
 
-test('a new visit is asked whether to continue, beside a linked demo too', async ({ page, context }) => {
+test('a new visit is asked whether to continue, beside a linked demo too', { tag: '@long' }, async ({ page, context }) => {
   await open(page, '#demo=horse-cat');
   const pairs = await openOwn(page, ownFiles().cat);
   await kept(page, pairs);
@@ -195,7 +195,7 @@ test('a new visit is asked whether to continue, beside a linked demo too', async
   await expect(fourth.getByRole('button', { name: 'Start anew' })).toBeHidden();
 });
 
-test('two tabs do not disturb each other', async ({ page, context }) => {
+test('two tabs do not disturb each other', { tag: '@long' }, async ({ page, context }) => {
   await open(page, '#demo=horse-cat');
   const pairs = await openOwn(page, ownFiles().cat);
   await kept(page, pairs);

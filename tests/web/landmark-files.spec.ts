@@ -69,7 +69,7 @@ async function chooseByKeys(page: Page, name: RegExp): Promise<void> {
   throw new Error(`the arrows do not reach ${String(name)}`);
 }
 
-test('landmarks are saved in every format, and read back to the same points', async ({ page }) => {
+test('landmarks are saved in every format, and read back to the same points', { tag: '@long' }, async ({ page }) => {
   await openDemo(page);
   await openStep(page, 'landmarks');
   const first = await saved(page);

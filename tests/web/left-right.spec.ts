@@ -40,7 +40,7 @@ async function pin(page: Page, view: string, number: string): Promise<Spot> {
   return { x: head.x, y: head.y + STEM };
 }
 
-test('a click on each mesh makes two whole pairs, which go together', async ({ page }) => {
+test('a click on each mesh makes two whole pairs, which go together', { tag: '@long' }, async ({ page }) => {
   await openDemo(page);
   await openStep(page, 'landmarks');
   for (const view of VIEWS) {

@@ -212,7 +212,7 @@ test('a GLB with two pictures is seen with both, and the GLB of its map has both
   }
 });
 
-test('materials of an OBJ file with two pictures are seen, from a zip too, and kept over a reload', async ({ page }) => {
+test('materials of an OBJ file with two pictures are seen, from a zip too, and kept over a reload', { tag: '@long' }, async ({ page }) => {
   await open(page);
   const set = {
     'cat.obj': Buffer.from(halved(own.cat.buffer.toString())),

@@ -83,7 +83,7 @@ async function idlePage(context: BrowserContext): Promise<{ readonly page: Page;
   return { page, runs };
 }
 
-test('a map comes back from its file as the run gave it, and what is wrong with one is said', async ({ page, context }) => {
+test('a map comes back from its file as the run gave it, and what is wrong with one is said', { tag: '@long' }, async ({ page, context }) => {
   await openDemo(page, '#demo=sphere-tetrahedron');
   await page.locator('#run').click();
   await finished(page);

@@ -303,7 +303,7 @@ test('the flow is played on both meshes, its error falls, and the picture comes 
   expect(after.equals(before)).toBe(true);
 });
 
-test('both meshes are simplified to their landmarks, and come back', async () => {
+test('both meshes are simplified to their landmarks, and come back', { tag: '@long' }, async () => {
   const view = async (): Promise<Buffer> => page.screenshot({ clip: (await page.locator('#view-source').boundingBox()) ?? fail('no view') });
   const before = await view();
   await page.locator('#watch-simplification').click();
@@ -361,7 +361,7 @@ test('both meshes are simplified to their landmarks, and come back', async () =>
   expect((await view()).equals(before)).toBe(true);
 });
 
-test('where motion is not wanted the flow goes step by step', async () => {
+test('where motion is not wanted the flow goes step by step', { tag: '@long' }, async () => {
   await page.emulateMedia({ reducedMotion: 'reduce' });
   await page.locator('#watch-flow').click();
   const now = page.locator('.flow-residuals .now');

@@ -8,7 +8,7 @@ interface SavedFile {
   readonly radii?: readonly number[];
 }
 
-test('a soft landmark settles when the map is made, and is held there; undo gives the click back', async ({ page }) => {
+test('a soft landmark settles when the map is made, and is held there; undo gives the click back', { tag: '@long' }, async ({ page }) => {
   const saved = async (): Promise<SavedFile> => {
     const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save file' }).click()]);
     return JSON.parse(readFileSync(await download.path(), 'utf8')) as SavedFile;

@@ -13,7 +13,7 @@ const PACKAGES: [&str; 4] = ["--package", "conemap", "--package", "conemap-verif
 /// Which tests are run.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
-    /// All but the long ones, which are shown as ignored: about three quarters of an hour on two processors from nothing.
+    /// All but the long ones, which are shown as ignored: a good half hour on two processors from nothing.
     Usual,
     All,
 }
