@@ -5,7 +5,7 @@ use crate::data::SINGLE;
 use crate::theorems::{fixed_triangulation_fails_and_says_so, flow_converges};
 use std::path::Path;
 
-tests![every_single_mesh_converges, the_fixed_triangulation_says_that_it_did_not_converge];
+tests![every_single_mesh_converges; long: the_fixed_triangulation_says_that_it_did_not_converge];
 
 fn every_single_mesh_converges(data: &Path) {
     for name in SINGLE {

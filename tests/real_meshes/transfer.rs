@@ -13,7 +13,7 @@ use conemap::transfer::{Carrying, ValueCarrier, Values};
 use glam::DVec3;
 use std::path::Path;
 
-tests![values_and_poses_go_from_horse_to_camel];
+tests![; long: values_and_poses_go_from_horse_to_camel];
 
 /// A wave over the body.
 fn smooth(mesh: &SurfaceMesh) -> Values {
