@@ -565,17 +565,9 @@ mod tests {
     use super::*;
     use crate::mesh::generators::{icosphere, torus};
 
-    fn soup_of(mesh: &SurfaceMesh) -> PolygonSoup {
-        PolygonSoup {
-            positions: mesh.positions().iter().copied().collect(),
-            polygons: mesh.triangles().iter().map(|t| t.iter().map(|v| v.0).collect()).collect(),
-            ..PolygonSoup::default()
-        }
-    }
-
     #[test]
     fn a_sphere_passes_whatever_its_orientation() {
-        let sphere = soup_of(&icosphere(2));
+        let sphere = PolygonSoup::from(&icosphere(2));
         let mut mixed = sphere.clone();
         mixed.polygons.iter_mut().step_by(3).for_each(|p| p.reverse());
         let mut inside_out = sphere.clone();
@@ -641,7 +633,7 @@ mod tests {
 
     #[test]
     fn faults_are_named() {
-        let sphere = soup_of(&icosphere(1));
+        let sphere = PolygonSoup::from(&icosphere(1));
         let mut open = sphere.clone();
         open.polygons.pop();
         assert!(matches!(closed_genus_zero(&open), Err(MeshFault::OpenEdges(e)) if e.count == 3));
@@ -653,7 +645,10 @@ mod tests {
         let mut needle = sphere.clone();
         needle.polygons[7][1] = needle.polygons[7][0];
         assert!(matches!(closed_genus_zero(&needle), Err(MeshFault::DegenerateFaces(e)) if e.first == [7]));
-        assert_eq!(closed_genus_zero(&soup_of(&torus(8, 8))).unwrap_err(), MeshFault::Genus { genus: 1 });
+        assert_eq!(
+            closed_genus_zero(&PolygonSoup::from(&torus(8, 8))).unwrap_err(),
+            MeshFault::Genus { genus: 1 }
+        );
         let mut two = sphere.clone();
         let shift = sphere.positions.len() as u32;
         two.positions.extend(sphere.positions.iter().map(|p| *p + DVec3::X * 5.0));

@@ -13,6 +13,7 @@ pub(super) struct PlaneNumbers {
 }
 
 impl PlaneNumbers {
+    /// The numbers of a plane.
     #[cfg(feature = "web-core")]
     pub(super) fn of(plane: &MirrorPlane) -> Self {
         let normal = plane.normal();

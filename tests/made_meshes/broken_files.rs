@@ -1,6 +1,6 @@
 //! Broken meshes as files have them: several faults at once, in quads and in loose triangles, in any order, size and place.
 
-use crate::damage::{Damage, soup};
+use crate::damage::Damage;
 use crate::repair::is_sound;
 use crate::rough_meshes::{Random, body, cut_octahedron};
 use conemap::export::obj;
@@ -29,7 +29,7 @@ impl Dressing {
             2 => torus(12 + random.below(12), 6 + random.below(10)),
             _ => icosphere(1 + random.below(largest)),
         };
-        let mut broken = soup(&mesh);
+        let mut broken = PolygonSoup::from(&mesh);
         let faults = 1 + damage.below(6);
         damage.break_it(&mut broken, faults);
         Self { random: damage }.dressed(broken)

@@ -6,15 +6,6 @@ use conemap::mesh::generators::{icosphere, octahedron, tetrahedron, torus};
 use conemap::mesh::soup::PolygonSoup;
 use glam::DVec3;
 
-/// The triangles of a mesh.
-pub fn soup(mesh: &SurfaceMesh) -> PolygonSoup {
-    PolygonSoup {
-        positions: mesh.positions().iter().copied().collect(),
-        polygons: mesh.triangles().iter().map(|t| t.iter().map(|v| v.0).collect()).collect(),
-        joined_with: Vec::new(),
-    }
-}
-
 /// Adds another soup's vertices and polygons.
 pub fn add(soup: &mut PolygonSoup, other: &PolygonSoup, place: impl Fn(DVec3) -> DVec3) {
     let first = soup.positions.len() as u32;
@@ -116,7 +107,7 @@ impl Damage {
 
     fn specks(&mut self, soup: &mut PolygonSoup) {
         let at = soup.positions[self.below(soup.positions.len())];
-        add(soup, &self::soup(&tetrahedron()), |p| at * 1.5 + 0.02 * p);
+        add(soup, &PolygonSoup::from(&tetrahedron()), |p| at * 1.5 + 0.02 * p);
     }
 
     /// A face with one corner on the middle of an edge, its neighbour on the other side whole.
@@ -142,7 +133,7 @@ impl Damage {
 
     /// A small mesh with one to four faults.
     pub fn soup(&mut self) -> PolygonSoup {
-        let mut soup = soup(&self.mesh());
+        let mut soup = PolygonSoup::from(&self.mesh());
         let faults = 1 + self.below(4);
         self.break_it(&mut soup, faults);
         soup

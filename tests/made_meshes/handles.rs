@@ -1,6 +1,5 @@
 //! Handles: sums of tori in random triangulations, by seed, and a ball with a small one.
 
-use crate::damage::soup;
 use crate::repair::{is_sound, numbers_are_the_files};
 use conemap::job::{Job, JobError, JobFiles, MeshFaults, ReadOptions};
 use conemap::landmark_exchange::GivenFile;
@@ -48,7 +47,7 @@ impl Shapes {
 
     /// A torus, shaken.
     fn torus(&mut self) -> PolygonSoup {
-        let mut soup = soup(&torus(4 + self.below(9), 4 + self.below(9)));
+        let mut soup = PolygonSoup::from(&torus(4 + self.below(9), 4 + self.below(9)));
         let scale = 0.3 + 2.0 * self.0.unit();
         for p in &mut soup.positions {
             *p = scale * (*p + 0.1 * DVec3::from_array([0; 3].map(|_| self.0.unit() - 0.5)));
@@ -181,7 +180,7 @@ fn sums_of_tori_become_balls_and_nothing_else_changes() {
 fn the_loop_around_the_tube_or_the_tunnel_is_the_shorter_one() {
     // Radii 2 and 1: the tunnel's circle is as long as the tube's, and fewer edges cut it shorter.
     for (around, tube) in [(12, 8), (8, 12)] {
-        let given = soup(&torus(around, tube));
+        let given = PolygonSoup::from(&torus(around, tube));
         let mesh = cut(&given).unwrap();
         is_sound(&mesh);
         let [handle] = handles(&mesh) else { panic!("{:?}", mesh.report) };
@@ -201,7 +200,7 @@ fn the_loop_around_the_tube_or_the_tunnel_is_the_shorter_one() {
 /// A ball with two faces near each other joined by a bent tube of one ring.
 fn ball_with_a_speck_of_a_handle() -> (PolygonSoup, [usize; 6]) {
     let ball: SurfaceMesh = icosphere(4);
-    let mut soup = soup(&ball);
+    let mut soup = PolygonSoup::from(&ball);
     let one = soup.polygons[0].clone();
     let is_near = |p: &Vec<u32>| {
         let away = soup.positions[p[0] as usize].distance(soup.positions[one[0] as usize]);
@@ -264,7 +263,7 @@ fn a_ball_without_its_handle_is_mapped_and_the_report_says_so() {
 
 #[test]
 fn open_surfaces_with_handles_are_capped_and_cut() {
-    let mut given = soup(&torus(16, 16));
+    let mut given = PolygonSoup::from(&torus(16, 16));
     given.polygons.drain(40..60);
     let mesh = cut(&given).unwrap();
     is_sound(&mesh);
@@ -289,7 +288,7 @@ impl Monitor for Impatient {
 #[test]
 fn many_handles_are_refused_and_a_search_can_be_stopped() {
     let mut shapes = Shapes(SplitMix::new(1));
-    let small = soup(&torus(4, 4));
+    let small = PolygonSoup::from(&torus(4, 4));
     let mut sum = small.clone();
     for _ in 0..64 {
         sum = shapes.sum(&sum, &small);

@@ -1,6 +1,6 @@
 //! Repair: broken meshes made from good ones, by seed and by hand.
 
-use crate::damage::{Damage, add, punch, soup};
+use crate::damage::{Damage, add, punch};
 use conemap::io::landmark_file::LandmarkPoint;
 use conemap::landmarks::{LandmarkError, MeshSide, check_side};
 use conemap::math::random::SplitMix;
@@ -35,7 +35,7 @@ pub fn is_sound(mesh: &RepairedMesh) {
     assert_eq!(surface.euler_characteristic(), 2);
     assert!(signed_volume(surface) >= 0.0);
     assert!(surface.positions().iter().all(|p| p.is_finite()));
-    let again = repair(&soup(surface)).unwrap();
+    let again = repair(&PolygonSoup::from(surface)).unwrap();
     assert_eq!(again.report.fault, None);
     assert_eq!(again.report.changes, []);
     assert_eq!(again.checked.mesh.triangles(), surface.triangles());
@@ -107,7 +107,7 @@ pub fn numbers_are_the_files(soup: &PolygonSoup, checked: &CheckedMesh) {
 
 #[test]
 fn a_good_mesh_stays_as_it_is() {
-    let mut given = soup(&icosphere(2));
+    let mut given = PolygonSoup::from(&icosphere(2));
     given.polygons[5].swap(1, 2);
     given.positions.push(DVec3::ZERO);
     let mesh = repair(&given).unwrap();
@@ -120,7 +120,7 @@ fn a_good_mesh_stays_as_it_is() {
 
 #[test]
 fn a_hole_of_a_ball_gets_a_round_cap_of_good_triangles() {
-    let mut open = soup(&icosphere(4));
+    let mut open = PolygonSoup::from(&icosphere(4));
     punch(&mut open, DVec3::Z, 0.12);
     punch(&mut open, DVec3::NEG_X, 0.5);
     let mesh = repair(&open).unwrap();
@@ -210,7 +210,7 @@ fn loose_triangles_with_equal_corners_are_one_surface() {
 
 #[test]
 fn a_corner_on_an_edge_cuts_the_neighbour_and_opens_nothing() {
-    let mut given = soup(&icosphere(1));
+    let mut given = PolygonSoup::from(&icosphere(1));
     let [a, b, c] = given.polygons[3][..] else { panic!() };
     let middle = given.positions.len() as u32;
     given.positions.push(0.5 * (given.positions[a as usize] + given.positions[b as usize]));
@@ -278,7 +278,7 @@ fn a_seam_with_other_vertices_on_its_sides_closes_without_a_cap() {
 #[test]
 fn a_face_without_area_that_is_missing_leaves_no_hole() {
     // A corner of the neighbour on an edge of a face, whose other corner it has an edge with already.
-    let mut given = soup(&icosphere(1));
+    let mut given = PolygonSoup::from(&icosphere(1));
     let [a, b, c] = given.polygons[3][..] else { panic!() };
     let place = |v: u32| given.positions[v as usize];
     let (middle, top) = (given.positions.len() as u32, given.positions.len() as u32 + 1);
@@ -352,10 +352,10 @@ fn bodies_that_touch_come_apart() {
     assert!((mesh.checked.mesh.area() - 6.0).abs() < 1e-12);
 
     // Two balls at one vertex, the small one a speck.
-    let mut balls = soup(&icosphere(2));
+    let mut balls = PolygonSoup::from(&icosphere(2));
     let touch = balls.positions[7];
     let first = balls.positions.len() as u32;
-    add(&mut balls, &soup(&octahedron()), |p| touch + 0.02 * (p - DVec3::X));
+    add(&mut balls, &PolygonSoup::from(&octahedron()), |p| touch + 0.02 * (p - DVec3::X));
     balls.polygons.iter_mut().flatten().filter(|v| **v == first).for_each(|v| *v = 7);
     let mesh = repair(&balls).unwrap();
     is_sound(&mesh);
@@ -368,15 +368,15 @@ fn bodies_that_touch_come_apart() {
 #[test]
 fn what_cannot_be_repaired_is_told() {
     let refusal = |soup: &PolygonSoup| repair(soup).unwrap_err();
-    assert_eq!(refusal(&soup(&torus(8, 8))).kind(), "genus");
-    let mut open_torus = soup(&torus(12, 12));
+    assert_eq!(refusal(&PolygonSoup::from(&torus(8, 8))).kind(), "genus");
+    let mut open_torus = PolygonSoup::from(&torus(12, 12));
     open_torus.polygons.truncate(280);
     assert_eq!(refusal(&open_torus).kind(), "genus");
-    let mut two = soup(&icosphere(2));
+    let mut two = PolygonSoup::from(&icosphere(2));
     let ball = two.clone();
     add(&mut two, &ball, |p| p + 3.0 * DVec3::X);
     assert_eq!(refusal(&two).kind(), "parts");
-    let mut sheet = soup(&octahedron());
+    let mut sheet = PolygonSoup::from(&octahedron());
     sheet.polygons.truncate(1);
     assert_eq!(refusal(&sheet).kind(), "open_sheet");
     let line =

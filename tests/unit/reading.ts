@@ -7,6 +7,7 @@ import * as opening from '../../www/opening.ts';
 import { fileAnswer } from '../../www/reading/file-answers.ts';
 import { meshAnswer, meshReading } from '../../www/reading/mesh-answers.ts';
 import type { Answers, Question, ReadFile } from '../../www/reading/messages.ts';
+import { isOfFiles } from '../../www/reading/messages.ts';
 import type { FileReader } from '../../www/reading/reader.ts';
 import type { Examined } from '../../www/store/defects.ts';
 import type { Event } from '../../www/store/events.ts';
@@ -16,7 +17,7 @@ import type { MeshFile, State } from '../../www/store/state.ts';
 
 function answer<Kind extends Question['kind']>(question: Extract<Question, { readonly kind: Kind }>): Answers[Kind] {
   const asked: Question = question;
-  const given = asked.kind === 'sort' || asked.kind === 'demo' ? fileAnswer(asked) : meshAnswer(asked);
+  const given = isOfFiles(asked) ? fileAnswer(asked) : meshAnswer(asked);
   return given as Answers[Kind];
 }
 

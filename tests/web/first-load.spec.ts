@@ -5,9 +5,9 @@
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { brotliCompressSync, constants, gzipSync } from 'node:zlib';
-import type { Request } from '@playwright/test';
+import type { Page, Request } from '@playwright/test';
 import { expect, test } from '@playwright/test';
-import { dropContents, fail, open, openDemo, ROOT, runMap } from './page.ts';
+import { dropContents, fail, open, openDemo, ROOT, runMap, TETRAHEDRON } from './page.ts';
 
 const ASSETS = join(ROOT, 'dist/assets');
 /** In bytes, packed with gzip. */
@@ -74,6 +74,21 @@ test('the first load is small: the core is asked for when the page can be used',
   expect(sizes.reduce((sum, size) => sum + size, 0), list).toBeLessThan(BUDGET);
 });
 
+/** Keeps the core back until what this gives is called. */
+async function heldCore(page: Page): Promise<() => void> {
+  let letThrough = (): void => undefined;
+  const opened = new Promise<void>((resolve) => {
+    letThrough = resolve;
+  });
+  await page.route(CORE, async (route) => {
+    await opened;
+    await route.continue();
+  });
+  return () => {
+    letThrough();
+  };
+}
+
 test('a core that does not come is told, and fetched again by the next try', async ({ page }) => {
   await page.route(CORE, (route) => route.abort());
   await openDemo(page);
@@ -84,14 +99,7 @@ test('a core that does not come is told, and fetched again by the next try', asy
 });
 
 test('a run that is asked for before the core is there begins when it comes', async ({ page }) => {
-  let letThrough = (): void => undefined;
-  const opened = new Promise<void>((resolve) => {
-    letThrough = resolve;
-  });
-  await page.route(CORE, async (route) => {
-    await opened;
-    await route.continue();
-  });
+  const letThrough = await heldCore(page);
   await openDemo(page);
   await page.locator('#run').click();
   await expect(page.locator('#cancel')).toBeVisible();
@@ -99,19 +107,12 @@ test('a run that is asked for before the core is there begins when it comes', as
   await expect(page.locator('#result')).toContainText('Certified bijective', { timeout: 200_000 });
 });
 
-const TETRAHEDRON = { name: 'small.obj', content: 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' };
+const SMALL = { name: 'small.obj', content: TETRAHEDRON };
 
 test('a mesh that is dropped before the core is there is read when it comes', async ({ page }) => {
-  let letThrough = (): void => undefined;
-  const opened = new Promise<void>((resolve) => {
-    letThrough = resolve;
-  });
-  await page.route(CORE, async (route) => {
-    await opened;
-    await route.continue();
-  });
+  const letThrough = await heldCore(page);
   await openDemo(page);
-  await dropContents(page, [TETRAHEDRON]);
+  await dropContents(page, [SMALL]);
   await expect(page.locator('#status')).toHaveText('Reading the files…');
   letThrough();
   await expect(page.locator('.caption').filter({ hasText: 'small' })).toHaveCount(1);
@@ -121,10 +122,10 @@ test('a mesh that is dropped before the core is there is read when it comes', as
 test('a mesh that cannot be read for want of the core is told, and read by the next try', async ({ page }) => {
   await page.route(CORE, (route) => route.abort());
   await openDemo(page);
-  await dropContents(page, [TETRAHEDRON]);
+  await dropContents(page, [SMALL]);
   await expect(page.locator('#error p')).toHaveText(/^small\.obj: The part of the program that reads meshes and makes maps could not be fetched\./);
   await page.unroute(CORE);
-  await dropContents(page, [TETRAHEDRON]);
+  await dropContents(page, [SMALL]);
   await expect(page.locator('.caption').filter({ hasText: 'small' })).toHaveCount(1);
   await expect(page.locator('#error')).toBeHidden();
 });

@@ -3,7 +3,7 @@ import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
 import type { Upload } from './own-files.ts';
 import { ownFiles, upload } from './own-files.ts';
-import { dropContents } from './page.ts';
+import { dropContents, TETRAHEDRON } from './page.ts';
 
 async function open(page: Page, hash = ''): Promise<void> {
   await page.goto(`/${hash}`);
@@ -96,8 +96,7 @@ function ring(): string {
 
 test('a mesh with a handle waits beside the good one, is cut by a click, undone, and there again after a reload', async ({ page }) => {
   await open(page);
-  const corner = 'v 0 0 0\nv 2 0 0\nv 0 3 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n';
-  await dropContents(page, [{ name: 'corner.obj', content: corner }, { name: 'ring.obj', content: ring() }]);
+  await dropContents(page, [{ name: 'corner.obj', content: TETRAHEDRON }, { name: 'ring.obj', content: ring() }]);
   await expect(page.locator('#view-source')).toContainText('corner.obj');
   await expect(page.locator('#view-target')).toContainText(/ring\.obj .*not accepted/);
   const refused = page.locator('.notice.refused');

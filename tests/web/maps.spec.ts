@@ -3,7 +3,7 @@ import { readFileSync } from 'node:fs';
 import type { BrowserContext, Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
 import { unzipSync } from 'fflate';
-import { dropContents, fail, finished, open, openDemo, openStep, pairs, showSurface } from './page.ts';
+import { dropContents, fail, finished, open, openDemo, openStep, pairs, showSurface, TETRAHEDRON } from './page.ts';
 
 interface Saved {
   readonly name: string;
@@ -123,7 +123,7 @@ test('a map comes back from its file as the run gave it, and what is wrong with 
   const half = map.content.subarray(0, map.content.length / 2);
   const bent = Buffer.from(map.content);
   bent.fill(0xff, bent.length - 4000);
-  const wrong = { name: 'wrong.obj', content: 'v 0 0 0\nv 2 0 0\nv 0 3 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' };
+  const wrong = { name: 'wrong.obj', content: TETRAHEDRON };
   for (const [files, sentence] of [
     [[{ name: 'half.conemap', content: half }], /^half\.conemap: The map file/],
     [[{ name: 'bent.conemap', content: bent }], /^bent\.conemap: The map file/],

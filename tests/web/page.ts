@@ -22,10 +22,18 @@ export function fail(message: string): never {
   throw new Error(message);
 }
 
-/** Opens the page and waits for the core. */
+/** The smallest closed mesh, as OBJ: the corner of a box with three lengths of edges. */
+export const TETRAHEDRON = 'v 0 0 0\nv 2 0 0\nv 0 3 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n';
+
+/** Waits for what the body says of the page. Asked often: the usual intervals grow to a second, which many tests would wait for. */
+async function expectSaid(page: Page, attribute: string, words: RegExp, timeout: number): Promise<void> {
+  await expect.poll(async () => (await page.locator('body').getAttribute(attribute)) ?? '', { intervals: [50], timeout }).toMatch(words);
+}
+
+/** Opens the page and waits until it can be used. */
 export async function open(page: Page, hash = ''): Promise<void> {
   await page.goto(`/${hash}`);
-  await expect.poll(() => page.locator('body').getAttribute('data-ready'), { intervals: [50], timeout: 120_000 }).toBe('true');
+  await expectSaid(page, 'data-ready', /^true$/, 120_000);
 }
 
 /** Opens the page with a demo, ready to be mapped. */
@@ -74,9 +82,7 @@ export async function dropContents(page: Page, given: readonly { readonly name: 
 
 /** Waits for the end of a run, which must have gone well. */
 export async function finished(page: Page): Promise<void> {
-  // Asked often: the usual intervals grow to a second, which many runs would wait for.
-  const state = (): Promise<string | null> => page.locator('body').getAttribute('data-state');
-  await expect.poll(state, { intervals: [50], timeout: RUN_TIMEOUT }).toMatch(/done|error/);
+  await expectSaid(page, 'data-state', /done|error/, RUN_TIMEOUT);
   await expect(page.locator('#error')).toBeHidden();
 }
 

@@ -1,12 +1,11 @@
 /** Files are read beside the page: it answers while a large mesh is read, can leave it, and outlives a reader that breaks. */
 import type { JSHandle, Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
-import { dropContents, fail, open, openDemo } from './page.ts';
+import { dropContents, fail, open, openDemo, TETRAHEDRON } from './page.ts';
 
 /** About twice their squares are the numbers of triangles of the large meshes. */
 const LARGE = 320;
 const LARGER = 500;
-const TETRAHEDRON = 'v 0 0 0\nv 2 0 0\nv 0 3 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n';
 
 /** A dented ball with many triangles as a file to drop; it is made in the page, which is quicker than to send it there. */
 async function largeMesh(page: Page, rows: number): Promise<JSHandle<DataTransfer>> {

@@ -44,10 +44,12 @@ export class AskedWorker<Q extends Question> {
     this.#equip();
   }
 
-  /** Begins a worker before anybody asks. */
+  /** Begins a worker where there is none, also before anybody asks. */
   begin(): void {
-    this.#worker ??= this.#begun();
-    this.#equip();
+    if (this.#worker === null) {
+      this.#worker = this.#made();
+      this.#equip();
+    }
   }
 
   /** A question's answer. */
@@ -58,9 +60,7 @@ export class AskedWorker<Q extends Question> {
         reject(new Error('left'));
         return;
       }
-      if (this.#worker === null) {
-        this.begin();
-      }
+      this.begin();
       this.#asked.set(id, { question, resolve, reject } as Asked<Q>);
       signal?.addEventListener('abort', () => {
         if (this.#asked.delete(id)) {
@@ -82,7 +82,7 @@ export class AskedWorker<Q extends Question> {
     this.#worker?.postMessage(request);
   }
 
-  #begun(): Worker {
+  #made(): Worker {
     const worker = this.#make();
     worker.addEventListener('message', ({ data }: MessageEvent<ReaderAnswer>) => {
       if (worker === this.#worker) {

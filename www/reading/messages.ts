@@ -82,6 +82,11 @@ export type MeshQuestion =
 
 export type Question = FileQuestion | MeshQuestion;
 
+/** Whether the worker of files answers a question, and not that of meshes. */
+export function isOfFiles(question: Question): question is FileQuestion {
+  return question.kind === 'sort' || question.kind === 'demo';
+}
+
 /** To a worker: its module once, and questions, before it or after. */
 export type ReaderRequest<Asked extends Question = Question> =
   | { readonly kind: 'module'; readonly module: WebAssembly.Module }

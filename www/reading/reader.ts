@@ -4,6 +4,7 @@ import type { NamedBytes } from '../named-file.ts';
 import type { Allowed } from '../store/refused.ts';
 import { AskedWorker, ReaderBroken } from './asked-worker.ts';
 import type { Answers, FileQuestion, MeshQuestion, MeshReading, Question } from './messages.ts';
+import { isOfFiles } from './messages.ts';
 
 /** What reads files. Promises fail with `FileRefused`, and with anything once their signal has told to leave it. */
 export interface FileReader {
@@ -73,6 +74,6 @@ export class Reader implements FileReader {
   }
 
   #put(question: Question, signal: AbortSignal | null): Promise<Answers[keyof Answers]> {
-    return question.kind === 'sort' || question.kind === 'demo' ? this.#files.ask(question, signal) : this.#meshes.ask(question, signal);
+    return isOfFiles(question) ? this.#files.ask(question, signal) : this.#meshes.ask(question, signal);
   }
 }
