@@ -92,6 +92,15 @@ test('an error of the worker itself fails what it was doing', async () => {
   await later;
 });
 
+test('a worker whose script does not come is no fault of what was asked', async () => {
+  const lost = [reader.ask(SUGGEST, null), reader.ask({ kind: 'sort', files: [] }, null)];
+  last().dispatchEvent(new Event('error', { cancelable: true }));
+  await Promise.all(lost.map((answer) => expect(answer).rejects.toMatchObject({ failure: { code: 'no-core' } })));
+  expect([FakeWorker.made.length, last().ended]).toEqual([1, true]);
+  void reader.ask(SUGGEST, null);
+  expect([FakeWorker.made.length, kinds(last())]).toEqual([2, ['suggest']]);
+});
+
 test('what is left ends the worker, which hears nothing while it reads, and nothing else', async () => {
   const leaving = new AbortController();
   const left = reader.ask(SUGGEST, leaving.signal);

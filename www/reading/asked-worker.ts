@@ -98,7 +98,12 @@ export class AskedWorker<Q extends Question> {
     };
     worker.addEventListener('error', (event) => {
       event.preventDefault();
-      broken(event.message);
+      if ('message' in event) {
+        broken(event.message);
+      } else if (worker === this.#worker) {
+        // Its script did not come: nothing is wrong with what it was asked.
+        this.#giveUp({ code: 'no-core', message: 'the script of a worker' });
+      }
     });
     worker.addEventListener('messageerror', () => {
       broken('an unreadable message');
