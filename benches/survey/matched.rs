@@ -42,8 +42,8 @@ struct Known {
 struct Fit {
     /// Mean distance in units of the root of the area.
     error: f64,
-    /// Landmarks whose image is nearer to another one's partner.
-    wrong: usize,
+    /// Landmarks whose image is nearer to another one's partner, each with the nearest such one.
+    wrong: Vec<[usize; 2]>,
 }
 
 /// What was reached of a pair.
@@ -194,6 +194,7 @@ fn one(arguments: &Arguments, known: Known) -> Reached {
     };
     let mut fits = of_candidate(&known, best);
     line += &described(best, &fits);
+    line += &faults(&fits);
     if arguments.variants.iter().any(|variant| variant == "full") {
         match full(&known, best, arguments) {
             Ok((text, measured)) => {
@@ -206,13 +207,20 @@ fn one(arguments: &Arguments, known: Known) -> Reached {
     if arguments.depth > 1 {
         line += &alternatives(&known, &found);
     }
-    let better = fits.iter().min_by_key(|fit| fit.wrong);
-    Reached {
-        line,
-        right: better.is_some_and(|fit| fit.wrong == 0),
-        sure: found.verdict == Verdict::Sure,
-        error: better.map_or(f64::NAN, |fit| fit.error),
-    }
+    let Fit { error, wrong } = better(&fits);
+    Reached { line, right: wrong.is_empty(), sure: found.verdict == Verdict::Sure, error: *error }
+}
+
+/// The fit with fewer wrong landmarks, the first of equal ones.
+fn better([straight, exchanged]: &[Fit; 2]) -> &Fit {
+    if exchanged.wrong.len() < straight.wrong.len() { exchanged } else { straight }
+}
+
+/// The landmarks that are wrong, with those whose place they take.
+fn faults(fits: &[Fit; 2]) -> String {
+    let faults: Vec<String> =
+        better(fits).wrong.iter().map(|[own, other]| format!("{own}>{other}")).collect();
+    if faults.is_empty() { String::new() } else { format!(" [{}]", faults.join(" ")) }
 }
 
 /// All candidates but the best, each with the known landmarks nearest to its pairs.
@@ -228,8 +236,8 @@ fn alternatives(known: &Known, found: &LandmarkMatch) -> String {
         let pairs =
             candidate.pairs.iter().map(|p| format!("{}-{}", nearest(0, p.source), nearest(1, p.target)));
         let pairs: Vec<String> = pairs.collect();
-        text +=
-            &format!("\n   {} | {}", described(candidate, &of_candidate(known, candidate)), pairs.join(" "));
+        let fits = of_candidate(known, candidate);
+        text += &format!("\n   {} | {}{}", described(candidate, &fits), pairs.join(" "), faults(&fits));
         if let Some(difference) = &candidate.difference {
             text += &format!(" | {:?} {:.3}", difference.kind, difference.share);
         }
@@ -246,9 +254,9 @@ fn described(candidate: &Candidate, [straight, exchanged]: &[Fit; 2]) -> String 
         candidate.agreement,
         candidate.unmatched,
         100.0 * straight.error,
-        straight.wrong,
+        straight.wrong.len(),
         100.0 * exchanged.error,
-        exchanged.wrong
+        exchanged.wrong.len()
     )
 }
 
@@ -291,9 +299,9 @@ fn full(known: &Known, candidate: &Candidate, arguments: &Arguments) -> Result<(
         d.energy,
         d.mean_log,
         100.0 * fits[0].error,
-        fits[0].wrong,
+        fits[0].wrong.len(),
         100.0 * fits[1].error,
-        fits[1].wrong
+        fits[1].wrong.len()
     );
     Ok((text, fits))
 }
@@ -321,13 +329,15 @@ fn measured(known: &Known, target: &SurfaceMesh, images: &[DVec3]) -> [Fit; 2] {
         PARTNERS.iter().for_each(|&[a, b]| partner.swap(a, b));
     }
     let fit = |partner: &dyn Fn(usize) -> usize| {
-        let mut fit = Fit { error: 0.0, wrong: 0 };
+        let mut fit = Fit { error: 0.0, wrong: Vec::new() };
         for (k, image) in images.iter().enumerate() {
             let own = partner(k);
             fit.error += image.position(target).distance(goals[own].position(target)) / root / n as f64;
             let to = at(&fields[own], image);
             let far = |j: usize| at(&fields[j], &goals[own]) > APART * root;
-            fit.wrong += usize::from((0..n).any(|j| j != own && far(j) && at(&fields[j], image) < to));
+            let nearer = (0..n).filter(|&j| j != own && far(j) && at(&fields[j], image) < to);
+            let nearest = nearer.min_by(|&a, &b| at(&fields[a], image).total_cmp(&at(&fields[b], image)));
+            fit.wrong.extend(nearest.map(|j| [own, j]));
         }
         fit
     };

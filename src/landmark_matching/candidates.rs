@@ -2,21 +2,21 @@
 
 use super::between::{LEAST_TO_PLACE, between};
 use super::options::MatchOptions;
-use super::search::Assignment;
-use super::shape::Shape;
+use super::search::{Assignment, Tables};
+use super::symmetry::{Reflection, equivariant};
 use crate::landmarks::LEAST_LANDMARKS;
 
 /// Candidates with the same pairs of main tips, at most.
 const SAME_MAIN: usize = 2;
 
-/// The assignments to judge, the most promising first: the first `options.candidates` by cost with few of the same main pairs, then
-/// some that keep symmetric partners together, some by cost without regard to orders, then the others for a second look.
+/// The assignments to judge, the most promising first: those that keep left and right, `options.candidates` by cost with few of the same
+/// main pairs, some by cost without regard to orders, then the others for a second look.
 pub(super) fn chosen(
-    shapes: [&Shape; 2],
+    tables: &Tables<'_>,
     mut all: Vec<Assignment>,
     options: &MatchOptions,
 ) -> Vec<Assignment> {
-    let partners = shapes.map(Shape::partners);
+    let shapes = tables.shapes;
     all.retain(|assignment| assignment.pairs.len() >= LEAST_TO_PLACE);
     let is_main = |side: usize, k: usize| shapes[side].marks[k].persistence >= options.main_persistence;
     let main_pairs = |assignment: &Assignment| {
@@ -42,9 +42,10 @@ pub(super) fn chosen(
             }
         }
     };
+    for (k, assignments) in symmetric(tables).iter().enumerate() {
+        take(assignments, if k == 0 { options.symmetric } else { options.second_symmetric }, &mut chosen);
+    }
     take(&all, options.candidates, &mut chosen);
-    let symmetric: Vec<Assignment> = all.iter().filter(|a| is_symmetric(&partners, a)).cloned().collect();
-    take(&symmetric, options.symmetric, &mut chosen);
     // A long tail that only one of both has must not drive a leg to the other's head.
     let one_missing = |a: &&Assignment| a.unmatched[0] + a.unmatched[1] == 1;
     let mut missing: Vec<Assignment> = all.iter().filter(one_missing).cloned().collect();
@@ -63,12 +64,11 @@ pub(super) fn chosen(
     chosen.into_iter().flat_map(with_room).collect()
 }
 
-/// Whether partners go to partners, and what has none to what has none: as when two symmetric bodies are laid side by side.
-fn is_symmetric(partners: &[Vec<Option<usize>>; 2], assignment: &Assignment) -> bool {
-    let image = |s: usize| assignment.pairs.iter().find(|pair| pair[0] == s).map(|pair| pair[1]);
-    assignment.pairs.iter().all(|&[s, t]| match (partners[0][s], partners[1][t]) {
-        (Some(other), Some(expected)) => image(other) == Some(expected),
-        (None, None) => true,
-        _ => false,
-    })
+/// By pair of reflections of both bodies the assignments that keep left and right, the cheapest first; none where a body has no left and
+/// right.
+fn symmetric(tables: &Tables<'_>) -> Vec<Vec<Assignment>> {
+    let of = |side: usize| Reflection::all_of(tables.shapes[side], &tables.main[side]);
+    let [sources, targets] = [of(0), of(1)];
+    let pairs = sources.iter().flat_map(|source| targets.iter().map(move |target| [source, target]));
+    pairs.map(|pair| equivariant(tables, pair)).collect()
 }

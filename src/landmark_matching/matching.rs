@@ -8,7 +8,7 @@ use super::candidate::Candidate;
 use super::candidates::chosen;
 use super::input::MatchInput;
 use super::judge::judge;
-use super::moves::{exchanges, moves};
+use super::moves::moves;
 use super::options::MatchOptions;
 use super::parting::difference;
 use super::search::{Assignment, Tables, assignments};
@@ -107,9 +107,6 @@ fn check(input: MatchInput<'_>) -> Result<(), MatchError> {
     Ok(())
 }
 
-/// The changes of an assignment that are tried.
-type Changes = fn(&Tables<'_>, &Assignment) -> Vec<Assignment>;
-
 /// Candidates that were judged, the best first.
 struct Search<'a> {
     shapes: [&'a Shape; 2],
@@ -139,7 +136,7 @@ impl Search<'_> {
 
     /// Judges the most promising assignments, and more where these are poor.
     fn first_look(&mut self, tables: &Tables<'_>, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
-        let listed = chosen(self.shapes, assignments(tables, self.options), self.options);
+        let listed = chosen(tables, assignments(tables, self.options), self.options);
         let MatchOptions { candidates, symmetric, one_missing, without_orders, .. } = self.options;
         let first = candidates + symmetric + one_missing + without_orders;
         for (k, assignment) in listed.iter().enumerate() {
@@ -153,28 +150,14 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Judges small changes of the best; where it is poor also those in which two pairs have each other's target.
+    /// Judges small changes of the best, a bounded number, and goes on from what is better.
     fn improve(&mut self, tables: &Tables<'_>, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
-        let MatchOptions { changes, exchanges: most, doubtful_score, .. } = *self.options;
-        if self.least_score() >= doubtful_score {
-            self.climb(tables, exchanges, most, &mut Portion::new(monitor, 0.0, 0.5))?;
-        }
-        self.climb(tables, moves, changes, &mut Portion::new(monitor, 0.5, 1.0))
-    }
-
-    /// Judges at most `most` changes of the best, and goes on from what is better.
-    fn climb(
-        &mut self,
-        tables: &Tables<'_>,
-        changes: Changes,
-        most: usize,
-        monitor: &mut dyn Monitor,
-    ) -> Result<(), Cancelled> {
+        let most = self.options.changes;
         let mut tried: Vec<Assignment> = self.found.iter().map(|c| c.assignment.clone()).collect();
         let mut left = most;
         while let Some(best) = self.found.first().map(|best| best.assignment.clone()) {
             let mut better = false;
-            for change in changes(tables, &best) {
+            for change in moves(tables, &best) {
                 if left == 0 || better || monitor.wants_result() {
                     break;
                 }

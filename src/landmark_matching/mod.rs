@@ -16,6 +16,7 @@ mod persistence;
 mod search;
 mod shape;
 mod sharpening;
+mod symmetry;
 mod verdict;
 
 pub use candidate::{Candidate, CoarsePicture};

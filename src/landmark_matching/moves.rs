@@ -12,22 +12,6 @@ const NEAR: f64 = 0.45;
 /// Small tips are paired where their mean misfit is below this. Chosen by hand.
 const FITS: f64 = 0.25;
 
-/// Assignments in which two pairs have each other's target, the cheapest first.
-pub(super) fn exchanges(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignment> {
-    let given = tables.shapes[0].given;
-    let mut changed: Vec<Assignment> = Vec::new();
-    for a in given..from.pairs.len() {
-        for b in given..a {
-            let mut pairs = from.pairs.clone();
-            (pairs[a][1], pairs[b][1]) = (pairs[b][1], pairs[a][1]);
-            changed.push(tables.assignment(&pairs));
-        }
-    }
-    changed.retain(|assignment| assignment.pairs.len() >= LEAST_LANDMARKS);
-    changed.sort_by(|a, b| a.full_cost().total_cmp(&b.full_cost()));
-    changed
-}
-
 /// With so few pairs a map may wind either way round the body: a further pair is tried.
 const FEW: usize = 5;
 

@@ -24,8 +24,10 @@ pub struct MatchOptions {
     pub beam: usize,
     /// Candidates that are judged by their maps.
     pub candidates: usize,
-    /// More of them that take symmetric partners to symmetric partners.
+    /// More of them that take left and right of one body to those of the other.
     pub symmetric: usize,
+    /// And of those for each further pair of ways to tell left and right.
+    pub second_symmetric: usize,
     /// More of them in which one limb of one body has no partner, which costs nothing here.
     pub one_missing: usize,
     /// More of them that are chosen without regard to orders.
@@ -34,8 +36,6 @@ pub struct MatchOptions {
     pub more_candidates: usize,
     /// A score from which on more are judged.
     pub doubtful_score: f64,
-    /// Exchanges of two targets of a doubtful best one that are judged, at most.
-    pub exchanges: usize,
     /// Small changes of the best one that are judged, at most.
     pub changes: usize,
     /// Vertices of the coarse levels of the maps that judge.
@@ -64,12 +64,12 @@ impl Default for MatchOptions {
             lesser_partners: 3,
             beam: 3000,
             candidates: 6,
-            symmetric: 3,
-            one_missing: 2,
+            symmetric: 4,
+            second_symmetric: 1,
+            one_missing: 1,
             without_orders: 2,
-            more_candidates: 10,
+            more_candidates: 4,
             doubtful_score: 0.6,
-            exchanges: 10,
             changes: 6,
             // With 300 the order of close candidates changed, with three drawings and three twists in place of one it did not,
             // at twice the time (four pairs, both directions).

@@ -42,7 +42,8 @@ impl Assignment {
 /// Tables of what pairs cost.
 pub(super) struct Tables<'a> {
     pub(super) shapes: [&'a Shape; 2],
-    main: [Vec<usize>; 2],
+    /// By side the numbers of the main tips.
+    pub(super) main: [Vec<usize>; 2],
     /// By side and two marks: logarithm of their distance.
     log_distance: [Vec<Vec<f64>>; 2],
     /// By mark of the source and of the target.
@@ -149,10 +150,15 @@ impl Partial {
     }
 
     fn finished(self, tables: &Tables<'_>) -> Assignment {
+        // Lesser ends lie so near each other on a head that their orders say little, and better pairs of ears would cost more.
+        let is_clear =
+            |side: usize, k: usize| k < tables.shapes[side].given || tables.main[side].contains(&k);
+        let clear = self.pairs.iter().copied().filter(|[s, t]| is_clear(0, *s) || is_clear(1, *t));
+        let clear: Vec<[usize; 2]> = clear.collect();
         Assignment {
             cost: self.cost(tables.shapes[0].given),
             unmatched_cost: UNMATCHED * self.unmatched_cost,
-            agreement: agreement(tables.shapes, &self.pairs),
+            agreement: agreement(tables.shapes, &clear),
             unmatched: self.unmatched,
             pairs: self.pairs,
             between: None,
@@ -217,7 +223,7 @@ fn step(
 }
 
 /// Share of the cyclic orders of three around a fourth that are the same on both; 1 where there are fewer than four pairs.
-fn agreement(shapes: [&Shape; 2], pairs: &[[usize; 2]]) -> f64 {
+pub(super) fn agreement(shapes: [&Shape; 2], pairs: &[[usize; 2]]) -> f64 {
     let (mut same, mut all) = (0, 0);
     for (root, of) in pairs.iter().enumerate() {
         let ranks = [0, 1].map(|side: usize| &shapes[side].marks[of[side]].ranks);
