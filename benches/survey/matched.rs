@@ -26,6 +26,10 @@ use typed_index_collections::TiVec;
 /// Left and right partners among the landmarks of SHREC07.
 const PARTNERS: [[usize; 2]; 8] = [[2, 3], [4, 10], [5, 11], [6, 8], [7, 9], [15, 16], [17, 18], [19, 20]];
 
+/// Landmarks of SHREC07 that no map can put right on all of its animals: at the sides of the neck, they were set at 18 to 71 % of the way from
+/// eye to shoulder.
+const NECK: [usize; 2] = [2, 3];
+
 /// Landmarks nearer to each other than this share of the root of the area are not told apart.
 const APART: f64 = 0.15;
 
@@ -50,6 +54,8 @@ struct Fit {
 struct Reached {
     line: String,
     right: bool,
+    /// Whether it is right but for the neck.
+    nearly: bool,
     sure: bool,
     error: f64,
 }
@@ -82,14 +88,20 @@ pub fn table(arguments: &Arguments) {
 }
 
 fn sum_up(reached: &[Reached]) {
-    let count =
-        |right: bool, sure: bool| reached.iter().filter(|r| r.right == right && r.sure == sure).count();
+    let table = |is_right: fn(&Reached) -> bool| {
+        let count = |right: bool, sure: bool| {
+            reached.iter().filter(|r| is_right(r) == right && r.sure == sure).count()
+        };
+        println!("sure: {} right, {} wrong", count(true, true), count(false, true));
+        println!("not sure: {} right, {} wrong", count(true, false), count(false, false));
+    };
     let mut errors: Vec<f64> = reached.iter().map(|r| r.error).collect();
     errors.sort_by(f64::total_cmp);
     let (median, worst) = (errors.get(errors.len() / 2), errors.last());
     println!("median error {:.2} %, worst {:.2} %", percent(median), percent(worst));
-    println!("sure: {} right, {} wrong", count(true, true), count(false, true));
-    println!("not sure: {} right, {} wrong", count(true, false), count(false, false));
+    table(|r| r.right);
+    println!("without the landmarks at the neck of SHREC07:");
+    table(|r| r.nearly);
 }
 
 fn percent(share: Option<&f64>) -> f64 {
@@ -190,7 +202,8 @@ fn one(arguments: &Arguments, known: Known) -> Reached {
     let seconds = begun.elapsed().as_secs_f64();
     let mut line = format!("{:28} {seconds:6.2} s {:9}", known.name, found.verdict.word());
     let Some(best) = found.candidates.first() else {
-        return Reached { line: line + " no candidate", right: false, sure: false, error: f64::NAN };
+        let line = line + " no candidate";
+        return Reached { line, right: false, nearly: false, sure: false, error: f64::NAN };
     };
     let mut fits = of_candidate(&known, best);
     line += &described(best, &fits);
@@ -208,7 +221,14 @@ fn one(arguments: &Arguments, known: Known) -> Reached {
         line += &alternatives(&known, &found);
     }
     let Fit { error, wrong } = better(&fits);
-    Reached { line, right: wrong.is_empty(), sure: found.verdict == Verdict::Sure, error: *error }
+    let is_neck = |[own, _]: &[usize; 2]| known.name.starts_with("shrec07") && NECK.contains(own);
+    Reached {
+        line,
+        right: wrong.is_empty(),
+        nearly: wrong.iter().all(is_neck),
+        sure: found.verdict == Verdict::Sure,
+        error: *error,
+    }
 }
 
 /// The fit with fewer wrong landmarks, the first of equal ones.
