@@ -112,6 +112,7 @@ impl Candidate {
                 unmatched_cost: 0.0,
                 agreement: 1.0,
                 unmatched: [0; 2],
+                keeps_sides: true,
                 between: None,
             },
         }

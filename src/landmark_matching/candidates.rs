@@ -3,7 +3,7 @@
 use super::between::{LEAST_TO_PLACE, between};
 use super::options::MatchOptions;
 use super::search::{Assignment, Tables};
-use super::symmetry::{Reflection, equivariant};
+use super::symmetry::equivariant;
 use crate::landmarks::LEAST_LANDMARKS;
 
 /// Candidates with the same pairs of main tips, at most.
@@ -67,8 +67,7 @@ pub(super) fn chosen(
 /// By pair of reflections of both bodies the assignments that keep left and right, the cheapest first; none where a body has no left and
 /// right.
 fn symmetric(tables: &Tables<'_>) -> Vec<Vec<Assignment>> {
-    let of = |side: usize| Reflection::all_of(tables.shapes[side], &tables.main[side]);
-    let [sources, targets] = [of(0), of(1)];
+    let [sources, targets] = &tables.reflections;
     let pairs = sources.iter().flat_map(|source| targets.iter().map(move |target| [source, target]));
     pairs.map(|pair| equivariant(tables, pair)).collect()
 }

@@ -91,6 +91,8 @@ impl Default for MatchOptions {
 pub struct VerdictLimits {
     /// A candidate with a score above this is doubtful whatever the others are.
     pub sure_score: f64,
+    /// One that does not take left and right of one body to those of the other is so from this score on.
+    pub sure_score_without_sides: f64,
     /// With a score above this nothing fits.
     pub unknown_score: f64,
     /// A candidate of which a smaller share of the orders agrees is doubtful, too.
@@ -111,6 +113,7 @@ impl Default for VerdictLimits {
         // limbs, 0.53, do not. The score of right ones is below 0.58.
         Self {
             sure_score: 0.6,
+            sure_score_without_sides: 0.3,
             unknown_score: 1.0,
             agreement: 0.55,
             margin: 0.04,

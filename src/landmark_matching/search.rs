@@ -3,6 +3,7 @@
 use super::agreement::turns_left;
 use super::options::MatchOptions;
 use super::shape::Shape;
+use super::symmetry::{Reflection, keeps_sides};
 use crate::math::scalar::{ln, min};
 use crate::mesh::VertexId;
 
@@ -19,6 +20,8 @@ pub(super) struct Assignment {
     pub(super) agreement: f64,
     /// Main tips without a partner, by side.
     pub(super) unmatched: [usize; 2],
+    /// Whether it takes left and right of one body to those of the other; given pairs are taken to do so.
+    pub(super) keeps_sides: bool,
     /// A pair of vertices of both levels beside those of marks.
     pub(super) between: Option<[VertexId; 2]>,
 }
@@ -44,6 +47,8 @@ pub(super) struct Tables<'a> {
     pub(super) shapes: [&'a Shape; 2],
     /// By side the numbers of the main tips.
     pub(super) main: [Vec<usize>; 2],
+    /// By side what may be left and right.
+    pub(super) reflections: [Vec<Reflection>; 2],
     /// By side and two marks: logarithm of their distance.
     log_distance: [Vec<Vec<f64>>; 2],
     /// By mark of the source and of the target.
@@ -62,7 +67,8 @@ impl<'a> Tables<'a> {
         let [n, m] = shapes.map(|shape| shape.marks.len());
         let difference = (0..n).map(|s| (0..m).map(|t| difference(s, t)).collect()).collect();
         let main = shapes.map(|shape| shape.main(options));
-        Self { shapes, main, log_distance, difference }
+        let reflections = [0, 1].map(|side: usize| Reflection::all_of(shapes[side], &main[side]));
+        Self { shapes, main, reflections, log_distance, difference }
     }
 
     fn misfit(&self, [s, t]: [usize; 2], [p, q]: [usize; 2]) -> f64 {
@@ -160,6 +166,8 @@ impl Partial {
             unmatched_cost: UNMATCHED * self.unmatched_cost,
             agreement: agreement(tables.shapes, &clear),
             unmatched: self.unmatched,
+            keeps_sides: tables.shapes[0].given > 0
+                || keeps_sides(tables.reflections.each_ref().map(Vec::as_slice), &self.pairs),
             pairs: self.pairs,
             between: None,
         }

@@ -102,6 +102,11 @@ impl Reflection {
         next.extend(rest, all);
     }
 
+    /// The image of a tip; `None` where it is not known.
+    fn image(&self, tip: usize) -> Option<usize> {
+        self.images().into_iter().find(|image| image[0] == tip).map(|image| image[1])
+    }
+
     /// Each tip with its image.
     fn images(&self) -> Vec<[usize; 2]> {
         let swapped = self.pairs.iter().flat_map(|&[a, b]| [[a, b], [b, a]]);
@@ -156,6 +161,24 @@ pub(super) fn equivariant(tables: &Tables<'_>, reflections: [&Reflection; 2]) ->
     let cost = |a: &Assignment| a.full_cost() - if is_rest(a) { a.unmatched_cost } else { 0.0 };
     found.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
     found
+}
+
+/// Whether pairs take left and right of one body to left and right of the other, by any of their reflections.
+pub(super) fn keeps_sides(reflections: [&[Reflection]; 2], pairs: &[[usize; 2]]) -> bool {
+    let onto = |s: usize| pairs.iter().find(|pair| pair[0] == s).map(|pair| pair[1]);
+    let from = |t: usize| pairs.iter().find(|pair| pair[1] == t).map(|pair| pair[0]);
+    let keeps = |source: &Reflection, target: &Reflection| {
+        pairs.iter().all(|&[s, t]| match (source.image(s), target.image(t)) {
+            (Some(x), Some(y)) => {
+                (x == s) == (y == t) && onto(x).is_none_or(|t| t == y) && from(y).is_none_or(|s| s == x)
+            }
+            // A small end, of which the reflection says nothing, may be that of a head or a tail.
+            (Some(x), None) => x == s,
+            (None, Some(y)) => y == t,
+            (None, None) => true,
+        })
+    };
+    reflections[0].iter().any(|source| reflections[1].iter().any(|target| keeps(source, target)))
 }
 
 /// All ways to give each of the fewer ones one of the more, and those in which up to `missing` of them have none.
@@ -221,6 +244,22 @@ mod tests {
             );
         }
         assert!(reflection.middle.iter().all(|&mark| place(mark).y.abs() < 0.2));
+    }
+
+    #[test]
+    fn partners_go_to_partners_and_the_middle_to_the_middle() {
+        let body = [Reflection { pairs: vec![[0, 1], [2, 3]], middle: vec![4] }];
+        let keeps = |pairs: &[[usize; 2]]| keeps_sides([&body, &body], pairs);
+        assert!(keeps(&[[0, 0], [1, 1], [2, 2], [3, 3], [4, 4]]));
+        // The mirror image, fore and hind limbs exchanged, a limb left over, a small end on the middle line.
+        assert!(keeps(&[[0, 1], [1, 0], [2, 3], [3, 2]]));
+        assert!(keeps(&[[0, 2], [1, 3], [2, 0], [3, 1]]));
+        assert!(keeps(&[[0, 0], [2, 2], [3, 3], [4, 7]]));
+        // A limb on the middle line, one of both partners elsewhere, a small end as a limb.
+        assert!(!keeps(&[[0, 4]]));
+        assert!(!keeps(&[[0, 0], [1, 2]]));
+        assert!(!keeps(&[[0, 7], [1, 1]]));
+        assert!(!keeps_sides([&body, &[]], &[[4, 4]]));
     }
 
     #[test]

@@ -87,7 +87,9 @@ pub(super) fn verdict(
     let rival = number.map(|number| &candidates[number]);
     let near = rival.is_some_and(|rival| rival.score < best.score + limits.margin);
     let clear = best.pairs.iter().filter(|pair| pair.origin != PairOrigin::Between).count();
-    let fits = best.score < limits.sure_score && best.agreement >= limits.agreement;
+    let sides = best.assignment.keeps_sides;
+    let good = if sides { limits.sure_score } else { limits.sure_score_without_sides };
+    let fits = best.score < good && best.agreement >= limits.agreement;
     if fits && !near && clear >= limits.least_pairs {
         return Verdict::Sure;
     }
