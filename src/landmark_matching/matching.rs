@@ -138,6 +138,7 @@ impl Search<'_> {
     fn first_look(&mut self, tables: &Tables<'_>, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
         let listed = chosen(tables, assignments(tables, self.options), self.options);
         let MatchOptions { candidates, symmetric, one_missing, without_orders, .. } = self.options;
+        // Further ways to tell left and right take the place of the last of these.
         let first = candidates + symmetric + one_missing + without_orders;
         for (k, assignment) in listed.iter().enumerate() {
             let enough = k >= first && self.least_score() < self.options.doubtful_score;

@@ -11,6 +11,8 @@ use crate::math::scalar::{ln, min};
 
 /// With more main tips none is looked for: ten have 9,496 ways to be paired.
 const MOST_TIPS: usize = 10;
+/// With more main tips none of them has a lesser one as its partner: eight and six lesser ones have 11,136 ways more.
+const MOST_TIPS_WITH_LESSER: usize = 8;
 /// What orders that are not reversed cost beside the mean log ratio of distances: as in the search for assignments.
 const ORDERS: f64 = 0.3;
 /// Above this cost there is no reflection. The right ones of sixteen animals cost 0.004 to 0.2, the next best ones 0.11 to 0.3: what is wrong
@@ -47,7 +49,8 @@ impl Reflection {
         if main.len() > MOST_TIPS {
             return Vec::new();
         }
-        let lesser: Vec<usize> = (shape.given..shape.marks.len()).filter(|k| !main.contains(k)).collect();
+        let is_lesser = |k: &usize| !main.contains(k) && main.len() <= MOST_TIPS_WITH_LESSER;
+        let lesser: Vec<usize> = (shape.given..shape.marks.len()).filter(is_lesser).collect();
         let none = Self { pairs: Vec::new(), middle: Vec::new() };
         let mut all = Vec::new();
         none.extend(main, &mut all);
