@@ -1,9 +1,9 @@
 //! Assignments of the tips of one body to those of another: a beam search over partial assignments.
 
-use super::agreement::turns_left;
 use super::options::MatchOptions;
+use super::orders::agreement;
+use super::reflection::{Reflection, keeps_sides};
 use super::shape::Shape;
-use super::symmetry::{Reflection, keeps_sides};
 use crate::math::scalar::{ln, min};
 use crate::mesh::VertexId;
 
@@ -228,26 +228,4 @@ fn step(
         next.push(joined);
     }
     next
-}
-
-/// Share of the cyclic orders of three around a fourth that are the same on both; 1 where there are fewer than four pairs.
-pub(super) fn agreement(shapes: [&Shape; 2], pairs: &[[usize; 2]]) -> f64 {
-    let (mut same, mut all) = (0, 0);
-    for (root, of) in pairs.iter().enumerate() {
-        let ranks = [0, 1].map(|side: usize| &shapes[side].marks[of[side]].ranks);
-        let others: Vec<[u32; 2]> = (0..pairs.len())
-            .filter(|&k| k != root)
-            .map(|k| [0, 1].map(|side: usize| ranks[side][pairs[k][side]]))
-            .collect();
-        for (i, a) in others.iter().enumerate() {
-            for (j, b) in others[..i].iter().enumerate() {
-                for c in &others[..j] {
-                    all += 1;
-                    let turns = [0, 1].map(|side: usize| turns_left([a[side], b[side], c[side]]));
-                    same += usize::from(turns[0] == turns[1]);
-                }
-            }
-        }
-    }
-    if all == 0 { 1.0 } else { same as f64 / all as f64 }
 }

@@ -1,141 +1,10 @@
-//! Left and right of a body, as its main tips tell them, and the assignments that keep them.
+//! The assignments that take left and right of one body to those of the other.
 //!
-//! A reflection of the body takes each main tip to its partner on the other side or, on the middle line, to itself; it keeps distances and
-//! reverses the orders in which shortest paths lead to the tips. All ways to pair the tips are few, so the best is found by trying
-//! them. Where both bodies have one, the assignments that take partners to partners are few as well: none that a body plan allows is
-//! missed, however far from each other the proportions of the two are.
+//! Where both bodies have a reflection these are few: none that a body plan allows is missed, however far from each other the
+//! proportions of the two are.
 
-use super::search::{Assignment, Tables, agreement};
-use super::shape::Shape;
-use crate::math::scalar::{ln, min};
-
-/// With more main tips none is looked for: ten have 9,496 ways to be paired.
-const MOST_TIPS: usize = 10;
-/// With more main tips none of them has a lesser one as its partner: eight and six lesser ones have 11,136 ways more.
-const MOST_TIPS_WITH_LESSER: usize = 8;
-/// What orders that are not reversed cost beside the mean log ratio of distances: as in the search for assignments.
-const ORDERS: f64 = 0.3;
-/// Above this cost there is no reflection. The right ones of sixteen animals cost 0.004 to 0.2, the next best ones 0.11 to 0.3: what is wrong
-/// here costs candidates that their maps refuse.
-const MOST_COST: f64 = 0.25;
-/// Reflections that cost no more than this beyond the best are as good: with a twin of lesser persistence 0.00 to 0.01 beyond it on a
-/// deer, a cow and two more, 0.03 and more on ears of which only one is found.
-const NEARLY: f64 = 0.02;
-/// So many of these are kept.
-const REFLECTIONS: usize = 2;
-/// A lesser tip is on the middle line where its distances to partners differ by less in the mean: the reflections of whole bodies
-/// have this mean.
-const ON_MIDDLE: f64 = 0.06;
-/// So many lesser ones on the middle line, the most persistent.
-const LESSER_ON_MIDDLE: usize = 2;
-/// A log ratio of distances above this is as bad as any.
-const MOST_RATIO: f64 = 1.0;
-
-/// The main tips of a body in partners.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Reflection {
-    /// Left and right, in no order.
-    pub(super) pairs: Vec<[usize; 2]>,
-    /// On the middle line.
-    pub(super) middle: Vec<usize>,
-}
-
-impl Reflection {
-    /// The best reflections of a body's main tips that have a left and a right, the best first; none where none fits.
-    ///
-    /// Of two horns the pass between them leaves only one as a main tip, and the nose is lesser than both: so one main tip may have a
-    /// lesser one as its partner, and then lesser ones on the middle line count, too.
-    pub(super) fn all_of(shape: &Shape, main: &[usize]) -> Vec<Self> {
-        if main.len() > MOST_TIPS {
-            return Vec::new();
-        }
-        let is_lesser = |k: &usize| !main.contains(k) && main.len() <= MOST_TIPS_WITH_LESSER;
-        let lesser: Vec<usize> = (shape.given..shape.marks.len()).filter(is_lesser).collect();
-        let none = Self { pairs: Vec::new(), middle: Vec::new() };
-        let mut all = Vec::new();
-        none.extend(main, &mut all);
-        for (k, &of) in main.iter().enumerate() {
-            let others: Vec<usize> = [&main[..k], &main[k + 1..]].concat();
-            for &twin in &lesser {
-                Self { pairs: vec![[of, twin]], middle: Vec::new() }.extend(&others, &mut all);
-            }
-        }
-        all.retain(|reflection| !reflection.pairs.is_empty());
-        let mut costs: Vec<(f64, Self)> = all.into_iter().map(|r| (r.cost(shape), r)).collect();
-        costs.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let Some(least) = costs.first().map(|best| best.0).filter(|least| *least < MOST_COST) else {
-            return Vec::new();
-        };
-        costs.retain(|reflection| reflection.0 < least + NEARLY);
-        let with_lesser = |reflection: Self| {
-            let is_twin = reflection.pairs.iter().flatten().any(|k| lesser.contains(k));
-            if is_twin { reflection.with_middle(shape, &lesser) } else { reflection }
-        };
-        costs.into_iter().take(REFLECTIONS).map(|(_, reflection)| with_lesser(reflection)).collect()
-    }
-
-    /// With the lesser tips that lie on the middle line, too.
-    fn with_middle(mut self, shape: &Shape, lesser: &[usize]) -> Self {
-        let is_free = |k: &usize| self.pairs.iter().flatten().all(|other| other != k);
-        let off_middle = |k: usize| {
-            let ratio =
-                |&[a, b]: &[usize; 2]| (ln(shape.distance([k, a])) - ln(shape.distance([k, b]))).abs();
-            self.pairs.iter().map(ratio).sum::<f64>() / self.pairs.len() as f64
-        };
-        let on_middle = lesser.iter().copied().filter(is_free).filter(|&k| off_middle(k) < ON_MIDDLE);
-        let on_middle: Vec<usize> = on_middle.take(LESSER_ON_MIDDLE).collect();
-        self.middle.extend(on_middle);
-        self
-    }
-
-    /// All ways to pair what is left, or to leave it on the middle line.
-    fn extend(self, left: &[usize], all: &mut Vec<Self>) {
-        let Some((&first, rest)) = left.split_first() else {
-            all.push(self);
-            return;
-        };
-        for (k, &partner) in rest.iter().enumerate() {
-            let mut next = self.clone();
-            next.pairs.push([first, partner]);
-            let others: Vec<usize> = [&rest[..k], &rest[k + 1..]].concat();
-            next.extend(&others, all);
-        }
-        let mut next = self;
-        next.middle.push(first);
-        next.extend(rest, all);
-    }
-
-    /// The image of a tip; `None` where it is not known.
-    fn image(&self, tip: usize) -> Option<usize> {
-        self.images().into_iter().find(|image| image[0] == tip).map(|image| image[1])
-    }
-
-    /// Each tip with its image.
-    fn images(&self) -> Vec<[usize; 2]> {
-        let swapped = self.pairs.iter().flat_map(|&[a, b]| [[a, b], [b, a]]);
-        swapped.chain(self.middle.iter().map(|&a| [a, a])).collect()
-    }
-
-    /// How far it is from a reflection; 0 is a perfect one.
-    fn cost(&self, shape: &Shape) -> f64 {
-        let images = self.images();
-        let ratio = |[a, x]: [usize; 2], [b, y]: [usize; 2]| {
-            min((ln(shape.distance([a, b])) - ln(shape.distance([x, y]))).abs(), MOST_RATIO)
-        };
-        let (mut sum, mut count) = (0.0, 0);
-        for (k, &one) in images.iter().enumerate() {
-            for &other in images[..k].iter().filter(|other| **other != [one[1], one[0]]) {
-                sum += ratio(one, other);
-                count += 1;
-            }
-        }
-        let difference = |&[a, b]: &[usize; 2]| shape.marks[a].difference(&shape.marks[b]);
-        let differences: f64 = self.pairs.iter().map(difference).sum();
-        sum / f64::from(count.max(1))
-            + differences / self.pairs.len() as f64
-            + ORDERS * agreement([shape, shape], &images)
-    }
-}
+use super::reflection::Reflection;
+use super::search::{Assignment, Tables};
 
 /// The assignments that take partners to partners and the middle line to the middle line, the given pairs first: of those that differ in
 /// left and right only the one whose orders agree most, the cheapest first. One limb may be left on the middle line, without cost.
@@ -166,24 +35,6 @@ pub(super) fn equivariant(tables: &Tables<'_>, reflections: [&Reflection; 2]) ->
     found
 }
 
-/// Whether pairs take left and right of one body to left and right of the other, by any of their reflections.
-pub(super) fn keeps_sides(reflections: [&[Reflection]; 2], pairs: &[[usize; 2]]) -> bool {
-    let onto = |s: usize| pairs.iter().find(|pair| pair[0] == s).map(|pair| pair[1]);
-    let from = |t: usize| pairs.iter().find(|pair| pair[1] == t).map(|pair| pair[0]);
-    let keeps = |source: &Reflection, target: &Reflection| {
-        pairs.iter().all(|&[s, t]| match (source.image(s), target.image(t)) {
-            (Some(x), Some(y)) => {
-                (x == s) == (y == t) && onto(x).is_none_or(|t| t == y) && from(y).is_none_or(|s| s == x)
-            }
-            // A small end, of which the reflection says nothing, may be that of a head or a tail.
-            (Some(x), None) => x == s,
-            (None, Some(y)) => y == t,
-            (None, None) => true,
-        })
-    };
-    reflections[0].iter().any(|source| reflections[1].iter().any(|target| keeps(source, target)))
-}
-
 /// All ways to give each of the fewer ones one of the more, and those in which up to `missing` of them have none.
 fn injections(sources: usize, targets: usize, missing: usize) -> Vec<Vec<[usize; 2]>> {
     let least = sources.min(targets).saturating_sub(missing);
@@ -202,76 +53,10 @@ fn injections(sources: usize, targets: usize, missing: usize) -> Vec<Vec<[usize;
 
 #[cfg(test)]
 mod tests {
-    use super::super::options::MatchOptions;
-    use super::super::shape::Body;
     use super::*;
-    use crate::math::scalar::exp;
-    use crate::mesh::SurfaceMesh;
-    use crate::mesh::generators::icosphere;
-    use crate::monitor::Silent;
-    use glam::DVec3;
-
-    /// Four feet, the hind ones nearer to each other, a head before and above them and a tail behind.
-    const ENDS: [DVec3; 6] = [
-        DVec3::new(0.7, 0.6, -0.6),
-        DVec3::new(0.7, -0.6, -0.6),
-        DVec3::new(-0.6, 0.4, -0.8),
-        DVec3::new(-0.6, -0.4, -0.8),
-        DVec3::new(0.9, 0.0, 0.6),
-        DVec3::new(-1.0, 0.0, 0.2),
-    ];
-
-    /// A ball with a limb at each of the ends.
-    fn body() -> SurfaceMesh {
-        let ball = icosphere(4);
-        let limb = |p: DVec3, end: DVec3| exp(-30.0 * p.distance_squared(end.normalize()));
-        let height = |p: DVec3| 1.0 + 2.0 * ENDS.iter().map(|&end| limb(p, end)).sum::<f64>();
-        ball.with_positions(ball.positions().iter().map(|&p| height(p) * p).collect())
-    }
 
     #[test]
-    fn the_partners_of_a_body_are_mirror_images() {
-        let mesh = body();
-        let options = MatchOptions::default();
-        let body = Body { mesh: &mesh, given: &[], may_mark: None };
-        let shape = Shape::new(body, &options, &mut Silent).unwrap();
-        let reflection = Reflection::all_of(&shape, &shape.main(&options)).remove(0);
-        let place = |mark: usize| mesh.positions()[shape.on_mesh(shape.marks[mark].vertex)];
-        assert_eq!((reflection.pairs.len(), reflection.middle.len()), (2, 2), "{reflection:?}");
-        for [a, b] in reflection.pairs {
-            assert!(
-                place(a).distance(place(b) * DVec3::new(1.0, -1.0, 1.0)) < 0.2,
-                "{} {}",
-                place(a),
-                place(b)
-            );
-        }
-        assert!(reflection.middle.iter().all(|&mark| place(mark).y.abs() < 0.2));
-    }
-
-    #[test]
-    fn partners_go_to_partners_and_the_middle_to_the_middle() {
-        let body = [Reflection { pairs: vec![[0, 1], [2, 3]], middle: vec![4] }];
-        let keeps = |pairs: &[[usize; 2]]| keeps_sides([&body, &body], pairs);
-        assert!(keeps(&[[0, 0], [1, 1], [2, 2], [3, 3], [4, 4]]));
-        // The mirror image, fore and hind limbs exchanged, a limb left over, a small end on the middle line.
-        assert!(keeps(&[[0, 1], [1, 0], [2, 3], [3, 2]]));
-        assert!(keeps(&[[0, 2], [1, 3], [2, 0], [3, 1]]));
-        assert!(keeps(&[[0, 0], [2, 2], [3, 3], [4, 7]]));
-        // A limb on the middle line, one of both partners elsewhere, a small end as a limb.
-        assert!(!keeps(&[[0, 4]]));
-        assert!(!keeps(&[[0, 0], [1, 2]]));
-        assert!(!keeps(&[[0, 7], [1, 1]]));
-        assert!(!keeps_sides([&body, &[]], &[[4, 4]]));
-    }
-
-    #[test]
-    fn every_way_to_pair_is_tried_once() {
-        let mut all = Vec::new();
-        Reflection { pairs: Vec::new(), middle: Vec::new() }.extend(&[0, 1, 2, 3], &mut all);
-        // The involutions of four.
-        assert_eq!(all.len(), 10);
-        assert!(all.iter().all(|r| 2 * r.pairs.len() + r.middle.len() == 4));
+    fn every_way_to_give_partners_is_there_once() {
         assert_eq!(injections(2, 2, 0), [vec![[0, 0], [1, 1]], vec![[0, 1], [1, 0]]]);
         // Two ways with both, four with one.
         assert_eq!(injections(2, 2, 1).len(), 6);
