@@ -77,8 +77,10 @@ impl Arguments {
                 "--coarse-rounds" => arguments.options.multilevel.coarse.max_rounds = number() as usize,
                 "--fine-rounds" => arguments.options.multilevel.fine.max_rounds = number() as usize,
                 "--relief-rounds" => arguments.options.multilevel.rigid_patches.rounds = number() as usize,
-                "--relief-from" => arguments.options.multilevel.rigid_patches.vertices[0] = number() as usize,
-                "--relief-to" => arguments.options.multilevel.rigid_patches.vertices[1] = number() as usize,
+                "--relief-from" => {
+                    arguments.options.multilevel.rigid_patches.least_vertices = number() as usize
+                }
+                "--relief-hold" => arguments.options.multilevel.rigid_patches.hold = number(),
                 "--relief-noise" => arguments.options.multilevel.rigid_patches.fit.noise = number(),
                 "--relief-spacing" => arguments.options.multilevel.rigid_patches.spacing = number(),
                 "--own-rounds" => arguments.options.own_cones.rounds = number() as usize,

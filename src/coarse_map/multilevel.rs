@@ -187,28 +187,31 @@ impl CoarseMap<'_> {
         Ok(())
     }
 
-    /// Between two poses, on levels of the right size, registers patches and lowers the energy with their constraints.
+    /// Whether patches are registered on the present levels: between two poses, where these show relief.
+    fn has_relief(&self, options: &RigidPatchOptions) -> bool {
+        let shows = |level: &ParametrisedLevel<'_>| level.mesh().live_vertices() >= options.least_vertices;
+        self.energy == MapEnergy::POSES && self.levels.iter().all(shows)
+    }
+
+    /// Registers patches and lowers the energy with their constraints, so many times; then the constraints hold the vertices where
+    /// they are, since on a finer level another place for one of their small triangles would dent the map.
     ///
     /// # Errors
     /// [`MapError::Cancelled`].
     fn register_patches(
         &mut self,
         options: &RigidPatchOptions,
+        rounds: usize,
         fine: &MapRelaxationOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<(), MapError> {
-        let [least, most] = options.vertices;
-        let fits = |level: &ParametrisedLevel<'_>| (least..=most).contains(&level.mesh().live_vertices());
-        if self.energy != MapEnergy::POSES || !self.levels.iter().all(fits) {
-            return Ok(());
-        }
         let surfaces = [0, 1].map(|k| OrientedSurface::new(self.full[k]));
         let surfaces = [&surfaces[0], &surfaces[1]];
-        for round in 0..options.rounds {
+        for round in 0..rounds {
             if monitor.wants_result() {
                 break;
             }
-            let share = |round: usize| round as f64 / options.rounds as f64;
+            let share = |round: usize| round as f64 / rounds as f64;
             let part = &mut Portion::new(monitor, share(round), share(round + 1));
             self.look(|k, seen, constraints| {
                 let patches = &mut Portion::new(part, 0.0, 0.0);
@@ -221,7 +224,6 @@ impl CoarseMap<'_> {
             // A few steps before patches are registered again. Chosen by hand, not measured at half and double.
             self.lower(&MapRelaxationOptions { max_rounds: 4, ..*fine }, part, |_| ())?;
         }
-        // Finer levels hold their vertices where they are now: another place for one of their small triangles would dent the map.
         self.look(|_, seen, constraints| {
             for (v, constraint) in constraints {
                 if let Ok(v) = seen.vertices.binary_search(v) {
@@ -231,6 +233,38 @@ impl CoarseMap<'_> {
             Ok(())
         })?;
         Ok(())
+    }
+
+    /// Lowers the energy of the present levels; between two poses patches are registered meanwhile.
+    ///
+    /// # Errors
+    /// [`MapError::Cancelled`].
+    fn settle(
+        &mut self,
+        options: &MultilevelOptions,
+        is_finest: bool,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(), MapError> {
+        let fine = &MapRelaxationOptions { energy: self.energy, ..options.fine };
+        let patches = &options.rigid_patches;
+        if !self.has_relief(patches) {
+            return self.lower(fine, monitor, |_| ());
+        }
+        if !is_finest {
+            self.lower(fine, &mut Portion::new(monitor, 0.0, 0.5), |_| ())?;
+            return self.register_patches(
+                patches,
+                patches.rounds,
+                fine,
+                &mut Portion::new(monitor, 0.5, 1.0),
+            );
+        }
+        // Registered first: where nothing draws it the map of the full meshes drifts to the least energy, away from the known map.
+        self.register_patches(patches, patches.finest_rounds, fine, &mut Portion::new(monitor, 0.0, 0.5))?;
+        for (_, constraint) in self.constraints.iter_mut().flatten() {
+            constraint.rows = constraint.rows.map(|row| row * patches.hold.sqrt());
+        }
+        self.lower(fine, &mut Portion::new(monitor, 0.5, 1.0), |_| ())
     }
 
     /// Brings vertices back on both meshes until each level has grown by `growth`; `false` where none is missing.
@@ -433,20 +467,10 @@ pub fn solve_fine(
         if !map.grow(options, &mut Portion::new(level, 0.0, 0.1))? {
             break;
         }
-        let fine = MapRelaxationOptions { energy: map.energy, ..options.fine };
-        // Without constraints on the finest level their dents relax, and the map hardly moves otherwise.
         let is_finest = map.levels.iter().all(ParametrisedLevel::is_full);
-        if is_finest {
-            map.constraints = Default::default();
-        }
-        map.lower(&fine, &mut Portion::new(level, 0.1, 0.5), |_| ())?;
-        map.register_patches(&options.rigid_patches, &fine, &mut Portion::new(level, 0.5, 0.9))?;
+        map.settle(options, is_finest, &mut Portion::new(level, 0.1, 1.0))?;
         if !is_finest {
             level.preview(&map);
-        }
-        if is_finest && map.constraints.iter().any(|constraints| !constraints.is_empty()) {
-            map.constraints = Default::default();
-            map.lower(&fine, &mut Portion::new(level, 0.9, 1.0), |_| ())?;
         }
     }
     map.heal(&options.dents, &mut Portion::new(monitor, 1.0, 1.0))?;
