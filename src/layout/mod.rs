@@ -10,6 +10,7 @@ mod allowance;
 mod base_layout;
 mod bounds;
 mod candidates;
+mod descent;
 mod draw;
 mod drawing;
 mod drawing_fault;
@@ -21,6 +22,8 @@ mod patches;
 mod path_search;
 mod refinable;
 mod search;
+#[cfg(test)]
+mod testing;
 mod twists;
 mod variants;
 
