@@ -12,7 +12,10 @@ use cpu_time::ThreadTime;
 /// For each pair, as it is, with `--seeds` other orders of its landmarks and as many clicks: the mean log density of the coarse map
 /// that the search chooses, after it is relaxed, and on the next finer level; the layouts that were judged, and the seconds of the search.
 pub fn table(arguments: &Arguments) {
-    println!("{:20} {:12} {:>8} {:>8} {:>8} {:>4} {:>7}", "pair", "variant", "chosen", "relaxed", "finer", "cls", "cpu s");
+    println!(
+        "{:20} {:12} {:>8} {:>8} {:>8} {:>4} {:>7}",
+        "pair", "variant", "chosen", "relaxed", "finer", "cls", "cpu s"
+    );
     for name in arguments.names() {
         let case = Case::of_pair(arguments, &name);
         one(arguments, &case, "given");
@@ -55,7 +58,8 @@ fn one(arguments: &Arguments, case: &Case, variant: &str) {
     let vertices = multilevel.coarse_vertices.max(LEAST_PER_LANDMARK * input.landmarks.len());
     let sides: [MeshWithCoarse<'_>; 2] =
         coarse_levels(&landmarked, vertices, multilevel.rims, &mut Silent).expect("nobody stops");
-    let search = ClassSearchOptions { multilevel, search: &arguments.options.search, choice: ClassChoice::Best };
+    let search =
+        ClassSearchOptions { multilevel, search: &arguments.options.search, choice: ClassChoice::Best };
     let begun = ThreadTime::now();
     let chosen = choose_class(&sides, search, &mut Silent);
     let seconds = begun.elapsed().as_secs_f64();

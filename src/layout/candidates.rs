@@ -12,14 +12,16 @@ use super::patches;
 use super::twists::{self, Twist};
 use super::variants::{STARTS, Variant};
 use crate::landmarks::Landmarks;
+use crate::math::scalar::min;
 use crate::mesh::SurfaceMesh;
 use crate::monitor::{Monitor, Step};
 
-/// With a detour above this, all starts are drawn: of 50 searches on ten pairs the layouts of the best classes had less, and those
-/// that missed theirs more.
+/// With a detour above this, another batch of starts is drawn: of 50 searches on ten pairs the layouts of the best classes had less,
+/// and those that missed theirs more.
 const STRAIGHT: f64 = 0.4;
-/// Starts after which drawing ends where all of them have wound.
-const TANGLED: usize = 4;
+
+/// Twists whose detours are larger than those of what is twisted by more than this are not completed. They wind, and take long.
+const WINDING: f64 = 2.0;
 
 /// A layout that can be judged, and turned into its neighbours.
 #[derive(Clone, Debug)]
@@ -33,6 +35,16 @@ impl Candidate {
     /// Vertices of both refined meshes.
     pub(super) fn size(&self) -> usize {
         self.layout.source.mesh.vertex_count() + self.layout.target.mesh.vertex_count()
+    }
+
+    /// Whether another candidate of the same class joins the same landmarks.
+    pub fn has_same_paths(&self, other: &Self) -> bool {
+        let sorted = |candidate: &Self| {
+            let mut ends = candidate.drawing.ends.clone();
+            ends.sort_unstable();
+            ends
+        };
+        sorted(self) == sorted(other)
     }
 
     #[cfg(test)]
@@ -51,13 +63,10 @@ pub struct Candidates<'a> {
     landmarks: &'a Landmarks,
     empty: Drawing,
     distances: LandmarkDistances,
-    /// How many starts were drawn, and how many of them wound.
-    drawn: usize,
-    tangled: usize,
-    /// The class of the straightest layout, its number among those given, and the detour.
-    straightest: Option<(usize, f64)>,
-    /// Whether two descents have ended in the straightest class.
-    is_settled: bool,
+    /// How many batches of starts were drawn.
+    batches: usize,
+    /// The least detour that was drawn.
+    least: f64,
     /// The straightest last.
     ready: Vec<Candidate>,
     given: Vec<Class>,
@@ -86,10 +95,8 @@ impl<'a> Candidates<'a> {
             landmarks,
             empty,
             distances,
-            drawn: 0,
-            tangled: 0,
-            straightest: None,
-            is_settled: false,
+            batches: 0,
+            least: f64::INFINITY,
             ready: Vec::new(),
             given: Vec::new(),
             failure: None,
@@ -102,50 +109,61 @@ impl<'a> Candidates<'a> {
     /// # Errors
     /// [`LayoutError::Cancelled`] only: a start that fails is passed over (see [`Self::failure`]).
     pub fn next(&mut self, monitor: &mut dyn Monitor) -> Result<Option<Candidate>, LayoutError> {
-        while self.may_draw() && (self.ready.is_empty() || !(self.is_settled || monitor.wants_result())) {
-            self.draw_start(&STARTS[self.drawn], monitor)?;
+        while self.ready.is_empty() || (self.least > STRAIGHT && !monitor.wants_result()) {
+            let Some(batch) = STARTS.get(self.batches) else { break };
+            self.draw_batch(batch, monitor)?;
         }
         self.ready.sort_by(|a, b| b.layout.report.detour.total_cmp(&a.layout.report.detour));
         Ok(self.ready.pop())
     }
 
-    /// Whether [`Self::next`] has one at hand, or thinks that there are straighter ones.
+    /// Whether [`Self::next`] has one at hand, or there may be straighter ones.
     pub(super) fn is_promising(&self) -> bool {
-        !self.ready.is_empty() || (self.may_draw() && !self.is_settled)
+        !self.ready.is_empty() || (self.least > STRAIGHT && self.batches < STARTS.len())
     }
 
-    /// Whether there are starts left. Where no start but winds, others do, too.
-    fn may_draw(&self) -> bool {
-        let only_tangles = self.tangled == self.drawn && self.drawn >= TANGLED;
-        self.drawn < STARTS.len() && !only_tangles
-    }
-
-    /// Draws a start and what its descent leads to. The start is kept, too: where no straight layout has a map, a bent one may.
-    fn draw_start(&mut self, variant: &Variant, monitor: &mut dyn Monitor) -> Result<(), LayoutError> {
-        self.drawn += 1;
-        let ground = Ground { empty: &self.empty, distances: &self.distances };
-        let start = match joint::draw(&ground, variant, monitor) {
-            Ok(start) => start,
-            Err(LayoutError::Cancelled(stop)) => return Err(stop.into()),
-            Err(error) => {
-                self.tangled += usize::from(matches!(error, LayoutError::Tangled { .. }));
-                self.failure = Some(error);
-                return Ok(());
+    /// Draws a batch of starts and what the descent from the straightest leads to. The starts are kept, too: where no straight
+    /// layout has a map, a bent one may.
+    fn draw_batch(&mut self, batch: &[Variant], monitor: &mut dyn Monitor) -> Result<(), LayoutError> {
+        self.batches += 1;
+        let (mut tangled, mut most_detour) = (0, f64::INFINITY);
+        let mut starts: Vec<Drawing> = Vec::new();
+        for variant in batch {
+            if monitor.wants_result() && !starts.is_empty() {
+                break;
             }
-        };
-        let mut planner = Planner::new(&self.distances, variant.midpoint_penalty, monitor);
-        let ended = descent::straightest(start.clone(), &mut planner)?;
-        monitor.step(Step::default())?;
-        match self.candidate(ended) {
-            Ok(candidate) => self.is_settled |= self.keep(candidate) == Kept::OfStraightestClass,
-            Err(error) => {
-                self.tangled += usize::from(matches!(error, LayoutError::Tangled { .. }));
-                self.failure = Some(error);
+            let ground = Ground { most_detour, ..Ground::new(&self.empty, &self.distances) };
+            match joint::draw(&ground, variant, monitor) {
+                Ok(start) => {
+                    let detour = start.detour(&self.distances);
+                    most_detour = min(most_detour, descent::worth_completing(detour));
+                    starts.push(start);
+                }
+                Err(LayoutError::Cancelled(stop)) => return Err(stop.into()),
+                Err(error) => {
+                    tangled += usize::from(matches!(error, LayoutError::Tangled { .. }));
+                    self.failure = Some(error);
+                }
             }
         }
-        monitor.step(Step::default())?;
-        if let Ok(candidate) = self.candidate(start) {
-            self.keep(candidate);
+        // Where no start but winds, others do, too.
+        if starts.is_empty() && tangled == batch.len() {
+            self.batches = STARTS.len();
+        }
+        let detour = |drawing: &Drawing| drawing.detour(&self.distances);
+        let ended = match starts.iter().min_by(|a, b| detour(a).total_cmp(&detour(b))) {
+            Some(start) => {
+                let mut planner = Planner::new(&self.distances, 1.0, monitor);
+                Some(descent::straightest(start.clone(), &mut planner)?)
+            }
+            None => None,
+        };
+        for drawing in ended.into_iter().chain(starts) {
+            monitor.step(Step::default())?;
+            match self.candidate(drawing) {
+                Ok(candidate) => self.keep(candidate),
+                Err(error) => self.failure = Some(error),
+            }
         }
         Ok(())
     }
@@ -181,6 +199,9 @@ impl<'a> Candidates<'a> {
     ) -> Result<Vec<Candidate>, LayoutError> {
         let mut found: Vec<Candidate> = Vec::new();
         let mut planner = Planner::new(&self.distances, 1.0, monitor);
+        if largest_ratio.is_finite() {
+            planner.most_detour = of.layout.report.detour + WINDING;
+        }
         let plausible: Vec<Twist> = twists::plausible(&of.drawing, &mut planner, largest_ratio)?;
         let mut drawings = Vec::new();
         // Twice as many as are wanted: some cannot be drawn, some are of a class that is known.
@@ -210,6 +231,26 @@ impl<'a> Candidates<'a> {
         Ok(found)
     }
 
+    /// A candidate of the same class with other paths, one for each seed; `None` where there is none.
+    ///
+    /// # Errors
+    /// [`LayoutError::Cancelled`] only.
+    pub fn redrawn(
+        &self,
+        of: &Candidate,
+        seed: u64,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Option<Candidate>, LayoutError> {
+        let mut planner = Planner::new(&self.distances, 1.0, monitor);
+        planner.most_detour = of.layout.report.detour + WINDING;
+        let drawn = descent::of_same_class(&of.drawing, seed, &mut planner);
+        match drawn.and_then(|drawing| self.candidate(drawing)) {
+            Ok(candidate) => Ok(Some(candidate)),
+            Err(LayoutError::Cancelled(stop)) => Err(stop.into()),
+            Err(_) => Ok(None),
+        }
+    }
+
     pub(super) fn candidate(&self, drawing: Drawing) -> Result<Candidate, LayoutError> {
         let report = LayoutReport::of(&drawing, &self.distances);
         let distances = &self.distances;
@@ -222,30 +263,13 @@ impl<'a> Candidates<'a> {
         Ok(Candidate { layout, drawing })
     }
 
-    /// Keeps a candidate of a new class.
-    fn keep(&mut self, candidate: Candidate) -> Kept {
-        let detour = candidate.layout.report.detour;
-        if let Some(known) = self.given.iter().position(|class| class.contains(&candidate.layout)) {
-            let is_straightest =
-                self.straightest.is_some_and(|(class, least)| class == known && least <= STRAIGHT);
-            return if is_straightest { Kept::OfStraightestClass } else { Kept::OfKnownClass };
+    /// Keeps a candidate to be given, unless there was one of its class before.
+    fn keep(&mut self, candidate: Candidate) {
+        if self.given.iter().any(|class| class.contains(&candidate.layout)) {
+            return;
         }
-        if self.straightest.is_none_or(|(_, least)| detour < least) {
-            self.straightest = Some((self.given.len(), detour));
-        }
+        self.least = self.least.min(candidate.layout.report.detour);
         self.given.push(Class::new(candidate.layout.clone()));
         self.ready.push(candidate);
-        Kept::OfNewClass
     }
-}
-
-/// What became of a candidate that was drawn.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Kept {
-    /// It can be given.
-    OfNewClass,
-    /// Its class was drawn before.
-    OfKnownClass,
-    /// Its class was drawn before, and is the straightest by far.
-    OfStraightestClass,
 }

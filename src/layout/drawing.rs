@@ -46,6 +46,8 @@ pub(super) struct Planner<'a> {
     searches: [PathSearch; 2],
     pub distances: &'a LandmarkDistances,
     pub midpoint_penalty: f64,
+    /// A drawing whose detours sum to more is given up.
+    pub most_detour: f64,
     bounds: Bounds,
     allowance: Allowance<'a>,
 }
@@ -60,7 +62,8 @@ impl<'a> Planner<'a> {
         let searches = [PathSearch::default(), PathSearch::default()];
         let bounds = Bounds::new(distances.landmark_count(), distances.vertex_counts());
         let allowance = Allowance::new(monitor);
-        let mut planner = Self { searches, distances, midpoint_penalty, bounds, allowance };
+        let most_detour = f64::INFINITY;
+        let mut planner = Self { searches, distances, midpoint_penalty, most_detour, bounds, allowance };
         planner.begin();
         planner
     }
@@ -92,7 +95,13 @@ impl<'a> Planner<'a> {
         let Some(plan) = plan else { return Err(self.fault(drawing).unwrap_or(no_path)) };
         drawing.draw(&plan).ok_or(no_path)?;
         let vertices = drawing.sides.each_ref().map(|side| side.mesh.positions.len());
-        if self.bounds.has_room_for(vertices) { Ok(()) } else { Err(drawing.tangled(self.distances)) }
+        let is_worth_it =
+            self.most_detour.is_infinite() || drawing.detour(self.distances) <= self.most_detour;
+        if is_worth_it && self.bounds.has_room_for(vertices) {
+            Ok(())
+        } else {
+            Err(drawing.tangled(self.distances))
+        }
     }
 
     /// Whether the paths of a tree are straight enough.
