@@ -2,7 +2,7 @@
 
 use super::base_layout::{BaseLayout, LayoutReport};
 use super::bounds::{Bounds, MOST_DISTANCES};
-use super::descent;
+use super::descent::{self, LEAST_GAIN};
 use super::drawing::{Drawing, Planner};
 use super::error::LayoutError;
 use super::isotopy::Class;
@@ -161,7 +161,10 @@ impl<'a> Candidates<'a> {
         for drawing in ended.into_iter().chain(starts) {
             monitor.step(Step::default())?;
             match self.candidate(drawing) {
-                Ok(candidate) => self.keep(candidate),
+                Ok(candidate) => {
+                    let candidate = self.cleaned(candidate, monitor)?;
+                    self.keep(candidate);
+                }
                 Err(error) => self.failure = Some(error),
             }
         }
@@ -245,9 +248,27 @@ impl<'a> Candidates<'a> {
         planner.most_detour = of.layout.report.detour + WINDING;
         let drawn = descent::of_same_class(&of.drawing, seed, &mut planner);
         match drawn.and_then(|drawing| self.candidate(drawing)) {
-            Ok(candidate) => Ok(Some(candidate)),
+            Ok(candidate) => Ok(Some(self.cleaned(candidate, monitor)?)),
             Err(LayoutError::Cancelled(stop)) => Err(stop.into()),
             Err(_) => Ok(None),
+        }
+    }
+
+    /// The same base domain drawn anew on the bare meshes, where that is of the same class and no more bent. The vertices of paths that
+    /// were taken away stay in a drawing: after some turns its meshes are so full of slivers that no first parametrisation is found.
+    fn cleaned(&self, candidate: Candidate, monitor: &mut dyn Monitor) -> Result<Candidate, LayoutError> {
+        let most_detour = descent::worth_completing(candidate.layout.report.detour);
+        let ground = Ground { most_detour, ..Ground::new(&self.empty, &self.distances) };
+        let drawn = joint::draw_base(&ground, &candidate.layout.base, monitor);
+        match drawn.and_then(|drawing| self.candidate(drawing)) {
+            Err(LayoutError::Cancelled(stop)) => Err(stop.into()),
+            Ok(clean)
+                if clean.layout.report.detour <= candidate.layout.report.detour + LEAST_GAIN
+                    && super::same_class(&candidate.layout, &clean.layout) =>
+            {
+                Ok(clean)
+            }
+            _ => Ok(candidate),
         }
     }
 

@@ -270,9 +270,7 @@ impl Search<'_, '_> {
             if has_map || self.must_end() {
                 break;
             }
-            if let Some(other) = candidates.redrawn(&candidate, seed, &mut self.between())?
-                && !other.has_same_paths(&candidate)
-            {
+            if let Some(other) = candidates.redrawn(&candidate, seed, &mut self.between())? {
                 self.report.judged.pop();
                 better = self.judge(other, origin)?;
             }
