@@ -97,15 +97,9 @@ pub fn choose_class<'a>(
     for finalist in &finalists.maps {
         search.judged[finalist.number].mean_log = Some(finalist.map.mean_log);
     }
-    let mut best =
+    let best =
         finalists.maps.into_iter().next().ok_or(LayoutError::NoMap { layouts: 0, near: Vec::new() })?;
     search.best = best.number;
-    let chosen = best.map.mean_log;
-    best.draw_better(levels, &candidates, options, &mut Portion::new(monitor, 1.0, 1.0))?;
-    if best.map.mean_log < chosen {
-        search.rival = search.rival.map(|rival| rival * chosen / best.map.mean_log);
-        search.judged[best.number].mean_log = Some(best.map.mean_log);
-    }
     Ok(Chosen { candidate: best.candidate, search, map: best.map })
 }
 
@@ -125,45 +119,6 @@ struct Finalist<'a> {
     /// Mean log density after the first look.
     first_look: f64,
     is_relaxed: bool,
-}
-
-impl<'a> Finalist<'a> {
-    /// Takes another drawing of the same class where its map distorts less: the cone surface is made of the landmarks that a drawing
-    /// joins, and lies the better below both meshes the better these are chosen.
-    fn draw_better(
-        &mut self,
-        levels: &'a [MeshWithCoarse<'a>; 2],
-        candidates: &Candidates<'_>,
-        options: ClassSearchOptions<'_>,
-        monitor: &mut dyn Monitor,
-    ) -> Result<(), CoarseMapError> {
-        let mut seen = vec![self.candidate.clone()];
-        for seed in 1..=options.search.drawings {
-            if monitor.wants_result() {
-                break;
-            }
-            if !self.is_relaxed {
-                self.map.relax(&options.multilevel.decide, monitor)?;
-                self.is_relaxed = true;
-            }
-            let Some(other) = candidates.redrawn(&seen[0], seed, monitor)? else { continue };
-            if seen.iter().any(|known| known.has_same_paths(&other)) {
-                continue;
-            }
-            match solve_coarse(levels, &other.layout, options.multilevel, monitor) {
-                Ok(mut map) => {
-                    map.relax(&options.multilevel.decide, monitor)?;
-                    if map.mean_log < self.map.mean_log {
-                        (self.map, self.candidate) = (map, other.clone());
-                    }
-                }
-                Err(MapError::Cancelled(stop)) => return Err(stop.into()),
-                Err(_) => {}
-            }
-            seen.push(other);
-        }
-        Ok(())
-    }
 }
 
 /// The best maps so far, the best first.

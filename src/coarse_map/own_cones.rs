@@ -42,7 +42,7 @@ pub struct OwnConeOptions {
 
 impl Default for OwnConeOptions {
     fn default() -> Self {
-        let search = SearchOptions { candidates: 2, twists: 2, drawings: 0, ..SearchOptions::default() };
+        let search = SearchOptions { candidates: 2, twists: 2, ..SearchOptions::default() };
         Self {
             // Together with 12 of 33 landmarks about as many cones as with all. Rounds and gains were chosen by hand.
             count: 20,

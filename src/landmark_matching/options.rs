@@ -74,7 +74,7 @@ impl Default for MatchOptions {
             // With 300 the order of close candidates changed, with three drawings and three twists in place of one it did not,
             // at twice the time (four pairs, both directions).
             judge_vertices: 500,
-            search: SearchOptions { candidates: 1, twists: 0, drawings: 0, ..SearchOptions::default() },
+            search: SearchOptions { candidates: 1, twists: 0, ..SearchOptions::default() },
             multilevel: MultilevelOptions { finer: 0, finalists: 2, ..MultilevelOptions::default() },
             relaxation: MapRelaxationOptions {
                 max_rounds: 10,

@@ -2,7 +2,7 @@
 
 use super::base_layout::{BaseLayout, LayoutReport};
 use super::bounds::{Bounds, MOST_DISTANCES};
-use super::descent::{self, LEAST_GAIN};
+use super::descent;
 use super::drawing::{Drawing, Planner};
 use super::error::LayoutError;
 use super::isotopy::Class;
@@ -37,16 +37,6 @@ impl Candidate {
         self.layout.source.mesh.vertex_count() + self.layout.target.mesh.vertex_count()
     }
 
-    /// Whether another candidate of the same class joins the same landmarks.
-    pub fn has_same_paths(&self, other: &Self) -> bool {
-        let sorted = |candidate: &Self| {
-            let mut ends = candidate.drawing.ends.clone();
-            ends.sort_unstable();
-            ends
-        };
-        sorted(self) == sorted(other)
-    }
-
     #[cfg(test)]
     pub(super) fn drawing(&self) -> &Drawing {
         &self.drawing
@@ -65,7 +55,7 @@ pub struct Candidates<'a> {
     distances: LandmarkDistances,
     /// How many batches of starts were drawn.
     batches: usize,
-    /// The least detour that was drawn.
+    /// The least detour that was drawn, without layouts that turned out to have no map.
     least: f64,
     /// The straightest last.
     ready: Vec<Candidate>,
@@ -122,6 +112,13 @@ impl<'a> Candidates<'a> {
         !self.ready.is_empty() || (self.least > STRAIGHT && self.batches < STARTS.len())
     }
 
+    /// A candidate that was given has no map: another drawing of its class may have one, and the straightest layout is still missing.
+    pub(super) fn without_map(&mut self, candidate: &Candidate) {
+        self.given.retain(|class| !class.contains(&candidate.layout));
+        let left = self.ready.iter().map(|ready| ready.layout.report.detour);
+        self.least = left.fold(f64::INFINITY, min);
+    }
+
     /// Draws a batch of starts and what the descent from the straightest leads to. The starts are kept, too: where no straight
     /// layout has a map, a bent one may.
     fn draw_batch(&mut self, batch: &[Variant], monitor: &mut dyn Monitor) -> Result<(), LayoutError> {
@@ -161,10 +158,7 @@ impl<'a> Candidates<'a> {
         for drawing in ended.into_iter().chain(starts) {
             monitor.step(Step::default())?;
             match self.candidate(drawing) {
-                Ok(candidate) => {
-                    let candidate = self.cleaned(candidate, monitor)?;
-                    self.keep(candidate);
-                }
+                Ok(candidate) => self.keep(candidate),
                 Err(error) => self.failure = Some(error),
             }
         }
@@ -232,44 +226,6 @@ impl<'a> Candidates<'a> {
         found.truncate(count);
         self.given.extend(found.iter().map(|candidate| Class::new(candidate.layout.clone())));
         Ok(found)
-    }
-
-    /// A candidate of the same class with other paths, one for each seed; `None` where there is none.
-    ///
-    /// # Errors
-    /// [`LayoutError::Cancelled`] only.
-    pub fn redrawn(
-        &self,
-        of: &Candidate,
-        seed: u64,
-        monitor: &mut dyn Monitor,
-    ) -> Result<Option<Candidate>, LayoutError> {
-        let mut planner = Planner::new(&self.distances, 1.0, monitor);
-        planner.most_detour = of.layout.report.detour + WINDING;
-        let drawn = descent::of_same_class(&of.drawing, seed, &mut planner);
-        match drawn.and_then(|drawing| self.candidate(drawing)) {
-            Ok(candidate) => Ok(Some(self.cleaned(candidate, monitor)?)),
-            Err(LayoutError::Cancelled(stop)) => Err(stop.into()),
-            Err(_) => Ok(None),
-        }
-    }
-
-    /// The same base domain drawn anew on the bare meshes, where that is of the same class and no more bent. The vertices of paths that
-    /// were taken away stay in a drawing: after some turns its meshes are so full of slivers that no first parametrisation is found.
-    fn cleaned(&self, candidate: Candidate, monitor: &mut dyn Monitor) -> Result<Candidate, LayoutError> {
-        let most_detour = descent::worth_completing(candidate.layout.report.detour);
-        let ground = Ground { most_detour, ..Ground::new(&self.empty, &self.distances) };
-        let drawn = joint::draw_base(&ground, &candidate.layout.base, monitor);
-        match drawn.and_then(|drawing| self.candidate(drawing)) {
-            Err(LayoutError::Cancelled(stop)) => Err(stop.into()),
-            Ok(clean)
-                if clean.layout.report.detour <= candidate.layout.report.detour + LEAST_GAIN
-                    && super::same_class(&candidate.layout, &clean.layout) =>
-            {
-                Ok(clean)
-            }
-            _ => Ok(candidate),
-        }
     }
 
     pub(super) fn candidate(&self, drawing: Drawing) -> Result<Candidate, LayoutError> {

@@ -105,7 +105,6 @@ pub(super) fn draw_base(
 ) -> Result<Drawing, LayoutError> {
     let mesh = &base.mesh;
     let mut planner = Planner::new(ground.distances, 1.0, monitor);
-    planner.most_detour = ground.most_detour;
     let mut drawing = ground.empty.clone();
     let mut edges: Vec<[usize; 2]> =
         mesh.edges().map(|h| sorted([mesh.tail(h).index(), mesh.head(h).index()])).collect();

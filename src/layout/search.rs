@@ -27,8 +27,6 @@ pub struct SearchOptions {
     pub ambiguous_ratio: f64,
     /// The least relative decrease of the mean log density for which a layout is changed.
     pub least_gain: f64,
-    /// Other drawings of the class that is chosen, of which the best one is taken.
-    pub drawings: u64,
 }
 
 impl Default for SearchOptions {
@@ -44,7 +42,6 @@ impl Default for SearchOptions {
             twist_ratio: 2.5,
             ambiguous_ratio: 1.2,
             least_gain: 0.01,
-            drawings: 3,
         }
     }
 }
@@ -167,7 +164,7 @@ pub fn neighbours(
         if candidate.layout.report.detour > limit {
             break;
         }
-        let better = search.judge_class(candidates, candidate, Origin::Twist)?;
+        let better = search.judge(candidate, Origin::Twist)?;
         without_gain = if better { 0 } else { without_gain + 1 };
         if without_gain >= options.patience || search.monitor.wants_result() {
             break;
@@ -186,9 +183,6 @@ const HOPELESS: f64 = 1.0;
 /// Vertices of the refined meshes of layouts that were judged, for each vertex of the meshes, after which a search without any map
 /// ends. Eight usual layouts have 20 to 30; those that wind have more, and take more time each.
 const MOST_UNMAPPED: usize = 40;
-
-/// Other drawings of a class that are tried where a layout has no map. Without any the straightest class was lost in one of twelve searches.
-const REDRAWN: u64 = 2;
 
 const NOTHING: LayoutError = LayoutError::NoMap { layouts: 0, near: Vec::new() };
 
@@ -213,7 +207,10 @@ impl Search<'_, '_> {
             }
             let found_before = self.best.is_some();
             let size = candidate.size();
-            let better = self.judge_class(candidates, candidate, Origin::Order)?;
+            let better = self.judge(candidate.clone(), Origin::Order)?;
+            if self.report.judged.last().is_some_and(|judged| judged.mean_log.is_none()) {
+                candidates.without_map(&candidate);
+            }
             without_gain = if better || !found_before { 0 } else { without_gain + 1 };
             unmapped += size;
             let is_vain = self.best.is_none() && unmapped > MOST_UNMAPPED * candidates.size();
@@ -239,7 +236,7 @@ impl Search<'_, '_> {
                     break;
                 }
                 left -= 1;
-                if self.judge_class(candidates, candidate, Origin::Twist)? {
+                if self.judge(candidate, Origin::Twist)? {
                     self.report.twists_made += 1;
                     better = true;
                     without_gain = 0;
@@ -255,27 +252,6 @@ impl Search<'_, '_> {
             }
         }
         Ok(())
-    }
-
-    /// Judges a candidate, and where it has no map another drawing of its class.
-    fn judge_class(
-        &mut self,
-        candidates: &Candidates<'_>,
-        candidate: Candidate,
-        origin: Origin,
-    ) -> Result<bool, LayoutError> {
-        let mut better = self.judge(candidate.clone(), origin)?;
-        for seed in 1..=REDRAWN {
-            let has_map = self.report.judged.last().is_some_and(|judged| judged.mean_log.is_some());
-            if has_map || self.must_end() {
-                break;
-            }
-            if let Some(other) = candidates.redrawn(&candidate, seed, &mut self.between())? {
-                self.report.judged.pop();
-                better = self.judge(other, origin)?;
-            }
-        }
-        Ok(better)
     }
 
     /// Judges a candidate and keeps it where it is better; says whether it is.

@@ -54,7 +54,7 @@ impl Default for SettlingOptions {
             least_move: 0.02,
             rings: 2,
             multilevel: MultilevelOptions { finer: 0, finalists: 2, ..MultilevelOptions::default() },
-            search: SearchOptions { candidates: 2, twists: 2, drawings: 0, ..SearchOptions::default() },
+            search: SearchOptions { candidates: 2, twists: 2, ..SearchOptions::default() },
         }
     }
 }
