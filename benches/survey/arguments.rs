@@ -81,13 +81,6 @@ impl Arguments {
                 "--relief-to" => arguments.options.multilevel.rigid_patches.vertices[1] = number() as usize,
                 "--relief-noise" => arguments.options.multilevel.rigid_patches.fit.noise = number(),
                 "--relief-spacing" => arguments.options.multilevel.rigid_patches.spacing = number(),
-                "--flat-decrease" => arguments.options.multilevel.relax.relative_decrease = number(),
-                "--initial-decrease" => {
-                    arguments.options.multilevel.initial.level.relative_decrease = number()
-                }
-                "--judge-rounds" => arguments.options.multilevel.judge.max_rounds = number() as usize,
-                "--decide-rounds" => arguments.options.multilevel.decide.max_rounds = number() as usize,
-                "--finalists" => arguments.options.multilevel.finalists = number() as usize,
                 "--own-rounds" => arguments.options.own_cones.rounds = number() as usize,
                 "--own-patience" => arguments.options.own_cones.patience = number() as usize,
                 "--own-gain" => arguments.options.own_cones.least_gain = number(),

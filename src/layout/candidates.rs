@@ -123,32 +123,10 @@ impl<'a> Candidates<'a> {
     /// layout has a map, a bent one may.
     fn draw_batch(&mut self, batch: &[Variant], monitor: &mut dyn Monitor) -> Result<(), LayoutError> {
         self.batches += 1;
-        let (mut tangled, mut most_detour) = (0, f64::INFINITY);
-        let mut starts: Vec<Drawing> = Vec::new();
-        for variant in batch {
-            if monitor.wants_result() && !starts.is_empty() {
-                break;
-            }
-            let ground = Ground { most_detour, ..Ground::new(&self.empty, &self.distances) };
-            match joint::draw(&ground, variant, monitor) {
-                Ok(start) => {
-                    let detour = start.detour(&self.distances);
-                    most_detour = min(most_detour, descent::worth_completing(detour));
-                    starts.push(start);
-                }
-                Err(LayoutError::Cancelled(stop)) => return Err(stop.into()),
-                Err(error) => {
-                    tangled += usize::from(matches!(error, LayoutError::Tangled { .. }));
-                    self.failure = Some(error);
-                }
-            }
-        }
-        // Where no start but winds, others do, too.
-        if starts.is_empty() && tangled == batch.len() {
-            self.batches = STARTS.len();
-        }
+        let starts = self.starts(batch, monitor)?;
         let detour = |drawing: &Drawing| drawing.detour(&self.distances);
-        let ended = match starts.iter().min_by(|a, b| detour(a).total_cmp(&detour(b))) {
+        let straightest = starts.iter().min_by(|a, b| detour(a).total_cmp(&detour(b)));
+        let ended = match straightest {
             Some(start) => {
                 let mut planner = Planner::new(&self.distances, 1.0, monitor);
                 Some(descent::straightest(start.clone(), &mut planner)?)
@@ -163,6 +141,33 @@ impl<'a> Candidates<'a> {
             }
         }
         Ok(())
+    }
+
+    /// The starts of a batch that can be drawn and are not much more bent than those before.
+    fn starts(&mut self, batch: &[Variant], monitor: &mut dyn Monitor) -> Result<Vec<Drawing>, LayoutError> {
+        let (mut starts, mut tangled, mut most_detour) = (Vec::new(), 0, f64::INFINITY);
+        for variant in batch {
+            if monitor.wants_result() && !starts.is_empty() {
+                break;
+            }
+            let ground = Ground { most_detour, ..Ground::new(&self.empty, &self.distances) };
+            match joint::draw(&ground, variant, monitor) {
+                Ok(start) => {
+                    most_detour = min(most_detour, descent::worth_completing(start.detour(&self.distances)));
+                    starts.push(start);
+                }
+                Err(LayoutError::Cancelled(stop)) => return Err(stop.into()),
+                Err(error) => {
+                    tangled += usize::from(matches!(error, LayoutError::Tangled { .. }));
+                    self.failure = Some(error);
+                }
+            }
+        }
+        // Where no start but winds, others do, too.
+        if starts.is_empty() && tangled == batch.len() {
+            self.batches = STARTS.len();
+        }
+        Ok(starts)
     }
 
     /// Vertices of both meshes.
@@ -245,7 +250,7 @@ impl<'a> Candidates<'a> {
         if self.given.iter().any(|class| class.contains(&candidate.layout)) {
             return;
         }
-        self.least = self.least.min(candidate.layout.report.detour);
+        self.least = min(self.least, candidate.layout.report.detour);
         self.given.push(Class::new(candidate.layout.clone()));
         self.ready.push(candidate);
     }
