@@ -99,7 +99,7 @@ fn or_stop<T>(outcome: Result<T, LayoutError>) -> Result<Option<T>, Cancelled> {
 #[cfg(test)]
 mod tests {
     use super::super::joint::{Ground, draw};
-    use super::super::testing::figures;
+    use super::super::twists::testing::figures;
     use super::super::variants::VARIANTS;
     use super::*;
     use crate::monitor::Silent;

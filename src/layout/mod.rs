@@ -22,8 +22,6 @@ mod patches;
 mod path_search;
 mod refinable;
 mod search;
-#[cfg(test)]
-mod testing;
 mod twists;
 mod variants;
 

@@ -207,11 +207,33 @@ impl Tree {
     }
 }
 
+/// Meshes for the tests of layouts.
+#[cfg(test)]
+pub(super) mod testing {
+    use crate::landmarks::Landmarks;
+    use crate::mesh::VertexId;
+    use crate::mesh::coarsening::Level;
+    use crate::monitor::Silent;
+
+    /// A figure in two poses, coarse.
+    pub(in crate::layout) fn figures() -> ([Level; 2], Landmarks) {
+        let demo = crate::demo::build("poses").unwrap();
+        let held = [0, 1].map(|s| demo.landmarks.iter().map(|p| VertexId(p[s])).collect::<Vec<_>>());
+        let coarse = |mesh, held| Level::coarse(mesh, held, 500, &mut Silent).unwrap();
+        let levels = [coarse(&demo.source, &held[0]), coarse(&demo.target, &held[1])];
+        let [source, target] = [0, 1].map(|s| {
+            let number = |v: &VertexId| levels[s].vertices.iter().position(|w| w == v).unwrap().into();
+            held[s].iter().map(number).collect()
+        });
+        (levels, Landmarks { source, target })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::candidates::Candidates;
     use super::super::same_class;
-    use super::super::testing::figures;
+    use super::testing::figures;
     use super::*;
     use crate::monitor::Silent;
 
