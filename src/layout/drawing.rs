@@ -50,6 +50,9 @@ pub(super) struct Planner<'a> {
     pub most_detour: f64,
     bounds: Bounds,
     allowance: Allowance<'a>,
+    /// Steps of the searches that all drawings may still take, when the present one began, and those of them allowed to it.
+    of_all: usize,
+    of_one: usize,
 }
 
 impl<'a> Planner<'a> {
@@ -63,14 +66,24 @@ impl<'a> Planner<'a> {
         let bounds = Bounds::new(distances.landmark_count(), distances.vertex_counts());
         let allowance = Allowance::new(monitor);
         let most_detour = f64::INFINITY;
-        let mut planner = Self { searches, distances, midpoint_penalty, most_detour, bounds, allowance };
+        let (of_all, of_one) = (usize::MAX, 0);
+        let mut planner =
+            Self { searches, distances, midpoint_penalty, most_detour, bounds, allowance, of_all, of_one };
         planner.begin();
         planner
     }
 
     /// A drawing begins, with its own allowance.
     pub fn begin(&mut self) {
-        self.allowance.renew(self.bounds.steps);
+        self.of_all -= self.of_one - self.allowance.left();
+        self.of_one = self.of_all.min(self.bounds.steps);
+        self.allowance.renew(self.of_one);
+    }
+
+    /// From here on all drawings together may take no more than one may.
+    pub fn begin_together(&mut self) {
+        (self.of_all, self.of_one) = (self.bounds.steps, self.bounds.steps);
+        self.allowance.renew(self.of_one);
     }
 
     /// Tells the monitor how far the drawing is.
@@ -243,7 +256,7 @@ impl Drawing {
             ends: ends.map(|i| landmarks[i]),
             sectors,
             midpoint_penalty: planner.midpoint_penalty,
-            to_end: planner.distances.field(side, ends[1]),
+            to_end: Some(planner.distances.field(side, ends[1])),
             limit,
         };
         planner.searches[side].shortest(mesh, &query, &mut planner.allowance)
