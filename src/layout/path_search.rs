@@ -341,3 +341,44 @@ pub(super) fn for_each_link(mesh: &RefinableMesh, node: u32, mut call: impl FnMu
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::drawing::Drawing;
+    use super::super::twists::testing::figures;
+    use super::*;
+    use crate::monitor::Silent;
+
+    #[test]
+    fn a_search_without_estimates_finds_no_longer_paths() {
+        let (levels, landmarks) = figures();
+        let drawing = Drawing::new(&levels[0].mesh, &levels[1].mesh, &landmarks);
+        let distances = drawing.distances(&mut Silent).unwrap();
+        let (mesh, at) = (&drawing.sides[0].mesh, &drawing.sides[0].landmarks);
+        let star = |i: usize| {
+            let any = mesh.outgoing[at[i]];
+            [Sector { first: any, last: any, bounded: Bounded::WholeStar }]
+        };
+        let mut search = PathSearch::default();
+        let mut silent = Silent;
+        let mut allowance = Allowance::new(&mut silent);
+        allowance.renew(usize::MAX);
+        for end in 1..landmarks.len() {
+            let query = Query {
+                ends: [at[0], at[end]],
+                sectors: [&star(0), &star(end)],
+                midpoint_penalty: 1.0,
+                to_end: Some(distances.field(0, end)),
+                limit: f64::INFINITY,
+            };
+            let usual = search.shortest(mesh, &query, &mut allowance).unwrap();
+            let without = Query { to_end: None, ..query };
+            let Ok(Some(found)) = search.within(usize::MAX, mesh, &without, &mut allowance) else {
+                panic!("no path to {end}")
+            };
+            assert!(found.length <= usual.length * (1.0 + 1e-12));
+            assert!(found.length > 0.98 * usual.length);
+            assert!(search.within(0, mesh, &query, &mut allowance).is_err());
+        }
+    }
+}
