@@ -36,6 +36,7 @@ mod job_files;
 mod matched;
 mod memory;
 mod morph;
+mod orders;
 mod pairs;
 mod remesh;
 mod remeshed;
@@ -77,6 +78,11 @@ const SURVEYS: &[Survey] = &[
         name: "classes",
         about: "the class chosen against all twists (--depth 2: and pairs of them)",
         run: classes::exhaustive,
+    },
+    Survey {
+        name: "orders",
+        about: "the class chosen with landmarks in other orders and clicked beside their vertices; --seeds N, --variants order,clicks; --depth 2: all judged",
+        run: orders::table,
     },
     Survey {
         name: "remesh",

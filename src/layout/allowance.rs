@@ -33,6 +33,11 @@ impl<'m> Allowance<'m> {
         self.steps > 0
     }
 
+    /// Steps that are left.
+    pub fn left(&self) -> usize {
+        self.steps
+    }
+
     fn ask(&mut self) -> bool {
         if let Err(stop) = Portion::new(self.monitor, 0.0, 0.0).step(Step::default()) {
             self.cancelled = Some(stop);

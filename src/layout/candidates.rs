@@ -2,6 +2,7 @@
 
 use super::base_layout::{BaseLayout, LayoutReport};
 use super::bounds::{Bounds, MOST_DISTANCES};
+use super::descent;
 use super::drawing::{Drawing, Planner};
 use super::error::LayoutError;
 use super::isotopy::Class;
@@ -9,16 +10,18 @@ use super::joint::{self, Ground};
 use super::landmark_distances::LandmarkDistances;
 use super::patches;
 use super::twists::{self, Twist};
-use super::variants::VARIANTS;
+use super::variants::{STARTS, Variant};
 use crate::landmarks::Landmarks;
+use crate::math::scalar::min;
 use crate::mesh::SurfaceMesh;
 use crate::monitor::{Monitor, Step};
 
-/// Orders of drawing tried together; the straightest of them comes first.
-/// Chosen by hand; a drawing takes 5 to 10 ms.
-const BATCH: usize = 4;
-/// With a detour above this, more orders are tried before the straightest is given: judging costs more than drawing.
-const STRAIGHT: f64 = 0.1;
+/// With a detour above this, another batch of starts is drawn: of 50 searches on ten pairs the layouts of the best classes had less,
+/// and those that missed theirs more.
+const STRAIGHT: f64 = 0.4;
+
+/// Twists whose detours are larger than those of what is twisted by more than this are not completed. They wind, and take long.
+const WINDING: f64 = 2.0;
 
 /// A layout that can be judged, and turned into its neighbours.
 #[derive(Clone, Debug)]
@@ -50,7 +53,10 @@ pub struct Candidates<'a> {
     landmarks: &'a Landmarks,
     empty: Drawing,
     distances: LandmarkDistances,
-    next_variant: usize,
+    /// How many batches of starts were drawn.
+    batches: usize,
+    /// The least detour that was drawn, without layouts that turned out to have no map.
+    least: f64,
     /// The straightest last.
     ready: Vec<Candidate>,
     given: Vec<Class>,
@@ -79,51 +85,89 @@ impl<'a> Candidates<'a> {
             landmarks,
             empty,
             distances,
-            next_variant: 0,
+            batches: 0,
+            least: f64::INFINITY,
             ready: Vec::new(),
             given: Vec::new(),
             failure: None,
         })
     }
 
-    /// The next layout of a new class from another order of drawing; `None` when all orders were tried. Once a result is wanted, no more
-    /// orders are drawn than one that succeeds.
+    /// The straightest layout of a new class that was drawn and not given yet; `None` when all starts were drawn. Once a result is
+    /// wanted, no more starts are drawn than one that succeeds.
     ///
     /// # Errors
-    /// [`LayoutError::Cancelled`] only: an order that fails is passed over (see [`Self::failure`]).
+    /// [`LayoutError::Cancelled`] only: a start that fails is passed over (see [`Self::failure`]).
     pub fn next(&mut self, monitor: &mut dyn Monitor) -> Result<Option<Candidate>, LayoutError> {
-        while self.next_variant < VARIANTS.len()
-            && self.ready.last().is_none_or(|best| best.layout.report.detour > STRAIGHT)
-        {
-            self.draw_batch(monitor)?;
+        while self.ready.is_empty() || (self.least > STRAIGHT && !monitor.wants_result()) {
+            let Some(batch) = STARTS.get(self.batches) else { break };
+            self.draw_batch(batch, monitor)?;
         }
+        self.ready.sort_by(|a, b| b.layout.report.detour.total_cmp(&a.layout.report.detour));
         Ok(self.ready.pop())
     }
 
-    fn draw_batch(&mut self, monitor: &mut dyn Monitor) -> Result<(), LayoutError> {
-        let end = (self.next_variant + BATCH).min(VARIANTS.len());
-        let (mut drawings, mut tangled) = (0, 0);
-        for variant in &VARIANTS[self.next_variant..end] {
-            if monitor.wants_result() && !self.ready.is_empty() {
-                break;
+    /// Whether [`Self::next`] has one at hand, or there may be straighter ones.
+    pub(super) fn is_promising(&self) -> bool {
+        !self.ready.is_empty() || (self.least > STRAIGHT && self.batches < STARTS.len())
+    }
+
+    /// A candidate that was given has no map: another drawing of its class may have one, and the straightest layout is still missing.
+    pub(super) fn without_map(&mut self, candidate: &Candidate) {
+        self.given.retain(|class| !class.contains(&candidate.layout));
+        let left = self.ready.iter().map(|ready| ready.layout.report.detour);
+        self.least = left.fold(f64::INFINITY, min);
+    }
+
+    /// Draws a batch of starts and what the descent from the straightest leads to. The starts are kept, too: where no straight
+    /// layout has a map, a bent one may.
+    fn draw_batch(&mut self, batch: &[Variant], monitor: &mut dyn Monitor) -> Result<(), LayoutError> {
+        self.batches += 1;
+        let starts = self.starts(batch, monitor)?;
+        let detour = |drawing: &Drawing| drawing.detour(&self.distances);
+        let straightest = starts.iter().min_by(|a, b| detour(a).total_cmp(&detour(b)));
+        let ended = match straightest {
+            Some(start) => {
+                let mut planner = Planner::new(&self.distances, 1.0, monitor);
+                Some(descent::straightest(start.clone(), &mut planner)?)
             }
-            let ground = Ground { empty: &self.empty, distances: &self.distances };
-            let drawn = joint::draw(&ground, variant, monitor).and_then(|drawing| self.candidate(drawing));
-            drawings += 1;
-            tangled += usize::from(matches!(drawn, Err(LayoutError::Tangled { .. })));
-            match drawn {
-                Ok(candidate) => {
-                    let fresh = self.if_new(candidate);
-                    self.ready.extend(fresh);
-                }
-                Err(LayoutError::Cancelled(stop)) => return Err(stop.into()),
+            None => None,
+        };
+        for drawing in ended.into_iter().chain(starts) {
+            monitor.step(Step::default())?;
+            match self.candidate(drawing) {
+                Ok(candidate) => self.keep(candidate),
                 Err(error) => self.failure = Some(error),
             }
         }
-        // Where no order but winds, others do, too.
-        self.next_variant = if drawings > 0 && tangled == drawings { VARIANTS.len() } else { end };
-        self.ready.sort_by(|a, b| b.layout.report.detour.total_cmp(&a.layout.report.detour));
         Ok(())
+    }
+
+    /// The starts of a batch that can be drawn and are not much more bent than those before.
+    fn starts(&mut self, batch: &[Variant], monitor: &mut dyn Monitor) -> Result<Vec<Drawing>, LayoutError> {
+        let (mut starts, mut tangled, mut most_detour) = (Vec::new(), 0, f64::INFINITY);
+        for variant in batch {
+            if monitor.wants_result() && !starts.is_empty() {
+                break;
+            }
+            let ground = Ground { most_detour, ..Ground::new(&self.empty, &self.distances) };
+            match joint::draw(&ground, variant, monitor) {
+                Ok(start) => {
+                    most_detour = min(most_detour, descent::worth_completing(start.detour(&self.distances)));
+                    starts.push(start);
+                }
+                Err(LayoutError::Cancelled(stop)) => return Err(stop.into()),
+                Err(error) => {
+                    tangled += usize::from(matches!(error, LayoutError::Tangled { .. }));
+                    self.failure = Some(error);
+                }
+            }
+        }
+        // Where no start but winds, others do, too.
+        if starts.is_empty() && tangled == batch.len() {
+            self.batches = STARTS.len();
+        }
+        Ok(starts)
     }
 
     /// Vertices of both meshes.
@@ -157,6 +201,9 @@ impl<'a> Candidates<'a> {
     ) -> Result<Vec<Candidate>, LayoutError> {
         let mut found: Vec<Candidate> = Vec::new();
         let mut planner = Planner::new(&self.distances, 1.0, monitor);
+        if largest_ratio.is_finite() {
+            planner.most_detour = of.layout.report.detour + WINDING;
+        }
         let plausible: Vec<Twist> = twists::plausible(&of.drawing, &mut planner, largest_ratio)?;
         let mut drawings = Vec::new();
         // Twice as many as are wanted: some cannot be drawn, some are of a class that is known.
@@ -198,12 +245,13 @@ impl<'a> Candidates<'a> {
         Ok(Candidate { layout, drawing })
     }
 
-    /// The candidate, noted as given, unless its class was given before.
-    fn if_new(&mut self, candidate: Candidate) -> Option<Candidate> {
+    /// Keeps a candidate to be given, unless there was one of its class before.
+    fn keep(&mut self, candidate: Candidate) {
         if self.given.iter().any(|class| class.contains(&candidate.layout)) {
-            return None;
+            return;
         }
+        self.least = min(self.least, candidate.layout.report.detour);
         self.given.push(Class::new(candidate.layout.clone()));
-        Some(candidate)
+        self.ready.push(candidate);
     }
 }

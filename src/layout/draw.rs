@@ -39,7 +39,7 @@ pub fn joint(
 ) -> Result<BaseLayout, LayoutError> {
     let empty = Drawing::new(meshes[0], meshes[1], landmarks);
     let distances = empty.distances(monitor)?;
-    let ground = Ground { empty: &empty, distances: &distances };
+    let ground = Ground::new(&empty, &distances);
     let mut found: Vec<(Drawing, LayoutReport)> = Vec::new();
     let mut failure = LayoutError::Stuck { paths: 0, wanted: 3 * landmarks.len() - 6 };
     let mut attempts = 0;
@@ -79,7 +79,7 @@ pub fn from_base(
 ) -> Result<BaseLayout, LayoutError> {
     let empty = Drawing::new(meshes[0], meshes[1], landmarks);
     let distances = empty.distances(monitor)?;
-    let drawing = joint::draw_base(&Ground { empty: &empty, distances: &distances }, base, monitor)?;
+    let drawing = joint::draw_base(&Ground::new(&empty, &distances), base, monitor)?;
     let report = LayoutReport::of(&drawing, &distances);
     Ok(patches::finish(drawing, base.clone(), meshes, report)?)
 }

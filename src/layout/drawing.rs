@@ -46,8 +46,13 @@ pub(super) struct Planner<'a> {
     searches: [PathSearch; 2],
     pub distances: &'a LandmarkDistances,
     pub midpoint_penalty: f64,
+    /// A drawing whose detours sum to more is given up.
+    pub most_detour: f64,
     bounds: Bounds,
     allowance: Allowance<'a>,
+    /// Steps of the searches that all drawings may still take, when the present one began, and those of them allowed to it.
+    of_all: usize,
+    of_one: usize,
 }
 
 impl<'a> Planner<'a> {
@@ -60,14 +65,25 @@ impl<'a> Planner<'a> {
         let searches = [PathSearch::default(), PathSearch::default()];
         let bounds = Bounds::new(distances.landmark_count(), distances.vertex_counts());
         let allowance = Allowance::new(monitor);
-        let mut planner = Self { searches, distances, midpoint_penalty, bounds, allowance };
+        let most_detour = f64::INFINITY;
+        let (of_all, of_one) = (usize::MAX, 0);
+        let mut planner =
+            Self { searches, distances, midpoint_penalty, most_detour, bounds, allowance, of_all, of_one };
         planner.begin();
         planner
     }
 
     /// A drawing begins, with its own allowance.
     pub fn begin(&mut self) {
-        self.allowance.renew(self.bounds.steps);
+        self.of_all -= self.of_one - self.allowance.left();
+        self.of_one = self.of_all.min(self.bounds.steps);
+        self.allowance.renew(self.of_one);
+    }
+
+    /// From here on all drawings together may take no more than one may.
+    pub fn begin_together(&mut self) {
+        (self.of_all, self.of_one) = (self.bounds.steps, self.bounds.steps);
+        self.allowance.renew(self.of_one);
     }
 
     /// Tells the monitor how far the drawing is.
@@ -92,7 +108,13 @@ impl<'a> Planner<'a> {
         let Some(plan) = plan else { return Err(self.fault(drawing).unwrap_or(no_path)) };
         drawing.draw(&plan).ok_or(no_path)?;
         let vertices = drawing.sides.each_ref().map(|side| side.mesh.positions.len());
-        if self.bounds.has_room_for(vertices) { Ok(()) } else { Err(drawing.tangled(self.distances)) }
+        let is_worth_it =
+            self.most_detour.is_infinite() || drawing.detour(self.distances) <= self.most_detour;
+        if is_worth_it && self.bounds.has_room_for(vertices) {
+            Ok(())
+        } else {
+            Err(drawing.tangled(self.distances))
+        }
     }
 
     /// Whether the paths of a tree are straight enough.
@@ -234,7 +256,7 @@ impl Drawing {
             ends: ends.map(|i| landmarks[i]),
             sectors,
             midpoint_penalty: planner.midpoint_penalty,
-            to_end: planner.distances.field(side, ends[1]),
+            to_end: Some(planner.distances.field(side, ends[1])),
             limit,
         };
         planner.searches[side].shortest(mesh, &query, &mut planner.allowance)

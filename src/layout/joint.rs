@@ -14,6 +14,15 @@ use std::collections::BTreeSet;
 pub(super) struct Ground<'a> {
     pub empty: &'a Drawing,
     pub distances: &'a LandmarkDistances,
+    /// A drawing whose detours sum to more is given up.
+    pub most_detour: f64,
+}
+
+impl<'a> Ground<'a> {
+    /// For drawings however bent.
+    pub fn new(empty: &'a Drawing, distances: &'a LandmarkDistances) -> Self {
+        Self { empty, distances, most_detour: f64::INFINITY }
+    }
 }
 
 /// Draws the whole base complex: a spanning tree, then pairs not yet adjacent until every face is a triangle.
@@ -23,6 +32,7 @@ pub(super) fn draw(
     monitor: &mut dyn Monitor,
 ) -> Result<Drawing, LayoutError> {
     let mut planner = Planner::new(ground.distances, variant.midpoint_penalty, monitor);
+    planner.most_detour = ground.most_detour;
     let mut drawing = ground.empty.clone();
     for ends in tree_in_order(ground.distances, variant) {
         planner.tell(0.0)?;

@@ -10,6 +10,7 @@ mod allowance;
 mod base_layout;
 mod bounds;
 mod candidates;
+mod descent;
 mod draw;
 mod drawing;
 mod drawing_fault;

@@ -109,6 +109,24 @@ fn groups(drawing: &Drawing) -> Vec<Vec<bool>> {
     distinct
 }
 
+/// The shortest spanning tree of a drawing: it determines the class.
+pub(super) fn shortest_tree(complete: &Drawing) -> Drawing {
+    let mut sets = DisjointSets::new(complete.rotation.len());
+    let order = shortest_first(complete).into_iter().map(|p| complete.ends[p]);
+    with_paths(complete, order.filter(|&[i, j]| sets.join(i, j)).collect())
+}
+
+/// The drawing with only those paths that join the given landmarks.
+fn with_paths(complete: &Drawing, mut kept: Vec<[usize; 2]>) -> Drawing {
+    let mut drawing = complete.clone();
+    kept.sort_unstable();
+    let is_kept = |ends: &[usize; 2]| kept.binary_search(ends).is_ok();
+    while let Some(p) = drawing.ends.iter().rposition(|ends| !is_kept(ends)) {
+        drawing.erase(p);
+    }
+    drawing
+}
+
 fn shortest_first(drawing: &Drawing) -> Vec<usize> {
     let length = |p: usize| drawing.sides[0].lengths[p] + drawing.sides[1].lengths[p];
     let mut order: Vec<usize> = (0..drawing.ends.len()).collect();
@@ -153,12 +171,7 @@ impl Tree {
         }
         let bridge = complete.ends[*across.first()?];
         kept.push(bridge);
-        let mut drawing = complete.clone();
-        kept.sort_unstable();
-        let is_kept = |ends: &[usize; 2]| kept.binary_search(ends).is_ok();
-        while let Some(p) = drawing.ends.iter().rposition(|ends| !is_kept(ends)) {
-            drawing.erase(p);
-        }
+        let drawing = with_paths(complete, kept);
         let between = drawing.ends.iter().position(|&ends| ends == bridge)?;
         Some(Self { drawing, between })
     }
@@ -194,18 +207,16 @@ impl Tree {
     }
 }
 
+/// Meshes for the tests of layouts.
 #[cfg(test)]
-mod tests {
-    use super::super::candidates::Candidates;
-    use super::super::same_class;
-    use super::*;
+pub(super) mod testing {
     use crate::landmarks::Landmarks;
     use crate::mesh::VertexId;
     use crate::mesh::coarsening::Level;
     use crate::monitor::Silent;
 
     /// A figure in two poses, coarse.
-    fn figures() -> ([Level; 2], Landmarks) {
+    pub(in crate::layout) fn figures() -> ([Level; 2], Landmarks) {
         let demo = crate::demo::build("poses").unwrap();
         let held = [0, 1].map(|s| demo.landmarks.iter().map(|p| VertexId(p[s])).collect::<Vec<_>>());
         let coarse = |mesh, held| Level::coarse(mesh, held, 500, &mut Silent).unwrap();
@@ -216,6 +227,15 @@ mod tests {
         });
         (levels, Landmarks { source, target })
     }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::candidates::Candidates;
+    use super::super::same_class;
+    use super::testing::figures;
+    use super::*;
+    use crate::monitor::Silent;
 
     #[test]
     fn a_turn_leaves_the_class_and_the_turn_back_returns_to_it() {
