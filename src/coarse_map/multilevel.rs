@@ -187,10 +187,9 @@ impl CoarseMap<'_> {
         Ok(())
     }
 
-    /// Whether patches are registered on the present levels: between two poses, where these show relief.
-    fn has_relief(&self, options: &RigidPatchOptions) -> bool {
-        let shows = |level: &ParametrisedLevel<'_>| level.mesh().live_vertices() >= options.least_vertices;
-        self.energy == MapEnergy::POSES && self.levels.iter().all(shows)
+    /// Whether both present levels have so many vertices.
+    fn have(&self, vertices: usize) -> bool {
+        self.levels.iter().all(|level| level.mesh().live_vertices() >= vertices)
     }
 
     /// Registers patches and lowers the energy with their constraints, so many times; then the constraints hold the vertices where
@@ -247,20 +246,21 @@ impl CoarseMap<'_> {
     ) -> Result<(), MapError> {
         let fine = &MapRelaxationOptions { energy: self.energy, ..options.fine };
         let patches = &options.rigid_patches;
-        if !self.has_relief(patches) {
+        let least = if is_finest { patches.least_full } else { patches.least_vertices };
+        if self.energy != MapEnergy::POSES || !self.have(least) {
+            if is_finest {
+                // What held vertices of coarser levels would dent their small triangles.
+                self.constraints = Default::default();
+            }
             return self.lower(fine, monitor, |_| ());
         }
         if !is_finest {
             self.lower(fine, &mut Portion::new(monitor, 0.0, 0.5), |_| ())?;
-            return self.register_patches(
-                patches,
-                patches.rounds,
-                fine,
-                &mut Portion::new(monitor, 0.5, 1.0),
-            );
+            let part = &mut Portion::new(monitor, 0.5, 1.0);
+            return self.register_patches(patches, patches.rounds, fine, part);
         }
         // Registered first: where nothing draws it the map of the full meshes drifts to the least energy, away from the known map.
-        self.register_patches(patches, patches.finest_rounds, fine, &mut Portion::new(monitor, 0.0, 0.5))?;
+        self.register_patches(patches, patches.full_rounds, fine, &mut Portion::new(monitor, 0.0, 0.5))?;
         for (_, constraint) in self.constraints.iter_mut().flatten() {
             constraint.rows = constraint.rows.map(|row| row * patches.hold.sqrt());
         }

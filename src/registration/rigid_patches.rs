@@ -24,8 +24,10 @@ pub struct RigidPatchOptions {
     pub least_vertices: usize,
     /// Registrations on every such level, each followed by a relaxation.
     pub rounds: usize,
-    /// The same on the full meshes, which begin near their optimum.
-    pub finest_rounds: usize,
+    /// The same on full meshes, which begin near their optimum, where both have at least `least_full` vertices.
+    pub full_rounds: usize,
+    /// See `full_rounds`.
+    pub least_full: usize,
     /// Distance of the points that make up the patches.
     pub spacing: f64,
     /// Radii of the patches around every point.
@@ -51,7 +53,9 @@ impl Default for RigidPatchOptions {
             // and double.
             least_vertices: 1000,
             rounds: 2,
-            finest_rounds: 1,
+            full_rounds: 1,
+            // A horse of 2600 vertices that was bent is 0.48 % from the known map with it, below 0.40 without.
+            least_full: 5000,
             spacing: 0.014,
             radii: [0.05, 0.08],
             fit: FitOptions { max_steps: 5, damping: 5e-5, noise: 4e-4 },
