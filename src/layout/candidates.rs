@@ -104,7 +104,9 @@ impl<'a> Candidates<'a> {
             self.draw_batch(batch, monitor)?;
         }
         self.ready.sort_by(|a, b| b.layout.report.detour.total_cmp(&a.layout.report.detour));
-        Ok(self.ready.pop())
+        let next = self.ready.pop();
+        self.given.extend(next.iter().map(|candidate| Class::new(candidate.layout.clone())));
+        Ok(next)
     }
 
     /// Whether [`Self::next`] has one at hand, or there may be straighter ones.
@@ -245,13 +247,15 @@ impl<'a> Candidates<'a> {
         Ok(Candidate { layout, drawing })
     }
 
-    /// Keeps a candidate to be given, unless there was one of its class before.
+    /// Keeps a candidate to be given, unless there was one of its class before. Its class is noted when it is given: one that never is
+    /// may still come as a twist.
     fn keep(&mut self, candidate: Candidate) {
-        if self.given.iter().any(|class| class.contains(&candidate.layout)) {
+        let is_same = |other: &Candidate| super::same_class(&other.layout, &candidate.layout);
+        if self.given.iter().any(|class| class.contains(&candidate.layout)) || self.ready.iter().any(is_same)
+        {
             return;
         }
         self.least = min(self.least, candidate.layout.report.detour);
-        self.given.push(Class::new(candidate.layout.clone()));
         self.ready.push(candidate);
     }
 }

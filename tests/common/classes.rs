@@ -69,9 +69,9 @@ fn identity(layout: &BaseLayout) -> BaseLayout {
     BaseLayout { target: layout.source.clone(), ..layout.clone() }
 }
 
-/// The search ends in the class of the known map.
+/// The search ends in the class of the known map, on levels as coarse as those of a run with 33 landmarks.
 pub fn known_class_is_found(case: &Case) {
-    let ([source, target], landmarks) = coarse_with_known_map(case, 400);
+    let ([source, target], landmarks) = coarse_with_known_map(case, 600);
     let mut candidates = Candidates::new([&source, &target], &landmarks, &mut Silent).expect("few landmarks");
     let options = SearchOptions::default();
     let (found, report) =
