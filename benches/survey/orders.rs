@@ -4,6 +4,7 @@ use crate::arguments::Arguments;
 use crate::case::Case;
 use crate::clicks::{Random, moved};
 use conemap::coarse_map::class_search::{Chosen, ClassChoice, ClassSearchOptions, choose_class};
+use conemap::coarse_map::multilevel::CoarseMap;
 use conemap::coarse_map::{LEAST_PER_LANDMARK, LandmarkedMesh, MeshWithCoarse, coarse_levels};
 use conemap::math::random::SplitMix;
 use conemap::monitor::Silent;
@@ -13,8 +14,8 @@ use cpu_time::ThreadTime;
 /// that the search chooses, after it is relaxed, and on the next finer level; the layouts that were judged, and the seconds of the search.
 pub fn table(arguments: &Arguments) {
     println!(
-        "{:20} {:12} {:>8} {:>8} {:>8} {:>4} {:>7}",
-        "pair", "variant", "chosen", "relaxed", "finer", "cls", "cpu s"
+        "{:20} {:12} {:>8} {:>8} {:>8} {:>4} {:>7} {:>7} {:>6}",
+        "pair", "variant", "chosen", "relaxed", "finer", "cls", "cpu s", "truth %", "95 %"
     );
     for name in arguments.names() {
         let case = Case::of_pair(arguments, &name);
@@ -70,9 +71,10 @@ fn one(arguments: &Arguments, case: &Case, variant: &str) {
     let coarse = map.mean_log;
     map.finish(multilevel, &mut Silent).expect("nobody stops");
     let relaxed = map.mean_log;
+    let truth = truth(case, &map);
     let finer = map.judge_finer(multilevel, &mut Silent).map_or(f64::NAN, |_| map.mean_log);
     println!(
-        "{:20} {variant:12} {coarse:8.5} {relaxed:8.5} {finer:8.5} {:4} {seconds:7.2}",
+        "{:20} {variant:12} {coarse:8.5} {relaxed:8.5} {finer:8.5} {:4} {seconds:7.2} {truth}",
         case.name,
         search.judged.len()
     );
@@ -87,4 +89,21 @@ fn one(arguments: &Arguments, case: &Case, variant: &str) {
             );
         }
     }
+}
+
+/// The distances of the coarse map to the known one at the vertices of the source, in percent of the root of the target's area: mean and
+/// 95 %.
+fn truth(case: &Case, map: &CoarseMap<'_>) -> String {
+    let (Some(truth), Some(images)) = (&case.truth, map.images()) else { return String::new() };
+    let [source, target] = &images.levels;
+    let scale = 100.0 / case.meshes[1].area().sqrt();
+    let mut distances: Vec<f64> = Vec::new();
+    for v in source.mesh.vertices() {
+        let Some(place) = truth.get(source.vertices[v].index()) else { continue };
+        let image = images.target_from_source[v].position(&target.mesh);
+        distances.push(image.distance(*place) * scale);
+    }
+    distances.sort_by(f64::total_cmp);
+    let mean = distances.iter().sum::<f64>() / distances.len() as f64;
+    format!("{mean:7.3} {:6.2}", distances[distances.len() * 95 / 100])
 }

@@ -1,6 +1,7 @@
 //! Coarse first: the class of the map chosen among maps of two coarse levels, and the chosen one refined to the full meshes.
 
 pub mod class_search;
+mod distance_guess;
 mod error;
 mod landmarked_mesh;
 mod layout_points;
@@ -8,6 +9,7 @@ mod mesh_with_coarse;
 pub mod multilevel;
 mod options;
 pub mod own_cones;
+mod own_points;
 mod preview;
 mod rims;
 mod skin;

@@ -433,6 +433,7 @@ pub(super) struct PlacedLevel<'a> {
 }
 
 /// The map of two levels, read off at the source level's vertices.
+#[derive(Clone)]
 pub struct LevelImages {
     /// Source and target level.
     pub levels: [Level; 2],
@@ -443,6 +444,11 @@ pub struct LevelImages {
 }
 
 impl LevelImages {
+    /// The same levels with other images.
+    pub(super) fn with_images(&self, target_from_source: TiVec<VertexId, SurfacePoint>) -> Self {
+        Self { target_from_source, ..self.clone() }
+    }
+
     /// How much the faces of the source and of the target level count.
     pub fn weights(&self) -> [FaceWeights<'_>; 2] {
         self.weights.each_ref().map(|weights| FaceWeights::new(weights.as_deref()))

@@ -5,21 +5,20 @@
 //! so that those of the round before are free to move.
 
 use super::class_search::{ClassChoice, ClassSearchOptions, choose_class};
+use super::distance_guess::{self, Guess};
 use super::error::CoarseMapError;
 use super::landmarked_mesh::LandmarkedMesh;
 use super::mesh_with_coarse::{self, MeshWithCoarse};
 use super::multilevel::{CoarseMap, LevelImages, solve_fine};
 use super::options::MultilevelOptions;
-use crate::geodesic::distances;
-use crate::landmark_suggestion::{Spread, farthest_points};
+use super::own_points::{Wanted, pairs, with};
 use crate::layout::SearchOptions;
-use crate::mesh::closest_point::closest_point;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
-use crate::monitor::{Cancelled, Monitor, Portion, Step};
+use crate::monitor::{Cancelled, Monitor, Portion};
 use crate::surface_map::{ConeSurface, Embedding, MapError, certify};
-use glam::DVec3;
 use std::cell::OnceCell;
 use std::sync::Arc;
+use typed_index_collections::TiVec;
 
 /// Cones of the program's own.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,6 +75,18 @@ pub struct Owners<'a> {
     pub levels: &'a Rounds<MeshWithCoarse<'a>>,
 }
 
+/// The cells of both owners that are not filled yet, round by round.
+type Cells<'a> = std::iter::Zip<
+    std::slice::Iter<'a, OnceCell<[LandmarkedMesh; 2]>>,
+    std::slice::Iter<'a, OnceCell<[MeshWithCoarse<'a>; 2]>>,
+>;
+
+impl<'a> Owners<'a> {
+    fn cells(self) -> Cells<'a> {
+        self.meshes.0.iter().zip(&self.levels.0)
+    }
+}
+
 /// Both meshes with own landmarks after the user's, and the coarse map of all.
 pub struct OwnCones<'a> {
     full: &'a [LandmarkedMesh; 2],
@@ -83,6 +94,10 @@ pub struct OwnCones<'a> {
 }
 
 impl OwnCones<'_> {
+    fn mean_log(&self) -> f64 {
+        self.map.mean_log
+    }
+
     /// The map of the full meshes; `None` where it is not found or not certified.
     ///
     /// # Errors
@@ -130,7 +145,8 @@ pub struct Start<'a> {
 
 /// Adds own landmarks round by round, as long as they lower the mean log density of the coarse map; `None` where they do not.
 ///
-/// Every round takes fresh points at their images under the best map so far.
+/// The first rounds begin with images under the map and, for the case that it is of a wrong class, with images by distances alone
+/// ([`super::distance_guess`]). Every other takes fresh points at their images under the best map so far.
 ///
 /// # Errors
 /// Cancellation only.
@@ -141,51 +157,136 @@ pub fn add<'a>(
     own: &OwnConeOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Option<OwnCones<'a>>, Cancelled> {
-    let Start { inputs, full, map, vertices } = start;
+    let Start { full, map, .. } = start;
     if own.count == 0 || full[0].landmarks.len() > own.most_landmarks || map.mean_log < own.least_mean_log {
         return Ok(None);
     }
-    let Some(mut images) = map.images() else { return Ok(None) };
-    let mut best: Option<OwnCones<'a>> = None;
-    let mut before: Vec<VertexId> = Vec::new();
-    let mut without_gain = 0;
-    for (round, (full_cell, levels_cell)) in owners.meshes.0.iter().zip(&owners.levels.0).enumerate() {
-        let share = |done: f64| (round as f64 + done) / own.rounds as f64;
-        if monitor.wants_result() || without_gain >= own.patience {
-            break;
-        }
-        let placing = &mut Portion::new(monitor, share(0.0), share(0.1));
-        let pairs = pairs(full, &images, &before, own.count, placing)?;
-        let Some(with_own) = with(inputs, full, &pairs, placing)? else { break };
+    let Some(images) = map.images() else { return Ok(None) };
+    let mut adding = Adding { start, multilevel, own, cells: owners.cells(), before: Vec::new() };
+    if !adding.may_go_on(monitor) {
+        return Ok(None);
+    }
+    let mut best = adding.round(&images, |_| true, monitor)?.filter(|next| next.mean_log() < map.mean_log);
+    let least = best.as_ref().map_or(map.mean_log, OwnCones::mean_log);
+    if let Some(other) = adding.by_distances(&images, least, monitor)?
+        && other.mean_log() < least
+    {
+        best = Some(other);
+    }
+    if let Some(best) = &best {
+        monitor.preview(&best.map);
+    }
+    let Some(mut images) = best.as_ref().map_or_else(|| map.images(), |best| best.map.images()) else {
+        return Ok(best);
+    };
+    let mut without_gain = usize::from(best.is_none());
+    while without_gain < own.patience && adding.may_go_on(monitor) {
         without_gain += 1;
-        before = pairs.iter().map(|pair| pair.source).collect();
+        let Some(next) = adding.round(&images, |_| true, monitor)? else { continue };
+        let (reached, least) = (next.mean_log(), best.as_ref().map_or(map.mean_log, OwnCones::mean_log));
+        let Some(next_images) = next.map.images().filter(|_| reached < least) else { continue };
+        if reached < (1.0 - own.least_gain) * least {
+            without_gain = 0;
+        }
+        monitor.preview(&next.map);
+        images = next_images;
+        best = Some(next);
+    }
+    Ok(best)
+}
+
+/// Rounds of own landmarks, one after the other.
+struct Adding<'s, 'a> {
+    start: Start<'s>,
+    multilevel: &'s MultilevelOptions,
+    own: &'s OwnConeOptions,
+    cells: Cells<'a>,
+    /// The source's vertices that were own points in the round before.
+    before: Vec<VertexId>,
+}
+
+impl<'a> Adding<'_, 'a> {
+    fn may_go_on(&self, monitor: &mut dyn Monitor) -> bool {
+        self.cells.len() > 0 && !monitor.wants_result()
+    }
+
+    /// The map with own points that were placed anew under a map whose own points were placed by distances. Those are not exact, so
+    /// the first map strains; what is looked for is its class.
+    fn by_distances(
+        &mut self,
+        present: &LevelImages,
+        least: f64,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Option<OwnCones<'a>>, Cancelled> {
+        if !self.may_go_on(monitor) {
+            return Ok(None);
+        }
+        let quiet = &mut Portion::new(monitor, 0.0, 0.0);
+        let guesses = guesses(present, self.start.full, quiet)?;
+        let target = &present.levels[1].mesh;
+        let image = |guess: &Guess| SurfacePoint::at_vertex(target, guess.vertex);
+        let images = present.with_images(guesses.iter().map(image).collect());
+        self.before.clear();
+        let Some(strained) = self.round(&images, |v| guesses[v].is_trusted, monitor)? else {
+            return Ok(None);
+        };
+        match strained.map.images() {
+            Some(images) if strained.mean_log() < PROMISING * least && self.may_go_on(monitor) => {
+                self.round(&images, |_| true, monitor)
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// A map with fresh own points among those that `may` be taken, at these images; `None` where there are none, or no map.
+    fn round(
+        &mut self,
+        images: &LevelImages,
+        may: impl Fn(VertexId) -> bool,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Option<OwnCones<'a>>, Cancelled> {
+        let Start { inputs, full, vertices, .. } = self.start;
+        let Self { multilevel, own, .. } = *self;
+        let number = own.rounds - self.cells.len().min(own.rounds);
+        let Some((full_cell, levels_cell)) = self.cells.next() else { return Ok(None) };
+        let share = |done: f64| (number as f64 + done) / own.rounds as f64;
+        let placing = &mut Portion::new(monitor, share(0.0), share(0.1));
+        let pairs = pairs(full, images, &self.before, Wanted { count: own.count, may: &may }, placing)?;
+        let Some(with_own) = with(inputs, full, &pairs, placing)? else { return Ok(None) };
+        self.before = pairs.iter().map(|pair| pair.source).collect();
         let with_own = full_cell.get_or_init(|| with_own);
         let coarsening = &mut Portion::new(monitor, share(0.1), share(0.1));
         let levels = mesh_with_coarse::both(with_own, vertices, multilevel.rims, coarsening)?;
         let levels = levels_cell.get_or_init(|| levels);
         let options = ClassSearchOptions { multilevel, search: &own.search, choice: ClassChoice::Best };
-        let next = match choose_class(
-            levels,
-            options,
-            &mut Portion::new(monitor, share(0.1), share(0.8)).unseen(),
-        ) {
+        let looking = Portion::new(monitor, share(0.1), share(0.8));
+        match choose_class(levels, options, &mut looking.unseen()) {
             Ok(chosen) => {
-                finished(chosen.map, multilevel, &mut Portion::new(monitor, share(0.8), share(1.0)))?
+                let part = &mut Portion::new(monitor, share(0.8), share(1.0));
+                Ok(Some(OwnCones { full: with_own, map: finished(chosen.map, multilevel, part)? }))
             }
-            Err(CoarseMapError::Cancelled(stop)) => return Err(stop),
+            Err(CoarseMapError::Cancelled(stop)) => Err(stop),
             // No map with these points: others may do.
-            Err(_) => continue,
-        };
-        let (mean_log, least) = (next.mean_log, best.as_ref().map_or(map.mean_log, |best| best.map.mean_log));
-        let Some(next_images) = next.images().filter(|_| mean_log < least) else { continue };
-        if mean_log < (1.0 - own.least_gain) * least {
-            without_gain = 0;
+            Err(_) => Ok(None),
         }
-        monitor.preview(&next);
-        images = next_images;
-        best = Some(OwnCones { full: with_own, map: next });
     }
-    Ok(best)
+}
+
+/// Own points that are placed by distances are inexact, and the map strains: of twelve pairs with 8 landmarks its mean log density was up to
+/// 1.9 times the other's. Where it is more than this many times as large, placing them anew gained at most 7 %.
+const PROMISING: f64 = 1.2;
+
+/// By vertex of the source level its place on the target level by distances.
+fn guesses(
+    present: &LevelImages,
+    full: &[LandmarkedMesh; 2],
+    monitor: &mut dyn Monitor,
+) -> Result<TiVec<VertexId, Guess>, Cancelled> {
+    let [source, target] = &present.levels;
+    let landmarks = [(source, &full[0]), (target, &full[1])]
+        .map(|(level, full)| level.numbers(&full.landmarks).collect());
+    let [on_source, on_target]: [Vec<VertexId>; 2] = landmarks;
+    distance_guess::guess([&source.mesh, &target.mesh], [&on_source, &on_target], monitor)
 }
 
 /// The chosen map relaxed to the end of its level.
@@ -198,105 +299,4 @@ fn finished<'a>(
         Err(MapError::Cancelled(stop)) => Err(stop),
         _ => Ok(map),
     }
-}
-
-/// Own points are at least this far from all others; the area is 1. 36 points spread evenly are 0.17 apart, so it only keeps points
-/// from meeting on limbs.
-const LEAST_DISTANCE: f64 = 0.03;
-
-/// Nearer than this (in barycentric coordinates) to a side, an own point is put onto it: it may lie anywhere near, and a needle
-/// would distort. Chosen by hand.
-const SNAP: f64 = 0.15;
-
-/// A point of the program's own, to be a landmark.
-struct OwnPair {
-    /// A vertex of the source with the user's landmarks.
-    source: VertexId,
-    /// Its image on the target.
-    target: SurfacePoint,
-}
-
-/// At most `count` points of the source, far from the landmarks and from those of the round before, with their images on the
-/// target.
-fn pairs(
-    full: &[LandmarkedMesh; 2],
-    images: &LevelImages,
-    before: &[VertexId],
-    count: usize,
-    monitor: &mut dyn Monitor,
-) -> Result<Vec<OwnPair>, Cancelled> {
-    let [source, target] = &images.levels;
-    let weights = images.weights();
-    let mesh = &source.mesh;
-    let user: Vec<VertexId> = source.numbers(&full[0].landmarks).collect();
-    let avoid: Vec<VertexId> = user
-        .iter()
-        .copied()
-        .chain(before.iter().filter_map(|v| source.vertices.binary_search(v).ok()))
-        .collect();
-    let mut free = vec![true; mesh.vertex_count()];
-    avoid.iter().for_each(|&v| free[v.index()] = false);
-    mesh.vertices().filter(|&v| !weights[0].is_on_skin(mesh, v)).for_each(|v| free[v.index()] = false);
-    // What the round before inserted around its own points is no vertex of the mesh with the user's landmarks alone.
-    let known = full[0].refined.mesh.vertex_count();
-    mesh.vertices().filter(|&v| source.vertices[v].index() >= known).for_each(|v| free[v.index()] = false);
-    let wanted = Spread { count, least_distance: LEAST_DISTANCE };
-    let chosen = farthest_points(mesh, distances(mesh, &avoid), wanted, |v| free[v.index()], monitor)?;
-    let mut places: Vec<DVec3> =
-        full[1].landmarks.iter().map(|&v| full[1].refined.mesh.positions()[v]).collect();
-    let mut pairs = Vec::new();
-    for v in chosen {
-        // Each goes over all faces of the target.
-        monitor.step(Step::default())?;
-        let image = images.target_from_source[v];
-        let place = image.position(&target.mesh);
-        let is_taken = places.iter().any(|p| p.distance(place) < LEAST_DISTANCE);
-        if is_taken || !weights[1].is_skin(image.face) {
-            continue;
-        }
-        let [a, b, c] = target.mesh.corners(image.face);
-        let point = snapped(closest_point(&full[1].refined.mesh, place, (b - a).cross(c - a)));
-        // A coarse face of skin may have some cap under it.
-        if !full[1].weights().is_skin(point.face) {
-            continue;
-        }
-        places.push(place);
-        pairs.push(OwnPair { source: source.vertices[v], target: point });
-    }
-    Ok(pairs)
-}
-
-/// The same point on a corner or a side that is near, so that no needles are made.
-fn snapped(point: SurfacePoint) -> SurfacePoint {
-    SurfacePoint::clamped(point.face, point.barycentric.map(|w| if w < SNAP { 0.0 } else { w }))
-}
-
-/// Both meshes with the pairs as landmarks after the user's; `None` where there are no pairs.
-fn with(
-    inputs: [&SurfaceMesh; 2],
-    full: &[LandmarkedMesh; 2],
-    pairs: &[OwnPair],
-    monitor: &mut dyn Monitor,
-) -> Result<Option<[LandmarkedMesh; 2]>, Cancelled> {
-    if pairs.is_empty() {
-        return Ok(None);
-    }
-    let at = |pair: &OwnPair| SurfacePoint::at_vertex(&full[0].refined.mesh, pair.source);
-    let points: [Vec<SurfacePoint>; 2] =
-        [pairs.iter().map(at).collect(), pairs.iter().map(|pair| pair.target).collect()];
-    let mut side = |k: usize| {
-        let Ok((mesh, vertices)) = full[k].with_points(inputs[k], &points[k]) else { return Ok(None) };
-        monitor.step(Step::default())?;
-        let mesh = mesh.with_room_around(inputs[k], &vertices);
-        monitor.step(Step::default())?;
-        Ok(mesh.ok().map(|mesh| (mesh, vertices)))
-    };
-    let (Some((mut source, from)), Some((mut target, onto))) = (side(0)?, side(1)?) else { return Ok(None) };
-    for (s, t) in from.into_iter().zip(onto) {
-        if !target.landmarks.contains(&t) {
-            source.landmarks.push(s);
-            target.landmarks.push(t);
-        }
-    }
-    Ok(Some([source, target]))
 }

@@ -1,0 +1,120 @@
+//! Points of the program's own: where they are on the source, and with their images as landmarks after the user's.
+
+use super::landmarked_mesh::LandmarkedMesh;
+use super::multilevel::LevelImages;
+use crate::geodesic::distances;
+use crate::landmark_suggestion::{Spread, farthest_points};
+use crate::mesh::closest_point::closest_point;
+use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use crate::monitor::{Cancelled, Monitor, Step};
+use glam::DVec3;
+
+/// Own points are at least this far from all others; the area is 1. 36 points spread evenly are 0.17 apart, so it only keeps points
+/// from meeting on limbs.
+const LEAST_DISTANCE: f64 = 0.03;
+
+/// Nearer than this (in barycentric coordinates) to a side, an own point is put onto it: it may lie anywhere near, and a needle
+/// would distort. Chosen by hand.
+const SNAP: f64 = 0.15;
+
+/// A point of the program's own, to be a landmark.
+pub(super) struct OwnPair {
+    /// A vertex of the source with the user's landmarks.
+    pub source: VertexId,
+    /// Its image on the target.
+    target: SurfacePoint,
+}
+
+/// Which own points a round takes.
+pub(super) struct Wanted<'a> {
+    /// Points at most.
+    pub count: usize,
+    /// Which vertices of the source level may be taken.
+    pub may: &'a dyn Fn(VertexId) -> bool,
+}
+
+/// At most so many points of the source as are wanted, far from the landmarks and from those of the round before, with their images on the
+/// target.
+pub(super) fn pairs(
+    full: &[LandmarkedMesh; 2],
+    images: &LevelImages,
+    before: &[VertexId],
+    wanted: Wanted<'_>,
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<OwnPair>, Cancelled> {
+    let [source, target] = &images.levels;
+    let weights = images.weights();
+    let mesh = &source.mesh;
+    let user: Vec<VertexId> = source.numbers(&full[0].landmarks).collect();
+    let avoid: Vec<VertexId> = user
+        .iter()
+        .copied()
+        .chain(before.iter().filter_map(|v| source.vertices.binary_search(v).ok()))
+        .collect();
+    let mut free = vec![true; mesh.vertex_count()];
+    avoid.iter().for_each(|&v| free[v.index()] = false);
+    mesh.vertices().filter(|&v| !weights[0].is_on_skin(mesh, v)).for_each(|v| free[v.index()] = false);
+    // What the round before inserted around its own points is no vertex of the mesh with the user's landmarks alone.
+    let known = full[0].refined.mesh.vertex_count();
+    mesh.vertices().filter(|&v| source.vertices[v].index() >= known).for_each(|v| free[v.index()] = false);
+    let spread = Spread { count: wanted.count, least_distance: LEAST_DISTANCE };
+    let may = |v: VertexId| free[v.index()] && (wanted.may)(v);
+    let chosen = farthest_points(mesh, distances(mesh, &avoid), spread, may, monitor)?;
+    let mut places: Vec<DVec3> =
+        full[1].landmarks.iter().map(|&v| full[1].refined.mesh.positions()[v]).collect();
+    let mut pairs = Vec::new();
+    for v in chosen {
+        // Each goes over all faces of the target.
+        monitor.step(Step::default())?;
+        let image = images.target_from_source[v];
+        let place = image.position(&target.mesh);
+        let is_taken = places.iter().any(|p| p.distance(place) < LEAST_DISTANCE);
+        if is_taken || !weights[1].is_skin(image.face) {
+            continue;
+        }
+        let [a, b, c] = target.mesh.corners(image.face);
+        let point = snapped(closest_point(&full[1].refined.mesh, place, (b - a).cross(c - a)));
+        // A coarse face of skin may have some cap under it.
+        if !full[1].weights().is_skin(point.face) {
+            continue;
+        }
+        places.push(place);
+        pairs.push(OwnPair { source: source.vertices[v], target: point });
+    }
+    Ok(pairs)
+}
+
+/// The same point on a corner or a side that is near, so that no needles are made.
+fn snapped(point: SurfacePoint) -> SurfacePoint {
+    SurfacePoint::clamped(point.face, point.barycentric.map(|w| if w < SNAP { 0.0 } else { w }))
+}
+
+/// Both meshes with the pairs as landmarks after the user's; `None` where there are no pairs.
+pub(super) fn with(
+    inputs: [&SurfaceMesh; 2],
+    full: &[LandmarkedMesh; 2],
+    pairs: &[OwnPair],
+    monitor: &mut dyn Monitor,
+) -> Result<Option<[LandmarkedMesh; 2]>, Cancelled> {
+    if pairs.is_empty() {
+        return Ok(None);
+    }
+    let at = |pair: &OwnPair| SurfacePoint::at_vertex(&full[0].refined.mesh, pair.source);
+    let points: [Vec<SurfacePoint>; 2] =
+        [pairs.iter().map(at).collect(), pairs.iter().map(|pair| pair.target).collect()];
+    let mut side = |k: usize| {
+        let Ok((mesh, vertices)) = full[k].with_points(inputs[k], &points[k]) else { return Ok(None) };
+        monitor.step(Step::default())?;
+        let mesh = mesh.with_room_around(inputs[k], &vertices);
+        monitor.step(Step::default())?;
+        Ok(mesh.ok().map(|mesh| (mesh, vertices)))
+    };
+    let (Some((mut source, from)), Some((mut target, onto))) = (side(0)?, side(1)?) else { return Ok(None) };
+    for (s, t) in from.into_iter().zip(onto) {
+        if !target.landmarks.contains(&t) {
+            source.landmarks.push(s);
+            target.landmarks.push(t);
+        }
+    }
+    Ok(Some([source, target]))
+}
