@@ -208,7 +208,8 @@ impl Source {
     }
 }
 
-/// The library and the command line: source files by the paths of their modules. The first word is the crate.
+/// The library, the command line and the wasm boundary: source files by the paths of their modules. The first word is the crate; the
+/// boundary names the library's modules as its own.
 struct House {
     sources: BTreeMap<Vec<String>, Source>,
 }
@@ -218,12 +219,13 @@ const COMMAND_LINE: &str = "bin";
 
 impl House {
     fn read() -> Self {
-        let folder = root().join("src");
+        let folders = [root().join("src"), root().join("wasm/boundary")];
         let mut files = Vec::new();
-        rust_files(&folder, &mut files);
+        folders.iter().for_each(|folder| rust_files(folder, &mut files));
         files.retain(|file| file.file_name().is_some_and(|name| name != "tests.rs"));
         let sources = files.iter().map(|file| {
-            let inside = file.strip_prefix(&folder).expect("inside src").to_string_lossy().replace('\\', "/");
+            let inside = folders.iter().find_map(|folder| file.strip_prefix(folder).ok());
+            let inside = inside.expect("inside a folder").to_string_lossy().replace('\\', "/");
             let mut module: Vec<String> =
                 inside.trim_end_matches(".rs").split('/').map(str::to_owned).collect();
             if module[0] == COMMAND_LINE {
@@ -411,7 +413,7 @@ fn the_core_names_no_browser_gpu_clock_or_thread() {
     rust_files(&folder, &mut files);
     for file in files {
         let inside = file.strip_prefix(&folder).expect("inside src").to_string_lossy().replace('\\', "/");
-        if ["web", "gpu", "bin"].contains(&module_of(&inside)) {
+        if module_of(&inside) == COMMAND_LINE {
             continue;
         }
         let text = std::fs::read_to_string(&file).expect("source file");
