@@ -36,6 +36,11 @@ pub mod surface_map;
 pub mod transfer;
 pub mod wrap;
 
+#[cfg(all(feature = "gpu", target_arch = "wasm32"))]
+pub mod gpu;
+#[cfg(all(feature = "web", target_arch = "wasm32"))]
+pub mod web;
+
 /// The examples of the README, run as documentation tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -14,21 +14,21 @@ const PACKAGES: [&str; 4] = ["--package", "conemap", "--package", "conemap-verif
 /// Which tests are run.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
-    /// All but the long ones, which are shown as ignored, on modules that are built quickly.
+    /// All but the long ones, which are shown as ignored: a good half hour on two processors from nothing.
     Usual,
-    /// On the modules as they are published.
     All,
 }
 
 /// Runs the tests, the quick ones first; none is left out after one that failed, and the failed ones are named at the end.
 ///
-/// The page is built and checked beside the lints and the core's tests: each keeps one processor busy for much of its time.
+/// The page is built beside the lints and the core's tests: its longest steps, the optimisation of each wasm module as a whole, keep
+/// one processor busy.
 pub fn test(extent: Extent) -> Outcome {
     wasm::ensure_target()?;
     page::ensure_packages()?;
     std::thread::scope(|scope| {
         let optimised = if extent == Extent::All { Optimised::Fully } else { Optimised::ForTests };
-        let page = scope.spawn(move || page::build(optimised).and_then(|()| checks()));
+        let page = scope.spawn(move || page::build(optimised));
         let built = || page.join().unwrap_or_else(|_| Err("the build of the page panicked".into()));
         all([
             ("formatting", Box::new(formatting)),
@@ -36,7 +36,7 @@ pub fn test(extent: Extent) -> Outcome {
             ("lints", Box::new(move || lints(extent))),
             ("documentation", Box::new(documentation)),
             ("core", Box::new(move || core(extent))),
-            ("page", Box::new(built)),
+            ("page", Box::new(move || built().and_then(|()| checks()))),
             ("browser", Box::new(move || browser::test(extent))),
             ("other browsers", Box::new(browsers::visit_others)),
         ])
@@ -80,12 +80,12 @@ fn lints(extent: Extent) -> Outcome {
     }
     let web = [
         "clippy",
+        "--lib",
         "--target",
         "wasm32-unknown-unknown",
-        "--package",
-        "conemap-page",
-        "--package",
-        "conemap-core",
+        "--no-default-features",
+        "--features",
+        "web-page,web-core",
     ];
     run(&cargo(), &[&web[..], &["--", "-D", "warnings"]].concat())
 }

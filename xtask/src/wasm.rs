@@ -18,7 +18,7 @@ pub enum Names {
 pub enum Optimised {
     /// As a whole, as it is published.
     Fully,
-    /// Crate by crate, most of them once for both modules, in less than half the time.
+    /// Crate by crate, in half the time.
     ForTests,
 }
 
@@ -38,32 +38,23 @@ const TEST_PROFILE: &str = "web-test";
 /// Builds, of each module, `www/wasm/NAME.js`, its types and `NAME_bg.wasm`.
 pub fn build(optimised: Optimised, names: Names) -> Result<(), String> {
     ensure_target()?;
-    match optimised {
-        Optimised::Fully => MODULES.iter().try_for_each(|Module { name, profile }| {
-            compile(&[name], profile)?;
-            bind(name, profile, names)
-        }),
-        Optimised::ForTests => {
-            compile(&MODULES.map(|module| module.name), TEST_PROFILE)?;
-            MODULES.iter().try_for_each(|module| bind(module.name, TEST_PROFILE, names))
-        }
-    }
+    MODULES.iter().try_for_each(|Module { name, profile }| match optimised {
+        Optimised::Fully => build_one(name, profile, names),
+        Optimised::ForTests => build_one(name, TEST_PROFILE, names),
+    })
 }
 
-fn compile(modules: &[&str], profile: &str) -> Result<(), String> {
-    let packages: Vec<String> = modules.iter().map(|name| format!("--package=conemap-{name}")).collect();
-    let mut arguments = vec!["build", "--target", TARGET, "--profile", profile];
-    arguments.extend(packages.iter().map(String::as_str));
-    run(&cargo(), &arguments)
-}
-
-/// Makes a compiled module ready for the browser.
-fn bind(name: &str, profile: &str, names: Names) -> Result<(), String> {
+fn build_one(name: &str, profile: &str, names: Names) -> Result<(), String> {
+    let package = format!("conemap-{name}");
+    run(&cargo(), &["build", "--package", &package, "--target", TARGET, "--profile", profile])?;
     let module = target_folder().join(TARGET).join(format!("{profile}/conemap_{name}.wasm"));
+    bind(&module, name, names).map_err(|e| format!("wasm-bindgen failed: {e:#}"))
+}
+
+fn bind(module: &std::path::Path, name: &str, names: Names) -> Result<(), impl std::fmt::Display> {
     let mut bindgen = Bindgen::new();
     bindgen.input_path(module).out_name(name).typescript(true).remove_name_section(names == Names::Removed);
-    let bound = bindgen.web(true).and_then(|bindgen| bindgen.generate(root().join("www/wasm")));
-    bound.map_err(|e| format!("wasm-bindgen failed: {e:#}"))
+    bindgen.web(true)?.generate(root().join("www/wasm"))
 }
 
 /// Has rustup install the wasm target where it is missing.

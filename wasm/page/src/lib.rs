@@ -1,13 +1,4 @@
-//! The page's module: sorts files, has the demos and draws meshes.
-//!
-//! The sources of both modules are in `wasm/boundary`; this package compiles what belongs to the feature `web-page`.
+//! The page's module: sorts files, has the demos and draws meshes. What it exports is `conemap::web` with the feature `web-page`.
 
-#![cfg(target_arch = "wasm32")]
-
-// So that the sources name the library's modules as their own.
-use conemap::*;
-
-#[path = "../../boundary/gpu/mod.rs"]
-pub mod gpu;
-#[path = "../../boundary/web/mod.rs"]
-pub mod web;
+#[cfg(target_arch = "wasm32")]
+pub use conemap::web;
