@@ -51,13 +51,8 @@ const PICTURE = /\/demos\/[^/]*$/;
 /** In bytes, of all files, packed with brotli. */
 const BUDGET = 1_000_000;
 
-async function packedSize(request: Request): Promise<number> {
-  const response = await request.response();
-  const body = (await response?.body()) ?? fail(`${request.url()} has no body`);
-  return brotliCompressSync(body, { params: { [constants.BROTLI_PARAM_LGWIN]: 24, [constants.BROTLI_PARAM_SIZE_HINT]: body.length } }).length;
-}
-
-test('the first load is small: the core is asked for when the page can be used', async ({ page }) => {
+/** Opens the page, waits until it asks for the core, and gives what it asked for before that and before the gallery's pictures. */
+async function firstRequests(page: Page): Promise<readonly Request[]> {
   const requests: Request[] = [];
   page.on('request', (request) => {
     requests.push(request);
@@ -67,8 +62,23 @@ test('the first load is small: the core is asked for when the page can be used',
   await core;
   const urls = requests.map((request) => request.url());
   const after = urls.findIndex((url) => CORE.test(url) || PICTURE.test(url));
-  const first = requests.slice(0, after).filter((request) => request.url().startsWith('http'));
+  return requests.slice(0, after).filter((request) => request.url().startsWith('http'));
+}
+
+async function packedSize(request: Request): Promise<number> {
+  const response = await request.response();
+  const body = (await response?.body()) ?? fail(`${request.url()} has no body`);
+  return brotliCompressSync(body, { params: { [constants.BROTLI_PARAM_LGWIN]: 24, [constants.BROTLI_PARAM_SIZE_HINT]: body.length } }).length;
+}
+
+test('the core is asked for when the page can be used', async ({ page }) => {
+  const first = await firstRequests(page);
   expect(first.filter((request) => request.url().includes('page_bg'))).toHaveLength(1);
+});
+
+// Of the modules as they are published, which the short tests do without.
+test('the first load is small', { tag: '@long' }, async ({ page }) => {
+  const first = await firstRequests(page);
   const sizes = await Promise.all(first.map(packedSize));
   const list = first.map((request, k) => `${request.url().replace(/.*\//, '')} ${sizes[k]}`).join(', ');
   expect(sizes.reduce((sum, size) => sum + size, 0), list).toBeLessThan(BUDGET);

@@ -8,7 +8,7 @@ use std::time::Duration;
 /// differs. In the profile of the tests: a number does not depend on the profile.
 pub fn agree(rest: &[String]) -> Result<(), String> {
     page::ensure_packages()?;
-    wasm::build(wasm::Names::Removed)?;
+    wasm::build(wasm::Optimised::Fully, wasm::Names::Removed)?;
     run(&cargo(), &["build"])?;
     let script = ["benches/agreement.mjs"].into_iter().chain(rest.iter().map(String::as_str));
     // Two maps of each of 34 pairs.

@@ -2,6 +2,7 @@
 
 use crate::page;
 use crate::run::{output_of, run, run_with, works};
+use crate::wasm::Optimised;
 
 /// A Debian package, and a program that it brings.
 const PACKAGES: [(&str, &str); 3] =
@@ -9,7 +10,7 @@ const PACKAGES: [(&str, &str); 3] =
 
 /// Builds the page and visits it; as root on Debian missing browsers are installed first.
 pub fn build_and_visit() -> Result<(), String> {
-    page::build()?;
+    page::build(Optimised::Fully)?;
     install()?;
     visit("Chromium|Firefox|WebKit")
 }

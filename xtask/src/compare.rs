@@ -6,7 +6,7 @@ use crate::{browser, page, wasm};
 /// Builds both and runs `benches/wasm.mjs` on the pair files of the command line, or on the demos.
 pub fn compare(rest: &[String]) -> Result<(), String> {
     page::ensure_packages()?;
-    wasm::build(wasm::Names::Removed)?;
+    wasm::build(wasm::Optimised::Fully, wasm::Names::Removed)?;
     run(&cargo(), &["build", "--release"])?;
     let chromium = browser::chromium()?;
     let variables: Vec<(&str, &str)> =

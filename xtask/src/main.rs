@@ -19,7 +19,7 @@ use std::process::ExitCode;
 
 const USAGE: &str = "cargo xtask COMMAND
   serve   build the app, serve it and print its address
-  build   build the app into dist/, to be put on any static web server
+  build   build the app into dist/, to be put on any static web server; with --quick as the tests use it
   test    run the tests: formatting, lints, documentation, core, page, browser; with --all the long ones, too
   browsers visit the page in Chromium, Firefox and WebKit, which are installed where that is possible
   compare time whole maps, wasm in a browser against native: [--runs N] [PAIR.json ...], the demos without files
@@ -35,7 +35,8 @@ fn main() -> ExitCode {
     let rest: Vec<String> = arguments.collect();
     let outcome = match command.as_str() {
         "serve" => page::serve(&rest),
-        "build" => page::build(),
+        "build" if rest == ["--quick"] => page::build(wasm::Optimised::ForTests),
+        "build" => page::build(wasm::Optimised::Fully),
         "test" if rest == ["--all"] => suite::test(suite::Extent::All),
         "test" if rest.is_empty() => suite::test(suite::Extent::Usual),
         "browsers" if rest.is_empty() => browsers::build_and_visit(),
@@ -44,8 +45,8 @@ fn main() -> ExitCode {
         "survey" => survey::survey(&rest),
         "fuzz" => fuzz::fuzz(&rest),
         "torture" => torture::torture(&rest),
-        "wasm" if rest == ["--names"] => wasm::build(wasm::Names::Kept),
-        "wasm" => wasm::build(wasm::Names::Removed),
+        "wasm" if rest == ["--names"] => wasm::build(wasm::Optimised::Fully, wasm::Names::Kept),
+        "wasm" => wasm::build(wasm::Optimised::Fully, wasm::Names::Removed),
         _ => Err(USAGE.to_owned()),
     };
     match outcome {

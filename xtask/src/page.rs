@@ -5,16 +5,16 @@ use crate::wasm;
 
 /// Builds the app and serves it; the rest of the command line goes to the server (`--port 8080`, `--host`).
 pub fn serve(rest: &[String]) -> Result<(), String> {
-    build()?;
+    build(wasm::Optimised::Fully)?;
     let mut arguments = vec!["vite", "preview"];
     arguments.extend(rest.iter().map(String::as_str));
     run_server("npx", &arguments)
 }
 
 /// Builds the app into `dist/`.
-pub fn build() -> Result<(), String> {
+pub fn build(optimised: wasm::Optimised) -> Result<(), String> {
     ensure_packages()?;
-    wasm::build(wasm::Names::Removed)?;
+    wasm::build(optimised, wasm::Names::Removed)?;
     run("npx", &["vite", "build"])
 }
 

@@ -1,6 +1,7 @@
 //! The tests of the project.
 
 use crate::run::{cargo, run, run_with};
+use crate::wasm::Optimised;
 use crate::{audit, browser, browsers, deny, page, wasm};
 use std::time::Instant;
 
@@ -26,7 +27,8 @@ pub fn test(extent: Extent) -> Outcome {
     wasm::ensure_target()?;
     page::ensure_packages()?;
     std::thread::scope(|scope| {
-        let page = scope.spawn(page::build);
+        let optimised = if extent == Extent::All { Optimised::Fully } else { Optimised::ForTests };
+        let page = scope.spawn(move || page::build(optimised).and_then(|()| checks()));
         let built = || page.join().unwrap_or_else(|_| Err("the build of the page panicked".into()));
         all([
             ("formatting", Box::new(formatting)),
@@ -34,7 +36,7 @@ pub fn test(extent: Extent) -> Outcome {
             ("lints", Box::new(move || lints(extent))),
             ("documentation", Box::new(documentation)),
             ("core", Box::new(move || core(extent))),
-            ("page", Box::new(move || built().and_then(|()| checks()))),
+            ("page", Box::new(built)),
             ("browser", Box::new(move || browser::test(extent))),
             ("other browsers", Box::new(browsers::visit_others)),
         ])

@@ -13,6 +13,15 @@ pub enum Names {
     Removed,
 }
 
+/// How much is done for a module's size and speed; its results are the same to the last bit.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Optimised {
+    /// As a whole, as it is published.
+    Fully,
+    /// Crate by crate, in half the time.
+    ForTests,
+}
+
 /// A module: a package in `wasm/`, with the profile that it is compiled by.
 struct Module {
     name: &'static str,
@@ -23,13 +32,19 @@ struct Module {
 const MODULES: [Module; 2] =
     [Module { name: "page", profile: "web-page" }, Module { name: "core", profile: "web" }];
 
+/// One profile for both modules, which share what they have in common.
+const TEST_PROFILE: &str = "web-test";
+
 /// Builds, of each module, `www/wasm/NAME.js`, its types and `NAME_bg.wasm`.
-pub fn build(names: Names) -> Result<(), String> {
+pub fn build(optimised: Optimised, names: Names) -> Result<(), String> {
     ensure_target()?;
-    MODULES.iter().try_for_each(|module| build_one(module, names))
+    MODULES.iter().try_for_each(|Module { name, profile }| match optimised {
+        Optimised::Fully => build_one(name, profile, names),
+        Optimised::ForTests => build_one(name, TEST_PROFILE, names),
+    })
 }
 
-fn build_one(Module { name, profile }: &Module, names: Names) -> Result<(), String> {
+fn build_one(name: &str, profile: &str, names: Names) -> Result<(), String> {
     let package = format!("conemap-{name}");
     run(&cargo(), &["build", "--package", &package, "--target", TARGET, "--profile", profile])?;
     let module = target_folder().join(TARGET).join(format!("{profile}/conemap_{name}.wasm"));
