@@ -11,6 +11,7 @@ use super::judge::judge;
 use super::moves::moves;
 use super::options::MatchOptions;
 use super::parting::difference;
+use super::roles::with_twins;
 use super::search::{Assignment, Tables, assignments};
 use super::shape::{Body, Shape};
 use super::sharpening::sharpen;
@@ -158,7 +159,7 @@ impl Search<'_> {
         let mut left = most;
         while let Some(best) = self.found.first().map(|best| best.assignment.clone()) {
             let mut better = false;
-            for change in moves(tables, &best) {
+            for change in with_twins(tables, &best).into_iter().chain(moves(tables, &best)) {
                 if left == 0 || better || monitor.wants_result() {
                     break;
                 }

@@ -15,6 +15,7 @@ mod pair;
 mod parting;
 mod persistence;
 mod reflection;
+mod roles;
 mod search;
 mod shape;
 mod sharpening;
