@@ -6,12 +6,12 @@
 
 use super::candidate::Candidate;
 use super::candidates::chosen;
+use super::heads::with_twins;
 use super::input::MatchInput;
 use super::judge::judge;
 use super::moves::moves;
 use super::options::MatchOptions;
 use super::parting::difference;
-use super::roles::with_twins;
 use super::search::{Assignment, Tables, assignments};
 use super::shape::{Body, Shape};
 use super::sharpening::sharpen;

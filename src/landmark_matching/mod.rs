@@ -5,6 +5,7 @@ mod between;
 mod candidate;
 mod candidates;
 mod difference;
+mod heads;
 mod input;
 mod judge;
 mod matching;
