@@ -55,6 +55,9 @@ pub struct Candidate {
 const REMOTENESS: f64 = 5.0;
 const UNMATCHED: f64 = 0.12;
 const ORDERS: f64 = 0.2;
+/// What a nose that goes to an ear costs, and what ears that go to ears are worth: with 0.03 and with 0.05 the face of 385 lies right on 383, and
+/// nothing else changes on the pairs among four animals of SHREC07.
+const ROLES: f64 = 0.05;
 
 impl Candidate {
     /// An assignment with what its map said.
@@ -70,7 +73,8 @@ impl Candidate {
         let score = mean_log
             + REMOTENESS * remoteness
             + UNMATCHED * unmatched
-            + ORDERS * (1.0 - assignment.agreement);
+            + ORDERS * (1.0 - assignment.agreement)
+            + roles(&assignment);
         let mesh = |side: usize| shapes[side].in_units_of_mesh(&images.levels[side].mesh);
         let picture =
             CoarsePicture { source: mesh(0), target: mesh(1), target_from_source: images.target_from_source };
@@ -93,6 +97,18 @@ impl Candidate {
     }
 }
 
+impl Candidate {
+    /// The score without what is only likely of heads: by how well its map fits alone.
+    pub(super) fn score_of_map(&self) -> f64 {
+        self.score - roles(&self.assignment)
+    }
+}
+
+/// The part of the score for noses that go to ears, and ears to ears.
+fn roles(assignment: &Assignment) -> f64 {
+    ROLES * (assignment.mixed as f64 - assignment.twins.min(1) as f64)
+}
+
 #[cfg(test)]
 impl Candidate {
     /// A candidate of two same meshes without pairs of marks, with a doubtful score.
@@ -113,6 +129,8 @@ impl Candidate {
                 agreement: 1.0,
                 unmatched: [0; 2],
                 keeps_sides: true,
+                twins: 0,
+                mixed: 0,
                 between: None,
             },
         }

@@ -6,6 +6,7 @@
 
 use super::candidate::Candidate;
 use super::candidates::chosen;
+use super::heads::with_twins;
 use super::input::MatchInput;
 use super::judge::judge;
 use super::moves::moves;
@@ -158,7 +159,7 @@ impl Search<'_> {
         let mut left = most;
         while let Some(best) = self.found.first().map(|best| best.assignment.clone()) {
             let mut better = false;
-            for change in moves(tables, &best) {
+            for change in with_twins(tables, &best).into_iter().chain(moves(tables, &best)) {
                 if left == 0 || better || monitor.wants_result() {
                     break;
                 }

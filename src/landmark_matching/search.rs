@@ -3,6 +3,7 @@
 use super::options::MatchOptions;
 use super::orders::agreement;
 use super::reflection::{Reflection, keeps_sides};
+use super::roles::{Roles, kept};
 use super::shape::Shape;
 use crate::math::scalar::{ln, min};
 use crate::mesh::VertexId;
@@ -22,6 +23,10 @@ pub(super) struct Assignment {
     pub(super) unmatched: [usize; 2],
     /// Whether it takes left and right of one body to those of the other; given pairs are taken to do so.
     pub(super) keeps_sides: bool,
+    /// Twins that go to twins, as ears to ears.
+    pub(super) twins: usize,
+    /// Ends on the middle line of one body that go to one of twins of the other, as a nose to an ear.
+    pub(super) mixed: usize,
     /// A pair of vertices of both levels beside those of marks.
     pub(super) between: Option<[VertexId; 2]>,
 }
@@ -49,6 +54,8 @@ pub(super) struct Tables<'a> {
     pub(super) main: [Vec<usize>; 2],
     /// By side what may be left and right.
     pub(super) reflections: [Vec<Reflection>; 2],
+    /// By side the ends beside the limbs.
+    pub(super) roles: [Roles; 2],
     /// By side and two marks: logarithm of their distance.
     log_distance: [Vec<Vec<f64>>; 2],
     /// By mark of the source and of the target.
@@ -68,7 +75,9 @@ impl<'a> Tables<'a> {
         let difference = (0..n).map(|s| (0..m).map(|t| difference(s, t)).collect()).collect();
         let main = shapes.map(|shape| shape.main(options));
         let reflections = [0, 1].map(|side: usize| Reflection::all_of(shapes[side], &main[side]));
-        Self { shapes, main, reflections, log_distance, difference }
+        let roles =
+            [0, 1].map(|side: usize| Roles::new(shapes[side], reflections[side].first(), &main[side]));
+        Self { shapes, main, reflections, roles, log_distance, difference }
     }
 
     fn misfit(&self, [s, t]: [usize; 2], [p, q]: [usize; 2]) -> f64 {
@@ -161,7 +170,10 @@ impl Partial {
             |side: usize, k: usize| k < tables.shapes[side].given || tables.main[side].contains(&k);
         let clear = self.pairs.iter().copied().filter(|[s, t]| is_clear(0, *s) || is_clear(1, *t));
         let clear: Vec<[usize; 2]> = clear.collect();
+        let [twins, mixed] = kept(tables.roles.each_ref(), &self.pairs);
         Assignment {
+            twins,
+            mixed,
             cost: self.cost(tables.shapes[0].given),
             unmatched_cost: UNMATCHED * self.unmatched_cost,
             agreement: agreement(tables.shapes, &clear),

@@ -79,17 +79,17 @@ pub(super) fn verdict(
     limits: &VerdictLimits,
 ) -> Verdict {
     let unknown = || Verdict::Unknown { places: shapes[0].far_places() };
-    let Some(best) = candidates.first().filter(|best| best.score < limits.unknown_score) else {
+    let Some(best) = candidates.first().filter(|best| best.score_of_map() < limits.unknown_score) else {
         return unknown();
     };
     let parts = |c: &&Candidate| c.difference.as_ref().is_some_and(|d| d.share > limits.parting);
     let number = candidates.iter().position(|candidate| parts(&candidate));
     let rival = number.map(|number| &candidates[number]);
-    let near = rival.is_some_and(|rival| rival.score < best.score + limits.margin);
+    let near = rival.is_some_and(|rival| rival.score_of_map() < best.score_of_map() + limits.margin);
     let clear = best.pairs.iter().filter(|pair| pair.origin != PairOrigin::Between).count();
     let sides = best.assignment.keeps_sides;
     let good = if sides { limits.sure_score } else { limits.sure_score_without_sides };
-    let fits = best.score < good && best.agreement >= limits.agreement;
+    let fits = best.score_of_map() < good && best.agreement >= limits.agreement;
     if fits && !near && clear >= limits.least_pairs {
         return Verdict::Sure;
     }
