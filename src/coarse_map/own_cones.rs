@@ -146,7 +146,7 @@ pub struct Start<'a> {
 /// Adds own landmarks round by round, as long as they lower the mean log density of the coarse map; `None` where they do not.
 ///
 /// The first rounds begin with images under the map and, for the case that it is of a wrong class, with images by distances alone
-/// ([`super::distance_guess`]). Every other takes fresh points at their images under the best map so far.
+/// (`distance_guess`). Every other takes fresh points at their images under the best map so far.
 ///
 /// # Errors
 /// Cancellation only.

@@ -142,7 +142,7 @@ async function bare(page: Page, size: { readonly width: number; readonly height:
   );
 }
 
-test('turning two meshes of 100,000 triangles takes little longer than drawing them', { tag: '@long' }, async ({ page, context }) => {
+test('turning two meshes of 100,000 triangles takes little longer than drawing them', { tag: ['@long', '@alone'] }, async ({ page, context }) => {
   await open(page);
   await page.locator('#source-file').setInputFiles(upload('three-waves.obj', wavy(3)));
   await expect(page.locator('#view-source')).toContainText('three-waves.obj', { timeout: 60_000 });

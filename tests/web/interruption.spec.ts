@@ -18,7 +18,7 @@ async function chooseOwnCones(page: Page, choice: string): Promise<void> {
   await choices.selectOption(choice);
 }
 
-test('a run can be cancelled at any moment, and the next one is whole', { tag: '@long' }, async ({ page }) => {
+test('a run can be cancelled at any moment, and the next one is whole', { tag: ['@long', '@alone'] }, async ({ page }) => {
   test.setTimeout(60_000 + 20_000 * CANCELS);
   const errors: string[] = [];
   page.on('console', (message) => {

@@ -61,7 +61,7 @@ async function watch(page: Page): Promise<() => Promise<{ readonly longest: numb
 
 const STATUS = '#status';
 
-test('a large mesh is read while the page draws its frames', async ({ page }) => {
+test('a large mesh is read while the page draws its frames', { tag: '@alone' }, async ({ page }) => {
   await openDemo(page);
   const transfer = await largeMesh(page, LARGE);
   // What the demo has begun beside the page is over.

@@ -20,7 +20,7 @@ function held(): number {
   return Math.max(...sizes) / 1024;
 }
 
-test('forty maps in one page take no more memory than ten', { tag: '@long' }, async ({ page }) => {
+test('forty maps in one page take no more memory than ten', { tag: ['@long', '@alone'] }, async ({ page }) => {
   test.skip(!existsSync('/proc/self/status'), 'this system does not tell what a process holds');
   test.setTimeout(60_000 * MAPS);
   await openDemo(page);

@@ -6,17 +6,23 @@ use crate::suite::Extent;
 /// Names under which a Chromium may be on the PATH.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
 
-/// Runs the browser tests on the built page; those tagged `@long` only where all are asked for.
+/// Runs the browser tests on the built page; those tagged `@long` only where all are asked for, and those tagged `@alone`, which measure
+/// times, one after the other when the rest is done.
 pub fn test(extent: Extent) -> Result<(), String> {
     let variables: Vec<(&str, String)> =
         chromium()?.into_iter().map(|program| ("CHROMIUM", program)).collect();
     let variables: Vec<(&str, &str)> =
         variables.iter().map(|(name, value)| (*name, value.as_str())).collect();
-    let arguments: &[&str] = match extent {
-        Extent::Usual => &["test", "--", "--grep-invert", "@long"],
-        Extent::All => &["test"],
+    let [together, alone]: [&[&str]; 2] = match extent {
+        Extent::Usual => {
+            [&["--grep-invert", "@long|@alone"], &["--grep", "@alone", "--grep-invert", "@long"]]
+        }
+        Extent::All => [&["--grep-invert", "@alone"], &["--grep", "@alone"]],
     };
-    run_with("npm", arguments, &variables)
+    let tests = |chosen: &[&str]| run_with("npm", &[&["test", "--"], chosen].concat(), &variables);
+    let together = tests(together);
+    let alone = tests(&[alone, &["--workers", "1"]].concat());
+    together.and(alone)
 }
 
 /// The Chromium to use; `None` for Playwright's own.
