@@ -1,5 +1,6 @@
 import { existsSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
+import type { LaunchOptions } from '@playwright/test';
 import { defineConfig } from '@playwright/test';
 import { freePort } from './free-port.ts';
 
@@ -20,6 +21,28 @@ const WITHOUT = [
   ...['OptimizationHints', 'NetworkTimeServiceQuerying', 'PreconnectToSearch'],
 ];
 
+/** Tests that measure times: they run one after the other, when the rest is done. */
+const ALONE = /@alone/;
+
+/** How the browser starts, with further switches. */
+function launched(switches: readonly string[]): LaunchOptions {
+  return {
+    ...(existsSync(chromium) ? { executablePath: chromium } : {}),
+    args: [
+      '--no-sandbox',
+      '--disable-quic',
+      '--no-first-run',
+      '--disable-background-networking',
+      '--disable-component-update',
+      '--disable-sync',
+      '--use-angle=swiftshader',
+      '--enable-unsafe-swiftshader',
+      `--disable-features=${WITHOUT.join(',')}`,
+      ...switches,
+    ],
+  };
+}
+
 export default defineConfig({
   testDir: '.',
   outputDir: `${root}test-results/artifacts`,
@@ -36,23 +59,17 @@ export default defineConfig({
     actionTimeout: 60_000,
     // The page's own requests are what most tests look at; those of visits without a network allow it.
     serviceWorkers: 'block',
-    launchOptions: {
-      ...(existsSync(chromium) ? { executablePath: chromium } : {}),
-      args: [
-        '--no-sandbox',
-        '--disable-quic',
-        '--no-first-run',
-        '--disable-background-networking',
-        '--disable-component-update',
-        '--disable-sync',
-        '--use-angle=swiftshader',
-        '--enable-unsafe-swiftshader',
-        // Only the canvas needs the emulated graphics card, which is slow: the page around it is put together without.
-        '--disable-gpu-compositing',
-        `--disable-features=${WITHOUT.join(',')}`,
-      ],
-    },
   },
+  projects: [
+    {
+      name: 'together',
+      grepInvert: ALONE,
+      // Only the canvas needs the emulated graphics card, which is slow: the page around it is put together without.
+      use: { launchOptions: launched(['--disable-gpu-compositing']) },
+    },
+    // What measures times has the page put together as usual: without the card each frame of the canvas is read back, in a long task.
+    { name: 'alone', grep: ALONE, use: { launchOptions: launched([]) } },
+  ],
   webServer: {
     command: `npx vite preview --host 127.0.0.1 --port ${process.env['CONEMAP_TEST_PORT']} --strictPort`,
     cwd: root,

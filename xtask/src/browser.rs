@@ -13,15 +13,13 @@ pub fn test(extent: Extent) -> Result<(), String> {
         chromium()?.into_iter().map(|program| ("CHROMIUM", program)).collect();
     let variables: Vec<(&str, &str)> =
         variables.iter().map(|(name, value)| (*name, value.as_str())).collect();
-    let [together, alone]: [&[&str]; 2] = match extent {
-        Extent::Usual => {
-            [&["--grep-invert", "@long|@alone"], &["--grep", "@alone", "--grep-invert", "@long"]]
-        }
-        Extent::All => [&["--grep-invert", "@alone"], &["--grep", "@alone"]],
+    let chosen: &[&str] = match extent {
+        Extent::Usual => &["--grep-invert", "@long"],
+        Extent::All => &[],
     };
-    let tests = |chosen: &[&str]| run_with("npm", &[&["test", "--"], chosen].concat(), &variables);
-    let together = tests(together);
-    let alone = tests(&[alone, &["--workers", "1"]].concat());
+    let tests = |of: &[&str]| run_with("npm", &[&["test", "--"], of, chosen].concat(), &variables);
+    let together = tests(&["--project", "together"]);
+    let alone = tests(&["--project", "alone", "--workers", "1"]);
     together.and(alone)
 }
 
