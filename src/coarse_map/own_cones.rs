@@ -273,7 +273,7 @@ impl<'a> Adding<'_, 'a> {
 }
 
 /// Own points that are placed by distances are inexact, and the map strains: of twelve pairs with 8 landmarks its mean log density was 0.9
-/// to 1.6 times the other's. Of the seven where it was more than this many times as large one gained by placing them anew (12 %).
+/// to 1.6 times the other's. Of the six where it was more than this many times as large one gained by placing them anew (12 %).
 const PROMISING: f64 = 1.2;
 
 /// By vertex of the source level its place on the target level by distances.
