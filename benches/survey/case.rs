@@ -166,10 +166,7 @@ impl Case {
                     .expect("the relaxed map has all images");
                 image.position(target).distance(*place) * scale
             };
-            let mut all: Vec<f64> = truth.iter().enumerate().map(distance).collect();
-            all.sort_by(f64::total_cmp);
-            let at = |share: f64| all[(share * (all.len() - 1) as f64) as usize];
-            [all.iter().sum::<f64>() / all.len() as f64, at(0.5), at(0.95)]
+            mean_and_quantiles(truth.iter().enumerate().map(distance).collect())
         });
         Reached {
             certified: report.certificate.as_ref().is_some_and(|c| c.bijective),
@@ -244,4 +241,11 @@ pub fn map_all(cases: Vec<Make<'_>>, arguments: &Arguments) -> Vec<Outcome> {
     outcomes.sort_by_key(|(number, _)| *number);
     println!("{:.0} s of wall time", begun.elapsed().as_secs_f64());
     outcomes.into_iter().map(|(_, outcome)| outcome).collect()
+}
+
+/// Mean, median and 95 %.
+pub fn mean_and_quantiles(mut all: Vec<f64>) -> [f64; 3] {
+    all.sort_by(f64::total_cmp);
+    let at = |share: f64| all[(share * (all.len() - 1) as f64) as usize];
+    [all.iter().sum::<f64>() / all.len() as f64, at(0.5), at(0.95)]
 }

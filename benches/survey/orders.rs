@@ -1,12 +1,13 @@
 //! The class that is chosen where landmarks come in another order, or are clicked beside their vertices.
 
 use crate::arguments::Arguments;
-use crate::case::Case;
+use crate::case::{Case, mean_and_quantiles};
 use crate::clicks::{Random, moved};
 use conemap::coarse_map::class_search::{Chosen, ClassChoice, ClassSearchOptions, choose_class};
 use conemap::coarse_map::multilevel::CoarseMap;
 use conemap::coarse_map::{LEAST_PER_LANDMARK, LandmarkedMesh, MeshWithCoarse, coarse_levels};
 use conemap::math::random::SplitMix;
+use conemap::mesh::VertexId;
 use conemap::monitor::Silent;
 use cpu_time::ThreadTime;
 
@@ -96,14 +97,12 @@ fn one(arguments: &Arguments, case: &Case, variant: &str) {
 fn truth(case: &Case, map: &CoarseMap<'_>) -> String {
     let (Some(truth), Some(images)) = (&case.truth, map.images()) else { return String::new() };
     let [source, target] = &images.levels;
-    let scale = 100.0 / case.meshes[1].area().sqrt();
-    let mut distances: Vec<f64> = Vec::new();
-    for v in source.mesh.vertices() {
-        let Some(place) = truth.get(source.vertices[v].index()) else { continue };
-        let image = images.target_from_source[v].position(&target.mesh);
-        distances.push(image.distance(*place) * scale);
-    }
-    distances.sort_by(f64::total_cmp);
-    let mean = distances.iter().sum::<f64>() / distances.len() as f64;
-    format!("{mean:7.3} {:6.2}", distances[distances.len() * 95 / 100])
+    // Levels are scaled to area 1.
+    let scale = 1.0 / case.meshes[1].area().sqrt();
+    let distance = |v: VertexId| {
+        let place = *truth.get(source.vertices[v].index())?;
+        Some(images.target_from_source[v].position(&target.mesh).distance(place * scale))
+    };
+    let [mean, _, most] = mean_and_quantiles(source.mesh.vertices().filter_map(distance).collect());
+    format!("{:7.3} {:6.2}", 100.0 * mean, 100.0 * most)
 }

@@ -161,7 +161,7 @@ pub fn add<'a>(
     if own.count == 0 || full[0].landmarks.len() > own.most_landmarks || map.mean_log < own.least_mean_log {
         return Ok(None);
     }
-    let Some(images) = map.images() else { return Ok(None) };
+    let Some(mut images) = map.images() else { return Ok(None) };
     let mut adding = Adding { start, multilevel, own, cells: owners.cells(), before: Vec::new() };
     if !adding.may_go_on(monitor) {
         return Ok(None);
@@ -173,12 +173,11 @@ pub fn add<'a>(
     {
         best = Some(other);
     }
-    if let Some(best) = &best {
-        monitor.preview(&best.map);
+    if let Some(first) = &best {
+        monitor.preview(&first.map);
+        let Some(of_first) = first.map.images() else { return Ok(best) };
+        images = of_first;
     }
-    let Some(mut images) = best.as_ref().map_or_else(|| map.images(), |best| best.map.images()) else {
-        return Ok(best);
-    };
     let mut without_gain = usize::from(best.is_none());
     while without_gain < own.patience && adding.may_go_on(monitor) {
         without_gain += 1;

@@ -95,9 +95,7 @@ impl Candidate {
             assignment,
         }
     }
-}
 
-impl Candidate {
     /// The score without what is only likely of heads: by how well its map fits alone.
     pub(super) fn score_of_map(&self) -> f64 {
         self.score - roles(&self.assignment)

@@ -53,8 +53,8 @@ mod tests {
     use super::super::options::MatchOptions;
     use super::super::roles::{Roles, kept};
     use super::super::shape::{Body, Shape};
+    use super::super::test_bodies::ball_with_ends;
     use super::*;
-    use crate::math::scalar::exp;
     use crate::mesh::SurfaceMesh;
     use crate::mesh::generators::icosphere;
     use crate::mesh::mirror::mirrored;
@@ -75,13 +75,9 @@ mod tests {
 
     /// A ball with limbs and a head, symmetric about the plane y = 0.
     fn body() -> SurfaceMesh {
-        let ball = icosphere(4);
-        let bump = |p: DVec3, end: DVec3| exp(-40.0 * p.distance_squared(end.normalize()));
-        let height = |p: DVec3| {
-            let limbs = LIMBS.iter().map(|&end| 2.0 * bump(p, end)).sum::<f64>();
-            1.0 + limbs + HEAD.iter().zip([1.0, 0.6, 0.6]).map(|(&end, h)| h * bump(p, end)).sum::<f64>()
-        };
-        ball.with_positions(ball.positions().iter().map(|&p| height(p) * p).collect())
+        let limbs = LIMBS.iter().map(|&end| (end, 2.0));
+        let ends: Vec<(DVec3, f64)> = limbs.chain(HEAD.into_iter().zip([1.0, 0.6, 0.6])).collect();
+        ball_with_ends(&ends, 40.0)
     }
 
     fn shape(mesh: &SurfaceMesh) -> Shape {

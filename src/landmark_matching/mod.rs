@@ -21,6 +21,8 @@ mod search;
 mod shape;
 mod sharpening;
 mod symmetry;
+#[cfg(test)]
+mod test_bodies;
 mod verdict;
 
 pub use candidate::{Candidate, CoarsePicture};

@@ -158,10 +158,9 @@ pub(super) fn keeps_sides(reflections: [&[Reflection]; 2], pairs: &[[usize; 2]])
 mod tests {
     use super::super::options::MatchOptions;
     use super::super::shape::Body;
+    use super::super::test_bodies::ball_with_ends;
     use super::*;
-    use crate::math::scalar::exp;
     use crate::mesh::SurfaceMesh;
-    use crate::mesh::generators::icosphere;
     use crate::monitor::Silent;
     use glam::DVec3;
 
@@ -177,10 +176,7 @@ mod tests {
 
     /// A ball with a limb at each of the ends.
     fn body() -> SurfaceMesh {
-        let ball = icosphere(4);
-        let limb = |p: DVec3, end: DVec3| exp(-30.0 * p.distance_squared(end.normalize()));
-        let height = |p: DVec3| 1.0 + 2.0 * ENDS.iter().map(|&end| limb(p, end)).sum::<f64>();
-        ball.with_positions(ball.positions().iter().map(|&p| height(p) * p).collect())
+        ball_with_ends(&ENDS.map(|end| (end, 2.0)), 30.0)
     }
 
     #[test]

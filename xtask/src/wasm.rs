@@ -18,7 +18,7 @@ pub enum Names {
 pub enum Optimised {
     /// As a whole, as it is published.
     Fully,
-    /// Crate by crate, in half the time.
+    /// In parts, which take both processors.
     ForTests,
 }
 
