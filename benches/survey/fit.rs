@@ -225,7 +225,7 @@ pub fn around(mesh: &SurfaceMesh, v: VertexId, radius: f64) -> Vec<VertexId> {
 }
 
 /// Folds of space: what lies beyond a random plane is turned about a line in it, smoothly.
-fn folded(mesh: &SurfaceMesh, angle: f64, random: &mut Random) -> SurfaceMesh {
+pub fn folded(mesh: &SurfaceMesh, angle: f64, random: &mut Random) -> SurfaceMesh {
     let width = WIDTH * mesh.area().sqrt();
     let mut places: Vec<DVec3> = mesh.positions().iter().copied().collect();
     for _ in 0..FOLDS {

@@ -30,6 +30,7 @@ mod cones;
 mod determinism;
 mod fit;
 mod fit_faults;
+mod folded;
 mod holes;
 mod hostile;
 mod job_files;
@@ -98,6 +99,11 @@ const SURVEYS: &[Survey] = &[
         name: "truth",
         about: "poses with a known truth, the same connectivity or remeshed, 33, 12 and 6 landmarks; --pairs horse-horse,cat-cat",
         run: remeshed::truth,
+    },
+    Survey {
+        name: "folded",
+        about: "bodies onto remeshed copies folded at random, with a known truth, 12 and 6 landmarks; --seeds N, --landmarks N, --pairs FOLDER/NAME,...",
+        run: folded::bodies,
     },
     Survey {
         name: "holes",

@@ -72,8 +72,8 @@ struct Truth {
 
 /// What the true map does to skin.
 #[derive(Clone, Copy)]
-struct Skin {
-    energy: f64,
+pub struct Skin {
+    pub energy: f64,
     covered: f64,
 }
 
@@ -186,15 +186,15 @@ fn copy(bytes: Vec<u8>, landmarks: usize) -> Result<Files, String> {
         LandmarkFile { pairs: chosen.iter().zip(&places).map(pair).collect(), ..LandmarkFile::default() };
     let soup = read_soup(&bytes).map_err(|e| e.to_string())?;
     let images = soup.positions.iter().map(|p| bend(*p)).collect();
-    let skin = skin([&checked.mesh, &bent], |f| checked.is_cap(f));
+    let skin = energy_of_places([&checked.mesh, &bent], |f| !checked.is_cap(f));
     let meshes = [bytes, obj::mesh(&remeshed)];
     let truth = Some(Truth { images, skin: Some(skin) });
     Ok(Files { meshes, landmarks: landmark_file::write(&file), truth })
 }
 
-/// What a change of a mesh' places does to its faces without caps, both sides of these scaled to area 1.
-fn skin([from, to]: [&SurfaceMesh; 2], is_cap: impl Fn(FaceId) -> bool) -> Skin {
-    let faces = || from.faces().filter(|&f| !is_cap(f));
+/// What a change of a mesh' places does to its faces that are skin, both sides of these scaled to area 1.
+pub fn energy_of_places([from, to]: [&SurfaceMesh; 2], is_skin: impl Fn(FaceId) -> bool) -> Skin {
+    let faces = || from.faces().filter(|&f| is_skin(f));
     let [areas, images] = [from, to].map(|mesh| faces().map(|f| mesh.face_area(f)).sum::<f64>());
     let edges = |mesh: &SurfaceMesh, f: FaceId| {
         let [a, b, c] = mesh.corners(f);

@@ -444,6 +444,17 @@ pub struct LevelImages {
 }
 
 impl LevelImages {
+    /// A level onto itself, all of it skin.
+    #[cfg(test)]
+    pub(super) fn of_itself(level: &Level) -> Self {
+        let at = |v| SurfacePoint::at_vertex(&level.mesh, v);
+        Self {
+            levels: [level.clone(), level.clone()],
+            weights: [None, None],
+            target_from_source: level.mesh.vertices().map(at).collect(),
+        }
+    }
+
     /// The same levels with other images.
     pub(super) fn with_images(&self, target_from_source: TiVec<VertexId, SurfacePoint>) -> Self {
         Self { target_from_source, ..self.clone() }

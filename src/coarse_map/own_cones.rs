@@ -146,7 +146,8 @@ pub struct Start<'a> {
 /// Adds own landmarks round by round, as long as they lower the mean log density of the coarse map; `None` where they do not.
 ///
 /// The first rounds begin with images under the map and, for the case that it is of a wrong class, with images by distances alone
-/// (`distance_guess`). Every other takes fresh points at their images under the best map so far.
+/// (`distance_guess`). Every other takes fresh points at their images under the last map, as long as that is not much worse than the
+/// best one.
 ///
 /// # Errors
 /// Cancellation only.
@@ -183,12 +184,15 @@ pub fn add<'a>(
         without_gain += 1;
         let Some(next) = adding.round(&images, |_| true, monitor)? else { continue };
         let (reached, least) = (next.mean_log(), best.as_ref().map_or(map.mean_log, OwnCones::mean_log));
-        let Some(next_images) = next.map.images().filter(|_| reached < least) else { continue };
+        let Some(next_images) = next.map.images().filter(|_| reached < USABLE * least) else { continue };
+        images = next_images;
+        if reached >= least {
+            continue;
+        }
         if reached < (1.0 - own.least_gain) * least {
             without_gain = 0;
         }
         monitor.preview(&next.map);
-        images = next_images;
         best = Some(next);
     }
     Ok(best)
@@ -274,6 +278,10 @@ impl<'a> Adding<'_, 'a> {
 /// Own points that are placed by distances are inexact, and the map strains: of twelve pairs with 8 landmarks its mean log density was 0.9
 /// to 1.6 times the other's. Of the six where it was more than this many times as large one gained by placing them anew (12 %).
 const PROMISING: f64 = 1.2;
+
+/// The next round takes its images from the last map, also where that is not the best: the points that made the best one have moved
+/// there. Not from one whose mean log density is this many times the least, which may be of another class. Chosen by hand.
+const USABLE: f64 = 1.5;
 
 /// By vertex of the source level its place on the target level by distances.
 fn guesses(

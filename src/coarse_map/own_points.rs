@@ -13,6 +13,10 @@ use glam::DVec3;
 /// from meeting on limbs.
 const LEAST_DISTANCE: f64 = 0.03;
 
+/// Points of a round are at least this far from those of the round before, which so are free to move. Farther ones miss the ends of limbs, where
+/// those had been, and their maps are worse by a tenth to a half: so it is about as far as edges of the coarse level are long.
+const APART: f64 = 0.05;
+
 /// Nearer than this (in barycentric coordinates) to a side, an own point is put onto it: it may lie anywhere near, and a needle
 /// would distort. Chosen by hand.
 const SNAP: f64 = 0.15;
@@ -33,8 +37,8 @@ pub(super) struct Wanted<'a> {
     pub may: &'a dyn Fn(VertexId) -> bool,
 }
 
-/// At most so many points of the source as are wanted, far from the landmarks and from those of the round before, with their images on the
-/// target.
+/// At most so many points of the source as are wanted, far from the landmarks and from each other, none at those of the round before, with
+/// their images on the target.
 pub(super) fn pairs(
     full: &[LandmarkedMesh; 2],
     images: &LevelImages,
@@ -46,20 +50,20 @@ pub(super) fn pairs(
     let weights = images.weights();
     let mesh = &source.mesh;
     let user: Vec<VertexId> = source.numbers(&full[0].landmarks).collect();
-    let avoid: Vec<VertexId> = user
-        .iter()
-        .copied()
-        .chain(before.iter().filter_map(|v| source.vertices.binary_search(v).ok()))
-        .collect();
     let mut free = vec![true; mesh.vertex_count()];
-    avoid.iter().for_each(|&v| free[v.index()] = false);
+    user.iter().for_each(|&v| free[v.index()] = false);
+    let before: Vec<VertexId> = before.iter().filter_map(|v| source.vertices.binary_search(v).ok()).collect();
+    if !before.is_empty() {
+        let near = distances(mesh, &before);
+        mesh.vertices().filter(|&v| near[v] < APART).for_each(|v| free[v.index()] = false);
+    }
     mesh.vertices().filter(|&v| !weights[0].is_on_skin(mesh, v)).for_each(|v| free[v.index()] = false);
     // What the round before inserted around its own points is no vertex of the mesh with the user's landmarks alone.
     let known = full[0].refined.mesh.vertex_count();
     mesh.vertices().filter(|&v| source.vertices[v].index() >= known).for_each(|v| free[v.index()] = false);
     let spread = Spread { count: wanted.count, least_distance: LEAST_DISTANCE };
     let may = |v: VertexId| free[v.index()] && (wanted.may)(v);
-    let chosen = farthest_points(mesh, distances(mesh, &avoid), spread, may, monitor)?;
+    let chosen = farthest_points(mesh, distances(mesh, &user), spread, may, monitor)?;
     let mut places: Vec<DVec3> =
         full[1].landmarks.iter().map(|&v| full[1].refined.mesh.positions()[v]).collect();
     let mut pairs = Vec::new();
@@ -117,4 +121,47 @@ pub(super) fn with(
         }
     }
     Ok(Some([source, target]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::coarsening::Level;
+    use crate::mesh::generators::icosphere;
+    use crate::monitor::Silent;
+
+    /// Both ends of a long body are taken in every round, and no point twice.
+    #[test]
+    fn the_points_of_the_next_round_lie_beside_those_of_the_round_before() {
+        let ball = icosphere(4);
+        let long = DVec3::new(0.2, 0.2, 1.0);
+        let mesh = ball.with_positions(ball.positions().iter().map(|p| *p * long).collect());
+        let along = |v: &VertexId| mesh.positions()[*v].z;
+        let ends = [
+            mesh.vertices().max_by(|a, b| along(a).total_cmp(&along(b))).unwrap(),
+            mesh.vertices().min_by(|a, b| along(a).total_cmp(&along(b))).unwrap(),
+        ];
+        let beside = |d: DVec3| {
+            let off = |v: &VertexId| mesh.positions()[*v].distance(0.2 * d);
+            mesh.vertices().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap()
+        };
+        let landmarks = [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y].map(beside);
+        let full = [0, 1].map(|_| LandmarkedMesh::new(&mesh, &landmarks).unwrap());
+        let surface = &full[0].refined.mesh;
+        let images = LevelImages::of_itself(&Level::coarse(surface, &landmarks, 600, &mut Silent).unwrap());
+        let mut before: Vec<VertexId> = Vec::new();
+        for round in 0..4 {
+            let wanted = Wanted { count: 12, may: &|_| true };
+            let found: Vec<VertexId> = pairs(&full, &images, &before, wanted, &mut Silent)
+                .unwrap()
+                .iter()
+                .map(|p| p.source)
+                .collect();
+            assert!(found.len() > 8, "round {round} has {} points", found.len());
+            let near = distances(surface, &found);
+            assert!(ends.iter().all(|&end| near[end] < 2.5 * APART), "round {round} misses an end");
+            assert!(before.iter().all(|&v| near[v] > 0.8 * APART), "round {round} has a point again");
+            before = found;
+        }
+    }
 }
