@@ -370,6 +370,20 @@ fn the_table_allows_no_import_upward() {
 }
 
 #[test]
+fn module_files_only_declare_and_re_export() {
+    const ITEMS: [&str; 9] =
+        ["fn", "struct", "enum", "trait", "impl", "const", "static", "type", "macro_rules"];
+    let mut files = Vec::new();
+    rust_files(&root().join("src"), &mut files);
+    for file in files.iter().filter(|file| file.file_name().is_some_and(|name| name == "mod.rs")) {
+        let text = std::fs::read_to_string(file).expect("source file");
+        let tokens = without_tests(&tokens(&text));
+        let item = tokens.iter().find(|token| ITEMS.contains(&token.as_str()));
+        assert!(item.is_none(), "{} holds a `{}`", file.display(), item.map_or("", |i| i));
+    }
+}
+
+#[test]
 fn files_make_no_circles() {
     let house = House::read();
     let all = house.dependencies();
