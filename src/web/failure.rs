@@ -14,6 +14,6 @@ pub fn start() {
 }
 
 /// An error as the page takes it: a string of JSON `{"code", "message"}`.
-fn failure(code: &str, message: impl std::fmt::Display) -> JsValue {
+pub(super) fn failure(code: &str, message: impl std::fmt::Display) -> JsValue {
     JsValue::from_str(&json!({ "code": code, "message": message.to_string() }).to_string())
 }
