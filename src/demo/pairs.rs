@@ -1,9 +1,8 @@
 //! How each demo is built, and the true maps of those that have one.
 
 use super::bend::Bend;
-use super::body::Body;
 use super::quadruped::Pose;
-use super::shape::{Mark, Shape, skinned};
+use super::shape::{MarkedBody, Shape, skinned};
 use super::skin::Cells;
 use super::{animal, ball_cone, clawed, figure, hand, hoofed, human, round};
 use crate::mesh::{SurfaceMesh, VertexId};
@@ -60,13 +59,13 @@ pub fn true_map(id: &str) -> Option<fn(DVec3) -> DVec3> {
 }
 
 /// The skins of two bodies, in cells of different sizes and places.
-fn meshed([source, target]: [(Body, Vec<Mark>); 2], sizes: [f64; 2]) -> Demo {
+fn meshed([source, target]: [MarkedBody; 2], sizes: [f64; 2]) -> Demo {
     let [first, second] = cells(sizes);
     pair(skinned(&source, &first), skinned(&target, &second))
 }
 
 /// A body and the same bent, likewise.
-fn bent(body: &(Body, Vec<Mark>), sizes: [f64; 2]) -> Demo {
+fn bent(body: &MarkedBody, sizes: [f64; 2]) -> Demo {
     let [first, second] = cells(sizes);
     pair(skinned(body, &first), TURN.shape(skinned(body, &second)))
 }

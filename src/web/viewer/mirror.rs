@@ -6,6 +6,7 @@ use super::canvas::Viewer;
 use super::reading::parsed;
 use crate::landmark_suggestion::{Partner, partner};
 use crate::mesh::SurfacePoint;
+use crate::scene::buffers::Triangles;
 use crate::scene::plane_cut::drawn;
 use serde_json::json;
 use wasm_bindgen::prelude::*;
@@ -25,7 +26,7 @@ impl Viewer {
         let side = side.min(1);
         let mesh = self.sides[side].mesh.as_ref();
         let shown = numbers.and_then(|numbers| numbers.plane()).zip(mesh).map(|(plane, mesh)| {
-            let (vertices, indices) = drawn(&mesh.checked.mesh, &mesh.frame, plane);
+            let Triangles { vertices, indices } = drawn(&mesh.checked.mesh, &mesh.frame, plane);
             let line = (!indices.is_empty()).then(|| self.renderer.marked_line_mesh(&vertices, &indices));
             ShownMirror { plane, line }
         });
