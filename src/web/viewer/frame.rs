@@ -204,7 +204,9 @@ impl Viewer {
             .map(|Landmark { pin, .. }| {
                 let hidden = side.is_hidden(pin.base, pose);
                 let nearness = (pin.base - pose.eye()).dot(pose.back());
-                (hidden, nearness, pin.instance(hidden, self.pixel_ratio))
+                let drawn =
+                    if hidden { pin.outline(self.pixel_ratio) } else { pin.instance(self.pixel_ratio) };
+                (hidden, nearness, drawn)
             })
             .collect();
         pins.sort_by(|a, b| {
