@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Largest error of an angle sum, in radians, and of a position, in units of sqrt(area), of a homeomorphism.
+/// Largest error of an angle sum, in radians, and of a position, in units of sqrt(area), of a homeomorphism. Chosen by hand.
 const TOLERANCE: f64 = 1e-6;
 
 /// Whether a parametrisation is a homeomorphism onto the prescribed cone surface, with the numbers.

@@ -10,7 +10,7 @@ use crate::layout::LandmarkDistances;
 use crate::mesh::SurfaceMesh;
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
 
-/// Fewer landmarks than these say too little about orders, or about places.
+/// Fewer landmarks than these say too little about orders, or about places. Chosen by hand.
 const LEAST_FOR_ORDERS: usize = 6;
 const LEAST_FOR_PLACES: usize = 8;
 /// The mean agreement, orders twice and places in space once, below which a set is mirrored.
@@ -70,7 +70,7 @@ pub fn landmark_fit(
 /// Landmarks that are compared each with each, at most: every exchange of two is judged by all pairs of the others.
 pub const MOST_COMPARED: usize = 100;
 
-/// Exchanges that are told of, at most: a set with more is not a set with faults, but another one.
+/// Exchanges that are told of, at most: a set with more is not a set with faults, but another one. Chosen by hand.
 const MOST_EXCHANGES: usize = 12;
 
 /// Exchanges targets as long as an exchange is clearly called for, and no result is wanted.

@@ -67,13 +67,13 @@ pub enum Error {
     Cancelled(#[from] Cancelled),
 }
 
-/// Rounds that are made in any case: the first bring the lengths, the others regular triangles.
+/// Rounds that are made in any case: the first bring the lengths, the others regular triangles. Chosen by hand.
 const LEAST_ROUNDS: usize = 10;
-/// Rounds without splits and collapses at the end.
+/// Rounds without splits and collapses at the end. Chosen by hand.
 const LAST_ROUNDS: usize = 3;
-/// The share of the wanted faces by which a result may differ from it.
+/// The share of the wanted faces by which a result may differ from it. Chosen by hand.
 const TOLERANCE: f64 = 0.05;
-/// The difference at which no better one is waited for.
+/// The difference at which no better one is waited for. Chosen by hand.
 const AIM: f64 = 0.02;
 
 /// Remeshes a closed surface.

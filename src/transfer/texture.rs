@@ -71,7 +71,7 @@ pub enum BakeError {
     },
 }
 
-/// Charts may cover the picture that often: mirrored halves share their charts in some models.
+/// Charts may cover the picture that often: mirrored halves share their charts in some models. Chosen by hand.
 const MOST_COVERED: f64 = 4.0;
 
 /// Texture coordinates may leave the picture by this much, by rounding.

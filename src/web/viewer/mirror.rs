@@ -11,7 +11,7 @@ use crate::scene::plane_cut::drawn;
 use serde_json::json;
 use wasm_bindgen::prelude::*;
 
-/// As near as this to what lies across from a point, in units of the root of the area, a pin is taken to stand there.
+/// As near as this to what lies across from a point, in units of the root of the area, a pin is taken to stand there. Chosen by hand.
 const SAME_PLACE: f64 = 0.03;
 
 #[wasm_bindgen]

@@ -8,7 +8,7 @@ use crate::scene::seams;
 use glam::Vec3;
 use wasm_bindgen::prelude::*;
 
-/// Edges are drawn of meshes with at most so many triangles.
+/// Edges are drawn of meshes with at most so many triangles. Chosen by hand.
 const MOST_WITH_EDGES: usize = 30_000;
 
 #[wasm_bindgen]
