@@ -149,7 +149,10 @@ const actions: Actions = {
     leaveTask(store);
   },
   repair: (finding) => {
-    repair(store, { runner, reader, lookAtPair: (id) => showPair(store, views, id) }, finding);
+    const lookAtPair = (id: number): void => {
+      showPair(store, views, id);
+    };
+    repair(store, { runner, reader, lookAtPair }, finding);
   },
   repairMesh: (mesh) => {
     void repairMesh(store, reader, mesh);
