@@ -27,7 +27,7 @@ impl std::error::Error for Cancelled {}
 
 /// Receives progress and may ask to stop, without a result ([`Monitor::step`]) or with one ([`Monitor::wants_result`]).
 ///
-/// Algorithms call [`Monitor::step`] between iterations, inside long loops once in so many passes ([`Pulse`]), and return the error
+/// Algorithms call [`Monitor::step`] between iterations, inside long loops once in so many passes ([`Pulse`](super::Pulse)), and return the error
 /// at once.
 pub trait Monitor {
     /// A stage begins.
