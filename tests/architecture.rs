@@ -340,6 +340,7 @@ fn imports_follow_the_table() {
     let rows: BTreeMap<_, _> = table.iter().map(|(module, allowed)| (module.as_str(), allowed)).collect();
     let house = House::read();
     let mut faults = Vec::new();
+    let mut used: BTreeSet<(&str, String)> = BTreeSet::new();
     for (module, source) in house.sources.iter().filter(|(module, _)| module[..] != [LIBRARY.to_owned()]) {
         let own = module_of(&source.file);
         let Some(allowed) = rows.get(own) else {
@@ -349,12 +350,17 @@ fn imports_follow_the_table() {
         for path in source.imports.iter().map(|import| &import.path).chain(&source.paths) {
             let Some(path) = house.absolute(module, path) else { continue };
             let Some(top) = path.get(1).filter(|_| path[0] == LIBRARY) else { continue };
+            used.insert((own, top.clone()));
             if top != own && rows.contains_key(top.as_str()) && !allowed.contains(top) {
                 faults.push(format!("{}: `{own}` must not import `{top}`", source.file));
             }
         }
     }
     faults.dedup();
+    for (own, allowed) in &rows {
+        let unused = allowed.iter().filter(|top| !used.contains(&(*own, (*top).clone())));
+        faults.extend(unused.map(|top| format!("`{own}` may import `{top}`, but does not")));
+    }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
@@ -366,6 +372,20 @@ fn the_table_allows_no_import_upward() {
             let is_above = table[..row].iter().any(|(other, _)| other == import);
             assert!(is_above, "`{module}` may import `{import}`, which is no row above it");
         }
+    }
+}
+
+#[test]
+fn module_files_only_declare_and_re_export() {
+    const ITEMS: [&str; 9] =
+        ["fn", "struct", "enum", "trait", "impl", "const", "static", "type", "macro_rules"];
+    let mut files = Vec::new();
+    rust_files(&root().join("src"), &mut files);
+    for file in files.iter().filter(|file| file.file_name().is_some_and(|name| name == "mod.rs")) {
+        let text = std::fs::read_to_string(file).expect("source file");
+        let tokens = without_tests(&tokens(&text));
+        let item = tokens.iter().find(|token| ITEMS.contains(&token.as_str()));
+        assert!(item.is_none(), "{} holds a `{}`", file.display(), item.map_or("", |i| i));
     }
 }
 

@@ -2,6 +2,7 @@
 import { openDropped } from './app/dropped.ts';
 import { Finder } from './app/find.ts';
 import { findUnasked } from './app/find-unasked.ts';
+import { First } from './app/first.ts';
 import { browserWith, Keeper } from './app/keep.ts';
 import { listenForLeaving, listenForProposal, listenForUndo } from './app/keys.ts';
 import { saveLandmarks } from './app/landmarks.ts';
@@ -19,6 +20,7 @@ import { repair } from './app/repair.ts';
 import { freeExamined, repairMesh, showRepairs } from './app/repair-mesh.ts';
 import { Runner } from './app/run.ts';
 import { leaveTask } from './app/task.ts';
+import { showOwnShape, showPair, turn } from './app/turn.ts';
 import { sharedLink } from './app/sharing.ts';
 import { suggest } from './app/suggest.ts';
 import { Comparer } from './app/compare.ts';
@@ -29,13 +31,12 @@ import { compilePage, coreSource } from './compute/core.ts';
 import { SENTENCES } from './messages.ts';
 import { download } from './dom.ts';
 import { keepOffline } from './offline/register.ts';
-import type { Side } from './landmarks.ts';
 import type { TurnedViews } from './method/hands.ts';
-import type { Actions, CameraCommand } from './panels/actions.ts';
+import type { Actions } from './panels/actions.ts';
 import { mountPage } from './panels/page.tsx';
 import { Reader } from './reading/reader.ts';
 import { guideSection } from './send/guide-link.ts';
-import type { Demo, State } from './store/state.ts';
+import type { Demo } from './store/state.ts';
 import { shownResult } from './store/staleness.ts';
 import { Store } from './store/store.ts';
 import { Views } from './viewer/viewer.ts';
@@ -64,6 +65,7 @@ const across: Mirror = (side, point) => views.across(side, point);
 /** Reloads the page into its newer build, when there is one. */
 let reload = (): void => undefined;
 const keeper = new Keeper(store, browserWith(reader));
+const first = new First(store, links, reader);
 
 const turnedViews: TurnedViews = {
   whenTurned: (heard) => views.whenTurned(heard),
@@ -79,8 +81,8 @@ const actions: Actions = {
   cancelLink: () => {
     links.cancel();
     // Whoever leaves a link before anything else was there sees what a stranger sees.
-    if (isEmpty(store.state)) {
-      void openFirst(store.state.demos);
+    if (first.isMissing()) {
+      void first.open(store.state.demos);
     }
   },
   sharedLink: () => sharedLink(store.state, new URL(document.baseURI)),
@@ -147,7 +149,10 @@ const actions: Actions = {
     leaveTask(store);
   },
   repair: (finding) => {
-    repair(store, { runner, reader, lookAtPair: showPair }, finding);
+    const lookAtPair = (id: number): void => {
+      showPair(store, views, id);
+    };
+    repair(store, { runner, reader, lookAtPair }, finding);
   },
   repairMesh: (mesh) => {
     void repairMesh(store, reader, mesh);
@@ -156,11 +161,11 @@ const actions: Actions = {
     void showRepairs(store, reader, side, shown);
   },
   lookAtDefect: (side, examined, group, index) => {
-    showOwnShape();
+    showOwnShape(store);
     views.lookAtDefect(side, examined.found, group, index);
   },
   camera: (side, command) => {
-    turn(side, command);
+    turn(views, side, command);
   },
   morph: (share) => {
     wantWay();
@@ -186,7 +191,7 @@ const actions: Actions = {
       views.markStops(stops);
     },
     lookAtStop: (side, found, index) => {
-      showOwnShape();
+      showOwnShape(store);
       views.lookAtDefect(side, found, 0, index);
     },
   },
@@ -204,11 +209,11 @@ const actions: Actions = {
   },
   proposedUp: (side) => views.proposedUp(side),
   lookAtPair: (id) => {
-    showOwnShape();
+    showOwnShape(store);
     views.lookAtPair(id);
   },
   lookAtPlaces: ([source, target]) => {
-    showOwnShape();
+    showOwnShape(store);
     views.lookAt(0, source);
     views.lookAt(1, target);
     views.ask(0, source);
@@ -220,34 +225,6 @@ const actions: Actions = {
     void keeper.decline();
   },
 };
-
-/** Places of the source are where its own shape has them. */
-function showOwnShape(): void {
-  store.dispatch({ kind: 'style', style: { morph: 0 } });
-}
-
-/** Opens the list, where the selected pair is, and turns both views to it. */
-function showPair(id: number): void {
-  store.dispatch({ kind: 'ui', ui: { step: 'landmarks', panel: 'open' } }, { kind: 'style', style: { morph: 0 } });
-  views.lookAtPair(id);
-}
-
-function turn(side: Side, command: CameraCommand): void {
-  switch (command.kind) {
-    case 'fit':
-      views.fit(side);
-      break;
-    case 'reset':
-      views.reset(side);
-      break;
-    case 'look':
-      views.lookFrom(side, command.from);
-      break;
-    case 'roll':
-      views.roll(side, command.degrees);
-      break;
-  }
-}
 
 // The page comes first: the views look for their places in it.
 const page = mountPage(store.state, actions);
@@ -288,39 +265,6 @@ function fail(sentence: string): void {
   store.dispatch({ kind: 'error', sentence });
 }
 
-/** Shows what the address names, else the first demo, where nobody has put anything else there. */
-async function showFirst(demos: readonly Demo[]): Promise<void> {
-  if (store.state.job.kind !== 'idle' || store.state.history.past.length > 0) {
-    return;
-  }
-  const followed = await links.follow();
-  const { error } = store.state;
-  // Who comes by a link that brings nothing sees what a stranger sees, and why.
-  if (isEmpty(store.state) ? await openFirst(demos) : followed === 'opened') {
-    store.dispatch({ kind: 'history-begun' });
-  }
-  if (error !== null) {
-    fail(error);
-  }
-}
-
-/** Whether nothing is on the page, nor on its way. */
-function isEmpty({ meshes, receiving, job }: State): boolean {
-  return meshes.every((file) => file === null) && receiving.kind === 'nothing' && job.kind === 'idle';
-}
-
-/** Opens the demo that a stranger sees first; whether it has come. */
-async function openFirst(demos: readonly Demo[]): Promise<boolean> {
-  const [first] = demos;
-  return first !== undefined && openDemo(store, reader, first.id);
-}
-
-/** The demo that the address names, or the first one where it names nothing; `null` where something else is to come. */
-function expectedDemo(demos: readonly Demo[]): Demo | null {
-  const { named } = links;
-  return (named === null ? demos[0] : demos.find(({ id }) => id === named)) ?? null;
-}
-
 /** Opens the guide where the address asks for it, and takes the wish out of the address again; whether it did. */
 function followGuide(): boolean {
   const section = guideSection(location.hash);
@@ -349,14 +293,14 @@ async function start(): Promise<void> {
   const demos = JSON.parse(demoList()) as Demo[];
   const found = await finding;
   // The demo is built while the views start.
-  const expected = found.own === null ? expectedDemo(demos) : null;
+  const expected = found.own === null ? first.expected(demos) : null;
   if (expected !== null) {
     reader.foresee(expected.id);
   }
   await views.start();
   store.dispatch({ kind: 'ready', demos });
   if (!(await keeper.resume(found))) {
-    await showFirst(demos);
+    await first.show(demos);
   }
   // Once the page can be used it has the core fetched. The core lists its quickest demo last.
   const quickest = demos.at(-1);

@@ -1,7 +1,8 @@
 //! Angles around a landmark.
 
 use super::judged::{Judged, Start};
-use crate::math::scalar::{atan2, max};
+use crate::math::scalar::max;
+use crate::math::triangle::turn;
 use crate::mesh::{HalfedgeId, VertexId};
 use glam::DVec2;
 use std::f64::consts::PI;
@@ -53,6 +54,6 @@ fn corner_angle(judged: &Judged<'_>, h: HalfedgeId) -> f64 {
 
 /// From one direction to another, counter-clockwise, from -pi to pi.
 fn signed_angle(from: DVec2, to: DVec2) -> f64 {
-    let angle = atan2(from.perp_dot(to), from.dot(to));
+    let angle = turn(from, to);
     if angle <= -PI { PI } else { angle }
 }

@@ -5,13 +5,13 @@ use super::directions::{ANGLE_TOLERANCE, Around};
 use super::judged::{Judged, Prescribed};
 use super::tracer::{Goal, Line, trace};
 use crate::math::predicates::orient2d;
-use crate::math::scalar::atan2;
+use crate::math::triangle::turn;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use std::f64::consts::TAU;
 use std::fmt;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Largest error of an angle sum, in radians, and of a position, in units of sqrt(area), of a homeomorphism.
+/// Largest error of an angle sum, in radians, and of a position, in units of sqrt(area), of a homeomorphism. Chosen by hand.
 const TOLERANCE: f64 = 1e-6;
 
 /// Whether a parametrisation is a homeomorphism onto the prescribed cone surface, with the numbers.
@@ -164,7 +164,7 @@ fn angle_sum_error(judged: &Judged<'_>, prescribed: &Prescribed<'_>) -> f64 {
     let mut sums: TiVec<VertexId, f64> = ti_vec![0.0; mesh.vertex_count()];
     for h in mesh.halfedges() {
         let [p, q, r] = [h, h.next(), h.prev()].map(|c| judged.corners[c]);
-        sums[mesh.tail(h)] += atan2((q - p).perp_dot(r - p), (q - p).dot(r - p));
+        sums[mesh.tail(h)] += turn(q - p, r - p);
     }
     let mut full = ti_vec![TAU; mesh.vertex_count()];
     for landmark in prescribed.base.vertices() {

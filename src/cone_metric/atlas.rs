@@ -208,7 +208,7 @@ mod tests {
         for v in mesh.vertices() {
             let angle = |h: HalfedgeId| {
                 let (from, to) = (edge(h), -edge(h.prev()));
-                crate::math::scalar::atan2(from.perp_dot(to), from.dot(to))
+                crate::math::triangle::turn(from, to)
             };
             let sum: f64 = mesh.star(v).map(angle).sum();
             assert!((sum - (2.0 * PI - target[v])).abs() < 1e-6, "{v:?} {sum}");

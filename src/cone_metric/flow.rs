@@ -116,7 +116,7 @@ pub fn recorded_flow(
     }
 }
 
-/// Conjugate gradient iterations of one Newton step, at most.
+/// Conjugate gradient iterations of one Newton step, at most. Chosen by hand.
 const LINEAR_ITERATIONS: usize = 1000;
 
 struct Newton<'a> {

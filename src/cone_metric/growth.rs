@@ -8,7 +8,7 @@
 use super::atlas::{Development, develop, mesh_displacements};
 use super::metric::ConeMetric;
 use crate::math::scalar::exp;
-use crate::math::triangle::area_from_lengths;
+use crate::math::triangle::{area_from_lengths, signed_double_area};
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec2;
 use typed_index_collections::{TiVec, ti_vec};
@@ -87,7 +87,7 @@ impl FlatSurface {
         for k in 0..layout.order.len() {
             let halfedges = layout.order[k].halfedges();
             let [p, q, r] = halfedges.map(|h| places[h]);
-            layout.inverted_faces += usize::from((q - p).perp_dot(r - p) <= 0.0);
+            layout.inverted_faces += usize::from(signed_double_area(p, q, r) <= 0.0);
             for h in halfedges {
                 layout.number(mesh, h, &places);
             }
@@ -195,7 +195,7 @@ mod tests {
                 .faces()
                 .map(|f| {
                     let [p, q, r] = f.halfedges().map(at);
-                    (q - p).perp_dot(r - p)
+                    signed_double_area(p, q, r)
                 })
                 .sum();
             assert!((0.5 * doubled - 1.0).abs() < 1e-6);

@@ -5,7 +5,7 @@ use crate::mesh::{FaceId, VertexId};
 use std::f64::consts::PI;
 use typed_index_collections::{TiSlice, TiVec};
 
-/// So many moments are kept at most; of a longer flow every second, fourth, ... step, and the last.
+/// So many moments are kept at most; of a longer flow every second, fourth, ... step, and the last. Chosen by hand.
 const MOST_MOMENTS: usize = 24;
 
 /// A flow before its first Newton step and after steps.

@@ -2,7 +2,7 @@
 
 use super::body::{Body, Part, Solid};
 use super::rounded_cone::RoundedCone;
-use super::shape::{Mark, Shape, skinned};
+use super::shape::{Mark, MarkedBody, Shape, skinned};
 use super::skin::Cells;
 use crate::math::scalar::{cos, sin};
 use crate::mesh::generators::icosphere;
@@ -46,7 +46,7 @@ pub(super) fn cone() -> Shape {
         places.extend(names.into_iter().zip(ring(k, RADIUS * share, HEIGHT * (1.0 - share))));
     }
     places.push(("base", DVec3::ZERO));
-    skinned(&(body, places.into_iter().map(mark).collect()), &CELLS)
+    skinned(&MarkedBody { body, marks: places.into_iter().map(mark).collect() }, &CELLS)
 }
 
 /// Length of the edges wanted on the cone, and the cells in which it is meshed.

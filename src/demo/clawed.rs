@@ -1,8 +1,8 @@
 //! Animals with paws: wolf, cat and lion, at rest in profile.
 
-use super::body::{Body, Part};
+use super::body::Part;
 use super::quadruped::{Build, Ear, Foot, Leg, Outline, Pose, Sculpture};
-use super::shape::Mark;
+use super::shape::MarkedBody;
 use crate::math::scalar::{cos, sin};
 use glam::DVec3;
 
@@ -76,7 +76,7 @@ const WOLF: Build = Build {
 };
 
 /// A wolf.
-pub(super) fn wolf(pose: &Pose) -> (Body, Vec<Mark>) {
+pub(super) fn wolf(pose: &Pose) -> MarkedBody {
     let mut s = Sculpture::new(&WOLF, pose);
     let head = s.head;
     // The ruff of the cheeks and the neck, brows, the lower jaw, the nose.
@@ -185,7 +185,7 @@ const CAT: Build = Build {
 };
 
 /// A cat with its tail up.
-pub(super) fn cat(pose: &Pose) -> (Body, Vec<Mark>) {
+pub(super) fn cat(pose: &Pose) -> MarkedBody {
     let mut s = Sculpture::new(&CAT, pose);
     let head = s.head;
     // Cheeks, the pads of the whiskers, chin, bridge and tip of the nose.
@@ -314,7 +314,7 @@ fn tuft([behind, reach, turn]: [f64; 3], k: usize) -> [[f64; 5]; 3] {
 }
 
 /// A lion with a mane.
-pub(super) fn lion(pose: &Pose) -> (Body, Vec<Mark>) {
+pub(super) fn lion(pose: &Pose) -> MarkedBody {
     let mut s = Sculpture::new(&LION, pose);
     let head = s.head;
     let below = head.tube(&[

@@ -1,7 +1,7 @@
 //! A hand from its bones, open or grasping.
 
 use super::body::{Body, Part};
-use super::shape::Mark;
+use super::shape::{Mark, MarkedBody};
 use super::tube::{Node, tube};
 use crate::math::scalar::{cos, sin};
 use glam::DVec3;
@@ -195,7 +195,7 @@ const NAMES: [[&str; 3]; 4] = [
 ];
 
 /// A left hand with its forearm; the palm looks to -z.
-pub(super) fn hand(grip: &Grip) -> (Body, Vec<Mark>) {
+pub(super) fn hand(grip: &Grip) -> MarkedBody {
     let wrist = Wrist::new(DVec3::ZERO, DVec3::Y, -DVec3::X, -DVec3::Z, 1.0);
     let forearm = tube(&[
         wrist.node([0.0, -0.55, 0.0], 0.130, 0.165),
@@ -230,7 +230,7 @@ pub(super) fn hand(grip: &Grip) -> (Body, Vec<Mark>) {
         let [x, y, z] = place;
         marks.push(Mark::new(name, wrist.at(x, y, z), direction));
     }
-    (Body::new(all), marks)
+    MarkedBody { body: Body::new(all), marks }
 }
 
 /// Marks of the tips of thumb and middle finger, for the hand of a figure.

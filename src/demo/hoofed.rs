@@ -1,8 +1,8 @@
 //! Animals with hooves and pads: horse, camel and cow, at rest in profile.
 
-use super::body::{Body, Part};
+use super::body::Part;
 use super::quadruped::{Build, Ear, Foot, Leg, Outline, Pose, Sculpture};
-use super::shape::Mark;
+use super::shape::MarkedBody;
 use glam::DVec3;
 
 const fn at(x: f64, y: f64, z: f64) -> DVec3 {
@@ -117,7 +117,7 @@ pub(super) const REAR: Pose = Pose {
 };
 
 /// A horse in a pose.
-pub(super) fn horse(pose: &Pose) -> (Body, Vec<Mark>) {
+pub(super) fn horse(pose: &Pose) -> MarkedBody {
     let mut s = Sculpture::new(&HORSE, pose);
     let head = s.head;
     // Cheeks, brows and the lower lip.
@@ -236,7 +236,7 @@ const CAMEL: Build = Build {
 };
 
 /// A camel with one hump.
-pub(super) fn camel(pose: &Pose) -> (Body, Vec<Mark>) {
+pub(super) fn camel(pose: &Pose) -> MarkedBody {
     let mut s = Sculpture::new(&CAMEL, pose);
     let (head, torso) = (s.head, s.torso);
     let hump = torso.tube(&[
@@ -351,7 +351,7 @@ const COW: Build = Build {
 };
 
 /// A cow with horns and an udder.
-pub(super) fn cow(pose: &Pose) -> (Body, Vec<Mark>) {
+pub(super) fn cow(pose: &Pose) -> MarkedBody {
     let mut s = Sculpture::new(&COW, pose);
     let (head, torso) = (s.head, s.torso);
     // Hip bones, dewlap, udder with teats.

@@ -3,7 +3,7 @@
 use super::body::{Body, Ellipsoid, Part, Solid};
 use super::eye::eye;
 use super::hand::{self, TOGETHER, Wrist};
-use super::shape::Mark;
+use super::shape::{Mark, MarkedBody};
 use super::tube::{Node, tube};
 use glam::DVec3;
 
@@ -34,7 +34,7 @@ const fn at(x: f64, y: f64, z: f64) -> DVec3 {
 }
 
 /// Standing with the arms a little away.
-pub(super) fn standing() -> (Body, Vec<Mark>) {
+pub(super) fn standing() -> MarkedBody {
     let side = |s: f64| Limbs {
         upper_arm: at(s * 0.50, -0.86, 0.0),
         forearm: at(s * 0.34, -0.92, 0.18),
@@ -48,7 +48,7 @@ pub(super) fn standing() -> (Body, Vec<Mark>) {
 }
 
 /// Running.
-pub(super) fn running() -> (Body, Vec<Mark>) {
+pub(super) fn running() -> MarkedBody {
     let left = Limbs {
         upper_arm: at(0.55, -0.66, -0.58),
         forearm: at(0.22, -0.30, 0.90),
@@ -78,7 +78,7 @@ fn blob(centre: DVec3, radii: DVec3, blend: f64, edge: f64) -> Part {
     Part::join(vec![ellipsoid(centre, radii)], blend, edge)
 }
 
-fn figure(limbs: [Limbs; 2]) -> (Body, Vec<Mark>) {
+fn figure(limbs: [Limbs; 2]) -> MarkedBody {
     let mut parts = trunk();
     let mut marks = trunk_marks();
     for (limbs, side) in limbs.into_iter().zip([1.0, -1.0]) {
@@ -91,7 +91,7 @@ fn figure(limbs: [Limbs; 2]) -> (Body, Vec<Mark>) {
         let place = Mark::new("", at(side * 0.031, 1.696, 0.04), DVec3::Z).place(&body);
         parts.extend(eye(&body, place, 0.0135));
     }
-    (Body::new(parts), marks)
+    MarkedBody { body: Body::new(parts), marks }
 }
 
 fn trunk() -> Vec<Part> {

@@ -5,7 +5,7 @@
 
 use super::body::{Body, Ellipsoid, Part, Solid};
 use super::eye::eye;
-use super::shape::Mark;
+use super::shape::{Mark, MarkedBody};
 use super::tube::{Node, tube};
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::{cos, sin};
@@ -375,8 +375,8 @@ impl Sculpture {
     }
 
     /// The body.
-    pub fn finished(self) -> (Body, Vec<Mark>) {
-        (Body::new(self.parts), self.marks)
+    pub fn finished(self) -> MarkedBody {
+        MarkedBody { body: Body::new(self.parts), marks: self.marks }
     }
 }
 

@@ -59,8 +59,14 @@ impl Mark {
     }
 }
 
+/// A body with what becomes its landmarks.
+pub(super) struct MarkedBody {
+    pub body: Body,
+    pub marks: Vec<Mark>,
+}
+
 /// A body's skin with its marks.
-pub(super) fn skinned((body, marks): &(Body, Vec<Mark>), cells: &Cells) -> Shape {
+pub(super) fn skinned(MarkedBody { body, marks }: &MarkedBody, cells: &Cells) -> Shape {
     let points = marks.iter().map(|mark| (mark.name, mark.place(body))).collect();
     Shape { mesh: skin(body, cells), points }
 }

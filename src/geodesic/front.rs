@@ -9,10 +9,10 @@ use std::cmp::Reverse;
 use typed_index_collections::TiVec;
 
 /// Faces through which the front is unfolded from every settled edge: each edge that computes the front's centre anew loses
-/// some accuracy.
+/// some accuracy. Chosen by hand.
 const FREE_FACES: u32 = 2;
 
-/// Faces through which it is unfolded in fans of slivers, at most.
+/// Faces through which it is unfolded in fans of slivers, at most. Chosen by hand.
 const MOST_FACES: u32 = 16;
 
 /// An edge shorter than this, relative to its distance from the centre, may have lost its direction.

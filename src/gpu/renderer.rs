@@ -1,10 +1,10 @@
 //! Draws surfaces, lines, balls and pins into the two views of one canvas.
 
 use super::pipelines::{DEPTH, Pipelines, ViewUniform};
-use crate::scene::buffers::unit_ball;
+use crate::scene::buffers::{Triangles, unit_ball};
 use crate::scene::colours::{factor_scale, rising_scale};
 use crate::scene::defects::MarkedLineVertex;
-use crate::scene::looks::{DressedSurface, levels};
+use crate::scene::looks::{DressedSurface, Pixels, levels};
 use crate::scene::morph::bend_weights;
 use crate::scene::{LineVertex, MarkerInstance, PinInstance, Pose, SurfaceVertex};
 use glam::Mat4;
@@ -232,7 +232,12 @@ impl Renderer {
         let uniforms =
             [0, 1].map(|_| ViewUniforms { front: uniform(), painted: uniform(), under: uniform() });
         let ball = ball(&device);
-        let white = picture(&device, &queue, &pipelines, levels(1, 1, vec![u8::MAX; 4]));
+        let white = picture(
+            &device,
+            &queue,
+            &pipelines,
+            levels(Pixels { width: 1, height: 1, bytes: vec![u8::MAX; 4] }),
+        );
         let targets = Targets::new(&device, &config, samples);
         Ok(Self { surface, device, queue, config, pipelines, uniforms, ball, white, targets, samples })
     }
@@ -270,11 +275,12 @@ impl Renderer {
 
     /// Uploads a picture: 8-bit colours with opacity, row by row from the top. `None` where these are not so many pixels, or more than
     /// can be drawn.
-    pub fn picture(&self, width: u32, height: u32, pixels: Vec<u8>) -> Option<Picture> {
+    pub fn picture(&self, pixels: Pixels) -> Option<Picture> {
+        let Pixels { width, height, .. } = pixels;
         let limit = self.device.limits().max_texture_dimension_2d;
         let fits = (1..=limit).contains(&width) && (1..=limit).contains(&height);
-        let is_whole = fits && pixels.len() as u64 == 4 * u64::from(width) * u64::from(height);
-        is_whole.then(|| picture(&self.device, &self.queue, &self.pipelines, levels(width, height, pixels)))
+        let is_whole = fits && pixels.bytes.len() as u64 == 4 * u64::from(width) * u64::from(height);
+        is_whole.then(|| picture(&self.device, &self.queue, &self.pipelines, levels(pixels)))
     }
 
     /// Uploads ribbons.
@@ -547,20 +553,20 @@ fn mesh(device: &wgpu::Device, vertices: &[u8], indices: &[u32]) -> Mesh {
 }
 
 fn ball(device: &wgpu::Device) -> Mesh {
-    let (positions, indices) = unit_ball();
-    mesh(device, &packed(&positions, |bytes, x| push(bytes, &[*x])), &indices)
+    let Triangles { vertices, indices } = unit_ball();
+    mesh(device, &packed(&vertices, |bytes, place| push(bytes, place)), &indices)
 }
 
 fn picture(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     pipelines: &Pipelines,
-    levels: Vec<(u32, u32, Vec<u8>)>,
+    levels: Vec<Pixels>,
 ) -> Picture {
     let size = |width, height| wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some("picture"),
-        size: size(levels[0].0, levels[0].1),
+        size: size(levels[0].width, levels[0].height),
         mip_level_count: levels.len() as u32,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
@@ -568,11 +574,11 @@ fn picture(
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
-    for (mip_level, (width, height, pixels)) in (0..).zip(&levels) {
+    for (mip_level, Pixels { width, height, bytes }) in (0..).zip(&levels) {
         let place = wgpu::TexelCopyTextureInfo { mip_level, ..texture.as_image_copy() };
         let layout =
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * width), rows_per_image: None };
-        queue.write_texture(place, pixels, layout, size(*width, *height));
+        queue.write_texture(place, bytes, layout, size(*width, *height));
     }
     let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
         address_mode_u: wgpu::AddressMode::Repeat,

@@ -17,6 +17,7 @@ pub mod landmark_file;
 pub mod landmark_formats;
 mod look_remark;
 pub mod material_set;
+mod mesh_reader;
 pub mod moved;
 mod obj;
 mod off;
@@ -34,121 +35,9 @@ mod written_text;
 pub use detection::detect;
 pub use format::Format;
 pub use look_remark::LookRemark;
+pub use mesh_reader::{MAX_BYTES, ReadError, read_mesh, read_mesh_asking};
 pub use other_file::OtherFile;
 pub use problem::Place;
-
-use crate::mesh::soup::PolygonSoup;
-use crate::monitor::{Cancelled, Monitor, Pulse, Silent};
-use problem::Unread;
-
-/// Files larger than this are refused.
-pub const MAX_BYTES: usize = 1 << 30;
-
-/// Why a file cannot be read.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ReadError {
-    /// No known format.
-    #[error("this is not a mesh file that can be read: use {}", Format::NAMES)]
-    UnknownFormat,
-    /// A file of another kind.
-    #[error("{0}")]
-    OtherFile(OtherFile),
-    /// Too large.
-    #[error("the file has {bytes} bytes; the limit is {MAX_BYTES}")]
-    TooLarge {
-        /// Its size.
-        bytes: usize,
-    },
-    /// Something in the file is wrong.
-    #[error("{format} file, {place}: {problem}")]
-    Malformed {
-        /// The format.
-        format: Format,
-        /// Where.
-        place: Place,
-        /// What is wrong and what to do.
-        problem: String,
-    },
-    /// The user asked to stop.
-    #[error(transparent)]
-    Stopped(#[from] Cancelled),
-}
-
-/// Elements of a file, lines of a text among them, that are read between two questions to the monitor: some milliseconds.
-const ASKED_EVERY: usize = 4096;
-
-/// Reads a mesh file of any known format.
-///
-/// # Errors
-/// [`ReadError`] that names the line, vertex or face.
-pub fn read_mesh(bytes: &[u8]) -> Result<PolygonSoup, ReadError> {
-    read_mesh_asking(bytes, &mut Silent)
-}
-
-/// The same, and asks the monitor whether to go on.
-///
-/// # Errors
-/// As [`read_mesh`], and [`ReadError::Stopped`].
-pub fn read_mesh_asking(bytes: &[u8], monitor: &mut dyn Monitor) -> Result<PolygonSoup, ReadError> {
-    if bytes.len() > MAX_BYTES {
-        return Err(ReadError::TooLarge { bytes: bytes.len() });
-    }
-    let Some(format) = detect(bytes) else {
-        return Err(OtherFile::of(bytes).map_or(ReadError::UnknownFormat, ReadError::OtherFile));
-    };
-    let bytes = &*reading::unmarked(bytes);
-    let pulse = &mut Pulse::new(monitor, ASKED_EVERY);
-    let soup = match format {
-        Format::Obj => obj::read(bytes, pulse),
-        Format::Off => off::read(bytes, pulse),
-        Format::Ply => ply::read(bytes, pulse),
-        Format::Stl => stl::read(bytes, pulse),
-        Format::Gltf => gltf_file::read(bytes, pulse),
-    };
-    let soup = soup.and_then(|soup| check_numbers(&soup, pulse).map(|()| soup));
-    soup.map_err(|unread| match unread {
-        Unread::Problem((place, problem)) => ReadError::Malformed { format, place, problem },
-        Unread::Stopped(stop) => stop.into(),
-    })
-}
-
-/// Every coordinate finite and of sane size, every polygon with at least three existing vertices.
-fn check_numbers(soup: &PolygonSoup, pulse: &mut Pulse<'_>) -> Result<(), Unread> {
-    // Products of three coordinates stay finite up to 1e100.
-    let sane = |p: &glam::DVec3| p.is_finite() && p.abs().max_element() < 1e100;
-    if let Some(v) = soup.positions.iter().position(|p| !sane(p)) {
-        let [x, y, z] = soup.positions[v].to_array().map(short);
-        return Err(
-            (Place::Vertex(v), format!("the coordinates [{x}, {y}, {z}] are not usable numbers")).into()
-        );
-    }
-    for (f, polygon) in soup.polygons.iter().enumerate() {
-        pulse.beat()?;
-        check_polygon(polygon, soup.positions.len()).map_err(|problem| (Place::Face(f), problem))?;
-    }
-    Ok(())
-}
-
-/// At least three corners, at vertices that are there.
-fn check_polygon(polygon: &[u32], vertices: usize) -> Result<(), String> {
-    if polygon.len() < 3 {
-        return Err(format!("it has {} corners; a face needs at least 3", polygon.len()));
-    }
-    match polygon.iter().find(|v| **v as usize >= vertices) {
-        Some(v) => Err(format!("it names vertex {v}, but the file has {vertices} vertices")),
-        None => Ok(()),
-    }
-}
-
-/// A number without hundreds of digits.
-fn short(x: f64) -> String {
-    if x == 0.0 || (1e-6..1e15).contains(&x.abs()) || !x.is_finite() {
-        x.to_string()
-    } else {
-        format!("{x:e}")
-    }
-}
 
 #[cfg(test)]
 mod tests;

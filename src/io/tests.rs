@@ -1,7 +1,8 @@
+use super::mesh_reader::ASKED_EVERY;
 use super::*;
 use crate::mesh::SurfaceMesh;
 use crate::mesh::check::closed_genus_zero;
-use crate::monitor::Step;
+use crate::monitor::{Cancelled, Monitor, Step};
 use proptest::prelude::*;
 
 const OFF: &str = "OFF\n# a comment\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";

@@ -1,7 +1,7 @@
 //! The base domain of a map to be looked at: its triangles in the shape of both meshes, their cones, and what each triangle is on the
 //! meshes, its patch.
 
-use super::Job;
+use super::checked_job::Job;
 use super::taken::TakenMap;
 use crate::base_domain::BaseDomain;
 use crate::map_file::FileMesh;

@@ -15,6 +15,7 @@ use glam::DVec3;
 pub const MORPH_FILE: &str = "source-to-target.glb";
 
 /// Where one mesh is this many times as large as the other they are taken to have other units, and the target gets the source's size.
+/// Chosen by hand.
 const OTHER_UNITS: f64 = 8.0;
 
 /// Why there is no way from the source's shape to the target's.

@@ -1,6 +1,6 @@
 //! The files that a job gives.
 
-use super::Job;
+use super::checked_job::Job;
 use super::look::MapLook;
 use super::taken::{OutputKind, TakenMap};
 use crate::base_domain::BaseDomain;

@@ -10,11 +10,11 @@ use crate::mesh::surface_index::SurfaceIndex;
 use crate::mesh::{FaceId, SurfacePoint, VertexId};
 use glam::DVec3;
 
-/// From this distance on, in units of the square root of the area, a landmark off the surface is told.
+/// From this distance on, in units of the square root of the area, a landmark off the surface is told. Chosen by hand.
 const TOLD: f64 = 0.01;
-/// From this distance on it is refused.
+/// From this distance on it is refused. Chosen by hand.
 const REFUSED: f64 = 0.2;
-/// Within this distance landmarks lie on a surface, where a way is sought to bring them there.
+/// Within this distance landmarks lie on a surface, where a way is sought to bring them there. Chosen by hand.
 const FITS: f64 = 0.05;
 /// Within this distance of a vertex a landmark is the vertex.
 const AT_VERTEX: f64 = 1e-9;

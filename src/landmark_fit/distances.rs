@@ -7,7 +7,7 @@ use crate::math::scalar::{exp, ln, max, min};
 use crate::mesh::VertexId;
 use crate::monitor::{Cancelled, Monitor, Step};
 
-/// Added to distances before ratios are taken, in units of the root of the area: nearer landmarks say little.
+/// Added to distances before ratios are taken, in units of the root of the area: nearer landmarks say little. Chosen by hand.
 const SOFTENING: f64 = 0.08;
 /// An exchange of two targets may raise the misfit (mean absolute log ratio) of either pair by no more than this. Left and
 /// right partners keep theirs; the partner of a misplaced pair gets more.

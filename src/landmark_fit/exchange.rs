@@ -13,7 +13,7 @@ use crate::layout::LandmarkDistances;
 use crate::math::scalar::{max, min};
 use crate::monitor::{Cancelled, Monitor, Step};
 
-/// Added to the lesser distance of a landmark x to a and b in its weight, in units of d(a, b).
+/// Added to the lesser distance of a landmark x to a and b in its weight, in units of d(a, b). Chosen by hand.
 const SOFTENING: f64 = 0.3;
 /// Mean product of both sides' u at which the votes of distances count half. It is 0.005 to 0.03 for the feet of two animals
 /// and 0.1 to 0.4 for landmarks nearer together. A value of 0.01 misses more partners among feet and doubts no fewer correct
@@ -33,7 +33,7 @@ const LESS: f64 = 0.95;
 /// Exchanges that are tried before one is taken, at most: where a pair is in two of them, the one that leaves fewer doubts is
 /// taken.
 const TRIED: usize = 4;
-/// Agreement below which doubts are summed up.
+/// Agreement below which doubts are summed up. Chosen by hand.
 const DOUBTFUL: f64 = -0.1;
 
 /// From -1, where two pairs fit with their targets exchanged, to 1, where they fit as they are.

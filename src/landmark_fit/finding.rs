@@ -97,3 +97,20 @@ impl fmt::Display for Finding {
         f.write_str(&self.sentence(&[]))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn findings_name_pairs_and_repairs() {
+        let labels = ["nose", "tail"].map(String::from);
+        let swapped = Finding::Swapped { pairs: [0, 1], agreement: -0.9, misfit: [0.5, 0.1] };
+        assert_eq!(swapped.repair(), Repair::Swap { pairs: [0, 1] });
+        let sentence = swapped.sentence(&labels);
+        assert!(sentence.contains("1 (nose)") && sentence.contains("2 (tail)"), "{sentence}");
+        assert!(swapped.to_string().contains("pairs 1 and 2"), "{swapped}");
+        let mirrored = Finding::Mirrored { agreement: -0.8 };
+        assert_eq!(mirrored.repair(), Repair::MirrorTarget);
+    }
+}

@@ -10,7 +10,7 @@ use crate::math::scalar::{max, min};
 use crate::mesh::SurfaceMesh;
 use std::f64::consts::TAU;
 
-/// Landmarks around each landmark whose order is compared.
+/// Landmarks around each landmark whose order is compared. Chosen by hand.
 pub(super) const NEIGHBOURS: usize = 8;
 
 /// How far the cyclic orders in which shortest paths leave the landmarks agree on both meshes, from -1 to 1.

@@ -7,11 +7,11 @@ use super::shape::Shape;
 use crate::math::scalar::ln;
 use crate::mesh::VertexId;
 
-/// Distances are compared from here on: nearer ones say little. Units of the root of the area.
+/// Distances are compared from here on: nearer ones say little. Units of the root of the area. Chosen by hand.
 const SOFTENING: f64 = 0.05;
-/// Two places of the target nearer than this are one.
+/// Two places of the target nearer than this are one. Chosen by hand.
 const SAME: f64 = 0.3;
-/// Places that are tried.
+/// Places that are tried. Chosen by hand.
 const PLACES: usize = 2;
 /// Fewer pairs leave a whole line of places.
 pub(super) const LEAST_TO_PLACE: usize = 3;

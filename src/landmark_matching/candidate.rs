@@ -51,7 +51,8 @@ pub struct Candidate {
     pub(super) assignment: Assignment,
 }
 
-/// Weights of the score beside the mean log density, found with a prototype on pairs among eight animals of SHREC07.
+/// Weights of the score beside the mean log density, found with a prototype on pairs among eight animals of SHREC07. Over the candidates
+/// of 88 matches the best have the same mean error, within 0.2 % of the root of the area, with 0 to 10, 0 to 0.2 and 0 to 0.2.
 const REMOTENESS: f64 = 5.0;
 const UNMATCHED: f64 = 0.12;
 const ORDERS: f64 = 0.2;

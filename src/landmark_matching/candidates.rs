@@ -6,7 +6,7 @@ use super::search::{Assignment, Tables};
 use super::symmetry::equivariant;
 use crate::landmarks::LEAST_LANDMARKS;
 
-/// Candidates with the same pairs of main tips, at most.
+/// Candidates with the same pairs of main tips, at most. Chosen by hand.
 const SAME_MAIN: usize = 2;
 
 /// The assignments to judge, the most promising first: those that keep left and right, `options.candidates` by cost with few of the same

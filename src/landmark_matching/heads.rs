@@ -4,8 +4,9 @@ use super::roles::to_sides;
 use super::search::{Assignment, Tables};
 
 /// Twins go to twins where the mean log ratio of their distances to the limbs is below this: those of a head not to those of a tail.
+/// Chosen by hand.
 const FITS: f64 = 0.4;
-/// Ways to take twins to twins that are judged, at most.
+/// Ways to take twins to twins that are judged, at most. Chosen by hand.
 const MOST: usize = 2;
 
 /// An assignment with twins taken to twins on the same side, and the end on the middle line that belongs to them to that of the others;

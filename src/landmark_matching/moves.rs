@@ -7,12 +7,12 @@ use super::between::between;
 use super::search::{Assignment, Tables};
 use crate::landmarks::LEAST_LANDMARKS;
 
-/// Two tips of one body that are nearer than this, in units of the root of the area, may be taken for each other.
+/// Two tips of one body that are nearer than this, in units of the root of the area, may be taken for each other. Chosen by hand.
 const NEAR: f64 = 0.45;
 /// Small tips are paired where their mean misfit is below this. Chosen by hand.
 const FITS: f64 = 0.25;
 
-/// With so few pairs a map may wind either way round the body: a further pair is tried.
+/// With so few pairs a map may wind either way round the body: a further pair is tried. Chosen by hand.
 const FEW: usize = 5;
 
 /// Assignments that differ little from one, the cheapest first.

@@ -10,6 +10,7 @@ use crate::math::scalar::ln;
 /// Twins have such a mean log ratio of distances to mirrored marks at most: feet of sixteen animals have up to 0.06.
 const MIRRORED: f64 = 0.06;
 /// Twins are nearer to each other than this, in units of the root of the area, and to the end on the middle line that belongs to them.
+/// Chosen by hand.
 const NEAR: f64 = 0.5;
 /// Log ratios of persistence count so little beside those of distances: where there are two horns and two ears.
 const PERSISTENCE: f64 = 0.01;

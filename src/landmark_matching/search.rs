@@ -35,9 +35,9 @@ pub(super) struct Assignment {
 const ORDERS: f64 = 0.3;
 const PERSISTENCE: f64 = 0.05;
 const UNMATCHED: f64 = 0.35;
-/// An unmatched tip costs no more than one of this persistence: a long tail may be missing.
+/// An unmatched tip costs no more than one of this persistence: a long tail may be missing. Chosen by hand.
 const MOST_UNMATCHED: f64 = 0.25;
-/// A log ratio of distances above this is as bad as any.
+/// A log ratio of distances above this is as bad as any. Chosen by hand.
 const MOST_RATIO: f64 = 1.0;
 
 impl Assignment {

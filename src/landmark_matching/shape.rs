@@ -14,13 +14,13 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 /// Shares of the area whose enclosing radii describe a tip: from the tip of a toe to the whole body. Chosen by hand.
 const SHARES: [f64; 10] = [0.003, 0.006, 0.0125, 0.025, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0];
 
-/// Nearer to a given landmark than this a tip is the same place.
+/// Nearer to a given landmark than this a tip is the same place. Chosen by hand.
 const SAME_PLACE: f64 = 0.12;
 
 /// Tips whose log radii differ by less than this in the mean see the body alike. Chosen by hand.
 const ALIKE: f64 = 0.15;
 
-/// Places that are asked for where nothing fits.
+/// Places that are asked for where nothing fits. Chosen by hand.
 const PLACES: usize = 3;
 
 /// A mesh with what is known of its landmarks.

@@ -15,11 +15,11 @@ use crate::mesh::{FaceId, SurfaceMesh};
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
 use glam::{DMat3, DVec3};
 
-/// Points by which directions are compared, planes refined and misfits measured.
+/// Points by which directions are compared, planes refined and misfits measured. Numbers chosen by hand.
 const COARSE_SAMPLES: usize = 200;
 const SAMPLES: usize = 1000;
 
-/// How many of the directions are refined: a second symmetry, as of front and back, may look better from afar.
+/// How many of the directions are refined: a second symmetry, as of front and back, may look better from afar. Chosen by hand.
 const REFINED: usize = 6;
 
 /// Steps of a refinement at most; usually ten are enough.
@@ -28,13 +28,13 @@ const MOST_STEPS: usize = 25;
 /// A refinement is over when a step is shorter, in radians and in units of the size; the next one would be its square.
 const STILL: f64 = 1e-7;
 
-/// Largest step, in radians and in units of the size: tangent planes say nothing farther away.
+/// Largest step, in radians and in units of the size: tangent planes say nothing farther away. Chosen by hand.
 const LARGEST_STEP: f64 = 0.1;
 
-/// Least knee of the weights, in units of the size: noise of a scan.
+/// Least knee of the weights, in units of the size: noise of a scan. Chosen by hand.
 const NOISE: f64 = 1e-3;
 
-/// Distances above this, in units of the size, count as this when directions are compared: how far off is then of no account.
+/// Distances above this, in units of the size, count as this when directions are compared: how far off is then of no account. Chosen by hand.
 const FAR: f64 = 0.15;
 
 /// With a larger misfit, as a share of the mean distance from the plane, a body has no mirror. Measured on the meshes of the tests and the

@@ -4,7 +4,7 @@ use crate::math::mirror_plane::MirrorPlane;
 use crate::mesh::{SurfaceMesh, SurfacePoint};
 use glam::DVec3;
 
-/// As near to the plane as this, in units of the root of the area, a point lies on the midline: no click is surer.
+/// As near to the plane as this, in units of the root of the area, a point lies on the midline: no click is surer. Chosen by hand.
 const MIDLINE: f64 = 0.01;
 
 /// What is across from a point.

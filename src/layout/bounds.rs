@@ -20,12 +20,12 @@ pub(super) struct Bounds {
 }
 
 /// Vertices of a refined mesh for each vertex of its level, and for each unit of the mean length of all paths in edges, which grows
-/// with the root of landmarks times vertices: on fine levels a drawing needs less for each vertex.
+/// with the root of landmarks times vertices: on fine levels a drawing needs less for each vertex. Chosen by hand.
 const VERTEX_GROWTH: usize = 16;
 const PATH_GROWTH: f64 = 200.0;
-/// Steps of the searches of one drawing for each landmark and each vertex of the level.
+/// Steps of the searches of one drawing for each landmark and each vertex of the level. Chosen by hand.
 const STEPS: usize = 250;
-/// The detour that any layout may have, and what each path may add to it.
+/// The detour that any layout may have, and what each path may add to it. Chosen by hand.
 const FREE_DETOUR: f64 = 12.0;
 const DETOUR_OF_PATH: f64 = 0.25;
 /// Length of a path relative to the shortest that is no detour: 10 % is left to paths over vertices and midpoints for giving way.

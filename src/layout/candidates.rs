@@ -21,6 +21,7 @@ use crate::monitor::{Monitor, Step};
 const STRAIGHT: f64 = 0.4;
 
 /// Twists whose detours are larger than those of what is twisted by more than this are not completed. They wind, and take long.
+/// Chosen by hand.
 const WINDING: f64 = 2.0;
 
 /// A layout that can be judged, and turned into its neighbours.

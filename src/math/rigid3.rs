@@ -54,7 +54,9 @@ pub fn turn_of(rotation: &DMat3) -> DVec3 {
 /// dimension as far as f64 can tell. Newton's method with scaling (Higham, "Computing the polar decomposition - with
 /// applications", 1986), which doubles the right digits with each step.
 pub fn polar_rotation(m: &DMat3) -> Option<DMat3> {
+    // Far more than doubling digits needs: what has not ended then never does.
     const STEPS: usize = 40;
+    // A volume below this, beside the cube of the norm, may be rounding.
     const FLATTEST: f64 = 1e-12;
     let norm = |m: &DMat3| [0, 1, 2].map(|k| m.col(k).length_squared()).iter().sum::<f64>().sqrt();
     let size = norm(m);

@@ -37,6 +37,11 @@ pub fn signed_double_area(p: DVec2, q: DVec2, r: DVec2) -> f64 {
     (q - p).perp_dot(r - p)
 }
 
+/// The angle from one direction of the plane to another, in radians, positive counter-clockwise.
+pub fn turn(from: DVec2, to: DVec2) -> f64 {
+    atan2(from.perp_dot(to), from.dot(to))
+}
+
 /// Gradients of the hat functions of a triangle's corners in its plane.
 #[inline]
 pub fn hat_gradients([p, q, r]: [DVec2; 3]) -> [DVec2; 3] {

@@ -54,7 +54,7 @@ pub fn coarsen(
 /// neighbours. Where collapses were counted instead, 256 of them, each next to such a vertex, took 276 ms.
 const ASKED_EVERY: usize = 1024;
 
-/// Neighbours that a held vertex keeps: around a sharp cone the angle must be shared among enough triangles.
+/// Neighbours that a held vertex keeps: around a sharp cone the angle must be shared among enough triangles. Chosen by hand.
 const HELD_DEGREE: usize = 8;
 
 /// Vertices that stay when a mesh is coarsened.

@@ -4,6 +4,7 @@ mod portion;
 mod preview;
 mod progress;
 mod pulse;
+mod receiver;
 mod rising;
 mod stage;
 
@@ -11,65 +12,6 @@ pub use portion::Portion;
 pub use preview::{MapPreview, PreviewOf};
 pub use progress::{PlannedStage, Progress};
 pub use pulse::Pulse;
+pub use receiver::{Cancelled, Monitor, Silent, Step};
 pub use rising::Rising;
 pub use stage::Stage;
-
-use std::fmt;
-
-/// One report of an algorithm's progress.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Step {
-    /// Estimated share of the stage that is done, 0 to 1.
-    pub fraction: f64,
-    /// The quantity that the stage brings down (curvature error in radians, energy, ...), where there is one.
-    pub residual: Option<f64>,
-}
-
-/// The user asked to stop.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Cancelled;
-
-impl fmt::Display for Cancelled {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("stopped on request")
-    }
-}
-
-impl std::error::Error for Cancelled {}
-
-/// Receives progress and may ask to stop, without a result ([`Monitor::step`]) or with one ([`Monitor::wants_result`]).
-///
-/// Algorithms call [`Monitor::step`] between iterations, inside long loops once in so many passes ([`Pulse`]), and return the error
-/// at once.
-pub trait Monitor {
-    /// A stage begins.
-    fn enter(&mut self, _stage: Stage) {}
-    /// A map is relaxed from now on: another one, or the same one on a finer level or by another kind of energy. The energies
-    /// told next do not compare with those before.
-    fn relaxation_begins(&mut self) {}
-    /// The present energy of the map that is being relaxed, of the kind that is lowered: 4 for an isometry. It falls until the
-    /// next relaxation begins, but for a little that a step may give to the barrier (2e-4 of 4.6 was seen).
-    fn map_energy(&mut self, _energy: f64) {}
-    /// A coarse map is the best so far, or was refined. It costs nothing unless it is asked for images.
-    fn preview(&mut self, _preview: &dyn MapPreview) {}
-    /// Whether to finish now: no more is tried than a whole, valid result needs. Asked between rounds, levels and
-    /// candidates; once true it must stay true.
-    fn wants_result(&self) -> bool {
-        false
-    }
-    /// The current stage went on; an error asks it to stop.
-    ///
-    /// # Errors
-    /// [`Cancelled`] when the user asked to stop.
-    fn step(&mut self, step: Step) -> Result<(), Cancelled>;
-}
-
-/// A monitor that never stops anything.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Silent;
-
-impl Monitor for Silent {
-    fn step(&mut self, _step: Step) -> Result<(), Cancelled> {
-        Ok(())
-    }
-}

@@ -16,11 +16,11 @@ use crate::monitor::{Cancelled, Monitor, Step};
 use serde::Serialize;
 use typed_index_collections::{TiSlice, TiVec};
 
-/// Rims that are compared, of each mesh: the longest.
+/// Rims that are compared, of each mesh: the longest. Chosen by hand.
 const MOST_RIMS: usize = 12;
-/// A rim is large from this length on, in units of the root of the mesh's area: smaller holes are gaps in the data.
+/// A rim is large from this length on, in units of the root of the mesh's area: smaller holes are gaps in the data. Chosen by hand.
 const LARGE: f64 = 0.15;
-/// Added to distances before ratios are taken, in units of the root of the area: nearer landmarks say little.
+/// Added to distances before ratios are taken, in units of the root of the area: nearer landmarks say little. As in `landmark_fit`.
 const SOFTENING: f64 = 0.08;
 /// Rims are guessed to correspond up to this mean absolute log ratio of the landmarks' distances. Two animals cut at the same place of
 /// the neck have 0.06 to 0.11, two poses of one 0.02 to 0.04; cuts that are 4 % of the root of the area apart have 0.14 to 0.24.

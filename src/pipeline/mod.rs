@@ -18,6 +18,7 @@ mod stages;
 mod thesis;
 mod tutte;
 mod warning;
+mod whole_run;
 
 pub use borders::{BorderCase, BordersReport, RimPairReport, RimReport};
 pub use error::PipelineError;
@@ -39,26 +40,4 @@ pub use warning::{Warning, WarningReport};
 
 pub use crate::base_domain::SimplificationStage;
 pub use crate::cone_metric::{FlatSurface, FlowMoment, FlowOptions, FlowRecord, PlaneLayout, Scheme};
-
-use crate::monitor::{Monitor, Rising};
-
-/// Maps the source onto the target.
-///
-/// A monitor that wants a result gets a valid, certified map of the full meshes from what there is, only less relaxed (one
-/// round on every level that is left), and the report says so; the thesis' method has nothing to shorten.
-///
-/// # Errors
-/// [`PipelineError`] names the stage that failed and carries its error. A result that is not certified is never
-/// returned as a map: [`Method::Relaxed`] ends in an error instead.
-pub fn run(
-    input: MapInput<'_>,
-    options: &PipelineOptions,
-    monitor: &mut dyn Monitor,
-) -> Result<MapResult, PipelineError> {
-    let monitor = &mut Rising::new(monitor);
-    match options.method {
-        Method::Relaxed => relaxed::run(input, options, monitor),
-        Method::Thesis => thesis::run(input, options, monitor),
-        Method::Tutte => tutte::run(input, options, monitor),
-    }
-}
+pub use whole_run::run;

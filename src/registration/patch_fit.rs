@@ -73,7 +73,7 @@ struct Foot {
     normal: DVec3,
 }
 
-/// Largest turn of the normal, in radians, from a vertex to the point that is nearest to it.
+/// Largest turn of the normal, in radians, from a vertex to the point that is nearest to it. Chosen by hand.
 const LARGEST_TURN: f64 = 0.5;
 
 /// The bend of the surface at a vertex: fits minus the change of the normals to all neighbours by least squares.

@@ -5,9 +5,9 @@ use super::working::{Fit, Place, Working, distance};
 use crate::math::scalar::min;
 use crate::mesh::{HalfedgeId, VertexId};
 
-/// A vertex goes only where the surface stays within this share of the longest allowed edge: the ends of limbs stay.
+/// A vertex goes only where the surface stays within this share of the longest allowed edge: the ends of limbs stay. Chosen by hand.
 const DEVIATION: f64 = 0.25;
-/// No vertex gets more neighbours.
+/// No vertex gets more neighbours. Chosen by hand.
 const MOST_NEIGHBOURS: usize = 12;
 
 impl Working<'_> {

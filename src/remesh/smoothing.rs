@@ -8,7 +8,7 @@ use crate::mesh::{HalfedgeId, VertexId};
 use glam::DVec3;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// A vertex moves only where its old place stays within this share of an edge of the new triangles: rims and valleys stay.
+/// A vertex moves only where its old place stays within this share of an edge of the new triangles: rims and valleys stay. Chosen by hand.
 const DEVIATION: f64 = 0.1;
 
 impl Working<'_> {

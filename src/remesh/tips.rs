@@ -5,7 +5,7 @@ use crate::mesh::{SurfaceMesh, VertexId};
 use glam::DVec3;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-/// Radius of the surface around a vertex by which it is judged a tip, in new edges.
+/// Radius of the surface around a vertex by which it is judged a tip, in new edges. Chosen by hand.
 const REACH: f64 = 1.5;
 /// Length of the mean unit direction from a tip to the surface around it, at least. It is the cosine of half the angle of a cone:
 /// 0.74 at the corner of a cube, 0.45 on its edges, 0 in the plane.

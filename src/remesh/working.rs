@@ -37,9 +37,9 @@ pub(super) struct Fit {
     roundness: f64,
 }
 
-/// A triangle turned by less than this (75 degrees) may turn freely.
+/// A triangle turned by less than this (75 degrees) may turn freely. Chosen by hand.
 const FACING: f64 = 0.25;
-/// A triangle rounder than this (about 6 degrees) may become thinner.
+/// A triangle rounder than this (about 6 degrees) may become thinner. Chosen by hand.
 const ROUNDNESS: f64 = 0.1;
 
 impl Fit {

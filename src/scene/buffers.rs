@@ -109,8 +109,17 @@ impl Frame {
     }
 }
 
-/// Vertices and indices of a plain mesh with smooth normals; each vertex is its own image.
-pub fn surface(mesh: &SurfaceMesh, shading: &Shading, frame: &Frame) -> (Vec<SurfaceVertex>, Vec<u32>) {
+/// Vertices of one kind, and which of them make triangles, three by three.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Triangles<V> {
+    /// The vertices.
+    pub vertices: Vec<V>,
+    /// Triples of vertices.
+    pub indices: Vec<u32>,
+}
+
+/// A plain mesh with smooth normals; each vertex is its own image.
+pub fn surface(mesh: &SurfaceMesh, shading: &Shading, frame: &Frame) -> Triangles<SurfaceVertex> {
     let vertex = |v: VertexId| {
         let position = frame.place(mesh.positions()[v]).to_array();
         let normal = shading.normals[v.index()];
@@ -124,12 +133,12 @@ pub fn surface(mesh: &SurfaceMesh, shading: &Shading, frame: &Frame) -> (Vec<Sur
             ..SurfaceVertex::default()
         }
     };
-    let vertices = mesh.vertices().map(vertex).collect();
-    (vertices, mesh.triangles().iter().flatten().map(|v| v.0).collect())
+    let indices = mesh.triangles().iter().flatten().map(|v| v.0).collect();
+    Triangles { vertices: mesh.vertices().map(vertex).collect(), indices }
 }
 
 /// Triangles of points, each in its own light.
-pub fn facets(points: &[Vec3], triangles: &[[u32; 3]]) -> (Vec<SurfaceVertex>, Vec<u32>) {
+pub fn facets(points: &[Vec3], triangles: &[[u32; 3]]) -> Triangles<SurfaceVertex> {
     let corners = |triangle: &[u32; 3]| {
         let [p, q, r] = triangle.map(|v| points[v as usize]);
         let normal = (q - p).cross(r - p).normalize_or(Vec3::Z).to_array();
@@ -141,7 +150,7 @@ pub fn facets(points: &[Vec3], triangles: &[[u32; 3]]) -> (Vec<SurfaceVertex>, V
     };
     let vertices: Vec<SurfaceVertex> = triangles.iter().flat_map(corners).collect();
     let indices = (0..vertices.len() as u32).collect();
-    (vertices, indices)
+    Triangles { vertices, indices }
 }
 
 /// The edges of a closed mesh, each once.
@@ -152,7 +161,7 @@ pub fn edges(points: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec<Vec3>> {
 }
 
 /// Ribbons along line strips: four vertices and six indices a segment.
-pub fn ribbons(strips: &[Vec<Vec3>]) -> (Vec<LineVertex>, Vec<u32>) {
+pub fn ribbons(strips: &[Vec<Vec3>]) -> Triangles<LineVertex> {
     let (mut vertices, mut indices) = (Vec::new(), Vec::new());
     for segment in strips.iter().flat_map(|strip| strip.windows(2)) {
         let [a, b] = [segment[0].to_array(), segment[1].to_array()];
@@ -162,14 +171,14 @@ pub fn ribbons(strips: &[Vec<Vec3>]) -> (Vec<LineVertex>, Vec<u32>) {
         }
         indices.extend([0, 1, 2, 2, 1, 3].map(|k| first + k));
     }
-    (vertices, indices)
+    Triangles { vertices, indices }
 }
 
-/// The unit ball: coordinates, three a vertex, and triangles.
-pub fn unit_ball() -> (Vec<f32>, Vec<u32>) {
+/// The unit ball; its vertices are places.
+pub fn unit_ball() -> Triangles<[f32; 3]> {
     let sphere = icosphere(2);
-    let positions = sphere.positions().iter().flat_map(|p| p.as_vec3().to_array()).collect();
-    (positions, sphere.triangles().iter().flatten().map(|v| v.0).collect())
+    let vertices = sphere.positions().iter().map(|p| p.as_vec3().to_array()).collect();
+    Triangles { vertices, indices: sphere.triangles().iter().flatten().map(|v| v.0).collect() }
 }
 
 #[cfg(test)]
@@ -187,7 +196,7 @@ mod tests {
             assert!(placed.length() <= 1.0 + 1e-6);
             assert!(frame.unplace(placed).distance(*p) < 1e-4);
         }
-        let (vertices, indices) = surface(&moved, &Shading::of(&moved), &frame);
+        let Triangles { vertices, indices } = surface(&moved, &Shading::of(&moved), &frame);
         assert_eq!((vertices.len(), indices.len()), (162, 960));
     }
 
@@ -196,7 +205,7 @@ mod tests {
         let sphere = icosphere(2);
         let points: Vec<Vec3> = sphere.positions().iter().map(|p| p.as_vec3()).collect();
         let triangles: Vec<[u32; 3]> = sphere.triangles().iter().map(|t| t.map(|v| v.0)).collect();
-        let (vertices, indices) = facets(&points, &triangles);
+        let Triangles { vertices, indices } = facets(&points, &triangles);
         assert_eq!((vertices.len(), indices.len()), (960, 960));
         for corner in &vertices {
             // The normal of a small triangle of the unit ball is nearly its place.
@@ -207,7 +216,7 @@ mod tests {
 
     #[test]
     fn a_strip_of_three_points_has_two_ribbons() {
-        let (vertices, indices) = ribbons(&[vec![Vec3::ZERO, Vec3::X, Vec3::ONE]]);
+        let Triangles { vertices, indices } = ribbons(&[vec![Vec3::ZERO, Vec3::X, Vec3::ONE]]);
         assert_eq!((vertices.len(), indices.len()), (8, 12));
     }
 }

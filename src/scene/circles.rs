@@ -52,12 +52,12 @@ mod tests {
     use super::*;
     use crate::mesh::generators::icosphere;
     use crate::scene::Shading;
-    use crate::scene::buffers::{Frame, surface};
+    use crate::scene::buffers::{Frame, Triangles, surface};
 
     #[test]
     fn powers_tell_the_distance_to_every_corner() {
         let ball = icosphere(2);
-        let (vertices, _) = surface(&ball, &Shading::of(&ball), &Frame::of(&ball));
+        let Triangles { vertices, .. } = surface(&ball, &Shading::of(&ball), &Frame::of(&ball));
         let triangles: Vec<[u32; 3]> = ball.triangles().iter().map(|t| t.map(|v| v.0)).collect();
         let radii: Vec<f32> = (0..vertices.len()).map(|v| 0.02 + 0.001 * (v % 7) as f32).collect();
         let places: Vec<f32> = (0..vertices.len()).map(|v| v as f32 / 200.0).collect();

@@ -1,7 +1,7 @@
 //! What is wrong with a mesh as it is drawn: each kind by its own colour and its own line, filling or sign, so that nobody needs
 //! colours to tell them apart.
 
-use super::buffers::{Frame, LineVertex, PinInstance, SurfaceVertex};
+use super::buffers::{Frame, LineVertex, PinInstance, SurfaceVertex, Triangles};
 use super::colours::linear;
 use crate::mesh::repair::{DefectKind, Defects};
 use glam::{DVec3, Vec3};
@@ -138,6 +138,16 @@ pub struct MarkedLineVertex {
     pub along: f32,
 }
 
+/// Lines of one colour and stroke.
+pub(super) fn marked(
+    Triangles { vertices, indices }: Triangles<LineVertex>,
+    colour: [f32; 3],
+    stroke: f32,
+) -> Triangles<MarkedLineVertex> {
+    let marked = |line| MarkedLineVertex { line, colour, stroke, along: 0.0 };
+    Triangles { vertices: vertices.into_iter().map(marked).collect(), indices }
+}
+
 /// Radius of a sign, in pixels of the page.
 const SIGN: f32 = 6.0;
 
@@ -145,9 +155,9 @@ const SIGN: f32 = 6.0;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DefectBuffers {
     /// Painted faces; the colour is the image's place, and the number of the filling the first texture coordinate.
-    pub faces: (Vec<SurfaceVertex>, Vec<u32>),
+    pub faces: Triangles<SurfaceVertex>,
     /// Lines.
-    pub lines: (Vec<MarkedLineVertex>, Vec<u32>),
+    pub lines: Triangles<MarkedLineVertex>,
     /// Signs, at one physical pixel per pixel of the page.
     pub signs: Vec<PinInstance>,
 }
@@ -158,18 +168,16 @@ pub fn frame_of(defects: &Defects) -> Frame {
 }
 
 /// The triangles of the file, none of a cap, as read.
-pub fn surface_as_read(
-    defects: &Defects,
-    normals: &[DVec3],
-    frame: &Frame,
-) -> (Vec<SurfaceVertex>, Vec<u32>) {
+pub fn surface_as_read(defects: &Defects, normals: &[DVec3], frame: &Frame) -> Triangles<SurfaceVertex> {
     let vertex = |(p, n): (&DVec3, &DVec3)| SurfaceVertex {
         position: frame.place(*p).to_array(),
         normal: n.normalize_or(DVec3::Z).as_vec3().to_array(),
         ..SurfaceVertex::default()
     };
-    let vertices = defects.positions.iter().zip(normals).map(vertex).collect();
-    (vertices, defects.triangles.iter().flatten().copied().collect())
+    Triangles {
+        vertices: defects.positions.iter().zip(normals).map(vertex).collect(),
+        indices: defects.triangles.iter().flatten().copied().collect(),
+    }
 }
 
 /// What is drawn of all defects.
@@ -183,8 +191,8 @@ pub fn painted(defects: &Defects, normals: &[DVec3], frame: &Frame) -> DefectBuf
             if let Some(fill) = look.fill {
                 for &face in &defect.faces {
                     for v in defects.triangles[face as usize] {
-                        buffers.faces.1.push(buffers.faces.0.len() as u32);
-                        buffers.faces.0.push(SurfaceVertex {
+                        buffers.faces.indices.push(buffers.faces.vertices.len() as u32);
+                        buffers.faces.vertices.push(SurfaceVertex {
                             position: place(v).to_array(),
                             normal: normals[v as usize].normalize_or(DVec3::Z).as_vec3().to_array(),
                             uv: [fill.code(), 0.0],
@@ -216,19 +224,19 @@ pub fn painted(defects: &Defects, normals: &[DVec3], frame: &Frame) -> DefectBuf
 }
 
 /// A ribbon along a line: four vertices and six indices a segment.
-fn ribbon(line: &[Vec3], colour: [f32; 3], stroke: Stroke, to: &mut (Vec<MarkedLineVertex>, Vec<u32>)) {
+fn ribbon(line: &[Vec3], colour: [f32; 3], stroke: Stroke, to: &mut Triangles<MarkedLineVertex>) {
     let mut length = 0.0;
     for segment in line.windows(2) {
         let ([a, b], begin) = ([segment[0].to_array(), segment[1].to_array()], length);
         length += segment[0].distance(segment[1]);
-        let first = to.0.len() as u32;
+        let first = to.vertices.len() as u32;
         for (position, other, side, along) in
             [(a, b, 1.0, begin), (a, b, -1.0, begin), (b, a, -2.0, length), (b, a, 2.0, length)]
         {
             let line = LineVertex { position, other, side };
-            to.0.push(MarkedLineVertex { line, colour, stroke: stroke.code(), along });
+            to.vertices.push(MarkedLineVertex { line, colour, stroke: stroke.code(), along });
         }
-        to.1.extend([0, 1, 2, 2, 1, 3].map(|k| first + k));
+        to.indices.extend([0, 1, 2, 2, 1, 3].map(|k| first + k));
     }
 }
 
@@ -264,14 +272,14 @@ mod tests {
         let found = defects(&soup, &RepairOptions::default(), &mut Silent).unwrap();
         let (frame, normals) = (frame_of(&found), found.normals());
         let DefectBuffers { faces, lines, signs } = painted(&found, &normals, &frame);
-        assert_eq!((faces.0.len(), faces.1.len()), (18, 18));
-        assert!(faces.0.iter().all(|v| v.image == Look::of(DefectKind::TurnedPatch).linear()));
+        assert_eq!((faces.vertices.len(), faces.indices.len()), (18, 18));
+        assert!(faces.vertices.iter().all(|v| v.image == Look::of(DefectKind::TurnedPatch).linear()));
         // Six edges around the hole and six around the patch.
-        assert_eq!((lines.0.len(), lines.1.len()), (48, 72));
-        let ends = |k: usize| (lines.0[4 * k].along, lines.0[4 * k + 2].along);
+        assert_eq!((lines.vertices.len(), lines.indices.len()), (48, 72));
+        let ends = |k: usize| (lines.vertices[4 * k].along, lines.vertices[4 * k + 2].along);
         assert!((0..5).all(|k| ends(k).1 == ends(k + 1).0) && ends(6).0 == 0.0);
         assert_eq!(signs.len(), 1);
-        let (vertices, indices) = surface_as_read(&found, &normals, &frame);
+        let Triangles { vertices, indices } = surface_as_read(&found, &normals, &frame);
         assert_eq!((vertices.len(), indices.len()), (162, 3 * soup.polygons.len()));
         assert!(vertices.iter().all(|v| Vec3::from_array(v.position).length() <= 1.0 + 1e-5));
     }

@@ -7,12 +7,12 @@ use crate::mesh::{SurfaceMesh, VertexId};
 use glam::DVec3;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Rounds of spreading for a mesh of [`FEW`] vertices; finer meshes get more, by the root, up to [`MOST_ROUNDS`].
+/// Rounds of spreading for a mesh of [`FEW`] vertices; finer meshes get more, by the root, up to [`MOST_ROUNDS`]. Chosen by hand.
 const ROUNDS: f64 = 6.0;
 const FEW: f64 = 5000.0;
 const MOST_ROUNDS: f64 = 24.0;
 
-/// What the spread slopes are multiplied by: an armpit comes near 1.
+/// What the spread slopes are multiplied by: an armpit comes near 1. Chosen by hand.
 const STRENGTH: f64 = 3.0;
 
 /// After so many rounds what has no value yet has none.

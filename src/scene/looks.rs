@@ -36,17 +36,28 @@ pub fn drawn(dressed: &Dressed, bare: &[SurfaceVertex]) -> DressedSurface {
     surface
 }
 
-/// A picture of 8-bit colours with opacity, and its smaller copies, each half as wide and high, down to one pixel.
-pub fn levels(width: u32, height: u32, pixels: Vec<u8>) -> Vec<(u32, u32, Vec<u8>)> {
-    let mut levels = vec![(width, height, pixels)];
-    while let Some((width, height, pixels)) = levels.last().filter(|(w, h, _)| *w > 1 || *h > 1) {
-        let next = halved(*width, *height, pixels);
+/// A picture of 8-bit colours with opacity.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pixels {
+    /// In pixels.
+    pub width: u32,
+    /// In pixels.
+    pub height: u32,
+    /// Red, green, blue and opacity, row after row.
+    pub bytes: Vec<u8>,
+}
+
+/// A picture and its smaller copies, each half as wide and high, down to one pixel.
+pub fn levels(picture: Pixels) -> Vec<Pixels> {
+    let mut levels = vec![picture];
+    while let Some(last) = levels.last().filter(|level| level.width > 1 || level.height > 1) {
+        let next = halved(last);
         levels.push(next);
     }
     levels
 }
 
-fn halved(width: u32, height: u32, pixels: &[u8]) -> (u32, u32, Vec<u8>) {
+fn halved(&Pixels { width, height, ref bytes }: &Pixels) -> Pixels {
     let [wide, high] = [(width / 2).max(1), (height / 2).max(1)];
     let mut smaller = Vec::with_capacity(4 * (wide * high) as usize);
     for y in 0..high {
@@ -57,12 +68,12 @@ fn halved(width: u32, height: u32, pixels: &[u8]) -> (u32, u32, Vec<u8>) {
             };
             let four = [of(0, 0), of(1, 0), of(0, 1), of(1, 1)];
             for k in 0..4 {
-                let sum: u32 = four.iter().map(|at| u32::from(pixels[at + k])).sum();
+                let sum: u32 = four.iter().map(|at| u32::from(bytes[at + k])).sum();
                 smaller.push(((sum + 2) / 4) as u8);
             }
         }
     }
-    (wide, high, smaller)
+    Pixels { width: wide, height: high, bytes: smaller }
 }
 
 #[cfg(test)]
@@ -91,11 +102,11 @@ mod tests {
 
     #[test]
     fn smaller_copies_keep_the_mean() {
-        let pixels: Vec<u8> = (0..16_u8).flat_map(|k| [16 * k, 255 - 16 * k, 7, 255]).collect();
-        let levels = levels(4, 4, pixels);
-        assert_eq!(levels.iter().map(|(w, h, _)| (*w, *h)).collect::<Vec<_>>(), [(4, 4), (2, 2), (1, 1)]);
-        assert_eq!(levels[2].2, [120, 135, 7, 255]);
-        let sizes = super::levels(5, 1, vec![9; 20]);
-        assert_eq!(sizes.last().map(|(w, h, pixels)| (*w, *h, pixels.clone())), Some((1, 1, vec![9; 4])));
+        let bytes: Vec<u8> = (0..16_u8).flat_map(|k| [16 * k, 255 - 16 * k, 7, 255]).collect();
+        let levels = levels(Pixels { width: 4, height: 4, bytes });
+        assert_eq!(levels.iter().map(|l| (l.width, l.height)).collect::<Vec<_>>(), [(4, 4), (2, 2), (1, 1)]);
+        assert_eq!(levels[2].bytes, [120, 135, 7, 255]);
+        let row = super::levels(Pixels { width: 5, height: 1, bytes: vec![9; 20] });
+        assert_eq!(row.last(), Some(&Pixels { width: 1, height: 1, bytes: vec![9; 4] }));
     }
 }

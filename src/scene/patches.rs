@@ -1,8 +1,8 @@
 //! The patches of a map on one mesh: which one a place lies in, and what is drawn of one that is lit up.
 
-use super::buffers::{SurfaceVertex, ribbons};
+use super::buffers::{SurfaceVertex, Triangles, ribbons};
 use super::colours::linear;
-use super::defects::MarkedLineVertex;
+use super::defects::{MarkedLineVertex, marked};
 use glam::{DVec3, Vec3};
 use parry3d_f64::query::PointQueryWithLocation;
 use parry3d_f64::shape::TriMesh;
@@ -51,10 +51,10 @@ impl Patches {
     }
 
     /// The surface of a patch in the colour of what is lit up, its points placed by `place`; empty where there is none of that number.
-    pub fn lit_surface(&self, patch: usize, place: impl Fn(DVec3) -> Vec3) -> (Vec<SurfaceVertex>, Vec<u32>) {
+    pub fn lit_surface(&self, patch: usize, place: impl Fn(DVec3) -> Vec3) -> Triangles<SurfaceVertex> {
         let range: Range<usize> = match self.starts.get(patch..patch + 2) {
             Some(&[begin, end]) => begin..end,
-            _ => return (Vec::new(), Vec::new()),
+            _ => return Triangles::default(),
         };
         let corners = self.triangles[range].iter().flat_map(|triangle| {
             let [p, q, r] = triangle.map(|v| place(self.points[v as usize]));
@@ -68,20 +68,14 @@ impl Patches {
         });
         let vertices: Vec<SurfaceVertex> = corners.collect();
         let indices = (0..vertices.len() as u32).collect();
-        (vertices, indices)
+        Triangles { vertices, indices }
     }
 
     /// Patch lines as ribbons in that colour, placed likewise. Numbers of lines that are not there are passed over.
-    pub fn lit_lines(
-        &self,
-        numbers: &[usize],
-        place: impl Fn(DVec3) -> Vec3,
-    ) -> (Vec<MarkedLineVertex>, Vec<u32>) {
+    pub fn lit_lines(&self, numbers: &[usize], place: impl Fn(DVec3) -> Vec3) -> Triangles<MarkedLineVertex> {
         let lines = numbers.iter().filter_map(|&k| self.lines.get(k));
         let strips: Vec<Vec<Vec3>> = lines.map(|line| line.iter().map(|&p| place(p)).collect()).collect();
-        let (vertices, indices) = ribbons(&strips);
-        let marked = |line| MarkedLineVertex { line, colour: linear(LIT), stroke: 0.0, along: 0.0 };
-        (vertices.into_iter().map(marked).collect(), indices)
+        marked(ribbons(&strips), linear(LIT), 0.0)
     }
 }
 
@@ -114,7 +108,7 @@ mod tests {
     #[test]
     fn a_lit_patch_covers_its_half_and_no_more() {
         let patches = halves();
-        let area = |(vertices, indices): (Vec<SurfaceVertex>, Vec<u32>)| -> f32 {
+        let area = |Triangles { vertices, indices }: Triangles<SurfaceVertex>| -> f32 {
             let at = |k: u32| Vec3::from_array(vertices[k as usize].position);
             indices.chunks(3).map(|t| 0.5 * (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0])).length()).sum()
         };
@@ -122,9 +116,9 @@ mod tests {
         // The ball of 1280 triangles has a little less area than 4 pi.
         assert!((upper + lower - 12.57).abs() < 0.15, "{upper} {lower}");
         assert!((upper - lower).abs() < 0.7);
-        assert!(patches.lit_surface(2, |p| p.as_vec3()).0.is_empty());
-        let (line, _) = patches.lit_lines(&[0, 7], |p| p.as_vec3());
-        assert_eq!(line.len(), 8);
+        assert!(patches.lit_surface(2, |p| p.as_vec3()).vertices.is_empty());
+        let line = patches.lit_lines(&[0, 7], |p| p.as_vec3());
+        assert_eq!(line.vertices.len(), 8);
     }
 
     #[test]

@@ -41,14 +41,18 @@ pub struct Pin {
 }
 
 impl Pin {
-    /// What is drawn, at so many physical pixels per pixel of the page; hidden pins are outlines.
-    pub fn instance(&self, is_hidden: bool, pixel_ratio: f32) -> PinInstance {
+    /// What is drawn of a pin behind the surface, at so many physical pixels per pixel of the page.
+    pub fn outline(&self, pixel_ratio: f32) -> PinInstance {
+        PinInstance { kind: 1.0, ..self.instance(pixel_ratio) }
+    }
+
+    /// What is drawn of a pin in sight.
+    pub fn instance(&self, pixel_ratio: f32) -> PinInstance {
         let radius = match self.stand {
             Stand::Plain => HEAD,
             Stand::Raised | Stand::Ghost => RAISED_HEAD,
         };
         let kind = match self.stand {
-            _ if is_hidden => 1.0,
             Stand::Ghost => 3.0,
             Stand::Plain | Stand::Raised => 0.0,
         };
@@ -88,8 +92,8 @@ mod tests {
     #[test]
     fn a_raised_pin_is_larger_and_stands_on_the_same_place() {
         let pin = Pin { base: Vec3::X, colour: [0.1, 0.2, 0.3], stand: Stand::Plain };
-        let plain = pin.instance(false, 2.0);
-        let raised = Pin { stand: Stand::Raised, ..pin }.instance(true, 2.0);
+        let plain = pin.instance(2.0);
+        let raised = Pin { stand: Stand::Raised, ..pin }.outline(2.0);
         assert!(raised.radius > plain.radius && raised.base == plain.base && raised.stem == plain.stem);
         assert_eq!((plain.kind, raised.kind, plain.stem), (0.0, 1.0, 2.0 * STEM));
     }
@@ -98,7 +102,7 @@ mod tests {
     fn a_ghost_is_told_from_a_pin_until_the_body_hides_it() {
         let ghost = Pin { base: Vec3::Y, colour: [0.3, 0.2, 0.1], stand: Stand::Ghost };
         let pin = Pin { stand: Stand::Raised, ..ghost };
-        assert_ne!(ghost.instance(false, 1.0).kind, pin.instance(false, 1.0).kind);
-        assert_eq!(ghost.instance(true, 1.0), pin.instance(true, 1.0));
+        assert_ne!(ghost.instance(1.0).kind, pin.instance(1.0).kind);
+        assert_eq!(ghost.outline(1.0), pin.outline(1.0));
     }
 }

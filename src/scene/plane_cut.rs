@@ -1,8 +1,8 @@
 //! Where a plane cuts a surface, as a line to be drawn.
 
-use super::buffers::{Frame, ribbons};
+use super::buffers::{Frame, Triangles, ribbons};
 use super::colours::linear;
-use super::defects::MarkedLineVertex;
+use super::defects::{MarkedLineVertex, marked};
 use crate::math::mirror_plane::MirrorPlane;
 use crate::mesh::SurfaceMesh;
 use glam::{DVec3, Vec3};
@@ -28,12 +28,10 @@ pub fn cut(mesh: &SurfaceMesh, plane: MirrorPlane) -> Vec<[DVec3; 2]> {
 }
 
 /// The line of a plane on a surface as fine ribbons.
-pub fn drawn(mesh: &SurfaceMesh, frame: &Frame, plane: MirrorPlane) -> (Vec<MarkedLineVertex>, Vec<u32>) {
+pub fn drawn(mesh: &SurfaceMesh, frame: &Frame, plane: MirrorPlane) -> Triangles<MarkedLineVertex> {
     let strips: Vec<Vec<Vec3>> =
         cut(mesh, plane).iter().map(|ends| ends.map(|p| frame.place(p)).to_vec()).collect();
-    let (vertices, indices) = ribbons(&strips);
-    let marked = |line| MarkedLineVertex { line, colour: linear(GREY), stroke: FINE, along: 0.0 };
-    (vertices.into_iter().map(marked).collect(), indices)
+    marked(ribbons(&strips), linear(GREY), FINE)
 }
 
 #[cfg(test)]
@@ -59,7 +57,7 @@ mod tests {
         for p in &ends {
             assert!(ends.iter().filter(|q| q.distance(*p) < 1e-9).count().is_multiple_of(2));
         }
-        assert_eq!(drawn(&ring, &Frame::of(&ring), across(DVec3::X)).1.len() % 6, 0);
+        assert_eq!(drawn(&ring, &Frame::of(&ring), across(DVec3::X)).indices.len() % 6, 0);
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! Where the texture that a map carries is cut: a triangulation has each point of a seam once for either side of it.
 
-use super::buffers::ribbons;
+use super::buffers::{Triangles, ribbons};
 use super::colours::linear;
-use super::defects::MarkedLineVertex;
+use super::defects::{MarkedLineVertex, marked};
 use glam::{Vec2, Vec3};
 use rustc_hash::FxHashMap;
 
@@ -31,11 +31,9 @@ pub fn seams(places: &[Vec3], uvs: &[Vec2], triangles: &[[u32; 3]]) -> Vec<[u32;
 }
 
 /// Sides between points as red ribbons.
-pub fn drawn(places: &[Vec3], sides: &[[u32; 2]]) -> (Vec<MarkedLineVertex>, Vec<u32>) {
+pub fn drawn(places: &[Vec3], sides: &[[u32; 2]]) -> Triangles<MarkedLineVertex> {
     let strips: Vec<Vec<Vec3>> = sides.iter().map(|side| side.map(|v| places[v as usize]).to_vec()).collect();
-    let (vertices, indices) = ribbons(&strips);
-    let marked = |line| MarkedLineVertex { line, colour: linear(BOUNDARY), stroke: 0.0, along: 0.0 };
-    (vertices.into_iter().map(marked).collect(), indices)
+    marked(ribbons(&strips), linear(BOUNDARY), 0.0)
 }
 
 #[cfg(test)]
@@ -68,7 +66,7 @@ mod tests {
             found.iter().flatten().any(|&k| places[k as usize] == at)
         };
         assert!(landmarks.iter().all(|&v| is_end(v)));
-        let (vertices, indices) = drawn(&places, &found);
+        let Triangles { vertices, indices } = drawn(&places, &found);
         assert_eq!((vertices.len(), indices.len()), (4 * cut, 6 * cut));
     }
 

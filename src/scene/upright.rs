@@ -8,13 +8,13 @@ use super::up_axis::UpAxis;
 use crate::mesh::SurfaceMesh;
 use glam::{DVec2, DVec3};
 
-/// What counts as lowest, as a share of the extent: as thick as feet.
+/// What counts as lowest, as a share of the extent: as thick as feet. Chosen by hand.
 const SLICE: f64 = 0.06;
 
-/// How much wider the base must be than what is opposite, as a share of the body's box seen from above.
+/// How much wider the base must be than what is opposite, as a share of the body's box seen from above. Chosen by hand.
 const CLEAR: f64 = 0.12;
 
-/// How many times clearer than along another axis.
+/// How many times clearer than along another axis. Chosen by hand.
 const CLEARER: f64 = 1.3;
 
 /// The axis that seems to point up; `None` where the shape does not tell.

@@ -1,5 +1,6 @@
 //! The overlay as triangles, each inside one face of both meshes, with exact integrals of linear functions on them.
 
+use crate::math::triangle::signed_double_area;
 use crate::mesh::SurfaceMesh;
 use crate::surface_map::correspondence::{Correspondence, MappedPiece};
 use glam::DVec2;
@@ -46,7 +47,7 @@ impl<'a> Cells<'a> {
             let corners = [0, 1].map(|side| [0, k - 1, k].map(|c| rings[side][c]));
             let area = |side: usize| {
                 let [p, q, r] = corners[side];
-                let share = (q - p).perp_dot(r - p);
+                let share = signed_double_area(p, q, r);
                 // Rounding may turn the thinnest over.
                 if share > 0.0 { share * areas[side][piece.faces[side].index()] } else { 0.0 }
             };

@@ -71,13 +71,14 @@ pub fn of_files(
         let place =
             |(k, p): (usize, &LandmarkPoint)| place_of(giver, *p).map_err(|problem| fault((k, problem)));
         let places = curve.points.iter().enumerate().map(place).collect::<Result<Vec<_>, _>>()?;
-        let found = carrier.carried(&places, curve.is_closed).map_err(|k| {
-            fault((
+        let found =
+            carrier.carried(Polyline { places: &places, is_closed: curve.is_closed }).map_err(|k| {
+                fault((
                 k,
                 "it lies in no face with the point before it: add the points where the curve crosses edges"
                     .to_owned(),
             ))
-        })?;
+            })?;
         Ok(CarriedCurve {
             name: curve.name.clone(),
             is_closed: curve.is_closed,
@@ -126,6 +127,15 @@ struct Stretch<'a> {
     piece: &'a MappedPiece,
 }
 
+/// A curve by its corners on a mesh.
+#[derive(Clone, Copy, Debug)]
+pub struct Polyline<'a> {
+    /// In their order; any two following ones lie in one face.
+    pub places: &'a [Place],
+    /// Whether the last is joined with the first.
+    pub is_closed: bool,
+}
+
 impl<'a> CurveCarrier<'a> {
     /// By a map that has passed [`crate::surface_map::correspondence::check`] with the meshes.
     pub fn new(meshes: [&'a SurfaceMesh; 2], map: &'a Correspondence, direction: Direction) -> Self {
@@ -139,7 +149,8 @@ impl<'a> CurveCarrier<'a> {
     ///
     /// # Errors
     /// The number of the first point that lies in no face with the point before it.
-    pub fn carried(&self, curve: &[Place], is_closed: bool) -> Result<Vec<Place>, usize> {
+    pub fn carried(&self, curve: Polyline<'_>) -> Result<Vec<Place>, usize> {
+        let Polyline { places: curve, is_closed } = curve;
         let mut image = Vec::new();
         if let [only] = curve {
             let face = only.surface_point(self.meshes[self.giver]).face;
@@ -297,6 +308,14 @@ mod tests {
         CurveCarrier::new(mapped.meshes(), &mapped.map, direction)
     }
 
+    fn open(places: &[Place]) -> Polyline<'_> {
+        Polyline { places, is_closed: false }
+    }
+
+    fn closed(places: &[Place]) -> Polyline<'_> {
+        Polyline { places, is_closed: true }
+    }
+
     /// A walk along edges that goes on as straight as they let it.
     fn walk(mesh: &SurfaceMesh, from: VertexId, steps: usize) -> Vec<Place> {
         let mut h = mesh.outgoing(from);
@@ -343,9 +362,9 @@ mod tests {
         for (there, back) in [(SourceToTarget, TargetToSource), (TargetToSource, SourceToTarget)] {
             let [here, other] = [mapped.meshes()[there.side()], mapped.meshes()[back.side()]];
             for curve in [walk(here, VertexId(3), 12), zigzag(here, 20)] {
-                let image = carrier(mapped, there).carried(&curve, false).unwrap();
+                let image = carrier(mapped, there).carried(open(&curve)).unwrap();
                 // Every side of the image lies in a face, or it could not be brought back.
-                let again = carrier(mapped, back).carried(&image, false).unwrap();
+                let again = carrier(mapped, back).carried(open(&image)).unwrap();
                 assert!(image.len() > curve.len() && again.len() >= image.len());
                 for place in &again {
                     assert!(distance(here, &curve, place.position(here)) < 1e-9);
@@ -364,16 +383,16 @@ mod tests {
     fn ends_go_to_the_images_of_the_ends() {
         let mapped = ball_on_egg();
         let curve = walk(&mapped.source, VertexId(11), 9);
-        let image = carrier(mapped, SourceToTarget).carried(&curve, false).unwrap();
+        let image = carrier(mapped, SourceToTarget).carried(open(&curve)).unwrap();
         let images = mapped.map.vertex_images(mapped.meshes(), 0);
         for (place, found) in [(curve[0], image[0]), (curve[9], image[image.len() - 1])] {
             let Place::Vertex(v) = place else { panic!("{place:?}") };
             let wanted = images[v].unwrap().position(&mapped.target);
             assert!(found.position(&mapped.target).distance(wanted) < 1e-12);
         }
-        let single = carrier(mapped, SourceToTarget).carried(&curve[..1], false).unwrap();
+        let single = carrier(mapped, SourceToTarget).carried(open(&curve[..1])).unwrap();
         assert_eq!(single, image[..1]);
-        assert!(carrier(mapped, SourceToTarget).carried(&[], true).unwrap().is_empty());
+        assert!(carrier(mapped, SourceToTarget).carried(closed(&[])).unwrap().is_empty());
     }
 
     #[test]
@@ -382,11 +401,11 @@ mod tests {
         let mesh = &mapped.source;
         let ring: Vec<Place> = mesh.star(VertexId(40)).map(|h| Place::Vertex(mesh.head(h))).collect();
         let ring: Vec<Place> = ring.into_iter().rev().collect();
-        let image = carrier(mapped, SourceToTarget).carried(&ring, true).unwrap();
-        let open = carrier(mapped, SourceToTarget).carried(&ring, false).unwrap();
-        assert!(image.len() > open.len());
+        let image = carrier(mapped, SourceToTarget).carried(closed(&ring)).unwrap();
+        let unclosed = carrier(mapped, SourceToTarget).carried(open(&ring)).unwrap();
+        assert!(image.len() > unclosed.len());
         assert_ne!(image[0], image[image.len() - 1]);
-        let again = carrier(mapped, TargetToSource).carried(&image, true).unwrap();
+        let again = carrier(mapped, TargetToSource).carried(closed(&image)).unwrap();
         assert!(ring.iter().all(|p| distance(
             mesh,
             &[again.clone(), vec![again[0]]].concat(),
@@ -399,7 +418,7 @@ mod tests {
         let mapped = ball_on_egg();
         let mut curve = walk(&mapped.source, VertexId(11), 4);
         curve.remove(2);
-        assert_eq!(carrier(mapped, SourceToTarget).carried(&curve, false), Err(2));
+        assert_eq!(carrier(mapped, SourceToTarget).carried(open(&curve)), Err(2));
     }
 
     #[test]

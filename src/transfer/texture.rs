@@ -10,6 +10,7 @@ use crate::export::vertex_image::Direction;
 use crate::io::picture::Picture;
 use crate::map_file::FileMesh;
 use crate::math::barycentric::shares;
+use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, SurfacePoint};
 use crate::monitor::{Cancelled, Monitor, Step};
 use crate::surface_map::correspondence::PointLocator;
@@ -70,7 +71,7 @@ pub enum BakeError {
     },
 }
 
-/// Charts may cover the picture that often: mirrored halves share their charts in some models.
+/// Charts may cover the picture that often: mirrored halves share their charts in some models. Chosen by hand.
 const MOST_COVERED: f64 = 4.0;
 
 /// Texture coordinates may leave the picture by this much, by rounding.
@@ -150,14 +151,14 @@ fn check_charts(uvs: &FaceUvs) -> Result<(), BakeError> {
         if let Some(uv) = corners.iter().find(|uv| !is_inside(uv)) {
             return Err(BakeError::Outside { face: face.index(), uv: *uv });
         }
-        times += 0.5 * (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]).abs();
+        times += 0.5 * signed_double_area(corners[0], corners[1], corners[2]).abs();
     }
     if times > MOST_COVERED { Err(BakeError::Overlap { times }) } else { Ok(()) }
 }
 
 /// The texels whose middles lie in a triangle, with their weights there.
 fn for_each_texel(corners: [DVec2; 3], size: usize, mut visit: impl FnMut(usize, [f64; 3])) {
-    let double_area = (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]);
+    let double_area = signed_double_area(corners[0], corners[1], corners[2]);
     if double_area == 0.0 {
         return;
     }

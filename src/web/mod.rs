@@ -5,6 +5,7 @@
 //! one to the other packed.
 
 mod demos;
+mod failure;
 mod loaded_mesh;
 mod plane_numbers;
 
@@ -54,20 +55,4 @@ mod suggestions;
 #[cfg(feature = "web-core")]
 mod transfer;
 
-use serde_json::json;
-use wasm_bindgen::prelude::*;
-
-/// Runs once when the module is loaded.
-#[wasm_bindgen(start)]
-pub fn start() {
-    std::panic::set_hook(Box::new(|panic| {
-        console_error_panic_hook::hook(panic);
-        // Where the page finds it (`failureOf`): the browser's own error says no more than that something broke off.
-        let _ = js_sys::Reflect::set(&js_sys::global(), &"conemapPanic".into(), &panic.to_string().into());
-    }));
-}
-
-/// An error as the page takes it: a string of JSON `{"code", "message"}`.
-fn failure(code: &str, message: impl std::fmt::Display) -> JsValue {
-    JsValue::from_str(&json!({ "code": code, "message": message.to_string() }).to_string())
-}
+use failure::failure;

@@ -10,7 +10,7 @@ use crate::mesh::check::CheckedMesh;
 use crate::mesh::dressing::{Giver, dressed};
 use crate::mesh::normals::vertex_normals;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
-use crate::scene::buffers::{Frame, surface};
+use crate::scene::buffers::{Frame, Triangles, surface};
 use crate::scene::circles::circled;
 use crate::scene::colours::landmark_colour;
 use crate::scene::defects::{DefectBuffers, painted, surface_as_read};
@@ -98,8 +98,7 @@ pub(super) struct Side {
 
 /// A mesh that shows a map in the making.
 pub(super) struct Preview {
-    vertices: Vec<SurfaceVertex>,
-    indices: Vec<u32>,
+    drawn: Triangles<SurfaceVertex>,
     pub mesh: Mesh,
 }
 
@@ -107,12 +106,12 @@ impl Preview {
     /// A mesh with the places of its first vertices on the target, in the target's scene coordinates; what the last preview of the same
     /// mesh has made is used again.
     pub fn new(last: Option<Self>, own: &SideMesh, places: &[Vec3], renderer: &Renderer) -> Self {
-        let (mut vertices, indices) = match last {
-            Some(last) => (last.vertices, last.indices),
+        let mut drawn = match last {
+            Some(last) => last.drawn,
             None => surface(&own.checked.mesh, &own.shading, &own.frame),
         };
-        vertices.iter_mut().zip(places).for_each(|(vertex, place)| vertex.image = place.to_array());
-        Self { mesh: renderer.surface_mesh(&vertices, &indices), vertices, indices }
+        drawn.vertices.iter_mut().zip(places).for_each(|(vertex, place)| vertex.image = place.to_array());
+        Self { mesh: renderer.surface_mesh(&drawn.vertices, &drawn.indices), drawn }
     }
 }
 
@@ -133,8 +132,7 @@ pub(super) struct CoarseStage {
 
 /// A mesh in colours of factors of length.
 pub(super) struct Factors {
-    vertices: Vec<SurfaceVertex>,
-    indices: Vec<u32>,
+    drawn: Triangles<SurfaceVertex>,
     pub mesh: Mesh,
     /// The circles of a packing, drawn in its place while they are shown.
     pub circles: Option<Mesh>,
@@ -144,21 +142,21 @@ impl Factors {
     /// A mesh with two places on the scale of factors for each vertex, between which it is shown; what the last one of the same mesh has
     /// made is used again.
     pub fn new(last: Option<Self>, own: &SideMesh, places: [&[f32]; 2], renderer: &Renderer) -> Self {
-        let (mut vertices, indices) = match last {
-            Some(last) => (last.vertices, last.indices),
+        let mut drawn = match last {
+            Some(last) => last.drawn,
             None => surface(&own.checked.mesh, &own.shading, &own.frame),
         };
         let uvs = places[0].iter().zip(places[1]).map(|(from, to)| [*from, *to]);
-        vertices.iter_mut().zip(uvs).for_each(|(vertex, uv)| vertex.uv = uv);
-        Self { mesh: renderer.surface_mesh(&vertices, &indices), vertices, indices, circles: None }
+        drawn.vertices.iter_mut().zip(uvs).for_each(|(vertex, uv)| vertex.uv = uv);
+        Self { mesh: renderer.surface_mesh(&drawn.vertices, &drawn.indices), drawn, circles: None }
     }
 
     /// Draws circles around the vertices, of these radii in units of the root of the mesh's area, at a share of the way from the first places
     /// to the second.
     pub fn draw_circles(&mut self, radii: &[f32], share: f32, renderer: &Renderer) {
         let place = |vertex: &SurfaceVertex| vertex.uv[0] + share * (vertex.uv[1] - vertex.uv[0]);
-        let places: Vec<f32> = self.vertices.iter().map(place).collect();
-        let corners = circled(&self.vertices, self.indices.as_chunks().0, &places, radii);
+        let places: Vec<f32> = self.drawn.vertices.iter().map(place).collect();
+        let corners = circled(&self.drawn.vertices, self.drawn.indices.as_chunks().0, &places, radii);
         let indices: Vec<u32> = (0..corners.len() as u32).collect();
         self.circles = Some(renderer.surface_mesh(&corners, &indices));
     }
@@ -166,7 +164,7 @@ impl Factors {
     /// The place on the scale at a point of the mesh, this share of the way from the first places to the second.
     pub fn at(&self, mesh: &SurfaceMesh, point: SurfacePoint, share: f32) -> f64 {
         let value = |v: VertexId| {
-            let [from, to] = self.vertices[v.index()].uv;
+            let [from, to] = self.drawn.vertices[v.index()].uv;
             f64::from(from + share * (to - from))
         };
         let corners = mesh.triangles()[point.face].map(value);
@@ -474,8 +472,10 @@ impl ShownDefects {
         Self {
             frame,
             surface: None,
-            painted: (!faces.1.is_empty()).then(|| renderer.surface_mesh(&faces.0, &faces.1)),
-            lines: (!lines.1.is_empty()).then(|| renderer.marked_line_mesh(&lines.0, &lines.1)),
+            painted: (!faces.indices.is_empty())
+                .then(|| renderer.surface_mesh(&faces.vertices, &faces.indices)),
+            lines: (!lines.indices.is_empty())
+                .then(|| renderer.marked_line_mesh(&lines.vertices, &lines.indices)),
             signs,
         }
     }
@@ -483,7 +483,7 @@ impl ShownDefects {
     /// Together with the mesh as read.
     #[must_use]
     pub fn with_surface(self, found: &MeshDefects, renderer: &Renderer) -> Self {
-        let (vertices, indices) = surface_as_read(&found.defects, &found.normals, &self.frame);
+        let Triangles { vertices, indices } = surface_as_read(&found.defects, &found.normals, &self.frame);
         let corners = indices.iter().step_by(stride(indices.len()));
         let points = corners.map(|&v| Vec3::from_array(vertices[v as usize].position)).collect();
         let mesh = renderer.surface_mesh(&vertices, &indices);
@@ -496,7 +496,7 @@ impl SideMesh {
     pub fn new(loaded: &LoadedMesh, renderer: &Renderer) -> Self {
         let LoadedMesh { checked, shading, look, .. } = loaded;
         let frame = Frame::of(&checked.mesh);
-        let (vertices, indices) = surface(&checked.mesh, shading, &frame);
+        let Triangles { vertices, indices } = surface(&checked.mesh, shading, &frame);
         let surface = renderer.surface_mesh(&vertices, &indices);
         let dressed = look.as_deref().map(|look| {
             renderer.dressed_mesh(drawn(&dressed(Giver { mesh: &checked.mesh, look }), &vertices))

@@ -9,7 +9,7 @@ use crate::mesh::{FaceId, SurfaceMesh};
 use crate::surface_map::correspondence::PointLocator;
 use serde::Serialize;
 
-/// Points that are measured on each mesh, about.
+/// Points that are measured on each mesh, about. Chosen by hand. More of them make the mean exacter and take longer.
 const COUNT: usize = 100_000;
 
 /// Distances from points of one surface, spread evenly over it, to another surface, in units of the root of the area of the scan's

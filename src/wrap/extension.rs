@@ -12,13 +12,13 @@ use typed_index_collections::{TiVec, ti_vec};
 /// Images are held softly to this many mean edges from what has none...
 const SOFT_EDGES: f64 = 4.0;
 
-/// ... and to this share of the root of the base's area.
+/// ... and to this share of the root of the base's area. Chosen by hand.
 const SOFT_SHARE: f64 = 0.02;
 
-/// How much an image counts where softness ends, beside edges that count about 1.
+/// How much an image counts where softness ends, beside edges that count about 1. Chosen by hand.
 const HOLD: f64 = 4.0;
 
-/// Rounds in which stretches are evened out.
+/// Rounds in which stretches are evened out. Chosen by hand.
 const SMOOTHINGS: usize = 10;
 
 /// The places of the base's vertices: images on the scan, and what has none laid on as rigidly as it can be.

@@ -16,19 +16,19 @@ use crate::surface_map::correspondence::PointLocator;
 use glam::{DMat3, DVec3};
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Points that are taken on each mesh, about.
+/// Points that are taken on each mesh, about. Chosen by hand.
 const COUNT: usize = 60_000;
 
 /// Passes. A third changes nothing that can be seen (cat-lion).
 const PASSES: usize = 2;
 
-/// How much a vertex' way from its image counts, beside distances from tangent planes.
+/// How much a vertex' way from its image counts, beside distances from tangent planes. Chosen by hand.
 const STAY: f64 = 0.05;
 
 /// How much the difference of neighbours' ways counts. With 0.02 or less faces are tangled that were not (cat-lion).
 const EVEN: f64 = 0.1;
 
-/// A nearest point counts if it is this near to the image, in mean edges.
+/// A nearest point counts if it is this near to the image, in mean edges. Chosen by hand.
 const SLIDE: f64 = 2.0;
 
 /// Each iteration lowers the energy, so that the last iterate is of use even where these are not enough.

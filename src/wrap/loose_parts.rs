@@ -8,7 +8,7 @@ use crate::mesh::{SurfaceMesh, VertexId};
 use glam::{DMat3, DVec3};
 use typed_index_collections::TiVec;
 
-/// More parts than this move as the base as a whole does.
+/// More parts than this move as the base as a whole does. Chosen by hand.
 const MOST_PARTS: usize = 256;
 
 /// How loose parts follow a laid base.

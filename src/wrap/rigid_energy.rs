@@ -18,10 +18,10 @@ use typed_index_collections::{TiVec, ti_vec};
 /// Each iteration lowers the error, so that the last iterate is of use even where these are not enough.
 const SOLVE: CgOptions = CgOptions { tolerance: 1e-5, max_iterations: 300 };
 
-/// Rounds of turns and places at most.
+/// Rounds of turns and places at most. Chosen by hand.
 const ROUNDS: usize = 40;
 
-/// Rounds end when no vertex moves by more than this share of the mean edge.
+/// Rounds end when no vertex moves by more than this share of the mean edge. Chosen by hand.
 const STILL: f64 = 1e-3;
 
 /// How much each edge counts: (cot a + cot b) / 2 of the angles across, each times how much its face counts; not less than a little,

@@ -10,10 +10,10 @@ use crate::monitor::{Cancelled, Monitor, Step};
 use glam::DVec3;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Rounds at most; each takes the faces around what moved in the one before.
+/// Rounds at most; each takes the faces around what moved in the one before. Chosen by hand.
 const ROUNDS: usize = 300;
 
-/// The share of its wanted area that a face should have at least.
+/// The share of its wanted area that a face should have at least. Chosen by hand.
 const LEAST: f64 = 0.1;
 
 /// Of what a face lacks this much is given: a little more, so that rounding leaves nothing.

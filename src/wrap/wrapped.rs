@@ -71,7 +71,7 @@ impl From<Cancelled> for WrapError {
     }
 }
 
-/// How much a cap's faces count in the shape of what follows: they only hold together what they join.
+/// How much a cap's faces count in the shape of what follows: they only hold together what they join. As in the relaxation.
 const CAP_WEIGHT: f64 = 0.01;
 
 /// Lays a base onto a scan.

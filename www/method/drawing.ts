@@ -1,4 +1,5 @@
 /** Colours of the base domain, and its picture as a file. */
+import { INK, LIT, NEGATIVE, POSITIVE } from '../colours.ts';
 import { escaped } from '../svg.ts';
 import type { Ball, Facet, Picture, Spot } from './picture.ts';
 
@@ -23,11 +24,11 @@ export const LIGHT: Palette = {
   face: [[128, 122, 112], [232, 226, 215]],
   side: '#3a3f45',
   rim: '#ffffff',
-  positive: '#c8402f',
-  negative: '#3556c0',
-  lit: '#c2189b',
+  positive: POSITIVE.light,
+  negative: NEGATIVE.light,
+  lit: LIT.light,
   litFace: [[142, 34, 116], [236, 120, 206]],
-  ink: '#1b2126',
+  ink: INK.light,
   ground: '#ffffff',
 };
 
@@ -35,11 +36,11 @@ export const DARK: Palette = {
   face: [[66, 62, 56], [176, 168, 155]],
   side: '#14161a',
   rim: '#14161a',
-  positive: '#ee6b58',
-  negative: '#7f9bf5',
-  lit: '#ff5ccf',
+  positive: POSITIVE.dark,
+  negative: NEGATIVE.dark,
+  lit: LIT.dark,
   litFace: [[122, 24, 98], [240, 110, 205]],
-  ink: '#e9ecef',
+  ink: INK.dark,
   ground: '#1b1e24',
 };
 

@@ -1,4 +1,5 @@
 /** A mesh in the plane as pixels and as files; drawn in a worker. */
+import { ACCENT, CUT } from '../colours.ts';
 import { escaped } from '../svg.ts';
 import type { Palette } from './drawing.ts';
 import { DARK, LIGHT, mixed } from './drawing.ts';
@@ -15,9 +16,6 @@ const LEAST_CIRCLE = 0.35;
 const EDGES_FROM = 5;
 /** Margin of a picture that shows the whole, in pixels. */
 const MARGIN = 14;
-
-const CUT = { light: '#d01818', dark: '#ff5a4f' } as const;
-const CIRCLE = { light: '#0b678a', dark: '#63c3e8' } as const;
 
 /** How the whole is brought into a picture. */
 export function fitted([left, low, right, high]: Sheet['box'], { width, height }: { readonly width: number; readonly height: number }, density = 1): Pick<PlaneFrame, 'x' | 'y' | 'scale'> {
@@ -158,7 +156,7 @@ export class PlanePainter {
         context.arc(x, y, radius, 0, 2 * Math.PI);
       }
     });
-    context.strokeStyle = CIRCLE[frame.look];
+    context.strokeStyle = ACCENT[frame.look];
     // Hardly thicker than a circle is wide, or small ones would hide what is beneath.
     context.lineWidth = Math.min(frame.density, Math.max(0.3, (0.15 * frame.scale) / Math.sqrt(growth.vertices.length)));
     context.stroke();
@@ -225,7 +223,7 @@ export function planeSvg(sheet: Sheet, { curvatures, names, circles, shown }: Dr
   });
   const groups = [
     `<path id="triangles" d="${triangles}" fill="${mixed(LIGHT.face, LIGHTNESS)}" stroke="${LIGHT.side}" stroke-width="0.2"/>`,
-    circles === 'shown' ? `<g id="circles" fill="none" stroke="${CIRCLE.light}" stroke-width="0.5">${round.join('')}</g>` : '',
+    circles === 'shown' ? `<g id="circles" fill="none" stroke="${ACCENT.light}" stroke-width="0.5">${round.join('')}</g>` : '',
     `<path id="patch-lines" d="${path(sheet.borders)}" fill="none" stroke="${LIGHT.ink}" stroke-width="1"/>`,
     `<path id="cut" d="${path(sheet.cuts)}" fill="none" stroke="${CUT.light}" stroke-width="1.8"/>`,
     `<g id="cones">${cones.join('')}</g>`,

@@ -1,4 +1,5 @@
 /** A plot as files: SVG and CSV. The SVG stands alone, dark on white, as papers need it. */
+import { ACCENT, INK, LINE, QUIET } from '../colours.ts';
 import { escaped } from '../svg.ts';
 import type { Axis, Chart, Curve } from './chart.ts';
 import { markText, shareOf } from './chart.ts';
@@ -6,10 +7,7 @@ import { markText, shareOf } from './chart.ts';
 /** In pixels. */
 export const SIZE = { width: 720, height: 440 };
 const BOX = { left: 76, right: 704, top: 48, bottom: 380 };
-const COLOURS: Readonly<Record<Curve['colour'], string>> = { first: '#0b678a', second: '#b35c00' };
-const INK = '#1b2126';
-const QUIET = '#57626c';
-const LINE = '#dde1e5';
+const COLOURS: Readonly<Record<Curve['colour'], string>> = { first: ACCENT.light, second: '#b35c00' };
 /** How strongly the map before is drawn. */
 export const FAINT = 0.45;
 
@@ -55,24 +53,24 @@ function curveMarkup(chart: Chart, curve: Curve): string {
 }
 
 function text(x: number, y: number, content: string, more = ''): string {
-  return `<text x="${x.toFixed(2)}" y="${y.toFixed(2)}" fill="${INK}"${more}>${escaped(content)}</text>`;
+  return `<text x="${x.toFixed(2)}" y="${y.toFixed(2)}" fill="${INK.light}"${more}>${escaped(content)}</text>`;
 }
 
 function axes({ x, y }: Chart): string {
   const upright = x.marks.map((mark) => {
     const place = across(x, mark).toFixed(2);
-    return `<path d="M${place} ${BOX.top}V${BOX.bottom}" stroke="${LINE}"/>${text(Number(place), BOX.bottom + 18, markText(mark), ' text-anchor="middle"')}`;
+    return `<path d="M${place} ${BOX.top}V${BOX.bottom}" stroke="${LINE.light}"/>${text(Number(place), BOX.bottom + 18, markText(mark), ' text-anchor="middle"')}`;
   });
   const level = y.marks.map((mark) => {
     const place = down(y, mark).toFixed(2);
-    return `<path d="M${BOX.left} ${place}H${BOX.right}" stroke="${LINE}"/>${text(BOX.left - 8, Number(place) + 4, markText(mark), ' text-anchor="end"')}`;
+    return `<path d="M${BOX.left} ${place}H${BOX.right}" stroke="${LINE.light}"/>${text(BOX.left - 8, Number(place) + 4, markText(mark), ' text-anchor="end"')}`;
   });
   const middle = (BOX.top + BOX.bottom) / 2;
   const titles = [
     text((BOX.left + BOX.right) / 2, BOX.bottom + 44, x.title, ' text-anchor="middle"'),
     text(0, 0, y.title, ` text-anchor="middle" transform="translate(18 ${middle}) rotate(-90)"`),
   ];
-  return [...upright, ...level, `<path d="M${BOX.left} ${BOX.top}V${BOX.bottom}H${BOX.right}" fill="none" stroke="${QUIET}"/>`, ...titles].join('');
+  return [...upright, ...level, `<path d="M${BOX.left} ${BOX.top}V${BOX.bottom}H${BOX.right}" fill="none" stroke="${QUIET.light}"/>`, ...titles].join('');
 }
 
 function legend({ curves }: Chart): string {

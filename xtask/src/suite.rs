@@ -14,21 +14,21 @@ const PACKAGES: [&str; 4] = ["--package", "conemap", "--package", "conemap-verif
 /// Which tests are run.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
-    /// All but the long ones, which are shown as ignored: a good half hour on two processors from nothing.
+    /// All but the long ones, which are shown as ignored: some twenty minutes on two processors from nothing.
     Usual,
     All,
 }
 
 /// Runs the tests, the quick ones first; none is left out after one that failed, and the failed ones are named at the end.
 ///
-/// The page is built beside the lints and the core's tests: its longest steps, the optimisation of each wasm module as a whole, keep
-/// one processor busy.
+/// The page is built, and its types and lints are checked, beside the lints and the core's tests, which leave one processor idle at times.
 pub fn test(extent: Extent) -> Outcome {
     wasm::ensure_target()?;
     page::ensure_packages()?;
     std::thread::scope(|scope| {
         let optimised = if extent == Extent::All { Optimised::Fully } else { Optimised::ForTests };
-        let page = scope.spawn(move || page::build(optimised));
+        let page = scope
+            .spawn(move || page::build(optimised).map(|()| script("check").and_then(|()| script("lint"))));
         let built = || page.join().unwrap_or_else(|_| Err("the build of the page panicked".into()));
         all([
             ("formatting", Box::new(formatting)),
@@ -37,7 +37,7 @@ pub fn test(extent: Extent) -> Outcome {
             ("documentation", Box::new(documentation)),
             ("core", Box::new(move || core(extent))),
             // After the core's: they compare the page's maps with those that its tests have left.
-            ("page", Box::new(move || built().and_then(|()| checks()))),
+            ("page", Box::new(move || built().and_then(|told| told.and(script("unit"))))),
             ("browser", Box::new(move || browser::test(extent))),
             ("other browsers", Box::new(browsers::visit_others)),
         ])
@@ -106,13 +106,7 @@ fn core(extent: Extent) -> Outcome {
     run(&cargo(), &["test", "--test", "made_meshes", "--test", "real_meshes", "--", "--ignored"])
 }
 
-/// Types and lints beside the unit tests: each keeps one processor busy.
-fn checks() -> Outcome {
-    let script = |name: &str| run("npm", &["run", "--silent", name]);
-    std::thread::scope(|scope| {
-        let unit = scope.spawn(|| script("unit"));
-        let told = script("check").and_then(|()| script("lint"));
-        let unit = unit.join().unwrap_or_else(|_| Err("the unit tests' thread panicked".into()));
-        told.and(unit)
-    })
+/// Runs a script of the page's.
+fn script(name: &str) -> Outcome {
+    run("npm", &["run", "--silent", name])
 }

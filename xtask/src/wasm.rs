@@ -18,7 +18,7 @@ pub enum Names {
 pub enum Optimised {
     /// As a whole, as it is published.
     Fully,
-    /// In parts, which take both processors.
+    /// In parts, which take both processors, and both modules from one library.
     ForTests,
 }
 
@@ -32,21 +32,30 @@ struct Module {
 const MODULES: [Module; 2] =
     [Module { name: "page", profile: "web-page" }, Module { name: "core", profile: "web" }];
 
-/// One profile for both modules, which share what they have in common.
+/// One profile for both modules, which are compiled together: each then has the other's exports, too.
 const TEST_PROFILE: &str = "web-test";
 
 /// Builds, of each module, `www/wasm/NAME.js`, its types and `NAME_bg.wasm`.
 pub fn build(optimised: Optimised, names: Names) -> Result<(), String> {
     ensure_target()?;
-    MODULES.iter().try_for_each(|Module { name, profile }| match optimised {
-        Optimised::Fully => build_one(name, profile, names),
-        Optimised::ForTests => build_one(name, TEST_PROFILE, names),
+    if optimised == Optimised::ForTests {
+        compile(&MODULES.map(|module| module.name), TEST_PROFILE)?;
+        return MODULES.iter().try_for_each(|module| make_ready(module.name, TEST_PROFILE, names));
+    }
+    MODULES.iter().try_for_each(|Module { name, profile }| {
+        compile(&[name], profile)?;
+        make_ready(name, profile, names)
     })
 }
 
-fn build_one(name: &str, profile: &str, names: Names) -> Result<(), String> {
-    let package = format!("conemap-{name}");
-    run(&cargo(), &["build", "--package", &package, "--target", TARGET, "--profile", profile])?;
+/// Compiles modules at once: then they share one library, which has the features of all of them.
+fn compile(names: &[&str], profile: &str) -> Result<(), String> {
+    let packages: Vec<String> = names.iter().map(|name| format!("--package=conemap-{name}")).collect();
+    let packages: Vec<&str> = packages.iter().map(String::as_str).collect();
+    run(&cargo(), &[&["build", "--target", TARGET, "--profile", profile][..], &packages].concat())
+}
+
+fn make_ready(name: &str, profile: &str, names: Names) -> Result<(), String> {
     let module = target_folder().join(TARGET).join(format!("{profile}/conemap_{name}.wasm"));
     bind(&module, name, names).map_err(|e| format!("wasm-bindgen failed: {e:#}"))
 }

@@ -31,7 +31,7 @@ pub(super) enum Additions {
     Vertices,
 }
 
-/// Rounds at most: each one is for faces that lie beside one changed before.
+/// Rounds at most: each one is for faces that lie beside one changed before. Chosen by hand.
 const ROUNDS: usize = 20;
 
 /// An edge this much shorter than the longest of its face has both ends at one place but for rounding.

@@ -30,7 +30,7 @@ pub struct RepairedMesh {
     pub report: RepairReport,
 }
 
-/// More of the surface than this must not be caps: it would be an open sheet whose other side is made up.
+/// More of the surface than this must not be caps: it would be an open sheet whose other side is made up. Chosen by hand.
 const MOST_CAP: f64 = 0.45;
 
 /// Repairs a soup as far as it is not a closed surface of genus 0 already.

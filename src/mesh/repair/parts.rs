@@ -15,7 +15,7 @@ pub(super) struct DroppedParts {
     pub area_share: f64,
 }
 
-/// Parts that have together less than this share of the area are specks.
+/// Parts that have together less than this share of the area are specks. Chosen by hand.
 const SPECKS: f64 = 0.01;
 
 /// The part of largest area alone, and what went; nothing where there is one part.

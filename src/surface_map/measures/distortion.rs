@@ -73,7 +73,7 @@ pub struct Distortion {
     pub by_piece: Vec<LocalDistortion>,
 }
 
-/// From this density on a texture is seen to be dented.
+/// From this density on a texture is seen to be dented. Chosen by hand.
 pub const DENTED: f64 = 20.0;
 
 /// Number of worst pieces in the result, at most.

@@ -9,7 +9,8 @@ use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::DVec2;
 use typed_index_collections::TiVec;
 
-/// Size of the first shift of a source vertex that ends coincidences, in units of its shortest edge on the cone surface.
+/// Size of the first shift of a source vertex that ends coincidences, in units of its shortest edge on the cone surface. Chosen
+/// by hand.
 const SHIFT: f64 = 1e-10;
 /// Growth of the shift from attempt to attempt: beside the shortest edges the first is lost in rounding. The last of six attempts
 /// shifts by 1e-4 of the shortest edge.

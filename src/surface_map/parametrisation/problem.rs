@@ -105,7 +105,7 @@ struct NewtonSolver {
     inexact: usize,
 }
 
-/// Conjugate gradient iterations of one Newton step, at most.
+/// Conjugate gradient iterations of one Newton step, at most. Chosen by hand.
 const LINEAR_ITERATIONS: usize = 500;
 
 impl NewtonSolver {

@@ -4,8 +4,7 @@ use super::kernel::Kernel;
 use super::rest_triangle::FlatTriangle;
 use crate::math::matrix2::outer;
 use crate::math::rigid2::Rigid2;
-use crate::math::scalar::atan2;
-use crate::math::triangle::signed_double_area;
+use crate::math::triangle::{signed_double_area, turn};
 use crate::mesh::HalfedgeId;
 use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::symmetric_dirichlet::SymmetricDirichlet;
@@ -83,6 +82,5 @@ impl Star {
 
 /// The angle at `apex` from p to q, in radians, positive counter-clockwise.
 pub fn turn_at(apex: DVec2, p: DVec2, q: DVec2) -> f64 {
-    let (p, q) = (p - apex, q - apex);
-    atan2(p.perp_dot(q), p.dot(q))
+    turn(p - apex, q - apex)
 }

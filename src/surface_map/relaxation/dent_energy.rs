@@ -18,7 +18,7 @@ pub struct DentEnergy {
 
 impl DentEnergy {
     /// The density, in units of the brink, at which the cost of a dent is 1 on either surface; it grows with the density's
-    /// sixth power.
+    /// sixth power. Chosen by hand.
     const DEAR: f64 = 2.5;
 
     /// The energy per unit of source area of a piece.

@@ -54,10 +54,10 @@ const ASKED_EVERY: usize = 32;
 /// A vertex that lowers the cost of its star by less than this share rests. Chosen by hand.
 const REST: f64 = 5e-3;
 
-/// Number of vertices that may move in one sweep over a mesh of any size.
+/// Number of vertices that may move in one sweep over a mesh of any size. Chosen by hand.
 const LEAST: usize = 20;
 
-/// Density above which a dent is deep, in units of the brink.
+/// Density above which a dent is deep, in units of the brink. Chosen by hand.
 const DEEP: f64 = 10.0;
 
 /// Moves the vertices of the worst pieces; `overlay` is that of both sides. `None` where there is no dent, or nothing helps.

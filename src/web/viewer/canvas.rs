@@ -7,6 +7,7 @@ use super::compared_map::ComparedMap;
 use super::reading::parsed;
 use crate::gpu::{Paint, Picture, Renderer, Scale, Texture, TextureKind};
 use crate::scene::MapPicker;
+use crate::scene::looks::Pixels;
 use crate::scene::morph::PackedWay;
 use glam::Mat4;
 use serde::Deserialize;
@@ -205,7 +206,7 @@ impl Viewer {
     /// left out.
     #[wasm_bindgen(js_name = setPicture)]
     pub fn set_picture(&mut self, side: usize, number: u8, width: u32, height: u32, pixels: Vec<u8>) {
-        let picture = self.renderer.picture(width, height, pixels);
+        let picture = self.renderer.picture(Pixels { width, height, bytes: pixels });
         let pictures = &mut self.side_mut(side).pictures;
         let count = pictures.len().max(usize::from(number) + 1);
         pictures.resize_with(count, || None);
@@ -215,7 +216,7 @@ impl Viewer {
     /// Takes the picture that the style `picture` lays on the flat metric, as [`Viewer::set_picture`] does.
     #[wasm_bindgen(js_name = setTexture)]
     pub fn set_texture(&mut self, width: u32, height: u32, pixels: Vec<u8>) {
-        self.texture = [self.renderer.picture(width, height, pixels)];
+        self.texture = [self.renderer.picture(Pixels { width, height, bytes: pixels })];
     }
 
     /// Empties a view.

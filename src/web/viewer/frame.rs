@@ -1,6 +1,6 @@
 //! One frame of both views.
 
-use super::super::view_side::{Landmark, Side};
+use super::super::view_side::{CoarseStage, Factors, Landmark, Side};
 use super::canvas::{SurfaceStyle, Viewer};
 use crate::gpu::{Clear, Mesh, Paint, Palette, ViewDraw};
 use crate::scene::pins::Stand;
@@ -42,33 +42,7 @@ impl Viewer {
         // What is seen, and in which of the views.
         let (view, k) = (k, self.side_in(k));
         let (side, style): (&Side, _) = (&self.sides[k], &self.style);
-        let pose = side.pose(self.now);
-        let defects = side.defects.as_ref().filter(|_| !self.is_morphed(k));
-        let mirror = side.mirror.as_ref().filter(|_| side.defects.is_none() && !self.is_morphed(k));
-        let bare = || ViewDraw {
-            rectangle: self.sides[view].rectangle,
-            pose,
-            paint: Paint::Plain,
-            palette: self.palette(),
-            line_half_width: 0.9 * self.pixel_ratio,
-            morph: 0.0,
-            bend_range: self.way.as_ref().map_or(0.0, |way| way.range),
-            world_from_image: self.source_from_target,
-            wipe: 0.0,
-            surface: None,
-            under: None,
-            painted: defects.and_then(|defects| defects.painted.as_ref()),
-            tinted: None,
-            traced: [None; 2],
-            lines: None,
-            marks: defects
-                .and_then(|defects| defects.lines.as_ref())
-                .or_else(|| mirror.and_then(|mirror| mirror.line.as_ref())),
-            dash: self.dash(side, pose),
-            balls: marks.balls,
-            pins: marks.pins,
-            pictures: &[],
-        };
+        let bare = || self.bare(view, k, marks);
         if let Some(refused) = side.refused() {
             return ViewDraw { paint: Paint::Refused, surface: Some(refused), ..bare() };
         }
@@ -81,27 +55,13 @@ impl Viewer {
             return ViewDraw { paint: Paint::Pattern, surface, ..bare() };
         }
         if let Some(stage) = side.stage.as_ref().filter(|_| !self.is_morphed(k)) {
-            let palette = Palette { line: [0.03, 0.03, 0.03], ..self.palette() };
-            let line_half_width = 0.55 * self.pixel_ratio;
-            let lines = stage.edges.as_ref();
-            let traced = [stage.trail.as_ref(), None];
-            return ViewDraw {
-                palette,
-                line_half_width,
-                surface: Some(&stage.surface),
-                lines,
-                traced,
-                ..bare()
-            };
+            return self.stage_view(stage, bare());
         }
         if let Some(factors) = &side.factors
             && !self.is_morphed(k)
         {
             let lines = side.lines.as_ref().filter(|_| style.patch_lines);
-            let paint =
-                if factors.circles.is_some() { Paint::Circles } else { Paint::Factors(self.factor_share) };
-            let surface = Some(factors.circles.as_ref().unwrap_or(&factors.mesh));
-            return ViewDraw { paint, surface, lines, ..bare() };
+            return ViewDraw { lines, ..self.factors_view(factors, bare()) };
         }
         if style.surface == SurfaceStyle::Look
             && let Some(shown) = self.in_look(k, bare())
@@ -126,6 +86,57 @@ impl Viewer {
             lines: side.lines.as_ref().filter(|_| style.patch_lines && morph == 0.0),
             ..bare()
         }
+    }
+
+    /// A view of side k with its marks, and without a surface.
+    fn bare<'a>(&'a self, view: usize, k: usize, marks: Marks<'a>) -> ViewDraw<'a> {
+        let side = &self.sides[k];
+        let pose = side.pose(self.now);
+        let defects = side.defects.as_ref().filter(|_| !self.is_morphed(k));
+        let mirror = side.mirror.as_ref().filter(|_| side.defects.is_none() && !self.is_morphed(k));
+        ViewDraw {
+            rectangle: self.sides[view].rectangle,
+            pose,
+            paint: Paint::Plain,
+            palette: self.palette(),
+            line_half_width: 0.9 * self.pixel_ratio,
+            morph: 0.0,
+            bend_range: self.way.as_ref().map_or(0.0, |way| way.range),
+            world_from_image: self.source_from_target,
+            wipe: 0.0,
+            surface: None,
+            under: None,
+            painted: defects.and_then(|defects| defects.painted.as_ref()),
+            tinted: None,
+            traced: [None; 2],
+            lines: None,
+            marks: defects
+                .and_then(|defects| defects.lines.as_ref())
+                .or_else(|| mirror.and_then(|mirror| mirror.line.as_ref())),
+            dash: self.dash(side, pose),
+            balls: marks.balls,
+            pins: marks.pins,
+            pictures: &[],
+        }
+    }
+
+    /// A view of a mesh on its way to its landmarks, with its edges.
+    fn stage_view<'a>(&'a self, stage: &'a CoarseStage, bare: ViewDraw<'a>) -> ViewDraw<'a> {
+        ViewDraw {
+            palette: Palette { line: [0.03, 0.03, 0.03], ..self.palette() },
+            line_half_width: 0.55 * self.pixel_ratio,
+            surface: Some(&stage.surface),
+            lines: stage.edges.as_ref(),
+            traced: [stage.trail.as_ref(), None],
+            ..bare
+        }
+    }
+
+    /// A view of a mesh in colours of factors of length, or of the circles of its packing.
+    fn factors_view<'a>(&self, factors: &'a Factors, bare: ViewDraw<'a>) -> ViewDraw<'a> {
+        let paint =
+            if factors.circles.is_some() { Paint::Circles } else { Paint::Factors(self.factor_share) };
+        ViewDraw { paint, surface: Some(factors.circles.as_ref().unwrap_or(&factors.mesh)), ..bare }
     }
 
     /// A view in the look of the giving side, which the map carries, or in its own where there is no map; `None` where there is no look.
@@ -204,7 +215,9 @@ impl Viewer {
             .map(|Landmark { pin, .. }| {
                 let hidden = side.is_hidden(pin.base, pose);
                 let nearness = (pin.base - pose.eye()).dot(pose.back());
-                (hidden, nearness, pin.instance(hidden, self.pixel_ratio))
+                let drawn =
+                    if hidden { pin.outline(self.pixel_ratio) } else { pin.instance(self.pixel_ratio) };
+                (hidden, nearness, drawn)
             })
             .collect();
         pins.sort_by(|a, b| {

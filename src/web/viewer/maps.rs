@@ -6,7 +6,7 @@ use super::reading::{point, strips};
 use crate::gpu::Mesh;
 use crate::mesh::FaceId;
 use crate::mesh::dressing::{Giver, carried};
-use crate::scene::buffers::ribbons;
+use crate::scene::buffers::{Triangles, ribbons};
 use crate::scene::looks::drawn;
 use crate::scene::morph::{PackedBends, PackedWay, laid_on};
 use crate::scene::{MapPicker, SurfaceVertex, seams};
@@ -70,7 +70,7 @@ impl Viewer {
             .into_iter()
             .map(|strip| strip.into_iter().map(|p| mesh.frame.place(p)).collect())
             .collect();
-        let (vertices, indices) = ribbons(&strips);
+        let Triangles { vertices, indices } = ribbons(&strips);
         Some(self.renderer.line_mesh(&vertices, &indices))
     }
 }
@@ -167,7 +167,7 @@ impl Viewer {
         let places: Vec<Vec3> = (0..count).map(place).collect();
         let uvs: Vec<Vec2> = uvs.as_chunks().0.iter().map(|uv| Vec2::from_array(*uv)).collect();
         let seams = seams::seams(&places, &uvs, triangles.as_chunks().0);
-        let (vertices, indices) = seams::drawn(&places, &seams);
+        let Triangles { vertices, indices } = seams::drawn(&places, &seams);
         let uploaded = (!indices.is_empty()).then(|| self.renderer.marked_line_mesh(&vertices, &indices));
         self.side_mut(side).seams = uploaded;
     }

@@ -6,11 +6,12 @@ use super::canvas::Viewer;
 use super::reading::parsed;
 use crate::landmark_suggestion::{Partner, partner};
 use crate::mesh::SurfacePoint;
+use crate::scene::buffers::Triangles;
 use crate::scene::plane_cut::drawn;
 use serde_json::json;
 use wasm_bindgen::prelude::*;
 
-/// As near as this to what lies across from a point, in units of the root of the area, a pin is taken to stand there.
+/// As near as this to what lies across from a point, in units of the root of the area, a pin is taken to stand there. Chosen by hand.
 const SAME_PLACE: f64 = 0.03;
 
 #[wasm_bindgen]
@@ -25,7 +26,7 @@ impl Viewer {
         let side = side.min(1);
         let mesh = self.sides[side].mesh.as_ref();
         let shown = numbers.and_then(|numbers| numbers.plane()).zip(mesh).map(|(plane, mesh)| {
-            let (vertices, indices) = drawn(&mesh.checked.mesh, &mesh.frame, plane);
+            let Triangles { vertices, indices } = drawn(&mesh.checked.mesh, &mesh.frame, plane);
             let line = (!indices.is_empty()).then(|| self.renderer.marked_line_mesh(&vertices, &indices));
             ShownMirror { plane, line }
         });

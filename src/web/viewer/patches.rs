@@ -4,6 +4,7 @@ use super::super::view_side::Lit;
 use super::canvas::Viewer;
 use super::reading::{point, strips};
 use crate::scene::Patches;
+use crate::scene::buffers::Triangles;
 use glam::DVec3;
 use wasm_bindgen::prelude::*;
 
@@ -45,11 +46,11 @@ impl Viewer {
             let (Some(mesh), Some(patches)) = (&side.mesh, &side.patches) else { continue };
             let place = |p: DVec3| mesh.frame.place(p);
             if let Some(patch) = patch {
-                let (vertices, indices) = patches.lit_surface(patch as usize, place);
+                let Triangles { vertices, indices } = patches.lit_surface(patch as usize, place);
                 let surface = || self.renderer.surface_mesh(&vertices, &indices);
                 side.lit.surface = (!indices.is_empty()).then(surface);
             }
-            let (vertices, indices) = patches.lit_lines(&numbers, place);
+            let Triangles { vertices, indices } = patches.lit_lines(&numbers, place);
             side.lit.lines =
                 (!indices.is_empty()).then(|| self.renderer.marked_line_mesh(&vertices, &indices));
         }

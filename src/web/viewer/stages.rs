@@ -3,12 +3,12 @@
 use super::super::view_side::CoarseStage;
 use super::canvas::Viewer;
 use super::reading::point;
-use crate::scene::buffers::{edges, facets, ribbons};
+use crate::scene::buffers::{Triangles, edges, facets, ribbons};
 use crate::scene::seams;
 use glam::Vec3;
 use wasm_bindgen::prelude::*;
 
-/// Edges are drawn of meshes with at most so many triangles.
+/// Edges are drawn of meshes with at most so many triangles. Chosen by hand.
 const MOST_WITH_EDGES: usize = 30_000;
 
 #[wasm_bindgen]
@@ -23,9 +23,9 @@ impl Viewer {
         let is_there = |t: &[u32; 3]| t.iter().all(|&v| (v as usize) < points.len());
         let triangles: Vec<[u32; 3]> =
             triangles.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).filter(is_there).collect();
-        let (vertices, indices) = facets(&points, &triangles);
+        let Triangles { vertices, indices } = facets(&points, &triangles);
         let edges = (triangles.len() <= MOST_WITH_EDGES).then(|| {
-            let (vertices, indices) = ribbons(&edges(&points, &triangles));
+            let Triangles { vertices, indices } = ribbons(&edges(&points, &triangles));
             self.renderer.line_mesh(&vertices, &indices)
         });
         side.stage = Some(CoarseStage {
@@ -43,7 +43,7 @@ impl Viewer {
         let points: Vec<Vec3> =
             positions.chunks_exact(3).map(|p| mesh.frame.place(point([p[0], p[1], p[2]]))).collect();
         let steps: Vec<[u32; 2]> = (1..points.len() as u32).map(|k| [k - 1, k]).collect();
-        let (vertices, indices) = seams::drawn(&points, &steps);
+        let Triangles { vertices, indices } = seams::drawn(&points, &steps);
         stage.trail = (!indices.is_empty()).then(|| self.renderer.marked_line_mesh(&vertices, &indices));
     }
 

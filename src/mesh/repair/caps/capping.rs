@@ -21,7 +21,7 @@ pub(in crate::mesh::repair) struct Capped {
     pub area_share: f64,
 }
 
-/// A rim shorter than this, in units of sqrt(area), is a small hole's: its cap goes on as the surface around.
+/// A rim shorter than this, in units of sqrt(area), is a small hole's: its cap goes on as the surface around. Chosen by hand.
 const SMALL: f64 = 0.6;
 
 /// The draft with a cap over each hole; nothing is said where there is none.

@@ -8,7 +8,7 @@ use super::patch::Patch;
 use crate::numerics::conjugate_gradients::{CgOptions, CgWorkspace, LinearOperator, Preconditioner};
 use glam::DVec3;
 
-/// A plate may have this much more area than the membrane: beyond, the surface around leads it astray.
+/// A plate may have this much more area than the membrane: beyond, the surface around leads it astray. Chosen by hand.
 const PLATE_AREA: f64 = 1.5;
 
 /// Which surface a cap becomes.

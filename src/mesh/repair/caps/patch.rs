@@ -166,10 +166,10 @@ impl Patch {
     }
 }
 
-/// Height of a sound triangle over its longest side, at least.
+/// Height of a sound triangle over its longest side, at least. Chosen by hand.
 const FLAT: f64 = 1e-6;
 
-/// Cosine of the angle between the normals of neighbours in a sound cap, at least: they fold by 120 degrees at most.
+/// Cosine of the angle between the normals of neighbours in a sound cap, at least: they fold by 120 degrees at most. Chosen by hand.
 const BENT_BACK: f64 = -0.5;
 
 #[cfg(test)]

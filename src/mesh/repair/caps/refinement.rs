@@ -3,13 +3,13 @@
 use super::patch::Patch;
 use glam::DVec3;
 
-/// How much longer edges become with each unit of way from the rim: a wide hole needs few vertices in its middle.
+/// How much longer edges become with each unit of way from the rim: a wide hole needs few vertices in its middle. Chosen by hand.
 const GROWTH: f64 = 0.12;
 
 /// A triangle is divided where its middle is farther from its corners than the lengths there over this.
 const DENSITY: f64 = std::f64::consts::SQRT_2;
 
-/// Rounds at most. Each divides every triangle that is too large in three.
+/// Rounds at most. Each divides every triangle that is too large in three. Chosen by hand.
 const ROUNDS: usize = 40;
 
 /// Vertices at most, for each one of the rim: a limit that caps of sound rims do not reach.

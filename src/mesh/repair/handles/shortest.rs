@@ -13,6 +13,7 @@ use crate::monitor::{Cancelled, Monitor, Step};
 const SEARCHES: usize = 64;
 
 /// Loops that are longer than the best one by less than this share of it are still looked at: they tell how much shorter others can be.
+/// Chosen by hand.
 const SLACK: f64 = 0.25;
 
 /// The loop that is found is longer than the shortest one by at most this share of it. A loop of less than a hundred edges of one

@@ -1,0 +1,52 @@
+//! A mesh on its way to its landmarks, with the other one, where the map has its vertices.
+
+use super::checked_job::Job;
+use super::taken::TakenMap;
+use crate::mesh::VertexId;
+use crate::monitor::Monitor;
+use crate::pipeline::{self, Lead, PipelineError, SimplificationStage};
+use glam::DVec3;
+use typed_index_collections::TiVec;
+
+/// A mesh on its way to its landmarks, drawn on both meshes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CarriedSimplification {
+    /// From the whole mesh down to its landmarks.
+    pub stages: Vec<SimplificationStage>,
+    /// Where its vertices are on the source and on the target.
+    pub positions: [Vec<DVec3>; 2],
+}
+
+impl Job {
+    /// One of the mapped meshes, 0 for the source, on its way to its landmarks, and on the other one, where the map has its vertices.
+    /// Coordinates are those of the checked meshes.
+    ///
+    /// # Errors
+    /// As [`pipeline::carried_simplification`].
+    pub fn carried_simplification(
+        &self,
+        from: usize,
+        map: &TakenMap<'_>,
+        lead: Lead,
+        monitor: &mut dyn Monitor,
+    ) -> Result<CarriedSimplification, PipelineError> {
+        let [own, other] = [from, 1 - from];
+        let mesh = self.mapped_meshes()[own];
+        let landmarks = self.landmark_vertices();
+        let positions = self.positions();
+        let places = map.vertex_places(own);
+        let mut carried: TiVec<VertexId, DVec3> = positions[own].iter().copied().collect();
+        for (place, found) in carried.iter_mut().zip(&places) {
+            *place = found.unwrap_or(*place);
+        }
+        // Landmarks inside faces are no vertices of the checked mesh; all of them are exact.
+        for (&v, &image) in landmarks[own].iter().zip(landmarks[other]) {
+            carried[v] = positions[other][image.index()];
+        }
+        let shape = mesh.with_positions(carried.clone());
+        let stages = pipeline::carried_simplification([mesh, &shape], landmarks[own], lead, monitor)?;
+        let mut shapes = [positions[own].clone(), carried.raw];
+        shapes.rotate_left(own);
+        Ok(CarriedSimplification { stages, positions: shapes })
+    }
+}

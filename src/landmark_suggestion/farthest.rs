@@ -1,0 +1,43 @@
+//! Farthest points: each is the vertex farthest from all before it.
+
+use crate::geodesic::shorten;
+use crate::mesh::{SurfaceMesh, VertexId};
+use crate::monitor::{Cancelled, Monitor, Step};
+use typed_index_collections::TiVec;
+
+/// How many farthest points are wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// Points at most.
+    pub count: usize,
+    /// Each is at least this far from all others.
+    pub least_distance: f64,
+}
+
+/// Farthest points: each is the vertex farthest from all before it and from what `distance` measures from; `may` says which
+/// vertices are allowed. Fewer than wanted where every allowed vertex is too near.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn farthest_points(
+    mesh: &SurfaceMesh,
+    mut distance: TiVec<VertexId, f64>,
+    wanted: Spread,
+    may: impl Fn(VertexId) -> bool,
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<VertexId>, Cancelled> {
+    let Spread { count, least_distance } = wanted;
+    let mut chosen = Vec::new();
+    while chosen.len() < count {
+        monitor.step(Step { fraction: chosen.len() as f64 / count as f64, residual: None })?;
+        let allowed = mesh.vertices().filter(|&v| may(v) && distance[v].is_finite());
+        let Some(v) = allowed.max_by(|a, b| distance[*a].total_cmp(&distance[*b])) else { break };
+        // On a surface whose area is too small for a number, the least distance is 0.
+        if distance[v] < least_distance || distance[v] == 0.0 {
+            break;
+        }
+        chosen.push(v);
+        shorten(mesh, &[v], &mut distance);
+    }
+    Ok(chosen)
+}

@@ -1,0 +1,23 @@
+/** What style sheets, canvases, files and the views draw in one colour has one value. */
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { expect, test } from 'vitest';
+import * as colours from '../../www/colours.ts';
+
+const text = (path: string): string => readFileSync(fileURLToPath(new URL(`../../${path}`, import.meta.url)), 'utf8');
+
+test('the colours of drawings are those of the theme', () => {
+  const theme = text('www/styles/theme.css');
+  const of = (name: string): string[] => [...(new RegExp(`--${name}: light-dark\\((#\\w+), (#\\w+)\\);`).exec(theme)?.slice(1) ?? [])];
+  for (const name of ['INK', 'QUIET', 'LINE', 'ACCENT', 'POSITIVE', 'NEGATIVE', 'CUT'] as const) {
+    const { light, dark } = colours[name];
+    expect(of(name.toLowerCase()), name).toEqual([light, dark]);
+  }
+});
+
+test('the views mark cuts and what is lit up in the colours of the drawings', () => {
+  const constant = (file: string, name: string): string =>
+    `#${new RegExp(`const ${name}: u32 = 0x(\\w+);`).exec(text(`src/scene/${file}.rs`))?.[1]?.replaceAll('_', '') ?? ''}`;
+  expect(constant('seams', 'BOUNDARY')).toBe(colours.CUT.light);
+  expect(constant('patches', 'LIT')).toBe(colours.LIT.light);
+});

@@ -1,0 +1,33 @@
+/** How the views are turned to what is to be seen. */
+import type { Side } from '../landmarks.ts';
+import type { CameraCommand } from '../panels/actions.ts';
+import type { Store } from '../store/store.ts';
+import type { Views } from '../viewer/viewer.ts';
+
+/** Places of the source are where its own shape has them. */
+export function showOwnShape(store: Store): void {
+  store.dispatch({ kind: 'style', style: { morph: 0 } });
+}
+
+/** Opens the list, where the selected pair is, and turns both views to it. */
+export function showPair(store: Store, views: Views, id: number): void {
+  store.dispatch({ kind: 'ui', ui: { step: 'landmarks', panel: 'open' } }, { kind: 'style', style: { morph: 0 } });
+  views.lookAtPair(id);
+}
+
+export function turn(views: Views, side: Side, command: CameraCommand): void {
+  switch (command.kind) {
+    case 'fit':
+      views.fit(side);
+      break;
+    case 'reset':
+      views.reset(side);
+      break;
+    case 'look':
+      views.lookFrom(side, command.from);
+      break;
+    case 'roll':
+      views.roll(side, command.degrees);
+      break;
+  }
+}
