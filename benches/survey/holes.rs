@@ -7,6 +7,7 @@ use crate::punching::remove_around;
 use conemap::geodesic::distances;
 use conemap::landmarks::Landmarks;
 use conemap::math::random::SplitMix;
+use conemap::math::scalar::pow;
 use conemap::mesh::check::CheckedMesh;
 use conemap::mesh::repair::{RepairOptions, repaired};
 use conemap::mesh::soup::PolygonSoup;
@@ -102,7 +103,7 @@ fn at_random(pair: &Pair, seed: u64) -> Case<'_> {
     let mut random = SplitMix::new(seed);
     let mut removed: TiVec<FaceId, bool> = pair.source.faces().map(|_| false).collect();
     let shares: Vec<f64> =
-        (0..1 + (3.0 * random.unit()) as usize).map(|_| 0.005 * 10.0_f64.powf(random.unit())).collect();
+        (0..1 + (3.0 * random.unit()) as usize).map(|_| 0.005 * pow(10.0, random.unit())).collect();
     for share in &shares {
         let centre = (random.unit() * pair.source.vertex_count() as f64) as u32;
         remove_around(&pair.source, VertexId(centre), *share, &mut removed);
