@@ -104,6 +104,8 @@ impl Arguments {
                 "--relief-radius" => arguments.options.multilevel.rigid_patches.radii[1] = number(),
                 "--cap-weight" => arguments.options.multilevel.cap_weight = number(),
                 "--toll" => arguments.options.multilevel.border_toll = number(),
+                "--rim-draws" => arguments.options.multilevel.rim_draws.rounds = number() as usize,
+                "--rim-strength" => arguments.options.multilevel.rim_draws.strength = number(),
                 "--rim-vertices" => arguments.options.multilevel.rims.each = number() as usize,
                 "--growth" => arguments.options.multilevel.growth = number(),
                 "--own" => arguments.options.own_cones.count = number() as usize,

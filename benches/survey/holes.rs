@@ -6,10 +6,12 @@ use crate::common::{self, Pair};
 use crate::punching::remove_around;
 use conemap::geodesic::distances;
 use conemap::landmarks::Landmarks;
+use conemap::math::random::SplitMix;
+use conemap::math::scalar::pow;
 use conemap::mesh::check::CheckedMesh;
 use conemap::mesh::repair::{RepairOptions, repaired};
 use conemap::mesh::soup::PolygonSoup;
-use conemap::mesh::{FaceId, SurfaceMesh, VertexId};
+use conemap::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use conemap::monitor::Silent;
 use conemap::pipeline::{CapFaces, GroundTruth, MapInput, MapResult, run};
 use cpu_time::ThreadTime;
@@ -61,6 +63,9 @@ struct Reached {
     errors: [f64; 2],
     /// The same within 0.1 of a rim.
     near: [f64; 2],
+    /// How much nearer to the holes the images there lie than the true images, on average: skin that slides into holes has positive
+    /// numbers, skin that slides out of them negative ones.
+    slid: [f64; 2],
     /// Share of the source's and of the target's skin that lies in a cap although its partner is there.
     hidden: [f64; 2],
     /// Share of both that the closed pair's map carries into the holes although its partner is outside: no map of the punched meshes can
@@ -68,35 +73,69 @@ struct Reached {
     hidden_closed: [f64; 2],
 }
 
+/// A pair of poses with the faces that are removed, the same ones of both.
+struct Case<'a> {
+    pair: &'a Pair,
+    name: String,
+    removed: TiVec<FaceId, bool>,
+}
+
 /// Each pair of poses with each set of holes, in the target, in the source, and in both.
 pub fn punched(arguments: &Arguments) {
+    let pairs = pairs(arguments);
+    let wanted =
+        |holes: &&Holes| arguments.variants.is_empty() || arguments.variants.iter().any(|v| v == holes.name);
+    let of_table = |pair, holes: &Holes| Case { pair, name: holes.name.to_owned(), removed: holes.of(pair) };
+    let cases = pairs.iter().flat_map(|pair| HOLES.iter().filter(wanted).map(move |h| of_table(pair, h)));
+    table(arguments, cases.collect());
+}
+
+/// Each pair of poses with holes at random places, as many sets of them as there are seeds.
+pub fn anywhere(arguments: &Arguments) {
+    let pairs = pairs(arguments);
+    let seeds = arguments.seed..arguments.seed + arguments.seeds;
+    let cases = pairs.iter().flat_map(|pair| seeds.clone().map(move |seed| at_random(pair, seed)));
+    table(arguments, cases.collect());
+}
+
+/// One to three holes around random vertices, each of 0.5 to 5 percent of the area.
+fn at_random(pair: &Pair, seed: u64) -> Case<'_> {
+    let mut random = SplitMix::new(seed);
+    let mut removed: TiVec<FaceId, bool> = pair.source.faces().map(|_| false).collect();
+    let shares: Vec<f64> =
+        (0..1 + (3.0 * random.unit()) as usize).map(|_| 0.005 * pow(10.0, random.unit())).collect();
+    for share in &shares {
+        let centre = (random.unit() * pair.source.vertex_count() as f64) as u32;
+        remove_around(&pair.source, VertexId(centre), *share, &mut removed);
+    }
+    let told: Vec<String> = shares.iter().map(|share| format!("{:.1}", 100.0 * share)).collect();
+    Case { pair, name: format!("{seed}: {}", told.join(" ")), removed }
+}
+
+/// The maps of some cases, and what they reached together.
+fn table(arguments: &Arguments, cases: Vec<Case<'_>>) {
     println!(
-        "{:16} {:15} {:7} {:>8} {:>17} {:>17} {:>17} {:>17} {:>7}",
+        "{:16} {:15} {:7} {:>8} {:>17} {:>17} {:>17} {:>17} {:>17} {:>7}",
         "pair",
         "holes",
         "in",
         "E",
         "error % closed %",
         "at rims   closed",
+        "slid in   closed",
         "hidden % of s, t",
         "closed",
         "cpu s"
     );
-    let pairs = pairs(arguments);
-    let cases = pairs.iter().flat_map(|pair| HOLES.iter().map(move |holes| (pair, holes)));
-    let wanted =
-        |holes: &Holes| arguments.variants.is_empty() || arguments.variants.iter().any(|v| v == holes.name);
-    let queue = std::sync::Mutex::new(
-        cases.filter(|(_, holes)| wanted(holes)).collect::<std::collections::VecDeque<_>>(),
-    );
+    let queue = std::sync::Mutex::new(std::collections::VecDeque::from(cases));
     let reached = std::sync::Mutex::new(Vec::new());
     std::thread::scope(|scope| {
         for _ in 0..arguments.jobs.max(1) {
             scope.spawn(|| {
                 loop {
                     let next = queue.lock().expect("a queue").pop_front();
-                    let Some((pair, holes)) = next else { break };
-                    let own = of_holes(arguments, pair, holes);
+                    let Some(case) = next else { break };
+                    let own = of_case(arguments, &case);
                     reached.lock().expect("a list").extend(own);
                 }
             });
@@ -120,22 +159,30 @@ fn pairs(arguments: &Arguments) -> Vec<Pair> {
     pairs
 }
 
-/// The closed pair with the landmarks that are left, then the maps with holes.
-fn of_holes(arguments: &Arguments, pair: &Pair, holes: &Holes) -> Vec<Reached> {
-    let source = pair.file.source.as_deref().unwrap_or_default();
-    let places = PLACES.iter().find(|places| source.starts_with(places.mesh)).expect("places of the mesh");
-    // The same faces of both, chosen on the source.
-    let mut removed: TiVec<FaceId, bool> = pair.source.faces().map(|_| false).collect();
-    for (centre, share) in [places.foot, places.neck].into_iter().zip(holes.shares) {
-        remove_around(&pair.source, VertexId(centre), share, &mut removed);
+impl Holes {
+    /// Which faces of both meshes are removed, chosen on the source.
+    fn of(&self, pair: &Pair) -> TiVec<FaceId, bool> {
+        let source = pair.file.source.as_deref().unwrap_or_default();
+        let places =
+            PLACES.iter().find(|places| source.starts_with(places.mesh)).expect("places of the mesh");
+        let mut removed = pair.source.faces().map(|_| false).collect();
+        for (centre, share) in [places.foot, places.neck].into_iter().zip(self.shares) {
+            remove_around(&pair.source, VertexId(centre), share, &mut removed);
+        }
+        removed
     }
+}
+
+/// The closed pair with the landmarks that are left, then the maps with holes.
+fn of_case(arguments: &Arguments, case: &Case<'_>) -> Vec<Reached> {
+    let Case { pair, name: holes, removed } = case;
     let left: Vec<[u32; 2]> = common::vertex_pairs(&pair.file)
         .into_iter()
         .filter(|[v, _]| pair.source.star(VertexId(*v)).any(|h| !removed[h.face()]))
         .collect();
     let meshes = [&pair.source, &pair.target];
     let nothing: TiVec<FaceId, bool> = removed.iter().map(|_| false).collect();
-    let punched = meshes.map(|mesh| punch(mesh, &removed));
+    let punched = meshes.map(|mesh| punch(mesh, removed));
     let whole = meshes.map(|mesh| punch(mesh, &nothing));
     let closed = map(arguments, [&whole[0], &whole[1]], &left);
     let mut reached = Vec::new();
@@ -143,11 +190,11 @@ fn of_holes(arguments: &Arguments, pair: &Pair, holes: &Holes) -> Vec<Reached> {
         let begun = ThreadTime::now();
         let sides = [0, 1].map(|k| if is_punched[k] { &punched[k] } else { &whole[k] });
         let outcome = match (&closed, &map(arguments, sides, &left)) {
-            (Ok(closed), Ok(result)) => Ok(measured(meshes, sides, &removed, [result, closed])),
+            (Ok(closed), Ok(result)) => Ok(measured(meshes, sides, removed, [result, closed])),
             (Err(error), _) | (_, Err(error)) => Err(error.clone()),
         };
         let seconds = begun.elapsed().as_secs_f64();
-        println!("{:16} {:15} {name:7} {}", pair.name, holes.name, line(&outcome, seconds));
+        println!("{:16} {:15} {name:7} {}", pair.name, holes, line(&outcome, seconds));
         reached.extend(outcome);
     }
     reached
@@ -194,7 +241,9 @@ fn measured(
     let rims: Vec<VertexId> = closed[0].vertices().filter(|&v| is_rim(v)).collect();
     let from_rim = distances(closed[0], &rims);
     let reach = 0.1 * closed[0].area().sqrt();
-    let (mut sums, mut near) = ([0.0; 2], [0.0; 2]);
+    let depths = depths(closed[1], removed);
+    let on_target: [Depths; 2] = [Depths::new(&sides[1].checked, &depths), Depths(depths.clone())];
+    let (mut sums, mut near, mut slid) = ([0.0; 2], [0.0; 2], [0.0; 2]);
     let (mut all, mut close) = (0.0, 0.0);
     for v in closed[0].vertices().filter(|&v| is_skin(v)) {
         let truth = closed[1].positions()[v];
@@ -209,6 +258,10 @@ fn measured(
         if from_rim[v] < reach {
             close += 1.0;
             (0..2).for_each(|k| near[k] += errors[k]);
+            for (k, (map, own, target)) in mapped.into_iter().enumerate() {
+                let image = map.target_from_source[own].expect("the relaxed map has all images");
+                slid[k] += scale * (on_target[k].at(target, image) - depths[v]);
+            }
         }
     }
     let of_caps = |side: usize, face: FaceId| sides[side].is_cap[face];
@@ -220,6 +273,7 @@ fn measured(
         energy: result.report.distortion.energy,
         errors: sums.map(|sum| sum / all),
         near: near.map(|sum| sum / close),
+        slid: slid.map(|sum| sum / close),
         hidden: [0, 1].map(|k| {
             let images = vertex_images(result, sides.map(|side| &side.checked.mesh), k);
             hidden(closed[k], removed, |v| images[own(k, v)].is_some_and(|f| of_caps(1 - k, f)))
@@ -228,6 +282,35 @@ fn measured(
             let images = vertex_images(whole, closed, k);
             hidden(closed[k], removed, |v| images[v].is_some_and(|f| of_holes(1 - k, f)))
         }),
+    }
+}
+
+/// By vertex of a closed mesh the distance from the rims of the holes: positive inside them.
+fn depths(mesh: &SurfaceMesh, removed: &TiVec<FaceId, bool>) -> TiVec<VertexId, f64> {
+    let is_skin = |v: VertexId| mesh.star(v).any(|h| !removed[h.face()]);
+    let is_rim = |v: &VertexId| is_skin(*v) && mesh.star(*v).any(|h| removed[h.face()]);
+    let rims: Vec<VertexId> = mesh.vertices().filter(is_rim).collect();
+    let away = distances(mesh, &rims);
+    mesh.vertices().map(|v| if is_skin(v) { -away[v] } else { away[v] }).collect()
+}
+
+/// How deep in holes the vertices of a mesh lie; those of caps, which the closed mesh does not have, at their rims.
+struct Depths(TiVec<VertexId, f64>);
+
+impl Depths {
+    fn new(checked: &CheckedMesh, of_file: &TiVec<VertexId, f64>) -> Self {
+        let mut depths: TiVec<VertexId, f64> = checked.mesh.vertices().map(|_| 0.0).collect();
+        for (depth, own) in of_file.iter().zip(&checked.vertex_from_file) {
+            if let Some(v) = own {
+                depths[*v] = *depth;
+            }
+        }
+        Self(depths)
+    }
+
+    fn at(&self, mesh: &SurfaceMesh, point: SurfacePoint) -> f64 {
+        let corners = mesh.triangles()[point.face];
+        corners.iter().zip(point.barycentric).map(|(v, share)| share * self.0[*v]).sum()
     }
 }
 
@@ -256,10 +339,11 @@ fn line(outcome: &Result<Reached, String>, seconds: f64) -> String {
         Ok(r) => {
             let [own, closed] = r.errors.map(|e| 100.0 * e);
             let [near, near_closed] = r.near.map(|e| 100.0 * e);
+            let [slid, slid_closed] = r.slid.map(|e| 100.0 * e);
             let [source, target] = r.hidden.map(|e| 100.0 * e);
             let [source_closed, target_closed] = r.hidden_closed.map(|e| 100.0 * e);
             format!(
-                "{:8.4} {own:8.3} {closed:8.3} {near:8.3} {near_closed:8.3} {source:8.3} {target:8.3} {source_closed:8.3} \
+                "{:8.4} {own:8.3} {closed:8.3} {near:8.3} {near_closed:8.3} {slid:8.3} {slid_closed:8.3} {source:8.3} {target:8.3} {source_closed:8.3} \
                  {target_closed:8.3} {seconds:7.1}{}",
                 r.energy,
                 if r.certified { "" } else { "  NOT CERTIFIED" }

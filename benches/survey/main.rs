@@ -111,6 +111,11 @@ const SURVEYS: &[Survey] = &[
         run: holes::punched,
     },
     Survey {
+        name: "holes-anywhere",
+        about: "the same with one to three holes of 0.5 to 5 % at random places; --seed S --seeds N",
+        run: holes::anywhere,
+    },
+    Survey {
         name: "borders",
         about: "both meshes cut at the neck: rim to rim, errors beside it, against the closed pair; --variants head,'neck and limb',... --toll 0.5",
         run: borders::cut,

@@ -8,6 +8,7 @@
 use super::layout_points::{PatchedParametrisation, without_layout_points};
 use super::mesh_with_coarse::MeshWithCoarse;
 use super::options::MultilevelOptions;
+use super::rim_draws::{BorderLine, RimDrawOptions, border_lines, draws};
 use super::skin::Skin;
 use crate::landmarks::LandmarkId;
 use crate::layout::{BaseLayout, PatchedMesh};
@@ -267,6 +268,44 @@ impl CoarseMap<'_> {
         self.lower(fine, &mut Portion::new(monitor, 0.5, 1.0), |_| ())
     }
 
+    /// Lowers the energy of the present levels while rims that correspond draw each other. Constraints that hold other vertices stay.
+    ///
+    /// # Errors
+    /// [`MapError::Cancelled`].
+    fn draw_rims(
+        &mut self,
+        lines: &[Vec<BorderLine>; 2],
+        options: &RimDrawOptions,
+        fine: &MapRelaxationOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(), MapError> {
+        let fine = &MapRelaxationOptions { energy: self.energy, ..*fine };
+        let held = self.constraints.clone();
+        for round in 0..options.rounds {
+            if monitor.wants_result() {
+                break;
+            }
+            let share = |round: usize| round as f64 / options.rounds as f64;
+            let part = &mut Portion::new(monitor, share(round), share(round + 1));
+            part.step(Step::default())?;
+            self.look(|k, seen, constraints| {
+                constraints.clone_from(&held[k]);
+                constraints.extend(draws(&lines[k], &lines[1 - k], seen, options.strength));
+                Ok(())
+            })?;
+            self.lower(fine, part, |_| ())?;
+        }
+        self.constraints = held;
+        Ok(())
+    }
+
+    /// The rims of both meshes that correspond; `None` where there are none.
+    fn border_lines(&self) -> Option<[Vec<BorderLine>; 2]> {
+        let lines = [0, 1]
+            .map(|k| self.skins[k].map_or_else(Vec::new, |skin| border_lines(self.full[k], skin.weights())));
+        (!lines.iter().any(Vec::is_empty)).then_some(lines)
+    }
+
     /// Brings vertices back on both meshes until each level has grown by `growth`; `false` where none is missing.
     fn grow(&mut self, options: &MultilevelOptions, monitor: &mut dyn Monitor) -> Result<bool, MapError> {
         let mut grown = false;
@@ -476,6 +515,10 @@ pub fn solve_fine(
     monitor: &mut dyn Monitor,
 ) -> Result<[Embedding; 2], MapError> {
     let mut ends = map.level_shares(options).into_iter();
+    let lines = map.border_lines();
+    // A round of draws takes about as long as the level without them.
+    let rounds = if lines.is_some() { options.rim_draws.rounds } else { 0 };
+    let settled = 0.1 + 0.9 / (1 + rounds) as f64;
     let mut done = 0.0;
     loop {
         let from = done;
@@ -485,7 +528,11 @@ pub fn solve_fine(
             break;
         }
         let is_finest = map.levels.iter().all(ParametrisedLevel::is_full);
-        map.settle(options, is_finest, &mut Portion::new(level, 0.1, 1.0))?;
+        map.settle(options, is_finest, &mut Portion::new(level, 0.1, settled))?;
+        if let Some(lines) = &lines {
+            let drawing = &mut Portion::new(level, settled, 1.0);
+            map.draw_rims(lines, &options.rim_draws, &options.fine, drawing)?;
+        }
         if !is_finest {
             level.preview(&map);
         }

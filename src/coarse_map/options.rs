@@ -1,5 +1,6 @@
 //! How a map is solved from coarse to fine.
 
+use super::rim_draws::RimDrawOptions;
 use super::rims::RimOptions;
 use crate::registration::rigid_patches::RigidPatchOptions;
 use crate::surface_map::energy::map_energy::MapEnergy;
@@ -38,6 +39,8 @@ pub struct MultilevelOptions {
     pub cap_weight: f64,
     /// What it costs where skin lies over a cap whose rim corresponds to one of the other mesh, per unit of area; an isometry costs 2.
     pub border_toll: f64,
+    /// How rims that correspond are drawn to each other on finer levels.
+    pub rim_draws: RimDrawOptions,
     /// How many vertices of the rims of caps the coarse level keeps.
     pub rims: RimOptions,
     /// A coarse map with a median distortion below this is between two poses of one body: it is relaxed by
@@ -96,6 +99,8 @@ impl Default for MultilevelOptions {
             cap_weight: 0.01,
             // Of 1, 2, 4 and 10 the least that brings rim to rim on horse-camel (see docs/experiments.md).
             border_toll: 4.0,
+            // Both numbers were tried on two pairs cut at the neck (see docs/experiments.md).
+            rim_draws: RimDrawOptions { rounds: 3, strength: 4000.0 },
             // An octagon leaves a tenth of a disc outside. Both numbers: chosen by hand.
             rims: RimOptions { each: 8, share: 0.25 },
             // Chosen by hand between the test pairs that are two poses of one body and the others, which would pay 5 to

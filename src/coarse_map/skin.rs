@@ -1,7 +1,7 @@
 //! How much the faces of a level count, where the full mesh has caps.
 
 use crate::mesh::coarsening::Level;
-use crate::mesh::face_weights::FaceWeight;
+use crate::mesh::face_weights::{FaceWeight, FaceWeights};
 use crate::mesh::surface_index::SurfaceIndex;
 use crate::mesh::{FaceId, SurfaceMesh};
 use glam::DVec3;
@@ -29,6 +29,11 @@ impl<'a> Skin<'a> {
     /// A mesh with the weights of its faces.
     pub fn new(mesh: &'a SurfaceMesh, weights: &'a TiSlice<FaceId, FaceWeight>) -> Self {
         Self { weights, index: SurfaceIndex::new(mesh) }
+    }
+
+    /// The weights of the full mesh's faces.
+    pub fn weights(&self) -> FaceWeights<'a> {
+        FaceWeights::new(Some(self.weights))
     }
 
     /// The weights of a level's faces: each the mean of the nearest full faces at four places.
