@@ -14,7 +14,7 @@ use glam::DVec3;
 const LEAST_DISTANCE: f64 = 0.03;
 
 /// Points of a round are at least this far from those of the round before, which so are free to move. Farther ones miss the ends of limbs, where
-/// those had been, and their maps are worse by a tenth to a half: so it is about as far as edges of the coarse level are long.
+/// those had been, and their maps are worse by a tenth to a half: so it is about as far as edges of the coarse level are long. Chosen by hand.
 const APART: f64 = 0.05;
 
 /// Nearer than this (in barycentric coordinates) to a side, an own point is put onto it: it may lie anywhere near, and a needle

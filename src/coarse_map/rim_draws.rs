@@ -6,6 +6,7 @@
 
 use crate::mesh::face_weights::FaceWeights;
 use crate::mesh::rims::{Rim, rims};
+use crate::mesh::segment_index::{OnSegment, SegmentIndex};
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::registration::rigid_patches::MappedLevel;
 use crate::surface_map::energy::point_constraint::PointConstraint;
@@ -23,22 +24,12 @@ pub struct RimDrawOptions {
 
 /// The rim of a cap whose toll is not 0: it corresponds to one of the other mesh.
 pub(super) struct BorderLine {
-    segments: Vec<Segment>,
+    /// Its edges.
+    index: SegmentIndex,
+    /// Of each edge the unit vector in the plane of the skin beside it, square to it.
+    across: Vec<DVec3>,
     /// By vertex, in order, the length that it stands for.
     lengths: BTreeMap<VertexId, f64>,
-}
-
-/// An edge of a rim.
-struct Segment {
-    ends: [DVec3; 2],
-    /// Unit vector in the plane of the skin beside it, square to it.
-    across: DVec3,
-}
-
-/// The nearest point of a rim.
-struct Foot {
-    place: DVec3,
-    across: DVec3,
 }
 
 /// The rims of a mesh that correspond to rims of the other mesh.
@@ -60,7 +51,7 @@ pub(super) fn draws(
 
 impl BorderLine {
     fn new(mesh: &SurfaceMesh, weights: FaceWeights<'_>, rim: &Rim) -> Self {
-        let (mut segments, mut lengths) = (Vec::new(), BTreeMap::new());
+        let (mut segments, mut across, mut lengths) = (Vec::new(), Vec::new(), BTreeMap::new());
         for h in rim.cap.iter().flat_map(|f| f.halfedges()) {
             let skin = mesh.twin(h).face();
             if weights.of(skin).toll > 0.0 {
@@ -69,24 +60,18 @@ impl BorderLine {
             let vertices = [mesh.tail(h), mesh.head(h)];
             let ends = vertices.map(|v| mesh.positions()[v]);
             let [a, b, c] = mesh.corners(skin);
-            let across = (b - a).cross(c - a).cross(ends[1] - ends[0]).normalize_or_zero();
-            segments.push(Segment { ends, across });
+            across.push((b - a).cross(c - a).cross(ends[1] - ends[0]).normalize_or_zero());
+            segments.push(ends);
             for v in vertices {
                 *lengths.entry(v).or_default() += 0.5 * mesh.length(h);
             }
         }
-        Self { segments, lengths }
+        Self { index: SegmentIndex::new(segments), across, lengths }
     }
 
-    fn foot(&self, p: DVec3) -> Option<Foot> {
-        let foot = |segment: &Segment| {
-            let [a, b] = segment.ends;
-            let way = b - a;
-            let share = (p - a).dot(way) / way.length_squared().max(f64::MIN_POSITIVE);
-            Foot { place: a + way * share.clamp(0.0, 1.0), across: segment.across }
-        };
-        let feet = self.segments.iter().map(foot);
-        feet.min_by(|a, b| a.place.distance_squared(p).total_cmp(&b.place.distance_squared(p)))
+    /// The nearest point of the rim.
+    fn foot(&self, p: DVec3) -> Option<OnSegment> {
+        self.index.nearest_where(p, |_| true)
     }
 
     fn drawn(
@@ -102,7 +87,7 @@ impl BorderLine {
         let placed: Vec<Placed> = self.lengths.iter().filter_map(in_level).collect();
         let apart = |line: &Self| -> f64 {
             let far =
-                |p: &Placed| line.foot(p.image).map_or(f64::INFINITY, |foot| foot.place.distance(p.image));
+                |p: &Placed| line.foot(p.image).map_or(f64::INFINITY, |foot| foot.position.distance(p.image));
             placed.iter().map(|p| p.length * far(p)).sum()
         };
         let distances = others.iter().map(|line| (line, apart(line)));
@@ -110,8 +95,8 @@ impl BorderLine {
         // Those of a coarse level stand for the whole rim.
         let share = self.lengths.values().sum::<f64>() / placed.iter().map(|p| p.length).sum::<f64>();
         let constraint = |p: &Placed| {
-            let Foot { place, across } = partner.foot(p.image)?;
-            let row = across * (strength * share * p.length).sqrt();
+            let OnSegment { segment, position: place } = partner.foot(p.image)?;
+            let row = partner.across[segment] * (strength * share * p.length).sqrt();
             Some((p.vertex, PointConstraint { place, rows: [row, DVec3::ZERO], knee: f64::INFINITY }))
         };
         placed.iter().filter_map(constraint).collect()

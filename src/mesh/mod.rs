@@ -22,6 +22,7 @@ mod polygon;
 mod refined;
 pub mod repair;
 pub mod rims;
+pub(crate) mod segment_index;
 pub mod soup;
 pub mod surface_index;
 mod surface_mesh;

@@ -5,11 +5,9 @@
 //! dent or a part of fur, and is left out.
 
 use crate::math::scalar::{atan2, cos, max};
-use crate::mesh::surface_index::bounding_box;
+use crate::mesh::segment_index::{OnSegment, SegmentIndex};
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec3;
-use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
-use parry3d_f64::query::PointQuery;
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiVec, ti_vec};
 
@@ -39,12 +37,11 @@ pub(super) struct Creases {
     kinds: TiVec<VertexId, Kind>,
     /// The given surface's sharp edges.
     segments: Vec<Segment>,
-    hierarchy: Bvh,
+    index: SegmentIndex,
 }
 
 struct Segment {
     chain: u32,
-    ends: [DVec3; 2],
     face: FaceId,
 }
 
@@ -61,23 +58,21 @@ impl Creases {
     pub fn find(surface: &SurfaceMesh, angle: f64, length: f64) -> Self {
         let sharp = surface.edges().filter(|&h| is_sharp(surface, h, angle)).collect();
         let Lines { sharp, chains, is_corner } = Lines::find(surface, sharp, SHORTEST * length);
+        let ends = |h: HalfedgeId| [surface.tail(h), surface.head(h)];
+        let places = sharp.iter().map(|&h| ends(h).map(|v| surface.positions()[v])).collect();
         let mut creases = Self {
             chains: FxHashMap::default(),
             kinds: ti_vec![Kind::Free; surface.vertex_count()],
             segments: Vec::with_capacity(sharp.len()),
-            hierarchy: Bvh::new(),
+            index: SegmentIndex::new(places),
         };
         for (&h, chain) in sharp.iter().zip(chains) {
-            let ends = [surface.tail(h), surface.head(h)];
-            creases.chains.insert(sorted(ends), chain);
-            for v in ends {
+            creases.chains.insert(sorted(ends(h)), chain);
+            for v in ends(h) {
                 creases.kinds[v] = if is_corner[v] { Kind::Corner } else { Kind::Along(chain) };
             }
-            let ends = ends.map(|v| surface.positions()[v]);
-            creases.segments.push(Segment { chain, ends, face: h.face() });
+            creases.segments.push(Segment { chain, face: h.face() });
         }
-        let boxes: Vec<_> = creases.segments.iter().map(|segment| bounding_box(&segment.ends)).collect();
-        creases.hierarchy = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
         creases
     }
 
@@ -120,27 +115,15 @@ impl Creases {
 
     /// The nearest point of a chain.
     pub fn nearest(&self, p: DVec3, chain: u32) -> ChainPoint {
-        let place = p.to_array().into();
-        let found = self.hierarchy.find_best(
-            f64::MAX,
-            |node, _| node.aabb().distance_to_local_point(place, true),
-            |k, _| {
-                let segment = self.segments.get(k as usize).filter(|segment| segment.chain == chain)?;
-                let position = nearest_between(p, segment.ends);
-                Some((position.distance(p), ChainPoint { position, face: segment.face }))
-            },
-        );
-        found.map_or(ChainPoint { position: p, face: FaceId(0) }, |(_, (_, nearest))| nearest)
+        let found = self.index.nearest_where(p, |k| self.segments[k].chain == chain);
+        let on_chain =
+            |OnSegment { segment, position }| ChainPoint { position, face: self.segments[segment].face };
+        found.map_or(ChainPoint { position: p, face: FaceId(0) }, on_chain)
     }
 }
 
 fn sorted([a, b]: [VertexId; 2]) -> [VertexId; 2] {
     if a < b { [a, b] } else { [b, a] }
-}
-
-fn nearest_between(p: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
-    let squared = a.distance_squared(b);
-    if squared > 0.0 { a.lerp(b, ((p - a).dot(b - a) / squared).clamp(0.0, 1.0)) } else { a }
 }
 
 fn is_sharp(surface: &SurfaceMesh, h: HalfedgeId, angle: f64) -> bool {

@@ -4,8 +4,8 @@ use super::cone_surface::ConeSurface;
 use super::embedding::{Anchor, Embedding, Parametrised};
 use crate::landmarks::LandmarkId;
 use crate::math::rigid2::{Rigid2, complex_mul};
-use crate::math::scalar::{atan2, cos, sin};
-use crate::math::triangle::angle_from_lengths;
+use crate::math::scalar::{cos, sin};
+use crate::math::triangle::{angle_from_lengths, turn};
 use crate::mesh::HalfedgeId;
 use glam::DVec2;
 use std::sync::Arc;
@@ -75,7 +75,7 @@ impl<'a> Fan<'a> {
         let corners = self.surface.charts[anchor.chart];
         let axis = anchor.motion.rotate(corners[base.next().corner()] - corners[base.corner()]);
         let middle = complex_mul(axis, DVec2::new(cos(half), sin(half)));
-        begin + half + atan2(middle.perp_dot(direction), middle.dot(direction))
+        begin + half + turn(middle, direction)
     }
 
     /// The faces around the landmark, counter-clockwise from the anchor.
@@ -92,7 +92,7 @@ impl<'a> Fan<'a> {
         std::iter::from_fn(move || {
             let corner = next?;
             let [p, q, r] = [corner, corner.next(), corner.prev()].map(|h| corners[h]);
-            let width = atan2((q - p).perp_dot(r - p), (q - p).dot(r - p));
+            let width = turn(q - p, r - p);
             let wedge = Wedge { corner, begin, width, motion };
             begin += width;
             motion = side.embedding.transitions[corner.prev()].after(&motion);
