@@ -27,7 +27,6 @@ pub mod soup;
 pub mod surface_index;
 mod surface_mesh;
 mod surface_point;
-mod textured;
 
 pub use face_frame::{Carrier, FaceFrame};
 pub use file_frame::FileFrame;
@@ -37,4 +36,3 @@ pub use place::{Place, PlaceKey};
 pub use refined::RefinedMesh;
 pub use surface_mesh::{MeshError, SurfaceMesh};
 pub use surface_point::SurfacePoint;
-pub use textured::TexturedMesh;
