@@ -3,6 +3,7 @@
 use super::judged::{Judged, Start};
 use crate::math::predicates::orient2d;
 use crate::math::rigid2::Rigid2;
+use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use glam::DVec2;
 
@@ -85,7 +86,7 @@ fn is_left(p: DVec2, q: DVec2, point: DVec2) -> bool {
 
 /// The place, from 0 to 1, at which the line through p and q crosses the segment a b.
 fn place([p, q]: [DVec2; 2], [a, b]: [DVec2; 2]) -> f64 {
-    let (from_a, from_b) = ((q - p).perp_dot(a - p), (q - p).perp_dot(b - p));
+    let [from_a, from_b] = [a, b].map(|end| signed_double_area(p, q, end));
     let share = from_a / (from_a - from_b);
     if share.is_nan() { 0.5 } else { share.clamp(0.0, 1.0) }
 }

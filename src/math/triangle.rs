@@ -23,8 +23,17 @@ pub fn angle_from_lengths(opposite: f64, adjacent: [f64; 2]) -> f64 {
 
 /// Interior angle, in radians, at `p` of the triangle p, q, r.
 pub fn angle_at(p: DVec3, q: DVec3, r: DVec3) -> f64 {
-    let (u, v) = (q - p, r - p);
+    angle_between(q - p, r - p)
+}
+
+/// The angle between two directions of space, in radians, from 0 to pi.
+pub fn angle_between(u: DVec3, v: DVec3) -> f64 {
     atan2(u.cross(v).length(), u.dot(v))
+}
+
+/// The cotangent of the angle between two directions of space; infinite or not a number where they are parallel.
+pub fn cotangent_between(u: DVec3, v: DVec3) -> f64 {
+    u.dot(v) / u.cross(v).length()
 }
 
 /// Area of the triangle p, q, r in space.
@@ -33,6 +42,7 @@ pub fn area(p: DVec3, q: DVec3, r: DVec3) -> f64 {
 }
 
 /// Twice the signed area of the triangle p, q, r in the plane; positive when counter-clockwise.
+#[inline]
 pub fn signed_double_area(p: DVec2, q: DVec2, r: DVec2) -> f64 {
     (q - p).perp_dot(r - p)
 }
@@ -59,6 +69,7 @@ pub fn lay_out([l01, l12, l20]: [f64; 3]) -> [DVec2; 3] {
 
 #[cfg(test)]
 mod tests {
+    use super::super::scalar::{cos, sin};
     use super::*;
 
     #[test]
@@ -68,6 +79,15 @@ mod tests {
         assert!((q.distance(r) - 2.5).abs() < 1e-14);
         assert!((r.distance(p) - 1.2).abs() < 1e-14);
         assert!(signed_double_area(p, q, r) > 0.0);
+    }
+
+    #[test]
+    fn the_cotangent_is_that_of_the_angle() {
+        let (u, v) = (DVec3::new(1.0, 0.3, -0.2), DVec3::new(-0.4, 1.1, 0.7));
+        let angle = angle_between(u, v);
+        assert!((cotangent_between(u, v) - cos(angle) / sin(angle)).abs() < 1e-14);
+        assert!((angle_at(DVec3::X, DVec3::X + u, DVec3::X + v) - angle).abs() < 1e-14);
+        assert!((cotangent_between(DVec3::X, DVec3::X + DVec3::Y) - 1.0).abs() < 1e-15);
     }
 
     #[test]

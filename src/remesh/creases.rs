@@ -4,7 +4,8 @@
 //! meet, or where the line bends sharply: they stay in the mesh. A chain shorter than a few of the new edges is no line but a
 //! dent or a part of fur, and is left out.
 
-use crate::math::scalar::{atan2, cos, max};
+use crate::math::scalar::{cos, max};
+use crate::math::triangle::angle_between;
 use crate::mesh::segment_index::{OnSegment, SegmentIndex};
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec3;
@@ -134,7 +135,7 @@ fn is_sharp(surface: &SurfaceMesh, h: HalfedgeId, angle: f64) -> bool {
         (normal, normal.length() > SLIVER * longest)
     });
     let [(a, a_is_round), (b, b_is_round)] = normals;
-    a_is_round && b_is_round && atan2(a.cross(b).length(), a.dot(b)) > angle
+    a_is_round && b_is_round && angle_between(a, b) > angle
 }
 
 /// Chains, and what they are made of.

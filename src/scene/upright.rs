@@ -5,6 +5,7 @@
 //! one, while left and right sides are alike. A guess is to be offered, not to be applied: a ball and a leaf have no upright.
 
 use super::up_axis::UpAxis;
+use crate::math::triangle::signed_double_area;
 use crate::mesh::SurfaceMesh;
 use glam::{DVec2, DVec3};
 
@@ -46,7 +47,7 @@ fn base(mesh: &SurfaceMesh, up: UpAxis, centre: DVec3) -> f64 {
     let (least, most) = points.fold(start, |(l, m), p| (l.min(p), m.max(p)));
     let size = (most - least).x * (most - least).y;
     let area = 0.5 * sides(&hull).map(|[a, b]| a.perp_dot(b)).sum::<f64>();
-    let stands = sides(&hull).all(|[a, b]| (b - a).perp_dot(from_above(centre) - a) >= 0.0);
+    let stands = sides(&hull).all(|[a, b]| signed_double_area(a, b, from_above(centre)) >= 0.0);
     if stands && size > 0.0 { area / size } else { 0.0 }
 }
 

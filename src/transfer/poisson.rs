@@ -1,5 +1,6 @@
 //! Positions whose gradients are nearest to wanted ones, by area: a Poisson system with the cotangent Laplacian.
 
+use crate::math::triangle::cotangent_between;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use crate::numerics::approximate_cholesky::ApproximateCholesky;
@@ -97,8 +98,7 @@ pub(super) fn weighted_hats(mesh: &SurfaceMesh, f: FaceId) -> [DVec3; 3] {
 /// The cotangent of the angle opposite a halfedge.
 fn cotangent(mesh: &SurfaceMesh, h: HalfedgeId) -> f64 {
     let [tail, head, apex] = [mesh.tail(h), mesh.head(h), mesh.tail(h.prev())].map(|v| mesh.positions()[v]);
-    let (u, v) = (tail - apex, head - apex);
-    u.dot(v) / u.cross(v).length()
+    cotangent_between(tail - apex, head - apex)
 }
 
 /// How much a face counts: 1, but for the thinnest.

@@ -1,5 +1,6 @@
 //! The pieces of a map between two meshes.
 
+use crate::math::triangle::signed_double_area;
 use crate::mesh::{Carrier, FaceId, Place, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Pulse};
 use crate::surface_map::measures::distortion::is_certain;
@@ -153,7 +154,7 @@ fn edge_vectors([p, q, r]: [DVec2; 3]) -> DMat2 {
 /// It is that of the corners' triangle of largest area on the source, the first one where several are as large.
 pub fn matrix_of_corners(source: &[DVec2], target: &[DVec2]) -> Option<DMat2> {
     let n = source.len();
-    let double_area = |ring: &[DVec2], [i, j, k]: [usize; 3]| (ring[j] - ring[i]).perp_dot(ring[k] - ring[i]);
+    let double_area = |ring: &[DVec2], [i, j, k]: [usize; 3]| signed_double_area(ring[i], ring[j], ring[k]);
     let mut best = (0.0, [0; 3]);
     for i in 0..n {
         for j in i + 1..n {
@@ -182,5 +183,5 @@ pub fn matrix_of_corners(source: &[DVec2], target: &[DVec2]) -> Option<DMat2> {
 /// Twice the area of a polygon; in weights of a face, the share of the face that it covers.
 pub(crate) fn share(ring: &[DVec2]) -> f64 {
     let Some(&origin) = ring.first() else { return 0.0 };
-    ring.windows(2).map(|w| (w[0] - origin).perp_dot(w[1] - origin)).sum()
+    ring.windows(2).map(|w| signed_double_area(origin, w[0], w[1])).sum()
 }

@@ -5,6 +5,7 @@
 //! rounding.
 
 use crate::math::barycentric;
+use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, SurfacePoint};
 use crate::surface_map::overlay::{Overlay, OverlayPoint, Piece};
 use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
@@ -124,9 +125,9 @@ fn depth(ring: &[OverlayPoint], q: DVec2, place: impl Fn(&OverlayPoint) -> DVec2
     for k in 0..ring.len() {
         let (a, b) = (place(&ring[k]), place(&ring[(k + 1) % ring.len()]));
         let length = a.distance(b);
-        area += (a - origin).perp_dot(b - origin);
+        area += signed_double_area(origin, a, b);
         if length > 0.0 {
-            least = least.min((b - a).perp_dot(q - a) / length);
+            least = least.min(signed_double_area(a, b, q) / length);
         }
     }
     if area > 0.0 { least } else { f64::NEG_INFINITY }

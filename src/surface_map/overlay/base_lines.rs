@@ -9,6 +9,7 @@ use crate::certificate::Start;
 use crate::landmarks::LandmarkId;
 use crate::math::rigid2::{Rigid2, complex_mul};
 use crate::math::scalar::{cos, sin};
+use crate::math::triangle::signed_double_area;
 use crate::mesh::face_weights::FaceWeights;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
@@ -160,7 +161,7 @@ pub fn start(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -> St
 
 /// The point where the segment p q crosses the halfedge from a to b.
 fn crossing(h: HalfedgeId, [a, b]: [DVec2; 2], [p, q]: [DVec2; 2]) -> SurfacePoint {
-    let (sa, sb) = ((q - p).perp_dot(a - p), (q - p).perp_dot(b - p));
+    let [sa, sb] = [a, b].map(|end| signed_double_area(p, q, end));
     let share = if sa == sb { 0.5 } else { (sa / (sa - sb)).clamp(0.0, 1.0) };
     let mut barycentric = [0.0; 3];
     barycentric[h.corner()] = 1.0 - share;

@@ -10,6 +10,7 @@ use super::pieces::{OverlayError, SideOf, face_area};
 use super::seats::Seats;
 use super::trace::{Traced, Traces};
 use crate::math::rigid2::{Rigid2, complex_mul};
+use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh};
 use crate::monitor::{Monitor, Pulse, Step};
 use crate::surface_map::parametrisation::embedding::Parametrised;
@@ -243,7 +244,7 @@ impl Measure {
                 let crossing = traces.crossings[begin..end].get(k);
                 let to = crossing.map_or(1.0, |crossing| crossing.along_source);
                 let apex = target.embedding.corners[HalfedgeId::of(face, 0)];
-                let swept = (to - from) * (line[0] - apex).perp_dot(line[1] - apex);
+                let swept = (to - from) * signed_double_area(apex, line[0], line[1]);
                 pieces[left as usize].meet(h.face(), face, motion.rotation)?.area += swept;
                 pieces[right as usize].meet(twin.face(), face, turned)?.area -= swept;
                 let Some(crossing) = crossing else { break };

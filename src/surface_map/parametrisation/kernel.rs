@@ -1,5 +1,6 @@
 //! Where to put one vertex inside the polygon of its neighbours.
 
+use crate::math::triangle::signed_double_area;
 use glam::DVec2;
 
 /// Reusable memory for clipping.
@@ -27,7 +28,7 @@ impl Kernel {
 
     /// Keeps what lies on the left of the line from `a` to `b`.
     fn clip(&mut self, a: DVec2, b: DVec2) {
-        let side = |p: DVec2| (b - a).perp_dot(p - a);
+        let side = |p: DVec2| signed_double_area(a, b, p);
         self.clipped.clear();
         for k in 0..self.polygon.len() {
             let (p, q) = (self.polygon[k], self.polygon[(k + 1) % self.polygon.len()]);

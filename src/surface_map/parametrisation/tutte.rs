@@ -13,6 +13,7 @@ use super::unknowns::Unknowns;
 use crate::layout::PatchedMesh;
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::{max, min};
+use crate::math::triangle::cotangent_between;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Pulse, Step};
 use crate::numerics::approximate_cholesky::ApproximateCholesky;
@@ -85,8 +86,7 @@ fn transitions(patched: &PatchedMesh, surface: &ConeSurface) -> TiVec<HalfedgeId
 fn weight(mesh: &SurfaceMesh, edge: HalfedgeId) -> f64 {
     let cotangent = |h: HalfedgeId| {
         let [tail, head, apex] = [h, h.next(), h.prev()].map(|corner| mesh.positions()[mesh.tail(corner)]);
-        let (u, v) = (tail - apex, head - apex);
-        u.dot(v) / u.cross(v).length()
+        cotangent_between(tail - apex, head - apex)
     };
     let weight = 0.5 * (cotangent(edge) + cotangent(mesh.twin(edge)));
     // Beside a face without area it may be no number, and becomes the least one.

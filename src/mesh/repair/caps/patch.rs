@@ -111,7 +111,7 @@ impl Patch {
         let [c, d] = [self.opposite(side), self.opposite(other)];
         let [a, b] = [self.triangles[side / 3][side % 3], self.triangles[other / 3][other % 3]];
         let [p, q, r, s] = [a, b, c, d].map(|v| self.points[v as usize]);
-        let cotangent = |at: DVec3| (p - at).dot(q - at) / (p - at).cross(q - at).length();
+        let cotangent = |at: DVec3| triangle::cotangent_between(p - at, q - at);
         let sum = cotangent(r) + cotangent(s);
         if sum.is_nan() || sum >= WORSE || c == d || self.taken.contains(&ends(c, d)) {
             return false;
