@@ -1,5 +1,6 @@
 //! Smooth unions of round cones.
 
+use crate::math::segment::nearest_share;
 use glam::DVec3;
 
 /// A cone between two balls.
@@ -17,7 +18,7 @@ impl RoundCone {
     /// Distance to the segment minus the radius at the nearest point: near the true distance for slender cones.
     fn value(&self, p: DVec3) -> f64 {
         let along = self.ends[1] - self.ends[0];
-        let t = ((p - self.ends[0]).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+        let t = nearest_share(p, self.ends);
         p.distance(self.ends[0] + along * t) - (self.radii[0] + (self.radii[1] - self.radii[0]) * t)
     }
 }

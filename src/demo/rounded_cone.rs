@@ -1,6 +1,7 @@
 //! A cone whose apex and rim are rounded, as a distance.
 
 use crate::math::scalar::{max, min};
+use crate::math::segment::nearest_share_in_plane;
 use glam::{DVec2, DVec3};
 
 /// A cone that stands on the plane y = 0 around the y axis, with rounded apex and rim.
@@ -43,9 +44,7 @@ impl RoundedCone {
 
 /// The distance of a point from a segment.
 fn to_segment(q: DVec2, [a, b]: [DVec2; 2]) -> f64 {
-    let along = b - a;
-    let t = ((q - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-    q.distance(a + along * t)
+    q.distance(a + (b - a) * nearest_share_in_plane(q, [a, b]))
 }
 
 #[cfg(test)]

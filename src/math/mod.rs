@@ -16,4 +16,5 @@ pub mod rigid2;
 pub mod rigid3;
 pub mod scalar;
 pub mod screen_light;
+pub mod segment;
 pub mod triangle;

@@ -1,6 +1,7 @@
 //! The point of a surface nearest to a point in space.
 
 use super::{FaceId, SurfaceMesh, SurfacePoint};
+use crate::math::segment::nearest_share;
 use glam::DVec3;
 
 /// The point of the mesh nearest to `p`, among the faces whose normal is within a right angle of `normal`; where there is
@@ -33,8 +34,7 @@ pub(crate) fn closest_in_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
         }
     }
     let on_side = |k: usize, [q, r]: [DVec3; 2]| {
-        let length = q.distance_squared(r);
-        let share = if length > 0.0 { ((p - q).dot(r - q) / length).clamp(0.0, 1.0) } else { 0.0 };
+        let share = nearest_share(p, [q, r]);
         let mut barycentric = [0.0; 3];
         barycentric[k] = 1.0 - share;
         barycentric[(k + 1) % 3] = share;

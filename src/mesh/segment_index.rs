@@ -1,6 +1,7 @@
 //! Nearest points of line segments in space, many of them, by a bounding volume hierarchy.
 
 use super::surface_index::bounding_box;
+use crate::math::segment::nearest_share;
 use glam::DVec3;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use parry3d_f64::query::PointQuery;
@@ -37,17 +38,12 @@ impl SegmentIndex {
             |k, _| {
                 let segment = k as usize;
                 let ends = self.segments.get(segment).filter(|_| allowed(segment))?;
-                let position = nearest_between(p, *ends);
+                let position = ends[0].lerp(ends[1], nearest_share(p, *ends));
                 Some((position.distance(p), OnSegment { segment, position }))
             },
         );
         found.map(|(_, (_, nearest))| nearest)
     }
-}
-
-fn nearest_between(p: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
-    let squared = a.distance_squared(b);
-    if squared > 0.0 { a.lerp(b, ((p - a).dot(b - a) / squared).clamp(0.0, 1.0)) } else { a }
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 //! and the polygons between them.
 
 use crate::landmarks::LandmarkId;
+use crate::math::segment::nearest_share_in_plane;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use crate::surface_map::overlay::base_lines::{BaseLine, base_line};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
@@ -122,10 +123,9 @@ impl Cuts {
                 Some(exit) => {
                     let twin = mesh.twin(exit);
                     let along = point.barycentric[exit.next().corner()];
-                    let [p, q] = section.ends;
                     let corners = [exit, exit.next()].map(|x| side.embedding.corners[x]);
                     let at = corners[0].lerp(corners[1], along);
-                    let along_line = ((at - p).dot(q - p) / (q - p).length_squared()).clamp(0.0, 1.0);
+                    let along_line = nearest_share_in_plane(at, section.ends);
                     let (edge, along_edge) = if exit < twin { (exit, along) } else { (twin, 1.0 - along) };
                     let number = self.crossings.len() as u32;
                     self.crossings.push(Crossing { line: h, along_line, edge, along_edge });
