@@ -131,10 +131,7 @@ fn question(input: MatchInput<'_>, candidates: &[Candidate], rival: usize) -> Op
 }
 
 fn nearest_vertex(index: &SurfaceIndex<'_>, place: DVec3) -> VertexId {
-    let point = index.nearest(place).point;
-    let corners = index.mesh().triangles()[point.face];
-    let largest = (0..3).max_by(|&a, &b| point.barycentric[a].total_cmp(&point.barycentric[b])).unwrap_or(0);
-    corners[largest]
+    index.nearest(place).point.heaviest_corner(index.mesh())
 }
 
 #[cfg(test)]

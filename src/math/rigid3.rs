@@ -88,10 +88,19 @@ pub fn laid_on(points: &[DVec3], partners: &[DVec3]) -> Rigid3 {
     // From any start the search ends at the best rotation, but for starts a half turn away from it.
     let starts =
         [DVec3::ONE, DVec3::new(1.0, -1.0, -1.0), DVec3::new(-1.0, 1.0, -1.0), DVec3::new(-1.0, -1.0, 1.0)];
-    let rotations = starts.map(|diagonal| nearest_rotation(&spread, DMat3::from_diagonal(diagonal)));
-    let agreement = |r: &DMat3| (0..3).map(|k| r.col(k).dot(spread.col(k))).sum::<f64>();
-    let best = rotations.into_iter().max_by(|a, b| agreement(a).total_cmp(&agreement(b)));
-    Rigid3::with_point(best.unwrap_or(DMat3::IDENTITY), from, onto)
+    Rigid3::with_point(best_rotation(&spread, starts.map(DMat3::from_diagonal)), from, onto)
+}
+
+/// Of the rotations that [`nearest_rotation`] finds from some starts the one that agrees best with the matrix; the identity where there is
+/// no start.
+pub fn best_rotation(m: &DMat3, starts: impl IntoIterator<Item = DMat3>) -> DMat3 {
+    let found = starts.into_iter().map(|start| nearest_rotation(m, start));
+    found.max_by(|a, b| agreement(a, m).total_cmp(&agreement(b, m))).unwrap_or(DMat3::IDENTITY)
+}
+
+/// The trace of R^T m: the larger, the nearer the rotation R is to the matrix in the sense of least squares.
+pub fn agreement(rotation: &DMat3, m: &DMat3) -> f64 {
+    (0..3).map(|k| rotation.col(k).dot(m.col(k))).sum()
 }
 
 /// The matrix u v^T.
@@ -144,6 +153,16 @@ mod tests {
             DMat3::from_cols(DVec3::new(1.5, 0.1, 0.0), DVec3::new(0.1, 1.0, 0.2), DVec3::new(0.0, 0.2, 0.7));
         let found = nearest_rotation(&(turn() * stretch), DMat3::IDENTITY);
         assert!(found.abs_diff_eq(turn(), 1e-6), "{found}");
+    }
+
+    #[test]
+    fn the_best_of_several_rotations_agrees_most() {
+        let half = DMat3::from_diagonal(DVec3::new(1.0, -1.0, -1.0));
+        let found = best_rotation(&turn(), [turn() * half, DMat3::IDENTITY]);
+        assert!(found.abs_diff_eq(turn(), 1e-6), "{found}");
+        assert!((agreement(&turn(), &turn()) - 3.0).abs() < 1e-14);
+        assert!(agreement(&(turn() * half), &turn()) < 0.0);
+        assert_eq!(best_rotation(&turn(), []), DMat3::IDENTITY);
     }
 
     #[test]

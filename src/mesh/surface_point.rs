@@ -27,6 +27,12 @@ impl SurfacePoint {
         Self { face: h.face(), barycentric }
     }
 
+    /// The corner of its face with the largest weight; of equal ones the last.
+    pub fn heaviest_corner(&self, mesh: &SurfaceMesh) -> VertexId {
+        let heavier = |a: &usize, b: &usize| self.barycentric[*a].total_cmp(&self.barycentric[*b]);
+        mesh.triangles()[self.face][(0..3).max_by(heavier).unwrap_or(0)]
+    }
+
     /// Position in space.
     pub fn position(&self, mesh: &SurfaceMesh) -> DVec3 {
         let [p, q, r] = mesh.corners(self.face);

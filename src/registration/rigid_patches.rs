@@ -109,10 +109,8 @@ impl<'a> MappedLevel<'a> {
         let mut level = Self { mesh, vertices, images: TiVec::new(), near: TiVec::new(), is_on_skin };
         for (v, point) in mesh.vertices().zip(points) {
             level.is_on_skin[v] &= onto.weights.is_skin(point.face);
-            let weight = |k: &usize| point.barycentric[*k];
-            let corner = (0..3).max_by(|a, b| weight(a).total_cmp(&weight(b))).unwrap_or(0);
             level.images.push(point.position(&other.mesh));
-            level.near.push(other.vertices[other.mesh.triangles()[point.face][corner]]);
+            level.near.push(other.vertices[point.heaviest_corner(&other.mesh)]);
         }
         level
     }

@@ -25,8 +25,7 @@ pub fn suggest_landmarks(loaded: &LoadedMesh, landmarks: &str, count: usize) -> 
         LandmarkPoint::Vertex(v) => vertex_from_file.get(v as usize).copied().flatten(),
         LandmarkPoint::OnFace { face, barycentric } => {
             let face = checked.face_from_file(FaceId(face))?;
-            let w = checked.with_file_corners(SurfacePoint { face, barycentric }).barycentric;
-            (0..3).max_by(|&a: &usize, &b| w[a].total_cmp(&w[b])).map(|k| mesh.triangles()[face][k])
+            Some(checked.with_file_corners(SurfacePoint { face, barycentric }).heaviest_corner(mesh))
         }
     };
     let mut marked: Vec<VertexId> = points.into_iter().filter_map(nearest).collect();

@@ -2,7 +2,7 @@
 //!
 //! Each part keeps its shape: it is turned, scaled and moved as the base's surface is near it.
 
-use crate::math::rigid3::{Rigid3, nearest_rotation, outer};
+use crate::math::rigid3::{Rigid3, agreement, best_rotation, outer};
 use crate::math::scalar::max;
 use crate::mesh::{SurfaceMesh, VertexId};
 use glam::{DMat3, DVec3};
@@ -90,9 +90,7 @@ fn fitted(
         matrix += outer((onto[v] - to) * w, at[v] - from);
         square += w * at[v].distance_squared(from);
     }
-    let trace = |r: &DMat3| (0..3).map(|k| r.col(k).dot(matrix.col(k))).sum::<f64>();
-    let rotations = starts.iter().map(|start| nearest_rotation(&matrix, *start));
-    let best = rotations.max_by(|a, b| trace(a).total_cmp(&trace(b))).unwrap_or(DMat3::IDENTITY);
-    let scale = max(trace(&best), 0.0) / max(square, f64::MIN_POSITIVE);
+    let best = best_rotation(&matrix, starts.iter().copied());
+    let scale = max(agreement(&best, &matrix), 0.0) / max(square, f64::MIN_POSITIVE);
     Similarity { scale, motion: Rigid3::with_point(best, from * scale, to) }
 }

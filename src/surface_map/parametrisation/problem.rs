@@ -86,6 +86,15 @@ pub(in crate::surface_map) struct Derivatives<'a> {
     pub by_unknown: &'a [(u32, DMat2)],
 }
 
+/// How the linear system of a Newton step is made definite, and how exactly it is solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::surface_map) struct NewtonSystem {
+    /// Share of the Hessian's diagonal that is added to it.
+    pub damping: f64,
+    /// Relative residual at which the solve ends.
+    pub tolerance: f64,
+}
+
 /// Triangles, unknowns and the matrix of one relaxation.
 pub struct FlatProblem {
     triangles: Vec<FlatTriangle>,
@@ -257,8 +266,7 @@ impl FlatProblem {
         }
     }
 
-    /// Newton's direction at z, up to a relative residual of `tolerance`. `damping` is added to the Hessian's diagonal, relative
-    /// to it.
+    /// Newton's direction at z.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -266,7 +274,7 @@ impl FlatProblem {
         &mut self,
         z: &[DVec2],
         derivatives: &Derivatives<'_>,
-        [damping, tolerance]: [f64; 2],
+        system: NewtonSystem,
         monitor: &mut dyn Monitor,
     ) -> Result<Vec<DVec2>, Cancelled> {
         self.matrix.clear();
@@ -277,10 +285,10 @@ impl FlatProblem {
         for (unknown, hessian) in derivatives.by_unknown {
             self.matrix.add_at(self.matrix.place(*unknown, *unknown), *hessian);
         }
-        self.matrix.regularise(damping);
+        self.matrix.regularise(system.damping);
         let downhill: Vec<DVec2> = derivatives.slope.iter().map(|g| -*g).collect();
         let mut step = vec![DVec2::ZERO; z.len()];
-        self.solver.step(&self.matrix, &downhill, &mut step, tolerance, monitor)?;
+        self.solver.step(&self.matrix, &downhill, &mut step, system.tolerance, monitor)?;
         Ok(step)
     }
 

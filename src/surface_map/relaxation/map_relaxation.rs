@@ -17,7 +17,9 @@ use crate::surface_map::overlay::SideOf;
 use crate::surface_map::overlay::location::{Locations, Locator};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
 use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
-use crate::surface_map::parametrisation::problem::{Derivatives, FaceHessian, FlatProblem, unrotate};
+use crate::surface_map::parametrisation::problem::{
+    Derivatives, FaceHessian, FlatProblem, NewtonSystem, unrotate,
+};
 use crate::surface_map::parametrisation::rest_triangle::{Corner, rest_jacobian};
 use crate::surface_map::parametrisation::unknowns::Unknowns;
 use glam::{DMat2, DVec2};
@@ -328,8 +330,8 @@ impl<'a> Relaxation<'a> {
             by_triangle: &hessians,
             by_unknown: &self.present.constraint_hessians,
         };
-        let exactness = [self.damping[moving], LINEAR_TOLERANCE];
-        let step = problem.direction(&z, &derivatives, exactness, monitor)?;
+        let system = NewtonSystem { damping: self.damping[moving], tolerance: LINEAR_TOLERANCE };
+        let step = problem.direction(&z, &derivatives, system, monitor)?;
         let descent: f64 = -slope.iter().zip(&step).map(|(g, d)| g.dot(*d)).sum::<f64>();
         if descent.is_nan() || descent <= 0.0 {
             return Ok(false);
