@@ -10,6 +10,9 @@ use std::f64::consts::PI;
 /// Largest error of the direction of a line, in radians: it is known as exactly as its ends, and lines can be short.
 pub(super) const ANGLE_TOLERANCE: f64 = 1e-5;
 
+/// Largest difference of a direction's length from 1: above rounding, and far below what lengths of lines are held to.
+const UNIT_TOLERANCE: f64 = 1e-9;
+
 /// The corners around a vertex, counter-clockwise, each with the angle at which it begins.
 pub(super) struct Around {
     corners: Vec<(HalfedgeId, f64)>,
@@ -27,8 +30,8 @@ impl Around {
         Self { corners, total }
     }
 
-    /// The angle of a direction, in radians from the first corner's side; NaN where it does not start here or lies outside of
-    /// its corner.
+    /// The angle of a direction, in radians from the first corner's side; NaN where it does not start here, lies outside of its
+    /// corner, or is no unit vector.
     pub(super) fn angle(&self, judged: &Judged<'_>, start: &Start) -> f64 {
         let Some((_, begin)) = self.corners.iter().find(|(corner, _)| *corner == start.corner) else {
             return f64::NAN;
@@ -36,7 +39,8 @@ impl Around {
         let along = judged.corners[start.corner.next()] - judged.corners[start.corner];
         let turn = signed_angle(along, start.direction);
         let excess = max(-turn, turn - corner_angle(judged, start.corner));
-        if excess <= ANGLE_TOLERANCE { begin + turn } else { f64::NAN }
+        let is_unit = (start.direction.length() - 1.0).abs() <= UNIT_TOLERANCE;
+        if is_unit && excess <= ANGLE_TOLERANCE { begin + turn } else { f64::NAN }
     }
 
     /// The difference of two angles around the vertex, at most half of the total.

@@ -5,17 +5,18 @@
 //!
 //! # What is checked
 //!
-//! A connected mesh, each triangle with corners in its own plane, and a rigid motion across each edge; a base domain with an edge length
+//! A closed mesh, each triangle with corners in its own plane, and a rigid motion across each edge; a base domain with an edge length
 //! for each of its edges; for each base halfedge the corner and the direction in which it is said to start.
 //!
 //! 1. Every triangle is positively oriented: exactly, by an adaptive predicate on the stored numbers (Shewchuk 1997).
 //! 2. Both planes see each edge alike: carried over by the rigid motion its ends agree to 1e-6 (the mesh has area 1).
 //! 3. The angles around each vertex sum to 2 pi, those around each landmark to the cone angle of the base domain's triangles: to
 //!    1e-6 rad. The sum of a wrong vertex differs by 2 pi or more, so this bound only has to be above rounding.
-//! 4. The starts around each landmark make the angles of the base domain's triangles, in the same order: to 1e-5 rad.
+//! 4. The starts around each landmark are unit vectors, to 1e-9, and make the angles of the base domain's triangles, in the same
+//!    order: to 1e-5 rad.
 //! 5. Each base edge, followed straight from its start, ends at its landmark after its length, to 1e-6, in the direction in
 //!    which its twin is said to start, to 1e-5 rad.
-//! 6. Mesh and base domain have Euler characteristic 2.
+//! 6. Mesh and base domain are connected, with the Euler characteristic 2, and no two landmarks share a vertex.
 //! 7. No two of these lines cross. The tracer tells by which edges a line goes and where, once for both triangles of an edge;
 //!    whether two lines cross in a triangle is then a question of the order of their ends, and is answered without further
 //!    rounding.

@@ -4,9 +4,10 @@ use super::crossings;
 use super::directions::{ANGLE_TOLERANCE, Around};
 use super::judged::{Judged, Prescribed};
 use super::tracer::{Goal, Line, trace};
+use crate::math::disjoint_sets::DisjointSets;
 use crate::math::predicates::orient2d;
 use crate::math::triangle::turn;
-use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use std::f64::consts::TAU;
 use std::fmt;
 use typed_index_collections::{TiVec, ti_vec};
@@ -71,13 +72,14 @@ impl Certificate {
             landmarks.is_finite() && landmarks > TOLERANCE,
             format!("a base edge ends {landmarks:.1e} beside its landmark"),
         );
+        let is_no_direction = directions.is_nan() && !landmarks.is_nan();
         say(
-            directions > ANGLE_TOLERANCE,
+            is_no_direction || directions > ANGLE_TOLERANCE,
             format!("base edges meet at angles that are off by {directions:.1e} rad"),
         );
         say(self.crossings > 0, format!("base edges cross {} times", self.crossings));
         if faults.is_empty() && !self.bijective {
-            faults.push("a mesh is no sphere".to_owned());
+            faults.push("a mesh is no sphere, or landmarks share a vertex".to_owned());
         }
         faults
     }
@@ -140,8 +142,8 @@ fn with_lines(flat: Certificate, judged: &Judged<'_>, prescribed: &Prescribed<'_
         lines.push(line);
     }
     let crossings = crossings::count(judged, &lines);
-    let spheres = [judged.mesh, base].into_iter().all(|mesh| mesh.euler_characteristic() == 2);
-    let bijective = spheres
+    let bijective = [judged.mesh, base].into_iter().all(is_sphere)
+        && are_distinct(judged.landmark_vertices)
         && max_landmark_error <= TOLERANCE
         && max_direction_error <= ANGLE_TOLERANCE
         && crossings == 0;
@@ -151,6 +153,19 @@ fn with_lines(flat: Certificate, judged: &Judged<'_>, prescribed: &Prescribed<'_
 /// The larger one; NaN wins, so that it is never taken for a small error.
 fn nan_max(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+}
+
+/// Whether a closed mesh is one sphere: in one part, with the Euler characteristic 2, which a ball beside a torus has, too.
+fn is_sphere(mesh: &SurfaceMesh) -> bool {
+    let mut parts = DisjointSets::new(mesh.vertex_count());
+    let joins = mesh.edges().filter(|&h| parts.join(mesh.tail(h).index(), mesh.head(h).index())).count();
+    joins + 1 == mesh.vertex_count() && mesh.euler_characteristic() == 2
+}
+
+fn are_distinct(vertices: &[VertexId]) -> bool {
+    let mut sorted = vertices.to_vec();
+    sorted.sort_unstable();
+    sorted.windows(2).all(|pair| pair[0] != pair[1])
 }
 
 fn is_positive(judged: &Judged<'_>, f: FaceId) -> bool {
@@ -189,6 +204,27 @@ fn transition_error(judged: &Judged<'_>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::generators::{octahedron, torus};
+
+    #[test]
+    fn a_ball_beside_a_torus_is_no_sphere() {
+        let (ball, torus) = (octahedron(), torus(5, 4));
+        let shift = ball.vertex_count();
+        let shifted = torus.triangles().iter().map(|f| f.map(|v| VertexId::from(v.index() + shift)));
+        let both = SurfaceMesh::from_triangles(
+            ball.positions().iter().chain(torus.positions()).copied().collect(),
+            ball.triangles().iter().copied().chain(shifted).collect(),
+        );
+        let both = both.unwrap();
+        assert_eq!(both.euler_characteristic(), 2);
+        assert!(is_sphere(&ball) && !is_sphere(&torus) && !is_sphere(&both));
+    }
+
+    #[test]
+    fn landmarks_on_one_vertex_are_not_distinct() {
+        assert!(are_distinct(&[3, 0, 7].map(VertexId)));
+        assert!(!are_distinct(&[3, 0, 7, 3].map(VertexId)));
+    }
 
     #[test]
     fn only_what_is_wrong_is_said() {
@@ -208,6 +244,8 @@ mod tests {
         assert_eq!(missed.to_string(), "a base edge misses its landmark, base edges cross 2 times");
         let unmeasured = Certificate { max_angle_sum_error: f64::NAN, ..Certificate::default() };
         assert!(unmeasured.to_string().contains("angles around a vertex"));
-        assert_eq!(Certificate::default().to_string(), "a mesh is no sphere");
+        let astray = Certificate { max_direction_error: f64::NAN, ..Certificate::default() };
+        assert_eq!(astray.to_string(), "base edges meet at angles that are off by NaN rad");
+        assert_eq!(Certificate::default().to_string(), "a mesh is no sphere, or landmarks share a vertex");
     }
 }

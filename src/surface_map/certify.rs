@@ -121,6 +121,31 @@ mod tests {
     }
 
     #[test]
+    fn a_surface_of_another_size_is_refused() {
+        let (patched, surface, embedding) = example();
+        let side = patched.parametrised(&embedding);
+        let base = &surface.base.mesh;
+        // Longer lines by shorter directions end where they should.
+        let verdict = |scale: f64| {
+            let lengths: TiVec<HalfedgeId, f64> = surface.lengths.iter().map(|l| scale * l).collect();
+            let scaled = |begin: Start| Start { direction: begin.direction / scale, ..begin };
+            let starts: TiVec<HalfedgeId, Start> =
+                base.halfedges().map(|h| scaled(start(side, &surface, h))).collect();
+            let judged = Judged {
+                mesh: side.mesh,
+                corners: &side.embedding.corners,
+                transitions: &side.embedding.transitions,
+                landmark_vertices: &side.landmark_vertices.raw,
+                starts: &starts,
+            };
+            certificate::certify(&judged, &Prescribed { base, lengths: &lengths })
+        };
+        assert!(verdict(1.0).bijective);
+        let twice = verdict(2.0);
+        assert!(!twice.bijective && twice.max_direction_error.is_nan(), "{twice:?}");
+    }
+
+    #[test]
     fn exchanged_landmarks_are_refused() {
         let (mut patched, surface, embedding) = example();
         patched.landmark_vertices.raw.swap(0, 3);
