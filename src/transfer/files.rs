@@ -45,6 +45,25 @@ pub struct Raster {
     pub border: usize,
 }
 
+impl Raster {
+    /// The most texels in a row and in a column that a user may ask for.
+    pub const LARGEST_SIZE: u16 = 8192;
+    /// Texels in a row and in a column where a user says nothing.
+    pub const USUAL_SIZE: u16 = 1024;
+    /// Texels beyond the charts where a user says nothing.
+    pub const USUAL_BORDER: u8 = 8;
+}
+
+impl From<MeshSide> for Direction {
+    /// From this mesh to the other.
+    fn from(giver: MeshSide) -> Self {
+        match giver {
+            MeshSide::Source => Self::SourceToTarget,
+            MeshSide::Target => Self::TargetToSource,
+        }
+    }
+}
+
 /// Values that were brought over.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CarriedValues {

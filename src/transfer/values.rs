@@ -18,6 +18,7 @@ use typed_index_collections::{TiVec, ti_vec};
 
 /// How a value at a vertex is made of those of the other mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "snake_case")]
 pub enum Carrying {

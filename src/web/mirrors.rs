@@ -15,7 +15,7 @@ use wasm_bindgen::prelude::*;
 
 /// Which plane is wanted.
 #[derive(Deserialize)]
-#[serde(rename_all = "lowercase", tag = "kind")]
+#[serde(rename_all = "lowercase", tag = "kind", deny_unknown_fields)]
 enum Wish {
     /// The best one.
     Found,

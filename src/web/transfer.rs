@@ -40,6 +40,7 @@ pub enum GivenFileKind {
 
 /// What is to be brought across, and how.
 #[derive(Deserialize, tsify::Tsify)]
+#[serde(deny_unknown_fields)]
 pub struct TransferWish {
     /// The mesh that gives.
     from: MeshSide,
@@ -48,7 +49,7 @@ pub struct TransferWish {
 
 /// Likewise, by what it is.
 #[derive(Deserialize, tsify::Tsify)]
-#[serde(tag = "kind", rename_all = "kebab-case")]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum TransferWhat {
     /// Values of vertices.
     Values {
@@ -76,10 +77,6 @@ pub enum TransferWhat {
     /// Each mesh in the shape of the other; no file is given.
     Shapes,
 }
-
-/// Texels by which colours are carried on beyond the charts, and the most in a row.
-const BORDER: usize = 8;
-const LARGEST_PICTURE: u16 = 8192;
 
 /// The share of the time that is spent before the first frame moves, about.
 const BEFORE_FRAMES: f64 = 0.2;
@@ -153,17 +150,19 @@ pub fn bring_across(
     listener: &RunListener,
 ) -> Result<BroughtFiles, JsValue> {
     let wish: TransferWish = serde_json::from_str(wish).map_err(|e| failure("transfer", e))?;
+    if let TransferWhat::Texture { size } = wish.what
+        && !(1..=Raster::LARGEST_SIZE).contains(&size)
+    {
+        let sentence = format!("{size} texels in a row: a texture has 1 to {}", Raster::LARGEST_SIZE);
+        return Err(failure("transfer", sentence));
+    }
     let mut messenger = Messenger::new(listener);
     messenger.plan(vec![PlannedStage { stage: Stage::Transfer, time: 1.0 }]);
     messenger.enter(Stage::Transfer);
     let files = MapFiles { map, source, target };
     let open = OpenMap::read(files).map_err(|e| faulty(e.code(), &e, json!(e.side())))?;
     let mapped = MappedFiles { files: open.meshes(), map: &open.taken().map().correspondence };
-    let direction = match wish.from {
-        MeshSide::Source => Direction::SourceToTarget,
-        MeshSide::Target => Direction::TargetToSource,
-    };
-    let desk = Desk { open: &open, mapped, by: FileTransfer::new(mapped, direction), files, given };
+    let desk = Desk { open: &open, mapped, by: FileTransfer::new(mapped, wish.from.into()), files, given };
     desk.brought(&wish.what, &mut messenger).map_err(|error| {
         let file = match error.file() {
             Some(FaultyFile::Given(number)) => json!(number),
@@ -214,7 +213,7 @@ impl Desk<'_> {
             }
             TransferWhat::Texture { size } => {
                 let meshes = [self.files.source, self.files.target];
-                let raster = Raster { size: (*size).clamp(1, LARGEST_PICTURE).into(), border: BORDER };
+                let raster = Raster { size: (*size).into(), border: Raster::USUAL_BORDER.into() };
                 Ok(BroughtFiles::one("texture.png", self.by.texture(&first(), meshes, raster, monitor)?))
             }
             TransferWhat::Frames => self.frames(monitor),

@@ -1,14 +1,15 @@
 //! What the user types.
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 use conemap::cone_metric::Scheme;
-use conemap::export::vertex_image::Direction;
+use conemap::export::MeshFormat;
 use conemap::io::Format;
 use conemap::io::landmark_formats::LandmarkFormat;
 use conemap::job::MeshFaults;
+use conemap::landmarks::MeshSide;
 use conemap::mesh::repair::{Handles, Parts, RepairOptions};
 use conemap::pipeline::Choices;
-use conemap::transfer::Carrying;
+use conemap::transfer::{Carrying, Raster};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -63,8 +64,8 @@ pub struct CheckArguments {
     /// Repair the mesh; without this it is only told what a repair would do.
     #[arg(long)]
     pub repair: bool,
-    /// File for the repaired mesh: its ending, obj, off or ply, says the format.
-    #[arg(long, requires = "repair")]
+    /// File for the repaired mesh.
+    #[arg(long, requires = "repair", help = written_help("File for the repaired mesh"))]
     pub out: Option<PathBuf>,
     /// File for the report (JSON); - for standard output, in place of the sentences.
     #[arg(long, value_name = "FILE")]
@@ -331,11 +332,11 @@ pub struct TransferArguments {
     #[arg(long, group = "what", conflicts_with = "from")]
     pub morph: bool,
     /// The mesh that gives.
-    #[arg(long, value_enum, default_value_t = Side::Target)]
-    pub from: Side,
+    #[arg(long, value_enum, default_value_t = MeshSide::Target)]
+    pub from: MeshSide,
     /// How values are made.
-    #[arg(long, value_enum, default_value_t = Method::Projection, requires = "attributes")]
-    pub method: Method,
+    #[arg(long, value_enum, default_value_t, requires = "attributes")]
+    pub method: Carrying,
     /// Columns that are labels: whole numbers that are not to be mixed.
     #[arg(long, value_name = "NAME", value_delimiter = ',', requires = "attributes")]
     pub labels: Vec<String>,
@@ -343,54 +344,14 @@ pub struct TransferArguments {
     #[arg(long, value_name = "NAME", value_delimiter = ',', requires = "attributes")]
     pub weights: Vec<String>,
     /// Texels in a row and in a column of the picture.
-    #[arg(long, value_name = "TEXELS", default_value_t = 1024, requires = "texture", value_parser = clap::value_parser!(u16).range(1..=8192))]
+    #[arg(long, value_name = "TEXELS", default_value_t = Raster::USUAL_SIZE, requires = "texture", value_parser = clap::value_parser!(u16).range(1..=i64::from(Raster::LARGEST_SIZE)))]
     pub size: u16,
     /// Texels by which colours are carried on beyond the charts.
-    #[arg(long, value_name = "TEXELS", default_value_t = 8, requires = "texture", value_parser = clap::value_parser!(u8).range(..=64))]
+    #[arg(long, value_name = "TEXELS", default_value_t = Raster::USUAL_BORDER, requires = "texture", value_parser = clap::value_parser!(u8).range(..=64))]
     pub border: u8,
     /// File for values (csv or ply by its ending), curves (json, csv or obj), a texture (png) or a morph (glb); folder for frames and shapes.
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
-}
-
-/// One of both meshes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Side {
-    /// The source.
-    Source,
-    /// The target.
-    Target,
-}
-
-impl From<Side> for Direction {
-    /// From this mesh to the other.
-    fn from(side: Side) -> Self {
-        match side {
-            Side::Source => Self::SourceToTarget,
-            Side::Target => Self::TargetToSource,
-        }
-    }
-}
-
-/// How a value at a vertex is made of those of the other mesh.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Method {
-    /// The nearest function that is linear on every face, by least squares over the area.
-    Projection,
-    /// The mean over the vertex's share of the area: blurred, but never beyond what is given.
-    Mean,
-    /// The value at the vertex's image.
-    Sample,
-}
-
-impl From<Method> for Carrying {
-    fn from(method: Method) -> Self {
-        match method {
-            Method::Projection => Self::Projection,
-            Method::Mean => Self::Mean,
-            Method::Sample => Self::Sample,
-        }
-    }
 }
 
 /// `conemap suggest`.
@@ -468,6 +429,11 @@ fn mesh_help(name: &str) -> String {
     format!("{name}: {}; of genus 0, repaired where it is not closed", Format::NAMES)
 }
 
+/// The formats in which meshes are written.
+fn written_help(name: &str) -> String {
+    format!("{name}: its ending says the format: {}", MeshFormat::ALL.map(MeshFormat::ending).join(", "))
+}
+
 /// A time of zero or more seconds.
 fn seconds(text: &str) -> Result<Duration, String> {
     let seconds: f64 = text.parse().map_err(|_| format!("`{text}` is no number of seconds"))?;
@@ -506,8 +472,8 @@ pub struct RemeshArguments {
     /// Edges whose faces' normals differ by more than this stay sharp; 180 for none.
     #[arg(long, value_name = "DEGREES", default_value_t = 45.0, value_parser = degrees)]
     pub crease_angle: f64,
-    /// File for the new mesh: its ending, obj, off or ply, says the format.
-    #[arg(long)]
+    /// File for the new mesh.
+    #[arg(long, help = written_help("File for the new mesh"))]
     pub out: PathBuf,
     /// File for the report (JSON).
     #[arg(long)]

@@ -124,7 +124,7 @@ impl Transfer<'_> {
     fn values(&self, path: &Path, format: ValueFormat) -> Result<(), Failure> {
         let bytes = input::bytes(path)?;
         let options = ValueOptions {
-            carrying: self.arguments.method.into(),
+            carrying: self.arguments.method,
             labels: self.arguments.labels.clone(),
             weights: self.arguments.weights.clone(),
             format,

@@ -2,9 +2,9 @@
 
 use serde::Deserialize;
 
-/// What a repair may do.
+/// What a repair may do. A name or a value that is not known is an error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
+#[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct RepairOptions {
     /// Vertices on open edges are joined where they are within this distance, in the file's units; 0 for exactly equal places.
     pub join_within: f64,
