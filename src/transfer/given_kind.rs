@@ -2,9 +2,12 @@
 
 use crate::io::vertex_table::{self, AnnouncedColumn, TableError};
 use crate::io::{Format, OtherFile, curve_file, detect};
+use serde::Serialize;
 
 /// What a file may be taken for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
+#[serde(rename_all = "snake_case")]
 pub enum GivenKind {
     /// Values of vertices.
     Values,
@@ -13,7 +16,7 @@ pub enum GivenKind {
     /// A picture.
     Texture,
     /// A mesh in another pose.
-    Frame,
+    Frames,
 }
 
 /// What a file may hold.
@@ -58,7 +61,7 @@ const NORMALS: [&str; 3] = ["nx", "ny", "nz"];
 /// # Errors
 /// [`GivenKindError`] where nothing of it can be brought over.
 pub fn given_file(bytes: &[u8]) -> Result<GivenFile, GivenKindError> {
-    use GivenKind::{Curves, Frame, Texture, Values};
+    use GivenKind::{Curves, Frames, Texture, Values};
     let only = |kinds: &[GivenKind]| Ok(GivenFile { kinds: kinds.to_vec(), columns: Vec::new() });
     if bytes.starts_with(b"\x89PNG") {
         return only(&[Texture]);
@@ -72,10 +75,10 @@ pub fn given_file(bytes: &[u8]) -> Result<GivenFile, GivenKindError> {
         (Some(Format::Ply), _) => {
             let columns = vertex_table::announced(bytes)?.unwrap_or_default();
             let is_bare = columns.iter().all(|column| NORMALS.contains(&column.name.as_str()));
-            Ok(GivenFile { kinds: if is_bare { vec![Frame] } else { vec![Values, Frame] }, columns })
+            Ok(GivenFile { kinds: if is_bare { vec![Frames] } else { vec![Values, Frames] }, columns })
         }
-        (Some(_), _) if has_curves => only(&[Curves, Frame]),
-        (Some(_), _) => only(&[Frame]),
+        (Some(_), _) if has_curves => only(&[Curves, Frames]),
+        (Some(_), _) => only(&[Frames]),
         // JSON.
         (None, Some(_)) if has_curves => only(&[Curves]),
         (None, Some(OtherFile::Document("JPEG picture" | "GIF picture" | "TIFF picture"))) => {
@@ -109,7 +112,7 @@ mod tests {
 
     #[test]
     fn files_are_told_by_their_content() {
-        use GivenKind::{Curves, Frame, Texture, Values};
+        use GivenKind::{Curves, Frames, Texture, Values};
         let told = |bytes: &[u8]| {
             let GivenFile { kinds, columns } = given_file(bytes).unwrap();
             (kinds, columns.into_iter().map(|column| column.name).collect::<Vec<_>>().join(" "))
@@ -121,16 +124,16 @@ mod tests {
         assert_eq!(told(b"heat\n1\n"), values("heat"));
         assert_eq!(told(b"curve,vertex\na,0\n"), (vec![Curves, Values], "curve vertex".to_owned()));
         assert_eq!(told(b"a,0\n").0, [Curves, Values]);
-        assert_eq!(told(&ply_with(&["bone", "nx"])), (vec![Values, Frame], "bone nx".to_owned()));
-        assert_eq!(told(&ply_with(&["nx", "ny", "nz"])), (vec![Frame], "nx ny nz".to_owned()));
+        assert_eq!(told(&ply_with(&["bone", "nx"])), (vec![Values, Frames], "bone nx".to_owned()));
+        assert_eq!(told(&ply_with(&["nx", "ny", "nz"])), (vec![Frames], "nx ny nz".to_owned()));
         let bare = |bytes: &[u8]| {
             let (kinds, columns) = told(bytes);
             assert_eq!(columns, "");
             kinds
         };
-        assert_eq!(bare(&ply_with(&[])), [Frame]);
-        assert_eq!(bare(b"v 0 0 0\nf 1 1 1\n"), [Frame]);
-        assert_eq!(bare(b"v 0 0 0\nf 1 1 1\nl 1 1\n"), [Curves, Frame]);
+        assert_eq!(bare(&ply_with(&[])), [Frames]);
+        assert_eq!(bare(b"v 0 0 0\nf 1 1 1\n"), [Frames]);
+        assert_eq!(bare(b"v 0 0 0\nf 1 1 1\nl 1 1\n"), [Curves, Frames]);
         assert_eq!(bare(b"{\"curves\": []}"), [Curves]);
         assert_eq!(bare(b"\x89PNG\r\n"), [Texture]);
     }

@@ -19,23 +19,9 @@ use wasm_bindgen::prelude::*;
 #[derive(Serialize, tsify::Tsify)]
 pub struct GivenFileReport {
     /// What it may be taken for, the likeliest first; at least one.
-    kinds: Vec<GivenFileKind>,
+    kinds: Vec<GivenKind>,
     /// The names of the columns of values that it has.
     columns: Vec<String>,
-}
-
-/// What a file may be taken for.
-#[derive(Serialize, tsify::Tsify)]
-#[serde(rename_all = "kebab-case")]
-pub enum GivenFileKind {
-    /// Values of vertices.
-    Values,
-    /// Curves.
-    Curves,
-    /// A picture.
-    Texture,
-    /// A mesh in another pose.
-    Frames,
 }
 
 /// What is to be brought across, and how.
@@ -88,16 +74,7 @@ const BEFORE_FRAMES: f64 = 0.2;
 #[wasm_bindgen(js_name = givenFile)]
 pub fn given_file_report(bytes: &[u8]) -> Result<String, JsValue> {
     let GivenFile { kinds, columns } = given_file(bytes).map_err(|e| failure("transfer", e))?;
-    let kind = |kind| match kind {
-        GivenKind::Values => GivenFileKind::Values,
-        GivenKind::Curves => GivenFileKind::Curves,
-        GivenKind::Texture => GivenFileKind::Texture,
-        GivenKind::Frame => GivenFileKind::Frames,
-    };
-    let report = GivenFileReport {
-        kinds: kinds.into_iter().map(kind).collect(),
-        columns: columns.into_iter().map(|column| column.name).collect(),
-    };
+    let report = GivenFileReport { kinds, columns: columns.into_iter().map(|column| column.name).collect() };
     serde_json::to_string(&report).map_err(|e| failure("transfer", e))
 }
 

@@ -1,11 +1,11 @@
 /** What the page and the worker that brings files across say to each other. */
 import type { Failure } from '../compute/messages.ts';
-import type { GivenFileKind, GivenFileReport, TransferWish } from '../wasm/core.js';
+import type { GivenFileReport, GivenKind, TransferWish } from '../wasm/core.js';
 
 export type { GivenFileReport, TransferWhat, TransferWish } from '../wasm/core.js';
 
 /** What a file may be taken for. */
-export type Kind = GivenFileKind;
+export type Kind = GivenKind;
 
 /** What a map is made of: its file, and those of its meshes. */
 export interface MapBytes {
