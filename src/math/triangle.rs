@@ -1,7 +1,7 @@
 //! Triangles from edge lengths or corner positions.
 
 use super::scalar::{atan2, max};
-use glam::{DVec2, DVec3};
+use glam::{DMat2, DVec2, DVec3};
 
 /// Area of a triangle from its edge lengths by Kahan's stable form of Heron's formula.
 ///
@@ -59,6 +59,14 @@ pub fn hat_gradients([p, q, r]: [DVec2; 3]) -> [DVec2; 3] {
     [r - q, p - r, q - p].map(|side| side.perp() / double_area)
 }
 
+/// The Jacobian of the affine map that takes a triangle with these gradients of its hat functions to one with these corners.
+#[inline]
+pub fn jacobian(corners: &[DVec2; 3], hats: &[DVec2; 3]) -> DMat2 {
+    let column =
+        |c: fn(DVec2) -> f64| corners[0] * c(hats[0]) + corners[1] * c(hats[1]) + corners[2] * c(hats[2]);
+    DMat2::from_cols(column(|g| g.x), column(|g| g.y))
+}
+
 /// Corner positions in the plane of a triangle with edge lengths |01|, |12|, |20|: corner 0 at the origin, corner 1
 /// on the positive x axis, corner 2 above it.
 pub fn lay_out([l01, l12, l20]: [f64; 3]) -> [DVec2; 3] {
@@ -79,6 +87,16 @@ mod tests {
         assert!((q.distance(r) - 2.5).abs() < 1e-14);
         assert!((r.distance(p) - 1.2).abs() < 1e-14);
         assert!(signed_double_area(p, q, r) > 0.0);
+    }
+
+    #[test]
+    fn the_jacobian_takes_sides_to_sides() {
+        let from = [DVec2::new(0.3, 0.1), DVec2::new(1.2, -0.2), DVec2::new(0.5, 0.9)];
+        let onto = [DVec2::new(-1.0, 0.4), DVec2::new(0.7, 1.1), DVec2::new(-0.3, 2.0)];
+        let j = jacobian(&onto, &hat_gradients(from));
+        for k in 1..3 {
+            assert!((j * (from[k] - from[0])).distance(onto[k] - onto[0]) < 1e-14);
+        }
     }
 
     #[test]

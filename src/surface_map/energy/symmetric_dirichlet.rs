@@ -14,11 +14,19 @@ use glam::DMat2;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SymmetricDirichlet;
 
+impl SymmetricDirichlet {
+    /// e(J) of a Jacobian with |J|^2 = `squares` and a positive determinant.
+    #[inline]
+    pub fn of(squares: f64, det: f64) -> f64 {
+        0.25 * squares * (1.0 + 1.0 / (det * det))
+    }
+}
+
 impl Density for SymmetricDirichlet {
     #[inline]
     fn density(&self, j: &DMat2) -> f64 {
         let det = j.determinant();
-        if det > 0.0 { 0.25 * squares(j) * (1.0 + 1.0 / (det * det)) } else { f64::INFINITY }
+        if det > 0.0 { Self::of(squares(j), det) } else { f64::INFINITY }
     }
 
     /// (J (1 + 1/det^2) / 2) - |J|^2 cof(J) / (2 det^3).

@@ -10,6 +10,7 @@ use crate::math::triangle::lay_out;
 use crate::mesh::cap_faces::CapFaces;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Pulse, Step};
+use crate::surface_map::energy::symmetric_dirichlet::SymmetricDirichlet;
 use crate::surface_map::overlay::{Overlay, OverlayPoint, Piece};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use crate::surface_map::parametrisation::rest_triangle::rest_jacobian;
@@ -36,7 +37,7 @@ impl LocalDistortion {
 
     /// Of a Jacobian with |J|^2 = `squares` and a positive determinant.
     fn new(squares: f64, det: f64) -> Self {
-        Self { density: 0.25 * squares * (1.0 + 1.0 / (det * det)), angle: 0.5 * squares / det, area: det }
+        Self { density: SymmetricDirichlet::of(squares, det), angle: 0.5 * squares / det, area: det }
     }
 }
 

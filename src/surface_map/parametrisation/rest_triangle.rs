@@ -95,9 +95,7 @@ impl FlatTriangle {
     /// The Jacobian from the rest plane to the chart.
     #[inline]
     pub(super) fn jacobian(&self, p: &[DVec2; 3]) -> DMat2 {
-        let column =
-            |c: fn(DVec2) -> f64| p[0] * c(self.hats[0]) + p[1] * c(self.hats[1]) + p[2] * c(self.hats[2]);
-        DMat2::from_cols(column(|g| g.x), column(|g| g.y))
+        triangle::jacobian(p, &self.hats)
     }
 }
 

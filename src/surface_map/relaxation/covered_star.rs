@@ -9,7 +9,7 @@ use super::dent_energy::DentEnergy;
 use crate::math::matrix2::{SymmetricEigen, symmetric_eigen};
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::{ln, max, min};
-use crate::math::triangle::signed_double_area;
+use crate::math::triangle::{jacobian, signed_double_area};
 use crate::mesh::face_weights::{FaceWeight, PieceWeight};
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::monitor::{Cancelled, Monitor, Pulse};
@@ -185,8 +185,7 @@ impl CoveredStar {
             if signed_double_area(z, p, q) <= 0.0 {
                 return None;
             }
-            let column = |c: fn(DVec2) -> f64| z * c(ray.hats[0]) + p * c(ray.hats[1]) + q * c(ray.hats[2]);
-            let jacobian = DMat2::from_cols(column(|g| g.x), column(|g| g.y));
+            let jacobian = jacobian(&[z, p, q], &ray.hats);
             let scale = 1.0 / jacobian.determinant();
             let own = BoxedTriangle::new([z, p, q]);
             for cover in &self.covers {
