@@ -1,4 +1,7 @@
 //! Disjoint sets of numbers (union and find).
+//!
+//! Which number stands for a set is part of some results, in whose order they come: [`DisjointSets::join`] says which it is. Crates for
+//! this join by rank or size, and leave it open.
 
 /// A partition of 0..n into sets that are joined two by two.
 #[derive(Clone, Debug)]
@@ -21,7 +24,7 @@ impl DisjointSets {
         i
     }
 
-    /// Joins two sets; `false` when they were one already.
+    /// Joins two sets, for which the number that stood for that of j stands from now on; `false` when they were one already.
     pub fn join(&mut self, i: usize, j: usize) -> bool {
         let (a, b) = (self.root(i), self.root(j));
         self.parent[a] = b as u32;

@@ -1,4 +1,4 @@
-//! Priority queues by a number, and shortest paths in graphs with them.
+//! Priority queues by a number, and shortest paths in graphs with them. Numbers are ordered by [`f64::total_cmp`].
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;

@@ -10,6 +10,7 @@ use crate::coarse_map::multilevel::LevelImages;
 use crate::coarse_map::{
     CoarseMapError, LEAST_PER_LANDMARK, LandmarkedMesh, MultilevelOptions, coarse_levels,
 };
+use crate::landmarks::LandmarkId;
 use crate::layout::SearchOptions;
 use crate::mesh::closest_point::closest_point;
 use crate::mesh::insertion::insert;
@@ -17,6 +18,7 @@ use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
 use crate::surface_map::MapError;
 use glam::DVec3;
+use typed_index_collections::TiVec;
 
 /// Two meshes with landmarks, some of them soft.
 #[derive(Clone, Copy)]
@@ -94,7 +96,7 @@ pub fn settle(
         for &i in &soft {
             // Each goes over all faces of the target.
             part.step(Step { fraction: 1.0, residual: None })?;
-            let Some(next) = seen.place(i, options.rings) else { continue };
+            let Some(next) = seen.place(i.into(), options.rings) else { continue };
             let next = next.within(input, i, given[i], scale);
             let from = places[i].position(target);
             if (input.may_hold)(next.face) {
@@ -137,12 +139,12 @@ impl Wanted {
 struct Seen {
     images: LevelImages,
     /// By landmark its vertex of the source's coarse level and of the target's.
-    landmarks: [Vec<VertexId>; 2],
+    landmarks: [TiVec<LandmarkId, VertexId>; 2],
 }
 
 impl Seen {
     /// Where the map of its surroundings takes a landmark; `None` where they tell nothing.
-    fn place(&self, landmark: usize, rings: usize) -> Option<Wanted> {
+    fn place(&self, landmark: LandmarkId, rings: usize) -> Option<Wanted> {
         let [source, target] = &self.images.levels;
         let own = self.landmarks[0][landmark];
         let around = surroundings(&source.mesh, own, rings);

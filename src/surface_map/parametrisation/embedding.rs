@@ -7,7 +7,7 @@ use crate::mesh::face_weights::FaceWeights;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec2;
 use std::sync::Arc;
-use typed_index_collections::{TiSlice, TiVec};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 /// A piecewise linear map from a mesh to a [`crate::surface_map::ConeSurface`].
 ///
@@ -60,6 +60,15 @@ pub struct Parametrised<'a> {
     pub embedding: &'a Embedding,
     /// How much its faces count in an energy of the map.
     pub weights: FaceWeights<'a>,
+}
+
+impl Parametrised<'_> {
+    /// By vertex whether it is a landmark.
+    pub fn landmark_flags(&self) -> TiVec<VertexId, bool> {
+        let mut is_landmark = ti_vec![false; self.mesh.vertex_count()];
+        self.landmark_vertices.iter().for_each(|&v| is_landmark[v] = true);
+        is_landmark
+    }
 }
 
 impl PatchedMesh {

@@ -8,7 +8,7 @@ use crate::math::rigid2::Rigid2;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor};
 use glam::DVec2;
-use typed_index_collections::{TiSlice, TiVec, ti_vec};
+use typed_index_collections::{TiSlice, TiVec};
 
 /// The corners of a parametrisation as its faces see them: those of the stars belong to free vertices, numbered in order, each
 /// with its coordinates in the plane of its star's first face; the others are fixed.
@@ -41,9 +41,8 @@ pub struct Unknowns<'a> {
 impl<'a> Unknowns<'a> {
     /// All vertices but the landmarks, in order.
     pub fn new(side: Parametrised<'a>) -> Self {
-        let Parametrised { mesh, landmark_vertices, embedding, .. } = side;
-        let mut is_landmark = ti_vec![false; mesh.vertex_count()];
-        landmark_vertices.iter().for_each(|&v| is_landmark[v] = true);
+        let Parametrised { mesh, embedding, .. } = side;
+        let is_landmark = side.landmark_flags();
         let free: Vec<VertexId> = mesh.vertices().filter(|&v| !is_landmark[v]).collect();
         let stars = free.iter().map(|&v| mesh.star(v));
         Self { mesh, sights: sights(stars, &embedding.corners, &embedding.transitions), free }

@@ -89,10 +89,9 @@ pub fn sheets<'a>(
     monitor: &mut dyn Monitor,
 ) -> Result<[Sheet<'a>; 2], Cancelled> {
     let mut sheets = sides.map(|side| {
-        let mut is_landmark = ti_vec![false; side.mesh.vertex_count()];
-        side.landmark_vertices.iter().for_each(|&v| is_landmark[v] = true);
         let partners = ti_vec![Vec::new(); side.mesh.face_count()];
-        Sheet { side, is_landmark, corners: side.embedding.corners.clone(), partners }
+        let (is_landmark, corners) = (side.landmark_flags(), side.embedding.corners.clone());
+        Sheet { side, is_landmark, corners, partners }
     });
     let mut pulse = Pulse::new(monitor, ASKED_EVERY);
     for piece in &overlay.pieces {
