@@ -58,11 +58,7 @@ fn in_file(checked: &CheckedMesh, point: SurfacePoint) -> SurfacePoint {
     };
     let v = checked.mesh.triangles()[point.face][corner];
     let of_file = checked.mesh.star(v).find(|h| !is_made(h.face()));
-    of_file.map_or(point, |h| {
-        let mut barycentric = [0.0; 3];
-        barycentric[h.corner()] = 1.0;
-        SurfacePoint { face: h.face(), barycentric }
-    })
+    of_file.map_or(point, |h| SurfacePoint::on_halfedge(h, 0.0))
 }
 
 /// The landmarks of one side with their places in space and on faces.

@@ -169,12 +169,7 @@ mod tests {
     #[test]
     fn every_edge_is_split_in_three() {
         let mesh = icosphere(1);
-        let on = |h: HalfedgeId, share: f64| {
-            let mut barycentric = [0.0; 3];
-            barycentric[h.corner()] = 1.0 - share;
-            barycentric[h.next().corner()] = share;
-            SurfacePoint { face: h.face(), barycentric }
-        };
+        let on = SurfacePoint::on_halfedge;
         let edges: Vec<HalfedgeId> = mesh.edges().collect();
         // The second time the point is on half an edge, and told of the face on its other side.
         let halves = edges.iter().map(|&h| on(h, 0.5));

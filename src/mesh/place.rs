@@ -52,7 +52,7 @@ impl Place {
     pub fn surface_point(self, mesh: &SurfaceMesh) -> SurfacePoint {
         match self {
             Self::Vertex(v) => SurfacePoint::at_vertex(mesh, v),
-            Self::Edge { halfedge, along } => on_halfedge(halfedge, along),
+            Self::Edge { halfedge, along } => SurfacePoint::on_halfedge(halfedge, along),
             Self::Face(point) => point,
         }
     }
@@ -65,11 +65,11 @@ impl Place {
                 Some([0, 1, 2].map(|k| if k == corner { 1.0 } else { 0.0 }))
             }
             Self::Edge { halfedge, along } if halfedge.face() == face => {
-                Some(on_halfedge(halfedge, along).barycentric)
+                Some(SurfacePoint::on_halfedge(halfedge, along).barycentric)
             }
             Self::Edge { halfedge, along } => {
                 let twin = mesh.twin(halfedge);
-                (twin.face() == face).then(|| on_halfedge(twin, 1.0 - along).barycentric)
+                (twin.face() == face).then(|| SurfacePoint::on_halfedge(twin, 1.0 - along).barycentric)
             }
             Self::Face(point) => (point.face == face).then_some(point.barycentric),
         }
@@ -99,13 +99,6 @@ impl Place {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PlaceKey(u8, u32, [u64; 2]);
 
-fn on_halfedge(halfedge: HalfedgeId, along: f64) -> SurfacePoint {
-    let mut barycentric = [0.0; 3];
-    barycentric[halfedge.corner()] = 1.0 - along;
-    barycentric[halfedge.next().corner()] = along;
-    SurfacePoint { face: halfedge.face(), barycentric }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -116,14 +109,14 @@ mod tests {
         let mesh = icosphere(1);
         for h in mesh.halfedges() {
             let twin = mesh.twin(h);
-            let [here, there] = [on_halfedge(h, 0.25), on_halfedge(twin, 0.75)];
+            let [here, there] = [SurfacePoint::on_halfedge(h, 0.25), SurfacePoint::on_halfedge(twin, 0.75)];
             let place = Place::of(&mesh, here);
             assert_eq!(place, Place::of(&mesh, there));
             assert_eq!(place.weights_in(&mesh, h.face()), Some(here.barycentric));
             assert_eq!(place.weights_in(&mesh, twin.face()), Some(there.barycentric));
             assert!(place.position(&mesh).distance(here.position(&mesh)) < 1e-15);
             let v = mesh.tail(h);
-            let corner = on_halfedge(h, 0.0);
+            let corner = SurfacePoint::on_halfedge(h, 0.0);
             assert_eq!(Place::of(&mesh, corner), Place::Vertex(v));
             assert_eq!(Place::Vertex(v).weights_in(&mesh, h.face()), Some(corner.barycentric));
         }

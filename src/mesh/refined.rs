@@ -64,12 +64,7 @@ impl RefinedMesh {
     pub fn with_vertices(&self, input: &SurfaceMesh, least: usize) -> Result<Self, MeshError> {
         let mut refined = self.clone();
         while refined.mesh.vertex_count() < least {
-            let middle = |h: HalfedgeId| {
-                let mut barycentric = [0.0; 3];
-                barycentric[h.corner()] = 0.5;
-                barycentric[h.next().corner()] = 0.5;
-                SurfacePoint { face: h.face(), barycentric }
-            };
+            let middle = |h: HalfedgeId| SurfacePoint::on_halfedge(h, 0.5);
             let points: Vec<SurfacePoint> = refined.mesh.edges().map(middle).collect();
             refined = refined.with_points(input, &points)?.0;
         }

@@ -1,6 +1,6 @@
 //! Points on a surface mesh.
 
-use super::{FaceId, SurfaceMesh, VertexId};
+use super::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use crate::math::barycentric;
 use glam::DVec3;
 
@@ -21,9 +21,15 @@ impl SurfacePoint {
 
     /// A vertex as a corner of one of its faces.
     pub fn at_vertex(mesh: &SurfaceMesh, v: VertexId) -> Self {
-        let h = mesh.outgoing(v);
+        Self::on_halfedge(mesh.outgoing(v), 0.0)
+    }
+
+    /// A point of a face's side: `along` is 0 at the start of the halfedge and 1 at its end.
+    #[inline]
+    pub fn on_halfedge(h: HalfedgeId, along: f64) -> Self {
         let mut barycentric = [0.0; 3];
-        barycentric[h.corner()] = 1.0;
+        barycentric[h.corner()] = 1.0 - along;
+        barycentric[h.next().corner()] = along;
         Self { face: h.face(), barycentric }
     }
 

@@ -365,10 +365,7 @@ impl Pen<'_> {
 
     fn crossed_at(&self, crossing: &Crossing) -> Place {
         let Crossing { edge, along_edge, .. } = *crossing;
-        let mut barycentric = [0.0; 3];
-        barycentric[edge.corner()] = 1.0 - along_edge;
-        barycentric[edge.next().corner()] = along_edge;
-        Place::of(self.side.mesh, SurfacePoint { face: edge.face(), barycentric })
+        Place::of(self.side.mesh, SurfacePoint::on_halfedge(edge, along_edge))
     }
 
     /// Weights, in one of the two charts at a base side, of a point of the side.
@@ -379,10 +376,7 @@ impl Pen<'_> {
         } else {
             (self.surface.base.mesh.twin(line), 1.0 - along_line)
         };
-        let mut weights = [0.0; 3];
-        weights[h.corner()] = 1.0 - along;
-        weights[h.next().corner()] = along;
-        weights
+        SurfacePoint::on_halfedge(h, along).barycentric
     }
 
     /// Weights of a landmark in a chart that has it as a corner.

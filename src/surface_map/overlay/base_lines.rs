@@ -163,8 +163,5 @@ pub fn start(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -> St
 fn crossing(h: HalfedgeId, [a, b]: [DVec2; 2], [p, q]: [DVec2; 2]) -> SurfacePoint {
     let [sa, sb] = [a, b].map(|end| signed_double_area(p, q, end));
     let share = if sa == sb { 0.5 } else { (sa / (sa - sb)).clamp(0.0, 1.0) };
-    let mut barycentric = [0.0; 3];
-    barycentric[h.corner()] = 1.0 - share;
-    barycentric[h.next().corner()] = share;
-    SurfacePoint { face: h.face(), barycentric }
+    SurfacePoint::on_halfedge(h, share)
 }

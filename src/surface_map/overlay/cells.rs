@@ -6,7 +6,7 @@ use super::seats::Seats;
 use super::trace::Traces;
 use crate::math::barycentric;
 use crate::math::rigid2::Rigid2;
-use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Monitor, Pulse, Step};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use crate::surface_map::parametrisation::embedding::triangle;
@@ -328,10 +328,7 @@ fn corner_in(mesh: &SurfaceMesh, f: FaceId, v: VertexId) -> usize {
 /// A point of an edge, given by both its halfedges, as seen from one of its two faces.
 fn on_edge([h, twin]: [HalfedgeId; 2], f: FaceId, along: f64) -> [f64; 3] {
     let (h, along) = if h.face() == f { (h, along) } else { (twin, 1.0 - along) };
-    let mut barycentric = [0.0; 3];
-    barycentric[h.corner()] = 1.0 - along;
-    barycentric[h.next().corner()] = along;
-    barycentric
+    SurfacePoint::on_halfedge(h, along).barycentric
 }
 
 /// Share of its triangle that a polygon in barycentric coordinates covers; positive when counter-clockwise.
