@@ -1,5 +1,6 @@
 //! How much the faces of a level count, where the full mesh has caps.
 
+use crate::math::barycentric::interpolated;
 use crate::mesh::coarsening::Level;
 use crate::mesh::face_weights::{FaceWeight, FaceWeights};
 use crate::mesh::surface_index::SurfaceIndex;
@@ -44,8 +45,8 @@ impl<'a> Skin<'a> {
         let weight = |f: FaceId| {
             let [a, b, c] = level.mesh.corners(f);
             let normal: DVec3 = (b - a).cross(c - a);
-            let at = |[u, v, w]: [f64; 3]| {
-                let place = a * u + b * v + c * w;
+            let at = |weights: [f64; 3]| {
+                let place = interpolated([a, b, c], weights);
                 self.weights[self.index.nearest_facing(place, normal, level.faces[f]).point.face]
             };
             let seen = SAMPLES.map(at);

@@ -3,6 +3,7 @@
 //! Triangles are unfolded along their sides as long as they do not overlap; where they would (more than a full turn lies around
 //! some cones) a new island begins. Islands are set in rows on the unit square.
 
+use crate::math::barycentric::interpolated;
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle::{lay_out, signed_double_area};
 use crate::mesh::{FaceId, HalfedgeId};
@@ -42,9 +43,8 @@ impl FlatSheet {
     }
 
     /// The place on the sheet of a point of a base face.
-    pub fn at(&self, chart: FaceId, [u, v, w]: [f64; 3]) -> DVec2 {
-        let [p, q, r] = self.corners[chart];
-        p * u + q * v + r * w
+    pub fn at(&self, chart: FaceId, weights: [f64; 3]) -> DVec2 {
+        interpolated(self.corners[chart], weights)
     }
 }
 

@@ -1,6 +1,7 @@
 //! The point of a surface nearest to a point in space.
 
 use super::{FaceId, SurfaceMesh, SurfacePoint};
+use crate::math::barycentric::interpolated;
 use crate::math::segment::nearest_share;
 use glam::DVec3;
 
@@ -11,7 +12,7 @@ pub fn closest_point(mesh: &SurfaceMesh, p: DVec3, normal: DVec3) -> SurfacePoin
     for face in mesh.faces() {
         let [a, b, c] = mesh.corners(face);
         let barycentric = closest_in_triangle(p, [a, b, c]);
-        let distance = p.distance_squared(a * barycentric[0] + b * barycentric[1] + c * barycentric[2]);
+        let distance = p.distance_squared(interpolated([a, b, c], barycentric));
         let turned = (b - a).cross(c - a).dot(normal) <= 0.0;
         let slot = &mut best[usize::from(turned)];
         if distance < slot.0 {

@@ -41,7 +41,6 @@ impl SurfacePoint {
 
     /// Position in space.
     pub fn position(&self, mesh: &SurfaceMesh) -> DVec3 {
-        let [p, q, r] = mesh.corners(self.face);
-        p * self.barycentric[0] + q * self.barycentric[1] + r * self.barycentric[2]
+        barycentric::interpolated(mesh.corners(self.face), self.barycentric)
     }
 }

@@ -9,7 +9,7 @@ use super::mapped_files::MappedFiles;
 use crate::export::vertex_image::Direction;
 use crate::io::picture::Picture;
 use crate::map_file::FileMesh;
-use crate::math::barycentric::shares;
+use crate::math::barycentric::{interpolated, shares};
 use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, SurfacePoint};
 use crate::monitor::{Cancelled, Monitor, Step};
@@ -132,9 +132,8 @@ pub fn baked(
             if colour.is_none() {
                 let point = SurfacePoint::clamped(face, barycentric);
                 let image = if giver == 0 { locator.preimage(point) } else { locator.image(point) };
-                let [a, b, c] = given[image.face];
-                let [u, v, w] = image.barycentric;
-                *colour = Some(colour_at(texture.picture, a * u + b * v + c * w));
+                let uv = interpolated(given[image.face], image.barycentric);
+                *colour = Some(colour_at(texture.picture, uv));
             }
         });
     }

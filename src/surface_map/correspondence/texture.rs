@@ -1,6 +1,7 @@
 //! Texture coordinates of the target, and the pieces as one textured triangulation of both meshes.
 
 use super::pieces::Correspondence;
+use crate::math::barycentric::interpolated;
 use crate::mesh::normals::vertex_normals;
 use crate::mesh::{Carrier, FaceId, HalfedgeId, Place, SurfaceMesh, VertexId};
 use crate::surface_map::measures::transfer::CommonMesh;
@@ -85,8 +86,7 @@ impl Patch {
     }
 
     fn uv(&self, place: DVec2) -> DVec2 {
-        let [u, v, w] = self.weights(place);
-        self.uvs[0] * u + self.uvs[1] * v + self.uvs[2] * w
+        interpolated(self.uvs, self.weights(place))
     }
 }
 
@@ -107,9 +107,8 @@ struct Surfaces<'a> {
 impl Surfaces<'_> {
     fn normal(&self, side: usize, place: Place) -> DVec3 {
         let point = place.surface_point(self.meshes[side]);
-        let [a, b, c] = self.meshes[side].triangles()[point.face].map(|v| self.normals[side][v]);
-        let [u, v, w] = point.barycentric;
-        (a * u + b * v + c * w).normalize_or(DVec3::Z)
+        let normals = self.meshes[side].triangles()[point.face].map(|v| self.normals[side][v]);
+        interpolated(normals, point.barycentric).normalize_or(DVec3::Z)
     }
 }
 

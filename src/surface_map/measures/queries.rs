@@ -134,7 +134,5 @@ fn depth(ring: &[OverlayPoint], q: DVec2, place: impl Fn(&OverlayPoint) -> DVec2
 }
 
 fn at(embedding: &Embedding, point: SurfacePoint) -> DVec2 {
-    let [a, b, c] = embedding.triangle(point.face);
-    let [u, v, w] = point.barycentric;
-    a * u + b * v + c * w
+    barycentric::interpolated(embedding.triangle(point.face), point.barycentric)
 }
