@@ -16,18 +16,32 @@ struct Build {
     stance: f64,
     /// Radii of a leg at its top, knee and foot.
     leg: [f64; 3],
-    /// End of the neck relative to the chest, and its radii.
-    neck: (DVec2, [f64; 2]),
-    /// Nose relative to the end of the neck, and the radii of skull and nose.
-    head: (DVec2, [f64; 2]),
+    /// From the chest to the skull.
+    neck: Taper,
+    /// From the skull to the nose.
+    head: Taper,
     /// Length and radius of the ears.
     ear: [f64; 2],
-    /// Points of the tail relative to the rump, and its radius.
-    tail: ([DVec2; 2], f64),
+    tail: Tail,
     /// Shift of the hind knees backwards.
     hock: f64,
     blend: f64,
     cell: f64,
+}
+
+/// A part that tapers.
+struct Taper {
+    /// Its end relative to its begin.
+    reach: DVec2,
+    /// Radii at both ends.
+    radii: [f64; 2],
+}
+
+struct Tail {
+    /// Its middle and its tip relative to the rump.
+    points: [DVec2; 2],
+    /// Radius in the middle.
+    radius: f64,
 }
 
 pub(super) fn horse() -> Shape {
@@ -37,10 +51,10 @@ pub(super) fn horse() -> Shape {
         body: [0.40, 0.38],
         stance: 0.22,
         leg: [0.19, 0.095, 0.085],
-        neck: (DVec2::new(0.55, 0.72), [0.27, 0.17]),
-        head: (DVec2::new(0.46, -0.30), [0.19, 0.11]),
+        neck: Taper { reach: DVec2::new(0.55, 0.72), radii: [0.27, 0.17] },
+        head: Taper { reach: DVec2::new(0.46, -0.30), radii: [0.19, 0.11] },
         ear: [0.24, 0.055],
-        tail: ([DVec2::new(-0.32, -0.12), DVec2::new(-0.46, -0.72)], 0.085),
+        tail: Tail { points: [DVec2::new(-0.32, -0.12), DVec2::new(-0.46, -0.72)], radius: 0.085 },
         hock: 0.12,
         blend: 0.16,
         cell: 0.066,
@@ -54,10 +68,10 @@ pub(super) fn cat() -> Shape {
         body: [0.33, 0.35],
         stance: 0.20,
         leg: [0.17, 0.105, 0.10],
-        neck: (DVec2::new(0.26, 0.30), [0.25, 0.22]),
-        head: (DVec2::new(0.22, -0.06), [0.29, 0.17]),
+        neck: Taper { reach: DVec2::new(0.26, 0.30), radii: [0.25, 0.22] },
+        head: Taper { reach: DVec2::new(0.22, -0.06), radii: [0.29, 0.17] },
         ear: [0.22, 0.08],
-        tail: ([DVec2::new(-0.50, 0.28), DVec2::new(-0.62, 0.98)], 0.085),
+        tail: Tail { points: [DVec2::new(-0.50, 0.28), DVec2::new(-0.62, 0.98)], radius: 0.085 },
         hock: 0.16,
         blend: 0.13,
         cell: 0.062,
@@ -67,20 +81,20 @@ pub(super) fn cat() -> Shape {
 fn build(b: &Build) -> Shape {
     let flat = |p: DVec2| p.extend(0.0);
     let (chest, rump) = (DVec3::new(b.half_length, b.height, 0.0), DVec3::new(-b.half_length, b.height, 0.0));
-    let skull = chest + flat(b.neck.0);
-    let nose = skull + flat(b.head.0);
-    let tail = b.tail.0.map(|p| rump + flat(p));
+    let skull = chest + flat(b.neck.reach);
+    let nose = skull + flat(b.head.reach);
+    let tail = b.tail.points.map(|p| rump + flat(p));
     let root = rump + DVec3::new(-0.12, 0.12, 0.0);
     let cones = vec![
         RoundCone::new(chest, rump, b.body),
-        RoundCone::new(chest + DVec3::new(0.05, 0.1, 0.0), skull, b.neck.1),
-        RoundCone::new(skull, nose, b.head.1),
-        RoundCone::new(root, tail[0], [b.tail.1 * 1.15, b.tail.1]),
-        RoundCone::new(tail[0], tail[1], [b.tail.1, b.tail.1 * 0.8]),
+        RoundCone::new(chest + DVec3::new(0.05, 0.1, 0.0), skull, b.neck.radii),
+        RoundCone::new(skull, nose, b.head.radii),
+        RoundCone::new(root, tail[0], [b.tail.radius * 1.15, b.tail.radius]),
+        RoundCone::new(tail[0], tail[1], [b.tail.radius, b.tail.radius * 0.8]),
     ];
     let points = vec![
-        ("nose", nose + flat(b.head.0.normalize()) * b.head.1[1]),
-        ("tail tip", tail[1] + (tail[1] - tail[0]).normalize() * b.tail.1),
+        ("nose", nose + flat(b.head.reach.normalize()) * b.head.radii[1]),
+        ("tail tip", tail[1] + (tail[1] - tail[0]).normalize() * b.tail.radius),
         ("withers", chest + DVec3::new(-0.15, b.body[0], 0.0)),
         ("croup", rump + DVec3::new(0.1, b.body[1], 0.0)),
         ("chest", chest + DVec3::new(b.body[0], -0.05, 0.0)),
@@ -107,7 +121,7 @@ fn add_limbs(
     names: [&'static str; 6],
 ) {
     let outwards = DVec3::Z * side;
-    let ear = skull + DVec3::new(-0.02, b.head.1[0] * 0.75, side * b.head.1[0] * 0.62);
+    let ear = skull + DVec3::new(-0.02, b.head.radii[0] * 0.75, side * b.head.radii[0] * 0.62);
     let ear_tip = ear + DVec3::new(-0.05, b.ear[0], side * b.ear[0] * 0.3);
     cones.push(RoundCone::new(ear, ear_tip, [b.ear[1] * 1.3, b.ear[1] * 0.6]));
     points.push((names[0], ear_tip + DVec3::Y * b.ear[1] * 0.6));

@@ -147,13 +147,13 @@ pub fn common_mesh(
             }
             ring.push(index);
         }
-        push_fan(&mut mesh, &ring, (number as u32, piece.faces));
+        push_fan(&mut mesh, &ring, number as u32, piece.faces);
     }
     mesh
 }
 
 /// The triangles of a piece, without those that have a corner twice.
-fn push_fan(mesh: &mut CommonMesh, ring: &[u32], (piece, faces): (u32, [FaceId; 2])) {
+fn push_fan(mesh: &mut CommonMesh, ring: &[u32], piece: u32, faces: [FaceId; 2]) {
     for k in 2..ring.len() {
         let triangle = [ring[0], ring[k - 1], ring[k]];
         if triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0] {
