@@ -5,6 +5,7 @@ use crate::clicks::Random;
 use crate::common::Pair;
 use crate::fit::{COUNTS, Counts, Fit};
 use conemap::landmark_fit::{Finding, Repair};
+use conemap::landmarks::LandmarkId;
 use conemap::layout::LandmarkDistances;
 use conemap::mesh::VertexId;
 use conemap::monitor::Silent;
@@ -95,7 +96,11 @@ fn exchanged(landmarks: usize, fit: &Fit, random: &mut Random, named: &mut Count
     let b = (a + 1 + (random.share() * (n - 1) as f64) as usize) % n;
     let distances = LandmarkDistances::new([&fit.meshes[0], &fit.meshes[1]], &fit.landmarks, &mut Silent)
         .expect("nobody stops");
-    let row = if distances.between([a, b])[0] < NEAR { "any two, near" } else { "any two, far" };
+    let row = if distances.between([a, b].map(LandmarkId::from))[0] < NEAR {
+        "any two, near"
+    } else {
+        "any two, far"
+    };
     let mut wrong = fit.clone();
     wrong.landmarks.target.swap(a, b);
     count((row, landmarks), &wrong, [a.min(b), a.max(b)], named);
@@ -106,7 +111,7 @@ fn misplaced((landmarks, away): (usize, f64), fit: &Fit, random: &mut Random, na
     let pair = (random.share() * fit.numbers.len() as f64) as usize;
     let distances = LandmarkDistances::new([&fit.meshes[0], &fit.meshes[1]], &fit.landmarks, &mut Silent)
         .expect("nobody stops");
-    let field = distances.field(1, pair);
+    let field = distances.field(1, pair.into());
     let is = |v: &VertexId| (field[*v] - away).abs() < 0.03 && !fit.landmarks.target.contains(v);
     let places: Vec<VertexId> = fit.meshes[1].vertices().filter(is).collect();
     if places.is_empty() {

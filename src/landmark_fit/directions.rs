@@ -25,7 +25,7 @@ impl Directions {
         let sides = [&landmarks.source, &landmarks.target];
         let angles = [0, 1].map(|s| {
             let ring = |v: &VertexId| Ring::new(meshes[s], *v);
-            let fields = || (0..distances.landmark_count()).map(|j| distances.field(s, j));
+            let fields = || (0..distances.landmark_count()).map(|j| distances.field(s, j.into()));
             sides[s].iter().map(ring).map(|ring| fields().map(|f| ring.direction(f)).collect()).collect()
         });
         Self { angles }

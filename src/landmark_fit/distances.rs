@@ -1,7 +1,7 @@
 //! Distances between landmarks on the source against those on the target, by logarithm.
 
 use super::finding::Finding;
-use crate::landmarks::Landmarks;
+use crate::landmarks::{LandmarkId, Landmarks};
 use crate::layout::LandmarkDistances;
 use crate::math::scalar::{exp, ln, max, min};
 use crate::mesh::VertexId;
@@ -41,8 +41,10 @@ impl<'a> Fit<'a> {
     pub(super) fn new(landmarks: &'a Landmarks, distances: &'a LandmarkDistances) -> Self {
         let n = landmarks.len();
         let log = |d: f64| ln(d + SOFTENING);
-        let source = (0..n).map(|i| (0..n).map(|j| log(distances.between([i, j])[0])).collect()).collect();
-        let target = (0..n).map(|j| distances.field(1, j).iter().map(|&d| log(d)).collect()).collect();
+        let between = |i: usize, j: usize| log(distances.between([i, j].map(LandmarkId::from))[0]);
+        let source = (0..n).map(|i| (0..n).map(|j| between(i, j)).collect()).collect();
+        let field = |j: usize| distances.field(1, j.into()).iter();
+        let target = (0..n).map(|j| field(j).map(|&d| log(d)).collect()).collect();
         Self {
             distances,
             target_of: (0..n).collect(),
@@ -116,7 +118,7 @@ impl<'a> Fit<'a> {
         let vertices = (0..self.target[0].len()).map(VertexId::from);
         let placed = vertices.map(|v| (self.misfit(pair, v, usize::MAX), v));
         let (then, place) = placed.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        let away = |j: usize| self.distances.field(1, self.target_of[j])[place];
+        let away = |j: usize| self.distances.field(1, self.target_of[j].into())[place];
         let others = (0..self.len()).filter(|&j| j != pair);
         let near = others.min_by(|&i, &j| away(i).total_cmp(&away(j)))?;
         let distance = away(pair);

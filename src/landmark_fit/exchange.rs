@@ -9,6 +9,7 @@ use super::directions::Directions;
 use super::distances::Fit;
 use super::finding::Finding;
 use super::orders::{Vote, pair_vote};
+use crate::landmarks::LandmarkId;
 use crate::layout::LandmarkDistances;
 use crate::math::scalar::{max, min};
 use crate::monitor::{Cancelled, Monitor, Step};
@@ -59,6 +60,7 @@ impl<'a> Exchange<'a> {
     pub(super) fn new(distances: &LandmarkDistances, directions: &'a Directions, handedness: f64) -> Self {
         let n = distances.landmark_count();
         let between = |s: usize, i: usize, j: usize| {
+            let [i, j] = [i, j].map(LandmarkId::from);
             0.5 * (distances.between([i, j])[s] + distances.between([j, i])[s])
         };
         let row = |s: usize, i: usize| (0..n).map(|j| between(s, i, j)).collect();

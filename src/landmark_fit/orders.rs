@@ -4,7 +4,7 @@
 //! each other's target, the orders around either of the two that contain the other are reversed.
 
 use super::directions::Directions;
-use crate::landmarks::Landmarks;
+use crate::landmarks::{LandmarkId, Landmarks};
 use crate::layout::LandmarkDistances;
 use crate::math::scalar::{max, min};
 use crate::mesh::SurfaceMesh;
@@ -75,7 +75,8 @@ pub(super) fn pair_vote(directions: &Directions, target_of: &[usize], [a, b]: [u
 
 /// The landmarks nearest to one on both meshes together, the nearest first.
 pub(super) fn nearest(distances: &LandmarkDistances, target_of: &[usize], i: usize) -> Vec<usize> {
-    let sum = |j: usize| distances.between([i, j])[0] + distances.between([target_of[i], target_of[j]])[1];
+    let between = |side: usize, ends: [usize; 2]| distances.between(ends.map(LandmarkId::from))[side];
+    let sum = |j: usize| between(0, [i, j]) + between(1, [target_of[i], target_of[j]]);
     let mut near: Vec<usize> = (0..target_of.len()).filter(|&j| j != i).collect();
     near.sort_by(|&j, &k| sum(j).total_cmp(&sum(k)).then(j.cmp(&k)));
     near.truncate(NEIGHBOURS);

@@ -6,16 +6,17 @@ use super::drawing_fault::DrawingFault;
 use super::landmark_distances::LandmarkDistances;
 use super::path_search::{Bounded, EndStep, FoundPath, Node, PathSearch, Query, Sector};
 use super::refinable::RefinableMesh;
-use crate::landmarks::Landmarks;
+use crate::landmarks::{LandmarkId, Landmarks};
 use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor};
+use typed_index_collections::{TiVec, ti_vec};
 
 /// One of the two meshes with the paths drawn so far.
 #[derive(Clone, Debug)]
 pub(super) struct MeshWithPaths {
     pub mesh: RefinableMesh,
     /// Vertex of each landmark.
-    pub landmarks: Vec<VertexId>,
+    pub landmarks: TiVec<LandmarkId, VertexId>,
     /// Vertices of each path, from its smaller landmark to its larger.
     pub paths: Vec<Vec<VertexId>>,
     /// Length of each path.
@@ -26,7 +27,7 @@ pub(super) struct MeshWithPaths {
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
     /// The landmarks, smaller first.
-    pub ends: [usize; 2],
+    pub ends: [LandmarkId; 2],
     /// On the source and on the target.
     pub found: [FoundPath; 2],
 }
@@ -36,9 +37,9 @@ pub(super) struct Plan {
 pub(super) struct Drawing {
     pub sides: [MeshWithPaths; 2],
     /// Landmarks of each path, smaller first.
-    pub ends: Vec<[usize; 2]>,
+    pub ends: Vec<[LandmarkId; 2]>,
     /// Paths around each landmark, counter-clockwise.
-    pub rotation: Vec<Vec<usize>>,
+    pub rotation: TiVec<LandmarkId, Vec<usize>>,
 }
 
 /// Search memory of both sides, distances, the cost of midpoints, and what a drawing may take.
@@ -101,10 +102,10 @@ impl<'a> Planner<'a> {
     pub fn draw(
         &self,
         drawing: &mut Drawing,
-        ends: [usize; 2],
+        ends: [LandmarkId; 2],
         plan: Option<Plan>,
     ) -> Result<(), DrawingFault> {
-        let no_path = DrawingFault::NoPath { landmarks: ends };
+        let no_path = DrawingFault::NoPath { landmarks: ends.map(usize::from) };
         let Some(plan) = plan else { return Err(self.fault(drawing).unwrap_or(no_path)) };
         drawing.draw(&plan).ok_or(no_path)?;
         let vertices = drawing.sides.each_ref().map(|side| side.mesh.positions.len());
@@ -153,14 +154,14 @@ impl Drawing {
     pub fn new(source: &SurfaceMesh, target: &SurfaceMesh, landmarks: &Landmarks) -> Self {
         let bare = |mesh: &SurfaceMesh, vertices: &[VertexId]| MeshWithPaths {
             mesh: RefinableMesh::new(mesh, vertices),
-            landmarks: vertices.to_vec(),
+            landmarks: vertices.iter().copied().collect(),
             paths: Vec::new(),
             lengths: Vec::new(),
         };
         Self {
             sides: [bare(source, &landmarks.source), bare(target, &landmarks.target)],
             ends: Vec::new(),
-            rotation: vec![Vec::new(); landmarks.len()],
+            rotation: ti_vec![Vec::new(); landmarks.len()],
         }
     }
 
@@ -170,14 +171,14 @@ impl Drawing {
     /// [`Cancelled`].
     pub fn distances(&self, monitor: &mut dyn Monitor) -> Result<LandmarkDistances, Cancelled> {
         let [source, target] = &self.sides;
-        let landmarks = [&source.landmarks[..], &target.landmarks];
+        let landmarks = [&source.landmarks.raw[..], &target.landmarks.raw];
         LandmarkDistances::without_paths([&source.mesh, &target.mesh], landmarks, monitor)
     }
 
     /// Plans a path: searched freely on one mesh, its sectors imposed on the other; both ways round, the shorter kept.
     ///
     /// `limits` are the lengths beyond which a path is not wanted, on source and target.
-    pub fn plan(&self, planner: &mut Planner<'_>, ends: [usize; 2], limits: [f64; 2]) -> Option<Plan> {
+    pub fn plan(&self, planner: &mut Planner<'_>, ends: [LandmarkId; 2], limits: [f64; 2]) -> Option<Plan> {
         let allowed = ends.map(|i| (0..self.rotation[i].len().max(1)).collect());
         self.plan_within(planner, ends, &allowed, limits)
     }
@@ -186,7 +187,7 @@ impl Drawing {
     pub fn plan_within(
         &self,
         planner: &mut Planner<'_>,
-        ends: [usize; 2],
+        ends: [LandmarkId; 2],
         allowed: &SlotPairs,
         limits: [f64; 2],
     ) -> Option<Plan> {
@@ -222,7 +223,7 @@ impl Drawing {
     pub fn plan_in_slots(
         &self,
         planner: &mut Planner<'_>,
-        ends: [usize; 2],
+        ends: [LandmarkId; 2],
         slots: [usize; 2],
     ) -> Option<Plan> {
         let source = self.search_in_slots(planner, 0, ends, slots, f64::INFINITY)?;
@@ -235,7 +236,7 @@ impl Drawing {
         &self,
         planner: &mut Planner<'_>,
         side: usize,
-        ends: [usize; 2],
+        ends: [LandmarkId; 2],
         slots: [usize; 2],
         limit: f64,
     ) -> Option<FoundPath> {
@@ -247,7 +248,7 @@ impl Drawing {
         &self,
         planner: &mut Planner<'_>,
         side: usize,
-        ends: [usize; 2],
+        ends: [LandmarkId; 2],
         sectors: [&[Sector]; 2],
         limit: f64,
     ) -> Option<FoundPath> {
@@ -265,10 +266,11 @@ impl Drawing {
     /// For every landmark and place of its rotation the face of the drawing that follows counter-clockwise.
     ///
     /// Faces of a connected drawing are discs: two places can be joined when their face is the same.
-    pub fn faces_by_slot(&self) -> Vec<Vec<usize>> {
-        let mut faces: Vec<Vec<usize>> = self.rotation.iter().map(|r| vec![usize::MAX; r.len()]).collect();
+    pub fn faces_by_slot(&self) -> TiVec<LandmarkId, Vec<usize>> {
+        let mut faces: TiVec<LandmarkId, Vec<usize>> =
+            self.rotation.iter().map(|r| vec![usize::MAX; r.len()]).collect();
         let mut count = 0;
-        for i in 0..faces.len() {
+        for i in self.rotation.keys() {
             for k in 0..faces[i].len() {
                 let (mut at, mut slot) = (i, k);
                 if faces[at][slot] != usize::MAX {
@@ -348,11 +350,11 @@ impl Drawing {
 
     /// The error of a drawing that has become too large, with the landmarks whose paths wind most.
     pub fn tangled(&self, distances: &LandmarkDistances) -> DrawingFault {
-        let mut blame = vec![0.0; self.rotation.len()];
+        let mut blame: TiVec<LandmarkId, f64> = ti_vec![0.0; self.rotation.len()];
         for (path, ends) in self.ends.iter().enumerate() {
             ends.iter().for_each(|&landmark| blame[landmark] += self.detour_of(path, distances));
         }
-        DrawingFault::Tangled { near: worst(&blame) }
+        DrawingFault::Tangled { near: worst(&blame.raw) }
     }
 
     /// Replaces a path on one mesh by another in the sector beside it.
@@ -366,7 +368,7 @@ impl Drawing {
     }
 
     /// The outgoing halfedge of a path at one of its landmarks.
-    pub fn path_halfedge(&self, side: usize, landmark: usize, path: usize) -> Option<HalfedgeId> {
+    pub fn path_halfedge(&self, side: usize, landmark: LandmarkId, path: usize) -> Option<HalfedgeId> {
         let vertices = &self.sides[side].paths[path];
         let n = vertices.len();
         let at_start = self.ends[path][0] == landmark;
@@ -375,7 +377,7 @@ impl Drawing {
         self.sides[side].mesh.halfedge_between(from, to)
     }
 
-    fn sectors(&self, side: usize, landmark: usize) -> Vec<Sector> {
+    fn sectors(&self, side: usize, landmark: LandmarkId) -> Vec<Sector> {
         let around = &self.rotation[landmark];
         let halfedges: Vec<_> =
             around.iter().filter_map(|&p| self.path_halfedge(side, landmark, p)).collect();
@@ -389,12 +391,12 @@ impl Drawing {
             .collect()
     }
 
-    fn slots(&self, side: usize, ends: [usize; 2], found: &FoundPath) -> Option<[usize; 2]> {
+    fn slots(&self, side: usize, ends: [LandmarkId; 2], found: &FoundPath) -> Option<[usize; 2]> {
         Some([self.slot(side, ends[0], found.start_step)?, self.slot(side, ends[1], found.end_step)?])
     }
 
     /// The place of the rotation after which a path with this end step goes in.
-    fn slot(&self, side: usize, landmark: usize, step: EndStep) -> Option<usize> {
+    fn slot(&self, side: usize, landmark: LandmarkId, step: EndStep) -> Option<usize> {
         let around = &self.rotation[landmark];
         if around.is_empty() {
             return Some(0);

@@ -5,10 +5,12 @@ use super::error::LayoutError;
 use super::landmark_distances::LandmarkDistances;
 use super::variants::{PLAIN, TreeOrder, Variant};
 use crate::base_domain::BaseDomain;
+use crate::landmarks::LandmarkId;
 use crate::math::disjoint_sets::DisjointSets;
 use crate::math::min_queue::{MinQueue, Queued};
 use crate::monitor::Monitor;
 use std::collections::BTreeSet;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 /// What an attempt needs beside its variant.
 pub(super) struct Ground<'a> {
@@ -80,7 +82,7 @@ pub(super) fn straighten(drawing: &mut Drawing, planner: &mut Planner<'_>) -> Re
             (0..2).map(|s| drawing.sides[s].lengths[p] / geodesics[s]).fold(1.0, f64::max)
         };
         let all = (0..drawing.ends.len()).map(|p| (stretch(p), drawing.ends[p]));
-        let mut bent: Vec<(f64, [usize; 2])> = all.filter(|(stretch, _)| *stretch > BENT).collect();
+        let mut bent: Vec<(f64, [LandmarkId; 2])> = all.filter(|(stretch, _)| *stretch > BENT).collect();
         bent.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         let mut changed = 0;
         for (_, ends) in bent.into_iter().take(10) {
@@ -103,14 +105,14 @@ pub(super) fn draw_base(
     base: &BaseDomain,
     monitor: &mut dyn Monitor,
 ) -> Result<Drawing, LayoutError> {
-    let mesh = &base.mesh;
     let mut planner = Planner::new(ground.distances, 1.0, monitor);
     let mut drawing = ground.empty.clone();
-    let mut edges: Vec<[usize; 2]> =
-        mesh.edges().map(|h| sorted([mesh.tail(h).index(), mesh.head(h).index()])).collect();
+    let mut edges: Vec<[LandmarkId; 2]> =
+        base.mesh.edges().map(|h| sorted([base.tail(h), base.head(h)])).collect();
     edges.sort_by(|&a, &b| ground.distances.sum(a).total_cmp(&ground.distances.sum(b)).then(a.cmp(&b)));
     let mut sets = DisjointSets::new(drawing.rotation.len());
-    let (tree, rest): (Vec<_>, Vec<_>) = edges.into_iter().partition(|&[i, j]| sets.join(i, j));
+    let (tree, rest): (Vec<_>, Vec<_>) =
+        edges.into_iter().partition(|[i, j]| sets.join(i.index(), j.index()));
     let count = tree.len() + rest.len();
     for (done, ends) in tree.into_iter().rev().chain(rest).enumerate() {
         planner.tell(done as f64 / count as f64)?;
@@ -123,9 +125,8 @@ pub(super) fn draw_base(
 }
 
 /// The place of the rotation at landmark `i` after which the edge to `j` goes in, by the base domain's own order.
-fn prescribed_slot(drawing: &Drawing, base: &BaseDomain, [i, j]: [usize; 2]) -> usize {
-    let mesh = &base.mesh;
-    let around: Vec<usize> = mesh.star(i.into()).map(|h| mesh.head(h).index()).collect();
+fn prescribed_slot(drawing: &Drawing, base: &BaseDomain, [i, j]: [LandmarkId; 2]) -> usize {
+    let around: Vec<LandmarkId> = base.star(i).map(|h| base.head(h)).collect();
     let place = around.iter().position(|&n| n == j).unwrap_or(0);
     let other_end = |path: usize| {
         let [a, b] = drawing.ends[path];
@@ -140,18 +141,24 @@ fn prescribed_slot(drawing: &Drawing, base: &BaseDomain, [i, j]: [usize; 2]) -> 
     0
 }
 
-fn sorted([i, j]: [usize; 2]) -> [usize; 2] {
+fn sorted([i, j]: [LandmarkId; 2]) -> [LandmarkId; 2] {
     [i.min(j), i.max(j)]
 }
 
+/// All pairs of so many landmarks, smaller first.
+fn pairs(landmarks: usize) -> impl Iterator<Item = [LandmarkId; 2]> {
+    (0..landmarks).flat_map(|j| (0..j).map(move |i| [i, j].map(LandmarkId::from)))
+}
+
 /// The minimum spanning tree of the summed distances, in drawing order.
-fn tree_in_order(distances: &LandmarkDistances, variant: &Variant) -> Vec<[usize; 2]> {
+fn tree_in_order(distances: &LandmarkDistances, variant: &Variant) -> Vec<[LandmarkId; 2]> {
     let n = distances.landmark_count();
-    let mut pairs: Vec<[usize; 2]> = (0..n).flat_map(|j| (0..j).map(move |i| [i, j])).collect();
+    let mut pairs: Vec<[LandmarkId; 2]> = pairs(n).collect();
     let length = |pair| variant.factor(pair) * distances.sum(pair);
     pairs.sort_by(|&a, &b| length(a).total_cmp(&length(b)).then(a.cmp(&b)));
     let mut sets = DisjointSets::new(n);
-    let mut tree: Vec<[usize; 2]> = pairs.into_iter().filter(|&[i, j]| sets.join(i, j)).collect();
+    let mut tree: Vec<[LandmarkId; 2]> =
+        pairs.into_iter().filter(|[i, j]| sets.join(i.index(), j.index())).collect();
     match variant.order {
         TreeOrder::ShortestFirst => {}
         TreeOrder::LongestFirst => tree.reverse(),
@@ -161,10 +168,10 @@ fn tree_in_order(distances: &LandmarkDistances, variant: &Variant) -> Vec<[usize
 }
 
 /// Peels the tree from its leaves; within a layer the longest first.
-fn leaves_first(tree: Vec<[usize; 2]>, n: usize) -> Vec<[usize; 2]> {
-    let mut degree = vec![0_usize; n];
+fn leaves_first(tree: Vec<[LandmarkId; 2]>, n: usize) -> Vec<[LandmarkId; 2]> {
+    let mut degree: TiVec<LandmarkId, usize> = ti_vec![0; n];
     tree.iter().flatten().for_each(|&i| degree[i] += 1);
-    let mut left: Vec<[usize; 2]> = tree.into_iter().rev().collect();
+    let mut left: Vec<[LandmarkId; 2]> = tree.into_iter().rev().collect();
     let mut ordered = Vec::with_capacity(left.len());
     while !left.is_empty() {
         let (layer, rest): (Vec<_>, Vec<_>) =
@@ -181,16 +188,14 @@ const NO_LIMIT: f64 = 1e6;
 
 /// Pairs not yet adjacent, smallest key first, planned when they come up.
 struct PairQueue<'a> {
-    queue: MinQueue<[usize; 2], Option<Plan>>,
+    queue: MinQueue<[LandmarkId; 2], Option<Plan>>,
     variant: &'a Variant,
 }
 
 impl<'a> PairQueue<'a> {
     fn new(distances: &LandmarkDistances, drawing: &Drawing, variant: &'a Variant) -> Self {
-        let n = distances.landmark_count();
-        let pairs = (0..n).flat_map(|j| (0..j).map(move |i| [i, j]));
-        let drawn: BTreeSet<[usize; 2]> = drawing.ends.iter().copied().collect();
-        let fresh = pairs.filter(|ends| !drawn.contains(ends));
+        let drawn: BTreeSet<[LandmarkId; 2]> = drawing.ends.iter().copied().collect();
+        let fresh = pairs(distances.landmark_count()).filter(|ends| !drawn.contains(ends));
         // No path is shorter than without obstacles.
         let key = |ends| variant.factor(ends) * distances.sum(ends);
         let queue = fresh.map(|ends| Queued { cost: key(ends), key: ends, value: None }).collect();
@@ -236,8 +241,8 @@ impl<'a> PairQueue<'a> {
 }
 
 /// The places of the rotations at both landmarks that border a common face.
-fn common_slots(faces: &[Vec<usize>], [i, j]: [usize; 2]) -> Option<SlotPairs> {
-    let shared = |at: usize, other: usize| -> Vec<usize> {
+fn common_slots(faces: &TiSlice<LandmarkId, Vec<usize>>, [i, j]: [LandmarkId; 2]) -> Option<SlotPairs> {
+    let shared = |at: LandmarkId, other: LandmarkId| -> Vec<usize> {
         (0..faces[at].len()).filter(|&k| faces[other].contains(&faces[at][k])).collect()
     };
     let slots = [shared(i, j), shared(j, i)];

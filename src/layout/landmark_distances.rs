@@ -2,7 +2,7 @@
 
 use super::path_search::{for_each_link, position};
 use super::refinable::RefinableMesh;
-use crate::landmarks::Landmarks;
+use crate::landmarks::{LandmarkId, Landmarks};
 use crate::math::min_queue::shortest_paths;
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
@@ -12,8 +12,8 @@ use typed_index_collections::{TiSlice, TiVec};
 #[derive(Clone, Debug)]
 pub struct LandmarkDistances {
     /// By side and landmark, at every vertex.
-    fields: [Vec<TiVec<VertexId, f64>>; 2],
-    landmarks: [Vec<VertexId>; 2],
+    fields: [TiVec<LandmarkId, TiVec<VertexId, f64>>; 2],
+    landmarks: [TiVec<LandmarkId, VertexId>; 2],
 }
 
 impl LandmarkDistances {
@@ -37,7 +37,7 @@ impl LandmarkDistances {
         landmarks: [&[VertexId]; 2],
         monitor: &mut dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let mut fields: [Vec<_>; 2] = Default::default();
+        let mut fields: [TiVec<LandmarkId, _>; 2] = Default::default();
         let count = (landmarks[0].len() + landmarks[1].len()).max(1) as f64;
         for s in 0..2 {
             monitor.step(Step::default())?;
@@ -48,7 +48,7 @@ impl LandmarkDistances {
                 fields[s].push(links.distances_to(meshes[s], v));
             }
         }
-        Ok(Self { fields, landmarks: landmarks.map(<[VertexId]>::to_vec) })
+        Ok(Self { fields, landmarks: landmarks.map(|vertices| vertices.iter().copied().collect()) })
     }
 
     /// Numbers of vertices of source and target; 0 without landmarks.
@@ -62,17 +62,17 @@ impl LandmarkDistances {
     }
 
     /// Distance of every vertex of the source (side 0) or the target (1) to a landmark.
-    pub fn field(&self, side: usize, landmark: usize) -> &TiSlice<VertexId, f64> {
+    pub fn field(&self, side: usize, landmark: LandmarkId) -> &TiSlice<VertexId, f64> {
         &self.fields[side][landmark]
     }
 
     /// Distances between two landmarks on source and target.
-    pub fn between(&self, [i, j]: [usize; 2]) -> [f64; 2] {
+    pub fn between(&self, [i, j]: [LandmarkId; 2]) -> [f64; 2] {
         [0, 1].map(|s| self.fields[s][i][self.landmarks[s][j]])
     }
 
     /// Sum of the distances on both meshes.
-    pub fn sum(&self, ends: [usize; 2]) -> f64 {
+    pub fn sum(&self, ends: [LandmarkId; 2]) -> f64 {
         let [s, t] = self.between(ends);
         s + t
     }

@@ -3,7 +3,7 @@
 use super::base_layout::{BaseLayout, LayoutReport, PatchedMesh};
 use super::drawing::{Drawing, MeshWithPaths};
 use crate::base_domain::BaseDomain;
-use crate::landmarks::Landmarks;
+use crate::landmarks::{LandmarkId, Landmarks};
 use crate::mesh::{FaceId, HalfedgeId, MeshError, RefinedMesh, SurfaceMesh, VertexId};
 use typed_index_collections::{TiVec, ti_vec};
 
@@ -58,7 +58,7 @@ pub(super) fn base_of(
 ) -> Result<BaseDomain, PatchFault> {
     let positions = landmarks.target.iter().map(|&v| target.positions()[v]).collect();
     let mut faces = TiVec::new();
-    for (i, around) in drawing.rotation.iter().enumerate() {
+    for (i, around) in drawing.rotation.iter_enumerated() {
         let neighbour = |k: usize| {
             let [a, b] = drawing.ends[around[k % around.len()]];
             if a == i { b } else { a }
@@ -66,7 +66,7 @@ pub(super) fn base_of(
         for k in 0..around.len() {
             let (j, l) = (neighbour(k), neighbour(k + 1));
             if i < j && i < l {
-                faces.push([i, j, l].map(VertexId::from));
+                faces.push([i, j, l].map(|landmark| VertexId(landmark.0)));
             }
         }
     }
@@ -90,7 +90,7 @@ pub(super) fn finish(
 
 fn patched(
     mut side: MeshWithPaths,
-    ends: &[[usize; 2]],
+    ends: &[[LandmarkId; 2]],
     base: &BaseDomain,
     input: &SurfaceMesh,
 ) -> Result<PatchedMesh, PatchFault> {
@@ -100,26 +100,25 @@ fn patched(
     let vertex_origin = (0..side.mesh.positions.len()).map(origin).collect();
     let mesh = SurfaceMesh::from_triangles(side.mesh.positions, side.mesh.faces)?;
     let face_patch = flood(&mesh, &paths, &side.mesh.on_path, base)?;
-    let landmark_vertices = side.landmarks.iter().copied().collect();
     Ok(PatchedMesh {
         mesh,
         vertex_origin,
         face_origin: side.mesh.face_origin,
         face_patch,
-        landmark_vertices,
+        landmark_vertices: side.landmarks,
         paths,
     })
 }
 
 fn paths_by_halfedge(
     side: &MeshWithPaths,
-    ends: &[[usize; 2]],
+    ends: &[[LandmarkId; 2]],
     base: &BaseDomain,
 ) -> Result<TiVec<HalfedgeId, Vec<VertexId>>, PatchFault> {
     let mut paths = ti_vec![Vec::new(); base.mesh.face_count() * 3];
     for (path, &[i, j]) in ends.iter().enumerate() {
-        let missing = PatchFault::MissingPath { landmarks: [i, j] };
-        let h = base.mesh.halfedge_between(i.into(), j.into()).ok_or(missing)?;
+        let missing = PatchFault::MissingPath { landmarks: [i, j].map(usize::from) };
+        let h = base.mesh.halfedge_between(VertexId(i.0), VertexId(j.0)).ok_or(missing)?;
         paths[h].clone_from(&side.paths[path]);
         paths[base.mesh.twin(h)] = side.paths[path].iter().rev().copied().collect();
     }

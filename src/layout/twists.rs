@@ -10,13 +10,15 @@ use super::error::LayoutError;
 use super::joint::{complete, straighten};
 use super::path_search::FoundPath;
 use super::variants::PLAIN;
+use crate::landmarks::LandmarkId;
 use crate::math::disjoint_sets::DisjointSets;
+use typed_index_collections::{TiSlice, TiVec};
 
 /// A way to turn one group of landmarks against the other.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Twist {
     /// Which landmarks are in the first group.
-    pub inside: Vec<bool>,
+    pub inside: TiVec<LandmarkId, bool>,
     pub turn: Turn,
     /// Length of the path between the groups after the turn, relative to before, on the mesh where that is least: near 1 both
     /// ways round are plausible.
@@ -73,33 +75,33 @@ pub(super) fn twisted(
 }
 
 /// Groups of landmarks on one side of a curve that crosses each path at most once.
-fn groups(drawing: &Drawing) -> Vec<Vec<bool>> {
+fn groups(drawing: &Drawing) -> Vec<TiVec<LandmarkId, bool>> {
     let n = drawing.rotation.len();
     let order = shortest_first(drawing);
     let mut sets = DisjointSets::new(n);
-    let tree: Vec<[usize; 2]> =
-        order.iter().map(|&p| drawing.ends[p]).filter(|&[i, j]| sets.join(i, j)).collect();
-    let mut groups: Vec<Vec<bool>> = Vec::new();
+    let tree: Vec<[LandmarkId; 2]> =
+        order.iter().map(|&p| drawing.ends[p]).filter(|[i, j]| sets.join(i.index(), j.index())).collect();
+    let mut groups: Vec<TiVec<LandmarkId, bool>> = Vec::new();
     for cut in 0..tree.len() {
         let mut parts = DisjointSets::new(n);
-        for (k, &[i, j]) in tree.iter().enumerate() {
+        for (k, [i, j]) in tree.iter().enumerate() {
             if k != cut {
-                parts.join(i, j);
+                parts.join(i.index(), j.index());
             }
         }
-        let root = parts.root(tree[cut][0]);
+        let root = parts.root(tree[cut][0].index());
         groups.push((0..n).map(|i| parts.root(i) == root).collect());
     }
     // Two landmarks at a short path, such as a knee and a foot.
     for &p in order.iter().take(n) {
-        groups.push((0..n).map(|i| drawing.ends[p].contains(&i)).collect());
+        groups.push(drawing.rotation.keys().map(|i| drawing.ends[p].contains(&i)).collect());
     }
     for group in &mut groups {
-        if !group[0] {
+        if !group[LandmarkId(0)] {
             group.iter_mut().for_each(|inside| *inside = !*inside);
         }
     }
-    let mut distinct: Vec<Vec<bool>> = Vec::new();
+    let mut distinct: Vec<TiVec<LandmarkId, bool>> = Vec::new();
     for group in groups {
         let inside = group.iter().filter(|g| **g).count();
         if inside >= 2 && n - inside >= 2 && !distinct.contains(&group) {
@@ -113,14 +115,14 @@ fn groups(drawing: &Drawing) -> Vec<Vec<bool>> {
 pub(super) fn shortest_tree(complete: &Drawing) -> Drawing {
     let mut sets = DisjointSets::new(complete.rotation.len());
     let order = shortest_first(complete).into_iter().map(|p| complete.ends[p]);
-    with_paths(complete, order.filter(|&[i, j]| sets.join(i, j)).collect())
+    with_paths(complete, order.filter(|[i, j]| sets.join(i.index(), j.index())).collect())
 }
 
 /// The drawing with only those paths that join the given landmarks.
-fn with_paths(complete: &Drawing, mut kept: Vec<[usize; 2]>) -> Drawing {
+fn with_paths(complete: &Drawing, mut kept: Vec<[LandmarkId; 2]>) -> Drawing {
     let mut drawing = complete.clone();
     kept.sort_unstable();
-    let is_kept = |ends: &[usize; 2]| kept.binary_search(ends).is_ok();
+    let is_kept = |ends: &[LandmarkId; 2]| kept.binary_search(ends).is_ok();
     while let Some(p) = drawing.ends.iter().rposition(|ends| !is_kept(ends)) {
         drawing.erase(p);
     }
@@ -151,7 +153,7 @@ struct TurnedPath {
 
 impl Tree {
     /// `None` where a group is not connected by paths inside it.
-    fn new(complete: &Drawing, inside: &[bool]) -> Option<Self> {
+    fn new(complete: &Drawing, inside: &TiSlice<LandmarkId, bool>) -> Option<Self> {
         let mut sets = DisjointSets::new(inside.len());
         let order = shortest_first(complete);
         let within = |p: &usize| {
@@ -159,10 +161,10 @@ impl Tree {
                 && complete.ends[*p].map(|i| inside[i]) != [false, true]
         };
         let (within, across): (Vec<usize>, Vec<usize>) = order.into_iter().partition(within);
-        let mut kept: Vec<[usize; 2]> = Vec::new();
+        let mut kept: Vec<[LandmarkId; 2]> = Vec::new();
         for p in within {
             let [i, j] = complete.ends[p];
-            if sets.join(i, j) {
+            if sets.join(i.index(), j.index()) {
                 kept.push([i, j]);
             }
         }
@@ -316,7 +318,7 @@ mod tests {
         let distances = candidates.distances().clone();
         let mut silent = Silent;
         let mut planner = Planner::new(&distances, 1.0, &mut silent);
-        let inside: Vec<bool> = groups(first.drawing())[0].clone();
+        let inside: TiVec<LandmarkId, bool> = groups(first.drawing())[0].clone();
         let mut tree = Tree::new(first.drawing(), &inside).unwrap().drawing;
         assert_eq!(tree.ends.len(), landmarks.len() - 1);
         assert_eq!(tree.rotation.iter().map(Vec::len).sum::<usize>(), 2 * tree.ends.len());

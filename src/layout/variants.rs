@@ -1,5 +1,7 @@
 //! The ways to draw a layout: in which order the spanning tree is drawn, and what the orders weigh.
 
+use crate::landmarks::LandmarkId;
+
 /// In which order the spanning tree is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TreeOrder {
@@ -23,9 +25,9 @@ pub(super) struct Variant {
 
 impl Variant {
     /// The factor of a pair of landmarks, from 1 to 1 + the perturbation.
-    pub fn factor(&self, [i, j]: [usize; 2]) -> f64 {
+    pub fn factor(&self, [i, j]: [LandmarkId; 2]) -> f64 {
         // splitmix64 (Steele, Lea, Flood 2014) of the pair and the seed.
-        let pair = ((i as u64) << 32) | j as u64;
+        let pair = (u64::from(i.0) << 32) | u64::from(j.0);
         let mut x = pair.wrapping_add(self.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
         for multiplier in [0xbf58_476d_1ce4_e5b9_u64, 0x94d0_49bb_1331_11eb] {
             x = (x ^ (x >> 30)).wrapping_mul(multiplier);

@@ -3,7 +3,7 @@
 
 use crate::theorems;
 use conemap::landmark_fit::{Finding, Repair, landmark_fit};
-use conemap::landmarks::Landmarks;
+use conemap::landmarks::{LandmarkId, Landmarks};
 use conemap::layout::LandmarkDistances;
 use conemap::mesh::coarsening::Level;
 use conemap::mesh::{SurfaceMesh, VertexId};
@@ -77,7 +77,7 @@ pub fn exchanged_targets_are_named(case: &Case) {
         .expect("nobody stops");
     let (mut found, mut tried) = (0, 0);
     for (a, b) in (0..n).flat_map(|a| (0..a).map(move |b| (a, b))) {
-        if (a * 7 + b * 3) % 11 != 0 || distances.between([a, b])[1] < 0.3 {
+        if (a * 7 + b * 3) % 11 != 0 || distances.between([a, b].map(LandmarkId::from))[1] < 0.3 {
             continue;
         }
         let mut landmarks = case.landmarks.clone();

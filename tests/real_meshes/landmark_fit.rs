@@ -109,7 +109,9 @@ fn a_target_on_the_wrong_limb_is_named(data: &Path) {
         let mut found = 0;
         let n = case.landmarks.len();
         for pair in 0..n {
-            let far = |v: &VertexId| distances.field(1, pair)[*v] > 0.6 && !case.landmarks.target.contains(v);
+            let far = |v: &VertexId| {
+                distances.field(1, pair.into())[*v] > 0.6 && !case.landmarks.target.contains(v)
+            };
             let turned = (0..800).map(|k| VertexId((k * 37 + pair as u32 * 101) % 800));
             let wrong = turned.into_iter().find(far).expect("the body is longer than that");
             let mut landmarks = case.landmarks.clone();
