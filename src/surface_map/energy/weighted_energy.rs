@@ -27,6 +27,14 @@ pub struct WeightedEnergy {
     pub counted: PieceWeight,
 }
 
+impl MapEnergy {
+    /// The density of a piece that counts so: the only place that says which one it is.
+    #[inline]
+    pub fn of_piece(self, counted: PieceWeight) -> impl Density {
+        WeightedEnergy { energy: self, counted }
+    }
+}
+
 impl WeightedEnergy {
     /// What the piece costs whatever its distortion, per unit of both areas: what the weight takes from an isometry, and the toll.
     #[inline]

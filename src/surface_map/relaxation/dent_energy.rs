@@ -3,7 +3,6 @@
 use crate::mesh::face_weights::PieceWeight;
 use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
-use crate::surface_map::energy::weighted_energy::WeightedEnergy;
 use crate::surface_map::measures::distortion::LocalDistortion;
 use glam::DMat2;
 
@@ -27,7 +26,6 @@ impl DentEnergy {
         let local = LocalDistortion::of(j);
         let excess = local.density / (Self::DEAR * self.brink);
         let cube = excess * excess * excess;
-        let map = WeightedEnergy { energy: self.energy, counted };
-        map.density(j) + counted.weight * ((1.0 + local.area) * cube * cube)
+        self.energy.of_piece(counted).density(j) + counted.weight * ((1.0 + local.area) * cube * cube)
     }
 }

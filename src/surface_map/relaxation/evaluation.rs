@@ -9,7 +9,6 @@ use crate::mesh::{FaceId, VertexId};
 use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::energy::vertex_energy::VertexEnergy;
-use crate::surface_map::energy::weighted_energy::WeightedEnergy;
 use crate::surface_map::overlay::Measure;
 use crate::surface_map::overlay::location::Locations;
 use crate::surface_map::parametrisation::embedding::Parametrised;
@@ -105,7 +104,7 @@ impl Evaluation {
         let pieces = self.overlay.pieces().iter().zip(&self.onto_rest).zip(&self.weights);
         let part = pieces.map(|((piece, c), &counted)| {
             let a = &self.jacobians[piece.source_face.index()];
-            piece.area / a.determinant() * WeightedEnergy { energy, counted }.density(&(*c * *a))
+            piece.area / a.determinant() * energy.of_piece(counted).density(&(*c * *a))
         });
         part.sum()
     }

@@ -12,7 +12,6 @@ use crate::monitor::{Cancelled, Monitor, Portion, Pulse, Silent, Step};
 use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::energy::point_constraint::PointConstraint;
-use crate::surface_map::energy::weighted_energy::WeightedEnergy;
 use crate::surface_map::overlay::SideOf;
 use crate::surface_map::overlay::location::{Locations, Locator};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
@@ -422,7 +421,7 @@ impl<'a> Relaxation<'a> {
         let mut pulse = Pulse::new(monitor, ASKED_EVERY);
         for ((piece, c), &counted) in overlay.pieces().iter().zip(onto_rest).zip(weights) {
             pulse.beat()?;
-            let energy = WeightedEnergy { energy: self.map_energy, counted };
+            let energy = self.map_energy.of_piece(counted);
             let t = piece.source_face.index();
             let a = &jacobians[t];
             let (det, j) = (a.determinant(), *c * *a);
@@ -459,7 +458,7 @@ impl<'a> Relaxation<'a> {
         let mut pulse = Pulse::new(monitor, ASKED_EVERY);
         for ((piece, c), &counted) in overlay.pieces().iter().zip(onto_rest).zip(weights) {
             pulse.beat()?;
-            let energy = WeightedEnergy { energy: self.map_energy, counted };
+            let energy = self.map_energy.of_piece(counted);
             let t = piece.source_face.index();
             let area = piece.area / jacobians[t].determinant();
             for term in energy.hessian(&(*c * jacobians[t])) {
