@@ -15,6 +15,9 @@ pub enum Direction {
 }
 
 impl Direction {
+    /// There and back.
+    pub const BOTH: [Self; 2] = [Self::SourceToTarget, Self::TargetToSource];
+
     /// The mesh whose vertices are told, then the mesh of their images.
     pub fn names(self) -> [&'static str; 2] {
         match self {

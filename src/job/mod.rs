@@ -21,6 +21,7 @@ mod proof_report;
 mod reading;
 mod saved;
 mod settling;
+mod shapes;
 mod taken;
 mod truth;
 mod wrapping;
@@ -48,6 +49,7 @@ pub use proof_report::{
 pub use reading::{JobFiles, ReadOptions};
 pub use saved::{MapFiles, OpenMap, OpenMapError};
 pub use settling::{SettledLandmark, planned_stages};
+pub use shapes::ShapeOutput;
 pub use taken::{OutputKind, TakenMap};
 pub use truth::TruthError;
 pub use wrapping::{QuadAngles, WrapFileError, WrappedFile, WrappedFileReport};

@@ -5,20 +5,24 @@ use super::parametrisation::cone_surface::ConeSurface;
 use super::parametrisation::embedding::Parametrised;
 use crate::certificate::{self, Certificate, Judged, Prescribed, Start};
 use crate::mesh::HalfedgeId;
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec};
 
 /// Checks that a parametrisation is a homeomorphism onto a cone surface; what that proves is said in [`crate::certificate`].
 pub fn certify(side: Parametrised<'_>, surface: &ConeSurface) -> Certificate {
     let base = &surface.base.mesh;
     let starts: TiVec<HalfedgeId, Start> = base.halfedges().map(|h| start(side, surface, h)).collect();
-    let judged = Judged {
+    certificate::certify(&judged(side, &starts), &Prescribed { base, lengths: &surface.lengths })
+}
+
+/// A parametrisation as plain arrays.
+fn judged<'a>(side: Parametrised<'a>, starts: &'a TiSlice<HalfedgeId, Start>) -> Judged<'a> {
+    Judged {
         mesh: side.mesh,
         corners: &side.embedding.corners,
         transitions: &side.embedding.transitions,
         landmark_vertices: &side.landmark_vertices.raw,
-        starts: &starts,
-    };
-    certificate::certify(&judged, &Prescribed { base, lengths: &surface.lengths })
+        starts,
+    }
 }
 
 #[cfg(test)]
@@ -131,14 +135,7 @@ mod tests {
             let scaled = |begin: Start| Start { direction: begin.direction / scale, ..begin };
             let starts: TiVec<HalfedgeId, Start> =
                 base.halfedges().map(|h| scaled(start(side, &surface, h))).collect();
-            let judged = Judged {
-                mesh: side.mesh,
-                corners: &side.embedding.corners,
-                transitions: &side.embedding.transitions,
-                landmark_vertices: &side.landmark_vertices.raw,
-                starts: &starts,
-            };
-            certificate::certify(&judged, &Prescribed { base, lengths: &lengths })
+            certificate::certify(&judged(side, &starts), &Prescribed { base, lengths: &lengths })
         };
         assert!(verdict(1.0).bijective);
         let twice = verdict(2.0);

@@ -3,10 +3,9 @@
 use super::compute::{Messenger, RunListener};
 use super::failure;
 use crate::export::vertex_image::Direction;
-use crate::job::{MapFiles, OpenMap, OutputKind};
+use crate::job::{MapFiles, OpenMap, ShapeOutput};
 use crate::landmarks::MeshSide;
 use crate::monitor::{Monitor, PlannedStage, Portion, Stage};
-use crate::transfer::shape::shape_report;
 use crate::transfer::{
     Carrying, CurveFormat, FaultyFile, FileTransfer, GivenFile, GivenKind, MappedFiles, Raster,
     TransferError, ValueFormat, ValueOptions, frame_name, given_file,
@@ -139,7 +138,7 @@ pub fn bring_across(
     let files = MapFiles { map, source, target };
     let open = OpenMap::read(files).map_err(|e| faulty(e.code(), &e, json!(e.side())))?;
     let mapped = MappedFiles { files: open.meshes(), map: &open.taken().map().correspondence };
-    let desk = Desk { open: &open, mapped, by: FileTransfer::new(mapped, wish.from.into()), files, given };
+    let desk = Desk { open: &open, by: FileTransfer::new(mapped, wish.from.into()), files, given };
     desk.brought(&wish.what, &mut messenger).map_err(|error| {
         let file = match error.file() {
             Some(FaultyFile::Given(number)) => json!(number),
@@ -159,7 +158,6 @@ fn faulty(code: &str, error: &dyn std::fmt::Display, file: serde_json::Value) ->
 /// A map that is open, and the files that are to be brought over.
 struct Desk<'a> {
     open: &'a OpenMap,
-    mapped: MappedFiles<'a>,
     by: FileTransfer<'a>,
     files: MapFiles<'a>,
     given: Vec<js_sys::Uint8Array>,
@@ -216,24 +214,14 @@ impl Desk<'_> {
     }
 
     fn shapes(&self, monitor: &mut dyn Monitor) -> Result<BroughtFiles, TransferError> {
-        let ways = [
-            (Direction::SourceToTarget, OutputKind::SourceShapeObj, [0.0, 0.5]),
-            (Direction::TargetToSource, OutputKind::TargetShapeObj, [0.5, 1.0]),
-        ];
-        let (mut files, mut sentences) = (Vec::new(), Vec::new());
-        let mut reports = serde_json::Map::new();
-        for (direction, kind, [from, to]) in ways {
-            let part = &mut Portion::new(monitor, from, to);
-            let report = shape_report(self.mapped.meshes(), self.mapped.map, direction, part)?;
-            let [mesh, shape] = direction.names();
-            sentences.push(format!("{mesh} in the {shape}'s shape: {}", report.sentence()));
-            reports.insert(format!("{mesh}_in_{shape}_shape"), json!(report));
-            let bytes =
-                self.open.taken().output(kind).map_err(|e| TransferError::Unwritten(e.to_string()))?;
-            files.push((kind.file_name().to_owned(), bytes));
+        let mut shapes = Vec::new();
+        for (direction, [from, to]) in Direction::BOTH.into_iter().zip([[0.0, 0.5], [0.5, 1.0]]) {
+            shapes.push(self.open.shape(direction, &mut Portion::new(monitor, from, to))?);
         }
-        let report = serde_json::to_vec_pretty(&reports).unwrap_or_default();
-        files.push(("shape.json".to_owned(), report));
+        let sentences: Vec<String> = shapes.iter().map(ShapeOutput::sentence).collect();
+        let figures = ShapeOutput::figures(&shapes);
+        let files = shapes.into_iter().map(|shape| shape.file).chain([figures]);
+        let files = files.map(|file| (file.name.to_owned(), file.bytes)).collect();
         Ok(BroughtFiles { files, remark: Some(sentences.join(". ")) })
     }
 }

@@ -7,19 +7,13 @@ use crate::outputs;
 use crate::saved::SavedFiles;
 use crate::told::say;
 use conemap::export::vertex_image::Direction;
-use conemap::job::{MapFiles, OpenMap, OutputKind};
+use conemap::job::{MapFiles, OpenMap, ShapeOutput};
 use conemap::monitor::Stage;
-use conemap::transfer::shape::shape_report;
 use conemap::transfer::{
     CurveFormat, FaultyFile, FileTransfer, MappedFiles, Raster, TransferError, ValueFormat, ValueOptions,
     frame_name,
 };
-use serde_json::json;
 use std::path::{Path, PathBuf};
-
-/// The meshes of `--shape`, and the file of its figures.
-const SHAPES: [OutputKind; 2] = [OutputKind::SourceShapeObj, OutputKind::TargetShapeObj];
-const SHAPE_REPORT: &str = "shape.json";
 
 /// Brings over what was asked for.
 pub fn run(arguments: &TransferArguments) -> Result<(), Failure> {
@@ -29,7 +23,7 @@ pub fn run(arguments: &TransferArguments) -> Result<(), Failure> {
     let open = files.open()?;
     let mapped = MappedFiles { files: open.meshes(), map: &open.taken().map().correspondence };
     let by = FileTransfer::new(mapped, arguments.from.into());
-    let transfer = Transfer { arguments, files: &files, open: &open, mapped, by };
+    let transfer = Transfer { arguments, files: &files, open: &open, by };
     match what {
         What::Values(path, format) => transfer.values(path, format),
         What::Curves(path, format) => transfer.curves(path, format),
@@ -81,8 +75,7 @@ fn inputs(arguments: &TransferArguments) -> impl Iterator<Item = &PathBuf> {
 fn outputs_of(arguments: &TransferArguments) -> Vec<PathBuf> {
     let out = &arguments.out;
     if arguments.shape {
-        let kinds = SHAPES.iter().map(|kind| out.join(kind.file_name()));
-        kinds.chain([out.join(SHAPE_REPORT)]).collect()
+        ShapeOutput::file_names().map(|name| out.join(name)).to_vec()
     } else if arguments.frames.is_empty() {
         vec![out.clone()]
     } else {
@@ -104,7 +97,6 @@ struct Transfer<'a> {
     arguments: &'a TransferArguments,
     files: &'a SavedFiles<'a>,
     open: &'a OpenMap,
-    mapped: MappedFiles<'a>,
     by: FileTransfer<'a>,
 }
 
@@ -173,20 +165,17 @@ impl Transfer<'_> {
 
     fn shapes(&self) -> Result<(), Failure> {
         let out = &self.arguments.out;
-        let mapped = self.mapped;
-        let mut reports = serde_json::Map::new();
-        for (direction, kind) in
-            [Direction::SourceToTarget, Direction::TargetToSource].into_iter().zip(SHAPES)
-        {
+        let mut shapes = Vec::new();
+        for direction in Direction::BOTH {
             let mut clock = Clock::start_only(Stage::Transfer);
-            let report = shape_report(mapped.meshes(), mapped.map, direction, &mut clock)?;
+            let shape = self.open.shape(direction, &mut clock)?;
             drop(clock);
-            let [mesh, shape] = direction.names();
-            say(format_args!("{mesh} in the {shape}'s shape: {}", report.sentence()));
-            reports.insert(format!("{mesh}_in_{shape}_shape"), json!(report));
-            outputs::write(&out.join(kind.file_name()), &self.open.taken().output(kind)?)?;
+            say(format_args!("{}", shape.sentence()));
+            outputs::write(&out.join(shape.file.name), &shape.file.bytes)?;
+            shapes.push(shape);
         }
-        outputs::write(&out.join(SHAPE_REPORT), &serde_json::to_vec_pretty(&reports)?)
+        let figures = ShapeOutput::figures(&shapes);
+        outputs::write(&out.join(figures.name), &figures.bytes)
     }
 
     fn curves(&self, path: &Path, format: CurveFormat) -> Result<(), Failure> {
