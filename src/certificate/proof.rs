@@ -11,32 +11,34 @@ use std::f64::consts::TAU;
 use std::fmt;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Largest error of an angle sum, in radians, and of a position, in units of sqrt(area), of a homeomorphism. Chosen by hand.
+/// Largest error that is put down to rounding: of an angle sum, in radians, and of a position, in units of sqrt(area). Chosen by hand:
+/// a wrong angle sum is off by 2 pi or more.
 const TOLERANCE: f64 = 1e-6;
 
 /// Whether a parametrisation is a homeomorphism onto the prescribed cone surface, with the numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Certificate {
-    /// Whether it is.
+    /// Whether the parametrisation is a homeomorphism.
     pub bijective: bool,
     /// Triangles that are not positively oriented.
     pub flipped_triangles: usize,
     /// Largest |angle sum - 2 pi| (minus the cone angle at landmarks), in radians.
     pub max_angle_sum_error: f64,
-    /// Largest distance between an edge seen from one side, carried over by the transition, and from the other.
+    /// Largest distance, in units of sqrt(area), between an edge's ends seen from one side, carried over by the transition, and from the
+    /// other.
     pub max_transition_error: f64,
-    /// Largest distance of a landmark from the end of a straight base edge that leads to it; infinite where one misses it, NaN
-    /// where a triangle or an angle is wrong, so that nothing can be followed.
+    /// Largest distance, in units of sqrt(area), of a landmark from the end of a straight base edge that leads to it; infinite where one
+    /// misses it, NaN where a triangle or an angle is wrong, so that no line can be followed.
     pub max_landmark_error: f64,
     /// Largest error of an angle between base edges, at their starts or between an arrival and the twin's start, in radians; NaN
-    /// as for landmarks.
+    /// as for `max_landmark_error`.
     pub max_direction_error: f64,
-    /// Pairs of base edges' parts that cross in a triangle.
+    /// Number of crossings of base edges, counted in each triangle.
     pub crossings: usize,
 }
 
 impl Certificate {
-    /// Both parametrisations together.
+    /// The certificate of two parametrisations together: counts are added, of errors the larger is taken.
     pub fn and(&self, other: &Self) -> Self {
         Self {
             bijective: self.bijective && other.bijective,
@@ -51,7 +53,7 @@ impl Certificate {
 }
 
 impl Certificate {
-    /// What is wrong, with its numbers.
+    /// A sentence for each fault, with its numbers.
     fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         let mut say = |is_so: bool, fault: String| faults.extend(is_so.then_some(fault));
@@ -109,7 +111,7 @@ pub fn certify(judged: &Judged<'_>, prescribed: &Prescribed<'_>) -> Certificate 
     if is_flat { with_lines(measured, judged, prescribed) } else { measured }
 }
 
-/// The certificate of a flat surface: its base edges followed.
+/// Completes the certificate of a flat surface: follows the base edges.
 fn with_lines(flat: Certificate, judged: &Judged<'_>, prescribed: &Prescribed<'_>) -> Certificate {
     let base = prescribed.base;
     let around: TiVec<VertexId, Around> =

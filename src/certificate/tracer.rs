@@ -1,4 +1,4 @@
-//! A straight line over the planes of a parametrised mesh.
+//! The tracer of straight lines over the triangles of a parametrised mesh.
 
 use super::judged::{Judged, Start};
 use crate::math::predicates::orient2d;
@@ -22,7 +22,7 @@ pub(super) struct Line {
 pub(super) struct End {
     /// The corner at which it arrives, with the direction back.
     pub back: Start,
-    /// The distance between the end of the line and the corner.
+    /// The distance between the end of the line and the corner, in units of sqrt(area).
     pub error: f64,
 }
 
@@ -31,7 +31,7 @@ pub(super) struct End {
 pub(super) struct Goal {
     /// The vertex.
     pub vertex: VertexId,
-    /// The length of the line.
+    /// The length of the line, in units of sqrt(area).
     pub length: f64,
     /// The largest distance between the end of the line and a corner of the vertex at which the line has arrived.
     pub tolerance: f64,
