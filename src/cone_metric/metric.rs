@@ -12,7 +12,7 @@ use crate::numerics::graph::Graph;
 use std::f64::consts::TAU;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Flips by halfedge, at most: after a whole step of the flow there are fewer than one.
+/// Flips by halfedge, at most, in one restoration of the Delaunay property: a whole step of the flow needs fewer than one.
 const MOST_FLIPS: usize = 100;
 
 /// A discrete metric conformal to a mesh.
@@ -54,7 +54,7 @@ impl ConeMetric {
         }
     }
 
-    /// Length of an edge; NaN where no length exists, which weighted Delaunay triangulations rule out.
+    /// Length of an edge; NaN where its square would be negative, which weighted Delaunay triangulations rule out.
     pub fn length(&self, h: HalfedgeId) -> f64 {
         let ends = [self.triangulation.tail(h), self.triangulation.tail(h.next())];
         squared_length(self.eps, ends.map(|v| exp(self.log_radii[v])), self.etas[h]).sqrt()
