@@ -17,7 +17,7 @@ pub struct BaseLayout {
     pub source: PatchedMesh,
     /// The drawing on the target.
     pub target: PatchedMesh,
-    /// How straight the paths are.
+    /// Detours and stretch of the paths.
     pub report: LayoutReport,
 }
 
@@ -44,9 +44,9 @@ pub struct PatchedMesh {
 pub struct LayoutReport {
     /// Sum over all paths of both meshes of max(0, length / shortest length - 1.1): 0 for straight layouts.
     pub detour: f64,
-    /// The largest length / shortest length.
+    /// The largest length / shortest length of a path.
     pub worst_stretch: f64,
-    /// Attempts made.
+    /// Orders of drawing that were tried.
     pub attempts: usize,
 }
 
