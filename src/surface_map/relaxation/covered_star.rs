@@ -28,7 +28,7 @@ pub struct Partner {
     pub motion: Rigid2,
 }
 
-/// One side with what overlaps its faces.
+/// One of both parametrised meshes, with the faces of the other one that overlap each of its faces.
 pub struct Sheet<'a> {
     pub side: Parametrised<'a>,
     pub is_landmark: TiVec<VertexId, bool>,
@@ -36,15 +36,16 @@ pub struct Sheet<'a> {
     pub partners: TiVec<FaceId, Vec<Partner>>,
 }
 
-/// A triangle of a star, seen from the place of its vertex.
+/// A triangle of a star, in coordinates whose origin is the vertex.
 pub struct Ray {
     pub halfedge: HalfedgeId,
     /// From the star's plane to the face's.
     pub motion: Rigid2,
+    /// The other two corners, counter-clockwise.
     pub ring: [DVec2; 2],
     /// Gradients of the hat functions in the rest plane, that of the star's vertex first.
     pub hats: [DVec2; 3],
-    /// How much the face counts.
+    /// The weight of the face in the energy.
     pub weight: FaceWeight,
 }
 
@@ -56,7 +57,7 @@ pub struct Cover {
     pub triangle: BoxedTriangle,
     /// From the star's plane to the rest plane.
     pub onto_rest: DMat2,
-    /// How much the face counts.
+    /// The weight of the face in the energy.
     pub weight: FaceWeight,
 }
 
@@ -64,7 +65,7 @@ pub struct Cover {
 pub struct CoveredStar {
     pub rays: Vec<Ray>,
     pub covers: Vec<Cover>,
-    /// Where the origin is in the plane of the first face.
+    /// The place of the vertex in the plane of the first face.
     pub origin: DVec2,
 }
 
@@ -79,7 +80,7 @@ pub struct Improved {
 /// Pieces between two questions to the monitor: some milliseconds.
 const ASKED_EVERY: usize = 16384;
 
-/// Both sides with what overlaps their faces, by their overlay.
+/// Both meshes with the overlapping faces of the other one, found from their overlay.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -105,17 +106,17 @@ pub fn sheets<'a>(
 }
 
 impl Sheet<'_> {
-    /// The face with its rest shape.
+    /// A face with its rest shape.
     fn rest(&self, f: FaceId) -> FlatTriangle {
         FlatTriangle::with_rest(self.triangle(f).map(Corner::Fixed), self.side.mesh.corners(f))
     }
 
-    /// The face in its plane.
+    /// The corners of a face in its plane.
     pub fn triangle(&self, f: FaceId) -> [DVec2; 3] {
         triangle(&self.corners, f)
     }
 
-    /// From the face's rest plane to its plane.
+    /// The Jacobian from a face's rest plane to its plane.
     pub fn jacobian(&self, f: FaceId) -> DMat2 {
         self.rest(f).jacobian_at(DVec2::ZERO)
     }
@@ -164,7 +165,7 @@ impl CoveredStar {
         self.covers.push(Cover { face, motion, triangle: BoxedTriangle::new(corners), onto_rest, weight });
     }
 
-    /// Whether the covers' shares add up to the star.
+    /// Whether the covers' overlaps with the star add up to its area.
     pub fn is_covered(&self) -> bool {
         let (mut area, mut covered) = (0.0, 0.0);
         for ray in &self.rays {
