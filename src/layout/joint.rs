@@ -19,7 +19,7 @@ pub(super) struct Ground<'a> {
 }
 
 impl<'a> Ground<'a> {
-    /// The ground of drawings with any detours.
+    /// A ground without a limit on the detours.
     pub fn new(empty: &'a Drawing, distances: &'a LandmarkDistances) -> Self {
         Self { empty, distances, most_detour: f64::INFINITY }
     }

@@ -40,7 +40,7 @@ impl<'a> OrientedSurface<'a> {
         if turn.length_squared() > LARGEST_TURN * LARGEST_TURN {
             return Foot { distance: -away.dot(normal), normal };
         }
-        // The paraboloid lies below the tangent plane by half the second fundamental form; its gradient gives the normal.
+        // The height of the paraboloid above the tangent plane is half the second fundamental form; its gradient gives the normal.
         let distance = 0.5 * along.dot(turn) - away.dot(normal);
         Foot { distance, normal: (normal - turn).normalize_or(normal) }
     }

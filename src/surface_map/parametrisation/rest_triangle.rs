@@ -12,7 +12,7 @@ use glam::{DMat2, DVec2, DVec3};
 pub struct RestTriangle {
     /// Corners in space.
     pub corners: [DVec3; 3],
-    /// Its weight in the energy: its area, or 1e-30 where that is larger.
+    /// Its weight in the energy, an area: that of the triangle or more.
     pub weight: f64,
 }
 
