@@ -16,11 +16,11 @@ pub struct Judged<'a> {
     pub transitions: &'a TiSlice<HalfedgeId, Rigid2>,
     /// The mesh's vertex of each vertex of the base domain.
     pub landmark_vertices: &'a [VertexId],
-    /// Where each base halfedge is claimed to start.
+    /// The corner and the direction in which each base halfedge is claimed to start.
     pub starts: &'a TiSlice<HalfedgeId, Start>,
 }
 
-/// Where a straight line leaves a vertex.
+/// The corner and the direction in which a straight line leaves a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
     /// A halfedge that starts at the vertex.

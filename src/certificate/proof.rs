@@ -160,7 +160,7 @@ fn is_positive(judged: &Judged<'_>, f: FaceId) -> bool {
     orient2d(p, q, r) > 0.0
 }
 
-/// How far the sum of the angles around a vertex is from 2 pi, or from the prescribed cone angle at a landmark.
+/// The largest difference, in radians, of the sum of the angles around a vertex from 2 pi, or from the prescribed cone angle at a landmark.
 fn angle_sum_error(judged: &Judged<'_>, prescribed: &Prescribed<'_>) -> f64 {
     let mesh = judged.mesh;
     let mut sums: TiVec<VertexId, f64> = ti_vec![0.0; mesh.vertex_count()];
@@ -176,7 +176,7 @@ fn angle_sum_error(judged: &Judged<'_>, prescribed: &Prescribed<'_>) -> f64 {
     sums.iter().zip(&full).map(|(sum, full)| (sum - full).abs()).fold(0.0, nan_max)
 }
 
-/// How far an edge seen from one side, carried over by its transition, is from the same edge seen from the other.
+/// The largest distance of an edge's end seen from one side, carried over by its transition, from the same end seen from the other side.
 fn transition_error(judged: &Judged<'_>) -> f64 {
     let error = |h: HalfedgeId| {
         let t = judged.mesh.twin(h);

@@ -13,7 +13,7 @@ pub(super) struct Line {
     pub begin: HalfedgeId,
     /// The halfedges by which it leaves faces, each with the place where it crosses: 0 at the halfedge's start, 1 at its end.
     pub crossings: Vec<(HalfedgeId, f64)>,
-    /// Where it ends; `None` where it misses its goal.
+    /// Its end; `None` where it misses its goal.
     pub end: Option<End>,
 }
 
@@ -26,7 +26,7 @@ pub(super) struct End {
     pub error: f64,
 }
 
-/// Where a line is to end.
+/// The prescribed end of a line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Goal {
     /// The vertex.

@@ -103,8 +103,9 @@ pub fn choose_class<'a>(
     Ok(Chosen { candidate: best.candidate, search, map: best.map })
 }
 
-/// Progress of the search, 0 to 1, once all layouts have been judged, and once the winner is known but for finer levels.
+/// Progress of the search, 0 to 1, once all layouts have been judged. Chosen by hand, for display only.
 const SEARCHED: f64 = 0.7;
+/// Progress of the search once the winner is known but for finer levels.
 const DECIDED: f64 = 0.9;
 
 /// Winners whose twists are judged, at most: a bound on the time. Chosen by hand.

@@ -1,9 +1,9 @@
 //! A flat cone metric laid out in the plane by region growing (thesis fig. 3.8): from a seed face over the whole surface, each face
 //! isometrically beside one that is there.
 //!
-//! Where the growing meets itself it agrees, unless it has gone round a cone. The edges across which no face was placed form a tree
-//! that spans the vertices of a sphere; without its branches that end at no cone it joins the cones, and this is where the layout is cut.
-//! It is found by counting alone: near a flat cone the two sides of the cut are nearer to each other than rounding tells.
+//! Where the grown region meets itself both sides agree, unless they enclose a cone. The edges across which no face was placed form a tree
+//! that spans the vertices of a sphere; without its branches that end at no cone it joins the cones, and the layout is cut along it.
+//! The tree is found by counting alone: near a nearly flat cone the two sides of the cut differ by less than rounding.
 
 use super::atlas::{Development, develop, mesh_displacements};
 use super::metric::ConeMetric;
@@ -37,7 +37,7 @@ pub struct PlaneLayout {
     pub corners: TiVec<HalfedgeId, u32>,
     /// The faces in the order in which they were placed.
     pub order: Vec<FaceId>,
-    /// Where each ring around the seed starts in that order, and one past the end.
+    /// The number, in that order, of the first face of each ring around the seed, and one past the end.
     pub rings: Vec<usize>,
     /// Whether the layout is cut along the edge; twins agree.
     pub cut: TiVec<HalfedgeId, bool>,

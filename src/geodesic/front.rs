@@ -18,7 +18,7 @@ const MOST_FACES: u32 = 16;
 /// An edge shorter than this, relative to its distance from the centre, may have lost its direction to rounding. Chosen by hand.
 const SHORT: f64 = 1e-5;
 
-/// Relative error of lengths in the plane; a generous bound.
+/// Bound on the relative error of lengths in the plane, far above rounding (1e-16) and far below any error that matters.
 const ROUNDING: f64 = 1e-9;
 
 /// The distances of a mesh while they are computed, with the queue of the vertices whose distances may still fall.
@@ -40,7 +40,7 @@ struct Edge {
     b: DVec2,
 }
 
-/// How far the front has been unfolded from a settled edge.
+/// The extent to which the front has been unfolded from a settled edge.
 #[derive(Clone, Copy)]
 struct Unfolded {
     /// Number of faces, counting the one beyond the present edge.

@@ -16,11 +16,14 @@ const WORSE: f64 = 0.05;
 /// animals have such places.
 const SWAP_SHARE: f64 = 0.6;
 /// A pair is misplaced where another place lowers its misfit by `PLACE_GAIN` + `PLACE_GAIN_OF_FEW` / (number of landmarks), to
-/// the share `PLACE_SHARE`, and is `PLACE_DISTANCE` away (units of the root of the area). With `PLACE_GAIN` alone 4 of 14
+/// the share `PLACE_SHARE`, and is `PLACE_DISTANCE` away. With `PLACE_GAIN` alone 4 of 14
 /// slightly bent sets of 8 landmarks had a false alarm, with both gains 0 of 34.
 const PLACE_GAIN: f64 = 0.2;
+/// See [`PLACE_GAIN`].
 const PLACE_GAIN_OF_FEW: f64 = 1.0;
+/// Largest share of its misfit that a misplaced pair has at the better place. Chosen by hand.
 const PLACE_SHARE: f64 = 0.3;
+/// Least distance of the better place, in units of the root of the area. Chosen by hand.
 const PLACE_DISTANCE: f64 = 0.3;
 
 /// An assignment of targets to pairs, with the logarithms of all distances.

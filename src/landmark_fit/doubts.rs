@@ -10,8 +10,9 @@ use crate::layout::LandmarkDistances;
 use crate::mesh::SurfaceMesh;
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
 
-/// Least numbers of landmarks by which orders, and places, are judged. Chosen by hand.
+/// Least number of landmarks with which a set may be called mirrored. Chosen by hand.
 const LEAST_FOR_ORDERS: usize = 6;
+/// Least number of landmarks with which a pair may be called misplaced. Chosen by hand.
 const LEAST_FOR_PLACES: usize = 8;
 /// A set is mirrored where the mean agreement, with weight 2 for orders and 1 for places in space, is below this.
 ///

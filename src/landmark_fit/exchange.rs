@@ -26,7 +26,9 @@ const WEAK_ORDERS: f64 = 0.1;
 /// `UNANIMOUS` (left and right feet), or by a misfit that falls to the share `LESS`. Chest and throat of the demo's horse and
 /// cat have a vote of the distances of -0.75 and no other sign, and are not exchanged.
 const REVERSED: f64 = -0.1;
+/// See [`REVERSED`].
 const UNANIMOUS: f64 = -0.85;
+/// See [`REVERSED`]. Chosen by hand.
 const LESS: f64 = 0.95;
 
 /// Exchanges that are compared before one is taken, at most: where a pair is in two of them, the one that leaves fewer doubts is

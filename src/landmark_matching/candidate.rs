@@ -54,7 +54,9 @@ pub struct Candidate {
 /// Weights of the score beside the mean log density, found with a prototype on pairs among eight animals of SHREC07. Over the candidates
 /// of 88 matches the best have the same mean error, within 0.2 % of the root of the area, with 0 to 10, 0 to 0.2 and 0 to 0.2.
 const REMOTENESS: f64 = 5.0;
+/// Weight of the number of main tips without a partner; see [`REMOTENESS`].
 const UNMATCHED: f64 = 0.12;
+/// Weight of the share of orders that do not agree; see [`REMOTENESS`].
 const ORDERS: f64 = 0.2;
 /// What a nose assigned to an ear adds to the score, and ears assigned to ears take from it: with 0.03 and with 0.05 the face of 385 lies
 /// right on 383, and nothing else changes on the pairs among four animals of SHREC07; 0.05 was taken after another pair (392-397) had been

@@ -71,5 +71,5 @@ impl Difference {
     }
 }
 
-/// Pairs that a sentence names, at most.
+/// Pairs that a sentence names, at most. Chosen by hand.
 const NAMED: usize = 4;

@@ -12,11 +12,11 @@ pub struct MatchInput<'a> {
     pub target: &'a SurfaceMesh,
     /// Pairs of vertices that are held, different ones on each mesh; there may be none.
     pub given: &'a [[VertexId; 2]],
-    /// Which vertices may be landmarks.
+    /// The vertices that may be landmarks.
     pub may_mark: MayMark<'a>,
 }
 
-/// Which vertices may be landmarks; `None` where all may.
+/// By vertex of each mesh, whether it may be a landmark; `None` where all may.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MayMark<'a> {
     /// By vertex of the source.

@@ -53,10 +53,11 @@ pub struct LandmarkMatch {
     pub verdict: Verdict,
 }
 
-/// Progress, 0 to 1, once the tips of both bodies have been computed, once the candidates have been judged, and once small changes of the
-/// best have.
+/// Progress, 0 to 1, once the tips of both bodies have been computed. Chosen by hand, for display only, like the next two.
 const LOOKED: f64 = 0.15;
+/// Progress once the candidates have been judged.
 const JUDGED: f64 = 0.6;
+/// Progress once small changes of the best candidate have been judged.
 const IMPROVED: f64 = 0.95;
 
 /// Finds landmark pairs of two bodies beside the given ones, with alternatives and a verdict.

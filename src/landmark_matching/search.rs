@@ -31,10 +31,12 @@ pub(super) struct Assignment {
     pub(super) between: Option<[VertexId; 2]>,
 }
 
-/// Weights of the cost beside the mean log ratio of distances: of the share of reversed orders, of log ratios of persistence, and of the
-/// persistence of tips without a partner. They were found with a prototype on SHREC07 pairs.
+/// Weight of the share of reversed orders, beside the mean log ratio of distances. This weight and the next two were found with a
+/// prototype on SHREC07 pairs.
 const ORDERS: f64 = 0.3;
+/// Weight of the mean log ratio of persistence.
 const PERSISTENCE: f64 = 0.05;
+/// Weight of the persistence of tips without a partner.
 const UNMATCHED: f64 = 0.35;
 /// Persistence above which a tip without a partner costs no more: the other body may lack a long tail. Chosen by hand.
 const MOST_UNMATCHED: f64 = 0.25;

@@ -28,7 +28,7 @@ const PLACES: usize = 3;
 pub(super) struct Body<'a> {
     pub(super) mesh: &'a SurfaceMesh,
     pub(super) given: &'a [VertexId],
-    /// Which vertices may be landmarks; `None` where all may.
+    /// By vertex, whether it may be a landmark; `None` where all may.
     pub(super) may_mark: Option<&'a TiSlice<VertexId, bool>>,
 }
 
@@ -44,7 +44,7 @@ pub(super) struct Shape {
     /// The given landmarks in their order, then the tips, the most persistent first.
     pub(super) marks: Vec<Mark>,
     pub(super) given: usize,
-    /// Which vertices of the level may be landmarks; `None` where all may.
+    /// By vertex of the level, whether it may be a landmark; `None` where all may.
     may_mark: Option<TiVec<VertexId, bool>>,
 }
 

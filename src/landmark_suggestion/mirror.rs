@@ -24,7 +24,7 @@ const SAMPLES: usize = 1000;
 /// misfit. Chosen by hand.
 const REFINED: usize = 6;
 
-/// Steps of a refinement at most; usually ten are enough.
+/// Steps of a refinement, at most; usually ten are enough. Chosen by hand.
 const MOST_STEPS: usize = 25;
 
 /// A refinement ends when a step is shorter than this, in radians and in units of the size (the root of the area). Chosen by hand.

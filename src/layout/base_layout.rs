@@ -26,7 +26,7 @@ pub struct BaseLayout {
 pub struct PatchedMesh {
     /// The refined mesh, scaled to area 1. Its first vertices are the input mesh's vertices in their order.
     pub mesh: SurfaceMesh,
-    /// Where each refined vertex lies on the input mesh.
+    /// The place of each refined vertex on the input mesh.
     pub vertex_origin: TiVec<VertexId, SurfacePoint>,
     /// The input face that contains each refined face.
     pub face_origin: TiVec<FaceId, FaceId>,
@@ -39,7 +39,7 @@ pub struct PatchedMesh {
     pub paths: TiVec<HalfedgeId, Vec<VertexId>>,
 }
 
-/// How straight the paths of a layout are.
+/// Detours and stretch of the paths of a layout.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LayoutReport {
     /// Sum over all paths of both meshes of max(0, length / shortest length - 1.1): 0 for straight layouts.

@@ -19,14 +19,16 @@ pub(super) struct Bounds {
     pub detour: f64,
 }
 
-/// Vertices of a refined mesh for each vertex of its level, and for each unit of the mean length of all paths in edges, which grows
-/// with the root of landmarks times vertices: on fine levels a drawing needs less for each vertex. Chosen by hand.
+/// Vertices of a refined mesh for each vertex of its level, at most. Chosen by hand.
 const VERTEX_GROWTH: usize = 16;
+/// Factor of sqrt(landmarks * vertices) in the number of vertices that a drawing may add to a level: all paths together cross a number of
+/// edges that grows so. On fine levels this is the smaller of both bounds. Chosen by hand.
 const PATH_GROWTH: f64 = 200.0;
 /// Steps of the searches of one drawing for each landmark and each vertex of the level. Chosen by hand.
 const STEPS: usize = 250;
-/// The detour that any layout may have, and what each path may add to it. Chosen by hand.
+/// The detour that a layout may have whatever its number of paths. Chosen by hand.
 const FREE_DETOUR: f64 = 12.0;
+/// The further detour that it may have for each path. Chosen by hand.
 const DETOUR_OF_PATH: f64 = 0.25;
 /// Length of a path relative to the shortest that is no detour: 10 % is left to paths over vertices and midpoints for giving way.
 /// Chosen by hand.
@@ -37,7 +39,7 @@ pub fn detour(stretch: f64) -> f64 {
     (stretch - GIVING_WAY).max(0.0)
 }
 
-/// Landmarks times vertices of a level, at most: as many distances are kept of each mesh, 8 bytes each, 320 MB in all. Chosen by hand.
+/// Landmarks times vertices of a level, at most: as many distances are kept of each mesh, in 8 bytes each, 320 MB. Chosen by hand.
 pub const MOST_DISTANCES: usize = 40_000_000;
 
 impl Bounds {

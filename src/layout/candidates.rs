@@ -46,7 +46,7 @@ impl Candidate {
 
 /// Draws layouts of one pair of meshes in many ways and leaves out those of a class already given.
 ///
-/// What does not depend on the way of drawing, such as all landmark distances, is computed once. Meant for coarse meshes:
+/// All that does not depend on the order of drawing, such as the landmarks' distances, is computed once. Meant for coarse meshes:
 /// about 10 ms a drawing for 33 landmarks on 1500 vertices.
 #[derive(Debug)]
 pub struct Candidates<'a> {

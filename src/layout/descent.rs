@@ -1,8 +1,8 @@
-//! From a drawing to straighter ones by twists, without a map: a drawing costs a tenth of what judging its map does.
+//! The descent from a drawing to straighter ones by twists, without a map: a drawing costs a tenth of the time of judging its map.
 //!
-//! The class of the map that distorts least has a straight drawing, nearly always: where the paths of a drawing wind, some tree
-//! path went the wrong way round a limb, and one turn about the curve between two groups of landmarks undoes that. So the sum of the
-//! detours is lowered by turns as long as one lowers it, and only what is left is judged.
+//! The class of the map that distorts least nearly always has a straight drawing: where the paths of a drawing wind, some tree
+//! path went the wrong way round a limb, and a twist about the curve between two groups of landmarks undoes that. So the sum of the
+//! detours is lowered by twists as long as one lowers it, and only the last drawing is judged.
 
 use super::drawing::{Drawing, Planner};
 use super::error::LayoutError;

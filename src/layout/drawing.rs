@@ -264,7 +264,7 @@ impl Drawing {
         planner.searches[side].shortest(mesh, &query, &mut planner.allowance)
     }
 
-    /// For every landmark and place of its rotation the face of the drawing that follows counter-clockwise.
+    /// By landmark and place in its rotation, the number of the face of the drawing that follows counter-clockwise.
     ///
     /// Faces of a connected drawing are discs: two places can be joined when their face is the same.
     pub fn faces_by_slot(&self) -> Vec<Vec<usize>> {

@@ -74,7 +74,7 @@ impl From<DrawingFault> for LayoutError {
     }
 }
 
-/// Where layouts failed, in words; landmarks are counted from 1.
+/// The part of the sentence that says where layouts failed; landmarks are counted from 1.
 fn around(near: &[usize]) -> String {
     match near {
         [] => "; check whether pairs are exchanged, or leave some out".to_owned(),
@@ -91,7 +91,7 @@ fn around(near: &[usize]) -> String {
     }
 }
 
-/// Where paths wind most, in words.
+/// The part of the sentence that says where paths wind most.
 fn most_around(near: &[usize]) -> String {
     match near {
         [] => String::new(),

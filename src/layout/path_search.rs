@@ -25,8 +25,9 @@ pub(super) struct FoundPath {
     /// All nodes, both landmarks included.
     pub nodes: Vec<Node>,
     pub length: f64,
-    /// How the path leaves its start and reaches its end.
+    /// The link by which the path leaves its start.
     pub start_step: EndStep,
+    /// The link by which the path reaches its end.
     pub end_step: EndStep,
 }
 
@@ -39,19 +40,22 @@ pub(super) enum EndStep {
     After(VertexId),
 }
 
-/// Which halfedges around a landmark a path may use: those strictly between two embedded paths.
+/// The halfedges around a landmark that a path may use: those strictly between two drawn paths.
 pub(super) struct Sector {
     /// First outgoing halfedge; its triangle is inside.
     pub first: HalfedgeId,
     /// The outgoing halfedge that ends the sector.
     pub last: HalfedgeId,
-    /// Whether `first` and `last` are edges of paths, not to be used.
+    /// The kind of the sector's bounds.
     pub bounded: Bounded,
 }
 
+/// The kind of the bounds of a sector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Bounded {
+    /// Both bounds are edges of paths, which a path may not use.
     ByPaths,
+    /// There are no bounds: the sector is the whole star.
     WholeStar,
 }
 

@@ -96,7 +96,7 @@ pub enum CgError {
     NotConverged {
         /// The wanted relative residual.
         tolerance: f64,
-        /// Where the solve stopped.
+        /// Iterations and residual of the last iterate.
         report: CgReport,
     },
     /// A direction d has d^T A d that is not positive, by rounding or because A is not definite.
@@ -108,13 +108,13 @@ pub enum CgError {
     NotDefinite {
         /// d^T A d, or not a number.
         curvature: f64,
-        /// Where the solve stopped.
+        /// Iterations and residual of the last iterate.
         report: CgReport,
     },
 }
 
 impl CgError {
-    /// Where the solve stopped.
+    /// Iterations and residual of the last iterate.
     pub fn report(&self) -> CgReport {
         match self {
             Self::NotConverged { report, .. } | Self::NotDefinite { report, .. } => *report,

@@ -63,13 +63,13 @@ pub enum Borders {
     Missing,
 }
 
-/// How far the energy of the map is lowered.
+/// The relaxation of the map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Relaxation {
-    /// As far as it goes.
+    /// The energy of the map is lowered as far as the options of the relaxation say.
     #[default]
     Full,
-    /// Not at all: each mesh is relaxed over the cone surface by itself. The map is certified all the same.
+    /// The energy of the map is not lowered: each mesh is relaxed over the cone surface by itself. The map is certified all the same.
     None,
 }
 
@@ -132,6 +132,6 @@ pub struct PipelineOptions {
     pub own_cones: OwnConeOptions,
     /// How holes that both meshes have are treated.
     pub borders: Borders,
-    /// How far the energy of the map is lowered.
+    /// The relaxation of the map.
     pub relaxation: Relaxation,
 }

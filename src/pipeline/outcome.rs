@@ -222,7 +222,7 @@ fn warnings(map: &Parametrisation, measured: &Distortion) -> Vec<Warning> {
     [borders, early, rival, long, distorted].into_iter().flatten().collect()
 }
 
-/// Which faces of a refined mesh are caps.
+/// By face of a refined mesh, whether it is a cap.
 fn refined_caps(is_cap: &TiSlice<FaceId, bool>, refined: &RefinedMesh) -> TiVec<FaceId, bool> {
     refined.face_origin.iter().map(|&f| is_cap[f]).collect()
 }

@@ -14,7 +14,7 @@ pub enum Warning {
     Repaired {
         /// The mesh.
         side: MeshSide,
-        /// What was changed.
+        /// The changes, in words.
         changes: String,
     },
     /// Holes of a mesh were closed by caps, which take part in the map.

@@ -22,7 +22,7 @@ pub struct TextureDrawing {
 /// A corner of a texture triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextureVertex {
-    /// Where it lies on the target.
+    /// Its place on the target.
     pub place: Place,
     /// Its texture coordinates.
     pub uv: DVec2,

@@ -39,7 +39,7 @@ pub enum SideKind {
     Edge {
         /// The halfedge of the polygon's face.
         halfedge: HalfedgeId,
-        /// Which part.
+        /// The number of the part.
         part: u32,
     },
     /// A base side, run along this base halfedge: its face is on the polygon's side.

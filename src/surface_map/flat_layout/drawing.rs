@@ -26,7 +26,7 @@ pub struct FlatDrawing {
 /// A corner of a polygon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlatVertex {
-    /// Where it lies on the mesh.
+    /// Its place on the mesh.
     pub place: Place,
     /// Its barycentric coordinates in its chart, the base face of its polygons; exactly 0 for the corner opposite a side that it lies on.
     pub weights: [f64; 3],
@@ -123,7 +123,7 @@ impl FlatDrawing {
         middles.into_iter().map(|(_, face)| face).collect()
     }
 
-    /// Where each vertex of the base domain lies on the mesh; `None` for one that the drawing does not have.
+    /// The place on the mesh of each vertex of the base domain; `None` for one that the drawing does not have.
     pub fn cones(&self, base: &SurfaceMesh) -> TiVec<VertexId, Option<Place>> {
         let mut cones = ti_vec![None; base.vertex_count()];
         for polygon in &self.polygons {

@@ -76,7 +76,7 @@ pub struct Distortion {
 /// The density above which a texture looks dented. Chosen by hand.
 pub const DENTED: f64 = 20.0;
 
-/// Number of worst pieces in the result, at most.
+/// Number of worst pieces in the result, at most: as many as one looks at. Chosen by hand.
 pub const WORST: usize = 10;
 
 /// One of the pieces of the overlay with the largest densities.

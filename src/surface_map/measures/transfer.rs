@@ -70,7 +70,7 @@ pub struct Surface<'a> {
 }
 
 impl<'a> Surface<'a> {
-    /// From places of the refinement to places of the mesh that the user gave; `frame` is [`RefinedMesh::frame`].
+    /// The carrier from places of the refinement to places of the mesh that the user gave; `frame` is [`RefinedMesh::frame`].
     pub fn carrier(&self, frame: &'a dyn Fn(FaceId) -> FaceFrame) -> Carrier<'a> {
         Carrier { from: &self.refined.mesh, onto: self.input, frame }
     }

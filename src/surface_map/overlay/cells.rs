@@ -321,7 +321,7 @@ fn unit(k: usize) -> [f64; 3] {
     barycentric
 }
 
-/// Which corner of a face a vertex is.
+/// The number, 0 to 2, of the corner of a face at which a vertex is.
 fn corner_in(mesh: &SurfaceMesh, f: FaceId, v: VertexId) -> usize {
     mesh.triangles()[f].iter().position(|&c| c == v).unwrap_or(0)
 }

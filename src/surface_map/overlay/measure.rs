@@ -30,7 +30,7 @@ pub struct MeasuredPiece {
     pub target_face: FaceId,
     /// Area on the cone surface, never negative.
     pub area: f64,
-    /// From the plane of the source face to that of the target face: (cos, sin) of the rotation.
+    /// The rotation from the plane of the source face to that of the target face, as (cos, sin) of its angle.
     pub rotation: DVec2,
 }
 
@@ -39,9 +39,9 @@ pub struct MeasuredPiece {
 pub struct Segment {
     /// The edge's smaller halfedge.
     pub halfedge: HalfedgeId,
-    /// Where the part begins: 0 at the start of the halfedge, 1 at its end.
+    /// The place at which the part begins: 0 at the start of the halfedge, 1 at its end.
     pub begin: f64,
-    /// Where the part ends.
+    /// The place at which the part ends, 0 to 1.
     pub end: f64,
     /// The piece on the left, in the face of the halfedge.
     pub left: u32,

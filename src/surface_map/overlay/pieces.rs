@@ -60,7 +60,7 @@ pub struct Piece {
     pub motion: Rigid2,
 }
 
-/// Which mesh's edge a side of a piece lies on.
+/// The mesh on whose edge a side of a piece lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SideOf {
     /// A source edge.

@@ -98,7 +98,7 @@ struct Tracer<'a> {
     most: usize,
 }
 
-/// Where a trace writes its crossings and motions.
+/// The lists to which a trace appends its crossings and motions.
 struct Log<'l> {
     crossings: &'l mut Vec<Crossing>,
     motions: &'l mut Vec<Rigid2>,

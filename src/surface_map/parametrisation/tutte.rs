@@ -22,9 +22,10 @@ use glam::DVec2;
 use std::sync::Arc;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Bounds of the cotangent weights, which are of order 1: they must be positive, and a wider range makes the system harder to solve.
+/// Lower bound of the cotangent weights, which are of order 1: they must be positive, and a wider range makes the system harder to solve.
 /// Chosen by hand.
 const LEAST_WEIGHT: f64 = 0.02;
+/// Upper bound of the weights. Chosen by hand.
 const MOST_WEIGHT: f64 = 50.0;
 
 /// A solve ends at this relative residual; the next one solves for the residual that is left.
@@ -33,7 +34,7 @@ const SOLVE: CgOptions = CgOptions { tolerance: 1e-8, max_iterations: 1000 };
 /// Solves of a system, each for the residual of the one before: at 1e-8 each, three leave nothing but rounding.
 const SOLVES: usize = 3;
 
-/// Faces that are looked at between two questions to the monitor.
+/// Faces or vertices between two questions to the monitor: some milliseconds.
 const ASKED_EVERY: usize = 8192;
 
 /// The parametrisation of a patched mesh over the cone surface of its layout, patch by patch.
