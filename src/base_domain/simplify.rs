@@ -28,6 +28,9 @@ pub enum SimplifyError {
     NotManifold(#[from] MeshError),
 }
 
+/// Vertices between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 4096;
+
 /// Limits of the first round: no collapse turns a normal by more than 80 degrees or leaves a triangle whose doubled area is below 1/100
 /// of its longest edge squared. Chosen by hand: looser than between levels, since only the landmarks are left in the end.
 const STRICT: ShapeLimits = ShapeLimits { normal_cosine: 0.17, double_area: 0.01 };
@@ -158,7 +161,7 @@ impl<'a> Simplification<'a> {
             if !self.mesh.is_alive(vertex) || version[vertex] != of_version {
                 continue;
             }
-            if self.mesh.live_vertices().is_multiple_of(4096) {
+            if self.mesh.live_vertices().is_multiple_of(ASKED_EVERY) {
                 let fraction = 1.0 - self.mesh.live_vertices() as f64 / begin as f64;
                 monitor.step(Step { fraction, residual: None })?;
             }

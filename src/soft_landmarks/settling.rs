@@ -49,6 +49,7 @@ pub struct SettlingOptions {
 
 impl Default for SettlingOptions {
     fn default() -> Self {
+        // All numbers were chosen by hand: each round costs a coarse map, and wider rings average over more of the map's distortion.
         Self {
             rounds: 6,
             least_move: 0.02,

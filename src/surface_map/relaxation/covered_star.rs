@@ -153,6 +153,7 @@ impl CoveredStar {
         let back = motion.inverse();
         let corners = other.triangle(face).map(|p| back.apply(p) - self.origin);
         let size = corners[0].distance(corners[1]);
+        // Two ways to the same triangle differ by rounding, two different ways around a cone by far more.
         let is_same = |cover: &Cover| {
             cover.face == face && cover.triangle.corners[0].distance(corners[0]) < 1e-6 * size
         };
@@ -209,6 +210,8 @@ impl CoveredStar {
             signed_double_area(z, p, q) / p.distance(q)
         };
         let room = self.rays.iter().map(height).fold(f64::INFINITY, min);
+        // The step of the difference quotients, a thousandth of the way to the nearest side: smaller ones round, larger ones are less exact.
+        // A Newton step is at most ten times that way, and is shortened. Chosen by hand.
         let h = 1e-3 * room;
         let [e, w] = [at(z + DVec2::new(h, 0.0))?, at(z - DVec2::new(h, 0.0))?];
         let [n, s] = [at(z + DVec2::new(0.0, h))?, at(z - DVec2::new(0.0, h))?];
