@@ -29,7 +29,7 @@ pub struct Start {
     pub direction: DVec2,
 }
 
-/// The cone surface that a mesh is to be.
+/// The cone surface that a mesh must parametrise.
 #[derive(Clone, Copy, Debug)]
 pub struct Prescribed<'a> {
     /// The base domain's connectivity: a closed surface of genus 0.

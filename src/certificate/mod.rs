@@ -6,7 +6,7 @@
 //! # What is checked
 //!
 //! A connected mesh, each triangle with corners in its own plane, and a rigid motion across each edge; a base domain with an edge length
-//! for each of its edges; for each base halfedge the corner and the direction in which it is said to start.
+//! for each of its edges; for each base halfedge the corner and the direction in which it is claimed to start.
 //!
 //! 1. Every triangle is positively oriented: exactly, by an adaptive predicate on the stored numbers (Shewchuk 1997).
 //! 2. Each edge has the same place in both planes: carried over by the rigid motion its ends agree to 1e-6 (the mesh has area 1).
@@ -14,7 +14,7 @@
 //!    1e-6 rad. The sum of a wrong vertex differs by 2 pi or more, so this bound only has to be above rounding.
 //! 4. The starts around each landmark make the angles of the base domain's triangles, in the same order: to 1e-5 rad.
 //! 5. Each base edge, followed straight from its start, ends at its landmark after its length, to 1e-6, in the direction in
-//!    which its twin is said to start, to 1e-5 rad.
+//!    which its twin is claimed to start, to 1e-5 rad.
 //! 6. Mesh and base domain have Euler characteristic 2.
 //! 7. No two of these lines cross. The tracer gives the edges that a line crosses and the places on them, once for both triangles of an
 //!    edge; whether two lines cross in a triangle then depends only on the order of their ends along its border, and is decided without

@@ -93,7 +93,7 @@ impl fmt::Display for Certificate {
     }
 }
 
-/// Checks a parametrised mesh against the cone surface that it is to be.
+/// Checks a parametrised mesh against its prescribed cone surface.
 pub fn certify(judged: &Judged<'_>, prescribed: &Prescribed<'_>) -> Certificate {
     let flipped_triangles = judged.mesh.faces().filter(|&f| !is_positive(judged, f)).count();
     let max_angle_sum_error = angle_sum_error(judged, prescribed);

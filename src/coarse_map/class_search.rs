@@ -138,7 +138,7 @@ impl Finalists<'_, '_> {
         let number = self.judged;
         self.judged += 1;
         match solve_coarse(self.levels, &candidate.layout, self.options, monitor) {
-            // Without an overlay nothing can be lowered.
+            // A map without an overlay has no energy to lower.
             Ok(map) if !map.mean_log.is_finite() => Ok(None),
             Ok(map) => {
                 let first_look = map.mean_log;

@@ -260,7 +260,7 @@ impl CoarseMap<'_> {
             let part = &mut Portion::new(monitor, 0.5, 1.0);
             return self.register_patches(patches, patches.rounds, fine, part);
         }
-        // Registered first: where nothing draws it the map of the full meshes drifts to the least energy, away from the known map.
+        // Registered first: without the registration's pull the map of the full meshes drifts from the known map to the least energy.
         self.register_patches(patches, patches.full_rounds, fine, &mut Portion::new(monitor, 0.0, 0.5))?;
         for (_, constraint) in self.constraints.iter_mut().flatten() {
             constraint.rows = constraint.rows.map(|row| row * patches.hold.sqrt());
@@ -327,7 +327,7 @@ impl CoarseMap<'_> {
         let mut sums: Vec<f64> = Vec::new();
         while live != full {
             let next = [0, 1].map(|k| options.next_level(live[k], full[k]));
-            // Levels whose vertices are held cannot grow; there is no other end.
+            // Levels that cannot refine any further end the loop here.
             if next == live {
                 break;
             }

@@ -1,8 +1,8 @@
 //! Cones that the program adds where the user gave few landmarks.
 //!
-//! A cone surface with few cones is a poor image of a body with many limbs, and a map over it gets stuck. So points are added
-//! and carried to the target by the present map; the map is solved again with all as cones. Every round takes fresh points,
-//! so that those of the round before are free to move.
+//! A cone surface with few cones is a poor image of a body with many limbs, and the descent of a map over it ends in a poor
+//! minimum. So points are added and carried to the target by the present map; the map is solved again with all as cones.
+//! Every round takes fresh points, so that those of the round before are free to move.
 
 use super::class_search::{ClassChoice, ClassSearchOptions, choose_class};
 use super::distance_guess::{self, Guess};

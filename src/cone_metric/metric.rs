@@ -103,7 +103,7 @@ impl ConeMetric {
         let sum = self.tilt_at(h, inverse) + self.tilt_at(t, inverse);
         let ends = inverse[self.triangulation.tail(h)] + inverse[self.triangulation.tail(t)];
         // NaN counts as Delaunay: a flip could not mend it.
-        // Above rounding: of a cocircular diamond neither diagonal is flipped for the other again and again.
+        // The tolerance is above rounding, so that the diagonals of a cocircular diamond are not flipped for one another endlessly.
         sum.is_nan() || sum >= -1e-11 * ends
     }
 
@@ -112,7 +112,7 @@ impl ConeMetric {
         tilt(self.eps, self.etas[h], [self.etas[h.prev()], self.etas[h.next()]], corners)
     }
 
-    /// Angle defects, and the weighted Laplacian that is their derivative by the logarithmic radii.
+    /// Angle defects, and the weighted Laplacian that is their derivative with respect to the logarithmic radii.
     ///
     /// Returns whether every triangle satisfies the triangle inequality; where one does not, its angles are those of the
     /// degenerate triangle.

@@ -98,7 +98,7 @@ impl<'a> Exchange<'a> {
             let near = min(source[a][x] + onto_a[y], source[b][x] + onto_b[y]);
             let softened = near + SOFTENING * (apart[0] + apart[1]);
             let weight = 1.0 / (softened * softened);
-            // Where landmarks shut each other in, there is no path.
+            // No path reaches a landmark that others shut in: its distance is infinite.
             if product.is_finite() && weight.is_finite() {
                 sum += weight;
                 agree += weight * product;

@@ -18,7 +18,7 @@ pub enum Reason {
     Far,
 }
 
-/// A point that is worth a landmark.
+/// A vertex suggested as a landmark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Suggestion {
     /// The vertex.

@@ -15,7 +15,7 @@ pub(super) struct Bounds {
     vertices: [usize; 2],
     /// Nodes that the searches of one drawing settle.
     pub steps: usize,
-    /// Sum of the detours of its paths ([`super::LayoutReport::detour`]): a tangle has no map that is worth its time.
+    /// Sum of the detours of its paths ([`super::LayoutReport::detour`]): no useful map comes of a drawing of long detours.
     pub detour: f64,
 }
 

@@ -294,7 +294,7 @@ impl Search<'_, '_> {
         self.monitor.wants_result() && self.best.as_ref().is_some_and(|best| best.0.is_finite())
     }
 
-    /// Whether a layout winds too much beside the best one to be judged.
+    /// Whether a layout's detours are too long, compared with the best layout's, for it to be judged.
     fn is_hopeless(&self, candidate: &Candidate) -> bool {
         let detour = candidate.layout.report.detour;
         self.best.as_ref().is_some_and(|(mean_log, best)| {

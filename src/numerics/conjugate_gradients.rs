@@ -1,8 +1,8 @@
 //! Preconditioned conjugate gradients for symmetric positive (semi)definite systems (Hestenes & Stiefel 1952).
 //!
 //! One solver for every kind of unknown: a system is a [`LinearOperator`] with a [`Preconditioner`] on slices of numbers or of
-//! points. A solve from x = 0 allocates nothing when its [`CgWorkspace`] has been used before. Not converged is an error; x is
-//! the last iterate then, and it is for the caller to say whether that is of use.
+//! points. A solve from x = 0 allocates nothing when its [`CgWorkspace`] has been used before. A solve that
+//! does not converge is an error; x then holds the last iterate, and the caller decides whether to use it.
 
 use glam::{DVec2, DVec3};
 use std::ops::{Add, AddAssign, Mul, SubAssign};

@@ -6,9 +6,9 @@
 //!
 //! the same for J and its inverse, and 1 for an isometry only (b > 0). Its integral over both surfaces, times 2 (1 + b), is
 //! the integral over the source of h(J) = S (1 + 1/q) + b S (q + 1/q^2). The first part is E = |J|^2 over the source and
-//! |J^-1|^2 over the target, 4 for every conformal map between surfaces of area 1; it counts a region by the area of its
-//! image, so that what collapses costs little. The second, |J|^2 over the target and |J^-1|^2 over the source, counts it by
-//! what it was, and asks for equal areas.
+//! |J^-1|^2 over the target, 4 for every conformal map between surfaces of area 1; it weighs a region by the area of its
+//! image, so that a collapsing region costs little. The second, |J|^2 over the target and |J^-1|^2 over the source, weighs a
+//! region by its own area, and penalises unequal areas.
 //!
 //! Between two poses of one body most of the skin moves rigidly and what stretches is found around few joints. There the
 //! sum of squares is the wrong measure: it spreads the stretch over everything. So the distortion may be counted as

@@ -9,8 +9,8 @@
 //! that of an isometry.
 //!
 //! Where the rim of one mesh corresponds to one of the other, skin over a cap is wrong, and a piece of it pays a toll t for its area
-//! on both meshes: u t (1 + q), u = c / 2. A larger weight could not do that: a slide without distortion would still be free. What the
-//! toll asks of the rims is the jump of this density over them, which the pieces' moving borders bring along.
+//! on both meshes: u t (1 + q), u = c / 2. A larger weight could not do that: a slide without distortion would still be free. The
+//! toll's gradient at the rims is the jump of this density across them, from the pieces' moving borders.
 
 use super::density::{Density, HessianTerm};
 use super::map_energy::MapEnergy;

@@ -135,7 +135,7 @@ impl Locator {
     /// Locates everything from one landmark.
     ///
     /// The angle of an edge around a cone is known up to whole turns of its plane only. Where the turn of the first landmark
-    /// is mistaken, the others are not met and the next one is tried; the turns at all others follow.
+    /// is mistaken, the walk misses the others and the next turn is tried; the turns at all others follow.
     fn fill_from(
         &mut self,
         [source, target]: [Parametrised<'_>; 2],
@@ -232,7 +232,7 @@ impl Corners {
         while known.corner != corner {
             let across = known.corner.prev();
             known.corner = source.mesh.twin(across);
-            // The motion there is the inverse of the one onwards, which lies near.
+            // The motion stored there is the inverse of the one needed, and is near in memory.
             if source.embedding.transitions[across] != Rigid2::IDENTITY {
                 known.motion = known.motion.after(&source.embedding.transitions[known.corner]);
             }

@@ -108,7 +108,7 @@ impl Seats {
     ///
     /// Both edges are the same straight line on the cone surface, and neither end may be moved. Rounding would put the source
     /// edge on the left at one end and on the right at the other, or send its trace around the landmark. So it is taken to lie on
-    /// the left by less than anything that is measured, as in simulation of simplicity (Edelsbrunner & Muecke 1990).
+    /// the left by an infinitesimal amount, as in simulation of simplicity (Edelsbrunner & Muecke 1990).
     fn part_coincident(&mut self, source: Parametrised<'_>, target: Parametrised<'_>) {
         for &v in source.landmark_vertices {
             for h in source.mesh.star(v) {
@@ -164,7 +164,7 @@ impl Seats {
         loop {
             self.seats[h] = seat;
             let next = mesh.twin(h.prev());
-            // The motion there is the inverse of the one onwards, which lies near.
+            // The motion stored there is the inverse of the one needed, and is near in memory.
             if source.embedding.transitions[h.prev()] != Rigid2::IDENTITY {
                 seat.motion = seat.motion.after(&source.embedding.transitions[next]);
             }

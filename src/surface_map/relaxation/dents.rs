@@ -1,11 +1,11 @@
 //! The repair of dents: the places where a map is distorted most.
 //!
-//! An integral hardly sees a distortion of a thousand on a millionth of the surface, and a Newton step of the whole map is no
-//! longer than such a place allows. So when a map is relaxed, the vertices of its worst pieces, of either mesh, move once
+//! A distortion of a thousand on a millionth of the surface hardly changes the integral, yet it limits the length of a Newton
+//! step of the whole map. So when a map is relaxed, the vertices of its worst pieces, of either mesh, move once
 //! more, one at a time. While a vertex moves within its star, the star as a whole is overlapped by the same few triangles of
-//! the other mesh: developed into the vertex' plane they share convex polygons with the star's triangles. What is lowered is
-//! the energy of the map there and the density's sixth power, which is nearly its maximum and still smooth: by Newton's
-//! method in two unknowns, from difference quotients of the logarithm. The worst vertices come first; one that gains little
+//! the other mesh: developed into the vertex' plane they share convex polygons with the star's triangles. Each move
+//! lowers the map's energy there and the sixth power of its density, a smooth stand-in for the maximum, by Newton's method
+//! in two unknowns, with difference quotients of the logarithm. The worst vertices come first; one that gains little
 //! rests until a vertex beside it moves. Triangles stay positive, and all other vertices keep their places.
 
 use super::clipping::BoxedTriangle;
