@@ -28,8 +28,11 @@ pub enum SimplifyError {
     NotManifold(#[from] MeshError),
 }
 
-/// First refuse collapses that turn a normal by more than 80 degrees or make a triangle flatter than 1/100 of its longest edge.
-/// Chosen by hand: looser than between levels, since only the landmarks are left in the end.
+/// Vertices between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 4096;
+
+/// Limits of the first round: no collapse turns a normal by more than 80 degrees or leaves a triangle whose doubled area is below 1/100
+/// of its longest edge squared. Chosen by hand: looser than between levels, since only the landmarks are left in the end.
 const STRICT: ShapeLimits = ShapeLimits { normal_cosine: 0.17, double_area: 0.01 };
 
 /// Collapses a mesh to its landmarks (Garland & Heckbert 1997; thesis section 3.2).
@@ -50,7 +53,7 @@ pub fn simplify(
     simplification.base(landmarks)
 }
 
-/// The same collapses from the whole mesh to its landmarks, in stages.
+/// The collapses of [`simplify`] from the whole mesh to its landmarks, in stages.
 ///
 /// # Errors
 /// [`SimplifyError`].
@@ -62,9 +65,10 @@ pub fn simplification_stages(
     staged(Simplification::new(mesh, landmarks)?, monitor)
 }
 
-/// Collapses of a mesh that has two shapes, in stages: each is the cheapest by the quadrics of both together, and spares both.
+/// Collapses of a mesh with two sets of vertex positions (shapes), in stages: each collapse has the least quadric error summed over
+/// both shapes, and keeps the limits of both.
 ///
-/// The shapes are those of one mesh, and should have areas near each other.
+/// `mesh` and `shape` have the same triangles. Their areas should be similar, or one outweighs the other.
 ///
 /// # Errors
 /// [`SimplifyError`].
@@ -110,9 +114,9 @@ struct Simplification<'a> {
     mesh: CollapsibleMesh,
     protected: TiVec<VertexId, bool>,
     quadrics: TiVec<VertexId, Quadric>,
-    /// Another shape of the mesh that counts as much.
+    /// A second shape of the mesh, whose quadric error counts as much.
     other: Option<Shape<'a>>,
-    /// Where somebody looks on.
+    /// The record of the stages, where the caller asks for one.
     stages: Option<Stages>,
 }
 
@@ -157,7 +161,7 @@ impl<'a> Simplification<'a> {
             if !self.mesh.is_alive(vertex) || version[vertex] != of_version {
                 continue;
             }
-            if self.mesh.live_vertices().is_multiple_of(4096) {
+            if self.mesh.live_vertices().is_multiple_of(ASKED_EVERY) {
                 let fraction = 1.0 - self.mesh.live_vertices() as f64 / begin as f64;
                 monitor.step(Step { fraction, residual: None })?;
             }
@@ -199,7 +203,7 @@ impl<'a> Simplification<'a> {
         best
     }
 
-    /// What it costs that a vertex goes to the place of another one.
+    /// The quadric error of moving a vertex to the place of another one, summed over the shapes.
     fn cost(&self, v: VertexId, onto: VertexId) -> f64 {
         let own = self.quadrics[v].at(self.input.positions()[onto]);
         let Some(Shape { mesh, quadrics }) = &self.other else { return own };

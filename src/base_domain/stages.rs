@@ -1,27 +1,27 @@
-//! A mesh on its way to its landmarks, to be looked at: recorded only where somebody asks.
+//! The meshes between a mesh and its base domain, recorded for display where the caller asks for them.
 
 use crate::mesh::VertexId;
 use crate::mesh::collapsible::CollapsibleMesh;
 
-/// A mesh some collapses on. Its vertices are some of the mesh's own, which do not move.
+/// A mesh after some collapses. Its vertices are some of the input's, at their places.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SimplificationStage {
-    /// How many vertices are left.
+    /// Number of vertices left.
     pub vertices: usize,
     /// Its triangles.
     pub triangles: Vec<[VertexId; 3]>,
-    /// The collapses since the stage before, in their order: the vertex that went, and the one that it went onto. Followed from stage to
-    /// stage they are the history of each vertex, as MAPS has it (Lee et al. 1998).
+    /// The collapses since the stage before, in their order: the vertex that was removed, and the one that it was merged into. Followed
+    /// from stage to stage they are the history of each vertex, as in MAPS (Lee et al. 1998).
     pub collapses: Vec<[VertexId; 2]>,
 }
 
-/// Takes stages, each with about 7/8 of the vertices of the one before: together they have eight times the triangles of the first.
+/// Records stages, each with about 7/8 of the vertices of the one before: together they have eight times the triangles of the first.
 #[derive(Debug)]
 pub(super) struct Stages {
     taken: Vec<SimplificationStage>,
-    /// Those since the last one.
+    /// The collapses since the last stage.
     collapses: Vec<[VertexId; 2]>,
-    /// The next one is taken with so many vertices.
+    /// The next stage is recorded once this many vertices are left.
     next: usize,
 }
 
@@ -33,7 +33,7 @@ impl Stages {
         stages
     }
 
-    /// A vertex has gone onto another one.
+    /// Notes that a vertex was merged into another one.
     pub fn collapsed(&mut self, mesh: &CollapsibleMesh, gone: VertexId, onto: VertexId) {
         self.collapses.push([gone, onto]);
         if mesh.live_vertices() <= self.next {
@@ -48,7 +48,7 @@ impl Stages {
         self.taken.push(stage);
     }
 
-    /// The mesh as it is, with the collapses that led to it.
+    /// The present mesh as a stage, with the collapses since the stage before.
     fn now(&mut self, mesh: &CollapsibleMesh) -> SimplificationStage {
         SimplificationStage {
             vertices: mesh.live_vertices(),
@@ -57,7 +57,7 @@ impl Stages {
         }
     }
 
-    /// All of them, the last as the mesh is now.
+    /// All stages; the last one is the present mesh.
     pub fn ended(mut self, mesh: &CollapsibleMesh) -> Vec<SimplificationStage> {
         let mut last = self.now(mesh);
         // Edges may have been flipped since.

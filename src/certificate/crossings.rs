@@ -1,4 +1,4 @@
-//! Whether straight lines on a mesh cross each other.
+//! Crossings of straight lines on a mesh.
 //!
 //! A line is known by the edges that it crosses and the places on them, the same for both triangles of an edge. In a triangle it
 //! is a chord between two points of the boundary; two chords cross where their ends alternate along it.
@@ -30,7 +30,7 @@ impl ChordEnd {
 /// A line's part in a triangle.
 type Chord = [ChordEnd; 2];
 
-/// How many pairs of chords cross. Lines that begin or end at one corner share it and do not cross there.
+/// The number of pairs of chords that cross. Lines that begin or end at one corner share it and do not cross there.
 pub(super) fn count(judged: &Judged<'_>, lines: &[Line]) -> usize {
     let mut chords: TiVec<FaceId, Vec<Chord>> = judged.mesh.faces().map(|_| Vec::new()).collect();
     let corner = |h: HalfedgeId| ChordEnd::Corner(h.corner());
@@ -58,7 +58,7 @@ fn cross(a: Chord, b: Chord) -> bool {
     let is_corner = |end: ChordEnd| matches!(end, ChordEnd::Corner(_));
     let mut meet = both().filter(|(x, y)| x.place() == y.place()).peekable();
     if meet.peek().is_some() {
-        // Lines that meet at a point of an edge are not apart, and no line passes a landmark.
+        // Lines that meet at a point of an edge count as crossing, as do lines that pass a landmark.
         return meet.any(|(x, y)| !(is_corner(x) && is_corner(y)));
     }
     let [low, high] = [a[0].place().min(a[1].place()), a[0].place().max(a[1].place())];

@@ -7,7 +7,8 @@ use crate::mesh::{HalfedgeId, VertexId};
 use glam::DVec2;
 use std::f64::consts::PI;
 
-/// Largest error of the direction of a line, in radians: it is known as exactly as its ends, and lines can be short.
+/// Largest error of the direction of a line, in radians: its ends are known up to rounding, which turns short lines by more. Chosen by
+/// hand.
 pub(super) const ANGLE_TOLERANCE: f64 = 1e-5;
 
 /// Largest difference of a direction's length from 1: above rounding, and far below what lengths of lines are held to.
@@ -56,7 +57,7 @@ fn corner_angle(judged: &Judged<'_>, h: HalfedgeId) -> f64 {
     signed_angle(q - p, r - p)
 }
 
-/// From one direction to another, counter-clockwise, from -pi to pi.
+/// The angle from one direction to another, counter-clockwise, above -pi and at most pi.
 fn signed_angle(from: DVec2, to: DVec2) -> f64 {
     let angle = turn(from, to);
     if angle <= -PI { PI } else { angle }

@@ -1,26 +1,26 @@
-//! What is judged, as plain arrays.
+//! The input of the certificate, as plain arrays.
 
 use crate::math::rigid2::Rigid2;
 use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec2;
 use typed_index_collections::TiSlice;
 
-/// A parametrised mesh, with what is said of where the base domain lies on it.
+/// A parametrised mesh, with the claim where the base domain's edges start on it.
 #[derive(Clone, Copy, Debug)]
 pub struct Judged<'a> {
     /// Its connectivity.
     pub mesh: &'a SurfaceMesh,
-    /// For each halfedge its start in the plane of its face; the whole has area 1.
+    /// For each halfedge its start in the plane of its face; the triangles' areas sum to 1.
     pub corners: &'a TiSlice<HalfedgeId, DVec2>,
     /// For each halfedge the rigid motion from the plane of its face to that of its twin's face.
     pub transitions: &'a TiSlice<HalfedgeId, Rigid2>,
     /// The mesh's vertex of each vertex of the base domain.
     pub landmark_vertices: &'a [VertexId],
-    /// Where each base halfedge is said to start.
+    /// The corner and the direction in which each base halfedge is claimed to start.
     pub starts: &'a TiSlice<HalfedgeId, Start>,
 }
 
-/// Where a straight line leaves a vertex.
+/// The corner and the direction in which a straight line leaves a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
     /// A halfedge that starts at the vertex.
@@ -29,7 +29,7 @@ pub struct Start {
     pub direction: DVec2,
 }
 
-/// The cone surface that a mesh is to be.
+/// The cone surface that a mesh must parametrise.
 #[derive(Clone, Copy, Debug)]
 pub struct Prescribed<'a> {
     /// The base domain's connectivity: a closed surface of genus 0.

@@ -12,32 +12,34 @@ use std::f64::consts::TAU;
 use std::fmt;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Largest error of an angle sum, in radians, and of a position, in units of sqrt(area), of a homeomorphism. Chosen by hand.
+/// Largest error that is put down to rounding: of an angle sum, in radians, and of a position, in units of sqrt(area). Chosen by hand:
+/// a wrong angle sum is off by 2 pi or more.
 const TOLERANCE: f64 = 1e-6;
 
 /// Whether a parametrisation is a homeomorphism onto the prescribed cone surface, with the numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Certificate {
-    /// Whether it is.
+    /// Whether the parametrisation is a homeomorphism.
     pub bijective: bool,
     /// Triangles that are not positively oriented.
     pub flipped_triangles: usize,
     /// Largest |angle sum - 2 pi| (minus the cone angle at landmarks), in radians.
     pub max_angle_sum_error: f64,
-    /// Largest distance between an edge seen from one side, carried over by the transition, and from the other.
+    /// Largest distance, in units of sqrt(area), between an edge's ends seen from one side, carried over by the transition, and from the
+    /// other.
     pub max_transition_error: f64,
-    /// Largest distance of a landmark from the end of a straight base edge that leads to it; infinite where one misses it, NaN
-    /// where a triangle or an angle is wrong, so that nothing can be followed.
+    /// Largest distance, in units of sqrt(area), of a landmark from the end of a straight base edge that leads to it; infinite where one
+    /// misses it, NaN where a triangle or an angle is wrong, so that no line can be followed.
     pub max_landmark_error: f64,
     /// Largest error of an angle between base edges, at their starts or between an arrival and the twin's start, in radians; NaN
-    /// as for landmarks.
+    /// as for `max_landmark_error`.
     pub max_direction_error: f64,
-    /// Pairs of base edges' parts that cross in a triangle.
+    /// Number of crossings of base edges, counted in each triangle.
     pub crossings: usize,
 }
 
 impl Certificate {
-    /// Both parametrisations together.
+    /// The certificate of two parametrisations together: counts are added, of errors the larger is taken.
     pub fn and(&self, other: &Self) -> Self {
         Self {
             bijective: self.bijective && other.bijective,
@@ -52,7 +54,7 @@ impl Certificate {
 }
 
 impl Certificate {
-    /// What is wrong, with its numbers.
+    /// A sentence for each fault, with its numbers.
     fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         let mut say = |is_so: bool, fault: String| faults.extend(is_so.then_some(fault));
@@ -93,7 +95,7 @@ impl fmt::Display for Certificate {
     }
 }
 
-/// Checks a parametrised mesh against the cone surface that it is to be.
+/// Checks a parametrised mesh against its prescribed cone surface.
 pub fn certify(judged: &Judged<'_>, prescribed: &Prescribed<'_>) -> Certificate {
     let flipped_triangles = judged.mesh.faces().filter(|&f| !is_positive(judged, f)).count();
     let max_angle_sum_error = angle_sum_error(judged, prescribed);
@@ -111,7 +113,7 @@ pub fn certify(judged: &Judged<'_>, prescribed: &Prescribed<'_>) -> Certificate 
     if is_flat { with_lines(measured, judged, prescribed) } else { measured }
 }
 
-/// The certificate of a flat surface: its base edges followed.
+/// Completes the certificate of a flat surface: follows the base edges.
 fn with_lines(flat: Certificate, judged: &Judged<'_>, prescribed: &Prescribed<'_>) -> Certificate {
     let base = prescribed.base;
     let around: TiVec<VertexId, Around> =
@@ -173,7 +175,7 @@ fn is_positive(judged: &Judged<'_>, f: FaceId) -> bool {
     orient2d(p, q, r) > 0.0
 }
 
-/// How far the sum of the angles around a vertex is from 2 pi, or from the prescribed cone angle at a landmark.
+/// The largest difference, in radians, of the sum of the angles around a vertex from 2 pi, or from the prescribed cone angle at a landmark.
 fn angle_sum_error(judged: &Judged<'_>, prescribed: &Prescribed<'_>) -> f64 {
     let mesh = judged.mesh;
     let mut sums: TiVec<VertexId, f64> = ti_vec![0.0; mesh.vertex_count()];
@@ -189,7 +191,7 @@ fn angle_sum_error(judged: &Judged<'_>, prescribed: &Prescribed<'_>) -> f64 {
     sums.iter().zip(&full).map(|(sum, full)| (sum - full).abs()).fold(0.0, nan_max)
 }
 
-/// How far an edge seen from one side, carried over by its transition, is from the same edge seen from the other.
+/// The largest distance of an edge's end seen from one side, carried over by its transition, from the same end seen from the other side.
 fn transition_error(judged: &Judged<'_>) -> f64 {
     let error = |h: HalfedgeId| {
         let t = judged.mesh.twin(h);

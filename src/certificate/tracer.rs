@@ -1,4 +1,4 @@
-//! A straight line over the planes of a parametrised mesh.
+//! The tracer of straight lines over the triangles of a parametrised mesh.
 
 use super::judged::{Judged, Start};
 use crate::math::predicates::orient2d;
@@ -14,7 +14,7 @@ pub(super) struct Line {
     pub begin: HalfedgeId,
     /// The halfedges by which it leaves faces, each with the place where it crosses: 0 at the halfedge's start, 1 at its end.
     pub crossings: Vec<(HalfedgeId, f64)>,
-    /// Where it ends; `None` where it misses its goal.
+    /// Its end; `None` where it misses its goal.
     pub end: Option<End>,
 }
 
@@ -23,16 +23,16 @@ pub(super) struct Line {
 pub(super) struct End {
     /// The corner at which it arrives, with the direction back.
     pub back: Start,
-    /// The distance between the end of the line and the corner.
+    /// The distance between the end of the line and the corner, in units of sqrt(area).
     pub error: f64,
 }
 
-/// Where a line is to end.
+/// The prescribed end of a line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Goal {
     /// The vertex.
     pub vertex: VertexId,
-    /// The length of the line.
+    /// The length of the line, in units of sqrt(area).
     pub length: f64,
     /// The largest distance between the end of the line and a corner of the vertex at which the line has arrived.
     pub tolerance: f64,

@@ -1,4 +1,4 @@
-//! The class of the map: layouts of different isotopy classes, each judged by the coarse map that it leads to.
+//! The choice of the map's isotopy class: layouts of different classes are judged by their coarse maps.
 
 use super::error::CoarseMapError;
 use super::mesh_with_coarse::{MeshWithCoarse, coarse_landmarks};
@@ -9,27 +9,27 @@ use crate::monitor::{Cancelled, Monitor, Portion};
 use crate::surface_map::MapError;
 use serde::{Deserialize, Serialize};
 
-/// Which class of maps is taken where several are close.
+/// The class of maps that is taken where several are close.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
 pub enum ClassChoice {
-    /// The one of least mean log density.
+    /// The class of least mean log density.
     #[default]
     Best,
-    /// The next best, where there is one that is close.
+    /// The next best class, where one is close.
     RunnerUp,
 }
 
-/// How the class of the map is chosen.
+/// Options of the choice of the class.
 #[derive(Clone, Copy, Debug)]
 pub struct ClassSearchOptions<'a> {
-    /// How coarse maps are made, judged and relaxed.
+    /// Options by which coarse maps are made, judged and relaxed.
     pub multilevel: &'a MultilevelOptions,
-    /// How layouts are searched.
+    /// Options of the search for layouts.
     pub search: &'a SearchOptions,
-    /// Which of the classes is taken.
+    /// The class that is taken where several are close.
     pub choice: ClassChoice,
 }
 
@@ -43,10 +43,10 @@ pub struct Chosen<'a> {
     pub map: CoarseMap<'a>,
 }
 
-/// The class whose coarse map has the least mean log density, among layouts planned on both coarse levels.
+/// Chooses the class whose coarse map has the least mean log density, among layouts drawn on both coarse levels.
 ///
-/// The best after a first look are relaxed further before one is taken, its own twists are judged, and where several are
-/// still as good they are compared on finer levels, whose triangles distort less by their size.
+/// The best maps of the first judgement are relaxed further before one is taken, then its own twists are judged, and where several
+/// are still as good they are compared on finer levels, whose smaller triangles distort less.
 ///
 /// # Errors
 /// [`CoarseMapError::Layout`] where no layout has a map, [`CoarseMapError::Cancelled`].
@@ -103,20 +103,21 @@ pub fn choose_class<'a>(
     Ok(Chosen { candidate: best.candidate, search, map: best.map })
 }
 
-/// Shares of the time of a search: when all layouts have been judged, and when the winner is known but for finer levels.
+/// Progress of the search, 0 to 1, once all layouts have been judged. Chosen by hand, for display only.
 const SEARCHED: f64 = 0.7;
+/// Progress of the search once the winner is known but for finer levels.
 const DECIDED: f64 = 0.9;
 
-/// Winners whose twists are judged, at most.
+/// Winners whose twists are judged, at most: a bound on the time. Chosen by hand.
 const MOST_WINNERS: usize = 4;
 
 /// One of the best maps of a search.
 struct Finalist<'a> {
-    /// Among the judged layouts.
+    /// Its number among the judged layouts.
     number: usize,
     candidate: Candidate,
     map: CoarseMap<'a>,
-    /// Mean log density after the first look.
+    /// Mean log density of the first judgement.
     first_look: f64,
     is_relaxed: bool,
 }
@@ -127,17 +128,17 @@ struct Finalists<'a, 'o> {
     options: &'o MultilevelOptions,
     maps: Vec<Finalist<'a>>,
     judged: usize,
-    /// By landmark: the number of layouts whose points around it could not be taken out.
+    /// By landmark, the number of layouts that have no map because of it.
     blame: Vec<f64>,
 }
 
 impl Finalists<'_, '_> {
-    /// Judges a layout by a first look at its map.
+    /// Judges a layout by its coarse map after one round of relaxation; `None` where it has no map.
     fn judge(&mut self, candidate: &Candidate, monitor: &mut dyn Monitor) -> Result<Option<f64>, Cancelled> {
         let number = self.judged;
         self.judged += 1;
         match solve_coarse(self.levels, &candidate.layout, self.options, monitor) {
-            // Without an overlay nothing can be lowered.
+            // A map without an overlay has no energy to lower.
             Ok(map) if !map.mean_log.is_finite() => Ok(None),
             Ok(map) => {
                 let first_look = map.mean_log;
@@ -163,7 +164,7 @@ impl Finalists<'_, '_> {
         }
     }
 
-    /// Relaxes the maps that are close after the first look further, and sorts them. Returns the number of the best.
+    /// Relaxes the maps that are close to the best after the first judgement further, and sorts them. Returns the number of the best.
     fn decide(&mut self, monitor: &mut dyn Monitor) -> Result<usize, CoarseMapError> {
         let least = self.maps.iter().map(|map| map.first_look).fold(f64::INFINITY, f64::min);
         self.maps.retain(|map| map.first_look <= self.options.close * least);
@@ -199,7 +200,7 @@ impl Finalists<'_, '_> {
                     Ok(true) => {}
                     Ok(false) => return Ok(None),
                     Err(MapError::Cancelled(stop)) => return Err(stop.into()),
-                    // A vertex without a place: the others do better.
+                    // A vertex found no place: this map loses to the others.
                     Err(_) => map.mean_log = f64::INFINITY,
                 }
             }

@@ -1,8 +1,8 @@
-//! Where vertices of the source lie on the target by their distances to the landmarks alone, without a map.
+//! Images of the source's vertices on the target guessed from their distances to the landmarks alone, without a map.
 //!
 //! With few landmarks the class of a map is hard to judge: a limb that is turned once costs little, and a map that begins with it
-//! carries the program's own points along. Distances along the surface know of no map. They hardly change from pose to pose, and
-//! tell the outside of a limb from its inside, so own points that are placed by them may lead to a better class.
+//! carries the program's own points along. Distances along the surface do not depend on a map. They hardly change from pose to pose,
+//! and tell the outside of a limb from its inside, so own points that are placed by them may lead to a better class.
 
 use crate::geodesic::distances;
 use crate::math::scalar::min;
@@ -10,28 +10,29 @@ use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use typed_index_collections::TiVec;
 
-/// The place of a vertex of the source.
+/// The guessed image of a vertex of the source.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Guess {
     /// The vertex of the target whose distances to the landmarks are the most like its own.
     pub vertex: VertexId,
-    /// Whether that vertex's own place is near, and no place elsewhere fits nearly as well.
+    /// Whether that vertex's own guess on the source is near, and no place elsewhere on the target fits nearly as well.
     pub is_trusted: bool,
 }
 
-/// A place whose own place is within this is trusted; the area is 1. Edges of a level with 500 vertices are 0.05 to 0.1 long. Chosen by hand.
+/// A guess is trusted only where the guess back from it is within this distance of the vertex; the area is 1. Edges of a level with
+/// 500 vertices are 0.05 to 0.1 long. Chosen by hand.
 const RETURNS_WITHIN: f64 = 0.06;
 
-/// What is farther than this from a place is elsewhere. Half the width of a body's trunk; chosen by hand.
+/// Points farther from each other than this are at different places; the area is 1. Half the width of a body's trunk; chosen by hand.
 const ELSEWHERE: f64 = 0.15;
 
-/// A place is clear where the misfit is this many times as large everywhere else. Chosen by hand.
+/// A guess is clear where the misfit is this many times as large everywhere else. Chosen by hand.
 const CLEARLY_WORSE: f64 = 2.0;
 
-/// Misfits for each landmark that are no better than one another: distances differ by a hundredth.
+/// Misfits that differ by less than this for each landmark count as equal: the square of a relative difference of 0.01. Chosen by hand.
 const ROUNDING: f64 = 1e-4;
 
-/// The place on the target of each vertex of the source, by the distances of both to the landmarks.
+/// Guesses the image of each vertex of the source from the distances of both meshes' vertices to the landmarks.
 ///
 /// Both meshes are coarse levels of area 1, with their landmarks in the same order.
 ///
@@ -54,7 +55,7 @@ pub(super) fn guess(
     Ok(onto.iter_enumerated().map(trusted).collect())
 }
 
-/// By vertex its distances to all landmarks.
+/// By vertex, its distances to all landmarks.
 type Fields = TiVec<VertexId, Vec<f64>>;
 
 fn fields(
@@ -103,7 +104,7 @@ fn nearest(
     Ok(found)
 }
 
-/// The sum of the squared relative differences: near landmarks tell more of a place than far ones.
+/// The sum of the squared relative differences of distances: near landmarks count more than far ones.
 fn misfit(a: &[f64], b: &[f64]) -> f64 {
     let square = |(a, b): (&f64, &f64)| {
         let relative = (a - b) / (a + b).max(f64::MIN_POSITIVE);

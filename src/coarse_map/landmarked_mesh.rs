@@ -1,4 +1,4 @@
-//! A mesh of area 1 with its landmarks and room for a layout around them.
+//! A mesh of area 1 with its landmarks, refined around them so that a layout can be drawn.
 
 use crate::landmarks::LandmarkId;
 use crate::layout::PatchedMesh;
@@ -14,11 +14,11 @@ pub struct LandmarkedMesh {
     pub refined: RefinedMesh,
     /// Its vertex of each landmark.
     pub landmarks: TiVec<LandmarkId, VertexId>,
-    /// How much the faces count; `None` where all are skin.
+    /// The weights of the faces; `None` where all are skin.
     weights: Option<Weights>,
 }
 
-/// How much faces count in an energy of the map.
+/// The weights of faces in an energy of the map.
 #[derive(Clone)]
 struct Weights {
     /// By face of the input mesh.
@@ -34,12 +34,12 @@ impl Weights {
     }
 }
 
-/// Edges at a landmark, at least. Around a landmark of degree 3, such as one inside a face, no layout's points can be taken
-/// out again: with three edges straight there is no room for the paths between them.
+/// Edges at a landmark, at least. Around a landmark of degree 3, such as one inside a face, no layout's points can be removed again:
+/// beside three straight edges there is no room for other paths. 6 was chosen by hand.
 const LEAST_DEGREE: usize = 6;
 
-/// Vertices for each landmark, at least: a base domain of n landmarks has 2 n - 4 triangles, and each needs some vertices of
-/// its own. With 42 vertices for 16 landmarks and 162 for 60 no layout had a map.
+/// Vertices of a level for each landmark, at least: a base domain of n landmarks has 2 n - 4 triangles, and each needs some vertices of
+/// its own. With 42 vertices for 16 landmarks and 162 for 60, less than 3 for each, no layout had a map. Chosen by hand above that.
 pub const LEAST_PER_LANDMARK: usize = 18;
 
 impl LandmarkedMesh {
@@ -71,7 +71,7 @@ impl LandmarkedMesh {
         Self { refined: self.refined.scaled(factor), ..self.clone() }
     }
 
-    /// How much the faces of the refined mesh count.
+    /// The weights of the faces of the refined mesh; all 1 where all are skin.
     pub fn weights(&self) -> FaceWeights<'_> {
         FaceWeights::new(self.weights_by_face())
     }
@@ -94,7 +94,7 @@ impl LandmarkedMesh {
         Ok((self.refined_to(refined), vertices))
     }
 
-    /// The same mesh with room around further vertices of the refined mesh.
+    /// The same mesh, refined around further vertices of it so that a layout has room there.
     ///
     /// # Errors
     /// [`MeshError`] where a face cannot be bisected.

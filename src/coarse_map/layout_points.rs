@@ -1,7 +1,7 @@
-//! The points that a layout added to a coarse mesh are taken out of its parametrisation.
+//! The removal of the points that a layout added to a coarse mesh from its parametrisation.
 //!
-//! A point on an edge goes along its edge, a point inside a face into any neighbour. Where one cannot go without turning a
-//! triangle over, the flat relaxation draws it and its neighbour on the edge together, closer each time, until it can.
+//! A point on an edge is collapsed along its edge, a point inside a face into any neighbour. Where the collapse would turn a triangle
+//! over, the flat relaxation draws the point and its neighbour on the edge together, closer each time, until the collapse is possible.
 
 use super::mesh_with_coarse::MeshWithCoarse;
 use crate::layout::PatchedMesh;
@@ -18,10 +18,12 @@ use glam::DVec3;
 use std::sync::Arc;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// A vertex of a patched mesh that the layout added: on an edge of the mesh before, or inside a face.
+/// The place of a vertex that the layout added to the coarse mesh.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Added {
+    /// On the edge between two vertices.
     OnEdge([VertexId; 2]),
+    /// Inside a face.
     Inside,
 }
 
@@ -34,10 +36,10 @@ pub struct PatchedParametrisation<'a> {
     pub embedding: &'a Embedding,
 }
 
-/// The coarse level's own parametrisation: the points that the layout added are taken out.
+/// The coarse level's own parametrisation: that of the patched mesh without the points that the layout added.
 ///
 /// # Errors
-/// [`MapError::LayoutPoints`] where some cannot be taken out, [`MapError::Cancelled`].
+/// [`MapError::LayoutPoints`] where some points cannot be removed, [`MapError::Cancelled`].
 pub fn without_layout_points<'a>(
     mesh: &'a MeshWithCoarse<'a>,
     patched: &PatchedMesh,
@@ -59,7 +61,7 @@ pub fn without_layout_points<'a>(
     let mut left: Vec<VertexId> = (first..patched.mesh.vertex_count()).map(VertexId::from).collect();
     let kind = |v: VertexId| added.get(v.index().wrapping_sub(first)).copied();
     take_out(&mut refined, &mut left, kind, monitor)?;
-    // Each about a third of the one before: from far away the slivers would be too stiff.
+    // Each about a third of the one before: in one step the rest triangles would be slivers, too stiff for the relaxation.
     // Chosen by hand, not measured at half and double.
     for closeness in [0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3] {
         if left.is_empty() {
@@ -115,7 +117,7 @@ fn origin(patched: &PatchedMesh, coarse: &SurfaceMesh, v: VertexId) -> Added {
     }
 }
 
-/// Whether an added point may go into a neighbour: along its edge, or anywhere from inside a face.
+/// Whether an added point may be collapsed into a neighbour: along its edge, or into any from inside a face.
 fn is_along(v: VertexId, w: VertexId, added: impl Fn(VertexId) -> Option<Added>) -> bool {
     match added(v) {
         Some(Added::OnEdge(ends)) => ends.contains(&w) || added(w) == Some(Added::OnEdge(ends)),
@@ -124,7 +126,7 @@ fn is_along(v: VertexId, w: VertexId, added: impl Fn(VertexId) -> Option<Added>)
 }
 
 /// Rest shapes in which each point that is left lies near a neighbour on its edge, at `closeness` times its distance. The triangles
-/// beside count as much as others, so that they really draw the two together.
+/// around it have at least the mean weight, so that they do draw the two together.
 fn pulled_together(
     level: &ParametrisedLevel<'_>,
     left: &[VertexId],
@@ -163,7 +165,7 @@ fn pulled_together(
 /// Points that are looked at between two questions to the monitor: some milliseconds, also beside vertices of a thousand neighbours.
 const ASKED_EVERY: usize = 64;
 
-/// Takes out what can be taken out: a point on an edge along its edge, a point inside a face into any neighbour.
+/// Removes the points that can be removed: a point on an edge along its edge, a point inside a face into any neighbour.
 fn take_out(
     level: &mut ParametrisedLevel<'_>,
     left: &mut Vec<VertexId>,

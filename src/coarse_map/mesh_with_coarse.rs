@@ -12,11 +12,11 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 /// A mesh with its coarse level.
 pub struct MeshWithCoarse<'a> {
-    /// Area 1.
+    /// The full mesh, of area 1.
     pub(super) full: &'a SurfaceMesh,
     pub(super) landmarks: &'a TiSlice<LandmarkId, VertexId>,
     pub(super) mesh: CollapsibleMesh,
-    /// How much faces count; `None` where all are skin.
+    /// The weights of the full mesh's faces; `None` where all are skin.
     pub(super) skin: Option<Skin<'a>>,
     /// The coarse level.
     pub coarse: Level,
@@ -54,7 +54,7 @@ impl<'a> MeshWithCoarse<'a> {
     }
 }
 
-/// Coarse levels of both meshes.
+/// Coarsens both meshes.
 ///
 /// # Errors
 /// [`Cancelled`].

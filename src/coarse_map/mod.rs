@@ -1,4 +1,4 @@
-//! Coarse first: the class of the map chosen among maps of two coarse levels, and the chosen one refined to the full meshes.
+//! Coarse maps: the class of the map is chosen among maps of two coarse levels, and the chosen map is refined to the full meshes.
 
 pub mod class_search;
 mod distance_guess;

@@ -1,7 +1,7 @@
-//! Coarse first: the map of two coarse meshes, refined to the full meshes.
+//! The map of two coarse meshes, refined to the full meshes.
 //!
 //! The base domain is drawn on coarse levels of both meshes, where everything costs milliseconds. Their parametrisations are
-//! relaxed, the points that the drawing added are taken out again, and the vertices of the full meshes come back level by
+//! relaxed, the points that the drawing added are removed again, and the vertices of the full meshes are restored level by
 //! level, while the energy of the map itself is lowered on every level. So the full meshes start near the optimum, and are
 //! never cut along the drawing.
 
@@ -35,7 +35,7 @@ use glam::DVec3;
 use std::sync::Arc;
 use typed_index_collections::{TiSlice, TiVec};
 
-/// Both coarse levels with their parametrisations.
+/// A map of two coarse levels: both with their parametrisations onto one cone surface.
 #[derive(Clone)]
 pub struct CoarseMap<'a> {
     /// The cone surface of its layout.
@@ -45,7 +45,7 @@ pub struct CoarseMap<'a> {
     pub mean_log: f64,
     /// Median distortion of both coarse levels by area; 1 for an isometry.
     pub median: f64,
-    /// The areas of what is skin on both coarse levels, on the source and on the target.
+    /// The areas, on the source's and on the target's level, of the pieces that are skin on both.
     skin_areas: [f64; 2],
     /// The energy that is lowered on finer levels.
     energy: MapEnergy,
@@ -53,15 +53,15 @@ pub struct CoarseMap<'a> {
     constraints: [Vec<(VertexId, PointConstraint)>; 2],
     full: [&'a SurfaceMesh; 2],
     skins: [Option<&'a Skin<'a>>; 2],
-    /// By mesh: the full mesh's vertex of each landmark.
+    /// By mesh, source first: the full mesh's vertex of each landmark.
     landmarks: [&'a TiSlice<LandmarkId, VertexId>; 2],
 }
 
-/// Scales of both meshes that differ by less are the same: 1 % moves the rim of a patch that is registered rigidly by less than the
-/// noise that the fit allows for. Chosen by hand.
+/// A scale that is off by less than this is kept: 1 % moves the rim of a patch that is registered rigidly by less than the noise that
+/// the fit allows for. Chosen by hand.
 const RIGHT_SCALE: f64 = 0.01;
 
-/// A map of two coarse levels, from a layout drawn on them, relaxed as far as a judgement needs.
+/// Makes the map of two coarse levels from a layout drawn on them, and relaxes it by `options.judge`.
 ///
 /// # Errors
 /// [`MapError::NoStart`], [`MapError::LayoutPoints`]: another layout or a finer level may help.
@@ -89,7 +89,7 @@ pub fn solve_coarse<'a>(
     Ok(map)
 }
 
-/// Both coarse levels, each relaxed over the cone surface of a layout by itself, without the points that the layout added.
+/// Parametrises both coarse levels over the cone surface of a layout, each relaxed by itself, without the points that the layout added.
 ///
 /// # Errors
 /// [`MapError::NoStart`], [`MapError::LayoutPoints`].
@@ -110,7 +110,7 @@ pub(super) fn parametrised_levels<'a>(
 }
 
 impl CoarseMap<'_> {
-    /// Relaxes the coarse map that was chosen, and finds out whether it is between two poses of one body.
+    /// Relaxes the chosen coarse map, and again by [`MapEnergy::POSES`] where it is between two poses of one body.
     ///
     /// # Errors
     /// [`MapError::Cancelled`].
@@ -124,11 +124,11 @@ impl CoarseMap<'_> {
         Ok(())
     }
 
-    /// How much larger the target should be for its skin that has a partner to have the area of its partner; `None` where no mesh
-    /// has caps, or where it is nearly right.
+    /// The factor by which to scale the target so that the skin that both meshes share has the same area on both; `None` where no mesh
+    /// has caps, or where the factor is within 1 % of 1.
     ///
-    /// Both meshes are scaled to area 1 with their caps. But what is missing of one and not of the other makes it too large; what
-    /// they share tells the right size, as the energy hardly minds the scale.
+    /// Both meshes are scaled to area 1 with their caps. So a mesh of which more is missing than of the other is too large. The map of
+    /// the shared skin tells the right scale, since the energy depends little on scale.
     pub fn better_scale(&self) -> Option<f64> {
         let [source, target] = self.skin_areas;
         let factor = (source / target).sqrt();
@@ -136,7 +136,7 @@ impl CoarseMap<'_> {
         (is_off && self.skins.iter().any(Option::is_some)).then_some(factor)
     }
 
-    /// The present levels with the images of the source level's vertices; `None` where a vertex is not found on the target.
+    /// The present levels with the images of the source level's vertices; `None` where a vertex cannot be located on the target.
     pub fn images(&self) -> Option<LevelImages> {
         let present = self.present();
         let [source, target] = [0, 1].map(|k| present[k].parametrised());
@@ -148,7 +148,7 @@ impl CoarseMap<'_> {
         Some(LevelImages { levels: [source.level, target.level], weights, target_from_source })
     }
 
-    /// The present level of a mesh with the images of its vertices; `None` where a vertex is not found.
+    /// The present level of a mesh with the images of its vertices; `None` where a vertex cannot be located.
     pub(super) fn placed(&self, of: PreviewOf) -> Option<PlacedLevel<'_>> {
         let k = match of {
             PreviewOf::Source => 0,
@@ -188,13 +188,13 @@ impl CoarseMap<'_> {
         Ok(())
     }
 
-    /// Whether both present levels have so many vertices.
+    /// Whether both present levels have at least this many vertices.
     fn have(&self, vertices: usize) -> bool {
         self.levels.iter().all(|level| level.mesh().live_vertices() >= vertices)
     }
 
-    /// Registers patches and lowers the energy with their constraints, so many times; then the constraints hold the vertices where
-    /// they are, since on a finer level another place for one of their small triangles would dent the map.
+    /// Registers patches and lowers the energy with their constraints, `rounds` times; then the constraints hold the vertices where
+    /// they are, since constraints to other places would dent the small triangles of finer levels.
     ///
     /// # Errors
     /// [`MapError::Cancelled`].
@@ -235,7 +235,7 @@ impl CoarseMap<'_> {
         Ok(())
     }
 
-    /// Lowers the energy of the present levels; between two poses patches are registered meanwhile.
+    /// Lowers the energy of the map of the present levels; between two poses of one body patches are registered, too.
     ///
     /// # Errors
     /// [`MapError::Cancelled`].
@@ -250,7 +250,7 @@ impl CoarseMap<'_> {
         let least = if is_finest { patches.least_full } else { patches.least_vertices };
         if self.energy != MapEnergy::POSES || !self.have(least) {
             if is_finest {
-                // What held vertices of coarser levels would dent their small triangles.
+                // Constraints from coarser levels would dent the small triangles of the full meshes.
                 self.constraints = Default::default();
             }
             return self.lower(fine, monitor, |_| ());
@@ -260,7 +260,7 @@ impl CoarseMap<'_> {
             let part = &mut Portion::new(monitor, 0.5, 1.0);
             return self.register_patches(patches, patches.rounds, fine, part);
         }
-        // Registered first: where nothing draws it the map of the full meshes drifts to the least energy, away from the known map.
+        // Registered first: without the registration's pull the map of the full meshes drifts from the known map to the least energy.
         self.register_patches(patches, patches.full_rounds, fine, &mut Portion::new(monitor, 0.0, 0.5))?;
         for (_, constraint) in self.constraints.iter_mut().flatten() {
             constraint.rows = constraint.rows.map(|row| row * patches.hold.sqrt());
@@ -268,7 +268,7 @@ impl CoarseMap<'_> {
         self.lower(fine, &mut Portion::new(monitor, 0.5, 1.0), |_| ())
     }
 
-    /// Lowers the energy of the present levels while rims that correspond draw each other. Constraints that hold other vertices stay.
+    /// Lowers the energy of the present levels with constraints that draw corresponding rims to each other. Other constraints stay.
     ///
     /// # Errors
     /// [`MapError::Cancelled`].
@@ -306,7 +306,7 @@ impl CoarseMap<'_> {
         (!lines.iter().any(Vec::is_empty)).then_some(lines)
     }
 
-    /// Brings vertices back on both meshes until each level has grown by `growth`; `false` where none is missing.
+    /// Restores vertices of both meshes until each level has grown by `options.growth`; `false` where both are full.
     fn grow(&mut self, options: &MultilevelOptions, monitor: &mut dyn Monitor) -> Result<bool, MapError> {
         let mut grown = false;
         for level in &mut self.levels {
@@ -320,14 +320,14 @@ impl CoarseMap<'_> {
         Ok(grown)
     }
 
-    /// By finer level the share of the whole time that has passed when it is done; a level takes time in proportion to its vertices.
+    /// By finer level the progress, 0 to 1, once it is done; a level takes time in proportion to its vertices.
     fn level_shares(&self, options: &MultilevelOptions) -> Vec<f64> {
         let mut live = self.levels.each_ref().map(|level| level.mesh().live_vertices());
         let full = self.levels.each_ref().map(ParametrisedLevel::full_vertices);
         let mut sums: Vec<f64> = Vec::new();
         while live != full {
             let next = [0, 1].map(|k| options.next_level(live[k], full[k]));
-            // Levels whose vertices are held cannot grow; there is no other end.
+            // Levels that cannot refine any further end the loop here.
             if next == live {
                 break;
             }
@@ -338,7 +338,7 @@ impl CoarseMap<'_> {
         sums.into_iter().map(|sum| sum / total).collect()
     }
 
-    /// Goes to the next finer level and judges the map there; `false` where there is none.
+    /// Refines the map to the next finer level and judges it there; `false` where there is none.
     ///
     /// # Errors
     /// [`MapError::NoStart`], [`MapError::Cancelled`].
@@ -354,7 +354,7 @@ impl CoarseMap<'_> {
         Ok(grown)
     }
 
-    /// Heals the worst places of the present levels.
+    /// Repairs the dents of the map of the present levels.
     ///
     /// # Errors
     /// [`MapError::Cancelled`].
@@ -405,7 +405,7 @@ impl CoarseMap<'_> {
         Ok(())
     }
 
-    /// Lowers the energy of the map of the present levels. Returns what `look` reads off the relaxed map.
+    /// Lowers the energy of the map of the present levels. Returns the result of `look` on the relaxed map.
     fn lower<T>(
         &mut self,
         options: &MapRelaxationOptions,
@@ -442,7 +442,7 @@ struct PresentLevel {
     level: Level,
     landmarks: TiVec<LandmarkId, VertexId>,
     embedding: Embedding,
-    /// How much its faces count; `None` where all are skin.
+    /// The weights of its faces; `None` where all are skin.
     weights: Option<TiVec<FaceId, FaceWeight>>,
 }
 
@@ -461,24 +461,25 @@ impl PresentLevel {
     }
 }
 
-/// A level of one mesh with its images on the other.
+/// A level of one mesh with the images of its vertices on the other.
 pub(super) struct PlacedLevel<'a> {
     pub level: Level,
-    /// By vertex of the level.
+    /// By vertex of the level, its image on the other mesh's level.
     pub images: TiVec<VertexId, DVec3>,
-    /// The full mesh of the level, and the full mesh on which the images are, nearly.
+    /// The full mesh of the level.
     pub full: &'a SurfaceMesh,
+    /// The other full mesh.
     pub onto: &'a SurfaceMesh,
 }
 
-/// The map of two levels, read off at the source level's vertices.
+/// The map of two levels, given by the images of the source level's vertices.
 #[derive(Clone)]
 pub struct LevelImages {
     /// Source and target level.
     pub levels: [Level; 2],
-    /// How much the faces of each count; `None` where all are skin.
+    /// The weights of the faces of each; `None` where all are skin.
     weights: [Option<TiVec<FaceId, FaceWeight>>; 2],
-    /// The point of the target level that belongs to each vertex of the source level.
+    /// By vertex of the source level, its image on the target level.
     pub target_from_source: TiVec<VertexId, SurfacePoint>,
 }
 
@@ -499,13 +500,13 @@ impl LevelImages {
         Self { target_from_source, ..self.clone() }
     }
 
-    /// How much the faces of the source and of the target level count.
+    /// The weights of the faces of the source and of the target level.
     pub fn weights(&self) -> [FaceWeights<'_>; 2] {
         self.weights.each_ref().map(|weights| FaceWeights::new(weights.as_deref()))
     }
 }
 
-/// Brings all vertices back, relaxing level by level.
+/// Refines a coarse map to the full meshes: restores all vertices and relaxes level by level.
 ///
 /// # Errors
 /// [`MapError::NoStart`].

@@ -1,4 +1,4 @@
-//! How a map is solved from coarse to fine.
+//! Options of the coarse map and of its refinement.
 
 use super::rim_draws::RimDrawOptions;
 use super::rims::RimOptions;
@@ -9,12 +9,12 @@ use crate::surface_map::parametrisation::problem::FlatRelaxOptions;
 use crate::surface_map::relaxation::dents::DentOptions;
 use crate::surface_map::relaxation::map_relaxation::MapRelaxationOptions;
 
-/// How a map is solved from coarse to fine.
+/// Options of the coarse map and of its refinement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MultilevelOptions {
     /// Vertices of the coarse level.
     pub coarse_vertices: usize,
-    /// Growth from level to level.
+    /// Factor of the number of vertices from level to level.
     pub growth: f64,
     /// The first parametrisation of a coarse level.
     pub initial: InitialOptions,
@@ -29,28 +29,29 @@ pub struct MultilevelOptions {
     /// Maps whose mean log density is within this factor of the least one after the second judgement are judged again on
     /// finer levels.
     pub undecided: f64,
-    /// Finer levels on which they are, at most.
+    /// Finer levels on which these maps are judged, at most.
     pub finer: usize,
     /// The relaxation for the second judgement.
     pub decide: MapRelaxationOptions,
     /// The relaxation of the map of the coarse level that was chosen.
     pub coarse: MapRelaxationOptions,
-    /// How much caps over holes count in the energies of the map, from 0 to 1; skin counts 1.
+    /// The weight of caps over holes in the energies of the map, from 0 to 1; that of skin is 1.
     pub cap_weight: f64,
-    /// What it costs where skin lies over a cap whose rim corresponds to one of the other mesh, per unit of area; an isometry costs 2.
+    /// The energy, per unit of area, of skin that is mapped onto a cap whose rim corresponds to one of the other mesh; that of an isometry
+    /// is 2.
     pub border_toll: f64,
-    /// How rims that correspond are drawn to each other on finer levels.
+    /// Options by which corresponding rims are drawn to each other on finer levels.
     pub rim_draws: RimDrawOptions,
-    /// How many vertices of the rims of caps the coarse level keeps.
+    /// The numbers of vertices that the coarse level keeps on the rims of caps.
     pub rims: RimOptions,
     /// A coarse map with a median distortion below this is between two poses of one body: it is relaxed by
     /// [`MapEnergy::POSES`] from then on.
     pub pose_median: f64,
     /// The relaxation of the map on every finer level.
     pub fine: MapRelaxationOptions,
-    /// How patches are registered between two poses of one body.
+    /// Options of the registration of patches between two poses of one body.
     pub rigid_patches: RigidPatchOptions,
-    /// How the worst places of the full map are healed.
+    /// Options of the repair of dents of the full map.
     pub dents: DentOptions,
 }
 
@@ -58,7 +59,7 @@ impl MultilevelOptions {
     /// Vertices of the level after one with `live` vertices, of a mesh with `full`.
     pub(super) fn next_level(&self, live: usize, full: usize) -> usize {
         let next = (live as f64 * self.growth) as usize;
-        // No level that is only a little coarser than the full mesh.
+        // A level with more than half of the full vertices is skipped: it is hardly coarser than the full mesh.
         if 2 * next > full { full } else { next }
     }
 }

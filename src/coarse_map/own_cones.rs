@@ -1,8 +1,8 @@
-//! Cones of the program's own where the user gave few landmarks.
+//! Cones that the program adds where the user gave few landmarks.
 //!
-//! A cone surface with few cones is a poor image of a body with many limbs, and a map over it gets stuck. So points are added
-//! and carried to the target by the present map; the map is solved again with all as cones. Every round takes fresh points,
-//! so that those of the round before are free to move.
+//! A cone surface with few cones is a poor image of a body with many limbs, and the descent of a map over it ends in a poor
+//! minimum. So points are added and carried to the target by the present map; the map is solved again with all as cones.
+//! Every round takes fresh points, so that those of the round before are free to move.
 
 use super::class_search::{ClassChoice, ClassSearchOptions, choose_class};
 use super::distance_guess::{self, Guess};
@@ -20,22 +20,22 @@ use std::cell::OnceCell;
 use std::sync::Arc;
 use typed_index_collections::TiVec;
 
-/// Cones of the program's own.
+/// Options of the program's own cones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OwnConeOptions {
-    /// Points that are added; 0 turns them off.
+    /// Points that are added; 0 for none.
     pub count: usize,
-    /// With more landmarks than this none are added.
+    /// Points are added only where there are at most this many landmarks.
     pub most_landmarks: usize,
-    /// A coarse map of less mean log density needs no help; 0 for an isometry.
+    /// Points are added only where the mean log density of the coarse map is at least this; 0 for an isometry.
     pub least_mean_log: f64,
-    /// Sets of points, one after the other, at most.
+    /// Rounds, each with another set of points, at most.
     pub rounds: usize,
-    /// Stops after this many sets without a gain.
+    /// Stops after this many rounds without a gain.
     pub patience: usize,
-    /// A gain lowers the mean log density by this share.
+    /// The share by which a gain lowers the mean log density.
     pub least_gain: f64,
-    /// The search for the layout with own points.
+    /// Options of the search for the layout with own points.
     pub search: SearchOptions,
 }
 
@@ -43,10 +43,10 @@ impl Default for OwnConeOptions {
     fn default() -> Self {
         let search = SearchOptions { candidates: 2, twists: 2, ..SearchOptions::default() };
         Self {
-            // Together with 12 of 33 landmarks about as many cones as with all. Rounds and gains were chosen by hand.
+            // With 12 of 33 landmarks that makes about as many cones as all 33. Rounds and gains were chosen by hand.
             count: 20,
             most_landmarks: 16,
-            // That of a map of energy 4.01.
+            // The mean log density of a map of energy 4.01.
             least_mean_log: 0.0025,
             rounds: 6,
             patience: 2,
@@ -56,26 +56,26 @@ impl Default for OwnConeOptions {
     }
 }
 
-/// Owner of what the rounds make, which their maps borrow: each round fills a cell.
+/// Storage for the meshes or levels of all rounds, which their maps borrow: each round fills one cell.
 pub struct Rounds<T>(Vec<OnceCell<[T; 2]>>);
 
 impl<T> Rounds<T> {
-    /// Room for all rounds.
+    /// Empty storage for all rounds.
     pub fn new(options: &OwnConeOptions) -> Self {
         Self((0..options.rounds).map(|_| OnceCell::new()).collect())
     }
 }
 
-/// Owners of all that the rounds make.
+/// Storage for the meshes and the levels of all rounds.
 #[derive(Clone, Copy)]
 pub struct Owners<'a> {
-    /// Of both meshes with own landmarks.
+    /// Both meshes with own landmarks.
     pub meshes: &'a Rounds<LandmarkedMesh>,
-    /// Of these meshes with their coarse levels.
+    /// These meshes with their coarse levels.
     pub levels: &'a Rounds<MeshWithCoarse<'a>>,
 }
 
-/// The cells of both owners that are not filled yet, round by round.
+/// The cells of both that are not filled yet, round by round.
 type Cells<'a> = std::iter::Zip<
     std::slice::Iter<'a, OnceCell<[LandmarkedMesh; 2]>>,
     std::slice::Iter<'a, OnceCell<[MeshWithCoarse<'a>; 2]>>,
@@ -145,8 +145,8 @@ pub struct Start<'a> {
 
 /// Adds own landmarks round by round, as long as they lower the mean log density of the coarse map; `None` where they do not.
 ///
-/// The first rounds begin with images under the map and, for the case that it is of a wrong class, with images by distances alone
-/// (`distance_guess`). Every other takes fresh points at their images under the last map, as long as that is not much worse than the
+/// The first rounds begin with images under the map and, for the case that it is of a wrong class, with images guessed from distances
+/// (`distance_guess`). Every further round takes fresh points at their images under the last map, unless that is much worse than the
 /// best one.
 ///
 /// # Errors
@@ -216,8 +216,8 @@ impl<'a> Adding<'_, 'a> {
         self.cells.len() > 0 && !monitor.wants_result()
     }
 
-    /// The map with own points that were placed anew under a map whose own points were placed by distances. Those are not exact, so
-    /// the first map strains; what is looked for is its class.
+    /// A map that begins with own points at images guessed from distances. Those are not exact, so the first map is distorted too much; it
+    /// only finds the class, and a second round places the points anew by it.
     fn by_distances(
         &mut self,
         present: &LevelImages,
@@ -244,7 +244,7 @@ impl<'a> Adding<'_, 'a> {
         }
     }
 
-    /// A map with fresh own points among those that `may` be taken, at these images; `None` where there are none, or no map.
+    /// A map with fresh own points, of the vertices that `may` be taken, at the given images; `None` where there are none, or no map.
     fn round(
         &mut self,
         images: &LevelImages,
@@ -278,16 +278,17 @@ impl<'a> Adding<'_, 'a> {
     }
 }
 
-/// Own points that are placed by distances are inexact, and the map strains: of twelve pairs with 8 landmarks its mean log density was 0.9
-/// to 1.6 times the other's. Of the six where it was more than this many times as large one gained by placing them anew (12 %).
+/// A map with own points at guessed images is gone on with where its mean log density is below this many times the least. Such images are
+/// inexact: on twelve pairs with 8 landmarks it was 0.9 to 1.6 times that of the other map. Of the six pairs above this limit one gained
+/// by placing the points anew (12 %).
 const PROMISING: f64 = 1.2;
 
-/// The next round takes its images from the last map, also where that is not the best: the points that made the best one have moved
-/// there. Not from one whose mean log density is this many times the least, which may be of another class. 1 and 1.5 were tried on four
+/// The next round takes its images from the last map, also where that is not the best, since the points of the best map have moved in it;
+/// but not where its mean log density is at least this many times the least, as it may be of another class. 1 and 1.5 were tried on four
 /// folded bodies (see docs/experiments.md).
 const USABLE: f64 = 1.5;
 
-/// By vertex of the source level its place on the target level by distances.
+/// By vertex of the source level, its image on the target level guessed from distances.
 fn guesses(
     present: &LevelImages,
     full: &[LandmarkedMesh; 2],
@@ -300,7 +301,7 @@ fn guesses(
     distance_guess::guess([&source.mesh, &target.mesh], [&on_source, &on_target], monitor)
 }
 
-/// The chosen map relaxed to the end of its level.
+/// The chosen map, relaxed as far as its coarse level goes.
 fn finished<'a>(
     mut map: CoarseMap<'a>,
     options: &MultilevelOptions,

@@ -1,4 +1,4 @@
-//! Points of the program's own: where they are on the source, and with their images as landmarks after the user's.
+//! The program's own points: their choice on the source, and their insertion with their images as landmarks after the user's.
 
 use super::landmarked_mesh::LandmarkedMesh;
 use super::multilevel::LevelImages;
@@ -9,16 +9,17 @@ use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use glam::DVec3;
 
-/// Own points are at least this far from all others; the area is 1. 36 points spread evenly are 0.17 apart, so it only keeps points
-/// from meeting on limbs.
+/// Least distance of an own point from all others; the area is 1. 36 points spread evenly are 0.17 apart, so it only keeps points from
+/// meeting on limbs. Chosen by hand.
 const LEAST_DISTANCE: f64 = 0.03;
 
-/// Points of a round are at least this far from those of the round before, which so are free to move. Farther ones miss the ends of limbs, where
-/// those had been, and their maps are worse by a tenth to a half: so it is about as far as edges of the coarse level are long. Chosen by hand.
+/// Least distance of a round's points from those of the round before, which are so free to move; the area is 1. With larger distances a
+/// round misses the ends of limbs, where those before were, and its maps are worse by a tenth to a half: so it is about the length of the
+/// coarse level's edges. Chosen by hand.
 const APART: f64 = 0.05;
 
-/// Nearer than this (in barycentric coordinates) to a side, an own point is put onto it: it may lie anywhere near, and a needle
-/// would distort. Chosen by hand.
+/// An own point is moved onto a side of its face where a barycentric coordinate is below this: its exact place does not matter, and a
+/// needle would distort. Chosen by hand.
 const SNAP: f64 = 0.15;
 
 /// A point of the program's own, to be a landmark.
@@ -29,16 +30,16 @@ pub(super) struct OwnPair {
     target: SurfacePoint,
 }
 
-/// Which own points a round takes.
+/// The own points that a round may take.
 pub(super) struct Wanted<'a> {
-    /// Points at most.
+    /// Number of points, at most.
     pub count: usize,
-    /// Which vertices of the source level may be taken.
+    /// Whether a vertex of the source level may be taken.
     pub may: &'a dyn Fn(VertexId) -> bool,
 }
 
-/// At most so many points of the source as are wanted, far from the landmarks and from each other, none at those of the round before, with
-/// their images on the target.
+/// Chooses points of the source, at most `wanted.count`, far from the landmarks and from each other and not at those of the round before,
+/// with their images on the target.
 pub(super) fn pairs(
     full: &[LandmarkedMesh; 2],
     images: &LevelImages,
@@ -58,7 +59,7 @@ pub(super) fn pairs(
         mesh.vertices().filter(|&v| near[v] < APART).for_each(|v| free[v.index()] = false);
     }
     mesh.vertices().filter(|&v| !weights[0].is_on_skin(mesh, v)).for_each(|v| free[v.index()] = false);
-    // What the round before inserted around its own points is no vertex of the mesh with the user's landmarks alone.
+    // The vertices that the round before inserted around its own points are not in the mesh with the user's landmarks alone.
     let known = full[0].refined.mesh.vertex_count();
     mesh.vertices().filter(|&v| source.vertices[v].index() >= known).for_each(|v| free[v.index()] = false);
     let spread = Spread { count: wanted.count, least_distance: LEAST_DISTANCE };
@@ -88,7 +89,7 @@ pub(super) fn pairs(
     Ok(pairs)
 }
 
-/// The same point on a corner or a side that is near, so that no needles are made.
+/// The point moved onto a corner or a side that is near, so that no needles are made.
 fn snapped(point: SurfacePoint) -> SurfacePoint {
     SurfacePoint::clamped(point.face, point.barycentric.map(|w| if w < SNAP { 0.0 } else { w }))
 }

@@ -1,7 +1,7 @@
-//! A coarse map as it is seen before it is done.
+//! Previews of a coarse map before it is refined.
 //!
-//! The vertices of the present level have exact images. Every other vertex of the full mesh is projected to the level, and takes the
-//! place between the images of its face's corners there: near enough to carry a pattern, for the price of one search each.
+//! The vertices of the present level have exact images. Every other vertex of the full mesh is projected onto the level, and its image
+//! is interpolated from those of its face's corners there: near enough to show a pattern, for one search each.
 
 use super::multilevel::{CoarseMap, PlacedLevel};
 use crate::mesh::normals::vertex_normals;
@@ -11,7 +11,7 @@ use crate::monitor::{MapPreview, PreviewOf};
 use glam::DVec3;
 
 impl MapPreview for CoarseMap<'_> {
-    /// By vertex of the full mesh with its landmarks, on the other one, which is scaled to area 1.
+    /// By vertex of the full mesh with its landmarks, its image on the other mesh, which is scaled to area 1.
     fn images(&self, of: PreviewOf) -> Option<Vec<DVec3>> {
         let PlacedLevel { level, images, full, onto } = self.placed(of)?;
         let index = SurfaceIndex::new(&level.mesh);

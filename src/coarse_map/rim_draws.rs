@@ -1,8 +1,8 @@
-//! Rims that correspond draw each other, each vertex to the line of the other rim.
+//! Constraints that draw corresponding rims to each other, each vertex to the line of the other rim.
 //!
-//! The toll on skin over a cap pulls at a rim with the same force however far it is off. So a rim that begins far from its partner stays
-//! where the skin behind it, stretched or pressed, pulls as hard. Here the force grows with the distance: a vertex is drawn across the
-//! other rim, and is free to move along it.
+//! The toll on skin over a cap pulls at a rim with the same force at any distance. So a rim that begins far from its partner stays
+//! where the stretched or compressed skin behind it pulls as hard. The force of these constraints grows with the distance: a vertex is
+//! drawn square to the other rim, and is free to move along it.
 
 use crate::mesh::face_weights::FaceWeights;
 use crate::mesh::rims::{Rim, rims};
@@ -13,20 +13,20 @@ use crate::surface_map::energy::point_constraint::PointConstraint;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// How rims that correspond are drawn to each other.
+/// Options by which corresponding rims are drawn to each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RimDrawOptions {
-    /// Relaxations with draws on each finer level; the rims are compared anew before each.
+    /// Relaxations with these constraints on each finer level; the rims are compared anew before each.
     pub rounds: usize,
-    /// Energy of a rim per unit of its length and of its squared distance from the other; areas are 1.
+    /// Energy of a rim per unit of its length and of its squared distance from the other rim; areas are 1.
     pub strength: f64,
 }
 
-/// The rim of a cap whose toll is not 0: it corresponds to one of the other mesh.
+/// The rim of a cap whose toll is above 0: it corresponds to a rim of the other mesh.
 pub(super) struct BorderLine {
-    /// Its edges.
+    /// An index of its edges.
     index: SegmentIndex,
-    /// Of each edge the unit vector in the plane of the skin beside it, square to it.
+    /// By edge, the unit vector in the plane of the skin beside it, square to it.
     across: Vec<DVec3>,
     /// By vertex, in order, the length that it stands for.
     lengths: BTreeMap<VertexId, f64>,
@@ -38,7 +38,7 @@ pub(super) fn border_lines(mesh: &SurfaceMesh, weights: FaceWeights<'_>) -> Vec<
     rims.iter().map(|rim| BorderLine::new(mesh, weights, rim)).collect()
 }
 
-/// Constraints that draw the rims of a level's mesh, each to that rim of the other mesh to which it is nearest as a whole. Both areas
+/// Constraints that draw the rims of a level's mesh, each to the rim of the other mesh that is nearest to it on average. Both areas
 /// are 1.
 pub(super) fn draws(
     own: &[BorderLine],
@@ -92,7 +92,7 @@ impl BorderLine {
         };
         let distances = others.iter().map(|line| (line, apart(line)));
         let Some((partner, _)) = distances.min_by(|a, b| a.1.total_cmp(&b.1)) else { return Vec::new() };
-        // Those of a coarse level stand for the whole rim.
+        // The vertices of a coarse level stand for the whole rim.
         let share = self.lengths.values().sum::<f64>() / placed.iter().map(|p| p.length).sum::<f64>();
         let constraint = |p: &Placed| {
             let OnSegment { segment, position: place } = partner.foot(p.image)?;
@@ -105,9 +105,10 @@ impl BorderLine {
 
 /// A vertex of a rim that is in the present level.
 struct Placed {
-    /// Of the full mesh.
+    /// Its number in the full mesh.
     vertex: VertexId,
     image: DVec3,
+    /// The length of the rim that it stands for.
     length: f64,
 }
 

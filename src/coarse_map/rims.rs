@@ -1,22 +1,22 @@
 //! Vertices on the rims of caps that coarse levels keep.
 //!
-//! A small cap would vanish on a coarse level, and what belongs under it would be mapped onto skin: it slides over the rim and
-//! hardly comes back on finer levels. So some vertices of each rim stay, about as far from each other along it as they can.
+//! A small cap would vanish on a coarse level, and the other mesh's part that belongs under it would be mapped onto skin, from where it
+//! hardly comes back on finer levels. So some vertices of each rim stay, about as far from each other as they can.
 
 use crate::mesh::face_weights::FaceWeights;
 use crate::mesh::rims::rims;
 use crate::mesh::{SurfaceMesh, VertexId};
 
-/// How many vertices of rims stay on a coarse level.
+/// The numbers of vertices of rims that stay on a coarse level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RimOptions {
-    /// Of each rim, at most.
+    /// Vertices of each rim, at most.
     pub each: usize,
-    /// Of all rims together, as a share of the level's vertices; the longest rims come first.
+    /// Vertices of all rims together, as a share of the level's vertices, 0 to 1; the longest rims come first.
     pub share: f64,
 }
 
-/// Vertices of rims that stay on a coarse level of so many vertices.
+/// The vertices of rims that stay on a coarse level with `vertices` vertices.
 pub fn kept_of_rims(
     mesh: &SurfaceMesh,
     weights: FaceWeights<'_>,
@@ -34,7 +34,7 @@ pub fn kept_of_rims(
     kept
 }
 
-/// Some of the vertices, by farthest points in space.
+/// At most `most` of the vertices, chosen as farthest points in space.
 fn spread(mesh: &SurfaceMesh, vertices: &[VertexId], most: usize) -> Vec<VertexId> {
     let place = |v: VertexId| mesh.positions()[v];
     let mut chosen: Vec<VertexId> = vertices.first().copied().into_iter().take(most).collect();

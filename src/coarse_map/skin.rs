@@ -1,4 +1,4 @@
-//! How much the faces of a level count, where the full mesh has caps.
+//! The weights of the faces of a level, where the full mesh has caps.
 
 use crate::math::barycentric::interpolated;
 use crate::mesh::coarsening::Level;
@@ -8,13 +8,13 @@ use crate::mesh::{FaceId, SurfaceMesh};
 use glam::DVec3;
 use typed_index_collections::{TiSlice, TiVec};
 
-/// A full mesh with caps.
+/// A full mesh with caps, with the weights of its faces.
 pub struct Skin<'a> {
     weights: &'a TiSlice<FaceId, FaceWeight>,
     index: SurfaceIndex<'a>,
 }
 
-/// Places in a coarse face where the full mesh is asked: the middles of its quarters, as barycentric coordinates.
+/// Places in a coarse face at which the full mesh's weights are sampled: the middles of its quarters, in barycentric coordinates.
 const SAMPLES: [[f64; 3]; 4] = {
     const SIXTH: f64 = 1.0 / 6.0;
     const THIRD: f64 = 1.0 / 3.0;

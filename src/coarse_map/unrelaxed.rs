@@ -1,7 +1,7 @@
-//! The map before its own energy is lowered: what relaxation begins with.
+//! The map before its own energy is lowered.
 //!
-//! Each mesh is relaxed over the cone surface by itself, the other unseen. Two halves of least distortion do not make the map of least
-//! distortion; how far they are from it shows what the relaxation of the map is for.
+//! Each mesh is relaxed over the cone surface by itself, without regard to the other. Two parametrisations of least distortion do not make
+//! the map of least distortion; the difference shows the effect of the relaxation of the map.
 
 use super::mesh_with_coarse::MeshWithCoarse;
 use super::multilevel::parametrised_levels;
@@ -20,7 +20,7 @@ pub struct Unrelaxed {
     pub embeddings: [Embedding; 2],
 }
 
-/// Brings all vertices back onto the cone surface of a layout, each mesh relaxed by itself.
+/// Parametrises both full meshes over the cone surface of a layout, each relaxed by itself.
 ///
 /// # Errors
 /// [`MapError::NoStart`], [`MapError::LayoutPoints`], [`MapError::Cancelled`].

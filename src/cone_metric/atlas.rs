@@ -109,7 +109,7 @@ pub(super) struct Development {
     pub corners: TiVec<HalfedgeId, DVec2>,
     /// The faces in the order in which they were placed.
     pub order: Vec<FaceId>,
-    /// Where each ring around the first face starts in that order, and one past the end.
+    /// The number, in that order, of the first face of each ring around the seed, and one past the end.
     pub rings: Vec<usize>,
     /// Whether a face was placed across the edge; twins agree.
     pub joined: TiVec<HalfedgeId, bool>,

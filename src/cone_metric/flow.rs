@@ -11,7 +11,7 @@ use crate::numerics::conjugate_gradients::{CgError, CgOptions, CgWorkspace};
 use crate::numerics::graph::Graph;
 use typed_index_collections::{TiSlice, TiVec};
 
-/// How the flow runs.
+/// Options of the flow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlowOptions {
     /// The discrete conformal structure.
@@ -44,7 +44,7 @@ pub struct FlowReport {
     pub edge_flips: usize,
     /// max |target - curvature| at the end, in radians.
     pub max_curvature_error: f64,
-    /// The same before the first and after each step.
+    /// max |target - curvature| before the first step and after each step, in radians.
     pub residuals: Vec<f64>,
     /// On a triangulation that is not flipped the faces that kept the last step short: a little further along it their lengths break the
     /// triangle inequality. None where no face did.
@@ -69,9 +69,9 @@ pub enum FlowError {
         report.inexact_steps
     )]
     NotConverged {
-        /// The smallest residual on the way.
+        /// The least of the report's residuals, in radians.
         best: f64,
-        /// Everything up to there.
+        /// The report of the steps that were taken.
         report: Box<FlowReport>,
     },
 }
@@ -94,10 +94,10 @@ pub fn flow(
     Newton::new(metric, target_curvature, options).run(monitor)
 }
 
-/// The same flow from step to step, also where it does not converge.
+/// Runs [`flow`] and records its steps, also where it does not converge.
 ///
 /// # Errors
-/// [`FlowError::Target`] before anything is computed, and the wish to stop.
+/// [`FlowError::Target`] before anything is computed; [`FlowError::Cancelled`].
 pub fn recorded_flow(
     mesh: &SurfaceMesh,
     target_curvature: &TiVec<VertexId, f64>,
@@ -116,7 +116,7 @@ pub fn recorded_flow(
     }
 }
 
-/// Conjugate gradient iterations of one Newton step, at most. Chosen by hand.
+/// Conjugate gradient iterations of one Newton step, at most: a bound on the time of a system that does not converge. Chosen by hand.
 const LINEAR_ITERATIONS: usize = 1000;
 
 struct Newton<'a> {
@@ -126,7 +126,7 @@ struct Newton<'a> {
     state: FlowState,
     queue: FlipQueue,
     report: FlowReport,
-    /// Who looks on, if anybody.
+    /// The record of the steps, where one is wanted.
     recorder: Option<&'a mut Recorder>,
 }
 
@@ -143,7 +143,7 @@ impl<'a> Newton<'a> {
         }
     }
 
-    /// Shows the present state to who looks on.
+    /// Records the present state, where a record is wanted.
     fn tell(&mut self, residual: f64) {
         let FlowReport { newton_steps: step, cg_iterations, edge_flips, .. } = self.report;
         if let Some(recorder) = &mut self.recorder {
@@ -168,8 +168,7 @@ impl<'a> Newton<'a> {
             let fraction = self.fraction(error);
             let within = &mut Portion::new(monitor, fraction, fraction);
             let preconditioner = ApproximateCholesky::watched(&graph, within)?;
-            // Inexact Newton: a tolerance that falls with the curvature error (radians) keeps the quadratic convergence. 1000
-            // iterations bound what a breakdown costs.
+            // Inexact Newton: a tolerance that falls with the curvature error (radians) keeps the quadratic convergence.
             let tolerance = (0.1 * error).clamp(1e-8, 0.1);
             let options = CgOptions { tolerance, max_iterations: LINEAR_ITERATIONS };
             within.step(Step::default())?;
@@ -239,7 +238,8 @@ impl<'a> Newton<'a> {
         worst
     }
 
-    /// Moves along the step by the largest power of 1/2 at which the energy still falls, or nearly so.
+    /// Moves along the step by the largest power of 1/2 at which the energy still falls, or nearly so. Returns `false` and stays where
+    /// there is none.
     fn line_search(
         &mut self,
         start: &[f64],

@@ -1,9 +1,9 @@
 //! A flat cone metric laid out in the plane by region growing (thesis fig. 3.8): from a seed face over the whole surface, each face
 //! isometrically beside one that is there.
 //!
-//! Where the growing meets itself it agrees, unless it has gone round a cone. The edges across which no face was placed form a tree
-//! that spans the vertices of a sphere; without its branches that end at no cone it joins the cones, and this is where the layout is cut.
-//! It is found by counting alone: near a flat cone the two sides of the cut are nearer to each other than rounding tells.
+//! Where the grown region meets itself both sides agree, unless they enclose a cone. The edges across which no face was placed form a tree
+//! that spans the vertices of a sphere; without its branches that end at no cone it joins the cones, and the layout is cut along it.
+//! The tree is found by counting alone: near a nearly flat cone the two sides of the cut differ by less than rounding.
 
 use super::atlas::{Development, develop, mesh_displacements};
 use super::metric::ConeMetric;
@@ -21,7 +21,7 @@ const FLAT: f64 = 1e-6;
 pub struct FlatSurface {
     /// The displacement along each halfedge of the mesh, in a frame of its face.
     along: TiVec<HalfedgeId, DVec2>,
-    /// Radius of each vertex's circle; twins of an edge with inversive distance 1 touch.
+    /// Radius of each vertex's circle; the circles at both ends of an edge with inversive distance 1 touch.
     radii: TiVec<VertexId, f64>,
     is_cone: TiVec<VertexId, bool>,
 }
@@ -29,15 +29,15 @@ pub struct FlatSurface {
 /// A mesh in the plane.
 #[derive(Clone, Debug)]
 pub struct PlaneLayout {
-    /// Places in the plane; a vertex on the cut has several.
+    /// Points of the plane; a vertex on the cut has several.
     pub points: Vec<DVec2>,
-    /// The vertex at each of these places.
+    /// The vertex at each of these points.
     pub vertices: Vec<VertexId>,
-    /// By halfedge the number of the place of its start in its face.
+    /// By halfedge the number of the point at which it starts in its face.
     pub corners: TiVec<HalfedgeId, u32>,
     /// The faces in the order in which they were placed.
     pub order: Vec<FaceId>,
-    /// Where each ring around the seed starts in that order, and one past the end.
+    /// The number, in that order, of the first face of each ring around the seed, and one past the end.
     pub rings: Vec<usize>,
     /// Whether the layout is cut along the edge; twins agree.
     pub cut: TiVec<HalfedgeId, bool>,
@@ -46,7 +46,7 @@ pub struct PlaneLayout {
 }
 
 impl FlatSurface {
-    /// Of a metric over the mesh that it was made from, with these target curvatures.
+    /// The flat surface of a metric, scaled to area 1; vertices with a target curvature (radians) other than 0 are cones.
     pub fn new(metric: &ConeMetric, target_curvature: &TiVec<VertexId, f64>) -> Self {
         let lengths = metric.lengths();
         let area: f64 = metric
@@ -70,7 +70,7 @@ impl FlatSurface {
         &self.radii
     }
 
-    /// The whole mesh grown from a face.
+    /// Lays the whole mesh out in the plane, grown from a face.
     pub fn grown_from(&self, mesh: &SurfaceMesh, seed: FaceId) -> PlaneLayout {
         let uncut = ti_vec![false; self.along.len()];
         let Development { corners: places, order, rings, joined } = develop(mesh, &self.along, &uncut, seed);

@@ -12,7 +12,7 @@ use crate::numerics::graph::Graph;
 use std::f64::consts::TAU;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Flips by halfedge, at most: after a whole step of the flow there are fewer than one.
+/// Flips by halfedge, at most, in one restoration of the Delaunay property: a whole step of the flow needs fewer than one.
 const MOST_FLIPS: usize = 100;
 
 /// A discrete metric conformal to a mesh.
@@ -54,7 +54,7 @@ impl ConeMetric {
         }
     }
 
-    /// Length of an edge; NaN where no length exists, which weighted Delaunay triangulations rule out.
+    /// Length of an edge; NaN where its square would be negative, which weighted Delaunay triangulations rule out.
     pub fn length(&self, h: HalfedgeId) -> f64 {
         let ends = [self.triangulation.tail(h), self.triangulation.tail(h.next())];
         squared_length(self.eps, ends.map(|v| exp(self.log_radii[v])), self.etas[h]).sqrt()
@@ -103,7 +103,7 @@ impl ConeMetric {
         let sum = self.tilt_at(h, inverse) + self.tilt_at(t, inverse);
         let ends = inverse[self.triangulation.tail(h)] + inverse[self.triangulation.tail(t)];
         // NaN counts as Delaunay: a flip could not mend it.
-        // Above rounding: of a cocircular diamond neither diagonal is flipped for the other again and again.
+        // The tolerance is above rounding, so that the diagonals of a cocircular diamond are not flipped for one another endlessly.
         sum.is_nan() || sum >= -1e-11 * ends
     }
 
@@ -112,7 +112,7 @@ impl ConeMetric {
         tilt(self.eps, self.etas[h], [self.etas[h.prev()], self.etas[h.next()]], corners)
     }
 
-    /// Angle defects, and the weighted Laplacian that is their derivative by the logarithmic radii.
+    /// Angle defects, and the weighted Laplacian that is their derivative with respect to the logarithmic radii.
     ///
     /// Returns whether every triangle satisfies the triangle inequality; where one does not, its angles are those of the
     /// degenerate triangle.

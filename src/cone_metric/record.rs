@@ -1,19 +1,20 @@
-//! A flow from step to step, to be looked at: recorded only where somebody asks.
+//! The steps of a flow, recorded for display where the caller asks for them.
 
 use crate::math::scalar::exp;
 use crate::mesh::{FaceId, VertexId};
 use std::f64::consts::PI;
 use typed_index_collections::{TiSlice, TiVec};
 
-/// So many moments are kept at most; of a longer flow every second, fourth, ... step, and the last. Chosen by hand.
+/// Moments that are kept, at most: a bound on memory. Of a longer flow every second, fourth, ... step is kept, and the last. Chosen by
+/// hand.
 const MOST_MOMENTS: usize = 24;
 
-/// A flow before its first Newton step and after steps.
+/// The states of a flow before its first Newton step and after later steps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FlowRecord {
-    /// In order, the first before the first step.
+    /// The states in their order; the first is that before the first step.
     pub moments: Vec<FlowMoment>,
-    /// Whether the last one has the target curvatures, to the tolerance.
+    /// Whether the last state has the target curvatures, to the tolerance.
     pub converged: bool,
     /// The faces that a flow without flips stopped at, because they degenerate beyond the last moment.
     pub degenerate_faces: Vec<FaceId>,
@@ -39,8 +40,7 @@ pub struct FlowMoment {
 }
 
 impl FlowRecord {
-    /// The same with log factors whose mean, by the weights of the vertices, is 0 at every moment: flat metrics differ by a scale alone,
-    /// which means nothing.
+    /// The record with log factors shifted so that their weighted mean is 0 at every moment: the scale of a flat metric is arbitrary.
     #[must_use]
     pub fn centred(mut self, weights: &TiSlice<VertexId, f64>) -> Self {
         let whole: f64 = weights.iter().sum();
@@ -72,14 +72,14 @@ impl FlowRecord {
     }
 }
 
-/// Takes moments of a flow; memory stays bounded however long it is.
+/// Records moments of a flow; memory stays bounded however long the flow is.
 #[derive(Debug)]
 pub(super) struct Recorder {
     /// Log radii before the first step.
     start: TiVec<VertexId, f64>,
     moments: Vec<FlowMoment>,
     curvature: [TiVec<VertexId, f64>; 2],
-    /// Each so many steps one is kept.
+    /// One of this many steps is kept.
     every: usize,
 }
 
@@ -97,7 +97,7 @@ impl Recorder {
     ) {
         let kept = if self.moments.is_empty() { 0..2 } else { 1..2 };
         self.curvature[kept].fill(curvature.to_owned());
-        // The last one is of now; it stays only where its step is one of those that are kept.
+        // The last moment was the present one; it stays only where its step is one of those that are kept.
         if self.moments.last().is_some_and(|last| last.step % self.every != 0) {
             self.moments.pop();
         }
@@ -110,7 +110,7 @@ impl Recorder {
         self.moments.push(FlowMoment { log_factors, ..moment });
     }
 
-    /// What was recorded of a flow that converged, or stopped at some faces or at none.
+    /// The record of a flow that converged (`None`), or that did not and stopped at these faces, which may be none.
     pub fn record(self, stopped_at: Option<Vec<FaceId>>) -> FlowRecord {
         let converged = stopped_at.is_none();
         let degenerate_faces = stopped_at.unwrap_or_default();

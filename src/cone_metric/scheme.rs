@@ -25,16 +25,16 @@ pub enum Scheme {
 }
 
 impl Scheme {
-    /// All of them.
+    /// All structures.
     pub const ALL: [Self; 5] =
         [Self::Inversive, Self::VertexScaling, Self::FixedTriangulation, Self::Tangential, Self::Thurston];
 
-    /// Whether its vertices have circles.
+    /// Whether the structure has a circle around each vertex.
     pub fn has_circles(self) -> bool {
         self != Self::VertexScaling
     }
 
-    /// Whether edges are flipped on the way, so that no triangle degenerates.
+    /// Whether the flow flips edges, so that no triangle degenerates.
     pub fn flips(self) -> bool {
         matches!(self, Self::Inversive | Self::VertexScaling)
     }

@@ -5,14 +5,14 @@ use crate::mesh::VertexId;
 use std::f64::consts::{PI, TAU};
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Why curvatures cannot be had.
+/// Why no cone metric has the target curvatures.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TargetError {
     /// The sum is not 4 pi.
     #[error("the angle defects sum to {sum} instead of 4 pi = {}: a sphere has no such metric", 4.0 * PI)]
     WrongSum {
-        /// In radians.
+        /// The sum of all angle defects, in radians.
         sum: f64,
     },
     /// A defect of 2 pi or more leaves no angle.
@@ -20,7 +20,7 @@ pub enum TargetError {
     TooLarge {
         /// The vertex, 0-based.
         vertex: usize,
-        /// In radians.
+        /// Its angle defect, in radians.
         defect: f64,
     },
     /// A vertex that the mesh does not have.
@@ -33,7 +33,7 @@ pub enum TargetError {
     },
 }
 
-/// Angle defects of the base domain at the landmarks, 0 elsewhere.
+/// Angle defects (radians) of the base domain at the landmarks, 0 elsewhere.
 pub fn base_domain_curvature(
     vertices: usize,
     landmarks: &[VertexId],
@@ -53,7 +53,7 @@ pub fn uniform_curvature(vertices: usize, landmarks: &[VertexId]) -> TiVec<Verte
     curvature
 }
 
-/// The listed angle defects, 0 elsewhere.
+/// The listed angle defects (radians, by 0-based vertex), 0 elsewhere.
 ///
 /// # Errors
 /// [`TargetError::MissingVertex`].

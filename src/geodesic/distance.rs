@@ -1,4 +1,4 @@
-//! Distances of all vertices from some of them.
+//! Geodesic distances of all vertices to the nearest of some seeds.
 
 use super::front::Front;
 use crate::mesh::{SurfaceMesh, VertexId};
@@ -9,17 +9,18 @@ pub fn distances(mesh: &SurfaceMesh, seeds: &[VertexId]) -> TiVec<VertexId, f64>
     distances_within(mesh, seeds, f64::INFINITY)
 }
 
-/// The same up to a radius; what lies beyond has a distance above it, or an infinite one.
+/// The distances up to a radius (mesh's unit); a vertex beyond it has some distance above the radius, or an infinite one.
 pub fn distances_within(mesh: &SurfaceMesh, seeds: &[VertexId], radius: f64) -> TiVec<VertexId, f64> {
     let mut distance = ti_vec![f64::INFINITY; mesh.vertex_count()];
     Front::new(mesh, seeds, &mut distance).advance(radius);
     distance
 }
 
-/// Lowers distances, found by this module on the same mesh, to what they are with more seeds.
+/// Adds seeds to distances that this module has found on the same mesh: they fall to the distances to the nearest of all seeds.
 pub fn shorten(mesh: &SurfaceMesh, seeds: &[VertexId], distance: &mut TiVec<VertexId, f64>) {
     Front::new(mesh, seeds, distance).advance(f64::INFINITY);
 }
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,4 +1,4 @@
-//! The front: vertices that wait to be settled, and what a settled one offers to those around it.
+//! The front of the distances: settled vertices offer distances to their neighbours, which wait in a queue to be settled.
 
 use super::unfolding::{Window, apex, source_below};
 use crate::math::min_queue::{MinQueue, Queued};
@@ -8,20 +8,20 @@ use glam::DVec2;
 use std::cmp::Reverse;
 use typed_index_collections::TiVec;
 
-/// Faces through which the front is unfolded from every settled edge: each edge that computes the front's centre anew loses
-/// some accuracy. Chosen by hand.
+/// Faces through which the front is unfolded from every settled edge, whatever lies beyond: fewer lose accuracy, since each edge
+/// computes the front's centre anew; more take time. Chosen by hand.
 const FREE_FACES: u32 = 2;
 
-/// Faces through which it is unfolded in fans of slivers, at most. Chosen by hand.
+/// Faces through which the front is unfolded in fans of slivers, at most: a bound on the time of one edge. Chosen by hand.
 const MOST_FACES: u32 = 16;
 
-/// An edge shorter than this, relative to its distance from the centre, may have lost its direction.
+/// An edge shorter than this, relative to its distance from the centre, may have lost its direction to rounding. Chosen by hand.
 const SHORT: f64 = 1e-5;
 
-/// Relative error of lengths in the plane; a generous bound.
+/// Bound on the relative error of lengths in the plane, far above rounding (1e-16) and far below any error that matters.
 const ROUNDING: f64 = 1e-9;
 
-/// Vertices whose distances may still fall wait in a queue.
+/// The distances of a mesh while they are computed, with the queue of the vertices whose distances may still fall.
 pub(super) struct Front<'a> {
     mesh: &'a SurfaceMesh,
     /// By vertex: its distance where that is at most `here` (it is settled), else the least offer so far or the distance to the
@@ -40,10 +40,10 @@ struct Edge {
     b: DVec2,
 }
 
-/// How far the front has been unfolded from a settled edge.
+/// The extent to which the front has been unfolded from a settled edge.
 #[derive(Clone, Copy)]
 struct Unfolded {
-    /// Faces, with the one beyond the present edge.
+    /// Number of faces, counting the one beyond the present edge.
     faces: u32,
     /// The least distance at which an edge on the way will be settled.
     bound: f64,
@@ -80,7 +80,7 @@ impl<'a> Front<'a> {
         settled
     }
 
-    /// Lowers a distance. Not below that of the front, so that no settled one falls.
+    /// Lowers the distance of a vertex to `through`, but not below that of the front, so that no settled one falls.
     fn offer(&mut self, v: VertexId, through: f64) {
         let through = max(self.here, through);
         if through < self.distance[v] {

@@ -1,9 +1,9 @@
-//! Faces unfolded into the plane, and what is seen of them through the edges between.
+//! Faces unfolded into the plane, and the windows through which a source sees them.
 
 use crate::math::scalar::max;
 use glam::DVec2;
 
-/// Where a circle's centre lies below the edge from (0, 0) to (length, 0), from its distances to both ends.
+/// The centre of a circular front, below the edge from (0, 0) to (length, 0), from its distances to both ends.
 ///
 /// `None` where there is no such point: two fronts that have not met, or an edge without length.
 pub(super) fn source_below(length: f64, [at_a, at_b]: [f64; 2]) -> Option<DVec2> {
@@ -21,7 +21,7 @@ pub(super) fn apex([a, b]: [DVec2; 2], [ab, bc, ca]: [f64; 3]) -> DVec2 {
     a + x * along + y * along.perp()
 }
 
-/// What a point sees between two others.
+/// The sector that a source sees between two points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
     pub source: DVec2,
@@ -30,7 +30,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// The parts to the left and to the right of a point beyond; `None` for one that is empty. Both where the point is seen.
+    /// The parts to the left and to the right of a point beyond; `None` for an empty part. Both are there where the source sees the point.
     pub(super) fn split(self, at: DVec2) -> [Option<Self>; 2] {
         let (direction, source) = (at - self.source, self.source);
         let is_right_of_left = direction.perp_dot(self.left - source) >= 0.0;

@@ -1,7 +1,7 @@
-//! Whether groups of four landmarks lie in space on both meshes with the same handedness.
+//! The handedness of groups of four landmarks in space, compared between both meshes.
 //!
-//! The orders of shortest paths are fickle where paths over the front and over the back of a body are equally long; the
-//! places in space are not, but bend with the pose. So groups count by how nearly they are similar on both meshes.
+//! The orders of shortest paths are unreliable where paths over the front and over the back of a body are equally long; the
+//! places in space are reliable there, but change with the pose. So groups are weighted by how nearly they are similar on both meshes.
 
 use super::orders::{Votes, nearest};
 use crate::landmarks::Landmarks;
@@ -10,14 +10,14 @@ use crate::math::scalar::ln;
 use crate::mesh::SurfaceMesh;
 use glam::DVec3;
 
-/// Spread of the log ratios of a group's six distances at which the group counts half. Groups across a bent joint have 0.3 and
-/// more, those of two animals' heads 0.1.
+/// Standard deviation of the log ratios of a group's six distances at which the group has half the weight. Groups across a bent joint
+/// have 0.3 and more, those of two animals' heads 0.1.
 const RIGID: f64 = 0.2;
-/// The corners of a group, two by two.
+/// The pairs of corners of a group.
 const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
 
-/// Agreement of the signs of volumes, from -1 (mirrored) to 1, over each landmark with triples of its nearest ones;
-/// `target_of` tells which pair's target each pair has.
+/// Agreement of the signs of volumes on both meshes, from -1 (mirrored) to 1, over each landmark with triples of its nearest ones;
+/// `target_of` gives the pair whose target each pair has.
 pub(super) fn agreement(
     meshes: [&SurfaceMesh; 2],
     landmarks: &Landmarks,
@@ -51,7 +51,7 @@ fn volume(group: &[DVec3; 4]) -> f64 {
     if mean > 0.0 { volume / (mean * mean * mean) } else { 0.0 }
 }
 
-/// 1 for similar groups, 1/2 where distances differ by [`RIGID`].
+/// The similarity of two groups: 1 for similar ones, 1/2 where the log ratios of distances deviate by [`RIGID`].
 fn likeness(groups: &[[DVec3; 4]; 2]) -> f64 {
     let ratios = EDGES.map(|[i, j]| {
         let [s, t] = [0, 1].map(|side: usize| groups[side][i].distance(groups[side][j]));

@@ -7,8 +7,7 @@ use crate::mesh::{SurfaceMesh, VertexId};
 use std::f64::consts::TAU;
 use typed_index_collections::TiSlice;
 
-/// Places on each edge of a landmark's ring through which paths are tried.
-/// Chosen by hand.
+/// Places on each edge of a landmark's ring, as shares of its length, through which paths are tried. Chosen by hand.
 const SHARES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
 /// Directions by side, landmark and goal: angles around the landmark, counter-clockwise, scaled to 2 pi.
@@ -31,7 +30,7 @@ impl Directions {
         Self { angles }
     }
 
-    /// Turns from the direction to `first` on to those to all landmarks, around landmark `at`; from 0 to 2 pi.
+    /// The angles, around landmark `at`, from the direction to `first` counter-clockwise to the directions to all landmarks; 0 to 2 pi.
     pub(super) fn turns(&self, side: usize, at: usize, first: usize) -> Vec<f64> {
         let around = &self.angles[side][at];
         let begin = around[first];
@@ -46,12 +45,15 @@ struct Ring {
     turned: f64,
 }
 
+/// A point of a ring.
 struct RingPoint {
-    /// The ends of the ring's edge, and the share of the way to the second.
+    /// The ends of the ring's edge on which it lies.
     edge: [VertexId; 2],
+    /// Its place on the edge, 0 to 1.
     share: f64,
-    /// Length of the way there, the mesh's area scaled to 1.
+    /// Distance from the vertex, the mesh's area scaled to 1.
     length: f64,
+    /// The angle of its direction at the vertex, in radians.
     angle: f64,
 }
 
@@ -75,7 +77,7 @@ impl Ring {
         ring
     }
 
-    /// The direction of the shortest path to where the field is 0.
+    /// The direction of the shortest path to the point from which `field` has the distances; from 0 to 2 pi.
     fn direction(&self, field: &TiSlice<VertexId, f64>) -> f64 {
         let mut best = (f64::INFINITY, 0.0);
         for &RingPoint { edge: [from, onto], share, length, angle } in &self.points {

@@ -1,4 +1,4 @@
-//! Distances between landmarks on the source against those on the target, by logarithm.
+//! Comparison of the distances between landmarks on source and target, by the logarithms of their ratios.
 
 use super::finding::Finding;
 use crate::landmarks::{LandmarkId, Landmarks};
@@ -7,7 +7,7 @@ use crate::math::scalar::{exp, ln, max, min};
 use crate::mesh::VertexId;
 use crate::monitor::{Cancelled, Monitor, Step};
 
-/// Added to distances before ratios are taken, in units of the root of the area: nearer landmarks say little. Chosen by hand.
+/// Added to distances before ratios are taken, in units of the root of the area, so that near landmarks count little. Chosen by hand.
 const SOFTENING: f64 = 0.08;
 /// An exchange of two targets may raise the misfit (mean absolute log ratio) of either pair by no more than this. Left and
 /// right partners keep theirs; the partner of a misplaced pair gets more.
@@ -16,24 +16,28 @@ const WORSE: f64 = 0.05;
 /// animals have such places.
 const SWAP_SHARE: f64 = 0.6;
 /// A pair is misplaced where another place lowers its misfit by `PLACE_GAIN` + `PLACE_GAIN_OF_FEW` / (number of landmarks), to
-/// the share `PLACE_SHARE`, and is `PLACE_DISTANCE` away (units of the root of the area). With `PLACE_GAIN` alone 4 of 14
+/// the share `PLACE_SHARE`, and is `PLACE_DISTANCE` away. With `PLACE_GAIN` alone 4 of 14
 /// slightly bent sets of 8 landmarks had a false alarm, with both gains 0 of 34.
 const PLACE_GAIN: f64 = 0.2;
+/// See [`PLACE_GAIN`].
 const PLACE_GAIN_OF_FEW: f64 = 1.0;
+/// Largest share of its misfit that a misplaced pair has at the better place. Chosen by hand.
 const PLACE_SHARE: f64 = 0.3;
+/// Least distance of the better place, in units of the root of the area. Chosen by hand.
 const PLACE_DISTANCE: f64 = 0.3;
 
-/// Which target each pair has, and how well its distances to the others fit.
+/// An assignment of targets to pairs, with the logarithms of all distances.
 pub(super) struct Fit<'a> {
     distances: &'a LandmarkDistances,
-    /// Which pair's target each pair has.
+    /// By pair, the pair whose target it has.
     pub(super) target_of: Vec<usize>,
+    /// By pair, its target as given.
     targets: &'a [VertexId],
-    /// Pairs found misplaced: they say nothing about the others.
+    /// By pair, whether it was found misplaced and is left out of the comparison.
     pub(super) left_out: Vec<bool>,
-    /// Softened logarithms of the source's distances.
+    /// Softened logarithms of the source's distances between landmarks.
     source: Vec<Vec<f64>>,
-    /// Of the target's distances, by landmark and vertex.
+    /// Softened logarithms of the target's distances, by landmark and vertex.
     target: Vec<Vec<f64>>,
 }
 
@@ -59,7 +63,8 @@ impl<'a> Fit<'a> {
         self.target_of.len()
     }
 
-    /// Mean absolute log ratio of a pair's distances to the others, were its target at `place`; nearer pairs count more.
+    /// The misfit of a pair whose target is at `place`: the mean absolute log ratio of its distances to the others; near pairs have larger
+    /// weights.
     fn misfit(&self, pair: usize, place: VertexId, left_out: usize) -> f64 {
         let (mut sum, mut total) = (0.0, 0.0);
         for j in (0..self.len()).filter(|&j| j != pair && j != left_out && !self.left_out[j]) {
@@ -76,8 +81,8 @@ impl<'a> Fit<'a> {
         self.targets[self.target_of[pair]]
     }
 
-    /// Mean misfit of two pairs to the others as it is and with the targets exchanged; `None` where that moves one of the
-    /// two away from its place, or helps little and leaves one misplaced: then it is not exchanged with the other.
+    /// Mean misfit of two pairs as it is and with their targets exchanged; `None` where the exchange raises the misfit of either pair by
+    /// more than [`WORSE`], or lowers it little and another place fits one of them much better.
     pub(super) fn exchanged(&self, [a, b]: [usize; 2]) -> Option<[f64; 2]> {
         let both = [(a, b), (b, a)];
         let now = both.map(|(i, j)| self.misfit(i, self.place(i), j));
@@ -96,7 +101,7 @@ impl<'a> Fit<'a> {
         (worse < WORSE && (helps || (settled(0) && settled(1)))).then_some(means)
     }
 
-    /// The pair of the largest misfit that would be much less at a place far from its target.
+    /// The pair of largest misfit for which a place far from its target fits much better.
     pub(super) fn worst_misplaced(&self, monitor: &mut dyn Monitor) -> Result<Option<Finding>, Cancelled> {
         let now = |pair: usize| self.misfit(pair, self.place(pair), usize::MAX);
         let mut doubtful: Vec<(f64, usize)> = (0..self.len())
@@ -122,7 +127,7 @@ impl<'a> Fit<'a> {
         let others = (0..self.len()).filter(|&j| j != pair);
         let near = others.min_by(|&i, &j| away(i).total_cmp(&away(j)))?;
         let distance = away(pair);
-        // A place that fits few distances is found by chance.
+        // With few landmarks some place fits well by chance.
         let gain = PLACE_GAIN + PLACE_GAIN_OF_FEW / self.len() as f64;
         let clear = now - then > gain && then < PLACE_SHARE * now && distance > PLACE_DISTANCE;
         clear.then_some(Finding::Misplaced { pair, misfit: [now, then], distance, place, near })

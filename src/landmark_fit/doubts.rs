@@ -1,4 +1,4 @@
-//! All doubts about a set of landmark pairs, in the order in which they are looked for.
+//! The search for all doubts about a set of landmark pairs: exchanged pairs, mirrored sets, misplaced pairs.
 
 use super::directions::Directions;
 use super::distances::Fit;
@@ -10,20 +10,21 @@ use crate::layout::LandmarkDistances;
 use crate::mesh::SurfaceMesh;
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
 
-/// Fewer landmarks than these say too little about orders, or about places. Chosen by hand.
+/// Least number of landmarks with which a set may be called mirrored. Chosen by hand.
 const LEAST_FOR_ORDERS: usize = 6;
+/// Least number of landmarks with which a pair may be called misplaced. Chosen by hand.
 const LEAST_FOR_PLACES: usize = 8;
-/// The mean agreement, orders twice and places in space once, below which a set is mirrored.
+/// A set is mirrored where the mean agreement, with weight 2 for orders and 1 for places in space, is below this.
 ///
 /// Orders of correct sets of 8 and more landmarks agree by 0.3 to 0.95. Where one of both is wrong (orders on a body whose
 /// front and back are equally long, places in bent poses), the other one keeps the mean above: none of 1190 correct sets, 510
-/// of them bent, is below. Unbent mirror images are below in 96 %, all of them where all landmarks are used.
+/// of them bent, is below. Of unbent mirror images 96 % are below, and all where all landmarks are used.
 const MIRRORED: f64 = -0.4;
 
 /// Checks whether landmark pairs can belong to a map of low distortion; no findings when all fit.
 ///
-/// `distances` are those of the same meshes and landmarks, coarse ones (some 1000 vertices) for speed. More than
-/// [`MOST_COMPARED`] landmarks are too many to compare each with each.
+/// `distances` are those of the same meshes and landmarks; the meshes should be coarse (some 1000 vertices) for speed. The time grows
+/// steeply with the landmarks, so the caller should not pass more than [`MOST_COMPARED`].
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -47,7 +48,7 @@ pub fn landmark_fit(
     monitor.step(Step::default())?;
     let ways = Exchange::new(distances, &directions, 1.0);
     let mut findings = exchanges(&mut fit, &ways, &mut Portion::new(monitor, 0.0, 0.4))?;
-    // One exchange among few landmarks can reverse most orders: the set is mirrored where it is so without it, too.
+    // One exchange among few landmarks can reverse most orders: the set is mirrored only where it is so after exchanges, too.
     if let Some(agreement) = as_given.filter(|_| mirrored(&fit.target_of).is_some()) {
         fit = Fit::new(landmarks, distances);
         findings = vec![Finding::Mirrored { agreement }];
@@ -67,20 +68,20 @@ pub fn landmark_fit(
     Ok(findings)
 }
 
-/// Landmarks that are compared each with each, at most: every exchange of two is judged by all pairs of the others.
+/// Landmarks that are compared with each other, at most: every exchange of two is judged by all pairs of the others. Chosen by hand.
 pub const MOST_COMPARED: usize = 100;
 
-/// Exchanges that are told of, at most: a set with more is not a set with faults, but another one. Chosen by hand.
+/// Exchanges that are reported, at most: a set with more is not the intended one with mistakes, but another one. Chosen by hand.
 const MOST_EXCHANGES: usize = 12;
 
-/// Exchanges targets as long as an exchange is clearly called for, and no result is wanted.
+/// Exchanges targets in `fit` as long as an exchange is clearly better and the monitor does not want a result; returns the exchanges.
 fn exchanges(
     fit: &mut Fit<'_>,
     exchange: &Exchange<'_>,
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<Finding>, Cancelled> {
     let mut findings = Vec::new();
-    // More than half as many as pairs make no sense.
+    // An exchange takes two pairs.
     let most = MOST_EXCHANGES.min(fit.target_of.len() / 2);
     for k in 0..most {
         if monitor.wants_result() {

@@ -1,9 +1,9 @@
-//! Pairs that have each other's target, near ones (eyes, ears, knees) among them.
+//! The search for two pairs that have each other's target, also where they are near (eyes, ears, knees).
 //!
 //! Two landmarks a and b divide the surface: every other landmark x is nearer to one of them. With
 //! `u(x) = (d(a, x) - d(b, x)) / d(a, b)`, between -1 and 1, exchanging the targets of a and b turns the signs of all u
 //! on the target, however near a and b are; and it reverses the orders around a and b that contain the other. So both
-//! votes, weighed, tell whether the targets fit as they are or exchanged.
+//! votes, weighted, tell whether the targets fit as they are or exchanged.
 
 use super::directions::Directions;
 use super::distances::Fit;
@@ -16,28 +16,29 @@ use crate::monitor::{Cancelled, Monitor, Step};
 
 /// Added to the lesser distance of a landmark x to a and b in its weight, in units of d(a, b). Chosen by hand.
 const SOFTENING: f64 = 0.3;
-/// Mean product of both sides' u at which the votes of distances count half. It is 0.005 to 0.03 for the feet of two animals
-/// and 0.1 to 0.4 for landmarks nearer together. A value of 0.01 misses more partners among feet and doubts no fewer correct
-/// pairs.
+/// Mean product of both meshes' u at which the vote of the distances has half the weight. It is 0.005 to 0.03 for the feet of two animals
+/// and 0.1 to 0.4 for landmarks nearer together. A value of 0.01 misses more exchanged feet and doubts no fewer correct pairs.
 const WEAK_SIDES: f64 = 0.003;
-/// Mean weight of the triples, in radians, at which the votes of orders count half. It is 0.3 among near landmarks and 0 at feet,
-/// from which all paths leave together.
+/// Mean weight of the triples, in radians, at which the vote of the orders has half the weight. It is 0.3 among near landmarks and 0 at
+/// feet, which all paths leave in one direction.
 const WEAK_ORDERS: f64 = 0.1;
 
-/// An exchange must be confirmed: by a vote of the orders below `REVERSED` (left and right eyes), by a vote of the sides below
+/// An exchange must be confirmed: by a vote of the orders below `REVERSED` (left and right eyes), by a vote of the distances below
 /// `UNANIMOUS` (left and right feet), or by a misfit that falls to the share `LESS`. Chest and throat of the demo's horse and
-/// cat have a vote of the sides of -0.75 and no other sign, and are not exchanged.
+/// cat have a vote of the distances of -0.75 and no other sign, and are not exchanged.
 const REVERSED: f64 = -0.1;
+/// See [`REVERSED`].
 const UNANIMOUS: f64 = -0.85;
+/// See [`REVERSED`]. Chosen by hand.
 const LESS: f64 = 0.95;
 
-/// Exchanges that are tried before one is taken, at most: where a pair is in two of them, the one that leaves fewer doubts is
-/// taken.
+/// Exchanges that are compared before one is taken, at most: where a pair is in two of them, the one that leaves fewer doubts is
+/// taken. Chosen by hand.
 const TRIED: usize = 4;
 /// Agreement below which doubts are summed up. Chosen by hand.
 const DOUBTFUL: f64 = -0.1;
 
-/// From -1, where two pairs fit with their targets exchanged, to 1, where they fit as they are.
+/// The votes on two pairs, each from -1, where they fit with their targets exchanged, to 1, where they fit as they are.
 struct Opinion {
     /// The mean of both votes.
     agreement: f64,
@@ -47,9 +48,9 @@ struct Opinion {
     unanimity: f64,
 }
 
-/// Distances and directions, from which both votes are taken.
+/// The distances and directions from which both votes are taken.
 pub(super) struct Exchange<'a> {
-    /// By side.
+    /// Distances between landmarks on source and target.
     distances: [Vec<Vec<f64>>; 2],
     directions: &'a Directions,
     /// 1, or -1 in a mirrored set, whose orders are all reversed.
@@ -68,8 +69,8 @@ impl<'a> Exchange<'a> {
         Self { distances, directions, handedness }
     }
 
-    /// What others say about two pairs; `None` where the agreement is certainly above `limit`. `target_of` tells which
-    /// pair's target each pair has.
+    /// The votes of the other landmarks on two pairs; `None` where the agreement is certainly above `limit`. `target_of` gives the pair
+    /// whose target each pair has.
     fn opinion(&self, target_of: &[usize], pair: [usize; 2], limit: f64) -> Option<Opinion> {
         let Vote { agreement: unanimity, strength } = self.distance_vote(target_of, pair);
         let sides = unanimity * strength / (strength + WEAK_SIDES);
@@ -99,7 +100,7 @@ impl<'a> Exchange<'a> {
             let near = min(source[a][x] + onto_a[y], source[b][x] + onto_b[y]);
             let softened = near + SOFTENING * (apart[0] + apart[1]);
             let weight = 1.0 / (softened * softened);
-            // Where landmarks shut each other in, there is no path.
+            // No path reaches a landmark that others shut in: its distance is infinite.
             if product.is_finite() && weight.is_finite() {
                 sum += weight;
                 agree += weight * product;
@@ -112,7 +113,7 @@ impl<'a> Exchange<'a> {
         Vote { agreement: agree / total, strength: agree.abs() / sum }
     }
 
-    /// The exchange of two targets that is called for most, where one clearly is.
+    /// The exchange of two targets that leaves the fewest doubts, of those that are clearly better and confirmed.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -157,7 +158,7 @@ impl<'a> Exchange<'a> {
         Ok(left.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, finding)| finding))
     }
 
-    /// The sum of doubts that are left when two targets are exchanged.
+    /// The sum of the doubts (agreements below [`DOUBTFUL`]) that are left when two targets are exchanged.
     fn doubts(&self, target_of: &[usize], [a, b]: [usize; 2]) -> f64 {
         let mut exchanged = target_of.to_vec();
         exchanged.swap(a, b);
@@ -170,8 +171,8 @@ impl<'a> Exchange<'a> {
 /// The agreement below which two targets are taken to be exchanged, by the number of landmarks: fewer err more often.
 ///
 /// Exchanging two targets of a correct set turns the sign of their agreement, so the agreements of correct pairs tell both
-/// errors. Measured (`cargo bench --bench survey -- fit`): 224 of 235 left and right partners are named; no swap is named in
-/// 408 correct sets of 12 and more landmarks (as they are, exchanged, clicked, moved by 3 %), and in 4 of 272 sets of 6 and 8.
+/// kinds of errors. Measured (`cargo xtask survey fit`): 224 of 235 exchanges of left and right partners are found; no exchange is reported in
+/// 408 correct sets of 12 and more landmarks (as they are, exchanged, clicked, moved by 3 %), and some in 4 of 272 sets of 6 and 8.
 fn clear(landmarks: usize) -> f64 {
     -0.1 - 2.2 / landmarks as f64
 }

@@ -1,4 +1,4 @@
-//! A doubt about landmark pairs, with its numbers, its sentence and its repair.
+//! A doubt about landmark pairs, with its numbers, its sentence for the user and its repair.
 
 use crate::mesh::VertexId;
 use std::fmt;
@@ -16,13 +16,13 @@ pub enum Finding {
     Swapped {
         /// The pairs.
         pairs: [usize; 2],
-        /// From -1, where all others say that the targets are exchanged, to 1, where all say that they fit.
+        /// Vote of the other landmarks, from -1, where the targets fit exchanged, to 1, where they fit as they are.
         agreement: f64,
         /// Mean misfit of both pairs' distances (absolute log ratio) as it is and with the targets exchanged; of near
         /// pairs, such as eyes, it is small both ways.
         misfit: [f64; 2],
     },
-    /// One pair is far from where the others want it.
+    /// One pair's target is far from the place that fits the other pairs.
     Misplaced {
         /// The pair.
         pair: usize,
@@ -37,7 +37,7 @@ pub enum Finding {
     },
 }
 
-/// What to do about a finding.
+/// The repair that is offered for a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Repair {

@@ -1,10 +1,10 @@
-//! Landmarks that do not fit, found before a map is made: mirrored sets, swapped pairs, pairs on the wrong limb.
+//! Doubts about landmark pairs, found before a map is made: mirrored sets, swapped pairs, pairs on the wrong limb.
 //!
 //! A map of low distortion nearly keeps the distances between landmarks on both (coarse) meshes, areas scaled to 1, up to a
-//! common factor: log ratios out of line point at misplaced pairs (`distances`). It also keeps which of two landmarks the
-//! others are nearer to, and the cyclic order in which shortest paths leave them: both reversed point at two pairs with each
-//! other's target (`exchange`). Orders (`orders`) and volumes in space (`chirality`) reversed nearly everywhere point at a
-//! mirrored set, which distances do not see.
+//! common factor: large log ratios point at misplaced pairs (`distances`). It also keeps which of two landmarks the
+//! others are nearer to, and the cyclic order in which shortest paths leave them: where both are reversed, two pairs have each
+//! other's target (`exchange`). Where orders (`orders`) and volumes in space (`chirality`) are reversed nearly everywhere, the set is
+//! mirrored, which distances do not show.
 //! A finding is a doubt with numbers and a repair, not an error: the user knows the shapes.
 
 mod chirality;

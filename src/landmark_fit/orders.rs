@@ -1,6 +1,6 @@
 //! The cyclic orders in which shortest paths to the others leave the landmarks, on both meshes.
 //!
-//! They see what distances do not: a reflection reverses them all, and where two near landmarks that lie side by side have
+//! They show faults that distances do not: a reflection reverses them all, and where two near landmarks that lie side by side have
 //! each other's target, the orders around either of the two that contain the other are reversed.
 
 use super::directions::Directions;
@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 /// Landmarks around each landmark whose order is compared. Chosen by hand.
 pub(super) const NEIGHBOURS: usize = 8;
 
-/// How far the cyclic orders in which shortest paths leave the landmarks agree on both meshes, from -1 to 1.
+/// The agreement, from -1 to 1, of the cyclic orders in which shortest paths leave the landmarks on both meshes.
 ///
 /// Over all landmarks and triples of their nearest landmarks: 1 for the same order, -1 for the reverse, weighted by the
 /// least angle between two of the three. A map that keeps the orientation gives a value near 1, a mirrored set near -1.
@@ -26,7 +26,7 @@ pub fn order_agreement(
     agreement(&Directions::new(meshes, landmarks, distances), distances, &target_of)
 }
 
-/// The same; `target_of` tells which pair's target each pair has.
+/// The agreement of the orders, where `target_of` gives the pair whose target each pair has.
 pub(super) fn agreement(directions: &Directions, distances: &LandmarkDistances, target_of: &[usize]) -> f64 {
     let mut votes = Votes::default();
     for i in 0..target_of.len() {
@@ -45,17 +45,17 @@ pub(super) fn agreement(directions: &Directions, distances: &LandmarkDistances, 
     votes.agreement().unwrap_or(1.0)
 }
 
-/// What others say about two pairs.
+/// A vote of the other landmarks on two pairs.
 #[derive(Clone, Copy)]
 pub(super) struct Vote {
-    /// From -1 to 1.
+    /// From -1, where the targets fit exchanged, to 1, where they fit as they are.
     pub agreement: f64,
-    /// How much it says: 0 for nothing, in the unit of those who vote.
+    /// The strength of the evidence, 0 for none, in the unit of the quantities that vote.
     pub strength: f64,
 }
 
 /// The vote of the orders around either of two landmarks that contain the other; its strength is the mean weight of a triple
-/// in radians. `target_of` tells which pair's target each pair has.
+/// in radians. `target_of` gives the pair whose target each pair has.
 pub(super) fn pair_vote(directions: &Directions, target_of: &[usize], [a, b]: [usize; 2]) -> Vote {
     let mut votes = Votes::default();
     for (at, to) in [(a, b), (b, a)] {
@@ -83,7 +83,7 @@ pub(super) fn nearest(distances: &LandmarkDistances, target_of: &[usize], i: usi
     near
 }
 
-/// Signs that agree or do not, weighted by the lesser of both values.
+/// A sum of votes: signs of two values that agree or not, weighted by the lesser absolute value.
 #[derive(Default)]
 pub(super) struct Votes {
     sum: f64,

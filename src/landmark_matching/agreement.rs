@@ -1,7 +1,7 @@
-//! The cyclic orders in which shortest paths lead from one mark to the others.
+//! The cyclic orders in which shortest paths lead from one mark (a given landmark or a tip) to the others.
 //!
 //! The shortest paths from a root form a tree on a sphere, so its leaves have a cyclic order. A map of low distortion that keeps
-//! the orientation nearly keeps it, a mirrored one reverses it: this is what tells left from right.
+//! the orientation nearly keeps it, a mirrored one reverses it: so the orders tell left from right.
 
 use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
@@ -33,7 +33,7 @@ pub(super) fn ranks(
     while let Some((v, from)) = stack.pop() {
         reached[v] = next;
         next += 1;
-        // Counter-clockwise from where the path came; the stack turns the order around, the same on both meshes.
+        // Counter-clockwise from the edge by which the path came; the stack reverses the order, on both meshes alike.
         let star: Vec<HalfedgeId> = mesh.star(v).collect();
         let begin = from.and_then(|h| star.iter().position(|&g| g == h)).unwrap_or(0);
         for k in 0..star.len() {

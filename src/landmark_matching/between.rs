@@ -1,22 +1,22 @@
-//! Points far from all pairs, placed by their distances to them.
+//! Further pairs far from all others, whose targets are found by their distances to the others.
 //!
-//! Three pairs are no map yet, and around a body whose tips lie in a plane a map may wind either way: a further pair settles both. Its
-//! source is the point farthest from the others; the target has two places with nearly the same distances, one on either side.
+//! A map needs four pairs, and around a body whose tips lie in a plane it may wind either way: a further pair settles both. Its
+//! source is the point farthest from the others; the target has two places with nearly the same distances, one on either side of the body.
 
 use super::shape::Shape;
 use crate::math::scalar::ln;
 use crate::mesh::VertexId;
 
-/// Distances are compared from here on: nearer ones say little. Units of the root of the area. Chosen by hand.
+/// Added to distances before ratios are taken, in units of the root of the area, so that near pairs count little. Chosen by hand.
 const SOFTENING: f64 = 0.05;
-/// Two places of the target nearer than this are one. Chosen by hand.
+/// Two places of the target nearer to each other than this count as one; the area is 1. Chosen by hand.
 const SAME: f64 = 0.3;
-/// Places that are tried. Chosen by hand.
+/// Places of the target that are tried: one on either side of a body. Chosen by hand.
 const PLACES: usize = 2;
-/// Fewer pairs leave a whole line of places.
+/// Least number of pairs by which a further one is placed: with fewer, a whole line of places has the same distances.
 pub(super) const LEAST_TO_PLACE: usize = 3;
 
-/// The pairs, each of vertices of both levels, that may be added to pairs of marks: none where there are too few.
+/// The further pairs, each of vertices of both levels, one of which may be added to some pairs of marks; none where these are too few.
 pub(super) fn between(shapes: [&Shape; 2], pairs: &[[usize; 2]]) -> Vec<[VertexId; 2]> {
     if pairs.len() < LEAST_TO_PLACE {
         return Vec::new();

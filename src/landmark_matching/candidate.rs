@@ -1,4 +1,4 @@
-//! Pairs with the coarse map that they lead to.
+//! Candidates: landmark pairs with their coarse map and its score.
 
 use super::difference::Difference;
 use super::judge::Judged;
@@ -21,29 +21,29 @@ pub struct CoarsePicture {
 }
 
 impl CoarsePicture {
-    /// By vertex of the coarse source where its image is.
+    /// By vertex of the coarse source, the place of its image on the coarse target.
     pub fn images(&self) -> Vec<DVec3> {
         self.target_from_source.iter().map(|image| image.position(&self.target)).collect()
     }
 }
 
-/// Pairs with the coarse map that they lead to.
+/// Landmark pairs with their coarse map.
 #[derive(Clone, Debug)]
 pub struct Candidate {
     /// The pairs: the given ones in their order, then the others.
     pub pairs: Vec<MatchedPair>,
-    /// The less the better: the terms below, weighted.
+    /// The weighted sum of the terms below; less is better.
     pub score: f64,
     /// Mean log density of the coarse map; 0 for an isometry.
     pub mean_log: f64,
-    /// Mean difference between how far a point lies from its whole surface, and its image from its own, in units of the root of
+    /// Mean difference between a point's mean distance to its surface and its image's mean distance to its own, in units of the root of
     /// the area.
     pub remoteness: f64,
-    /// Share of the cyclic orders of shortest paths between the pairs that are the same on both meshes; 1 where all are.
+    /// Share of the cyclic orders of shortest paths between the pairs that are the same on both meshes, 0 to 1.
     pub agreement: f64,
     /// Ends of limbs without a partner, on the source and on the target.
     pub unmatched: [usize; 2],
-    /// How it differs from the best candidate; `None` for the best itself.
+    /// Its difference from the best candidate; `None` for the best itself.
     pub difference: Option<Difference>,
     /// The coarse map.
     pub picture: CoarsePicture,
@@ -54,14 +54,17 @@ pub struct Candidate {
 /// Weights of the score beside the mean log density, found with a prototype on pairs among eight animals of SHREC07. Over the candidates
 /// of 88 matches the best have the same mean error, within 0.2 % of the root of the area, with 0 to 10, 0 to 0.2 and 0 to 0.2.
 const REMOTENESS: f64 = 5.0;
+/// Weight of the number of main tips without a partner; see [`REMOTENESS`].
 const UNMATCHED: f64 = 0.12;
+/// Weight of the share of orders that do not agree; see [`REMOTENESS`].
 const ORDERS: f64 = 0.2;
-/// What a nose that goes to an ear costs, and what ears that go to ears are worth: with 0.03 and with 0.05 the face of 385 lies right on 383, and
-/// nothing else changes on the pairs among four animals of SHREC07; 0.05 was taken after another pair (392-397) had been seen.
+/// What a nose assigned to an ear adds to the score, and ears assigned to ears take from it: with 0.03 and with 0.05 the face of 385 lies
+/// right on 383, and nothing else changes on the pairs among four animals of SHREC07; 0.05 was taken after another pair (392-397) had been
+/// seen.
 const ROLES: f64 = 0.05;
 
 impl Candidate {
-    /// An assignment with what its map said.
+    /// The candidate of an assignment with its judged map.
     pub(super) fn new(shapes: [&Shape; 2], assignment: Assignment, judged: Judged) -> Self {
         let pair = |&[s, t]: &[usize; 2]| MatchedPair {
             source: shapes[0].on_mesh(shapes[0].marks[s].vertex),
@@ -69,7 +72,7 @@ impl Candidate {
             origin: shapes[0].origin(s),
         };
         let Judged { mean_log, remoteness, images } = judged;
-        // A limb that only one of both has costs nothing.
+        // A limb that only one of both bodies has costs nothing.
         let unmatched = assignment.unmatched[0].min(assignment.unmatched[1]) as f64;
         let score = mean_log
             + REMOTENESS * remoteness
@@ -97,7 +100,7 @@ impl Candidate {
         }
     }
 
-    /// The score without what is only likely of heads: by how well its map fits alone.
+    /// The score of its map alone, without the part for noses and ears.
     pub(super) fn score_of_map(&self) -> f64 {
         self.score - roles(&self.assignment)
     }

@@ -1,4 +1,4 @@
-//! Which assignments are judged by their maps.
+//! The choice of the assignments that are judged by their maps.
 
 use super::between::{LEAST_TO_PLACE, between};
 use super::options::MatchOptions;
@@ -10,7 +10,7 @@ use crate::landmarks::LEAST_LANDMARKS;
 const SAME_MAIN: usize = 2;
 
 /// The assignments to judge, the most promising first: those that keep left and right, `options.candidates` by cost with few of the same
-/// main pairs, some by cost without regard to orders, then the others for a second look.
+/// main pairs, some by cost without regard to orders, then further ones, which are judged only where the best is doubtful.
 pub(super) fn chosen(
     tables: &Tables<'_>,
     mut all: Vec<Assignment>,
@@ -46,7 +46,7 @@ pub(super) fn chosen(
         take(assignments, if k == 0 { options.symmetric } else { options.second_symmetric }, &mut chosen);
     }
     take(&all, options.candidates, &mut chosen);
-    // A long tail that only one of both has must not drive a leg to the other's head.
+    // A long tail that only one of both bodies has must not make a leg the partner of the other's head.
     let one_missing = |a: &&Assignment| a.unmatched[0] + a.unmatched[1] == 1;
     let mut missing: Vec<Assignment> = all.iter().filter(one_missing).cloned().collect();
     let rest = |a: &Assignment| a.full_cost() - a.unmatched_cost;
@@ -64,8 +64,8 @@ pub(super) fn chosen(
     chosen.into_iter().flat_map(with_room).collect()
 }
 
-/// By pair of reflections of both bodies the assignments that keep left and right, the cheapest first; none where a body has no left and
-/// right.
+/// By pair of reflections of both bodies, the assignments that keep left and right, the cheapest first; none where a body has no
+/// reflection.
 fn symmetric(tables: &Tables<'_>) -> Vec<Vec<Assignment>> {
     let [sources, targets] = &tables.reflections;
     let pairs = sources.iter().flat_map(|source| targets.iter().map(move |target| [source, target]));

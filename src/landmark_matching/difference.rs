@@ -1,30 +1,30 @@
-//! How one candidate differs from another, in words for the user.
+//! The difference of one candidate from another, in words for the user.
 
 use super::pair::MatchedPair;
 use crate::landmarks::MeshSide;
 use crate::mesh::VertexId;
 
-/// What a user would call the difference of two candidates.
+/// The kinds of differences of two candidates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "snake_case")]
 pub enum DifferenceKind {
-    /// Every limb that has a partner on the other side of its body goes to that side.
+    /// Left and right are exchanged for every limb that has a partner on the other side of its body.
     Mirrored,
-    /// Some limbs do so, others stay.
+    /// Left and right are exchanged for some limbs only.
     Sides,
-    /// Most ends go elsewhere, not only to the other side: as with head and tail exchanged.
+    /// Most ends of limbs are assigned to other ends, not only to the other side: as with head and tail exchanged.
     Ends,
-    /// Some ends go elsewhere.
+    /// Some ends of limbs are assigned to other ends.
     Places,
-    /// The pairs are the same but for some that only one of both has.
+    /// The pairs are the same but for some that only one candidate has.
     Fewer,
 }
 
-/// How a candidate differs from the best.
+/// The difference of a candidate from the best.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
-    /// What a user would call it.
+    /// Its kind.
     pub kind: DifferenceKind,
     /// The pairs of this candidate that the best does not have.
     pub pairs: Vec<MatchedPair>,
@@ -33,7 +33,7 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// One sentence for the user. `number` tells how the user's file numbers a vertex of a mesh.
+    /// One sentence for the user. `number` gives the number of a vertex in the user's file.
     pub fn sentence(&self, number: impl Fn(MeshSide, VertexId) -> usize) -> String {
         let pairs: Vec<String> = self
             .pairs
@@ -71,5 +71,5 @@ impl Difference {
     }
 }
 
-/// Pairs that a sentence names, at most.
+/// Pairs that a sentence names, at most. Chosen by hand.
 const NAMED: usize = 4;

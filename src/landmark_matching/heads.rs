@@ -1,16 +1,16 @@
-//! Assignments that take twins to twins, as ears to ears, and the nose between them to the nose.
+//! Assignments changed so that twins go to twins, as ears to ears, and the end between them, as the nose, to the one between the others.
 
 use super::roles::to_sides;
 use super::search::{Assignment, Tables};
 
-/// Twins go to twins where the mean log ratio of their distances to the limbs is below this: those of a head not to those of a tail.
+/// Largest mean log ratio of the distances to the limbs at which twins may go to twins: those of a head do not go to those of a tail.
 /// Chosen by hand.
 const FITS: f64 = 0.4;
 /// Ways to take twins to twins that are judged, at most. Chosen by hand.
 const MOST: usize = 2;
 
-/// An assignment with twins taken to twins on the same side, and the end on the middle line that belongs to them to that of the others;
-/// the ways that fit best. None where either body has no twins, or limbs go to no limbs.
+/// The assignment `from`, changed so that some twins go to twins on the same side, and the end on the middle line near them to that near
+/// the others; the [`MOST`] changes that fit best. None where either body has no twins, or `from` takes no limbs to limbs.
 pub(super) fn with_twins(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignment> {
     let [source, target] = &tables.roles;
     let image = |s: usize| from.pairs.iter().find(|pair| pair[0] == s).map(|pair| pair[1]);

@@ -1,32 +1,32 @@
-//! What a matching starts from.
+//! The input of a matching.
 
 use crate::mesh::{SurfaceMesh, VertexId};
 use typed_index_collections::TiSlice;
 
-/// Two bodies, and what is known of their landmarks.
+/// Two meshes with the given landmark pairs.
 #[derive(Clone, Copy, Debug)]
 pub struct MatchInput<'a> {
-    /// Closed, of genus 0.
+    /// The source, closed and of genus 0.
     pub source: &'a SurfaceMesh,
-    /// Closed, of genus 0.
+    /// The target, closed and of genus 0.
     pub target: &'a SurfaceMesh,
     /// Pairs of vertices that are held, different ones on each mesh; there may be none.
     pub given: &'a [[VertexId; 2]],
-    /// Which vertices may be landmarks.
+    /// The vertices that may be landmarks.
     pub may_mark: MayMark<'a>,
 }
 
-/// Which vertices may be landmarks; `None` where all may.
+/// By vertex of each mesh, whether it may be a landmark; `None` where all may.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MayMark<'a> {
-    /// Of the source.
+    /// By vertex of the source.
     pub source: Option<&'a TiSlice<VertexId, bool>>,
-    /// Of the target.
+    /// By vertex of the target.
     pub target: Option<&'a TiSlice<VertexId, bool>>,
 }
 
 impl<'a> MatchInput<'a> {
-    /// Two meshes of which nothing is known; every vertex may be a landmark.
+    /// Two meshes without given pairs; every vertex may be a landmark.
     pub fn new(source: &'a SurfaceMesh, target: &'a SurfaceMesh) -> Self {
         Self { source, target, given: &[], may_mark: MayMark::default() }
     }

@@ -1,4 +1,4 @@
-//! An assignment judged by the coarse map that it leads to.
+//! The judgement of an assignment by the coarse map with its pairs as landmarks.
 
 use super::options::MatchOptions;
 use super::shape::Shape;
@@ -9,7 +9,7 @@ use crate::mesh::{SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion};
 use crate::surface_map::MapError;
 
-/// What a coarse map says of its landmarks.
+/// A coarse map with its measures.
 pub(super) struct Judged {
     /// Mean log density of the map; 0 for an isometry.
     pub(super) mean_log: f64,
@@ -19,7 +19,7 @@ pub(super) struct Judged {
     pub(super) images: LevelImages,
 }
 
-/// Makes a coarse map with the pairs as landmarks; `None` where there is none.
+/// Makes and measures the coarse map with the pairs as landmarks; `None` where there is none.
 pub(super) fn judge(
     shapes: [&Shape; 2],
     pairs: &[[VertexId; 2]],
@@ -60,7 +60,7 @@ pub(super) fn judge(
     Ok(Some(Judged { mean_log, remoteness, images }))
 }
 
-/// Mean difference of a point's and its image's mean distance to their surfaces.
+/// Mean difference of a point's and its image's mean distances to their surfaces, in units of the root of the area.
 fn remoteness(shapes: [&Shape; 2], full: &[LandmarkedMesh; 2], images: &LevelImages) -> f64 {
     let at = |side: usize, v: VertexId| {
         let origin = full[side].refined.vertex_origin[images.levels[side].vertices[v]];

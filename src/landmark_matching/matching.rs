@@ -1,7 +1,7 @@
-//! Landmark pairs found by the program.
+//! The matching of landmark pairs.
 //!
-//! Both bodies are looked at on coarse levels: their tips, and what these see of the body (`shape`). Assignments of tips are searched by
-//! their distances, and the orders in which paths lead to them (`search`). The best are judged by the coarse maps that they lead to
+//! Tips and their descriptors are computed on coarse levels of both bodies (`shape`). Assignments of tips are searched by
+//! their distances and by the orders in which shortest paths lead to them (`search`). The best are judged by their coarse maps
 //! (`judge`), then changed a little as long as that helps (`moves`). The verdict compares the best with those that differ from it.
 
 use super::candidate::Candidate;
@@ -19,7 +19,7 @@ use super::verdict::{Verdict, verdict};
 use crate::mesh::VertexId;
 use crate::monitor::{Cancelled, Monitor, Portion, Stage};
 
-/// Why nothing was matched.
+/// Why no landmarks were matched.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MatchError {
@@ -44,28 +44,29 @@ pub enum MatchError {
     },
 }
 
-/// What was matched.
+/// The result of a matching.
 #[derive(Clone, Debug)]
 pub struct LandmarkMatch {
     /// The candidates, the best first; none where fewer than four pairs were found.
     pub candidates: Vec<Candidate>,
-    /// How sure the best one is.
+    /// The certainty of the best one.
     pub verdict: Verdict,
 }
 
-/// Shares of the time: when both bodies have been looked at, and when the candidates have been judged, and
-/// when small changes have.
+/// Progress, 0 to 1, once the tips of both bodies have been computed. Chosen by hand, for display only, like the next two.
 const LOOKED: f64 = 0.15;
+/// Progress once the candidates have been judged.
 const JUDGED: f64 = 0.6;
+/// Progress once small changes of the best candidate have been judged.
 const IMPROVED: f64 = 0.95;
 
 /// Finds landmark pairs of two bodies beside the given ones, with alternatives and a verdict.
 ///
-/// The given pairs are in every candidate. A monitor that wants a result gets the best candidates so far. The time is bounded by the
-/// options: a coarse map for each candidate.
+/// The given pairs are in every candidate. A monitor that wants a result gets the best candidates so far. The options bound the time: each
+/// candidate costs a coarse map.
 ///
 /// # Errors
-/// [`MatchError`]: cancellation, or given pairs that are no different vertices of the meshes.
+/// [`MatchError`]: cancellation, or given pairs that name missing vertices or one vertex twice.
 pub fn match_landmarks(
     input: MatchInput<'_>,
     options: &MatchOptions,
@@ -108,7 +109,7 @@ fn check(input: MatchInput<'_>) -> Result<(), MatchError> {
     Ok(())
 }
 
-/// Candidates that were judged, the best first.
+/// A matching under way: the candidates that were judged, the best first.
 struct Search<'a> {
     shapes: [&'a Shape; 2],
     options: &'a MatchOptions,
@@ -117,7 +118,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Judges an assignment. Whether it is the best so far.
+    /// Judges an assignment; returns whether it is the best so far.
     fn judge(&mut self, assignment: &Assignment, monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
         self.judged += 1;
         let vertices =
@@ -139,7 +140,7 @@ impl Search<'_> {
     fn first_look(&mut self, tables: &Tables<'_>, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
         let listed = chosen(tables, assignments(tables, self.options), self.options);
         let MatchOptions { candidates, symmetric, one_missing, without_orders, .. } = self.options;
-        // Further ways to tell left and right take the place of the last of these.
+        // Candidates of further reflections take the place of the last of these.
         let first = candidates + symmetric + one_missing + without_orders;
         for (k, assignment) in listed.iter().enumerate() {
             let enough = k >= first && self.least_score() < self.options.doubtful_score;
@@ -152,7 +153,7 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Judges small changes of the best, a bounded number, and goes on from what is better.
+    /// Judges small changes of the best, at most `options.changes`, and goes on from each that is better.
     fn improve(&mut self, tables: &Tables<'_>, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
         let most = self.options.changes;
         let mut tried: Vec<Assignment> = self.found.iter().map(|c| c.assignment.clone()).collect();

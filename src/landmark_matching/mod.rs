@@ -1,4 +1,4 @@
-//! Landmark pairs that nobody gave: ends of limbs of two bodies matched, judged by coarse maps, and told with their doubts.
+//! Landmark pairs without a user: ends of limbs of two bodies are matched and judged by coarse maps; the result says how certain it is.
 
 mod agreement;
 mod between;

@@ -1,18 +1,18 @@
-//! Small changes of an assignment: what the search over main tips does not see.
+//! Small changes of an assignment, which the search over main tips does not try.
 //!
-//! Which of nose, ear and crown is the end of a head differs from body to body, and so do small tips that both have: these are left
-//! to the map to judge.
+//! Whether nose, ear or crown is the main tip of a head differs from body to body, and so do small tips that both have: the coarse map
+//! judges which assignment of them is better.
 
 use super::between::between;
 use super::search::{Assignment, Tables};
 use crate::landmarks::LEAST_LANDMARKS;
 
-/// Two tips of one body that are nearer than this, in units of the root of the area, may be taken for each other. Chosen by hand.
+/// A tip may be replaced by one of the same body within this distance, in units of the root of the area. Chosen by hand.
 const NEAR: f64 = 0.45;
-/// Small tips are paired where their mean misfit is below this. Chosen by hand.
+/// Small tips are paired where their mean misfit (log ratio of distances) is below this. Chosen by hand.
 const FITS: f64 = 0.25;
 
-/// With so few pairs a map may wind either way round the body: a further pair is tried. Chosen by hand.
+/// With at most this many pairs a further one is tried: the map may wind either way round the body. Chosen by hand.
 const FEW: usize = 5;
 
 /// Assignments that differ little from one, the cheapest first.

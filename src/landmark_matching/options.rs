@@ -1,52 +1,52 @@
-//! How landmarks are matched.
+//! Options of the matching of landmarks.
 
 use crate::coarse_map::MultilevelOptions;
 use crate::layout::SearchOptions;
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::relaxation::map_relaxation::MapRelaxationOptions;
 
-/// How landmarks are matched. Distances are in units of the root of the area.
+/// Options of the matching of landmarks. Distances are in units of the root of the area.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MatchOptions {
-    /// Vertices of the levels on which bodies are looked at.
+    /// Vertices of the levels on which tips and distances are computed.
     pub level_vertices: usize,
     /// Points to which the mean distance is measured.
     pub samples: usize,
-    /// Peaks of the mean distance of less persistence are no tips.
+    /// Least persistence of a peak of the mean distance that is a tip.
     pub least_persistence: f64,
-    /// Tips of at least this persistence are main ones: a limb.
+    /// Least persistence of a main tip: the end of a limb.
     pub main_persistence: f64,
     /// Tips of a mesh, at most: the most persistent.
     pub most_tips: usize,
     /// Main tips that may have a lesser one as partner, at most.
     pub lesser_partners: usize,
-    /// Partial assignments that are kept from step to step.
+    /// Partial assignments that the beam search keeps from step to step.
     pub beam: usize,
     /// Candidates that are judged by their maps.
     pub candidates: usize,
-    /// More of them that take left and right of one body to those of the other.
+    /// Further candidates that take left and right of one body to those of the other.
     pub symmetric: usize,
-    /// And of those for each further pair of ways to tell left and right.
+    /// Such candidates for each further pair of reflections of the two bodies.
     pub second_symmetric: usize,
-    /// More of them in which one limb of one body has no partner, which costs nothing here.
+    /// Further candidates in which one limb of one body has no partner, without cost.
     pub one_missing: usize,
-    /// More of them that are chosen without regard to orders.
+    /// Further candidates that are chosen without regard to orders.
     pub without_orders: usize,
-    /// More that are judged where the best of the first ones is doubtful.
+    /// Further candidates that are judged where the best of the first ones is doubtful.
     pub more_candidates: usize,
-    /// A score from which on more are judged.
+    /// The best of the first candidates is doubtful where its score is at least this.
     pub doubtful_score: f64,
-    /// Small changes of the best one that are judged, at most.
+    /// Small changes of the best candidate that are judged, at most.
     pub changes: usize,
-    /// Vertices of the coarse levels of the maps that judge.
+    /// Vertices of the coarse levels of the maps by which candidates are judged.
     pub judge_vertices: usize,
-    /// The search for the class of each.
+    /// Options of the search for the class of each map.
     pub search: SearchOptions,
-    /// How the maps are made.
+    /// Options of the coarse maps.
     pub multilevel: MultilevelOptions,
     /// The last relaxation before a map is measured.
     pub relaxation: MapRelaxationOptions,
-    /// When the result is sure.
+    /// Limits of the verdict.
     pub limits: VerdictLimits,
 }
 
@@ -55,9 +55,10 @@ impl Default for MatchOptions {
         Self {
             // Distances on such levels are 0.3 to 0.6 % off in the mean.
             level_vertices: 1500,
+            // A mean distance costs a search over the level for each sample. Chosen by hand.
             samples: 128,
-            // With a prototype on SHREC07 and poses: ears and noses are above it, noise of the distances below; animals have five or
-            // six tips above the second.
+            // By a prototype on SHREC07 and poses: ears and noses are above the first, noise of the distances below; animals have five
+            // or six tips above the second. The counts below were chosen by hand: they bound the time.
             least_persistence: 0.012,
             main_persistence: 0.1,
             most_tips: 14,
@@ -89,28 +90,28 @@ impl Default for MatchOptions {
 /// Limits of the verdict.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VerdictLimits {
-    /// A candidate with a score above this is doubtful whatever the others are.
+    /// Score from which on the best candidate is doubtful, whatever the others are.
     pub sure_score: f64,
-    /// One that does not take left and right of one body to those of the other is so from this score on.
+    /// The same for a candidate that does not take left and right of one body to those of the other.
     pub sure_score_without_sides: f64,
-    /// With a score above this nothing fits.
+    /// Score from which on nothing fits.
     pub unknown_score: f64,
-    /// A candidate of which a smaller share of the orders agrees is doubtful, too.
+    /// Share of the orders that agree, 0 to 1, below which the best candidate is doubtful.
     pub agreement: f64,
-    /// A rival whose score is no more than this above the best one's makes it doubtful.
+    /// A rival whose score exceeds the best one's by less than this makes it doubtful.
     pub margin: f64,
-    /// A candidate whose map parts from the best one on a smaller share of the area is no rival.
+    /// A candidate is a rival where its map differs from the best one's on more than this share of the area, 0 to 1.
     pub parting: f64,
-    /// Fewer given pairs and pairs of ends are never sure.
+    /// Least number of given pairs and pairs of tips of a sure candidate.
     pub least_pairs: usize,
 }
 
 impl Default for VerdictLimits {
     fn default() -> Self {
-        // Fixed on the pairs among four animals of SHREC07, both directions, of which 11 are right: 1 of them is doubtful, 3 with a margin of
-        // 0.08 or with parts from 0.02 on (where a head turns a little); with a margin of 0.02, or parts from 0.08 on, what is wrong at the
-        // head of other animals is sure twice more often. Orders of right ones agree from 0.6 on, those of a body with exchanged
-        // limbs, 0.53, do not. The score of right ones is below 0.58.
+        // Set on the pairs among four animals of SHREC07, both directions, of which 11 are matched rightly: 1 of them is called doubtful, and
+        // 3 with a margin of 0.08 or a parting of 0.02 (where a head turns a little); with a margin of 0.02, or a parting of 0.08, mistakes
+        // at the head of other animals are called sure in two more cases. Right matches have an agreement of orders from 0.6 on, a body
+        // with exchanged limbs 0.53. The score of right matches is below 0.58.
         Self {
             sure_score: 0.6,
             sure_score_without_sides: 0.3,

@@ -1,9 +1,9 @@
-//! How many of the orders in which shortest paths lead to the ends of two bodies are the same.
+//! The agreement of two bodies in the orders in which shortest paths lead to their marks.
 
 use super::agreement::turns_left;
 use super::shape::Shape;
 
-/// Share of the cyclic orders of three around a fourth that are the same on both; 1 where there are fewer than four pairs.
+/// Share of the cyclic orders of three marks around a fourth that are the same on both bodies; 1 where there are fewer than four pairs.
 pub(super) fn agreement(shapes: [&Shape; 2], pairs: &[[usize; 2]]) -> f64 {
     let (mut same, mut all) = (0, 0);
     for (root, of) in pairs.iter().enumerate() {

@@ -2,16 +2,16 @@
 
 use crate::mesh::VertexId;
 
-/// Where a pair comes from.
+/// The origin of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "snake_case")]
 pub enum PairOrigin {
-    /// It was given, and is held.
+    /// The pair was given, and is in every candidate.
     Given,
     /// Two ends of limbs.
     Tips,
-    /// A point far from all tips, at a place that has the same distances to the other pairs.
+    /// A point far from all tips, and a place of the target with nearly the same distances to the other pairs.
     Between,
 }
 
@@ -22,6 +22,6 @@ pub struct MatchedPair {
     pub source: VertexId,
     /// Vertex of the target.
     pub target: VertexId,
-    /// Where the pair comes from.
+    /// The origin of the pair.
     pub origin: PairOrigin,
 }

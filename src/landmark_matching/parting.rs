@@ -1,4 +1,4 @@
-//! Where the maps of two candidates part, and what a user would call that.
+//! The places at which the maps of two candidates differ, and the kind of their difference.
 
 use super::candidate::Candidate;
 use super::difference::{Difference, DifferenceKind};
@@ -8,18 +8,18 @@ use crate::mesh::SurfacePoint;
 use crate::mesh::surface_index::SurfaceIndex;
 use glam::DVec3;
 
-/// Images farther apart than this, in units of the root of the target's area, are at different places: that many landmarks of SHREC07
-/// are told apart by it, too.
+/// Images farther apart than this, in units of the root of the target's area, are at different places; landmarks of SHREC07 are judged by
+/// the same distance. Chosen by hand.
 pub(super) const APART: f64 = 0.15;
 
-/// How a candidate differs from the best one.
+/// The difference of a candidate from the best one.
 pub(super) fn difference(shapes: [&Shape; 2], best: &Candidate, other: &Candidate) -> Difference {
     let parting = Parting::of(best, other);
     let old = &best.assignment.pairs;
     let new = &other.assignment.pairs;
     let changed: Vec<usize> = (0..new.len()).filter(|&k| !old.contains(&new[k])).collect();
     let partners = shapes[1].partners();
-    // What becomes of the ends that both have.
+    // Counts of the source's ends that both candidates pair, by where they go.
     let (mut moved, mut to_partner, mut kept, mut kept_with_partner) = (0, 0, 0, 0);
     for &[s, t] in new {
         let Some(&[_, before]) = old.iter().find(|pair| pair[0] == s) else { continue };
@@ -47,20 +47,20 @@ pub(super) fn difference(shapes: [&Shape; 2], best: &Candidate, other: &Candidat
     Difference { kind, pairs, share: parting.share }
 }
 
-/// Where two maps of the same meshes part.
+/// The places at which two maps of the same meshes differ.
 pub(super) struct Parting {
-    /// Share of the source's area whose images are far apart.
+    /// Share of the source's area, 0 to 1, whose images are far apart.
     pub(super) share: f64,
     /// The places whose images are far apart, the farthest first.
     pub(super) places: Vec<PartedPlace>,
 }
 
-/// A place that two maps take to different places, in space.
+/// A place of the source with its different images under two maps, in space.
 #[derive(Clone, Copy)]
 pub(super) struct PartedPlace {
-    /// A coarse vertex of the source.
+    /// The position of a coarse vertex of the source.
     pub(super) source: DVec3,
-    /// Its images.
+    /// Its images under the first and the second map.
     pub(super) images: [DVec3; 2],
 }
 
@@ -94,7 +94,7 @@ impl Parting {
             }
         }
         parting.share /= total;
-        // Stable: of equal ones the first.
+        // A stable sort: equal ones stay in the order of the vertices.
         parting.places.sort_by(|a, b| b.apart().total_cmp(&a.apart()));
         parting
     }

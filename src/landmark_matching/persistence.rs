@@ -1,4 +1,4 @@
-//! Peaks of a function on a mesh, with how far one must descend from each to reach a higher one.
+//! Peaks of a function on a mesh with their persistence: how far one must descend from a peak to reach a higher one.
 
 use crate::math::disjoint_sets::DisjointSets;
 use crate::mesh::{SurfaceMesh, VertexId};
@@ -8,11 +8,12 @@ use typed_index_collections::TiSlice;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Peak {
     pub(super) vertex: VertexId,
-    /// How much lower the highest pass to a higher peak is; of the highest peak the whole range of the function.
+    /// Its height above the highest pass to a higher peak; for the highest peak the range of the function.
     pub(super) persistence: f64,
 }
 
-/// All peaks of at least a persistence, the most persistent first (superlevel sets, as in Edelsbrunner, Letscher & Zomorodian 2002).
+/// All peaks with at least the persistence `least`, the most persistent first (superlevel sets, as in Edelsbrunner, Letscher &
+/// Zomorodian 2002).
 pub(super) fn peaks(mesh: &SurfaceMesh, height: &TiSlice<VertexId, f64>, least: f64) -> Vec<Peak> {
     let mut order: Vec<VertexId> = mesh.vertices().collect();
     order.sort_by(|a, b| height[*b].total_cmp(&height[*a]).then(a.cmp(b)));

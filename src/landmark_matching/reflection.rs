@@ -1,49 +1,49 @@
-//! Left and right of a body, as its main tips tell them.
+//! Reflections of a body, which tell its left and right, found from its main tips.
 //!
 //! A reflection of the body takes each main tip to its partner on the other side or, on the middle line, to itself; it keeps distances and
-//! reverses the orders in which shortest paths lead to the tips. All ways to pair the tips are few, so the best is found by trying
-//! them.
+//! reverses the orders in which shortest paths lead to the tips. There are few ways to pair the tips, so the best is found by trying
+//! all of them.
 
 use super::orders::agreement;
 use super::shape::Shape;
 use crate::math::scalar::{ln, min};
 
-/// With more main tips none is looked for: ten have 9,496 ways to be paired.
+/// Largest number of main tips for which reflections are searched: ten can be paired in 9,496 ways.
 const MOST_TIPS: usize = 10;
-/// With more main tips none of them has a lesser one as its partner: eight and six lesser ones have 11,136 ways more.
+/// Largest number of main tips for which a lesser tip may be the partner of one: with eight and six lesser ones there are 11,136 more ways.
 const MOST_TIPS_WITH_LESSER: usize = 8;
-/// What orders that are not reversed cost beside the mean log ratio of distances: as in the search for assignments.
+/// Weight of the share of orders that are not reversed, beside the mean log ratio of distances: as in the search for assignments.
 const ORDERS: f64 = 0.3;
-/// Above this cost there is no reflection. The right ones of sixteen animals cost 0.004 to 0.2, the next best ones 0.11 to 0.3: what is wrong
-/// here costs candidates that their maps refuse.
+/// Largest cost of a reflection. The right ones of sixteen animals cost 0.004 to 0.2, the next best ones 0.11 to 0.3; a wrong one only
+/// costs the time of candidates whose maps are worse.
 const MOST_COST: f64 = 0.25;
-/// Reflections that cost no more than this beyond the best are as good: with a twin of lesser persistence 0.00 to 0.01 beyond it on a
-/// deer, a cow and two more, 0.03 and more on ears of which only one is found.
+/// Reflections that cost no more than this beyond the best are kept: with a twin of lesser persistence right ones cost 0.00 to 0.01 beyond
+/// it on a deer, a cow and two more, those with ears of which only one is found 0.03 and more.
 const NEARLY: f64 = 0.02;
-/// So many of these are kept.
+/// Reflections that are kept, at most. Chosen by hand.
 const REFLECTIONS: usize = 2;
-/// A lesser tip is on the middle line where its distances to partners differ by less in the mean: the reflections of whole bodies
-/// have this mean.
+/// A lesser tip is on the middle line where the mean log ratio of its distances to partners is below this: reflections of whole bodies
+/// have such means.
 const ON_MIDDLE: f64 = 0.06;
-/// So many lesser ones on the middle line, the most persistent.
+/// Lesser tips on the middle line, at most: the most persistent. Chosen by hand.
 const LESSER_ON_MIDDLE: usize = 2;
-/// A log ratio of distances above this is as bad as any.
+/// A log ratio of distances above this counts as this. Chosen by hand.
 const MOST_RATIO: f64 = 1.0;
 
-/// The main tips of a body in partners.
+/// A reflection of a body: its main tips as pairs of partners and single ones on the middle line.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Reflection {
-    /// Left and right, in no order.
+    /// Partners: left and right, in no order.
     pub(super) pairs: Vec<[usize; 2]>,
-    /// On the middle line.
+    /// Tips on the middle line.
     pub(super) middle: Vec<usize>,
 }
 
 impl Reflection {
-    /// The best reflections of a body's main tips that have a left and a right, the best first; none where none fits.
+    /// The reflections of a body's main tips with at least one pair, the best first; none where none fits.
     ///
-    /// Of two horns the pass between them leaves only one as a main tip, and the nose is lesser than both: so one main tip may have a
-    /// lesser one as its partner, and then lesser ones on the middle line count, too.
+    /// Of two horns only one is a main tip, since the pass between them is high, and the nose is lesser than both: so one main tip may
+    /// have a lesser one as its partner, and then lesser ones on the middle line count, too.
     pub(super) fn all_of(shape: &Shape, main: &[usize]) -> Vec<Self> {
         if main.len() > MOST_TIPS {
             return Vec::new();
@@ -73,7 +73,7 @@ impl Reflection {
         costs.into_iter().take(REFLECTIONS).map(|(_, reflection)| with_lesser(reflection)).collect()
     }
 
-    /// With the lesser tips that lie on the middle line, too.
+    /// Adds the lesser tips that lie on the middle line.
     fn with_middle(mut self, shape: &Shape, lesser: &[usize]) -> Self {
         let is_free = |k: &usize| self.pairs.iter().flatten().all(|other| other != k);
         let off_middle = |k: usize| {
@@ -87,7 +87,7 @@ impl Reflection {
         self
     }
 
-    /// All ways to pair what is left, or to leave it on the middle line.
+    /// Adds to `all` every reflection that pairs the tips `left` or leaves them on the middle line.
     fn extend(self, left: &[usize], all: &mut Vec<Self>) {
         let Some((&first, rest)) = left.split_first() else {
             all.push(self);
@@ -115,7 +115,7 @@ impl Reflection {
         swapped.chain(self.middle.iter().map(|&a| [a, a])).collect()
     }
 
-    /// How far it is from a reflection; 0 is a perfect one.
+    /// The cost of a reflection: log ratios of distances, differences of descriptors, orders that are not reversed; 0 for a perfect one.
     fn cost(&self, shape: &Shape) -> f64 {
         let images = self.images();
         let ratio = |[a, x]: [usize; 2], [b, y]: [usize; 2]| {
@@ -145,7 +145,7 @@ pub(super) fn keeps_sides(reflections: [&[Reflection]; 2], pairs: &[[usize; 2]])
             (Some(x), Some(y)) => {
                 (x == s) == (y == t) && onto(x).is_none_or(|t| t == y) && from(y).is_none_or(|s| s == x)
             }
-            // A small end, of which the reflection says nothing, may be that of a head or a tail.
+            // A small tip that is not in the reflection may be that of a head or a tail.
             (Some(x), None) => x == s,
             (None, Some(y)) => y == t,
             (None, None) => true,

@@ -1,28 +1,28 @@
-//! What the ends of a body are to its left and right: twins, as two ears are, or on the middle line, as a nose is.
+//! The roles of a body's tips under its reflection: twins, as two ears are, or on the middle line, as a nose is.
 //!
-//! Which of ear, nose and crown sticks out most differs from body to body, so that ends of one head taken by their size are exchanged
-//! easily, and a long neck of one draws the other's face along. That ears are two and a nose is one is the same on all of them.
+//! Whether ear, nose or crown is the most persistent tip of a head differs from body to body, so that tips of heads matched by persistence
+//! are easily exchanged, and the long neck of one body draws the other's face along. That ears are two and a nose is one holds for all.
 
 use super::reflection::Reflection;
 use super::shape::Shape;
 use crate::math::scalar::ln;
 
-/// Twins have such a mean log ratio of distances to mirrored marks at most: feet of sixteen animals have up to 0.06.
+/// Largest mean log ratio of the distances of twins to mirrored marks: feet of sixteen animals have up to 0.06.
 const MIRRORED: f64 = 0.06;
-/// Twins are nearer to each other than this, in units of the root of the area, and to the end on the middle line that belongs to them.
+/// Largest distance of twins from each other, and from the tip on the middle line that belongs to them, in units of the root of the area.
 /// Chosen by hand.
 const NEAR: f64 = 0.5;
-/// Log ratios of persistence count so little beside those of distances: where there are two horns and two ears.
+/// Weight of the log ratio of persistence beside that of distances: it pairs horn with horn and ear with ear. Chosen by hand.
 const PERSISTENCE: f64 = 0.01;
 
-/// The ends of a body beside the limbs that have a left and a right.
+/// The limbs of a body that have a left and a right, and the roles of its other tips.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Roles {
-    /// Left and right limbs.
+    /// Left and right limbs, in no order.
     pub(super) limbs: Vec<[usize; 2]>,
-    /// Ends that mirror each other, in no order.
+    /// Other tips that mirror each other, in no order.
     pub(super) twins: Vec<[usize; 2]>,
-    /// Ends on the middle line, the most persistent first.
+    /// Tips on the middle line, the most persistent first.
     pub(super) middle: Vec<usize>,
 }
 
@@ -42,7 +42,7 @@ impl Roles {
             for &a in &others[..k] {
                 let sides = [a, b].map(|k| to_sides(shape, &limbs, k));
                 let cost = off_mirror(shape, &limbs, [a, b]);
-                // Each mirrors the other better than itself: a nose and one of two ears do not.
+                // Each mirrors the other better than itself, which a nose and one of two ears do not.
                 let own = [a, b].map(|k| off_mirror(shape, &limbs, [k; 2]));
                 let mirrors = cost < MIRRORED && cost < own[0].min(own[1]);
                 if sides[0] * sides[1] < 0.0 && mirrors && shape.distance([a, b]) < NEAR {
@@ -67,7 +67,7 @@ impl Roles {
         self.twins.iter().flatten().any(|&k| k == mark)
     }
 
-    /// The most persistent end on the middle line near twins.
+    /// The most persistent tip on the middle line near twins.
     pub(super) fn between(&self, shape: &Shape, twins: [usize; 2]) -> Option<usize> {
         let is_near = |k: &&usize| twins.iter().all(|&twin| shape.distance([**k, twin]) < NEAR);
         self.middle.iter().find(is_near).copied()
@@ -81,14 +81,14 @@ fn off_mirror(shape: &Shape, limbs: &[[usize; 2]], [a, b]: [usize; 2]) -> f64 {
     sum / limbs.len() as f64
 }
 
-/// Mean log ratio of a mark's distances to the second of both limbs and to the first: above 0 on the side of the first.
+/// Mean log ratio of a mark's distances to the second and to the first limb of each pair: above 0 on the side of the first limbs.
 pub(super) fn to_sides(shape: &Shape, limbs: &[[usize; 2]], mark: usize) -> f64 {
     let ratio = |&[l, r]: &[usize; 2]| ln(shape.distance([mark, r])) - ln(shape.distance([mark, l]));
     limbs.iter().map(ratio).sum::<f64>() / limbs.len() as f64
 }
 
-/// How many twins of the source go to twins of the target, and how many ends on the middle line of one body to one of twins of the
-/// other.
+/// The number of the source's twins that go to twins of the target, and of tips on the middle line of one body that go to one of twins of
+/// the other.
 pub(super) fn kept([source, target]: [&Roles; 2], pairs: &[[usize; 2]]) -> [usize; 2] {
     let image = |s: usize| pairs.iter().find(|pair| pair[0] == s).map(|pair| pair[1]);
     let goes = |&&[a, b]: &&[usize; 2]| {

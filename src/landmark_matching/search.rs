@@ -13,52 +13,55 @@ use crate::mesh::VertexId;
 pub(super) struct Assignment {
     /// Numbers of the marks of source and target; the given ones first.
     pub(super) pairs: Vec<[usize; 2]>,
-    /// What it costs without regard to orders.
+    /// Its cost without regard to orders.
     pub(super) cost: f64,
-    /// The part of it for main tips without a partner.
+    /// The part of `cost` for main tips without a partner.
     pub(super) unmatched_cost: f64,
-    /// Share of the cyclic orders that are the same on both; 1 where there are none.
+    /// Share of the cyclic orders that are the same on both bodies, 0 to 1; 1 where there are none.
     pub(super) agreement: f64,
     /// Main tips without a partner, by side.
     pub(super) unmatched: [usize; 2],
     /// Whether it takes left and right of one body to those of the other; given pairs are taken to do so.
     pub(super) keeps_sides: bool,
-    /// Twins that go to twins, as ears to ears.
+    /// Number of twins that go to twins, as ears to ears.
     pub(super) twins: usize,
-    /// Ends on the middle line of one body that go to one of twins of the other, as a nose to an ear.
+    /// Number of tips on the middle line of one body that go to one of twins of the other, as a nose to an ear.
     pub(super) mixed: usize,
-    /// A pair of vertices of both levels beside those of marks.
+    /// A further pair, of vertices of both levels that are no marks.
     pub(super) between: Option<[VertexId; 2]>,
 }
 
-/// What reversed orders cost; the other weights are beside it. They were found with a prototype on SHREC07 pairs.
+/// Weight of the share of reversed orders, beside the mean log ratio of distances. This weight and the next two were found with a
+/// prototype on SHREC07 pairs.
 const ORDERS: f64 = 0.3;
+/// Weight of the mean log ratio of persistence.
 const PERSISTENCE: f64 = 0.05;
+/// Weight of the persistence of tips without a partner.
 const UNMATCHED: f64 = 0.35;
-/// An unmatched tip costs no more than one of this persistence: a long tail may be missing. Chosen by hand.
+/// Persistence above which a tip without a partner costs no more: the other body may lack a long tail. Chosen by hand.
 const MOST_UNMATCHED: f64 = 0.25;
-/// A log ratio of distances above this is as bad as any. Chosen by hand.
+/// A log ratio of distances above this counts as this. Chosen by hand.
 const MOST_RATIO: f64 = 1.0;
 
 impl Assignment {
-    /// What it costs with regard to orders.
+    /// Its cost with regard to orders.
     pub(super) fn full_cost(&self) -> f64 {
         self.cost + ORDERS * (1.0 - self.agreement)
     }
 }
 
-/// Tables of what pairs cost.
+/// Both bodies with tables from which the costs of assignments are computed.
 pub(super) struct Tables<'a> {
     pub(super) shapes: [&'a Shape; 2],
     /// By side the numbers of the main tips.
     pub(super) main: [Vec<usize>; 2],
-    /// By side what may be left and right.
+    /// By side the reflections, the best first.
     pub(super) reflections: [Vec<Reflection>; 2],
-    /// By side the ends beside the limbs.
+    /// By side the roles of the tips.
     pub(super) roles: [Roles; 2],
-    /// By side and two marks: logarithm of their distance.
+    /// By side and two marks, the logarithm of their distance.
     log_distance: [Vec<Vec<f64>>; 2],
-    /// By mark of the source and of the target.
+    /// By mark of the source and of the target, the difference of their descriptors.
     difference: Vec<Vec<f64>>,
 }
 
@@ -66,7 +69,7 @@ impl<'a> Tables<'a> {
     pub(super) fn new(shapes: [&'a Shape; 2], options: &MatchOptions) -> Self {
         let log_distance = shapes.map(|shape| {
             let n = shape.marks.len();
-            // Nearer marks are as good as at one place.
+            // Marks nearer than 0.02 of the root of the area count as if at that distance.
             let log = |a: usize, b: usize| ln(shape.distance([a, b]).max(0.02));
             (0..n).map(|a| (0..n).map(|b| log(a, b)).collect()).collect()
         });
@@ -84,14 +87,14 @@ impl<'a> Tables<'a> {
         min((self.log_distance[0][s][p] - self.log_distance[1][t][q]).abs(), MOST_RATIO)
     }
 
-    /// Mean misfit of a pair to others.
+    /// Mean misfit (log ratio of distances) of a pair to others.
     pub(super) fn mean_misfit(&self, pair: [usize; 2], others: &[[usize; 2]]) -> f64 {
         let others = others.iter().filter(|other| **other != pair);
         let (sum, count) = others.fold((0.0, 0), |(sum, n), &other| (sum + self.misfit(pair, other), n + 1));
         sum / f64::from(count.max(1))
     }
 
-    /// Pairs, the given ones first, with what they cost.
+    /// The assignment with these pairs, the given ones first, and its costs.
     pub(super) fn assignment(&self, pairs: &[[usize; 2]]) -> Assignment {
         let mut partial = Partial::of_given(self);
         let given = self.shapes[0].given;
@@ -165,7 +168,7 @@ impl Partial {
     }
 
     fn finished(self, tables: &Tables<'_>) -> Assignment {
-        // Lesser ends lie so near each other on a head that their orders say little, and better pairs of ears would cost more.
+        // Lesser tips lie so near each other on a head that their orders are unreliable, and right pairs of ears could cost more.
         let is_clear =
             |side: usize, k: usize| k < tables.shapes[side].given || tables.main[side].contains(&k);
         let clear = self.pairs.iter().copied().filter(|[s, t]| is_clear(0, *s) || is_clear(1, *t));
@@ -200,7 +203,7 @@ impl Partial {
     }
 }
 
-/// The best assignments without regard to orders, the best first, each with its agreement of orders.
+/// The cheapest assignments without regard to orders, the cheapest first, each with its agreement of orders.
 pub(super) fn assignments(tables: &Tables<'_>, options: &MatchOptions) -> Vec<Assignment> {
     let given = tables.shapes[0].given;
     let mut beam = vec![Partial::of_given(tables)];
@@ -214,8 +217,8 @@ pub(super) fn assignments(tables: &Tables<'_>, options: &MatchOptions) -> Vec<As
     beam.into_iter().map(|partial| partial.finished(tables)).collect()
 }
 
-/// All that can become of a main tip of one side: the source's first meet any tip of the target, then those of the target that are
-/// left meet lesser ones of the source.
+/// All partial assignments that decide on a further main tip of one side: the source's are paired first, with any tip of the target, then
+/// the target's that are left with lesser tips of the source.
 fn step(
     tables: &Tables<'_>,
     partial: &Partial,

@@ -1,4 +1,4 @@
-//! A body as the matching sees it: a coarse level of area 1 with its tips, and what each tip sees of the body.
+//! A body in the matching: a coarse level of area 1 with its tips, and a descriptor of each tip.
 
 use super::agreement::{Rank, ranks};
 use super::options::MatchOptions;
@@ -11,32 +11,32 @@ use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-/// Shares of the area whose enclosing radii describe a tip: from the tip of a toe to the whole body. Chosen by hand.
+/// Shares of the area whose enclosing radii are the descriptor of a tip: from the tip of a toe to the whole body. Chosen by hand.
 const SHARES: [f64; 10] = [0.003, 0.006, 0.0125, 0.025, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0];
 
-/// Nearer to a given landmark than this a tip is the same place. Chosen by hand.
+/// A tip nearer than this to a given landmark is at the same place; the area is 1. Chosen by hand.
 const SAME_PLACE: f64 = 0.12;
 
-/// Tips whose log radii differ by less than this in the mean see the body alike. Chosen by hand.
+/// Tips whose log radii differ by less than this in the mean may be partners. Chosen by hand.
 const ALIKE: f64 = 0.15;
 
-/// Places that are asked for where nothing fits. Chosen by hand.
+/// Places at which the user is asked for pairs where nothing fits. Chosen by hand.
 const PLACES: usize = 3;
 
-/// A mesh with what is known of its landmarks.
+/// A mesh with its given landmarks.
 #[derive(Clone, Copy)]
 pub(super) struct Body<'a> {
     pub(super) mesh: &'a SurfaceMesh,
     pub(super) given: &'a [VertexId],
-    /// Which vertices may be landmarks; `None` where all may.
+    /// By vertex, whether it may be a landmark; `None` where all may.
     pub(super) may_mark: Option<&'a TiSlice<VertexId, bool>>,
 }
 
-/// A body as the matching sees it.
+/// A body in the matching: its coarse level with its marks.
 pub(super) struct Shape {
     /// The level, of area 1; its vertices are numbered on the full mesh.
     pub(super) level: Level,
-    /// The level's length of a length of the full mesh.
+    /// The factor from lengths of the full mesh to those of the level.
     scale: f64,
     pub(super) areas: TiVec<VertexId, f64>,
     /// Mean distance of each vertex to the whole surface.
@@ -44,25 +44,25 @@ pub(super) struct Shape {
     /// The given landmarks in their order, then the tips, the most persistent first.
     pub(super) marks: Vec<Mark>,
     pub(super) given: usize,
-    /// Which vertices of the level may be landmarks; `None` where all may.
+    /// By vertex of the level, whether it may be a landmark; `None` where all may.
     may_mark: Option<TiVec<VertexId, bool>>,
 }
 
 /// A given landmark or a tip.
 pub(super) struct Mark {
     pub(super) vertex: VertexId,
-    /// 0 of a given landmark.
+    /// The persistence of a tip; 0 for a given landmark.
     pub(super) persistence: f64,
-    /// Distance of each vertex.
+    /// By vertex, its distance to the mark.
     pub(super) field: TiVec<VertexId, f64>,
-    /// Logarithms of the radii that enclose shares of the area.
+    /// The descriptor: logarithms of the radii that enclose the shares of the area.
     radii: [f64; SHARES.len()],
-    /// The order in which shortest paths lead to the other marks.
+    /// By mark, its place in the order in which shortest paths lead from this mark to all.
     pub(super) ranks: Vec<Rank>,
 }
 
 impl Mark {
-    /// Mean difference of what two marks see of their bodies.
+    /// Mean difference of the descriptors of two marks.
     pub(super) fn difference(&self, other: &Self) -> f64 {
         let pairs = self.radii.iter().zip(&other.radii);
         pairs.map(|(a, b)| (a - b).abs()).sum::<f64>() / SHARES.len() as f64
@@ -70,7 +70,7 @@ impl Mark {
 }
 
 impl Shape {
-    /// Looks at a body.
+    /// Computes the coarse level and the marks of a body.
     pub(super) fn new(
         body: Body<'_>,
         options: &MatchOptions,
@@ -111,7 +111,7 @@ impl Shape {
         self.may_mark.as_ref().is_none_or(|may| may[v])
     }
 
-    /// The nearest vertex that may be a landmark and is none yet; `None` where that is another place.
+    /// The vertex nearest to a tip that may be a landmark and is none yet; `None` where there is none within [`SAME_PLACE`].
     fn allowed(&self, tip: VertexId) -> Option<VertexId> {
         let may = |v: VertexId| self.may(v) && self.marks.iter().all(|mark| mark.vertex != v);
         if may(tip) {
@@ -144,17 +144,17 @@ impl Shape {
         self.level.vertices[v]
     }
 
-    /// Where a mark comes from.
+    /// The origin of pairs with a mark.
     pub(super) fn origin(&self, mark: usize) -> PairOrigin {
         if mark < self.given { PairOrigin::Given } else { PairOrigin::Tips }
     }
 
-    /// A level of this level in the units of the full mesh.
+    /// A coarser level of this level, scaled to the unit of the full mesh.
     pub(super) fn in_units_of_mesh(&self, level: &SurfaceMesh) -> SurfaceMesh {
         level.with_positions(level.positions().iter().map(|&p| p / self.scale).collect())
     }
 
-    /// By mark the number of the tip that sees the body alike, as the left foot does and the right one.
+    /// By mark, the number of the tip with nearly the same descriptor, as left and right foot have; partners name each other.
     pub(super) fn partners(&self) -> Vec<Option<usize>> {
         let tips = || self.given..self.marks.len();
         let nearest = |a: usize| {
@@ -167,7 +167,7 @@ impl Shape {
         (0..self.marks.len()).map(|a| nearest[a].filter(|&b| nearest[b] == Some(a))).collect()
     }
 
-    /// Three places of the full mesh that tell most where marked: the most persistent tips, then points far from them; fewer where
+    /// Three vertices of the full mesh at which landmarks would help most: the most persistent tips, then points far from them; fewer where
     /// no more vertices may be landmarks.
     pub(super) fn far_places(&self) -> Vec<VertexId> {
         let mut places: Vec<VertexId> =
@@ -205,7 +205,7 @@ fn unit_level(
     Ok((level, scale))
 }
 
-/// Mean distance of every vertex to the surface: to farthest points, each counted by the area nearest to it.
+/// Mean distance of every vertex to the surface: to farthest points, each weighted by the area that is nearest to it.
 fn remoteness(
     mesh: &SurfaceMesh,
     areas: &TiVec<VertexId, f64>,

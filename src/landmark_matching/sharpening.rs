@@ -1,8 +1,8 @@
-//! Tips put where the limbs of the meshes end.
+//! Tips moved to the ends of limbs on finer levels.
 //!
-//! On a coarse level a tip is one of few vertices, up to a triangle's width away from the end of its limb. On a finer level it goes to
-//! the vertex near it that is farthest from the other pairs of its candidate, by the sum of the distances: the same on both bodies, so
-//! that partners end alike.
+//! On a coarse level a tip is one of few vertices, up to a triangle's width away from the end of its limb. On a finer level it is moved to
+//! the vertex near it that is farthest from the other pairs of its candidate, by the sum of the distances: the same rule on both bodies, so
+//! that partners correspond.
 
 use super::candidate::Candidate;
 use super::input::MatchInput;
@@ -13,9 +13,9 @@ use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
 use typed_index_collections::{TiSlice, TiVec};
 
-/// Vertices of the level on which tips are put right, at most: edges of 1 % of the root of the area.
+/// Vertices of the level on which tips are moved, at most: its edges are about 1 % of the root of the area. Chosen by hand.
 const VERTICES: usize = 6000;
-/// A tip moves no farther, in units of the root of the area: two edges of the coarse level. Chosen by hand.
+/// Largest move of a tip, in units of the root of the area: two edges of the coarse level. Chosen by hand.
 const FARTHEST: f64 = 0.05;
 
 /// Moves the tips of all candidates.
@@ -85,7 +85,7 @@ impl<'a> Fine<'a> {
         self.ends.binary_search(&end).ok().map(|k| &self.fields[k])
     }
 
-    /// The vertex near one of some ends that is farthest from the others and none of those that are taken.
+    /// The vertex near end `k` that is farthest from the other ends, of those that may be landmarks and are not `taken`.
     fn end(&self, ends: &[VertexId], k: usize, taken: &[VertexId]) -> VertexId {
         let Some(own) = self.field(ends[k]) else { return ends[k] };
         let others: Vec<_> = ends.iter().filter(|v| **v != ends[k]).filter_map(|v| self.field(*v)).collect();

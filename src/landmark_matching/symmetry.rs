@@ -1,13 +1,12 @@
 //! The assignments that take left and right of one body to those of the other.
 //!
-//! Where both bodies have a reflection these are few: none that a body plan allows is missed, however far from each other the
-//! proportions of the two are.
+//! Where both bodies have a reflection there are few of these, so all are tried, however different the proportions of the bodies are.
 
 use super::reflection::Reflection;
 use super::search::{Assignment, Tables};
 
-/// The assignments that take partners to partners and the middle line to the middle line, the given pairs first: of those that differ in
-/// left and right only the one whose orders agree most, the cheapest first. One limb may be left on the middle line, without cost.
+/// The assignments that take partners to partners and the middle line to the middle line, the cheapest first: of those that differ only in
+/// left and right, the cheapest one. The given pairs come first in each. One tip on the middle line may have no partner, without cost.
 pub(super) fn equivariant(tables: &Tables<'_>, reflections: [&Reflection; 2]) -> Vec<Assignment> {
     let given: Vec<[usize; 2]> = (0..tables.shapes[0].given).map(|k| [k, k]).collect();
     let [source, target] = reflections;
@@ -28,14 +27,14 @@ pub(super) fn equivariant(tables: &Tables<'_>, reflections: [&Reflection; 2]) ->
             found.extend(sides.min_by(|a, b| a.full_cost().total_cmp(&b.full_cost())));
         }
     }
-    // Where only one body has a limb more, that is no fault of the assignment.
+    // A limb that only one body has costs nothing.
     let is_rest = |a: &Assignment| a.unmatched.contains(&0);
     let cost = |a: &Assignment| a.full_cost() - if is_rest(a) { a.unmatched_cost } else { 0.0 };
     found.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
     found
 }
 
-/// All ways to give each of the fewer ones one of the more, and those in which up to `missing` of them have none.
+/// All injections of the smaller set into the larger one, and those in which up to `missing` elements of the smaller set have no image.
 fn injections(sources: usize, targets: usize, missing: usize) -> Vec<Vec<[usize; 2]>> {
     let least = sources.min(targets).saturating_sub(missing);
     let mut all: Vec<Vec<[usize; 2]>> = vec![Vec::new()];

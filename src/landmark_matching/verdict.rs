@@ -1,4 +1,4 @@
-//! How sure a match is, and the question that settles a doubt.
+//! The verdict on a match: its certainty, and the question that settles a doubt.
 
 use super::candidate::Candidate;
 use super::input::MatchInput;
@@ -11,26 +11,27 @@ use crate::mesh::VertexId;
 use crate::mesh::surface_index::SurfaceIndex;
 use glam::DVec3;
 
-/// How sure a match is.
+/// The certainty of a match.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// The best candidate is good, and far better than all that differ from it.
+    /// The best candidate is good, and far better than all whose maps differ from its own.
     Sure,
-    /// Another candidate is nearly as good: the answer to one question settles it.
+    /// Another candidate is nearly as good, or the best is not good enough: the answer to one question settles it.
     Doubtful(Question),
-    /// Nothing fits well: pairs at these vertices of the source would help.
+    /// No candidate fits well: pairs at these vertices of the source would help.
     Unknown {
         /// Three vertices of the source, far from each other; fewer where no more may be landmarks.
         places: Vec<VertexId>,
     },
 }
 
-/// Where the best candidate and its rival part: a pair of the vertex with the right one of both places settles it.
+/// The question whether the best candidate or its rival is right: a landmark pair of the vertex with the right one of both places settles
+/// it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// A vertex of the source.
     pub source: VertexId,
-    /// Where the best candidate takes it, and where its rival does: vertices of the target.
+    /// The vertices of the target to which the best candidate and its rival take it.
     pub targets: [VertexId; 2],
     /// The number of the rival among the candidates.
     pub rival: usize,
@@ -46,7 +47,7 @@ impl Verdict {
         }
     }
 
-    /// One sentence for the user, with what to do. `number` tells how the user's file numbers a vertex of a mesh.
+    /// One sentence for the user, with what to do. `number` gives the number of a vertex in the user's file.
     pub fn sentence(&self, number: impl Fn(MeshSide, VertexId) -> usize) -> String {
         match self {
             Self::Sure => "The landmarks are sure: no other assignment comes near.".to_owned(),
@@ -97,7 +98,7 @@ pub(super) fn verdict(
     question.map_or_else(unknown, Verdict::Doubtful)
 }
 
-/// The question that tells the best candidate from a rival; `None` where they part at no places that may be landmarks.
+/// The question that decides between the best candidate and a rival; `None` where they differ at no vertices that may be landmarks.
 fn question(input: MatchInput<'_>, candidates: &[Candidate], rival: usize) -> Option<Question> {
     let (best, other) = (&candidates[0], &candidates[rival]);
     let may = |question: &Question| {
@@ -105,7 +106,7 @@ fn question(input: MatchInput<'_>, candidates: &[Candidate], rival: usize) -> Op
         input.may(0, source) && targets.iter().all(|&v| input.may(1, v)) && targets[0] != targets[1]
     };
     let marks = [best, other].map(|candidate| &candidate.assignment.pairs);
-    // Both candidates may have the same end at slightly different vertices: marks tell what is the same.
+    // Both candidates may have the same tip at slightly different vertices: so marks are compared, not vertices.
     let of_pair = |k: usize| {
         let [source, target] = marks[0][k];
         let other_k = marks[1].iter().position(|mark| mark[0] == source && mark[1] != target)?;

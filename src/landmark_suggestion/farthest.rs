@@ -1,21 +1,21 @@
-//! Farthest points: each is the vertex farthest from all before it.
+//! Farthest point sampling: each point is the vertex farthest from all before it.
 
 use crate::geodesic::shorten;
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use typed_index_collections::TiVec;
 
-/// How many farthest points are wanted.
+/// Number and least distance of farthest points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
-    /// Points at most.
+    /// Number of points, at most.
     pub count: usize,
-    /// Each is at least this far from all others.
+    /// Least distance of each point from all others, in the mesh's unit.
     pub least_distance: f64,
 }
 
-/// Farthest points: each is the vertex farthest from all before it and from what `distance` measures from; `may` says which
-/// vertices are allowed. Fewer than wanted where every allowed vertex is too near.
+/// Chooses farthest points: each is the vertex farthest from all before it and from the seeds of `distance` (in the mesh's unit), of
+/// those vertices for which `may` holds. There are fewer than wanted where every such vertex is too near.
 ///
 /// # Errors
 /// [`Cancelled`].

@@ -7,10 +7,10 @@ use crate::monitor::{Cancelled, Monitor, Portion, Step};
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// Nearer to a landmark than this, in units of the root of the area, a tip is marked. Chosen by hand.
+/// A tip is marked where a landmark is nearer than this, in units of the root of the area. Chosen by hand.
 const MARKED: f64 = 0.18;
 
-/// The disc around the end of a limb has less than this share of a flat disc's area. Chosen by hand.
+/// Share of a flat disc's area below which the disc around a tip is that of a limb. Chosen by hand.
 const THIN: f64 = 0.3;
 
 /// Ends of limbs that no landmark marks, the most remote first: tips around which some disc without a landmark has less than
@@ -18,7 +18,7 @@ const THIN: f64 = 0.3;
 /// tips count.
 ///
 /// The limits were set by the test pairs: tails without a landmark are at 0.22 and less, ears and muzzles at 0.3 and more. Short
-/// limbs (less than 0.18 of the root of the area from end to landmark) are not told.
+/// limbs (less than 0.18 of the root of the area from end to landmark) are not found.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -45,7 +45,8 @@ pub fn unmarked_limbs(
 /// The share of the time that the tips take: they need 32 distances over the whole mesh, a disc less than one.
 const TIPS_SHARE: f64 = 0.8;
 
-/// The least area of a disc around a vertex, relative to the flat one, among radii of a range; infinite for none.
+/// The least ratio of the area of a geodesic disc around a vertex to that of a flat disc, over a range of radii; infinite for an empty
+/// range.
 fn thinnest(mesh: &SurfaceMesh, areas: &[f64], centre: VertexId, radii: Range<f64>) -> f64 {
     if radii.is_empty() {
         return f64::INFINITY;

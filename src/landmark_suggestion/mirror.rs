@@ -1,9 +1,9 @@
-//! The plane that mirrors a surface nearest to itself.
+//! The mirror plane of a surface: the plane whose reflection takes the surface nearest to itself.
 //!
-//! Points are spread evenly over the surface. Planes through its centre across many directions are tried with a few of them, the
-//! best are refined by Gauss and Newton: each reflected point is drawn to the tangent plane of the nearest point that faces the same
-//! way (Chen & Medioni 1991), and counts the less the farther it is, so that a bent limb does not tilt the plane of the trunk. A body
-//! of revolution has many planes, of which one is found. Bodies without a plane have a best one, too: its misfit tells.
+//! Points are sampled evenly on the surface. Planes through its centre with many normals are tried with a few of them, and the best are
+//! refined by Gauss-Newton steps: each reflected point is drawn to the tangent plane of the nearest point that faces the same way (Chen &
+//! Medioni 1991), with a weight that falls with its distance, so that a bent limb does not tilt the plane of the trunk. A body
+//! of revolution has many planes, of which one is found. Bodies without a mirror plane have a best one, too, with a large misfit.
 
 use crate::math::mirror_plane::MirrorPlane;
 use crate::math::random::SplitMix;
@@ -15,56 +15,59 @@ use crate::mesh::{FaceId, SurfaceMesh};
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
 use glam::{DMat3, DVec3};
 
-/// Points by which directions are compared, planes refined and misfits measured. Numbers chosen by hand.
+/// Sample points by which directions are compared and planes first refined. Chosen by hand.
 const COARSE_SAMPLES: usize = 200;
+/// Sample points by which the last plane is refined and misfits are measured. Chosen by hand.
 const SAMPLES: usize = 1000;
 
-/// How many of the directions are refined: a second symmetry, as of front and back, may look better from afar. Chosen by hand.
+/// Number of directions whose planes are refined: before that a second, rougher symmetry, as of front and back, may have the smaller
+/// misfit. Chosen by hand.
 const REFINED: usize = 6;
 
-/// Steps of a refinement at most; usually ten are enough.
+/// Steps of a refinement, at most; usually ten are enough. Chosen by hand.
 const MOST_STEPS: usize = 25;
 
-/// A refinement is over when a step is shorter, in radians and in units of the size; the next one would be its square.
+/// A refinement ends when a step is shorter than this, in radians and in units of the size (the root of the area). Chosen by hand.
 const STILL: f64 = 1e-7;
 
-/// Largest step, in radians and in units of the size: tangent planes say nothing farther away. Chosen by hand.
+/// Largest step, in radians and in units of the size: tangent planes do not approximate the surface farther away. Chosen by hand.
 const LARGEST_STEP: f64 = 0.1;
 
-/// Least knee of the weights, in units of the size: noise of a scan. Chosen by hand.
+/// Least knee of the robust weights, in units of the size: about the noise of a scan. Chosen by hand.
 const NOISE: f64 = 1e-3;
 
-/// Distances above this, in units of the size, count as this when directions are compared: how far off is then of no account. Chosen by hand.
+/// Distances above this, in units of the size, count as this when directions are compared: a point of another part of the body must not
+/// decide. Chosen by hand.
 const FAR: f64 = 0.15;
 
-/// With a larger misfit, as a share of the mean distance from the plane, a body has no mirror. Measured on the meshes of the tests and the
-/// demos: bodies that stand straight have at most 0.08, a galloping horse 0.22 and a rearing one 0.24; a hand has 0.25 and 0.30, as palm
-/// and back of what is flat lie near each other, and bodies bent to one side have 0.36 to 0.63.
+/// Largest misfit of a mirror plane, as a share of the mean distance from it. Measured on the meshes of the tests and the
+/// demos: bodies that stand straight have at most 0.08, a galloping horse 0.22 and a rearing one 0.24; two hands have 0.25 and 0.30, since
+/// palm and back of a flat hand lie near each other, and bodies bent to one side have 0.36 to 0.63.
 const LARGEST_SHARE: f64 = 0.245;
 
-/// Nor has it one with a larger misfit, in units of the size: from a plane across a long body it is far to head and tail, so that the share
-/// alone says little. The largest of those bodies that have a mirror is a rabbit's 0.024.
+/// Largest misfit of a mirror plane, in units of the size: head and tail are far from a plane across a long body, so that the share alone
+/// is no sufficient test. The largest of the bodies that have a mirror plane is a rabbit's 0.024.
 const LARGEST_MISFIT: f64 = 0.025;
 
-/// A plane, and how well it mirrors a surface.
+/// A plane with the misfit of its reflection of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mirror {
     /// The plane.
     pub plane: MirrorPlane,
     /// Mean distance of the reflected surface from the surface, in units of the root of its area.
     pub misfit: f64,
-    /// Mean distance of the surface from the plane, in the same units.
+    /// Mean distance of the surface from the plane, in units of the root of its area.
     pub reach: f64,
 }
 
 impl Mirror {
-    /// Whether the surface can be said to have this plane for its mirror.
+    /// Whether the misfit is small enough for a mirror plane of the surface.
     pub fn fits(&self) -> bool {
         self.misfit <= min(LARGEST_MISFIT, LARGEST_SHARE * self.reach)
     }
 }
 
-/// The best plane, whether it fits or not; `None` for a surface without area.
+/// The plane of least misfit, whether it [fits](Mirror::fits) or not; `None` for a surface without area.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -95,13 +98,14 @@ pub fn best_mirror(mesh: &SurfaceMesh, monitor: &mut dyn Monitor) -> Result<Opti
     Ok(Some(body.mirror(plane, &many)))
 }
 
-/// How well a plane mirrors a surface; `None` for one without area.
+/// The misfit of a given plane; `None` for a surface without area.
 pub fn mirror_of(mesh: &SurfaceMesh, plane: MirrorPlane) -> Option<Mirror> {
     let body = Body::new(mesh)?;
     Some(body.mirror(plane, &body.spread(SAMPLES)))
 }
 
-/// The axes, since many bodies stand along them, and half of the directions to the vertices of a ball, eight degrees apart.
+/// Normals of the planes that are tried: the axes, since many bodies are aligned with them, and half of the vertices of a ball, which are
+/// eight degrees apart.
 fn directions() -> Vec<DVec3> {
     let ball = icosphere(2);
     let half = ball.positions().iter().copied().filter(|p| (p.z, p.y, p.x) > (0.0, 0.0, 0.0));
@@ -130,7 +134,7 @@ impl<'a> Body<'a> {
         Some(Self { index: SurfaceIndex::new(mesh), centre, size: mesh.area().sqrt() })
     }
 
-    /// So many points, each for an equal share of the area.
+    /// Samples `count` points, each for an equal share of the area.
     fn spread(&self, count: usize) -> Vec<Sample> {
         let mesh = self.index.mesh();
         let share = self.size * self.size / count as f64;
@@ -152,7 +156,7 @@ impl<'a> Body<'a> {
         samples
     }
 
-    /// The point of the surface nearest to the mirror image of a sample, of those that face its way; `near` is where to begin.
+    /// The point of the surface nearest to the mirror image of a sample, of those that face the same way; the search begins at `near`.
     fn image(&self, plane: MirrorPlane, sample: &Sample, near: FaceId) -> Nearest {
         self.index.nearest_facing(plane.reflected(sample.position), plane.turned(sample.normal), near)
     }
@@ -171,7 +175,7 @@ impl<'a> Body<'a> {
         Mirror { plane, misfit: self.misfit(plane, samples, f64::INFINITY), reach }
     }
 
-    /// The plane near a plane that mirrors the samples best.
+    /// Refines a plane to one of least misfit near it.
     fn refined(
         &self,
         mut plane: MirrorPlane,
@@ -193,7 +197,7 @@ impl<'a> Body<'a> {
         Ok(plane)
     }
 
-    /// The plane after a step, and how long that was; `None` where there is none.
+    /// The plane after a Gauss-Newton step, and the length of the step; `None` where there is none.
     ///
     /// The image of p is p' = p - 2 h n with the height h = n (p - c) - s above the plane, c the centre. The normal turns to n + x u + y v,
     /// u and v across it, and the plane is shifted by z: then p' moves by -2 (u (p - c) n + h u) x, likewise for y, and by 2 n z.
@@ -214,7 +218,7 @@ impl<'a> Body<'a> {
             matrix += outer(row, row) * weight;
             right -= row * (weight * off);
         }
-        // A body of revolution may turn about its axis: nothing draws it there.
+        // The planes of a body of revolution may turn about its axis: without damping the matrix would be singular.
         let damping = 1e-9 * (matrix.x_axis.x + matrix.y_axis.y + matrix.z_axis.z);
         let damped = matrix + DMat3::from_diagonal(DVec3::splat(damping));
         let step = (damped.inverse() * right).clamp_length_max(LARGEST_STEP);
@@ -234,7 +238,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// How much a point counts that is so far off (Geman & McClure 1987).
+/// The weight of a point at a distance from the surface (Geman & McClure 1987).
 fn weight(distance: f64, knee: f64) -> f64 {
     let ratio = distance / knee;
     let fall = 1.0 / (1.0 + ratio * ratio);

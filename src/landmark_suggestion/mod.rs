@@ -1,5 +1,5 @@
-//! Points of one mesh that are worth a landmark: ends of limbs, and points far from all others; which of them are partners
-//! under a symmetry; the plane that mirrors a mesh, and the partner of a point across it; and limbs without a landmark.
+//! Suggestions of landmarks on one mesh: ends of limbs, and points far from all others, with their partners under a symmetry; the mirror
+//! plane of a mesh, and the partner of a point across it; and limbs without a landmark.
 
 mod farthest;
 mod limbs;

@@ -1,28 +1,29 @@
-//! The partner of a point under a mirror: left and right.
+//! The partner of a point across the mirror plane, as left and right are.
 
 use crate::math::mirror_plane::MirrorPlane;
 use crate::mesh::{SurfaceMesh, SurfacePoint};
 use glam::DVec3;
 
-/// As near to the plane as this, in units of the root of the area, a point lies on the midline: no click is surer. Chosen by hand.
+/// A point within this distance of the plane, in units of the root of the area, lies on the midline: clicks are no more exact. Chosen by
+/// hand.
 const MIDLINE: f64 = 0.01;
 
-/// What is across from a point.
+/// The partner of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Partner {
     /// The point lies on the midline and is its own partner.
     Itself,
     /// Another point.
     Across {
-        /// Where the reflected point meets the surface.
+        /// The point of the surface nearest to the reflected point.
         point: SurfacePoint,
-        /// How far it was from there, in units of the root of the area.
+        /// The distance between both, in units of the root of the area.
         distance: f64,
     },
 }
 
-/// The partner of a point. `nearest` gives the point of the surface nearest to a place, among those that face a direction where there
-/// are some: beside an ear that is not quite where the other one is, the partner is not to come on its inside. `None` where that is none.
+/// The partner of a point. `nearest` gives the point of the surface nearest to a place, of those that face a direction where there
+/// are some: so the partner of a point outside on an ear does not lie inside the other ear. `None` where `nearest` gives none.
 pub fn partner(
     mesh: &SurfaceMesh,
     plane: MirrorPlane,

@@ -1,4 +1,4 @@
-//! What is worth a landmark beside those that there are: ends of limbs first, then what is far from everything.
+//! Suggestions of further landmarks: ends of limbs first, then points far from all others.
 
 use super::farthest::{Spread, farthest_points};
 use super::symmetry::partners;
@@ -8,7 +8,7 @@ use crate::mesh::coarsening::Level;
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion};
 
-/// Why a point is suggested.
+/// The reason for which a point is suggested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reason {
@@ -18,23 +18,23 @@ pub enum Reason {
     Far,
 }
 
-/// A point that is worth a landmark.
+/// A vertex suggested as a landmark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Suggestion {
-    /// Where.
+    /// The vertex.
     pub vertex: VertexId,
-    /// Why.
+    /// The reason.
     pub reason: Reason,
-    /// Of a tip: the number of the suggestion that looks alike from the whole surface, as the left foot and the right one do.
+    /// For a tip, the number of the suggestion that is its partner under a symmetry, as the left foot is of the right one.
     pub partner: Option<usize>,
 }
 
-/// Vertices of the level on which large meshes are looked at: distances there are 0.3 to 0.6 % off in the mean.
+/// Vertices of the level on which suggestions for larger meshes are computed: distances there are 0.3 to 0.6 % off in the mean.
 const COARSE_VERTICES: usize = 4000;
 
-/// At most `count` vertices that are worth a landmark beside those that there are, the best first: tips, the most remote
+/// Suggests at most `count` vertices for further landmarks, the best first: tips, the most remote
 /// first, then farthest points. All are farther from each other and from `landmarks` than a tenth of the root of the area.
-/// A large mesh is looked at on a coarse level.
+/// For a large mesh they are computed on a coarse level.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -53,7 +53,7 @@ pub fn suggest(
     Ok(found.into_iter().map(|s| Suggestion { vertex: level.vertices[s.vertex], ..s }).collect())
 }
 
-/// The suggestions whose vertices may take a landmark, with their partners among them.
+/// The suggestions for whose vertices `may` holds, with partners numbered among them.
 pub fn kept(suggestions: &[Suggestion], may: impl Fn(VertexId) -> bool) -> Vec<Suggestion> {
     let mut next = 0;
     let numbers: Vec<Option<usize>> = suggestions

@@ -1,6 +1,6 @@
-//! Points that look alike from the whole surface, as left and right do.
+//! Partners under a symmetry of the surface, as left and right are.
 //!
-//! How far the surface lies from a point, as quantiles over the area, does not change under a symmetry of the surface. So two
+//! The quantiles, over the area, of the distances from a point to the surface do not change under a symmetry of the surface. So two
 //! points whose quantiles agree, each nearest to the other, are taken for partners. Distances alone cannot tell which is left.
 
 use crate::geodesic::distances;
@@ -38,7 +38,7 @@ pub fn partners(
     Ok((0..points.len()).map(|i| nearest[i].filter(|&j| nearest[j] == Some(i))).collect())
 }
 
-/// Distances within which equal shares of the area lie.
+/// The quantiles of the distances from a vertex to the surface, by area.
 fn quantiles(mesh: &SurfaceMesh, areas: &[f64], v: VertexId) -> [f64; QUANTILES] {
     let field = distances(mesh, &[v]);
     let mut order: Vec<usize> = (0..areas.len()).collect();
@@ -55,7 +55,7 @@ fn quantiles(mesh: &SurfaceMesh, areas: &[f64], v: VertexId) -> [f64; QUANTILES]
     quantiles
 }
 
-/// Mean difference, relative to the mean.
+/// The mean difference of two points' quantiles, relative to their mean.
 fn misfit(a: &[f64; QUANTILES], b: &[f64; QUANTILES]) -> f64 {
     let difference: f64 = a.iter().zip(b).map(|(x, y)| (x - y).abs()).sum();
     2.0 * difference / (a.iter().sum::<f64>() + b.iter().sum::<f64>())

@@ -5,13 +5,14 @@ use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Points from which the mean distance is measured; each costs one search over the mesh. Chosen by hand.
+/// Points to which the mean distance is measured; each costs one search over the mesh. Chosen by hand.
 const SAMPLES: usize = 32;
 
 /// Ends of limbs, the most remote first: vertices whose mean geodesic distance to the whole surface is the largest within
 /// `radius` around them, and larger than the surface's mean.
 ///
-/// The mean over the surface is that over farthest points (Hilaga et al. 2001 call it the integral geodesic distance).
+/// The mean over the surface is approximated by that over farthest points (Hilaga et al. 2001 call it the integral geodesic distance).
+/// `radius` is in the mesh's unit.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -37,7 +38,7 @@ pub fn tips(mesh: &SurfaceMesh, radius: f64, monitor: &mut dyn Monitor) -> Resul
     Ok(tips)
 }
 
-/// Mean distance of every vertex to points spread over the surface: half of the work.
+/// Mean distance of every vertex to points spread over the surface, in the mesh's unit.
 fn remoteness(mesh: &SurfaceMesh, monitor: &mut dyn Monitor) -> Result<TiVec<VertexId, f64>, Cancelled> {
     let mut sum: TiVec<VertexId, f64> = ti_vec![0.0; mesh.vertex_count()];
     let mut nearest: TiVec<VertexId, f64> = ti_vec![f64::INFINITY; mesh.vertex_count()];

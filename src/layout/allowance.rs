@@ -1,4 +1,4 @@
-//! What the searches of a drawing may still take, and whom they ask.
+//! The budget of the path searches of a drawing, counted in steps.
 
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
 
@@ -13,7 +13,7 @@ pub(super) struct Allowance<'m> {
 const ASKED_EVERY: usize = 1 << 13;
 
 impl<'m> Allowance<'m> {
-    /// Nothing is allowed yet.
+    /// An allowance of no steps; [`Self::renew`] gives some.
     pub fn new(monitor: &'m mut dyn Monitor) -> Self {
         Self { monitor, steps: 0, cancelled: None }
     }
@@ -23,7 +23,7 @@ impl<'m> Allowance<'m> {
         self.steps = steps;
     }
 
-    /// One more step of a search; `false` where it must end, since nothing is left or the monitor has asked to stop.
+    /// Takes one step of a search; `false` where the search must end, since no step is left or the monitor has asked to stop.
     #[inline]
     pub fn step(&mut self) -> bool {
         if !self.is_left() || (self.steps.is_multiple_of(ASKED_EVERY) && !self.ask()) {
@@ -56,17 +56,17 @@ impl<'m> Allowance<'m> {
         }
     }
 
-    /// Whether to finish with what is there.
+    /// Whether the monitor wants a result now.
     pub fn wants_result(&self) -> bool {
         self.monitor.wants_result()
     }
 
-    /// Whether a search was stopped.
+    /// The monitor's wish to stop, where a search has met it.
     pub fn cancelled(&self) -> Option<Cancelled> {
         self.cancelled
     }
 
-    /// Whether another search may find something.
+    /// Whether another search may take a step.
     pub fn is_left(&self) -> bool {
         self.steps > 0 && self.cancelled.is_none()
     }

@@ -17,7 +17,7 @@ pub struct BaseLayout {
     pub source: PatchedMesh,
     /// The drawing on the target.
     pub target: PatchedMesh,
-    /// How straight the paths are.
+    /// Detours and stretch of the paths.
     pub report: LayoutReport,
 }
 
@@ -26,7 +26,7 @@ pub struct BaseLayout {
 pub struct PatchedMesh {
     /// The refined mesh, scaled to area 1. Its first vertices are the input mesh's vertices in their order.
     pub mesh: SurfaceMesh,
-    /// Where each refined vertex lies on the input mesh.
+    /// The place of each refined vertex on the input mesh.
     pub vertex_origin: TiVec<VertexId, SurfacePoint>,
     /// The input face that contains each refined face.
     pub face_origin: TiVec<FaceId, FaceId>,
@@ -39,14 +39,14 @@ pub struct PatchedMesh {
     pub paths: TiVec<HalfedgeId, Vec<VertexId>>,
 }
 
-/// How straight the paths of a layout are.
+/// Detours and stretch of the paths of a layout.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LayoutReport {
     /// Sum over all paths of both meshes of max(0, length / shortest length - 1.1): 0 for straight layouts.
     pub detour: f64,
-    /// The largest length / shortest length.
+    /// The largest length / shortest length of a path.
     pub worst_stretch: f64,
-    /// Attempts made.
+    /// Orders of drawing that were tried.
     pub attempts: usize,
 }
 

@@ -1,4 +1,4 @@
-//! How much a drawing may take: vertices of its refined meshes, steps of its searches, detours of its paths.
+//! Bounds on a drawing: vertices of its refined meshes, steps of its searches, detours of its paths.
 //!
 //! Landmarks in a senseless order make paths wind around each other, and each path that winds makes the next ones longer: refined
 //! meshes and searches would grow exponentially with the number of landmarks. So a drawing ends where it has become larger than
@@ -15,33 +15,35 @@ pub(super) struct Bounds {
     vertices: [usize; 2],
     /// Nodes that the searches of one drawing settle.
     pub steps: usize,
-    /// Sum of the detours of its paths ([`super::LayoutReport::detour`]): a tangle has no map that is worth its time.
+    /// Sum of the detours of its paths ([`super::LayoutReport::detour`]): no useful map comes of a drawing of long detours.
     pub detour: f64,
 }
 
-/// Vertices of a refined mesh for each vertex of its level, and for each unit of the mean length of all paths in edges, which grows
-/// with the root of landmarks times vertices: on fine levels a drawing needs less for each vertex. Chosen by hand.
+/// Vertices of a refined mesh for each vertex of its level, at most. Chosen by hand.
 const VERTEX_GROWTH: usize = 16;
+/// Factor of sqrt(landmarks * vertices) in the number of vertices that a drawing may add to a level: all paths together cross a number of
+/// edges that grows so. On fine levels this is the smaller of both bounds. Chosen by hand.
 const PATH_GROWTH: f64 = 200.0;
 /// Steps of the searches of one drawing for each landmark and each vertex of the level. Chosen by hand.
 const STEPS: usize = 250;
-/// The detour that any layout may have, and what each path may add to it. Chosen by hand.
+/// The detour that a layout may have whatever its number of paths. Chosen by hand.
 const FREE_DETOUR: f64 = 12.0;
+/// The further detour that it may have for each path. Chosen by hand.
 const DETOUR_OF_PATH: f64 = 0.25;
 /// Length of a path relative to the shortest that is no detour: 10 % is left to paths over vertices and midpoints for giving way.
 /// Chosen by hand.
 const GIVING_WAY: f64 = 1.1;
 
-/// The detour of a path of this length relative to the shortest.
+/// The detour of a path that is `stretch` times as long as the shortest one: what exceeds the length left for giving way.
 pub fn detour(stretch: f64) -> f64 {
     (stretch - GIVING_WAY).max(0.0)
 }
 
-/// Landmarks times vertices of a level, at most: so many distances are kept of each mesh (8 bytes each).
+/// Landmarks times vertices of a level, at most: as many distances are kept of each mesh, in 8 bytes each, 320 MB. Chosen by hand.
 pub const MOST_DISTANCES: usize = 40_000_000;
 
 impl Bounds {
-    /// For drawings between so many landmarks on levels of so many vertices.
+    /// The bounds of drawings with this many landmarks on levels with this many vertices.
     pub fn new(landmarks: usize, vertices: [usize; 2]) -> Self {
         let of_mesh = |vertices: usize| {
             let of_paths = (PATH_GROWTH * ((landmarks * vertices) as f64).sqrt()) as usize;
@@ -54,13 +56,13 @@ impl Bounds {
         }
     }
 
-    /// Whether refined meshes may have so many vertices.
+    /// Whether the refined meshes may have this many vertices.
     pub fn has_room_for(&self, vertices: [usize; 2]) -> bool {
         (0..2).all(|side| vertices[side] <= self.vertices[side])
     }
 }
 
-/// Landmarks named at most.
+/// Landmarks that an error names, at most. Chosen by hand.
 const NAMED: usize = 4;
 
 /// The landmarks with more than half as much blame as the worst, the worst first, at most four; none without blame.

@@ -1,4 +1,4 @@
-//! Layouts of one pair of meshes, one of each isotopy class, the most promising first.
+//! Layouts of one pair of meshes, one of each isotopy class, the straightest first.
 
 use super::base_layout::{BaseLayout, LayoutReport};
 use super::bounds::{Bounds, MOST_DISTANCES};
@@ -16,15 +16,15 @@ use crate::math::scalar::min;
 use crate::mesh::SurfaceMesh;
 use crate::monitor::{Monitor, Step};
 
-/// With a detour above this, another batch of starts is drawn: of 50 searches on ten pairs the layouts of the best classes had less,
-/// and those that missed theirs more.
+/// While the least detour is above this, another batch of starts is drawn: in 50 searches on ten pairs the layouts of the best
+/// classes had less, and those of searches that missed the best class more.
 const STRAIGHT: f64 = 0.4;
 
-/// Twists whose detours are larger than those of what is twisted by more than this are not completed. They wind, and take long.
-/// Chosen by hand.
+/// A twist whose detour exceeds that of the twisted layout by more than this is not completed: its paths wind, and take long. Chosen
+/// by hand.
 const WINDING: f64 = 2.0;
 
-/// A layout that can be judged, and turned into its neighbours.
+/// A layout with its drawing, from which its twists are drawn.
 #[derive(Clone, Debug)]
 pub struct Candidate {
     /// The layout.
@@ -33,7 +33,7 @@ pub struct Candidate {
 }
 
 impl Candidate {
-    /// Vertices of both refined meshes.
+    /// Number of vertices of both refined meshes together.
     pub(super) fn size(&self) -> usize {
         self.layout.source.mesh.vertex_count() + self.layout.target.mesh.vertex_count()
     }
@@ -46,7 +46,7 @@ impl Candidate {
 
 /// Draws layouts of one pair of meshes in many ways and leaves out those of a class already given.
 ///
-/// What does not depend on the way of drawing, such as all landmark distances, is computed once. Meant for coarse meshes:
+/// All that does not depend on the order of drawing, such as the landmarks' distances, is computed once. Meant for coarse meshes:
 /// about 10 ms a drawing for 33 landmarks on 1500 vertices.
 #[derive(Debug)]
 pub struct Candidates<'a> {
@@ -54,13 +54,15 @@ pub struct Candidates<'a> {
     landmarks: &'a Landmarks,
     empty: Drawing,
     distances: LandmarkDistances,
-    /// How many batches of starts were drawn.
+    /// Number of batches of starts that were drawn.
     batches: usize,
-    /// The least detour that was drawn, without layouts that turned out to have no map.
+    /// The least detour of the drawings, without layouts that turned out to have no map.
     least: f64,
-    /// The straightest last.
+    /// Candidates that were drawn and not given yet, the straightest last.
     ready: Vec<Candidate>,
+    /// The classes of all candidates given so far.
     given: Vec<Class>,
+    /// The error of the last start that could not be drawn.
     failure: Option<LayoutError>,
 }
 
@@ -110,20 +112,21 @@ impl<'a> Candidates<'a> {
         Ok(next)
     }
 
-    /// Whether [`Self::next`] has one at hand, or there may be straighter ones.
+    /// Whether [`Self::next`] has a candidate at hand, or may draw a straighter one.
     pub(super) fn is_promising(&self) -> bool {
         !self.ready.is_empty() || (self.least > STRAIGHT && self.batches < STARTS.len())
     }
 
-    /// A candidate that was given has no map: another drawing of its class may have one, and the straightest layout is still missing.
+    /// Notes that a candidate that was given has no map: another drawing of its class may be given, and the straightest layout is
+    /// missing again.
     pub(super) fn without_map(&mut self, candidate: &Candidate) {
         self.given.retain(|class| !class.contains(&candidate.layout));
         let left = self.ready.iter().map(|ready| ready.layout.report.detour);
         self.least = left.fold(f64::INFINITY, min);
     }
 
-    /// Draws a batch of starts and what the descent from the straightest leads to. The starts are kept, too: where no straight
-    /// layout has a map, a bent one may.
+    /// Draws a batch of starts, and the drawing that a descent leads to from the straightest of them. The starts are kept, too: where
+    /// no straight layout has a map, a bent one may.
     fn draw_batch(&mut self, batch: &[Variant], monitor: &mut dyn Monitor) -> Result<(), LayoutError> {
         self.batches += 1;
         let starts = self.starts(batch, monitor)?;
@@ -166,14 +169,14 @@ impl<'a> Candidates<'a> {
                 }
             }
         }
-        // Where no start but winds, others do, too.
+        // Where the paths of all starts wind, those of other starts do, too.
         if starts.is_empty() && tangled == batch.len() {
             self.batches = STARTS.len();
         }
         Ok(starts)
     }
 
-    /// Vertices of both meshes.
+    /// Number of vertices of both meshes together.
     pub(super) fn size(&self) -> usize {
         self.meshes[0].vertex_count() + self.meshes[1].vertex_count()
     }
@@ -183,7 +186,7 @@ impl<'a> Candidates<'a> {
         &self.distances
     }
 
-    /// Why the last order of drawing that failed did.
+    /// The error of the last start that could not be drawn.
     pub fn failure(&self) -> Option<&LayoutError> {
         self.failure.as_ref()
     }
@@ -248,8 +251,8 @@ impl<'a> Candidates<'a> {
         Ok(Candidate { layout, drawing })
     }
 
-    /// Keeps a candidate to be given, unless there was one of its class before. Its class is noted when it is given: one that never is
-    /// may still come as a twist.
+    /// Keeps a candidate to be given, unless there is one of its class. The class is noted only when the candidate is given: otherwise
+    /// it may still come as a twist.
     fn keep(&mut self, candidate: Candidate) {
         let is_same = |other: &Candidate| super::same_class(&other.layout, &candidate.layout);
         if self.given.iter().any(|class| class.contains(&candidate.layout)) || self.ready.iter().any(is_same)

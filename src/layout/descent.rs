@@ -1,8 +1,8 @@
-//! From a drawing to straighter ones by twists, without a map: a drawing costs a tenth of what judging its map does.
+//! The descent from a drawing to straighter ones by twists, without a map: a drawing costs a tenth of the time of judging its map.
 //!
-//! The class of the map that distorts least has a straight drawing, nearly always: where the paths of a drawing wind, some tree
-//! path went the wrong way round a limb, and one turn about the curve between two groups of landmarks undoes that. So the sum of the
-//! detours is lowered by turns as long as one lowers it, and only what is left is judged.
+//! The class of the map that distorts least nearly always has a straight drawing: where the paths of a drawing wind, some tree
+//! path went the wrong way round a limb, and a twist about the curve between two groups of landmarks undoes that. So the sum of the
+//! detours is lowered by twists as long as one lowers it, and only the last drawing is judged.
 
 use super::drawing::{Drawing, Planner};
 use super::error::LayoutError;
@@ -11,28 +11,28 @@ use super::twists::{self, Twist};
 use super::variants::PLAIN;
 use crate::monitor::Cancelled;
 
-/// A turn must lower the sum of the detours by this: less is the chance of a drawing, and does not tell classes apart.
+/// A twist must lower the sum of the detours by this: drawings of one class differ by as much. Chosen by hand.
 const LEAST_GAIN: f64 = 0.05;
 
-/// A turn is tried where its path is at most this many times the one that it replaces. With 1.2 a third of the starts that were
-/// looked at ended more wound (0.97 in place of 0.36 on shrec07-385-387), for a third fewer drawings.
+/// A twist is tried where its path is at most this many times as long as the one that it replaces. With 1.2 a third of the starts
+/// ended with larger detours (0.97 in place of 0.36 on shrec07-385-387), for a third fewer drawings.
 const LARGEST_RATIO: f64 = 2.0;
 
 /// Drawings of one descent, at most. Of 21 descents on seven pairs none took more than 19.
 const MOST_DRAWINGS: usize = 40;
 
-/// What a descent ends with is drawn anew so often at most. On the 34 test pairs no third time took more than 0.001 off the detours, but each
-/// refines the meshes by a sixth: without an end cat and lion were drawn 18 times over, on meshes with four times the vertices, where the layout
-/// had no map and all later drawings took as much longer.
+/// The last drawing of a descent is drawn anew at most this many times. On the 34 test pairs no third time lowered the detours by more than
+/// 0.001, but each refines the meshes by a sixth: without this bound cat and lion were drawn anew 18 times, on meshes with four times the
+/// vertices, where the layout had no map and all later drawings took as much longer.
 const MOST_REDRAWN: usize = 3;
 
-/// The detours with which a drawing that should have fewer than these is still completed: straightening takes some away. Those that
-/// wind most take most of the time, ten times that of a straight one and more.
+/// The sum of detours up to which a drawing is still completed that should end below `detour`: straightening lowers it. Drawings whose
+/// paths wind take ten times as long as straight ones and more. Factor and summand were chosen by hand.
 pub(super) fn worth_completing(detour: f64) -> f64 {
     1.5 * detour + 0.5
 }
 
-/// The straightest drawing that turns lead to, each the first that lowers the detours; ends where none does.
+/// Lowers the sum of the detours of a drawing by twists, each the first that lowers it; ends where none does.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -77,8 +77,8 @@ fn first_gain(
     Ok(None)
 }
 
-/// The drawing completed anew from its own shortest tree as long as that is straighter, but not often: of the same class, it depends
-/// less on the order in which its paths were drawn.
+/// Completes the drawing anew from its own shortest spanning tree as long as that lowers its detours, [`MOST_REDRAWN`] times at most:
+/// the class stays, and the drawing depends less on the order in which its paths were drawn.
 fn redrawn(drawing: Drawing, detour: f64, planner: &mut Planner<'_>) -> Result<Drawing, Cancelled> {
     let (mut best, mut least) = (drawing, detour);
     for _ in 0..MOST_REDRAWN {
@@ -98,7 +98,7 @@ fn redrawn(drawing: Drawing, detour: f64, planner: &mut Planner<'_>) -> Result<D
     Ok(best)
 }
 
-/// `None` for an error that only says that there is no such drawing.
+/// Turns every error but [`Cancelled`] into `None`: there is no such drawing.
 fn or_stop<T>(outcome: Result<T, LayoutError>) -> Result<Option<T>, Cancelled> {
     match outcome {
         Ok(value) => Ok(Some(value)),

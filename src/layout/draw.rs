@@ -1,4 +1,4 @@
-//! A layout planned on both meshes at once, and one drawn for a given base domain.
+//! Layouts without a search for the class: planned on both meshes at once, or drawn for a given base domain.
 
 use super::base_layout::{BaseLayout, LayoutReport};
 use super::drawing::Drawing;
@@ -11,7 +11,7 @@ use crate::landmarks::Landmarks;
 use crate::mesh::SurfaceMesh;
 use crate::monitor::Monitor;
 
-/// How a layout is searched.
+/// Options of [`joint()`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LayoutOptions {
     /// Orders of drawing that are tried at most, 1 to 16.

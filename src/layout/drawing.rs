@@ -19,7 +19,7 @@ pub(super) struct MeshWithPaths {
     pub landmarks: TiVec<LandmarkId, VertexId>,
     /// Vertices of each path, from its smaller landmark to its larger.
     pub paths: Vec<Vec<VertexId>>,
-    /// Length of each path.
+    /// Length of each path; the mesh has area 1.
     pub lengths: Vec<f64>,
 }
 
@@ -28,11 +28,11 @@ pub(super) struct MeshWithPaths {
 pub(super) struct Plan {
     /// The landmarks, smaller first.
     pub ends: [LandmarkId; 2],
-    /// On the source and on the target.
+    /// The path on the source and the one on the target.
     pub found: [FoundPath; 2],
 }
 
-/// The drawing on both meshes.
+/// Paths between landmarks drawn on both meshes.
 #[derive(Clone, Debug)]
 pub(super) struct Drawing {
     pub sides: [MeshWithPaths; 2],
@@ -42,7 +42,7 @@ pub(super) struct Drawing {
     pub rotation: TiVec<LandmarkId, Vec<usize>>,
 }
 
-/// Search memory of both sides, distances, the cost of midpoints, and what a drawing may take.
+/// The context in which paths are planned: search memory of both meshes, distances, the cost of midpoints, and the bounds of a drawing.
 pub(super) struct Planner<'a> {
     searches: [PathSearch; 2],
     pub distances: &'a LandmarkDistances,
@@ -51,13 +51,14 @@ pub(super) struct Planner<'a> {
     pub most_detour: f64,
     bounds: Bounds,
     allowance: Allowance<'a>,
-    /// Steps of the searches that all drawings may still take, when the present one began, and those of them allowed to it.
+    /// Steps of the searches that were left to all drawings when the present one began.
     of_all: usize,
+    /// Steps of the searches that were allowed to the present drawing.
     of_one: usize,
 }
 
 impl<'a> Planner<'a> {
-    /// For the searches of one drawing; [`Self::begin`] allows another one.
+    /// A planner with the allowance of one drawing; [`Self::begin`] allows another one.
     pub fn new(
         distances: &'a LandmarkDistances,
         midpoint_penalty: f64,
@@ -74,14 +75,14 @@ impl<'a> Planner<'a> {
         planner
     }
 
-    /// A drawing begins, with its own allowance.
+    /// Begins another drawing, with its own allowance.
     pub fn begin(&mut self) {
         self.of_all -= self.of_one - self.allowance.left();
         self.of_one = self.of_all.min(self.bounds.steps);
         self.allowance.renew(self.of_one);
     }
 
-    /// From here on all drawings together may take no more than one may.
+    /// Limits all drawings from here on, together, to the steps that one drawing may take.
     pub fn begin_together(&mut self) {
         (self.of_all, self.of_one) = (self.bounds.steps, self.bounds.steps);
         self.allowance.renew(self.of_one);
@@ -95,7 +96,7 @@ impl<'a> Planner<'a> {
         self.allowance.tell(fraction)
     }
 
-    /// Draws a plan, where there is one, within the bounds.
+    /// Draws the plan of a path; no plan, or a drawing beyond the bounds, is an error.
     ///
     /// # Errors
     /// [`DrawingFault`]; the drawing is unusable then.
@@ -118,7 +119,7 @@ impl<'a> Planner<'a> {
         }
     }
 
-    /// Whether the paths of a tree are straight enough.
+    /// Checks that the paths of a spanning tree are within the bound of the detours.
     ///
     /// # Errors
     /// [`DrawingFault::Tangled`].
@@ -127,7 +128,7 @@ impl<'a> Planner<'a> {
         if is_straight { Ok(()) } else { Err(drawing.tangled(self.distances)) }
     }
 
-    /// Whether to finish with the drawings that are there.
+    /// Whether the monitor wants a result now.
     pub fn wants_result(&self) -> bool {
         self.allowance.wants_result()
     }
@@ -137,7 +138,7 @@ impl<'a> Planner<'a> {
         self.allowance.is_left()
     }
 
-    /// Why searches found nothing, where it is not for want of a path.
+    /// Why searches found nothing, where the reason is the user's wish to stop or a used-up allowance.
     pub fn fault(&self, drawing: &Drawing) -> Option<DrawingFault> {
         match self.allowance.cancelled() {
             Some(stop) => Some(DrawingFault::Cancelled(stop)),
@@ -165,7 +166,7 @@ impl Drawing {
         }
     }
 
-    /// Distances on both meshes; nothing is drawn yet.
+    /// Distances between the landmarks on both meshes; the drawing must have no paths.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -175,9 +176,10 @@ impl Drawing {
         LandmarkDistances::without_paths([&source.mesh, &target.mesh], landmarks, monitor)
     }
 
-    /// Plans a path: searched freely on one mesh, its sectors imposed on the other; both ways round, the shorter kept.
+    /// Plans a path: the shortest one on one mesh, and on the other the shortest one in the same sectors. Both meshes are tried as the
+    /// first, and the shorter sum is kept.
     ///
-    /// `limits` are the lengths beyond which a path is not wanted, on source and target.
+    /// `limits` are the largest lengths of a path on source and target (areas are 1).
     pub fn plan(&self, planner: &mut Planner<'_>, ends: [LandmarkId; 2], limits: [f64; 2]) -> Option<Plan> {
         let allowed = ends.map(|i| (0..self.rotation[i].len().max(1)).collect());
         self.plan_within(planner, ends, &allowed, limits)
@@ -263,7 +265,7 @@ impl Drawing {
         planner.searches[side].shortest(mesh, &query, &mut planner.allowance)
     }
 
-    /// For every landmark and place of its rotation the face of the drawing that follows counter-clockwise.
+    /// By landmark and place in its rotation, the number of the face of the drawing that follows counter-clockwise.
     ///
     /// Faces of a connected drawing are discs: two places can be joined when their face is the same.
     pub fn faces_by_slot(&self) -> TiVec<LandmarkId, Vec<usize>> {
@@ -342,13 +344,13 @@ impl Drawing {
         (0..self.ends.len()).map(|path| self.detour_of(path, distances)).sum()
     }
 
-    /// By how much a path is longer than the shortest one, on both meshes, in units of the shortest.
+    /// The detour of a path, summed over both meshes ([`super::LayoutReport::detour`]).
     fn detour_of(&self, path: usize, distances: &LandmarkDistances) -> f64 {
         let shortest = distances.between(self.ends[path]);
         (0..2).map(|s| detour(self.sides[s].lengths[path] / shortest[s])).sum()
     }
 
-    /// The error of a drawing that has become too large, with the landmarks whose paths wind most.
+    /// The error of a drawing beyond its bounds, with the landmarks whose paths have the largest detours.
     pub fn tangled(&self, distances: &LandmarkDistances) -> DrawingFault {
         let mut blame: TiVec<LandmarkId, f64> = ti_vec![0.0; self.rotation.len()];
         for (path, ends) in self.ends.iter().enumerate() {

@@ -7,7 +7,7 @@ use crate::monitor::Cancelled;
 pub(super) enum DrawingFault {
     /// The user asked to stop.
     Cancelled(Cancelled),
-    /// There is none between two landmarks.
+    /// No path joins the two landmarks.
     NoPath { landmarks: [usize; 2] },
     /// The paths wind around each other, most at these landmarks, the worst first.
     Tangled { near: Vec<usize> },

@@ -11,7 +11,7 @@ pub enum LayoutError {
     /// The user asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-    /// No path inside the sectors.
+    /// No path joins two landmarks without crossing others.
     #[error(
         "no map was found: no line can be drawn between the landmarks {} and {} (the first is 1) beside the others; check whether \
          pairs are exchanged, move one of the two or leave it out",
@@ -22,7 +22,7 @@ pub enum LayoutError {
         /// The landmarks, 0-based.
         landmarks: [usize; 2],
     },
-    /// Every pair was tried.
+    /// Every pair of landmarks was tried, and not all faces of the drawing are triangles.
     #[error(
         "no map was found: only {paths} of {wanted} lines can be drawn between the landmarks; check whether pairs are exchanged, \
          or leave some out"
@@ -46,9 +46,9 @@ pub enum LayoutError {
     /// More landmarks than distances can be kept of.
     #[error("{landmarks} landmarks are too many: on these meshes at most {most} can be used, leave some out")]
     TooMany {
-        /// Their number.
+        /// Number of landmarks.
         landmarks: usize,
-        /// How many there may be.
+        /// The largest number that these meshes allow.
         most: usize,
     },
     /// No layout has a map.
@@ -74,7 +74,7 @@ impl From<DrawingFault> for LayoutError {
     }
 }
 
-/// Where layouts failed, in words; landmarks are counted from 1.
+/// The part of the sentence that says where layouts failed; landmarks are counted from 1.
 fn around(near: &[usize]) -> String {
     match near {
         [] => "; check whether pairs are exchanged, or leave some out".to_owned(),
@@ -91,7 +91,7 @@ fn around(near: &[usize]) -> String {
     }
 }
 
-/// Where paths wind most, in words.
+/// The part of the sentence that says where paths wind most.
 fn most_around(near: &[usize]) -> String {
     match near {
         [] => String::new(),

@@ -1,8 +1,8 @@
-//! Whether two layouts define the same class of maps, exactly.
+//! An exact test whether two layouts define maps of the same isotopy class.
 //!
 //! A layout fixes the map up to isotopy that keeps the landmarks: its paths on the source go onto those on the target. A
 //! path between landmarks is determined up to isotopy by the edges that it crosses in a triangulation by other paths, once
-//! turning back at once and turns round its own ends are left out (normal form of arcs on a punctured sphere). So a second
+//! immediate returns over an edge and turns round its own ends are left out (normal form of arcs on a punctured sphere). So a second
 //! layout is of the same class when every path of it crosses the same base edges of the first, in the same order, on both
 //! meshes. Paths are pushed to their left, which decides all coincidences.
 
@@ -17,7 +17,7 @@ pub fn same_class(first: &BaseLayout, second: &BaseLayout) -> bool {
     Class::new(first.clone()).contains(second)
 }
 
-/// A layout prepared for comparisons.
+/// An isotopy class, given by a layout that is prepared for comparisons.
 #[derive(Clone, Debug)]
 pub(super) struct Class {
     layout: BaseLayout,
@@ -61,7 +61,7 @@ impl Class {
         })
     }
 
-    /// The base edges that a strip of input faces from one landmark to another crosses, reduced.
+    /// The base edges that a strip of input faces from one landmark to another crosses, as a reduced word.
     fn word(&self, side: usize, strip: &[FaceId], ends: [LandmarkId; 2]) -> Option<Vec<HalfedgeId>> {
         let patched = [&self.layout.source, &self.layout.target][side];
         let [start, end] = ends.map(|l| patched.landmark_vertices[l]);
@@ -153,7 +153,7 @@ fn faces_beside(patched: &PatchedMesh, path: &[VertexId]) -> Vec<FaceId> {
     push(incoming.face());
     for &next in &path[2..] {
         let (mut out, back) = (incoming.next(), mesh.twin(incoming));
-        // Back where it came from at the latest.
+        // Ends at the path's last edge at the latest.
         while mesh.head(out) != next && out != back {
             out = mesh.twin(out).next();
             push(out.face());

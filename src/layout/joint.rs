@@ -1,4 +1,4 @@
-//! Which paths to draw, in which order: tree first, then the shortest and straightest.
+//! The order in which paths are drawn: a spanning tree first, then the shortest and straightest paths.
 
 use super::drawing::{Drawing, Plan, Planner, SlotPairs};
 use super::error::LayoutError;
@@ -12,7 +12,7 @@ use crate::monitor::Monitor;
 use std::collections::BTreeSet;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-/// What an attempt needs beside its variant.
+/// What all attempts on one pair of meshes share.
 pub(super) struct Ground<'a> {
     pub empty: &'a Drawing,
     pub distances: &'a LandmarkDistances,
@@ -21,7 +21,7 @@ pub(super) struct Ground<'a> {
 }
 
 impl<'a> Ground<'a> {
-    /// For drawings however bent.
+    /// A ground without a limit on the detours.
     pub fn new(empty: &'a Drawing, distances: &'a LandmarkDistances) -> Self {
         Self { empty, distances, most_detour: f64::INFINITY }
     }
@@ -71,11 +71,11 @@ pub(super) fn complete(
 /// [`super::LayoutReport::detour`] leaves to paths for giving way.
 const BENT: f64 = 1.2;
 
-/// Takes bent paths away, the worst first, and puts the better diagonal of the quadrilateral in; the class stays.
+/// Replaces bent paths, the worst first, by the better diagonal of their quadrilateral; the class stays.
 ///
-/// A path drawn early is straight but may block later ones, and a twist may have wound it.
+/// A path drawn early is straight but may block later ones, and a twist may have made it wind.
 pub(super) fn straighten(drawing: &mut Drawing, planner: &mut Planner<'_>) -> Result<(), LayoutError> {
-    // A second pass for what the first one has freed; ten paths in each bound the time. Chosen by hand.
+    // The second pass takes the room that the first one has made; ten paths in each bound the time. Chosen by hand.
     for _ in 0..2 {
         let stretch = |p: usize| {
             let geodesics = planner.distances.between(drawing.ends[p]);
@@ -249,13 +249,13 @@ fn common_slots(faces: &TiSlice<LandmarkId, Vec<usize>>, [i, j]: [LandmarkId; 2]
     (!slots[0].is_empty()).then_some(slots)
 }
 
-/// Total length, times the square of the worse detour.
+/// The key of a plan: its total length times the square of its larger stretch (length / shortest length).
 fn key(plan: &Plan, geodesics: [f64; 2]) -> f64 {
     let detour = (0..2).map(|s| plan.found[s].length / geodesics[s]).fold(1.0, f64::max);
     plan.length() * detour * detour
 }
 
-/// The length on one side from which on the key exceeds a limit, whatever the other side's path.
+/// The length of a path on one mesh beyond which its key exceeds a limit, however short the path on the other mesh is.
 fn length_limit(key: f64, geodesics: [f64; 2], side: usize) -> f64 {
     if key.is_infinite() {
         return key;

@@ -1,4 +1,4 @@
-//! Distances on both meshes without paths: between all landmarks, and from every vertex to every landmark.
+//! Distances on both meshes before any path is drawn: between all landmarks, and from every vertex to every landmark.
 
 use super::path_search::{for_each_link, position};
 use super::refinable::RefinableMesh;
@@ -17,7 +17,7 @@ pub struct LandmarkDistances {
 }
 
 impl LandmarkDistances {
-    /// Measures both meshes.
+    /// Measures the distances on both meshes.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -31,7 +31,7 @@ impl LandmarkDistances {
         Self::without_paths([&refinable[0], &refinable[1]], vertices, monitor)
     }
 
-    /// Measures on meshes without paths.
+    /// Measures the distances on meshes without paths.
     pub(super) fn without_paths(
         meshes: [&RefinableMesh; 2],
         landmarks: [&[VertexId]; 2],
@@ -109,7 +109,7 @@ impl Links {
         &self.links[self.begin[node] as usize..self.begin[node + 1] as usize]
     }
 
-    /// Shortest paths; other landmarks end them.
+    /// Lengths of the shortest paths of all vertices to a landmark; other landmarks end paths.
     ///
     /// Not inlined: a browser optimises a function from one call to the next, never within a call.
     #[inline(never)]

@@ -3,8 +3,8 @@
 //! The edges of the base domain become paths of mesh edges on refined copies of both meshes (edges and faces that a
 //! path crosses are split), non-crossing, with the same cyclic order at every landmark on both sides. The patches
 //! between them are discs, one per base face (Kraevoy & Sheffer 2004). A spanning tree is drawn first, because a tree
-//! never separates; then the shortest and straightest of the pairs not yet adjacent. Several orders are tried and the
-//! one with the least detours is kept.
+//! never separates; then the shortest and straightest of the pairs not yet adjacent. [`joint()`] tries several orders and
+//! keeps the drawing with the least detours; [`search()`] looks for the isotopy class whose map distorts least.
 
 mod allowance;
 mod base_layout;

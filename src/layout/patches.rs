@@ -1,4 +1,4 @@
-//! From a finished drawing to patches: the base domain's faces, flood filled, with a validator.
+//! The patches of a finished drawing: one disc of refined faces for each base face, found by flood fill, and checked.
 
 use super::base_layout::{BaseLayout, LayoutReport, PatchedMesh};
 use super::drawing::{Drawing, MeshWithPaths};
@@ -7,7 +7,7 @@ use crate::landmarks::{LandmarkId, Landmarks};
 use crate::mesh::{FaceId, HalfedgeId, MeshError, RefinedMesh, SurfaceMesh, VertexId};
 use typed_index_collections::{TiVec, ti_vec};
 
-/// What is wrong with patches.
+/// A fault of the patches of a drawing.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PatchFault {
@@ -34,7 +34,7 @@ pub enum PatchFault {
         /// The refined face.
         face: usize,
     },
-    /// A patch that is not a disc.
+    /// A patch is not a disc.
     #[error("patch {patch} has Euler characteristic {euler} instead of 1")]
     NotADisc {
         /// The base face.
@@ -73,7 +73,7 @@ pub(super) fn base_of(
     Ok(BaseDomain { mesh: SurfaceMesh::from_triangles(positions, faces)? })
 }
 
-/// Closes the drawing: bridges split, patches filled, both sides checked.
+/// Finishes a drawing: splits bridges, fills the patches and checks both meshes.
 pub(super) fn finish(
     drawing: Drawing,
     base: BaseDomain,
@@ -131,6 +131,7 @@ fn paths_by_halfedge(
     }
 }
 
+/// Marks a face that no patch has reached.
 const UNKNOWN: FaceId = FaceId(u32::MAX);
 
 fn flood(

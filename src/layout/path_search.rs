@@ -25,8 +25,9 @@ pub(super) struct FoundPath {
     /// All nodes, both landmarks included.
     pub nodes: Vec<Node>,
     pub length: f64,
-    /// Where it leaves its start and reaches its end.
+    /// The link by which the path leaves its start.
     pub start_step: EndStep,
+    /// The link by which the path reaches its end.
     pub end_step: EndStep,
 }
 
@@ -39,45 +40,49 @@ pub(super) enum EndStep {
     After(VertexId),
 }
 
-/// Which halfedges around a landmark a path may use: those strictly between two embedded paths.
+/// The halfedges around a landmark that a path may use: those strictly between two drawn paths.
 pub(super) struct Sector {
     /// First outgoing halfedge; its triangle is inside.
     pub first: HalfedgeId,
     /// The outgoing halfedge that ends the sector.
     pub last: HalfedgeId,
-    /// Whether `first` and `last` are edges of paths, not to be used.
+    /// The kind of the sector's bounds.
     pub bounded: Bounded,
 }
 
+/// The kind of the bounds of a sector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Bounded {
+    /// Both bounds are edges of paths, which a path may not use.
     ByPaths,
+    /// There are no bounds: the sector is the whole star.
     WholeStar,
 }
 
-/// What path is asked for.
+/// A query for a shortest path between two landmarks.
 #[derive(Clone, Copy)]
 pub(super) struct Query<'a> {
     pub ends: [VertexId; 2],
-    /// Where it may leave the start and reach the end.
+    /// The sectors in which the path may leave the start and reach the end.
     pub sectors: [&'a [Sector]; 2],
     /// Multiplies the length of links that touch a midpoint.
     pub midpoint_penalty: f64,
     /// Distance of each input vertex to the end on the mesh without paths; without it a search goes everywhere.
     pub to_end: Option<&'a TiSlice<VertexId, f64>>,
-    /// Longer paths are not wanted.
+    /// The largest length of a path (the mesh has area 1).
     pub limit: f64,
 }
 
+/// No node.
 const NONE: u32 = u32::MAX;
 
-/// Turns of a search per node, at most, before it begins again without estimates. The estimate of A* is interpolated from a mesh
-/// without paths, so a node may be settled before its distance is the least and come up again, mostly once or twice. On meshes that
-/// wound paths have refined to the fivefold, two or three searches of a drawing had their nodes come up up to a hundred times,
+/// Queue entries that a search takes per node, at most, before it begins again without estimates. The estimate of A* is interpolated
+/// from a mesh without paths, so a node may be settled before its distance is the least and come up again, mostly once or twice. On
+/// meshes that winding paths have refined fivefold, two or three searches of a drawing had their nodes come up up to a hundred times,
 /// and took all of its steps. Without estimates each node is settled once.
 const MOST_TURNS: usize = 4;
 
-/// A search took more turns than it may.
+/// The error of a search that took more queue entries than it may.
 struct TooLong;
 
 /// Reusable search memory.
@@ -110,7 +115,7 @@ impl PathSearch {
         })
     }
 
-    /// [`Self::shortest`] in so many turns at most.
+    /// [`Self::shortest`] with at most this many queue entries (`turns`).
     fn within(
         &mut self,
         turns: usize,

@@ -1,4 +1,4 @@
-//! A triangle mesh whose edges can be split, with the marks that path drawing needs.
+//! A triangle mesh whose edges can be split, with marks for the vertices and edges of drawn paths.
 
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId, star};
 use glam::DVec3;

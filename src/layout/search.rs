@@ -1,4 +1,4 @@
-//! The search for the isotopy class: candidates judged by how much a map distorts, then twists of the best.
+//! The search for the isotopy class: candidates are judged by the distortion of their maps, then twists of the best.
 //!
 //! The judge is the mean logarithm of the distortion density, not the energy: that is 4 for every conformal map, and tells
 //! little about which of several ways round a limb is the right one.
@@ -10,16 +10,16 @@ use crate::monitor::{Cancelled, Monitor, Portion, Step};
 /// Limits of the search for the class of the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchOptions {
-    /// Layouts from different orders of drawing that are judged at most.
+    /// Layouts from different orders of drawing that are judged, at most.
     pub candidates: usize,
     /// A layout with at most this detour ([`super::LayoutReport::detour`]) and at most `clear_mean_log` is clear: no other order
     /// is judged, and of its twists only the ambiguous ones.
     pub clear_detour: f64,
-    /// See `clear_detour`.
+    /// The largest mean log density of a clear layout; see `clear_detour`.
     pub clear_mean_log: f64,
     /// Stops either part of the search after this many layouts without a gain.
     pub patience: usize,
-    /// Twisted layouts that are judged at most.
+    /// Twisted layouts that are judged, at most.
     pub twists: usize,
     /// A twist is considered when the path that goes round is at most this many times the one that it replaces.
     pub twist_ratio: f64,
@@ -46,7 +46,7 @@ impl Default for SearchOptions {
     }
 }
 
-/// Where a judged layout comes from.
+/// The origin of a judged layout.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// Another order of drawing.
@@ -58,27 +58,27 @@ pub enum Origin {
 /// A layout that was judged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judged {
-    /// Where it comes from.
+    /// Whether it is another order of drawing or a twist.
     pub origin: Origin,
-    /// Its detour.
+    /// Its detour ([`super::LayoutReport::detour`]).
     pub detour: f64,
-    /// Its worst path, relative to the shortest.
+    /// The largest length / shortest length of its paths.
     pub worst_stretch: f64,
     /// The mean log density of its map, 0 for an isometry; `None` where no map was found.
     pub mean_log: Option<f64>,
 }
 
-/// What the search saw.
+/// The layouts that a search judged, and the one that it chose.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SearchReport {
     /// All judged layouts in their order; each is of another isotopy class.
     pub judged: Vec<Judged>,
-    /// Which of them is returned.
+    /// The number of the layout that is returned, in `judged`.
     pub best: usize,
     /// Twists that were made one after the other.
     pub twists_made: usize,
-    /// Mean log density of the best other class relative to the one that is returned, on the finest level on which both were
-    /// judged; may be below 1 where the runner-up was asked for. `None` where no other was as close.
+    /// Mean log density of the best other class divided by that of the class that is returned, on the finest level on which both were
+    /// judged; may be below 1 where the caller asked for the runner-up. `None` where no other class is close.
     pub rival: Option<f64>,
 }
 
@@ -176,15 +176,16 @@ pub fn neighbours(
 /// The mean log density of a layout's map; `None` where there is no map.
 pub type Judge<'a> = dyn FnMut(&Candidate, &mut dyn Monitor) -> Result<Option<f64>, Cancelled> + 'a;
 
-/// A layout whose detour ([`super::LayoutReport::detour`]) is larger than the best one's by this is not judged: its paths wind. In 50
-/// searches on ten pairs none that was better had 0.6 more than the best before it, where that was straight; with 4 half of the
-/// layouts that were judged wound.
+/// A layout whose detour ([`super::LayoutReport::detour`]) exceeds the best one's by more than this is not judged: its paths wind. In 50
+/// searches on ten pairs no layout that was better had 0.6 more than the best before it, where that was straight; with a limit of 4 the
+/// paths of half of the judged layouts wound.
 const HOPELESS: f64 = 1.0;
 
 /// Vertices of the refined meshes of layouts that were judged, for each vertex of the meshes, after which a search without any map
 /// ends. Eight usual layouts have 20 to 30; those that wind have more, and take more time each.
 const MOST_UNMAPPED: usize = 40;
 
+/// The error where no layout could be drawn and none failed.
 const NOTHING: LayoutError = LayoutError::NoMap { layouts: 0, near: Vec::new() };
 
 struct Search<'a, 'j> {
@@ -255,7 +256,7 @@ impl Search<'_, '_> {
         Ok(())
     }
 
-    /// Judges a candidate and keeps it where it is better; says whether it is.
+    /// Judges a candidate and keeps it where it is the best; returns whether it gains at least `least_gain` over the best before.
     fn judge(&mut self, candidate: Candidate, origin: Origin) -> Result<bool, LayoutError> {
         let residual = self.best.as_ref().map(|best| best.0);
         let (from, to) = (self.share(0), self.share(1));
@@ -276,13 +277,13 @@ impl Search<'_, '_> {
         Ok(gain)
     }
 
-    /// The share of the layouts that is judged when `more` are.
+    /// The share of all layouts, 0 to 1, that is judged once `more` further ones are.
     fn share(&self, more: usize) -> f64 {
         let most = self.options.candidates + self.options.twists;
         (self.report.judged.len() + more) as f64 / most.max(1) as f64
     }
 
-    /// A part without a length, for what is done between two layouts.
+    /// A portion of the progress without length, for the work between two layouts.
     fn between(&mut self) -> Portion<'_> {
         let share = self.share(0);
         Portion::new(self.monitor, share, share)
@@ -293,7 +294,7 @@ impl Search<'_, '_> {
         self.monitor.wants_result() && self.best.as_ref().is_some_and(|best| best.0.is_finite())
     }
 
-    /// Whether a layout winds too much beside the best one to be judged.
+    /// Whether a layout's detours are too long, compared with the best layout's, for it to be judged.
     fn is_hopeless(&self, candidate: &Candidate) -> bool {
         let detour = candidate.layout.report.detour;
         self.best.as_ref().is_some_and(|(mean_log, best)| {

@@ -1,4 +1,4 @@
-//! Neighbouring isotopy classes: one whole turn of the target about a curve between two groups of landmarks.
+//! Neighbouring isotopy classes: Dehn twists, whole turns of the target about a curve between two groups of landmarks.
 //!
 //! A spanning tree with a single edge e between the groups determines the class. The complement of the tree without e is an
 //! annulus between the groups, and the path from one end of e to the other that begins and ends just after (or just before)
@@ -14,11 +14,12 @@ use crate::landmarks::LandmarkId;
 use crate::math::disjoint_sets::DisjointSets;
 use typed_index_collections::{TiSlice, TiVec};
 
-/// A way to turn one group of landmarks against the other.
+/// A whole turn of one group of landmarks against the others.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Twist {
-    /// Which landmarks are in the first group.
+    /// By landmark, whether it is in the group.
     pub inside: TiVec<LandmarkId, bool>,
+    /// The sense of the turn.
     pub turn: Turn,
     /// Length of the path between the groups after the turn, relative to before, on the mesh where that is least: near 1 both
     /// ways round are plausible.
@@ -59,7 +60,7 @@ pub(super) fn plausible(
     Ok(twists)
 }
 
-/// The drawing of the neighbouring class: the tree with the turned path, completed anew.
+/// Draws the neighbouring class: the tree with the turned path, completed anew. `None` where there is no such tree or path.
 pub(super) fn twisted(
     drawing: &Drawing,
     planner: &mut Planner<'_>,
@@ -139,6 +140,7 @@ fn shortest_first(drawing: &Drawing) -> Vec<usize> {
 /// A drawing reduced to a spanning tree with one path between the groups.
 struct Tree {
     drawing: Drawing,
+    /// The path between the groups.
     between: usize,
 }
 

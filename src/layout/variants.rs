@@ -1,8 +1,8 @@
-//! The ways to draw a layout: in which order the spanning tree is drawn, and what the orders weigh.
+//! The orders in which a layout is drawn: that of the spanning tree, and perturbed weights of the paths.
 
 use crate::landmarks::LandmarkId;
 
-/// In which order the spanning tree is drawn.
+/// The order in which the spanning tree's edges are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TreeOrder {
     /// Longest edge first.
@@ -13,10 +13,11 @@ pub enum TreeOrder {
     ShortestFirst,
 }
 
-/// How one attempt draws.
+/// The parameters of one attempt at a drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Variant {
     pub order: TreeOrder,
+    /// Multiplies the length of links that touch a midpoint.
     pub midpoint_penalty: f64,
     /// Distances and keys are multiplied by up to 1 + this, by a hash of the pair and the seed.
     pub perturbation: f64,
@@ -70,9 +71,9 @@ pub(super) const VARIANTS: [Variant; 16] = {
     ]
 };
 
-/// What descents begin with ([`super::descent`]), the straightest of each batch. The longest edge first leads to the straightest drawings,
-/// and with a perturbation of 0.6 or 1 more often than with 0.3; the shortest first winds most (detours of 2 to 9 in place of 0.2 on
-/// seven pairs). Four batches bound the time where no descent ends straight.
+/// The starts of descents ([`super::descent`]), in batches; a descent begins with the straightest of each. The longest edge first leads to
+/// the straightest drawings, and with a perturbation of 0.6 or 1 more often than with 0.3; with the shortest first paths wind most
+/// (detours of 2 to 9 in place of 0.2 on seven pairs). Four batches bound the time where no descent ends straight.
 pub(super) const STARTS: [[Variant; 4]; 4] = {
     use TreeOrder::{LeavesFirst, LongestFirst};
     const fn start(order: TreeOrder, perturbation: f64, seed: u64) -> Variant {

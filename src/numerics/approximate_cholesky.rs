@@ -9,7 +9,9 @@ use super::graph::Graph;
 use crate::math::random::SplitMix;
 use crate::monitor::{Cancelled, Monitor, Pulse};
 
+/// The end of a linked list.
 const NONE: u32 = u32::MAX;
+/// Buckets of the degree queue; the last one holds all higher degrees, in no order. Chosen by hand.
 const BUCKETS: usize = 256;
 
 /// An approximate factor of a connected graph's Laplacian.
@@ -27,7 +29,7 @@ pub struct ApproximateCholesky {
 }
 
 impl ApproximateCholesky {
-    /// Factorises.
+    /// Factorises the Laplacian of a graph.
     pub fn new(graph: &Graph) -> Self {
         let mut factor = Self::empty(graph);
         let mut elimination = Elimination::new(graph);
@@ -35,7 +37,7 @@ impl ApproximateCholesky {
         factor
     }
 
-    /// The same, and asks the monitor between the vertices.
+    /// Factorises the Laplacian of a graph, and asks the monitor between the vertices.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -49,7 +51,7 @@ impl ApproximateCholesky {
         Ok(factor)
     }
 
-    /// No column yet, and room for all.
+    /// A factor without columns, with memory for all.
     fn empty(graph: &Graph) -> Self {
         let n = graph.vertices;
         Self {
@@ -97,7 +99,7 @@ impl Preconditioner<f64> for ApproximateCholesky {
 /// Vertices between two questions to the monitor: some milliseconds.
 const ASKED_EVERY: usize = 8192;
 
-/// What is left of a graph.
+/// An elimination under way: the graph that is left, and the queue of its vertices.
 struct Elimination {
     lists: Lists,
     queue: DegreeQueue,

@@ -88,7 +88,7 @@ impl BlockCsr {
         self.blocks[place as usize] += block;
     }
 
-    /// Adds `shift` to every diagonal entry, relative to the mean of its own block.
+    /// Adds to both diagonal entries of each diagonal block `shift` times their mean.
     pub fn regularise(&mut self, shift: f64) {
         for &d in &self.diagonal {
             let block = &mut self.blocks[d as usize];
@@ -97,7 +97,7 @@ impl BlockCsr {
         }
     }
 
-    /// The sum of some blocks of a row, each times what x has in its column.
+    /// The product of a range of a row's blocks and x.
     #[inline]
     fn row_times(&self, [from, to]: [u32; 2], x: &[DVec2]) -> DVec2 {
         let (from, to) = (from as usize, to as usize);
@@ -109,7 +109,7 @@ impl BlockCsr {
         sum
     }
 
-    /// The preconditioner of the present blocks; `memory` is its own.
+    /// The preconditioner of the present blocks; `memory` takes the inverse diagonal blocks.
     pub fn gauss_seidel<'a>(&'a self, memory: &'a mut Vec<DMat2>) -> GaussSeidel<'a> {
         memory.clear();
         memory.extend(self.diagonal.iter().map(|&d| {

@@ -1,8 +1,8 @@
 //! Preconditioned conjugate gradients for symmetric positive (semi)definite systems (Hestenes & Stiefel 1952).
 //!
 //! One solver for every kind of unknown: a system is a [`LinearOperator`] with a [`Preconditioner`] on slices of numbers or of
-//! points. A solve from x = 0 allocates nothing when its [`CgWorkspace`] has been used before. Not converged is an error; x is
-//! the last iterate then, and it is for the caller to say whether that is of use.
+//! points. A solve from x = 0 allocates nothing when its [`CgWorkspace`] has been used before. A solve that
+//! does not converge is an error; x then holds the last iterate, and the caller decides whether to use it.
 
 use glam::{DVec2, DVec3};
 use std::ops::{Add, AddAssign, Mul, SubAssign};
@@ -54,7 +54,7 @@ pub trait LinearOperator<T> {
     /// y = A x.
     fn apply(&self, x: &[T], y: &mut [T]);
 
-    /// Takes out of x what lies in the kernel of A; nothing where A is definite.
+    /// Projects x onto the orthogonal complement of the kernel of A; does nothing where A is definite.
     #[inline]
     fn leave_kernel(&self, _x: &mut [T]) {}
 }
@@ -65,7 +65,7 @@ pub trait Preconditioner<T> {
     fn precondition(&self, x: &[T], y: &mut [T]);
 }
 
-/// When a solve ends.
+/// The stopping criteria of a solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CgOptions {
     /// Largest |b - A x| of a solution, in units of |b|.
@@ -74,7 +74,7 @@ pub struct CgOptions {
     pub max_iterations: usize,
 }
 
-/// How a solve ended.
+/// Iterations and residual of a solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CgReport {
     /// Iterations made.
@@ -83,7 +83,7 @@ pub struct CgReport {
     pub relative_residual: f64,
 }
 
-/// Why x is no solution. x is the last iterate: among those of its Krylov space it has the least error in the norm of A, and
+/// Why a solve failed. x is the last iterate: of all vectors of its Krylov space it has the least error in the norm of A, and
 /// where it is not 0 it satisfies b^T x > 0.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CgError {
@@ -96,7 +96,7 @@ pub enum CgError {
     NotConverged {
         /// The wanted relative residual.
         tolerance: f64,
-        /// Where the solve stopped.
+        /// Iterations and residual of the last iterate.
         report: CgReport,
     },
     /// A direction d has d^T A d that is not positive, by rounding or because A is not definite.
@@ -108,13 +108,13 @@ pub enum CgError {
     NotDefinite {
         /// d^T A d, or not a number.
         curvature: f64,
-        /// Where the solve stopped.
+        /// Iterations and residual of the last iterate.
         report: CgReport,
     },
 }
 
 impl CgError {
-    /// Where the solve stopped.
+    /// Iterations and residual of the last iterate.
     pub fn report(&self) -> CgReport {
         match self {
             Self::NotConverged { report, .. } | Self::NotDefinite { report, .. } => *report,
@@ -138,7 +138,7 @@ impl<T> Default for CgWorkspace<T> {
 }
 
 impl<T: Entry> CgWorkspace<T> {
-    /// Solves A x = b from x = 0. What of b lies in the kernel of A is taken out first, and x has nothing of it.
+    /// Solves A x = b from x = 0. b is first projected onto the complement of the kernel of A, where x lies, too.
     ///
     /// # Errors
     /// [`CgError`]; x is the last iterate then.
@@ -153,10 +153,10 @@ impl<T: Entry> CgWorkspace<T> {
         self.solve_while(operator, preconditioner, b, x, options, || true)
     }
 
-    /// Like [`Self::solve`], as long as `may_go_on` agrees, which is asked before each iteration.
+    /// Like [`Self::solve`], but ends where `may_go_on`, asked before each iteration, returns `false`.
     ///
     /// # Errors
-    /// [`CgError`]; [`CgError::NotConverged`] where it was not to go on.
+    /// [`CgError`]; [`CgError::NotConverged`] also where `may_go_on` ended the solve.
     pub fn solve_while(
         &mut self,
         operator: &impl LinearOperator<T>,

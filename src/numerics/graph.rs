@@ -23,7 +23,7 @@ impl LinearOperator<f64> for Graph {
         }
     }
 
-    /// Takes the mean out.
+    /// Subtracts the mean.
     fn leave_kernel(&self, x: &mut [f64]) {
         let mean = x.iter().sum::<f64>() / x.len() as f64;
         x.iter_mut().for_each(|v| *v -= mean);

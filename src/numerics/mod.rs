@@ -1,4 +1,4 @@
-//! Sparse matrices and solvers. Knows no mesh.
+//! Sparse matrices and linear solvers. Nothing here knows of meshes.
 
 pub mod approximate_cholesky;
 pub mod block_csr;

@@ -1,9 +1,8 @@
-//! Rims of both meshes that correspond: both surfaces end there, as two bodies that were cut at the neck do.
+//! The rims of both meshes that correspond, as those of two bodies that were cut at the neck do.
 //!
-//! What lies under a cap is unknown where data is missing of one mesh. Where both end at the same place, rim belongs to rim and cap to
-//! cap, and skin over a cap pays a toll ([`crate::mesh::face_weights`]). A user may say which case it is. Otherwise it is guessed: two
-//! large rims correspond if the landmarks around them are as far from the one as from the other, and no rim fits either of them
-//! better.
+//! Where a mesh lacks data, the surface under its caps is unknown. Where both surfaces end at the same place, rim corresponds to rim and
+//! cap to cap, and skin over a cap pays a toll ([`crate::mesh::face_weights`]). The user may say which case it is. Otherwise it is guessed:
+//! two large rims correspond if the landmarks are as far from the one as from the other, and no rim fits either of them better.
 
 use super::{Borders, MapInput, PipelineOptions};
 use crate::coarse_map::MultilevelOptions;
@@ -18,36 +17,37 @@ use typed_index_collections::{TiSlice, TiVec};
 
 /// Rims that are compared, of each mesh: the longest. Chosen by hand.
 const MOST_RIMS: usize = 12;
-/// A rim is large from this length on, in units of the root of the mesh's area: smaller holes are gaps in the data. Chosen by hand.
+/// Least length of a large rim, in units of the root of the mesh's area: smaller holes are gaps in the data. Chosen by hand.
 const LARGE: f64 = 0.15;
-/// Added to distances before ratios are taken, in units of the root of the area: nearer landmarks say little. As in `landmark_fit`.
+/// Added to distances before ratios are taken, in units of the root of the area, so that near landmarks count little. As in
+/// `landmark_fit`.
 const SOFTENING: f64 = 0.08;
-/// Rims are guessed to correspond up to this mean absolute log ratio of the landmarks' distances. Two animals cut at the same place of
+/// Largest misfit of rims that correspond: the mean absolute log ratio of the landmarks' distances. Two animals cut at the same place of
 /// the neck have 0.06 to 0.11, two poses of one 0.02 to 0.04; cuts that are 4 % of the root of the area apart have 0.14 to 0.24.
 const FITTING: f64 = 0.15;
-/// Rims correspond up to this log ratio of their lengths. Chosen by hand.
+/// Largest log ratio of the lengths of rims that correspond. Chosen by hand.
 const ALIKE: f64 = 0.8;
 
-/// What the rims of holes are.
+/// The kind of the rims of holes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "snake_case")]
 pub enum BorderCase {
-    /// Data is missing: what lies under caps is unknown.
+    /// Data is missing: the surface under caps is unknown.
     Missing,
-    /// Both surfaces end there: rim belongs to rim and cap to cap.
+    /// Both surfaces end there: rim corresponds to rim and cap to cap.
     Corresponding,
 }
 
-/// What became of the rims of holes in a run.
+/// The kind of the rims of holes in a run, and the rims that correspond.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct BordersReport {
-    /// The case that was taken.
+    /// The kind that was taken.
     pub case: BorderCase,
-    /// What was asked for.
+    /// The user's choice.
     pub asked: Borders,
-    /// The rims that correspond, the best fit first. What lies under all other caps is taken for unknown.
+    /// The rims that correspond, the best fit first. The surface under all other caps is taken for unknown.
     pub rims: Vec<RimPairReport>,
 }
 
@@ -59,7 +59,7 @@ pub struct RimPairReport {
     pub source: RimReport,
     /// The rim of the target.
     pub target: RimReport,
-    /// Mean absolute log ratio of the landmarks' distances to both, near landmarks counting more; 0 where they are the same.
+    /// Mean absolute log ratio of the landmarks' distances to both rims, with larger weights for near landmarks; 0 where they are equal.
     pub misfit: f64,
 }
 
@@ -69,7 +69,7 @@ pub struct RimPairReport {
 pub struct RimReport {
     /// A vertex of it, 0-based.
     pub vertex: usize,
-    /// How many vertices it has.
+    /// Number of its vertices.
     pub vertices: usize,
     /// Its length, in units of the root of the mesh's area, caps included.
     pub length: f64,
@@ -94,15 +94,15 @@ impl BordersReport {
     }
 }
 
-/// How much the faces of both meshes count, and why.
+/// The weights of the faces of both meshes, with the report of their borders.
 pub(super) struct CountedCaps {
-    /// By mesh, source first; `None` where all faces count like skin.
+    /// By mesh, source first, the weights of its faces; `None` where all faces count like skin.
     pub(super) weights: [Option<TiVec<FaceId, FaceWeight>>; 2],
     /// `None` where not both meshes have caps that count less than skin, unless rims were said to correspond.
     pub(super) report: Option<BordersReport>,
 }
 
-/// The weights of the faces of both meshes; exchanged where source and target are.
+/// The weights of the faces of both meshes. Exchanging source and target exchanges them.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -138,7 +138,7 @@ pub(super) fn counted_caps(
     Ok(CountedCaps { weights, report: Some(report) })
 }
 
-/// The weights of the faces of a mesh where nothing is known of what lies under its caps.
+/// The weights of the faces of a mesh where the surface under its caps is unknown.
 fn of_unknown(is_cap: &TiSlice<FaceId, bool>, cap_weight: f64) -> TiVec<FaceId, FaceWeight> {
     let cap = FaceWeight { weight: cap_weight, toll: 0.0 };
     is_cap.iter().map(|&is_cap| if is_cap { cap } else { FaceWeight::SKIN }).collect()
@@ -149,12 +149,12 @@ struct Borderline {
     rims: Vec<MeasuredRim>,
 }
 
-/// A rim with what it is compared by.
+/// A rim with the quantities by which it is compared.
 struct MeasuredRim {
     rim: Rim,
-    /// In units of the root of the mesh's area.
+    /// Its length, in units of the root of the mesh's area.
     length: f64,
-    /// By landmark the softened logarithm of its distance to the rim.
+    /// By landmark, the softened logarithm of its distance to the rim.
     log_distances: Vec<f64>,
 }
 
@@ -182,7 +182,7 @@ impl MeasuredRim {
         self.length >= LARGE
     }
 
-    /// Mean absolute log ratio of the landmarks' distances, near landmarks counting more.
+    /// Mean absolute log ratio of the landmarks' distances, with larger weights for near landmarks.
     fn misfit(&self, other: &Self) -> f64 {
         let (mut sum, mut total) = (0.0, 0.0);
         for (&a, &b) in self.log_distances.iter().zip(&other.log_distances) {
@@ -201,13 +201,12 @@ impl MeasuredRim {
 
 /// Two rims that correspond.
 struct RimPair {
-    /// Among the rims of the source and of the target.
+    /// Their numbers among the rims of the source and of the target.
     numbers: [usize; 2],
     misfit: f64,
 }
 
-/// The rims that correspond, the best fit first. Of rims that the user says to correspond the large ones are paired whatever their
-/// misfit.
+/// The rims that correspond, the best fit first. Where the user says that borders correspond, large rims are paired whatever their misfit.
 fn corresponding([source, target]: [&Borderline; 2], borders: Borders) -> Vec<RimPair> {
     let mut pairs = Vec::new();
     for (s, from) in source.rims.iter().enumerate() {

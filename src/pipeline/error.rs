@@ -1,4 +1,4 @@
-//! Which stage failed, and why.
+//! The error of a run: the stage that failed, with its own error.
 
 use crate::base_domain::SimplifyError;
 use crate::coarse_map::CoarseMapError;
@@ -17,7 +17,7 @@ pub enum PipelineError {
     /// The user asked to stop.
     #[error(transparent)]
     Cancelled(Cancelled),
-    /// No base domain.
+    /// There is no base domain.
     #[error("base domain: {0}")]
     BaseDomain(SimplifyError),
     /// The base domain could not be drawn on both meshes.
@@ -32,10 +32,10 @@ pub enum PipelineError {
     /// The mesh around a landmark could not be refined.
     #[error("refinement around the landmarks: {0}")]
     Refinement(#[from] MeshError),
-    /// No parametrisation.
+    /// There is no parametrisation.
     #[error("map: {0}")]
     Map(MapError),
-    /// A point was lost between the two parametrisations.
+    /// A source vertex could not be located on the target.
     #[error("composition: {0}")]
     Locate(LocateError),
     /// The common subdivision of source and target does not close.

@@ -1,4 +1,5 @@
-//! Doubts about landmark pairs and limbs without one, before a map is made: found on coarse levels, told as stable JSON.
+//! Findings before a map is made: doubts about landmark pairs, and limbs without one. They are computed on coarse levels and reported as
+//! stable JSON.
 
 use super::MapInput;
 use crate::landmark_fit::{Finding, MOST_COMPARED, Repair, landmark_fit};
@@ -13,7 +14,7 @@ use serde::Serialize;
 /// Vertices of the coarse levels, on which distances are measured. Chosen by hand.
 const COARSE_VERTICES: usize = 1500;
 
-/// What is in doubt.
+/// The kind of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "snake_case")]
@@ -22,13 +23,13 @@ pub enum FindingKind {
     Mirrored,
     /// Two pairs have each other's target.
     Swapped,
-    /// One pair is far from where the others want it.
+    /// One pair's target is far from the place that fits the other pairs.
     Misplaced,
     /// Limbs of one mesh have no landmark.
     UnmarkedLimbs,
 }
 
-/// What to do about it.
+/// The repair that is offered for a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "snake_case")]
@@ -47,27 +48,27 @@ pub enum RepairKind {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct FindingReport {
-    /// What is in doubt.
+    /// Its kind.
     pub kind: FindingKind,
     /// The pairs in doubt, 0-based: none (the whole set, or limbs), two, or one.
     pub pairs: Vec<usize>,
-    /// What to do about it.
+    /// The repair that is offered.
     pub repair: RepairKind,
     /// One sentence for the user.
     pub sentence: String,
-    /// Of mirrored sets: agreement of the orders around the landmarks and of their places, from -1 (all reversed) to 1. Of
-    /// swapped pairs: of the others with the targets as they are, from -1 (all want them exchanged) to 1.
+    /// For mirrored sets, the agreement of the orders around the landmarks and of their places, from -1 (all reversed) to 1. For
+    /// swapped pairs, the vote of the other landmarks, from -1 (the targets fit exchanged) to 1 (they fit as they are).
     pub agreement: Option<f64>,
     /// Mean misfit of the pairs' distances (absolute log ratio), as it is and repaired.
     pub misfit: Option<[f64; 2]>,
-    /// Of misplaced pairs: distance of the target to the best place, in units of the root of the target's area.
+    /// For misplaced pairs, the distance of the target to the best place, in units of the root of the target's area.
     pub distance: Option<f64>,
-    /// Of misplaced pairs: the pair whose target is nearest to the best place, 0-based.
+    /// For misplaced pairs, the pair whose target is nearest to the best place, 0-based.
     pub near: Option<usize>,
-    /// Of limbs: the mesh, 0 the source and 1 the target.
+    /// For limbs, the mesh: 0 the source and 1 the target.
     #[cfg_attr(all(feature = "web", target_arch = "wasm32"), tsify(type = "0 | 1 | null"))]
     pub side: Option<usize>,
-    /// Of limbs: their ends, as vertices of the mesh, the most remote first.
+    /// For limbs, their ends as vertices of the mesh, the most remote first.
     pub vertices: Vec<usize>,
 }
 
@@ -106,7 +107,7 @@ impl FindingReport {
     }
 }
 
-/// Limbs of one mesh without a landmark.
+/// The finding of limbs of one mesh without a landmark.
 fn limbs(side: usize, vertices: Vec<usize>) -> FindingReport {
     FindingReport {
         kind: FindingKind::UnmarkedLimbs,
@@ -152,10 +153,10 @@ impl FindingReport {
     }
 }
 
-/// Landmark pairs that do not fit and limbs without one; none when all is well. `labels` are the pairs' names, where they have any.
+/// Finds landmark pairs that do not fit and limbs without one; none when all is well. `labels` are the pairs' names, where they have any.
 ///
-/// A doubt is no error: the map can be made all the same, and the user knows the shapes. Of more than
-/// [`MOST_COMPARED`] pairs only the limbs are looked at.
+/// A finding is no error: the map can be made all the same, and the user knows the shapes. With more than
+/// [`MOST_COMPARED`] pairs only limbs are searched.
 ///
 /// # Errors
 /// [`Cancelled`].

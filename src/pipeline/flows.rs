@@ -1,4 +1,4 @@
-//! The cone metrics of both meshes and the texture coordinates that come from the target's.
+//! The cone metrics of both meshes, and the texture coordinates made from the target's.
 
 use super::{Cones, MapInput, PipelineError, PipelineOptions, Warning};
 use crate::base_domain::BaseDomain;
@@ -13,13 +13,13 @@ use crate::monitor::{Cancelled, Monitor, Rising, Stage};
 use glam::DVec2;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// What both flows gave.
+/// The results of both flows.
 pub(super) struct Flows {
     /// Curvature of each landmark's cone, in radians.
     pub cones: Vec<f64>,
-    /// By mesh how its flow went; `None` where it could not begin.
+    /// By mesh, source first, the report of its flow; `None` where the flow could not begin.
     pub reports: [Option<FlowReport>; 2],
-    /// The flat target; `None` where its flow did not converge.
+    /// The target's texture coordinates; `None` where its flow did not converge.
     target_atlas: Option<FlatAtlas>,
     faces: usize,
 }
@@ -48,7 +48,7 @@ impl Flows {
         })
     }
 
-    /// Runs both flows beside a map that stands already: one that fails costs the texture and becomes a warning.
+    /// Runs both flows after the map is made: a flow that fails becomes a warning, and the target's costs the texture.
     ///
     /// # Errors
     /// Cancellation only.
@@ -101,7 +101,7 @@ impl Flows {
     }
 }
 
-/// The flows of both meshes from step to step, with these curvatures at the landmarks, in radians. Log factors have mean 0 by area.
+/// Records the flows of both meshes to the curvatures `cones` (radians) at the landmarks. Log factors have the area-weighted mean 0.
 ///
 /// # Errors
 /// [`PipelineError::SourceFlow`] or [`PipelineError::TargetFlow`] where no metric has these curvatures, or cancellation. A flow that does not
@@ -117,7 +117,7 @@ pub fn recorded_flows(
     })
 }
 
-/// Both meshes with flat metrics of these curvatures at the landmarks, in radians, to be laid out in the plane.
+/// Both meshes with flat metrics that have the curvatures `cones` (radians) at the landmarks, to be laid out in the plane.
 ///
 /// # Errors
 /// [`PipelineError::SourceFlow`] or [`PipelineError::TargetFlow`], or cancellation.
@@ -133,7 +133,7 @@ pub fn flat_surfaces(
     })
 }
 
-/// What flows of both meshes give, with these curvatures at the landmarks.
+/// Calls `flowed` for both meshes with target curvatures `cones` (radians) at the landmarks, 0 elsewhere.
 fn on_both<T>(
     input: MapInput<'_>,
     cones: &[f64],
@@ -172,14 +172,14 @@ fn metric_of(
     cone_metric(mesh, landmarks, base, options, monitor)
 }
 
-/// Curvature of each landmark's cone.
+/// Target curvature of each landmark, in radians.
 fn cones(input: MapInput<'_>, base: &BaseDomain, options: &PipelineOptions) -> Vec<f64> {
     let target = &input.landmarks.target;
     let goal = curvature(input.target, target, base, options.cones);
     target.iter().map(|&v| goal[v]).collect()
 }
 
-/// Target curvature of each vertex.
+/// Target curvature of each vertex, in radians.
 fn curvature(
     mesh: &SurfaceMesh,
     landmarks: &[VertexId],

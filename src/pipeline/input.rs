@@ -1,4 +1,4 @@
-//! What the pipeline starts from.
+//! The input of the pipeline.
 
 use crate::landmarks::Landmarks;
 pub use crate::mesh::cap_faces::CapFaces;
@@ -7,28 +7,28 @@ use crate::surface_map::measures::ground_truth::{GroundTruthError, distance_to_t
 use glam::DVec3;
 use typed_index_collections::TiSlice;
 
-/// What the pipeline starts from: two checked meshes and landmarks that are vertices of both.
+/// The input of the pipeline: two checked meshes and landmarks that are vertices of both.
 #[derive(Clone, Copy, Debug)]
 pub struct MapInput<'a> {
-    /// Closed, oriented, one component, genus 0.
+    /// The source: closed, oriented, one component, genus 0.
     pub source: &'a SurfaceMesh,
-    /// Closed, oriented, one component, genus 0.
+    /// The target: closed, oriented, one component, genus 0.
     pub target: &'a SurfaceMesh,
-    /// At least four corresponding vertices.
+    /// At least four pairs of corresponding vertices.
     pub landmarks: &'a Landmarks,
-    /// What is known of the true map.
+    /// The true map, as far as it is known.
     pub ground_truth: GroundTruth<'a>,
-    /// Which faces of both were made up.
+    /// The faces of both meshes that are caps over holes.
     pub caps: CapFaces<'a>,
 }
 
 impl<'a> MapInput<'a> {
-    /// Meshes of which no face was made up, and nothing is known of the true map.
+    /// Meshes without caps and without a known true map.
     pub fn new(source: &'a SurfaceMesh, target: &'a SurfaceMesh, landmarks: &'a Landmarks) -> Self {
         Self { source, target, landmarks, ground_truth: GroundTruth::Unknown, caps: CapFaces::default() }
     }
 
-    /// How far images of the source's vertices are from the true ones; `None` where these are not known.
+    /// Distances between images of the source's vertices and the true ones; `None` where these are not known.
     pub(super) fn distance_to_truth(
         &self,
         images: impl Iterator<Item = (VertexId, SurfacePoint)>,
@@ -46,10 +46,10 @@ impl<'a> MapInput<'a> {
     }
 }
 
-/// What is known of the true map.
+/// The true map, as far as it is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum GroundTruth<'a> {
-    /// Nothing.
+    /// It is not known.
     #[default]
     Unknown,
     /// Both meshes share their connectivity: vertex i corresponds to vertex i.

@@ -1,4 +1,4 @@
-//! Options, the order of the stages, the report: the only place that knows the whole way.
+//! The pipeline from landmarks to a map: options, the order of the stages, the report. No other module knows the order of the stages.
 
 mod borders;
 mod error;

@@ -1,4 +1,4 @@
-//! What a user may choose.
+//! The options of a run.
 
 use crate::coarse_map::MultilevelOptions;
 pub use crate::coarse_map::class_search::ClassChoice;
@@ -7,7 +7,7 @@ use crate::cone_metric::FlowOptions;
 use crate::layout::{LayoutOptions, SearchOptions};
 use serde::{Deserialize, Serialize};
 
-/// How the map is made.
+/// The method by which the map is made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
@@ -22,7 +22,7 @@ pub enum Method {
     Tutte,
 }
 
-/// Where the base domain's triangles come from.
+/// The construction of the base domain.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
@@ -48,7 +48,7 @@ pub enum Cones {
     Uniform,
 }
 
-/// What the rims of holes are that both meshes have.
+/// The treatment of holes that both meshes have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
@@ -59,21 +59,21 @@ pub enum Borders {
     Guess,
     /// Both surfaces end there, as two bodies cut at the neck: rim goes to rim.
     Corresponding,
-    /// Data is missing: what lies under the caps is unknown.
+    /// Data is missing: the surface under the caps is unknown.
     Missing,
 }
 
-/// How far the energy of the map is lowered.
+/// The relaxation of the map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Relaxation {
-    /// As far as it goes.
+    /// The energy of the map is lowered as far as the options of the relaxation say.
     #[default]
     Full,
-    /// Not at all: each mesh is relaxed over the cone surface by itself. The map is certified all the same.
+    /// The energy of the map is not lowered: each mesh is relaxed over the cone surface by itself. The map is certified all the same.
     None,
 }
 
-/// What a user chooses of a run, on the command line and in the page alike. A name or a value that is not known is an error.
+/// The options of a run that a user chooses, on the command line and in the page alike. An unknown name or value is an error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(clap::Args))]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
@@ -91,11 +91,11 @@ pub struct Choices {
     /// Which class of maps, where several are nearly as good.
     #[cfg_attr(feature = "cli", arg(long, value_enum, default_value_t))]
     pub class: ClassChoice,
-    /// Points that are added as cones of the program's own where there are few landmarks; 0 for none, as many as usual where
-    /// nothing is said.
+    /// Points that are added as cones of the program's own where there are few landmarks; 0 for none, the default number where it is not
+    /// given.
     #[cfg_attr(feature = "cli", arg(long, value_name = "N"))]
     pub own_cones: Option<usize>,
-    /// What the rims of holes are that both meshes have.
+    /// How holes that both meshes have are treated.
     #[cfg_attr(feature = "cli", arg(long, value_enum, default_value_t))]
     pub borders: Borders,
 }
@@ -109,7 +109,7 @@ impl From<Choices> for PipelineOptions {
     }
 }
 
-/// Everything that can be set of the pipeline; a user sets [`Choices`].
+/// All options of the pipeline; a user sets [`Choices`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PipelineOptions {
     /// How the map is made.
@@ -118,20 +118,20 @@ pub struct PipelineOptions {
     pub base: Base,
     /// Curvature at the landmarks.
     pub cones: Cones,
-    /// Both flows.
+    /// Options of both flows.
     pub flow: FlowOptions,
-    /// The layout of the thesis' method, drawn at full resolution.
+    /// Options of the layout of the thesis' method, drawn at full resolution.
     pub layout: LayoutOptions,
-    /// The search for the class of the map.
+    /// Options of the search for the class of the map.
     pub search: SearchOptions,
-    /// Which class is taken.
+    /// The class that is taken where several are close.
     pub class: ClassChoice,
-    /// From coarse to fine.
+    /// Options of the coarse map and of its refinement.
     pub multilevel: MultilevelOptions,
-    /// Cones of the program's own where the landmarks are few.
+    /// Options of the program's own cones where there are few landmarks.
     pub own_cones: OwnConeOptions,
-    /// What the rims of holes are that both meshes have.
+    /// How holes that both meshes have are treated.
     pub borders: Borders,
-    /// How far the energy of the map is lowered.
+    /// The relaxation of the map.
     pub relaxation: Relaxation,
 }

@@ -19,7 +19,7 @@ pub enum OtherMap {
 }
 
 impl PipelineOptions {
-    /// The options of another map in the place of one that is made with these.
+    /// The options of another map, to be compared with one that is made with these.
     #[must_use]
     pub fn of_other(self, other: OtherMap) -> Self {
         let patchwise = |cones| Self { method: Method::Thesis, cones, ..self.clone() };

@@ -20,7 +20,7 @@ use crate::surface_map::overlay::{Overlay, OverlayError};
 use glam::DVec3;
 use typed_index_collections::{TiSlice, TiVec};
 
-/// A certified map with its texture and locations.
+/// A certified map with its flows and locations, from which the result is made.
 pub(super) struct Outcome<'a> {
     pub(super) input: MapInput<'a>,
     pub(super) map: &'a Parametrisation,
@@ -40,7 +40,7 @@ struct Shown {
 }
 
 impl Outcome<'_> {
-    /// The result; `missing` are the warnings of parts that failed before.
+    /// Makes the result; `missing` are the warnings of parts that failed before.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -55,7 +55,7 @@ impl Outcome<'_> {
         let has_caps = input.caps.any();
         let images = vertex_images(map.sides(), self.surfaces()[1], self.locations, vertices);
         monitor.step(Step::default())?;
-        // Of skin alone, where there are caps.
+        // Where there are caps, errors are those of skin on skin.
         let is_skin = |&(v, p): &(VertexId, SurfacePoint)| {
             let faces = || input.source.star(v).map(|h| [h.face(), p.face]);
             !has_caps || faces().any(|faces| input.caps.are_skin(faces) == [true, true])
@@ -126,7 +126,7 @@ impl Outcome<'_> {
         let carriers = [source.carrier(frames[0]), target.carrier(frames[1])];
         let mut correspondence = Correspondence::of_overlay(sides, overlay, monitor)?;
         monitor.step(told(0.4))?;
-        // Each takes the place of what it was made from: to give that back takes long enough to be asked after.
+        // Each replaces the value from which it was made: freeing that takes so long that the monitor is asked afterwards.
         correspondence = correspondence.carried(carriers, monitor)?;
         monitor.step(told(0.5))?;
         let mut flat_layout = FlatLayout::new(sides, &self.map.surface, monitor)?;
@@ -154,7 +154,7 @@ impl Outcome<'_> {
         })
     }
 
-    /// The map on the source's triangles, as if it were affine there: where there is no overlay.
+    /// The map without an overlay: on the source's triangles, as if it were affine there.
     fn shown_at_vertices(&self, images: &TiVec<VertexId, Option<SurfacePoint>>) -> Shown {
         let MapInput { source, target, .. } = self.input;
         Shown {
@@ -222,7 +222,7 @@ fn warnings(map: &Parametrisation, measured: &Distortion) -> Vec<Warning> {
     [borders, early, rival, long, distorted].into_iter().flatten().collect()
 }
 
-/// Which faces of a refined mesh are caps.
+/// By face of a refined mesh, whether it is a cap.
 fn refined_caps(is_cap: &TiSlice<FaceId, bool>, refined: &RefinedMesh) -> TiVec<FaceId, bool> {
     refined.face_origin.iter().map(|&f| is_cap[f]).collect()
 }

@@ -25,7 +25,7 @@ pub(super) struct Parametrisation {
     pub(super) embeddings: [Embedding; 2],
     pub(super) certificate: Certificate,
     pub(super) stopped_early: bool,
-    /// What became of the rims of holes; `None` where not both meshes have any.
+    /// The report of the rims of holes; `None` where not both meshes have any.
     pub(super) borders: Option<BordersReport>,
 }
 
@@ -46,11 +46,11 @@ impl Parametrisation {
 }
 
 /// Vertices of the coarse level for each landmark and each cone of the program's own, where these are added: with 500 vertices in
-/// place of 640 for 12 landmarks and 20 own ones the classes that were chosen on two poses of a horse left a limb turned (0.5 and
-/// 0.6 % from the truth in place of 0.2 and 0.3).
+/// place of 640 for 12 landmarks and 20 own cones a limb was left turned on two poses of a horse (distance from the truth 0.5 and 0.6 % of
+/// the root of the area, in place of 0.2 and 0.3).
 const PER_OWN_CONE: usize = 20;
 
-/// Whether cones of the program's own are tried with that many landmarks.
+/// Whether cones of the program's own are tried with this many landmarks.
 pub(super) fn has_own_cones(landmarks: usize, options: &PipelineOptions) -> bool {
     landmarks <= options.own_cones.most_landmarks && options.own_cones.count > 0
 }
@@ -62,7 +62,7 @@ fn first_level(landmarks: usize, options: &PipelineOptions) -> usize {
     options.multilevel.coarse_vertices.max(LEAST_PER_LANDMARK * landmarks).max(PER_OWN_CONE * with_own)
 }
 
-/// Coarse maps of a size, with so much of a search.
+/// An attempt at a map: the size of its coarse levels, and the options of its search.
 #[derive(Clone, Copy)]
 struct Attempt {
     /// Vertices of the coarse levels.
@@ -71,31 +71,33 @@ struct Attempt {
     scale: Scale,
 }
 
-/// What is known of the size of meshes with caps.
+/// The scaling of meshes with caps.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Scale {
-    /// Both have area 1 with their caps.
+    /// Both meshes have area 1 with their caps.
     ByArea,
-    /// What is skin on both has the same area.
+    /// The skin that both meshes share has the same area on both.
     BySkin,
 }
 
-/// How often coarse levels grow where no layout has a map, by which factor, and how many layouts are tried then: so the user
-/// has the answer that there is none within about the time of two maps.
+/// Number of times that coarse levels grow where no layout has a map. With the two numbers below, chosen by hand together, the user has
+/// the answer that there is no map within about the time of two maps.
 const FINER_LEVELS: usize = 2;
+/// Factor of the number of vertices by which they grow.
 const FINER_GROWTH: usize = 4;
+/// Layouts that are judged on each finer level, at most.
 const FINER_CANDIDATES: usize = 3;
 
 impl Attempt {
     fn finer(self) -> Self {
-        // Each layout costs as many times more, and where one fails most do.
+        // Each layout costs as many times more as the level has more vertices, and where one fails most do.
         let candidates = self.search.candidates.min(FINER_CANDIDATES);
         let search = SearchOptions { candidates, ..self.search };
         Self { vertices: FINER_GROWTH * self.vertices, search, ..self }
     }
 }
 
-/// Coarse map, fine map, certificate. Coarse levels grow until the layout's points can be taken out again.
+/// Makes and certifies both parametrisations: coarse map, fine map, certificate. Coarse levels grow where no layout has a map.
 pub(super) fn parametrise(
     input: MapInput<'_>,
     options: &PipelineOptions,
@@ -159,11 +161,11 @@ struct Solved {
     search: SearchReport,
     surface: Arc<ConeSurface>,
     embeddings: [Embedding; 2],
-    /// The meshes where they are others: with own cones, or scaled.
+    /// The meshes where they are not those given: with own cones, or scaled.
     meshes: Option<[LandmarkedMesh; 2]>,
 }
 
-/// From coarse levels of one size to the full meshes.
+/// Solves an attempt, from its coarse levels to the full meshes.
 fn solve(
     input: MapInput<'_>,
     full: &[LandmarkedMesh; 2],
@@ -179,7 +181,7 @@ fn solve(
         && !monitor.wants_result()
         && let Some(factor) = map.better_scale()
     {
-        // From the start: the class was judged, and poses were told from others, at the wrong size.
+        // Begun anew: the class was judged, and poses of one body were recognised, at the wrong scale.
         let scaled = [full[0].clone(), full[1].scaled(factor)];
         let solved = solve(input, &scaled, Attempt { scale: Scale::BySkin, ..attempt }, options, monitor)?;
         return Ok(Solved { meshes: Some(solved.meshes.unwrap_or(scaled)), ..solved });

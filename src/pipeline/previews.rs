@@ -1,10 +1,10 @@
-//! Previews of a map in the vertices and the coordinates of the meshes as they were given.
+//! Previews of a map for the vertices, and in the coordinates, of the meshes as they were given.
 
 use crate::mesh::SurfaceMesh;
 use crate::monitor::{Cancelled, MapPreview, Monitor, PreviewOf, Stage, Step};
 use glam::DVec3;
 
-/// Which of two meshes the map is made of and which is its target.
+/// The roles of source and target while the map is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Roles {
     /// As they were given.
@@ -13,16 +13,16 @@ pub(super) enum Roles {
     Exchanged,
 }
 
-/// The monitor of a map's making: it passes previews on as they are of the meshes that were given, and all else as it is.
+/// A monitor that translates previews to the meshes that were given, and passes everything else on.
 pub(super) struct InGivenMeshes<'a> {
     monitor: &'a mut dyn Monitor,
-    /// Those that the map is made of.
+    /// The meshes between which the map is made, its source first.
     meshes: [&'a SurfaceMesh; 2],
     roles: Roles,
 }
 
 impl<'a> InGivenMeshes<'a> {
-    /// For a map from the first to the second mesh.
+    /// The monitor of a map from the first to the second mesh.
     pub(super) fn new(monitor: &'a mut dyn Monitor, meshes: [&'a SurfaceMesh; 2], roles: Roles) -> Self {
         Self { monitor, meshes, roles }
     }
@@ -46,7 +46,7 @@ impl MapPreview for OfGivenMeshes<'_> {
             PreviewOf::Target => [self.meshes[1], self.meshes[0]],
         };
         let mut places = self.preview.images(of)?;
-        // A refinement's first vertices are the mesh's own.
+        // The first vertices of a refined mesh are those of the mesh itself.
         places.truncate(from.vertex_count());
         let unit = onto.area().sqrt();
         places.iter_mut().for_each(|place| *place *= unit);

@@ -1,4 +1,4 @@
-//! The relaxed map: from landmarks to certified parametrisations of both meshes, and to the result.
+//! The relaxed map: from landmarks to certified parametrisations of both meshes, and on to the result.
 
 use super::flows::Flows;
 use super::outcome::Outcome;
@@ -14,7 +14,7 @@ use crate::surface_map::overlay::{Overlay, OverlayError, overlay};
 use crate::surface_map::{ConeSurface, Parametrised};
 use std::cmp::Ordering;
 
-/// Makes the map, and what is told of it.
+/// Makes the map and its result.
 pub(super) fn run(
     input: MapInput<'_>,
     options: &PipelineOptions,
@@ -42,7 +42,7 @@ pub(super) fn run(
     composed(input, &map, options, monitor)
 }
 
-/// Composes both parametrisations and tells of the map.
+/// Composes both parametrisations and makes the result.
 pub(super) fn composed(
     input: MapInput<'_>,
     map: &Parametrisation,
@@ -64,11 +64,11 @@ pub(super) fn composed(
     Ok(outcome.result(overlay, missing, monitor)?)
 }
 
-/// The overlay. Where a source edge is lost among target triangles that rounding cannot tell apart, the target's edges are
-/// traced through the source instead: what is tiny on one side is not on the other.
+/// Makes the overlay. Where a source edge is lost among target triangles as small as rounding, the target's edges are
+/// traced through the source instead, whose triangles are not as small there.
 ///
 /// # Errors
-/// [`Cancelled`]; the overlay's own error is no reason to end.
+/// [`Cancelled`]; the overlay's own error is returned in `Ok`.
 fn overlaid(
     [source, target]: [Parametrised<'_>; 2],
     surface: &ConeSurface,
@@ -92,8 +92,8 @@ fn overlaid(
     }
 }
 
-/// How the source is ordered to the target, by what they are and not by which is called the source: sizes, coordinates, triangles,
-/// landmarks, caps. Where all are the same, so is the exchanged input.
+/// The order of source and target by their data: sizes, coordinates, triangles, landmarks, caps. Where all are equal, the exchanged input
+/// is the same.
 fn order(input: MapInput<'_>) -> Ordering {
     let [a, b] = [input.source, input.target];
     let size = |mesh: &SurfaceMesh| (mesh.vertex_count(), mesh.face_count());

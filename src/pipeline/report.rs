@@ -30,11 +30,11 @@ pub struct Report {
     pub certificate: Option<CertificateReport>,
     /// Distortion of the map; of skin onto skin where holes were closed by caps.
     pub distortion: DistortionReport,
-    /// How much of the skin has a partner, where holes were closed by caps; `null` where no mesh has caps, and where there is no
-    /// overlay.
+    /// The shares of the skin that are mapped onto skin, where holes were closed by caps; `null` where no mesh has caps, and where there is
+    /// no overlay.
     pub coverage: Option<CoverageReport>,
-    /// What the rims of holes were taken for; `null` where not both meshes have holes, unless rims were said to correspond, and for
-    /// the thesis' method.
+    /// The kind of the rims of holes; `null` where not both meshes have holes, unless the user said that rims correspond, and for the
+    /// methods that map patch by patch.
     pub borders: Option<BordersReport>,
     /// Share of the source's vertices without an image; 0 for the relaxed map.
     pub unmapped_share: f64,
@@ -45,12 +45,12 @@ pub struct Report {
     pub stopped_early: bool,
     /// Triangles of the two input meshes.
     pub faces: FacesReport,
-    /// Landmark pairs that do not fit, as found before the map was made; filled by whoever asks for them.
+    /// Findings about the landmarks before the map was made; filled by the caller.
     pub findings: Vec<FindingReport>,
-    /// What the user should know about the result.
+    /// Warnings about the result.
     #[cfg_attr(all(feature = "web", target_arch = "wasm32"), tsify(type = "WarningReport[]"))]
     pub warnings: Vec<Warning>,
-    /// Wall-clock seconds by stage, and `total`; filled by whoever holds a clock.
+    /// Wall-clock seconds by stage, and `total`; filled by the caller, which has a clock.
     #[cfg_attr(all(feature = "web", target_arch = "wasm32"), tsify(type = "Record<string, number>"))]
     pub seconds: BTreeMap<String, f64>,
 }
@@ -106,7 +106,7 @@ pub struct ConeMetricReport {
     pub edge_flips: usize,
     /// Largest |target - curvature| at the end, in radians.
     pub max_curvature_error: f64,
-    /// The same before the first and after each step.
+    /// Largest |target - curvature| before the first step and after each step, in radians.
     pub residuals: Vec<f64>,
     /// Wall-clock seconds.
     pub seconds: f64,
@@ -120,7 +120,7 @@ pub struct CertificateReport {
     pub bijective: bool,
     /// Triangles of both parametrised meshes, all of them checked.
     pub triangles: usize,
-    /// Those of them that are not positively oriented.
+    /// Triangles that are not positively oriented.
     pub flipped_triangles: usize,
     /// Largest difference of an angle sum from 2 pi (or the cone angle), in radians.
     pub max_angle_sum_error: f64,
@@ -136,32 +136,32 @@ pub struct DistortionReport {
     pub energy: f64,
     /// Area-weighted mean over the source of (s1^2 + s2^2 + s1^-2 + s2^-2) / 4; 1 for an isometry.
     pub mean: f64,
-    /// Half the sum of the area-weighted means of its logarithm over the source and over the target; 0 for an isometry.
+    /// Half the sum of the area-weighted means of this density's logarithm over the source and over the target; 0 for an isometry.
     pub mean_log: f64,
-    /// Its area-weighted median.
+    /// The density's area-weighted median over the source.
     pub median: f64,
-    /// Its area-weighted 95 % quantile.
+    /// The density's area-weighted 95 % quantile over the source.
     pub p95: f64,
-    /// Its maximum, without pieces that rounding may have made.
+    /// The density's maximum, without pieces that rounding may have made.
     pub max: f64,
     /// Share of the area with a density above 20, of the source or of the target, whichever is larger: dents that one sees in
     /// a texture.
     pub dented: f64,
-    /// Where the density is largest: at most ten pieces of the overlay, the worst first; none for the thesis' method.
+    /// The pieces of the overlay with the largest density, at most ten, the worst first; none for the thesis' method.
     pub worst: Vec<WorstPieceReport>,
     /// L2 stretch of the target's texture coordinates (Sander et al. 2001); 1 for an isometry, `null` where there is no texture.
     pub l2_stretch: Option<f64>,
 }
 
-/// How much of the skin, that is of the surface without the caps over holes, has skin as partner; by area.
+/// Shares, by area, of the skin (the surface without the caps over holes) that are mapped onto skin; 0 to 1.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct CoverageReport {
     /// Share of the source's skin whose image is skin.
     pub source: f64,
-    /// Share of the target's skin that is the image of skin.
+    /// Share of the target's skin whose preimage is skin.
     pub target: f64,
-    /// Share of both meshes' skin, each counted alike, that lies in a cap of the other.
+    /// Share of the skin that is mapped onto a cap: the mean of both meshes.
     pub hidden: f64,
 }
 
@@ -227,7 +227,7 @@ impl From<&WorstPiece> for WorstPieceReport {
 }
 
 impl DistortionReport {
-    /// Tells the places of the worst pieces on other meshes, as `places` (source, target) says.
+    /// Replaces the places of the worst pieces by those that `places` (source, target) gives on other meshes.
     pub fn replace_worst(&mut self, places: [&dyn Fn(SurfacePoint) -> SurfacePoint; 2]) {
         for piece in &mut self.worst {
             for (place, elsewhere) in [&mut piece.source, &mut piece.target].into_iter().zip(places) {
@@ -274,9 +274,9 @@ impl From<GroundTruthError> for GroundTruthReport {
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct FacesReport {
-    /// Of the source.
+    /// Triangles of the source.
     pub source: usize,
-    /// Of the target.
+    /// Triangles of the target.
     pub target: usize,
 }
 
@@ -293,7 +293,7 @@ impl Report {
         self.seconds = seconds;
     }
 
-    /// What is known before the map.
+    /// The part of the report that does not depend on the map.
     pub(super) fn of_inputs(input: MapInput<'_>, base: &BaseDomain, flows: &Flows) -> Self {
         let [source, target] =
             flows.reports.each_ref().map(|report| report.as_ref().map(ConeMetricReport::from));

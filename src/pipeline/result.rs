@@ -1,4 +1,4 @@
-//! What a run gives.
+//! The result of a run.
 
 use super::Report;
 use crate::base_domain::BaseDomain;
@@ -10,7 +10,7 @@ use crate::surface_map::measures::transfer::CommonMesh;
 use glam::{DVec2, DVec3};
 use typed_index_collections::TiVec;
 
-/// What a run gives.
+/// The result of a run.
 #[derive(Clone, Debug)]
 pub struct MapResult {
     /// The base domain, its vertices the landmarks at the target's positions.
@@ -28,10 +28,10 @@ pub struct MapResult {
     pub vertex_distortion: TiVec<VertexId, f64>,
     /// Distortion of each triangle of `common`; empty where there is no certificate, or no overlay.
     pub triangle_distortion: Vec<TriangleDistortion>,
-    /// The map's pieces on both input meshes; `None` but for the relaxed method, and where there is no overlay.
+    /// The map's pieces on both input meshes; `None` for all but the relaxed method, and where there is no overlay.
     pub correspondence: Option<Correspondence>,
-    /// Both input meshes on the base domain's flat triangles; `None` where there are no pieces, and where rounding at coincident
-    /// points leaves a side lost.
+    /// Both input meshes drawn on the base domain's flat triangles; `None` where there are no pieces, and where rounding keeps a side of the
+    /// base domain from arriving.
     pub flat_layout: Option<FlatLayout>,
     /// Texture coordinates by corner of the target's input mesh; `None` where its flow failed.
     pub texture: Option<TiVec<HalfedgeId, DVec2>>,

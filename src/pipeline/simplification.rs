@@ -1,12 +1,12 @@
-//! Both meshes on their way to their landmarks.
+//! The simplification of both meshes down to their landmarks, in stages for display.
 
 use super::{MapInput, PipelineError};
 use crate::base_domain::{SimplificationStage, joint_simplification_stages, simplification_stages};
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Monitor, Portion, Stage};
 
-/// Stages of each mesh from the whole down to its landmarks, the source's first: the base domains that the thesis begins with. A map over
-/// the joint base domain, which is the default, goes over another one.
+/// Stages of each mesh from the whole down to its landmarks, the source's first: the base domains of the thesis. A map over
+/// the joint base domain, which is the default, has another one.
 ///
 /// # Errors
 /// [`PipelineError::BaseDomain`], or cancellation.
@@ -22,16 +22,16 @@ pub fn simplifications(
     ])
 }
 
-/// What decides which vertex goes next.
+/// The shapes whose quadric error decides the next collapse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lead {
     /// The shape of the mesh alone, as the thesis simplifies one of both.
     Own,
-    /// Its shape and the one that a map gives it, at the same size.
+    /// The shape of the mesh and its image under a map, both scaled to area 1.
     Both,
 }
 
-/// Stages of a mesh whose vertices a map has brought to places on another one: what is on either, with the same triangles.
+/// Stages of a mesh `mesh` that can also be drawn on `carried`, which has the same triangles and the images of its vertices under a map.
 ///
 /// # Errors
 /// [`PipelineError::BaseDomain`], or cancellation.

@@ -5,8 +5,8 @@ use super::{Base, Method, PipelineOptions};
 use crate::monitor::{PlannedStage, Stage};
 
 impl PipelineOptions {
-    /// The stages that a run with these options and that many landmarks passes, in their order: those of [`super::run`] after the
-    /// two of whoever reads the files ([`Stage::Landmarks`], [`Stage::Findings`]). Their times are
+    /// The stages that a run with these options and this many landmarks passes, in their order: the two of the caller that reads the
+    /// files ([`Stage::Landmarks`], [`Stage::Findings`]), then those of [`super::run`]. Their times are
     /// percents of a run, means over five pairs with 21 to 33 landmarks, three with 12 and three of the thesis' method
     /// (`cargo xtask survey stages`), and six of Tutte's.
     pub fn stages(&self, landmarks: usize) -> Vec<PlannedStage> {

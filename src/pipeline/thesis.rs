@@ -1,4 +1,4 @@
-//! The thesis' map: from a layout to the images of the vertices, with warnings about what is missing.
+//! The thesis' map: from a layout to the images of the vertices, with warnings about missing ones.
 
 use super::flows::{Flows, cone_metric};
 use super::report::DistortionReport;
@@ -13,6 +13,8 @@ use crate::surface_map::measures::transfer::mapped_mesh;
 use glam::DVec3;
 use typed_index_collections::TiVec;
 
+/// Makes the thesis' map and its result.
+///
 /// The flows run on the meshes as given, for the texture, and again on the refined ones, where the paths between landmarks are
 /// chains of edges.
 pub(super) fn run(
@@ -105,7 +107,7 @@ fn warnings(map: &PatchwiseMap) -> Vec<Warning> {
     [Some(Warning::NoBijection), inverted, unmapped(map)].into_iter().flatten().collect()
 }
 
-/// What is to be known of vertices without an image.
+/// The warning about vertices without an image, where there are any.
 pub(super) fn unmapped(map: &PatchwiseMap) -> Option<Warning> {
     (map.unmapped_share > 0.0).then_some(Warning::Unmapped { share: map.unmapped_share })
 }

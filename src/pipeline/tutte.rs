@@ -1,8 +1,9 @@
 //! The map patch by patch over straight triangles, as it was made before maps were relaxed as a whole.
 //!
-//! The layout is that of the thesis' method. Equal barycentric coordinates of corresponding triangles belong together: with both meshes
-//! over one cone surface this is one map after the inverse of the other, certified and composed as the relaxed map is. Where a limb
-//! without a landmark shrinks below rounding it is not certified: then the map is told at the source's vertices, where they have an image.
+//! The layout is that of the thesis' method. Points with equal barycentric coordinates in corresponding triangles correspond: with both
+//! meshes over one cone surface this is one parametrisation followed by the inverse of the other, certified and composed as the relaxed map
+//! is. Where a limb without a landmark shrinks below rounding the map is not certified; then it is given by the images of the source's
+//! vertices, as far as they have one.
 
 use super::flows::Flows;
 use super::parametrise::{Parametrisation, certified};
@@ -17,7 +18,7 @@ use crate::surface_map::parametrisation::tutte::{embed_patches, nudged};
 use crate::surface_map::{Certificate, ConeSurface, Embedding};
 use std::sync::Arc;
 
-/// Draws the base domain, maps each patch onto its triangle, and tells of the map.
+/// Draws the base domain, maps each patch onto its triangle, and makes the result.
 pub(super) fn run(
     input: MapInput<'_>,
     options: &PipelineOptions,
@@ -29,7 +30,7 @@ pub(super) fn run(
     match straight.certified(monitor) {
         Ok(proven) => {
             let map = composed(input, &straight.parametrisation(proven), options, monitor)?;
-            // Where patches shrink limbs to tiny faces the corners of pieces are known less exactly than whoever reads them asks for.
+            // Where patches shrink limbs to tiny faces, the corners of pieces are less exact than the check of a correspondence demands.
             Ok(MapResult { correspondence: None, flat_layout: None, ..map })
         }
         Err(PipelineError::NotCertified(certificate)) => {
@@ -46,7 +47,7 @@ struct StraightPatches {
     embeddings: [Embedding; 2],
 }
 
-/// What the certificate says yes to.
+/// Both parametrisations where they are certified.
 struct Proven {
     sides: [LandmarkedMesh; 2],
     embeddings: [Embedding; 2],
@@ -61,7 +62,7 @@ impl StraightPatches {
         Ok(Self { layout, surface, embeddings: [source, target] })
     }
 
-    /// The parametrisations as they can be laid over each other, with their certificate.
+    /// The parametrisations, nudged so that they have an overlay, with their certificate.
     fn certified(&self, monitor: &mut dyn Monitor) -> Result<Proven, PipelineError> {
         let told = Step { fraction: 1.0, residual: None };
         let BaseLayout { source, target, .. } = &self.layout;
@@ -90,7 +91,7 @@ impl StraightPatches {
         }
     }
 
-    /// The map where rounding leaves it, with what the certificate has against it.
+    /// The map at the source's vertices, where it is not certified, with a warning that names the faults.
     fn at_vertices(
         self,
         input: MapInput<'_>,

@@ -1,11 +1,11 @@
-//! What a user should know about a result.
+//! Warnings about a result, with sentences for the user.
 
 use super::{BorderCase, Borders, BordersReport};
 use crate::landmarks::MeshSide;
 use serde::Serialize;
 use std::fmt;
 
-/// What a user should know about a result; in reports a [`WarningReport`].
+/// A warning about a result; in reports a [`WarningReport`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(into = "WarningReport")]
 #[non_exhaustive]
@@ -14,7 +14,7 @@ pub enum Warning {
     Repaired {
         /// The mesh.
         side: MeshSide,
-        /// What was changed.
+        /// The changes, in words.
         changes: String,
     },
     /// Holes of a mesh were closed by caps, which take part in the map.
@@ -26,14 +26,14 @@ pub enum Warning {
     },
     /// Rims of both meshes were guessed to correspond.
     GuessedBorders {
-        /// How many of each mesh.
+        /// Number of rims of each mesh.
         rims: usize,
     },
-    /// No rims of both meshes correspond, though that was said.
+    /// No rims of both meshes correspond, though the user said that they do.
     NoCorrespondingBorders,
     /// The landmark file may not belong to the meshes.
     LandmarkFile {
-        /// What makes it doubtful.
+        /// The reason for the doubt.
         remark: String,
     },
     /// The result was asked for before the map was relaxed as far as usual.
@@ -56,41 +56,41 @@ pub enum Warning {
         /// The 95 % quantile of the density; 1 for an isometry.
         p95: f64,
     },
-    /// A flow failed: the map stands, its cone metric and what comes from it (the texture, of the target's) is missing.
+    /// A flow failed: the map is not affected, but the cone metric of the mesh, and for the target the texture, is missing.
     NoConeMetric {
         /// The mesh.
         side: MeshSide,
-        /// Why.
+        /// The error of the flow.
         reason: String,
     },
-    /// Both meshes could not be laid over each other: the map is shown and measured at the source's vertices only.
+    /// The map has no overlay: it is shown and measured at the source's vertices only.
     NoOverlay {
-        /// Why.
+        /// The error of the overlay.
         reason: String,
     },
     /// The method guarantees no bijection.
     NoBijection,
     /// Rounding kept the map from being one-to-one everywhere (the method of Tutte).
     NotCertified {
-        /// What the certificate found.
+        /// The faults that the certificate found.
         reason: String,
     },
     /// Triangles of the base domain are inverted in the flat metrics (the thesis' method).
     InvertedPatches {
-        /// On the source.
+        /// Their number on the source.
         source: usize,
-        /// On the target.
+        /// Their number on the target.
         target: usize,
     },
     /// Vertices of the source have no image (the methods that map patch by patch).
     Unmapped {
-        /// Their share.
+        /// Their share of the source's vertices, 0 to 1.
         share: f64,
     },
 }
 
 impl Warning {
-    /// What is to be known of the borders of both meshes; `None` where they are what the user said.
+    /// The warning about the borders of both meshes; `None` where they are as the user said.
     pub(super) fn of_borders(report: &BordersReport) -> Option<Self> {
         match (report.asked, report.case) {
             (Borders::Guess, BorderCase::Corresponding) => {
@@ -212,7 +212,7 @@ impl fmt::Display for Warning {
     }
 }
 
-/// A warning as reports tell it.
+/// A warning in a report.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct WarningReport {
@@ -220,9 +220,9 @@ pub struct WarningReport {
     pub kind: &'static str,
     /// A sentence for the user, with what to do.
     pub sentence: String,
-    /// The number of the kind, in the unit that the sentence says; `null` where it has none.
+    /// The number of its kind, in the unit that the sentence names; `null` where it has none.
     pub value: Option<f64>,
-    /// The mesh; `null` where it is none in particular.
+    /// The mesh that it is about; `null` where it is about no single mesh.
     pub side: Option<MeshSide>,
 }
 

@@ -1,4 +1,4 @@
-//! A run of whichever method the options name.
+//! A run by the method that the options name.
 
 use super::error::PipelineError;
 use super::input::MapInput;
@@ -9,8 +9,8 @@ use crate::monitor::{Monitor, Rising};
 
 /// Maps the source onto the target.
 ///
-/// A monitor that wants a result gets a valid, certified map of the full meshes from what there is, only less relaxed (one
-/// round on every level that is left), and the report says so; the thesis' method has nothing to shorten.
+/// A monitor that wants a result gets a valid, certified map of the full meshes from the best map so far, less relaxed (one
+/// round on every level that is left), and the report says so; the thesis' method is not shortened.
 ///
 /// # Errors
 /// [`PipelineError`] names the stage that failed and carries its error. A result that is not certified is never

@@ -1,8 +1,8 @@
-//! A patch of one surface laid onto another one by a rigid motion.
+//! The rigid registration of a patch of one surface to another surface.
 //!
 //! The points of the patch slide over the other surface: only their distances from its tangent planes count (Chen & Medioni
-//! 1991), less where they do not fit. How the fit worsens when the patch is shifted, all rotations allowed, tells in which
-//! directions relief holds it.
+//! 1991), with robust weights. The growth of the misfit when the patch is shifted, with the best rotation for each shift, tells in which
+//! directions relief holds the patch.
 
 use crate::math::rigid3::{Rigid3, nearest_rotation, outer, small_turn};
 use crate::math::scalar::max;
@@ -12,40 +12,40 @@ use glam::{DMat3, DVec3};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use typed_index_collections::TiVec;
 
-/// A surface with its unit normals and how they turn along it.
+/// A surface with its unit normals and shape operators.
 pub struct OrientedSurface<'a> {
     mesh: &'a SurfaceMesh,
     /// Unit normals.
     pub normals: TiVec<VertexId, DVec3>,
-    /// How the normal turns along the surface: it changes by minus this matrix times a step in the tangent plane.
-    bends: TiVec<VertexId, DMat3>,
+    /// By vertex the shape operator, 1 per unit of length: the normal changes by minus this matrix times a step in the tangent plane.
+    shape_operators: TiVec<VertexId, DMat3>,
 }
 
 impl<'a> OrientedSurface<'a> {
     /// A mesh with smooth normals.
     pub fn new(mesh: &'a SurfaceMesh) -> Self {
         let normals = vertex_normals(mesh);
-        let bends = mesh.vertices().map(|v| bend(mesh, &normals, v)).collect();
-        Self { mesh, normals, bends }
+        let shape_operators = mesh.vertices().map(|v| shape_operator(mesh, &normals, v)).collect();
+        Self { mesh, normals, shape_operators }
     }
 
-    /// The foot of a point on the surface near a vertex: the surface is taken for a paraboloid, so that it matters little
-    /// which vertex of which triangulation is the nearest.
+    /// The foot of a point on the surface near a vertex, where the surface is approximated by a paraboloid, so that the triangulation
+    /// matters little.
     fn foot(&self, near: VertexId, p: DVec3) -> Foot {
         let normal = self.normals[near];
         let away = p - self.mesh.positions()[near];
         let along = away - normal * away.dot(normal);
-        let turn = self.bends[near] * along;
+        let turn = self.shape_operators[near] * along;
         // Where the normal turns by much within a step, it is an edge and no paraboloid.
         if turn.length_squared() > LARGEST_TURN * LARGEST_TURN {
             return Foot { distance: -away.dot(normal), normal };
         }
-        // Its height above the tangent plane is half the bend, the normal its gradient's.
+        // The height of the paraboloid above the tangent plane is half the second fundamental form; its gradient gives the normal.
         let distance = 0.5 * along.dot(turn) - away.dot(normal);
         Foot { distance, normal: (normal - turn).normalize_or(normal) }
     }
 
-    /// The vertex nearest to p among its neighbours, downhill from a vertex.
+    /// A vertex that is nearer to p than all its neighbours, reached from `from` by going to the nearest neighbour again and again.
     pub fn nearest(&self, from: VertexId, p: DVec3) -> VertexId {
         let distance = |v: VertexId| self.mesh.positions()[v].distance_squared(p);
         let (mut best, mut least) = (from, distance(from));
@@ -64,20 +64,21 @@ impl<'a> OrientedSurface<'a> {
     }
 }
 
-/// Where the normal through a point near the surface meets it.
+/// The foot of the perpendicular from a point near the surface.
 #[derive(Clone, Copy, Debug)]
 struct Foot {
-    /// The way to it along the normal.
+    /// The signed distance from the point to the foot along the normal.
     distance: f64,
-    /// Unit normal there.
+    /// The unit normal at the foot.
     normal: DVec3,
 }
 
-/// Largest turn of the normal, in radians, from a vertex to the point that is nearest to it. Chosen by hand.
+/// Largest turn of the normal, in radians, from a vertex to a point near it for which the surface is a paraboloid; beyond, the tangent
+/// plane is taken. Chosen by hand.
 const LARGEST_TURN: f64 = 0.5;
 
-/// The bend of the surface at a vertex: fits minus the change of the normals to all neighbours by least squares.
-fn bend(mesh: &SurfaceMesh, normals: &TiVec<VertexId, DVec3>, v: VertexId) -> DMat3 {
+/// The shape operator at a vertex: the least-squares fit of minus the changes of the normals towards all neighbours.
+fn shape_operator(mesh: &SurfaceMesh, normals: &TiVec<VertexId, DVec3>, v: VertexId) -> DMat3 {
     let normal = normals[v];
     let first = normal.any_orthonormal_vector();
     let second = normal.cross(first);
@@ -102,14 +103,14 @@ fn bend(mesh: &SurfaceMesh, normals: &TiVec<VertexId, DVec3>, v: VertexId) -> DM
     outer(first, first) * found.x + mixed * found.y + outer(second, second) * found.z
 }
 
-/// A point of a patch.
+/// A point of a patch, in units of the root of the area.
 #[derive(Clone, Copy, Debug)]
 pub struct PatchPoint {
-    /// Where it is.
+    /// Its place.
     pub position: DVec3,
-    /// Unit normal there.
+    /// The unit normal at its place.
     pub normal: DVec3,
-    /// How much it counts.
+    /// Its weight; only ratios matter.
     pub weight: f64,
     /// Its image by the present map.
     pub image: DVec3,
@@ -117,21 +118,21 @@ pub struct PatchPoint {
     pub near: VertexId,
 }
 
-/// A patch laid onto the other surface.
+/// The registration of a patch; lengths in units of the root of the area.
 #[derive(Clone, Copy, Debug)]
 pub struct PatchFit {
-    /// Where its first point came to lie.
+    /// The place of its first point after the registration.
     pub centre: DVec3,
     /// Mean square of the distances from the tangent planes.
     pub misfit: f64,
-    /// The mean square of the distances grows by d^T H d when the patch is shifted by d: the matrix H.
+    /// The matrix H: when the patch is shifted by d, the mean square of the distances grows by d^T H d.
     pub hold: DMat3,
 }
 
-/// How a patch is laid onto the other surface.
+/// Options of the registration of a patch; lengths in units of the root of the area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FitOptions {
-    /// Steps at most.
+    /// Gauss-Newton steps, at most.
     pub max_steps: usize,
     /// Weight of the squared distance of the patch's centre from its image by the map, relative to the mean square of the
     /// distances from the tangent planes.
@@ -143,13 +144,14 @@ pub struct FitOptions {
 
 /// The normal equations of one step for a turn and a shift about the centre, in this order: the lower triangle of their matrix,
 /// and their right side.
-struct Normal {
+struct NormalEquations {
     matrix: Matrix6<f64>,
     right: Vector6<f64>,
     misfit: f64,
 }
 
-/// Added to what resists the turns of a patch, whose weights sum to 1: a flat one resists no turn about its normal.
+/// Added to the diagonal of the normal equations for the turns, where the weights sum to 1: without it they are singular for a flat patch,
+/// which any turn about its normal leaves in its plane.
 const LEAST_RESISTANCE: f64 = 1e-9;
 
 /// Fits of patches; keeps its working memory from one to the next.
@@ -162,8 +164,8 @@ pub struct Fitter {
 }
 
 impl Fitter {
-    /// Lays a patch onto the other surface, from where the map takes it; the first point is its centre. `None` where there is
-    /// no fit.
+    /// Registers a patch to the other surface, starting from the images of its points; the first point is its centre. `None` where
+    /// there is no fit.
     pub fn fit(
         &mut self,
         points: &mut [PatchPoint],
@@ -177,7 +179,7 @@ impl Fitter {
         for _ in 0..options.max_steps {
             let at = motion.apply(centre.position);
             let sums = self.sums(points, total, &motion, onto, options.noise);
-            let Normal { mut matrix, mut right, misfit } = sums;
+            let NormalEquations { mut matrix, mut right, misfit } = sums;
             for k in 0..3 {
                 matrix[(k, k)] += LEAST_RESISTANCE;
                 matrix[(k + 3, k + 3)] += options.damping;
@@ -186,11 +188,11 @@ impl Fitter {
             let factor = matrix.cholesky()?;
             let step = factor.solve(&right);
             let [turn, shift] = [0, 3].map(|k| DVec3::new(step[k], step[k + 1], step[k + 2]));
-            // A turn of more than a radian in one step is no small correction.
+            // The normal equations hold for small turns; one of more than a radian in one step is no fit.
             if !shift.is_finite() || turn.length_squared().is_nan() || turn.length_squared() > 1.0 {
                 return None;
             }
-            // With the best turn for each shift the shifts have the matrix L L^T, L the factor's block of the shifts.
+            // With the best turn for each shift, the matrix of the shifts is the Schur complement L L^T, L the factor's block of the shifts.
             let block = factor.l_dirty().fixed_view::<3, 3>(3, 3).lower_triangle();
             let hold =
                 DMat3::from(block * block.transpose()) - DMat3::from_diagonal(DVec3::splat(options.damping));
@@ -213,7 +215,7 @@ impl Fitter {
         motion: &Rigid3,
         onto: &OrientedSurface<'_>,
         noise: f64,
-    ) -> Normal {
+    ) -> NormalEquations {
         let centre = motion.apply(points[0].position);
         self.distances.clear();
         self.normals.clear();
@@ -223,7 +225,7 @@ impl Fitter {
             p.near = onto.nearest(p.near, y);
             let Foot { distance, normal } = onto.foot(p.near, y);
             self.distances.push(distance);
-            // Normals within 60 degrees.
+            // A point counts only where both normals are within 60 degrees. Chosen by hand.
             let agrees = (motion.rotation * p.normal).dot(normal) > 0.5;
             self.normals.push(if agrees { normal } else { DVec3::ZERO });
             self.arms.push(y - centre);
@@ -233,7 +235,7 @@ impl Fitter {
         self.sorted.sort_unstable_by(f64::total_cmp);
         // The robust scale is the median distance. Chosen by hand.
         let knee = max(1.5 * self.sorted[self.sorted.len() / 2], noise);
-        let mut sums = Normal { matrix: Matrix6::zeros(), right: Vector6::zeros(), misfit: 0.0 };
+        let mut sums = NormalEquations { matrix: Matrix6::zeros(), right: Vector6::zeros(), misfit: 0.0 };
         for (k, p) in points.iter().enumerate() {
             let (distance, n) = (self.distances[k], self.normals[k]);
             let share = p.weight / total;
@@ -243,14 +245,14 @@ impl Fitter {
             let row = Vector6::new(lever.x, lever.y, lever.z, n.x, n.y, n.z);
             sums.matrix.syger(weight, &row, &row, 1.0);
             sums.right.axpy(weight * distance, &row, 1.0);
-            // Points that do not fit at all count like those at three knees.
+            // The misfit of a point is at most that at three knees. Chosen by hand.
             sums.misfit += share * square.min(9.0) * knee * knee;
         }
         sums
     }
 }
 
-/// The rigid motion that takes the points nearest to their images.
+/// The rigid motion that brings the points nearest to their images by weighted least squares.
 fn start(points: &[PatchPoint], total: f64, onto: &OrientedSurface<'_>) -> Option<Rigid3> {
     let centre = points[0];
     let (mut mean, mut image) = (DVec3::ZERO, DVec3::ZERO);

@@ -1,9 +1,9 @@
 //! Rigid registration of small patches of one surface to the other, for two poses of one body.
 //!
-//! An energy knows lengths only, and between two poses the known map has not the least one. But most of the surface moves
-//! rigidly: a patch of it fits its true image exactly, and nowhere else around, as far as muscles and bones show. So patches
-//! are laid onto the other surface by rigid motions, from where the map takes them ([`super::patch_fit`]). The place of the
-//! patch's centre becomes a soft constraint of the vertex there ([`PointConstraint`]), in each direction as strong as relief
+//! An energy depends on lengths only, and between two poses the known map has not the least one. But most of the surface moves
+//! rigidly: a patch of it fits its true image exactly, and no place beside it, as far as its relief (muscles, bones) shows. So patches
+//! are registered to the other surface by rigid motions, starting from their images under the map ([`super::patch_fit`]). The place
+//! of the patch's centre becomes a soft constraint of the vertex there ([`PointConstraint`]), in each direction as strong as relief
 //! holds the patch. Patches that bend fit badly: with the mean square distance m a patch has the weight
 //! (noise^2 / (noise^2 + m))^2. The patches are registered again after the map has followed.
 
@@ -17,30 +17,30 @@ use glam::{DMat2, DVec2, DVec3};
 use nalgebra::Matrix2;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-/// How patches are registered; lengths in units of the root of the area.
+/// Options of the registration of patches; lengths in units of the root of the area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidPatchOptions {
     /// Least number of vertices of a level on which patches are registered: coarser levels have no relief.
     pub least_vertices: usize,
     /// Registrations on every such level, each followed by a relaxation.
     pub rounds: usize,
-    /// The same on full meshes, which begin near their optimum, where both have at least `least_full` vertices.
+    /// Registrations on full meshes, which begin near their optimum, where both have at least `least_full` vertices.
     pub full_rounds: usize,
-    /// See `full_rounds`.
+    /// Least number of vertices of both full meshes on which patches are registered.
     pub least_full: usize,
-    /// Distance of the points that make up the patches.
+    /// Distance between neighbouring points of the patches.
     pub spacing: f64,
     /// Radii of the patches around every point.
     pub radii: [f64; 2],
-    /// How a patch is laid onto the other surface.
+    /// Options of the registration of one patch.
     pub fit: FitOptions,
-    /// Energy, per unit of area, of a vertex that lies so far from its patch's fit that a shift of the patch by as much raises
-    /// the mean square of its distances by noise^2.
+    /// Strength of the constraints: the energy, per unit of area, of a vertex whose distance from its fitted place is the shift that
+    /// raises the mean square distance of its patch by noise^2.
     pub strength: f64,
     /// Energy, per unit of area, above which a constraint grows like the distance, not like its square.
     pub knee: f64,
-    /// Share of their strength by which constraints hold the vertices of the full meshes where registration has brought them,
-    /// while the dents of the constraints relax.
+    /// Share of their strength, 0 to 1, with which constraints hold the vertices of the full meshes at the places that registration has
+    /// found, while the dents that the constraints have made relax.
     pub hold: f64,
 }
 
@@ -79,7 +79,7 @@ const FARTHEST: f64 = 0.06;
 pub struct WeightedLevel<'a> {
     /// The level.
     pub level: &'a Level,
-    /// How much its faces count.
+    /// The weights of its faces.
     pub weights: FaceWeights<'a>,
 }
 
@@ -87,9 +87,9 @@ pub struct WeightedLevel<'a> {
 pub struct MappedLevel<'a> {
     /// The level.
     pub mesh: &'a SurfaceMesh,
-    /// Its vertices on the full mesh.
+    /// By vertex, its vertex of the full mesh.
     pub vertices: &'a TiSlice<VertexId, VertexId>,
-    /// By vertex its image.
+    /// By vertex, its image on the other mesh.
     pub images: TiVec<VertexId, DVec3>,
     /// By vertex a vertex of the other full mesh near its image.
     pub near: TiVec<VertexId, VertexId>,
@@ -98,7 +98,7 @@ pub struct MappedLevel<'a> {
 }
 
 impl<'a> MappedLevel<'a> {
-    /// A level by the points of the other mesh's level that are its vertices' images.
+    /// A level with its vertices' images, given as points of the other mesh's level.
     pub fn new(
         own: WeightedLevel<'a>,
         onto: WeightedLevel<'_>,
@@ -119,7 +119,7 @@ impl<'a> MappedLevel<'a> {
 /// Patches between two questions to the monitor: some milliseconds.
 const ASKED_EVERY: usize = 64;
 
-/// Constraints that draw vertices of a level to where the patches around them fit the other surface. Both areas are 1.
+/// Constraints that draw vertices of a level to the places at which the patches around them fit the other surface. Both areas are 1.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -140,7 +140,7 @@ pub fn point_constraints(
         if k.is_multiple_of(ASKED_EVERY) {
             monitor.step(Step::default())?;
         }
-        let mut sum = Knowledge::new(onto.normals[patches.near[v]]);
+        let mut sum = SummedFit::new(onto.normals[patches.near[v]]);
         for radius in options.radii {
             patches.around(v, radius, &mut patch);
             let fit =
@@ -155,8 +155,8 @@ pub fn point_constraints(
     Ok(constraints)
 }
 
-/// Vertices about `spacing` apart, or as far as the level's are, with the areas that they stand for; the other vertices
-/// have none, nor have those on caps. One of each cell of a grid and main direction of the normal is taken.
+/// Samples vertices about `spacing` apart, or as far as the level's are; returns the area that each one stands for, 0 for vertices that
+/// are not taken and for those on caps. One vertex is taken of each cell of a grid and each main direction of the normal.
 fn spread(own: &OrientedSurface<'_>, level: &MappedLevel<'_>, spacing: f64) -> TiVec<VertexId, f64> {
     let areas = level.mesh.vertex_areas();
     let cell = |v: VertexId| {
@@ -176,7 +176,7 @@ fn spread(own: &OrientedSurface<'_>, level: &MappedLevel<'_>, spacing: f64) -> T
     weights
 }
 
-/// Patches of one side.
+/// The patches of one mesh.
 struct Patches<'a> {
     own: &'a OrientedSurface<'a>,
     level: &'a MappedLevel<'a>,
@@ -227,13 +227,13 @@ impl Patches<'_> {
 }
 
 /// The sum of several patches' fits around one centre: a quadratic form of the centre's place in a tangent plane.
-struct Knowledge {
+struct SummedFit {
     frame: [DVec3; 2],
     form: DMat2,
     slope: DVec2,
 }
 
-impl Knowledge {
+impl SummedFit {
     fn new(normal: DVec3) -> Self {
         let first = normal.any_orthonormal_vector();
         Self { frame: [first, normal.cross(first)], form: DMat2::ZERO, slope: DVec2::ZERO }
@@ -332,7 +332,7 @@ mod tests {
 
     #[test]
     fn a_pull_knows_what_the_fits_know() {
-        let mut sum = Knowledge::new(DVec3::Z);
+        let mut sum = SummedFit::new(DVec3::Z);
         let hold = glam::DMat3::from_diagonal(DVec3::new(0.1, 0.02, 0.7));
         let centre = DVec3::new(0.01, 0.02, 0.0);
         sum.add(&PatchFit { centre, misfit: 0.0, hold }, DVec3::ZERO, 1e-3);
@@ -345,7 +345,7 @@ mod tests {
             assert!((square - held * 1e6).abs() < 1e-3, "{square}");
         }
         assert!(
-            Knowledge::new(DVec3::Z).constraint(DVec3::ZERO, 1.0, &RigidPatchOptions::default()).is_none()
+            SummedFit::new(DVec3::Z).constraint(DVec3::ZERO, 1.0, &RigidPatchOptions::default()).is_none()
         );
     }
 }

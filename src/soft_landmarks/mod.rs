@@ -1,4 +1,5 @@
-//! Landmarks whose clicks are uncertain: their points on the target are moved, within a radius, to where the map around them leads.
+//! Soft landmarks, whose clicks are uncertain: their points on the target are moved, within a radius, to the images that the map of their
+//! surroundings predicts.
 
 mod prediction;
 mod settling;

@@ -1,17 +1,17 @@
-//! Where a point should go by where points around it go.
+//! The prediction of a point's image from the images of the points around it.
 
 use crate::math::rigid3::{laid_on, outer};
 use glam::{DMat3, DVec3};
 
-/// Share of the points' own spread that a similarity weighs in the fit: it decides along the normal, where points of a smooth surface
-/// do not spread, and hardly counts within the surface. Chosen by hand.
+/// Weight of the best similarity in the affine fit, as a share of the points' variance: it decides along the normal, where points of a
+/// smooth surface hardly vary, and counts little within the surface. Chosen by hand.
 const SIMILAR: f64 = 0.02;
 
-/// Fewer points tell no affine map.
+/// Points around, at least: an affine map of space has four times three unknowns.
 const LEAST_POINTS: usize = 4;
 
-/// The image of a point under the affine map that takes points around it nearest to their images, in the sense of least squares;
-/// along directions in which they do not spread it is the similarity that does. `None` for fewer than four points, or where all are one.
+/// The image of a point under the affine map that fits the points around it to their images by least squares; along directions in
+/// which they do not vary, the map is that of the best similarity. `None` for fewer than four points, or where all coincide.
 pub(super) fn predicted(point: DVec3, around: &[DVec3], images: &[DVec3]) -> Option<DVec3> {
     if around.len() < LEAST_POINTS {
         return None;

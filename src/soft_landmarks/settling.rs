@@ -1,8 +1,8 @@
-//! The rounds in which soft landmarks settle.
+//! The rounds in which soft landmarks are moved.
 //!
-//! A landmark that is held at a wrong place drags the map around it along, but less the farther away. So the images of the points around
-//! it tell where it belongs better than it does itself. In each round the coarse map is made with the landmarks where they are by then,
-//! and each soft one goes to where the affine map of its surroundings takes it; in a few rounds nothing is dragged any more.
+//! A landmark at a wrong place drags the map around it along, but less with growing distance. So the images of the points around
+//! it predict its true place better than the click. In each round a coarse map is made with the landmarks at their present places,
+//! and each soft one moves to its image under the affine map that fits its surroundings; after a few rounds the places hardly change.
 
 use super::prediction::predicted;
 use crate::coarse_map::class_search::{ClassChoice, ClassSearchOptions, choose_class};
@@ -25,32 +25,33 @@ use typed_index_collections::TiVec;
 pub struct SettlingInput<'a> {
     /// Source and target.
     pub meshes: [&'a SurfaceMesh; 2],
-    /// By landmark its points on both.
+    /// By landmark, its points on both meshes.
     pub points: &'a [[SurfacePoint; 2]],
-    /// By landmark how far its point on the target may be from where it was given, in units of the root of the target's area; 0 for
+    /// By landmark, the largest distance of its point on the target from the given one, in units of the root of the target's area; 0 for
     /// one that is held.
     pub radii: &'a [f64],
     /// Whether a landmark may lie in a face of the target.
     pub may_hold: &'a dyn Fn(FaceId) -> bool,
 }
 
-/// How soft landmarks settle.
+/// Options of the rounds in which soft landmarks are moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SettlingOptions {
     /// Coarse maps that are made, at most.
     pub rounds: usize,
-    /// Ends when no landmark moves by more than this share of its radius.
+    /// The rounds end when no landmark moves by more than this share of its radius.
     pub least_move: f64,
-    /// Rings of the coarse level around a landmark that tell its place.
+    /// Rings of the coarse level around a landmark from which its place is predicted.
     pub rings: usize,
-    /// How the coarse maps are made.
+    /// Options of the coarse maps.
     pub multilevel: MultilevelOptions,
-    /// How their layouts are searched.
+    /// Options of the search for their layouts.
     pub search: SearchOptions,
 }
 
 impl Default for SettlingOptions {
     fn default() -> Self {
+        // All numbers were chosen by hand: each round costs a coarse map, and wider rings average over more of the map's distortion.
         Self {
             rounds: 6,
             least_move: 0.02,
@@ -61,18 +62,18 @@ impl Default for SettlingOptions {
     }
 }
 
-/// Where the landmarks are in the end.
+/// The places of the landmarks after the last round.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settled {
-    /// By landmark its point on the target.
+    /// By landmark, its point on the target.
     pub places: Vec<SurfacePoint>,
-    /// By landmark how far that is from where it was given, in units of the root of the target's area.
+    /// By landmark, the distance of that from the given point, in units of the root of the target's area.
     pub moved: Vec<f64>,
     /// Coarse maps that were made.
     pub rounds: usize,
 }
 
-/// Moves the target's points of soft landmarks to where coarse maps lead. Where no coarse map is found they stay where they are.
+/// Moves the target's points of soft landmarks to the places that coarse maps predict. Where no coarse map is found they stay.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -113,15 +114,16 @@ pub fn settle(
     Ok(Settled { places, moved, rounds })
 }
 
-/// A place near the target's surface, on the scale on which its area is 1.
+/// The predicted place of a landmark near the target's surface, whose area is 1.
 struct Wanted {
     place: DVec3,
-    /// Of the surface nearby.
+    /// A normal of the surface nearby, of any length.
     normal: DVec3,
 }
 
 impl Wanted {
-    /// The nearest point of the target that is no farther from where the landmark was given than its radius.
+    /// The point of the target nearest to the place, or, where that is farther from the given point than the landmark's radius, a point
+    /// within it in the same direction.
     fn within(self, input: SettlingInput<'_>, i: usize, given: SurfacePoint, scale: f64) -> SurfacePoint {
         let (target, radius) = (input.meshes[1], input.radii[i] / scale);
         let centre = given.position(target);
@@ -138,12 +140,12 @@ impl Wanted {
 /// A coarse map with its landmarks.
 struct Seen {
     images: LevelImages,
-    /// By landmark its vertex of the source's coarse level and of the target's.
+    /// By mesh and landmark, its vertex of the coarse level.
     landmarks: [TiVec<LandmarkId, VertexId>; 2],
 }
 
 impl Seen {
-    /// Where the map of its surroundings takes a landmark; `None` where they tell nothing.
+    /// The place of a landmark that the map of its surroundings predicts; `None` where they are too few.
     fn place(&self, landmark: LandmarkId, rings: usize) -> Option<Wanted> {
         let [source, target] = &self.images.levels;
         let own = self.landmarks[0][landmark];
@@ -158,7 +160,7 @@ impl Seen {
     }
 }
 
-/// The vertices at most so many edges away, but the vertex itself.
+/// The vertices at most `rings` edges away from a vertex, without the vertex itself.
 fn surroundings(mesh: &SurfaceMesh, centre: VertexId, rings: usize) -> Vec<VertexId> {
     let mut found = vec![centre];
     let mut ring = 0..1;
@@ -176,7 +178,7 @@ fn surroundings(mesh: &SurfaceMesh, centre: VertexId, rings: usize) -> Vec<Verte
     found.split_off(1)
 }
 
-/// The coarse map with the landmarks at these places of the target; `None` where there is none.
+/// Makes the coarse map with the landmarks at these places of the target; `None` where there is none.
 fn coarse(
     input: SettlingInput<'_>,
     places: &[SurfacePoint],

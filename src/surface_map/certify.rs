@@ -1,4 +1,4 @@
-//! A parametrisation as its certificate takes it.
+//! The certificate of a parametrisation: its arrays handed to [`crate::certificate`].
 
 use super::overlay::base_lines::start;
 use super::parametrisation::cone_surface::ConeSurface;
@@ -7,7 +7,7 @@ use crate::certificate::{self, Certificate, Judged, Prescribed, Start};
 use crate::mesh::HalfedgeId;
 use typed_index_collections::{TiSlice, TiVec};
 
-/// Checks that a parametrisation is a homeomorphism onto a cone surface; what that proves is said in [`crate::certificate`].
+/// Checks that a parametrisation is a homeomorphism onto a cone surface, as [`crate::certificate`] describes.
 pub fn certify(side: Parametrised<'_>, surface: &ConeSurface) -> Certificate {
     let base = &surface.base.mesh;
     let starts: TiVec<HalfedgeId, Start> = base.halfedges().map(|h| start(side, surface, h)).collect();

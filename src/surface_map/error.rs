@@ -9,7 +9,7 @@ pub enum MapError {
     /// The user asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-    /// Landmarks so placed that a base triangle is degenerate.
+    /// Three landmarks lie so that their base triangle is degenerate.
     #[error(
         "the landmarks {}, {} and {} (the first is 1) lie on one line on both meshes: move one of them",
         landmarks[0] + 1,
@@ -20,21 +20,21 @@ pub enum MapError {
         /// The landmarks, 0-based.
         landmarks: [usize; 3],
     },
-    /// Vertices that could not be collapsed.
+    /// Vertices could not be collapsed.
     #[error("{left} vertices could not be simplified away")]
     NotCoarsened {
-        /// How many.
+        /// Number of vertices left.
         left: usize,
     },
-    /// Vertices of the layout that could not be taken out of the parametrisation of a coarse mesh.
+    /// Vertices that the layout added could not be removed from the parametrisation of a coarse mesh.
     #[error("{left} points of the layout could not be taken out again")]
     LayoutPoints {
-        /// How many.
+        /// Number of vertices left.
         left: usize,
         /// The landmarks nearest to them, 0-based, each once.
         near: Vec<usize>,
     },
-    /// A vertex that found no place.
+    /// A vertex found no place in which all its triangles are positive.
     #[error(
         "no valid start: at {vertices} vertices one found no place among triangles that are thinner than rounding tells apart; make \
          the triangles of both meshes more even, as `conemap remesh` does, or take landmarks further from each other"

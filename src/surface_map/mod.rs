@@ -1,7 +1,7 @@
 //! The map: two seamless parametrisations onto one flat cone surface M, relaxed, composed, certified.
 //!
-//! Source -> M and target -> M are homeomorphisms that keep the landmarks at the cones; the map is one after the
-//! inverse of the other.
+//! Source -> M and target -> M are homeomorphisms that take the landmarks to the cones; the map is the first followed by the
+//! inverse of the second.
 
 mod certify;
 pub mod correspondence;

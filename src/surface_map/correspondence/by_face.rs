@@ -1,10 +1,10 @@
-//! Pieces sorted by the face that holds them.
+//! The pieces of a map, listed by the face in which they lie.
 
 use super::pieces::Correspondence;
 use crate::mesh::FaceId;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Numbers of pieces, face by face of one of both meshes.
+/// The numbers of the pieces in each face of the source or of the target.
 #[derive(Clone, Debug)]
 pub struct PiecesByFace {
     /// First entry of each face in `pieces`, and the end.
@@ -13,7 +13,7 @@ pub struct PiecesByFace {
 }
 
 impl PiecesByFace {
-    /// Sorts the pieces by their face of the source (0) or of the target (1), which has that many faces.
+    /// Sorts the pieces by their face of the source (`side` 0) or of the target (1), which has `faces` faces.
     pub fn new(map: &Correspondence, side: usize, faces: usize) -> Self {
         let mut begins: TiVec<FaceId, u32> = ti_vec![0; faces + 1];
         for piece in &map.pieces {
@@ -34,7 +34,7 @@ impl PiecesByFace {
         Self { begins, pieces }
     }
 
-    /// The pieces in a face.
+    /// The numbers of the pieces in a face.
     pub fn of(&self, face: FaceId) -> &[u32] {
         let end = self.begins[FaceId::from(face.index() + 1)];
         &self.pieces[self.begins[face] as usize..end as usize]

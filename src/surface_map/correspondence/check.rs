@@ -1,9 +1,9 @@
-//! Whether pieces are a map: what is read from a file is not trusted.
+//! The check whether pieces, such as those read from a file, are a map between two meshes.
 //!
-//! The pieces must be a sphere (every side of a piece is run once the other way by another piece, the pieces hang together across
-//! sides, and V - E + F = 2), lie in their faces, be turned the right way, cover every face of both meshes once, and have matrices
-//! that carry their corners. Then every point of either mesh has an image. Without the first, one sphere of pieces could cover the
-//! source and shrink to a point of the target, and another the other way round.
+//! The pieces must form a sphere (every side of a piece occurs once more, in the opposite direction, in another piece; the pieces are
+//! connected across sides; V - E + F = 2), lie in their faces, be positively oriented, cover every face of both meshes once, and have
+//! matrices that map their corners onto each other. Then every point of either mesh has an image. Without the first condition, one sphere
+//! of pieces could cover the source and shrink to a point of the target, and another the other way round.
 
 use super::pieces::{Correspondence, share};
 use crate::landmarks::MeshSide;
@@ -12,17 +12,17 @@ use crate::mesh::{FaceId, SurfaceMesh};
 use glam::{DMat2, DVec2};
 use typed_index_collections::{TiVec, ti_vec};
 
-/// What of a face the pieces in it may miss or cover twice. Pieces share their corners, so that only the sum rounds.
+/// The share of a face that its pieces may miss or cover twice. Pieces share their corners, so that only the sum rounds. Chosen by hand.
 const COVERAGE: f64 = 1e-9;
-/// The share of a face by which a piece may be turned over, and the error of a matrix in units of its size: rounding of corners in
-/// faces that are tiny on the cone surface.
+/// The share of a face by which a piece may be negative, and the error of a matrix in units of its size: rounding of corners in
+/// faces that are tiny on the cone surface. Chosen by hand.
 const ROUNDING: f64 = 1e-6;
 
 /// Why pieces are no map between two meshes.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CorrespondenceFault {
-    /// A corner lies elsewhere.
+    /// A corner does not lie in the face of its piece.
     #[error("corner {vertex} of piece {piece} does not lie in the piece's {side} face")]
     Elsewhere {
         /// The piece.
@@ -32,27 +32,27 @@ pub enum CorrespondenceFault {
         /// The mesh.
         side: MeshSide,
     },
-    /// Fewer than two corners.
+    /// A piece has fewer than two corners.
     #[error("piece {piece} has {corners} corners; it needs at least 2")]
     Corners {
         /// The piece.
         piece: usize,
-        /// How many.
+        /// Number of its corners.
         corners: usize,
     },
-    /// A vertex that no piece has.
+    /// A vertex is a corner of no piece.
     #[error("overlay vertex {vertex} is a corner of no piece")]
     Unused {
         /// The vertex.
         vertex: usize,
     },
-    /// A side that only one piece has, or more than two.
+    /// A side belongs to one piece only, or to more than two.
     #[error("the pieces do not fit together at the side between overlay vertices {} and {}", side[0], side[1])]
     Side {
         /// Its ends.
         side: [u32; 2],
     },
-    /// Pieces in several parts.
+    /// The pieces are not connected.
     #[error("the pieces do not hang together: {reached} of {pieces} are joined across their sides")]
     Parts {
         /// Pieces that are joined with the first one.
@@ -60,33 +60,33 @@ pub enum CorrespondenceFault {
         /// All pieces.
         pieces: usize,
     },
-    /// Not a sphere.
+    /// The pieces are not a sphere.
     #[error("the pieces have Euler characteristic {euler} instead of 2")]
     NotASphere {
         /// V - E + F.
         euler: i64,
     },
-    /// A piece that is turned over.
+    /// A piece is negatively oriented.
     #[error("piece {piece} is turned over on the {side}: its share of its face is {share:.1e}")]
     Turned {
         /// The piece.
         piece: usize,
         /// The mesh.
         side: MeshSide,
-        /// Its signed share.
+        /// The signed share of the face that it covers.
         share: f64,
     },
-    /// A face that is not covered once.
+    /// A face is not covered once.
     #[error("the pieces cover {share} of face {face} of the {side} instead of 1")]
     Coverage {
         /// The face, of the checked mesh.
         face: usize,
         /// The mesh.
         side: MeshSide,
-        /// The part that is covered.
+        /// The share of the face that is covered.
         share: f64,
     },
-    /// A matrix that is not the map's.
+    /// The matrix of a piece does not map its corners.
     #[error("the matrix of piece {piece} does not carry its corners from the source to the target")]
     Matrix {
         /// The piece.
@@ -94,9 +94,10 @@ pub enum CorrespondenceFault {
     },
 }
 
+/// Both meshes, in the order of the arrays of this module.
 const SIDES: [MeshSide; 2] = [MeshSide::Source, MeshSide::Target];
 
-/// Whether the pieces are a map between the meshes. Numbers of places, faces and corners must exist.
+/// Checks that the pieces are a map between the meshes. All numbers of vertices, faces and corners in `map` must be in range.
 ///
 /// # Errors
 /// The first [`CorrespondenceFault`].
@@ -133,7 +134,7 @@ pub fn check(meshes: [&SurfaceMesh; 2], map: &Correspondence) -> Result<(), Corr
     Ok(())
 }
 
-/// Whether the pieces are a closed surface of genus 0.
+/// Checks that the pieces are a closed surface of genus 0.
 fn check_sphere(map: &Correspondence) -> Result<(), CorrespondenceFault> {
     let mut is_used = vec![false; map.vertices.len()];
     for (number, piece) in map.pieces.iter().enumerate() {
@@ -147,15 +148,15 @@ fn check_sphere(map: &Correspondence) -> Result<(), CorrespondenceFault> {
         return Err(CorrespondenceFault::Unused { vertex });
     }
     check_parts(map)?;
-    // The surface that the sides join has at most 2, as it is connected. A vertex where several fans of pieces only touch makes V
-    // smaller than that surface's, so that there is none. A piece of two corners adds a side and itself.
+    // A connected surface has Euler characteristic 2 at most. A vertex at which several fans of pieces only touch makes V smaller than
+    // that of the surface, so that at 2 there is none. A piece of two corners adds one side and one piece.
     let edges = map.corners.len() as i64 / 2;
     let euler = map.vertices.len() as i64 - edges + map.pieces.len() as i64;
     if euler == 2 { Ok(()) } else { Err(CorrespondenceFault::NotASphere { euler }) }
 }
 
-/// Whether every side is run once in each direction, and all pieces hang together across sides. A piece of two corners lies along
-/// a side of others, which meet there as if it were not.
+/// Checks that every side occurs once in each direction, and that all pieces are connected across sides. A piece of two corners lies
+/// along a side of two others, which count as neighbours.
 fn check_parts(map: &Correspondence) -> Result<(), CorrespondenceFault> {
     let ring = |number: usize| &map.corners[map.pieces[number].corners.clone()];
     let wrong = |[a, b]: [u32; 2]| CorrespondenceFault::Side { side: [a.min(b), a.max(b)] };
@@ -186,7 +187,7 @@ fn check_parts(map: &Correspondence) -> Result<(), CorrespondenceFault> {
     if reached == pieces { Ok(()) } else { Err(CorrespondenceFault::Parts { reached, pieces }) }
 }
 
-/// Whether a matrix is invertible, keeps the orientation, and carries the corners of a piece from one face to the other.
+/// Whether a matrix has a positive determinant and maps the corners of a piece from one face to the other.
 fn carries(matrix: &DMat2, [here, there]: &[Vec<DVec2>; 2]) -> bool {
     let determinant = matrix.determinant();
     if !(matrix.is_finite() && determinant > 0.0 && determinant.is_finite()) {

@@ -1,7 +1,7 @@
-//! Images and preimages of points.
+//! Images and preimages of points under a correspondence.
 //!
 //! A point is looked up among the pieces of its face by exact orientation tests on the weights as they are stored; corners are
-//! shared by neighbouring pieces, so that no point falls between them but by rounding on a face's border, where the nearest piece
+//! shared by neighbouring pieces, so that a point lies between pieces only by rounding on a face's border, where the nearest piece
 //! is taken. Both directions use the same pieces and matrices, so that one is the inverse of the other up to rounding.
 
 use super::by_face::PiecesByFace;
@@ -72,8 +72,8 @@ impl<'a> PointLocator<'a> {
         SurfacePoint::clamped(piece.faces[1 - side], [1.0 - image.x - image.y, image.x, image.y])
     }
 
-    /// The piece's corner nearest to q on one mesh, there and on the other: from it the map goes least far, and a corner goes
-    /// exactly to its image.
+    /// The piece's corner nearest to q on one mesh, and the same corner on the other mesh. Extending the affine map from it rounds least,
+    /// and a corner is mapped exactly onto its image.
     fn nearest_corner(&self, side: usize, piece: &MappedPiece, q: DVec2) -> [DVec2; 2] {
         let mut rings = [Vec::new(), Vec::new()];
         for k in [0, 1] {
@@ -86,8 +86,8 @@ impl<'a> PointLocator<'a> {
     }
 }
 
-/// 0 for points inside a counter-clockwise convex polygon or on its border, by the exact predicate; for others how far they are
-/// beyond the side that they are farthest beyond. Infinite for polygons without area.
+/// 0 for points inside a counter-clockwise convex polygon or on its border, by the exact predicate; for others the largest distance
+/// beyond the line of a side. Infinite for polygons without area.
 fn distance_outside(ring: &[DVec2], q: DVec2) -> f64 {
     if share(ring) <= 0.0 {
         return f64::INFINITY;

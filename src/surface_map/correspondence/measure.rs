@@ -10,7 +10,8 @@ use glam::{DMat2, DVec3};
 use std::convert::Infallible;
 use typed_index_collections::TiVec;
 
-/// Measures a map from its pieces alone, where both of its sides are skin. Places and averages are those of the meshes given.
+/// Measures a map from its pieces alone, over the pieces whose faces are skin on both meshes. Faces and vertices in the result are those of
+/// the given meshes.
 ///
 /// The numbers are those of [`crate::surface_map::measures::distortion::skin_distortion`] for the overlay of the same map, up to
 /// rounding.

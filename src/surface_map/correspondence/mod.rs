@@ -1,7 +1,7 @@
-//! The map told of meshes alone: its pieces, with the place of every corner on the source and on the target.
+//! The map between the input meshes: its pieces, with the place of every corner on the source and on the target.
 //!
-//! An overlay lives on refined meshes and a cone surface. A correspondence needs neither: on each piece the map is affine between
-//! one face of the source and one of the target. It is what a map file holds, and what every result that is taken away is made of.
+//! An overlay refers to refined meshes and a cone surface. A correspondence needs neither: on each piece the map is affine between
+//! one face of the source and one of the target. Map files hold it, and all exported results are made from it.
 
 mod by_face;
 mod check;

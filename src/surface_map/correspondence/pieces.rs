@@ -10,7 +10,7 @@ use glam::{DMat2, DVec2};
 use std::ops::Range;
 use typed_index_collections::TiVec;
 
-/// A map between two meshes, piece by piece. The pieces cover both meshes, each once.
+/// A map between two meshes, given on pieces that cover each mesh once.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Correspondence {
     /// Every corner of a piece: its place on the source and on the target.
@@ -28,22 +28,22 @@ pub struct MappedPiece {
     pub faces: [FaceId; 2],
     /// Its corners in [`Correspondence::corners`]; two only where two edges coincide.
     pub corners: Range<usize>,
-    /// The map on the piece: from weights 1 and 2 in the source face to weights 1 and 2 in the target face, but for a constant.
-    /// Its determinant is positive.
+    /// The linear part of the affine map on the piece, from barycentric coordinates 1 and 2 in the source face to those in the target
+    /// face. Its determinant is positive.
     pub map: DMat2,
-    /// Whether the piece is there for certain; one that is not may have been made by rounding, and maxima leave it out.
+    /// Whether the piece is larger than rounding; one that is not may be an artefact of rounding, and maxima leave it out.
     pub is_certain: bool,
 }
 
-/// Thinner than this, in weights of its faces, a piece does not tell its map: rounding of its corners by 1e-16 changes the matrix
-/// by more than 1e-12.
+/// The matrix of a piece that is thinner than this, in barycentric coordinates of its faces, is not taken from its corners: rounding of
+/// these by 1e-16 changes it by more than 1e-12.
 const THIN: f64 = 1e-4;
 
 /// Pieces between two questions to the monitor: some milliseconds.
 const ASKED_EVERY: usize = 16_384;
 
 impl Correspondence {
-    /// The pieces of an overlay, as they lie on the meshes that were overlaid.
+    /// The pieces of an overlay, with places on the meshes that were overlaid.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -90,7 +90,7 @@ impl Correspondence {
         Ok(Self { vertices, pieces, corners })
     }
 
-    /// The same map told of the meshes that its meshes refine.
+    /// The same map with places on the meshes that its meshes refine.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -118,9 +118,9 @@ impl Correspondence {
         Ok(Self { vertices, pieces, corners: self.corners.clone() })
     }
 
-    /// Weights 1 and 2 of the corners of a piece in its face of one of both meshes; `ring` is filled.
+    /// Fills `ring` with barycentric coordinates 1 and 2 of the corners of a piece, in its face of the source (`side` 0) or the target (1).
     ///
-    /// Corners that the face does not hold, which [`super::check`] refuses, are left out.
+    /// Corners that do not lie in the face, which [`super::check`] refuses, are left out.
     pub fn ring(&self, mesh: &SurfaceMesh, side: usize, piece: &MappedPiece, ring: &mut Vec<DVec2>) {
         ring.clear();
         let weights = |&v: &u32| self.vertices[v as usize][side].weights_in(mesh, piece.faces[side]);
@@ -128,7 +128,7 @@ impl Correspondence {
         ring.extend(places.map(|[_, x, y]| DVec2::new(x, y)));
     }
 
-    /// The image of each source vertex, or of each target vertex the point of the source that it comes from.
+    /// The image of each source vertex (`from` 0), or the preimage of each target vertex (1).
     pub fn vertex_images(
         &self,
         meshes: [&SurfaceMesh; 2],
@@ -149,9 +149,9 @@ fn edge_vectors([p, q, r]: [DVec2; 3]) -> DMat2 {
     DMat2::from_cols(q - p, r - p)
 }
 
-/// The matrix of a piece from its corners on both faces; `None` where the piece is so thin that they do not tell it.
+/// The matrix of a piece from the barycentric coordinates of its corners in both faces; `None` where the piece is too thin for that.
 ///
-/// It is that of the corners' triangle of largest area on the source, the first one where several are as large.
+/// It is that of the triangle of corners with the largest area on the source, the first one where several are as large.
 pub fn matrix_of_corners(source: &[DVec2], target: &[DVec2]) -> Option<DMat2> {
     let n = source.len();
     let double_area = |ring: &[DVec2], [i, j, k]: [usize; 3]| signed_double_area(ring[i], ring[j], ring[k]);
@@ -180,7 +180,7 @@ pub fn matrix_of_corners(source: &[DVec2], target: &[DVec2]) -> Option<DMat2> {
     Some(onto * from.inverse())
 }
 
-/// Twice the area of a polygon; in weights of a face, the share of the face that it covers.
+/// Twice the signed area of a polygon; in barycentric coordinates 1 and 2 of a face, the share of the face that it covers.
 pub(crate) fn share(ring: &[DVec2]) -> f64 {
     let Some(&origin) = ring.first() else { return 0.0 };
     ring.windows(2).map(|w| signed_double_area(origin, w[0], w[1])).sum()

@@ -23,14 +23,14 @@ pub struct TextureDrawing {
 /// A corner of a texture triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextureVertex {
-    /// Where it lies on the target.
+    /// Its place on the target.
     pub place: Place,
     /// Its texture coordinates.
     pub uv: DVec2,
 }
 
 impl TextureDrawing {
-    /// Texture coordinates by corner of a mesh, told of the mesh that it refines.
+    /// Texture coordinates by corner of a mesh, with places on the mesh that it refines.
     pub fn of_corners(carrier: Carrier<'_>, uvs: &TiSlice<HalfedgeId, DVec2>) -> Self {
         let mut drawing = Self::default();
         let mut numbers = FxHashMap::default();
@@ -52,7 +52,7 @@ impl TextureDrawing {
         drawing
     }
 
-    /// The triangles inside each face of a target with that many faces.
+    /// The numbers of the triangles in each face of the target, which has `faces` faces.
     fn by_face(&self, faces: usize) -> TiVec<FaceId, Vec<u32>> {
         let mut inside: TiVec<FaceId, Vec<u32>> = ti_vec![Vec::new(); faces];
         for (k, &face) in self.faces.iter().enumerate() {
@@ -62,10 +62,10 @@ impl TextureDrawing {
     }
 }
 
-/// A triangle of the drawing as an affine function of weights 1 and 2 in its face.
+/// A texture triangle: texture coordinates as an affine function of barycentric coordinates 1 and 2 in its face.
 struct Patch {
     origin: DVec2,
-    /// From weights in the face to weights 1 and 2 in the triangle.
+    /// From barycentric coordinates in the face to those in the triangle.
     inside: DMat2,
     uvs: [DVec2; 3],
 }
@@ -90,7 +90,7 @@ impl Patch {
     }
 }
 
-/// The texture coordinates of a piece: those of the triangle that holds its middle.
+/// The texture triangle that holds the middle of a piece.
 fn patch_of(drawing: &TextureDrawing, inside: &[u32], target: &SurfaceMesh, ring: &[DVec2]) -> Option<Patch> {
     let middle = ring.iter().sum::<DVec2>() / ring.len() as f64;
     let depth = |patch: &Patch| patch.weights(middle).into_iter().fold(f64::INFINITY, f64::min);
@@ -98,7 +98,7 @@ fn patch_of(drawing: &TextureDrawing, inside: &[u32], target: &SurfaceMesh, ring
     patches.max_by(|a, b| depth(a).total_cmp(&depth(b)))
 }
 
-/// Positions and normals of both meshes at the corners of pieces.
+/// Both meshes with their vertex normals.
 struct Surfaces<'a> {
     meshes: [&'a SurfaceMesh; 2],
     normals: [TiVec<VertexId, DVec3>; 2],
@@ -112,8 +112,8 @@ impl Surfaces<'_> {
     }
 }
 
-/// The pieces as one mesh; a corner is shared by the pieces around it, once per side of a texture seam. All texture coordinates
-/// are 0 where there are none.
+/// The pieces as one triangle mesh; a corner is shared by the pieces around it, once per side of a texture seam. Without a texture all
+/// texture coordinates are 0.
 pub fn common_mesh(
     meshes: [&SurfaceMesh; 2],
     map: &Correspondence,
@@ -152,7 +152,7 @@ pub fn common_mesh(
     mesh
 }
 
-/// The triangles of a piece, without those that have a corner twice.
+/// Adds the triangles of a piece to the mesh, without those that have a corner twice.
 fn push_fan(mesh: &mut CommonMesh, ring: &[u32], piece: u32, faces: [FaceId; 2]) {
     for k in 2..ring.len() {
         let triangle = [ring[0], ring[k - 1], ring[k]];

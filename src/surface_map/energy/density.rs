@@ -1,5 +1,5 @@
-//! What an energy of maps is made of: a density as a function of the Jacobian. A further energy is a further file that
-//! implements [`Density`], tested by `testing`.
+//! Energy densities of maps as functions of the Jacobian. A further energy is a further file that implements [`Density`], tested by
+//! `testing`.
 
 use glam::{DMat2, DVec2};
 
@@ -11,8 +11,8 @@ pub trait Density {
     /// The derivative of the density by J, as a matrix of the shape of J.
     fn gradient(&self, j: &DMat2) -> DMat2;
 
-    /// Rank-one terms whose sum is positive semidefinite and no less than the Hessian of the density at J: what is projected away
-    /// or left out is negative. Where an implementation leaves out another part it says which; Newton's step stays one downhill.
+    /// Rank-one terms whose sum is positive semidefinite and no less than the Hessian of the density at J: only negative parts are
+    /// projected away or left out. Where an implementation leaves out another part it says which; Newton's step still descends.
     fn hessian(&self, j: &DMat2) -> impl IntoIterator<Item = HessianTerm>;
 }
 
@@ -25,7 +25,7 @@ pub struct HessianTerm {
 }
 
 impl HessianTerm {
-    /// The same with another weight: `factor`, not negative, times its own.
+    /// The term with its weight multiplied by `factor`, which is not negative.
     #[inline]
     pub(super) fn scaled(self, factor: f64) -> Self {
         Self { weight: factor * self.weight, ..self }
@@ -62,7 +62,7 @@ impl Signed {
         let alpha = 0.5 * DVec2::new(k1.x + k2.y, k1.y - k2.x);
         let beta = 0.5 * DVec2::new(k1.x - k2.y, k1.y + k2.x);
         let s1 = alpha.length() + beta.length();
-        // Similarities have no b: any will do.
+        // beta is 0 for similarities: any direction will do for b.
         let [a, b] = [alpha, beta].map(|z| z.normalize_or(DVec2::X));
         Self { a, b, s: [s1, j.determinant() / s1] }
     }

@@ -6,9 +6,9 @@
 //!
 //! the same for J and its inverse, and 1 for an isometry only (b > 0). Its integral over both surfaces, times 2 (1 + b), is
 //! the integral over the source of h(J) = S (1 + 1/q) + b S (q + 1/q^2). The first part is E = |J|^2 over the source and
-//! |J^-1|^2 over the target, 4 for every conformal map between surfaces of area 1; it counts a region by the area of its
-//! image, so that what collapses costs little. The second, |J|^2 over the target and |J^-1|^2 over the source, counts it by
-//! what it was, and asks for equal areas.
+//! |J^-1|^2 over the target, 4 for every conformal map between surfaces of area 1; it weighs a region by the area of its
+//! image, so that a collapsing region costs little. The second, |J|^2 over the target and |J^-1|^2 over the source, weighs a
+//! region by its own area, and penalises unequal areas.
 //!
 //! Between two poses of one body most of the skin moves rigidly and what stretches is found around few joints. There the
 //! sum of squares is the wrong measure: it spreads the stretch over everything. So the distortion may be counted as
@@ -22,26 +22,26 @@ use crate::math::matrix2::{SymmetricEigen, cofactor, squares, symmetric_eigen};
 use crate::math::scalar::max;
 use glam::DMat2;
 
-/// Which energy of a map is lowered, per unit of source area: 2 (1 + b) (1 + q) rho(x).
+/// An energy of maps with the density 2 (1 + b) (1 + q) rho(x) per unit of source area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapEnergy {
-    /// The weight b of equal areas.
+    /// The weight b of the second part, which asks for equal areas.
     pub balance: f64,
-    /// The knee k: distortion above 1 from which on it counts like the stretch, not like its square.
+    /// The knee k: the distortion beyond 1 above which it counts like the stretch, not like its square.
     pub knee: f64,
 }
 
 impl MapEnergy {
-    /// E itself.
+    /// E alone.
     pub const PLAIN: Self = Self { balance: 0.0, knee: f64::INFINITY };
     /// E plus 0.02 times the second part, which keeps regions from collapsing: the mean distortion of nine SHREC07 pairs fell from
-    /// 11 to 22 to below 3, for 2 % of E.
+    /// between 11 and 22 to below 3, for 2 % of E.
     pub const SMOOTH: Self = Self { balance: 0.02, knee: f64::INFINITY };
-    /// Compares maps of different classes: the energy of a collapsed or stretched region grows slowly enough that no single
-    /// limb decides. Weight and knee were chosen by hand.
+    /// The energy by which maps of different isotopy classes are compared: that of a collapsed or stretched region grows slowly
+    /// enough that no single limb decides. Weight and knee were chosen by hand.
     pub const JUDGE: Self = Self { balance: 0.2, knee: 0.1 };
-    /// For poses of one body: isometric wherever that can be had. With both numbers the distance to the known map fell from 0.49 to
-    /// 0.28 % of the root of the area (horse-horse05) and from 0.92 to 0.45 (horse-horse01).
+    /// The energy for poses of one body, whose least maps are nearly isometric wherever possible. With both numbers the distance to the
+    /// known map fell from 0.49 to 0.28 % of the root of the area (horse-horse05) and from 0.92 to 0.45 % (horse-horse01).
     pub const POSES: Self = Self { balance: 1.0, knee: 0.1 };
 
     /// h / S with its first and second derivative by q.
@@ -119,7 +119,7 @@ impl Density for MapEnergy {
         let own = 2.0 * f + 4.0 * q * slope;
         let (h11, h22) = (own + squares * bend * s2 * s2, own + squares * bend * s1 * s1);
         let h12 = squares * (3.0 * slope + q * bend) + by_area;
-        // Those of the 2 x 2 block of stretches.
+        // The eigenvalues of the 2 x 2 block of stretches.
         let SymmetricEigen { values: [larger, smaller], first } = symmetric_eigen([h11, h12, h22]);
         let turning = squares * slope + by_area;
         [

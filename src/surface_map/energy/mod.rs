@@ -1,4 +1,4 @@
-//! The energies that are lowered: of a flat triangle, of a map between two surfaces, and of points held near places.
+//! Energies: of a flat triangle, of a map between two surfaces, and of vertices held near given places.
 
 pub mod density;
 pub mod map_energy;

@@ -8,12 +8,12 @@ use super::vertex_energy::{VertexEnergy, VertexTerm};
 use crate::math::matrix2::outer;
 use glam::{DMat2, DVec2, DVec3};
 
-/// Where a vertex should be on the other surface, and how sure that is.
+/// The place where a vertex should be on the other surface, and how certain it is in each direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointConstraint {
-    /// The place a.
+    /// The place a, in space; the other surface has area 1.
     pub place: DVec3,
-    /// The rows of B, in units of the root of an energy by length.
+    /// The rows of B: square root of an energy per unit of length.
     pub rows: [DVec3; 2],
     /// The knee K, an energy.
     pub knee: f64,

@@ -1,5 +1,5 @@
-//! Energies of single vertices by their images. A further one is a further file that implements [`VertexEnergy`], tested by
-//! `testing`.
+//! Energies of single vertices as functions of their images' places. A further energy is a further file that implements [`VertexEnergy`],
+//! tested by `testing`.
 
 use glam::{DMat2, DVec2, DVec3};
 

@@ -1,16 +1,16 @@
-//! The energy of a map that counts by a weight.
+//! The energy of a map with a weight for each piece.
 //!
-//! What counts little costs little, but it must not be free to cover, or skin would slide into caps or out of them for the area
-//! alone. So an isometry costs the same everywhere, and the weight is that of what a piece costs beyond it:
+//! A piece of small weight adds little for its distortion, but covering it must not be free, or skin would slide into caps or out of them
+//! to save area. So an isometry costs the same everywhere, and the weight multiplies what a piece costs beyond that:
 //!
 //! h_w(J) = w h(J) + (1 - w) c (1 + q), c the energy of an isometry per unit of both areas.
 //!
-//! Summed over the map, the last part is c times both areas less what the weights leave out of it: with w the weighted sum of
-//! h - c (1 + q), to which the energy of an isometry of the whole is added back. So the energy of a map is never below that.
+//! Summed over the map, h_w is the weighted sum of h - c (1 + q) plus c times both whole areas. So the energy of a map is never below
+//! that of an isometry.
 //!
 //! Where the rim of one mesh corresponds to one of the other, skin over a cap is wrong, and a piece of it pays a toll t for its area
-//! on both meshes: u t (1 + q), u = c / 2. A larger weight could not do that: a slide without distortion would still be free. What the
-//! toll asks of the rims is the jump of this density over them, which the pieces' moving borders bring along.
+//! on both meshes: u t (1 + q), u = c / 2. A larger weight could not do that: a slide without distortion would still be free. The
+//! toll's gradient at the rims is the jump of this density across them, from the pieces' moving borders.
 
 use super::density::{Density, HessianTerm};
 use super::map_energy::MapEnergy;
@@ -23,7 +23,7 @@ use glam::DMat2;
 pub struct WeightedEnergy {
     /// The energy where the weight is 1.
     pub energy: MapEnergy,
-    /// How much the piece counts.
+    /// The weight of the piece, 0 to 1, and its toll.
     pub counted: PieceWeight,
 }
 
@@ -36,7 +36,8 @@ impl MapEnergy {
 }
 
 impl WeightedEnergy {
-    /// What the piece costs whatever its distortion, per unit of both areas: what the weight takes from an isometry, and the toll.
+    /// The part of the energy that does not depend on distortion, per unit of both areas: what the weight takes from an isometry, and
+    /// the toll.
     #[inline]
     fn still(&self) -> f64 {
         let PieceWeight { weight, toll } = self.counted;
@@ -55,7 +56,7 @@ impl Density for WeightedEnergy {
         self.energy.gradient(j) * self.counted.weight + cofactor(j) * self.still()
     }
 
-    /// Of the weighted part only: that of the area is indefinite, and is left out as where the weight is 1.
+    /// The Hessian of the weighted part only: that of the area is indefinite, and is left out.
     fn hessian(&self, j: &DMat2) -> impl IntoIterator<Item = HessianTerm> {
         self.energy.hessian(j).into_iter().map(|term| term.scaled(self.counted.weight))
     }

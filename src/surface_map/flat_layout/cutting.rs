@@ -1,5 +1,5 @@
-//! The faces of one mesh cut along the base domain's sides: which points lie on the border of each face, which chords cross it,
-//! and the polygons between them.
+//! The faces of one mesh cut along the base domain's sides: the points on the border of each face, the chords that cross it, and the
+//! polygons between them.
 
 use crate::landmarks::LandmarkId;
 use crate::math::segment::nearest_share_in_plane;
@@ -11,16 +11,16 @@ use glam::DVec2;
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// A base side crosses an edge of the mesh.
+/// A crossing of a side of the base domain and an edge of the mesh.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossing {
     /// The base halfedge that is followed: the smaller one of its side.
     pub line: HalfedgeId,
-    /// How far along the side, 0 at its start and 1 at its end.
+    /// The place along the side, 0 at its start and 1 at its end.
     pub along_line: f64,
     /// The smaller halfedge of the mesh's edge.
     pub edge: HalfedgeId,
-    /// How far along the edge.
+    /// The place along the edge, 0 to 1.
     pub along_edge: f64,
 }
 
@@ -33,14 +33,14 @@ pub enum Node {
     Crossing(u32),
 }
 
-/// What the side of a polygon lies on.
+/// The line on which the side of a polygon lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SideKind {
     /// Part `part` of the mesh's edge, counted along its smaller halfedge.
     Edge {
         /// The halfedge of the polygon's face.
         halfedge: HalfedgeId,
-        /// Which part.
+        /// The number of the part.
         part: u32,
     },
     /// A base side, run along this base halfedge: its face is on the polygon's side.
@@ -50,7 +50,7 @@ pub enum SideKind {
 /// A corner of a polygon, and the side that begins there.
 #[derive(Clone, Copy, Debug)]
 pub struct Corner {
-    /// Where it is.
+    /// The point at the corner.
     pub node: Node,
     /// The side to the next corner.
     pub side: SideKind,
@@ -61,7 +61,7 @@ pub struct Corner {
 pub struct Part {
     /// The face.
     pub face: FaceId,
-    /// Counter-clockwise.
+    /// Its corners, counter-clockwise.
     pub corners: Vec<Corner>,
 }
 
@@ -70,9 +70,9 @@ pub struct Part {
 pub struct Chord {
     /// The base halfedge.
     pub line: HalfedgeId,
-    /// Where it enters, or starts.
+    /// The point at which the side enters the face, or starts.
     pub from: Node,
-    /// Where it leaves, or ends.
+    /// The point at which the side leaves the face, or ends.
     pub to: Node,
     /// Both ends of the whole side in the plane of the face.
     pub ends: [DVec2; 2],
@@ -85,12 +85,12 @@ pub struct Cuts {
     pub crossings: Vec<Crossing>,
     /// By smaller halfedge, the crossings of an edge in order along it.
     on_edge: TiVec<HalfedgeId, Vec<u32>>,
-    /// By face.
+    /// By face, the chords that cross it.
     pub chords: TiVec<FaceId, Vec<Chord>>,
 }
 
 impl Cuts {
-    /// Follows all base sides; `None` where one does not arrive.
+    /// Follows all base sides over the mesh; `None` where one does not arrive at its landmark.
     pub fn new(side: Parametrised<'_>, surface: &ConeSurface) -> Option<Self> {
         let mesh = side.mesh;
         let mut cuts = Self {
@@ -177,8 +177,8 @@ impl Cuts {
     }
 }
 
-/// A polygon cut from corner `from` to corner `to`: the part left of the cut, then the part right of it, with what the cut is for
-/// each.
+/// Cuts a polygon from corner `from` to corner `to`: the part left of the cut, then the part right of it, each with the base halfedge
+/// along which it borders on the cut.
 fn split(part: &[Corner], [from, to]: [usize; 2], [left, right]: [HalfedgeId; 2]) -> [Vec<Corner>; 2] {
     let n = part.len();
     let around = |begin: usize, end: usize| {
@@ -191,7 +191,7 @@ fn split(part: &[Corner], [from, to]: [usize; 2], [left, right]: [HalfedgeId; 2]
     [left, right]
 }
 
-/// The parts on both sides of each part of each edge.
+/// By part of an edge, the numbers of the parts of faces on both sides of it.
 pub type Neighbours = FxHashMap<PartOfEdge, Vec<u32>>;
 
 /// A part of an edge between neighbouring crossings or ends.
@@ -199,6 +199,6 @@ pub type Neighbours = FxHashMap<PartOfEdge, Vec<u32>>;
 pub struct PartOfEdge {
     /// The edge's smaller halfedge.
     pub edge: HalfedgeId,
-    /// Which part along it.
+    /// The number of the part, counted along the smaller halfedge.
     pub part: u32,
 }

@@ -1,4 +1,4 @@
-//! The parts of one mesh's faces, each in its chart.
+//! One mesh drawn on the charts of the base domain: the parts of its faces, each in its chart.
 
 use super::cutting::{Crossing, Cuts, Neighbours, Node, Part, PartOfEdge, SideKind};
 use crate::math::barycentric;
@@ -17,7 +17,7 @@ use typed_index_collections::{TiVec, ti_vec};
 pub struct FlatDrawing {
     /// Corners of the polygons; a place on a side of the base domain occurs once per chart.
     pub vertices: Vec<FlatVertex>,
-    /// Parts of faces, each in one chart. Together they are all faces and all charts.
+    /// Parts of faces, each in one chart. Together they cover all faces and all charts.
     pub polygons: Vec<FlatPolygon>,
     /// Corners of all polygons: numbers in `vertices`.
     pub corners: Vec<u32>,
@@ -26,9 +26,9 @@ pub struct FlatDrawing {
 /// A corner of a polygon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlatVertex {
-    /// Where it lies on the mesh.
+    /// Its place on the mesh.
     pub place: Place,
-    /// Its weights in its chart, the base face of its polygons; exactly 0 for the corner opposite a side that it lies on.
+    /// Its barycentric coordinates in its chart, the base face of its polygons; exactly 0 for the corner opposite a side that it lies on.
     pub weights: [f64; 3],
 }
 
@@ -123,7 +123,7 @@ impl FlatDrawing {
         middles.into_iter().map(|(_, face)| face).collect()
     }
 
-    /// Where each vertex of the base domain lies on the mesh; `None` for one that the drawing does not have.
+    /// The place on the mesh of each vertex of the base domain; `None` for one that the drawing does not have.
     pub fn cones(&self, base: &SurfaceMesh) -> TiVec<VertexId, Option<Place>> {
         let mut cones = ti_vec![None; base.vertex_count()];
         for polygon in &self.polygons {
@@ -137,7 +137,7 @@ impl FlatDrawing {
         cones
     }
 
-    /// The same drawing told of the mesh that its mesh refines.
+    /// The same drawing with places on the mesh that its mesh refines.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -159,11 +159,11 @@ impl FlatDrawing {
 /// The parts of a mesh, sorted by the chart that they lie in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrianglesByChart {
-    /// Three corners each.
+    /// The triangles' corners: numbers of the drawing's vertices.
     pub triangles: Vec<[u32; 3]>,
     /// By triangle the face of the mesh that it is a part of.
     pub faces: Vec<FaceId>,
-    /// By chart, and one past the end.
+    /// By chart the number of its first triangle, and one past the end.
     pub starts: Vec<usize>,
 }
 
@@ -174,13 +174,13 @@ pub struct BorderPart {
     pub side: HalfedgeId,
     /// The face of the mesh.
     pub face: FaceId,
-    /// Where it begins, in the chart's counter-clockwise order: the number of a vertex of the drawing.
+    /// The number of the drawing's vertex at which it begins, in the chart's counter-clockwise order.
     pub from: u32,
-    /// Where it ends.
+    /// The number of the drawing's vertex at which it ends.
     pub to: u32,
 }
 
-/// A chart as seen from the plane of a face.
+/// A chart with the motion that takes the plane of a face to it.
 #[derive(Clone, Copy)]
 struct Seen {
     chart: FaceId,
@@ -191,7 +191,7 @@ struct Seen {
 /// Faces and parts of faces between two questions to the monitor: some milliseconds.
 const ASKED_EVERY: usize = 8192;
 
-/// Draws a mesh; `None` where a base side is lost or crossed.
+/// Draws a mesh on the charts; `None` where a base side does not arrive, or base sides cross.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -226,14 +226,14 @@ pub(super) fn draw(
     Ok(Some(pen.drawing))
 }
 
-/// The parts at each part of an edge.
+/// By part of an edge, the numbers of the parts of faces beside it.
 fn neighbours_of(
     parts: &[Part],
     mesh: &SurfaceMesh,
     monitor: &mut dyn Monitor,
 ) -> Result<Neighbours, Cancelled> {
     let mut neighbours = Neighbours::default();
-    // Three halves of edges a part.
+    // Each part of a face has three sides, shared by two.
     neighbours.reserve(parts.len() * 3 / 2);
     let mut pulse = Pulse::new(monitor, ASKED_EVERY);
     for (k, part) in parts.iter().enumerate() {
@@ -247,14 +247,14 @@ fn neighbours_of(
     Ok(neighbours)
 }
 
-/// The charts and the lines that part them.
+/// The charts and the lines between them.
 #[derive(Clone, Copy)]
 struct Charts<'a> {
     surface: &'a ConeSurface,
     cuts: &'a Cuts,
 }
 
-/// The chart of each part: known at base sides, handed on across the mesh's edges.
+/// The chart of each part: known at base sides, and spread from there across the mesh's edges.
 fn charts_of(
     parts: &[Part],
     neighbours: &Neighbours,
@@ -310,13 +310,14 @@ fn beside_line(part: &Part, surface: &ConeSurface, cuts: &Cuts) -> Option<Seen> 
     Some(Seen { chart: line.face(), motion: Rigid2::between_segments(ends, onto) })
 }
 
-/// What tells the vertices of a drawing apart.
+/// The key of a vertex of a drawing: a point has one vertex in each chart.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct VertexKey {
     chart: FaceId,
     node: Node,
 }
 
+/// A drawing under way.
 struct Pen<'a> {
     side: Parametrised<'a>,
     surface: &'a ConeSurface,
@@ -327,7 +328,7 @@ struct Pen<'a> {
 
 impl Pen<'_> {
     fn draw(&mut self, part: &Part, seen: Seen) {
-        // Between a base side and an edge that it runs along there is nothing.
+        // The part between a base side and an edge along which it runs has no area.
         if part.corners.len() < 3 {
             return;
         }
@@ -368,7 +369,7 @@ impl Pen<'_> {
         Place::of(self.side.mesh, SurfacePoint::on_halfedge(edge, along_edge))
     }
 
-    /// Weights, in one of the two charts at a base side, of a point of the side.
+    /// Barycentric coordinates of a point of a base side in one of the two charts beside it.
     fn on_side(&self, crossing: &Crossing, chart: FaceId) -> [f64; 3] {
         let Crossing { line, along_line, .. } = *crossing;
         let (h, along) = if line.face() == chart {
@@ -379,7 +380,7 @@ impl Pen<'_> {
         SurfacePoint::on_halfedge(h, along).barycentric
     }
 
-    /// Weights of a landmark in a chart that has it as a corner.
+    /// Barycentric coordinates of a landmark in a chart that has it as a corner.
     fn at_cone(&self, v: VertexId, chart: FaceId) -> Option<[f64; 3]> {
         let base = &self.surface.base;
         let is_it = |h: &HalfedgeId| self.side.landmark_vertices[base.tail(*h)] == v;

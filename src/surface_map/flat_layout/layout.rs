@@ -11,16 +11,16 @@ use typed_index_collections::TiVec;
 /// Both meshes on the flat triangles of their base domain.
 #[derive(Clone, Debug)]
 pub struct FlatLayout {
-    /// The base domain: vertex k is landmark k, after those of the user the program's own. Its positions mean nothing here.
+    /// The base domain: vertex k is landmark k, first those of the user, then the program's own cones. Its positions are not used.
     pub base: BaseDomain,
-    /// Length of each base halfedge; twins agree, and the whole has area 1.
+    /// Length of each base halfedge; twins agree, and the charts' areas sum to 1.
     pub lengths: TiVec<HalfedgeId, f64>,
     /// The source's drawing and the target's.
     pub drawings: [FlatDrawing; 2],
 }
 
 impl FlatLayout {
-    /// Draws both meshes; `None` where rounding at coincident points leaves a line lost or crossed.
+    /// Draws both meshes; `None` where, by rounding at coincident points, a base side does not arrive or two of them cross.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -38,7 +38,7 @@ impl FlatLayout {
         }))
     }
 
-    /// The same drawings told of the meshes that their meshes refine.
+    /// The same drawings with places on the meshes that their meshes refine.
     ///
     /// # Errors
     /// [`Cancelled`].

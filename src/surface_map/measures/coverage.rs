@@ -1,32 +1,32 @@
-//! How much of the skin of both meshes has a partner, where holes were closed by caps.
+//! The share of each mesh's skin that is mapped onto skin, where holes were closed by caps.
 
-/// Areas of a map between two meshes with caps, summed up piece by piece.
+/// Areas of skin under a map between two meshes with caps, summed over its pieces.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::surface_map) struct SkinAreas {
-    /// By mesh: its skin.
+    /// The area of each mesh's skin, source first.
     skin: [f64; 2],
-    /// By mesh: its skin that lies over skin.
+    /// The area of each mesh's skin that is mapped onto skin, source first.
     shared: [f64; 2],
 }
 
-/// Shares of the skin that have skin as partner.
+/// Shares of the skin, 0 to 1, that are mapped onto skin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coverage {
-    /// Of the source's skin the share whose image is skin.
+    /// The share of the source's skin whose image is skin.
     pub source: f64,
-    /// Of the target's skin the share that is the image of skin.
+    /// The share of the target's skin whose preimage is skin.
     pub target: f64,
 }
 
 impl Coverage {
-    /// Share of both meshes' skin, each counted alike, that lies in a cap of the other.
+    /// The share of skin that is mapped onto a cap, 0 to 1: the mean of both meshes.
     pub fn hidden(&self) -> f64 {
         1.0 - 0.5 * (self.source + self.target)
     }
 }
 
 impl SkinAreas {
-    /// Of pieces, each with whether its faces are skin and with its areas, source first.
+    /// Sums up pieces, each given by whether its faces are skin and by its areas, source first.
     pub(in crate::surface_map) fn of(pieces: impl Iterator<Item = ([bool; 2], [f64; 2])>) -> Self {
         let mut sums = Self::default();
         for (is_skin, areas) in pieces {
@@ -40,7 +40,7 @@ impl SkinAreas {
         sums
     }
 
-    /// By mesh the area of its skin that lies over skin.
+    /// The area of each mesh's skin that is mapped onto skin, source first.
     pub(in crate::surface_map) fn shared(&self) -> [f64; 2] {
         self.shared
     }

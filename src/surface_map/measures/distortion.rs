@@ -30,12 +30,12 @@ pub struct LocalDistortion {
 }
 
 impl LocalDistortion {
-    /// Where the map has the Jacobian `j`, with a positive determinant.
+    /// The distortion of a map with the Jacobian `j`, whose determinant is positive.
     pub(in crate::surface_map) fn of(j: &DMat2) -> Self {
         Self::new(squares(j), j.determinant())
     }
 
-    /// Of a Jacobian with |J|^2 = `squares` and a positive determinant.
+    /// The distortion for a Jacobian with |J|^2 = `squares` and the positive determinant `det`.
     fn new(squares: f64, det: f64) -> Self {
         Self { density: SymmetricDirichlet::of(squares, det), angle: 0.5 * squares / det, area: det }
     }
@@ -49,13 +49,13 @@ pub struct Distortion {
     /// Area-weighted mean over the source of (s1^2 + s2^2 + s1^-2 + s2^-2) / 4; 1 for an isometry.
     pub mean: f64,
     /// Half the sum of the area-weighted means of the density's logarithm over the source and over the target; 0 for an
-    /// isometry. It says which of two maps is the better one where the energy does not: that is 4 for every conformal map.
+    /// isometry. It tells two maps apart where the energy does not: that is 4 for every conformal map.
     pub mean_log: f64,
-    /// Its area-weighted median over the source.
+    /// The density's area-weighted median over the source.
     pub median: f64,
-    /// Its area-weighted 95 % quantile over the source.
+    /// The density's area-weighted 95 % quantile over the source.
     pub p95: f64,
-    /// Its maximum, without pieces that rounding may have made.
+    /// The density's maximum, without pieces that rounding may have made.
     pub max: f64,
     /// The share of the area with a density above [`DENTED`], of the source or of the target, whichever is larger.
     pub dented: f64,
@@ -66,18 +66,18 @@ pub struct Distortion {
     pub source_area: f64,
     /// Sum of the pieces' areas on the target (1 up to rounding).
     pub target_area: f64,
-    /// How much of the skin has a partner; `None` where no mesh has caps.
+    /// The shares of the skin that are mapped onto skin; `None` where no mesh has caps.
     pub coverage: Option<Coverage>,
-    /// The density averaged around each vertex of the refined source; not a number where no skin there lies over skin.
+    /// The density averaged around each vertex of the refined source; not a number where no skin around it is mapped onto skin.
     pub by_vertex: TiVec<VertexId, f64>,
-    /// On each piece of the overlay; empty for maps given by images.
+    /// The distortion on each piece of the overlay; empty for maps given by images.
     pub by_piece: Vec<LocalDistortion>,
 }
 
-/// From this density on a texture is seen to be dented. Chosen by hand.
+/// The density above which a texture looks dented. Chosen by hand.
 pub const DENTED: f64 = 20.0;
 
-/// Number of worst pieces in the result, at most.
+/// Number of worst pieces in the result, at most: as many as one looks at. Chosen by hand.
 pub const WORST: usize = 10;
 
 /// One of the pieces of the overlay with the largest densities.
@@ -93,7 +93,7 @@ pub struct WorstPiece {
     pub target: SurfacePoint,
 }
 
-/// Whether a piece of area `area` of two triangles on the cone surface is there for certain.
+/// Whether a piece of area `area` of two triangles on the cone surface is larger than rounding.
 ///
 /// The density of a piece is that of its two triangles' Jacobians, whatever its size, and as exact as these; but where the
 /// triangles only touch, rounding decides whether they share a piece. Coordinates on the cone surface are of order 1,
@@ -119,7 +119,7 @@ pub fn distortion(
 /// Pieces measured between two questions to the monitor: some milliseconds.
 const ASKED_EVERY: usize = 16_384;
 
-/// Measures the map where both of its sides are skin, and how much that is.
+/// Measures the map on the pieces that are skin on both meshes, and the share of the skin that these are.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -184,14 +184,14 @@ fn worst_pieces(
     })
 }
 
-/// The measures of a map, summed up piece by piece; of skin onto skin where there are caps.
+/// The measures of a map while they are summed over its pieces; where there are caps, over those of skin on skin.
 pub(in crate::surface_map) struct Tally {
     result: Distortion,
     /// The density of each piece, its weight the area on the source.
     densities: Vec<Weighted>,
-    /// Numbers of pieces that were left out, rising.
+    /// Numbers of the pieces that were left out, in ascending order.
     left_out: Vec<usize>,
-    /// What the areas are divided by, source first: those of the skin that lies over skin.
+    /// The units of area, source first: the area of skin that is mapped onto skin.
     units: [f64; 2],
     /// Area of dented pieces on the source and on the target.
     dented: [f64; 2],
@@ -200,7 +200,7 @@ pub(in crate::surface_map) struct Tally {
 }
 
 impl Tally {
-    /// Of a map from this mesh in so many pieces; `skin` are its areas where a mesh has caps.
+    /// Begins the measures of a map from this mesh with this number of pieces; `skin` are its areas where a mesh has caps.
     pub(in crate::surface_map) fn new(source: &SurfaceMesh, pieces: usize, skin: Option<SkinAreas>) -> Self {
         let coverage = skin.map(|skin| skin.coverage());
         Self {
@@ -213,7 +213,7 @@ impl Tally {
         }
     }
 
-    /// The next piece, on this face of the source, with its Jacobian and its areas on the source and on the target.
+    /// Adds the next piece: its source face, its Jacobian and its areas on the source and on the target.
     pub(in crate::surface_map) fn add(&mut self, face: FaceId, j: &DMat2, areas: [f64; 2]) {
         let scale = self.scale();
         let (squares, det) = (squares(j) * scale, j.determinant() * scale);
@@ -235,7 +235,7 @@ impl Tally {
         self.faces[face][1] += source_area;
     }
 
-    /// The next piece, with its Jacobian, which is not skin on both meshes.
+    /// Leaves the next piece, which has the Jacobian `j`, out of the sums: it is not skin on both meshes.
     pub(in crate::surface_map) fn leave_out(&mut self, j: &DMat2) {
         let scale = self.scale();
         self.left_out.push(self.densities.len());
@@ -243,7 +243,7 @@ impl Tally {
         self.result.by_piece.push(LocalDistortion::new(squares(j) * scale, j.determinant() * scale));
     }
 
-    /// What squares of Jacobians grow by when the skin of both meshes has area 1.
+    /// The factor of squared Jacobians when the skin of both meshes is scaled to area 1.
     fn scale(&self) -> f64 {
         self.units[0] / self.units[1]
     }
@@ -257,7 +257,7 @@ impl Tally {
         let is_skin = |k: usize| self.left_out.binary_search(&k).is_err();
         let exceeds =
             |k: usize, other: usize| self.densities[k].value.total_cmp(&self.densities[other].value).is_gt();
-        // By falling density, equal ones by number.
+        // In descending order of density, equal ones by number.
         let mut worst: Vec<usize> = Vec::with_capacity(WORST + 1);
         for k in 0..self.densities.len() {
             let is_among = worst.len() < WORST || exceeds(k, worst[WORST - 1]);
@@ -276,7 +276,7 @@ impl Tally {
             .collect()
     }
 
-    /// All measures, after the last piece; asks now and then whether to go on.
+    /// Computes all measures after the last piece; calls `ask` now and then.
     ///
     /// # Errors
     /// That of `ask`.
@@ -298,11 +298,11 @@ impl Tally {
     }
 }
 
-/// Measures a map given by the images of vertices on the source's faces with three images, each mapped affinely onto the
-/// triangle of its images in space. Images flatter than 1e-7 of the root of the target's area are left out: their shape is
-/// rounding, but the least of them would decide the mean.
+/// Measures a map given by the images of vertices, on the source's faces with three images; each is mapped affinely onto the
+/// triangle of its images in space. Image triangles flatter than 1e-7 of the root of the target's area are left out: their shape is
+/// rounding, but the flattest of them would decide the mean.
 ///
-/// Integrals run over the mapped part only: `source_area` and `target_area` tell how much that is. No values by vertex.
+/// Integrals run over the mapped part only, whose areas are `source_area` and `target_area`. There are no values by vertex.
 pub fn image_distortion(
     source: &SurfaceMesh,
     target: &SurfaceMesh,
@@ -350,7 +350,7 @@ pub(in crate::surface_map) fn in_plane([p, q, r]: [DVec3; 3], scale: f64) -> DMa
 }
 
 impl Distortion {
-    /// Mean, quantiles and maximum of densities, their weights the source areas.
+    /// Fills in mean, quantiles and maximum of densities, weighted by the source areas.
     fn summarise<E>(
         &mut self,
         mut densities: Vec<Weighted>,

@@ -1,4 +1,4 @@
-//! Distance to the true images, where the truth is known.
+//! Distances between images under a map and the true images, where these are known.
 
 use crate::math::quantile::{Weighted, quantile, sort_by_value};
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};

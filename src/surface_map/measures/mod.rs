@@ -1,4 +1,4 @@
-//! What is read off a finished map: distortion, images of points, the common mesh, distances to a known map.
+//! Measures of a finished map: distortion, images of points, the common mesh, distances to a known map.
 
 pub mod coverage;
 pub mod distortion;

@@ -1,8 +1,7 @@
 //! Point queries on the finished map, in both directions, through the pieces of the overlay.
 //!
-//! A point is looked up among the pieces of its face, carried by the piece's motion over the cone surface and read off in
-//! the piece's face of the other mesh. Both directions use the same pieces, so that one is the inverse of the other up to
-//! rounding.
+//! A point is looked up among the pieces of its face and mapped by the piece's motion over the cone surface into the piece's face of
+//! the other mesh. Both directions use the same pieces, so that one is the inverse of the other up to rounding.
 
 use crate::math::barycentric;
 use crate::math::triangle::signed_double_area;
@@ -20,7 +19,7 @@ pub struct PointMap<'a> {
     pieces: [PiecesByFace; 2],
 }
 
-/// Numbers of pieces, face by face.
+/// The numbers of the pieces in each face.
 #[derive(Clone, Debug)]
 struct PiecesByFace {
     /// First entry of each face in `pieces`, and the end.

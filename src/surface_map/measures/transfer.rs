@@ -1,4 +1,4 @@
-//! What the map carries over: the common subdivision as one mesh with positions on both surfaces, and images of vertices.
+//! The common subdivision as one mesh with positions on both surfaces, and images of vertices.
 
 use crate::mesh::normals::vertex_normals;
 use crate::mesh::{Carrier, FaceFrame, FaceId, HalfedgeId, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
@@ -32,7 +32,8 @@ pub struct CommonMesh {
 }
 
 impl CommonMesh {
-    /// By vertex the distance to its image under another map, such as the true one, in units of the root of the target's area.
+    /// By vertex the distance between its images under this map and under another one, such as the true one, in units of the root of the
+    /// target's area.
     pub fn distances_to(&self, image: impl Fn(DVec3) -> DVec3) -> Vec<f64> {
         let double_area = |corners: &[u32; 3]| {
             let [p, q, r] = corners.map(|v| self.target_positions[v as usize]);
@@ -69,7 +70,7 @@ pub struct Surface<'a> {
 }
 
 impl<'a> Surface<'a> {
-    /// From places of the refinement to places of the mesh that the user gave; `frame` is [`RefinedMesh::frame`].
+    /// The carrier from places of the refinement to places of the mesh that the user gave; `frame` is [`RefinedMesh::frame`].
     pub fn carrier(&self, frame: &'a dyn Fn(FaceId) -> FaceFrame) -> Carrier<'a> {
         Carrier { from: &self.refined.mesh, onto: self.input, frame }
     }
@@ -96,7 +97,7 @@ pub fn vertex_images(
     (0..vertices).map(image).collect()
 }
 
-/// What a refined face carries at its corners.
+/// Positions, normals and texture coordinates at the corners of a refined face.
 struct FaceValues {
     positions: [DVec3; 3],
     normals: [DVec3; 3],

@@ -12,6 +12,7 @@ use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::DVec2;
 use typed_index_collections::TiVec;
 
+/// No number: of a vertex or of a face.
 const NONE: u32 = u32::MAX;
 
 /// A part of a halfedge between two neighbouring crossings or ends.
@@ -19,31 +20,31 @@ const NONE: u32 = u32::MAX;
 pub(super) struct Dart {
     /// The overlay vertex where it starts.
     pub origin: u32,
-    /// Its halfedge: of the source, or, increased by the number of source halfedges, of the target.
+    /// The number of its source halfedge, or the number of its target halfedge plus the number of source halfedges.
     halfedge: u32,
-    /// Of a source dart the target face below it.
+    /// For a source dart the target face that it lies in.
     pub below: FaceId,
 }
 
 /// A crossing among those of its target edge.
 #[derive(Clone, Copy, Debug, Default)]
 struct OnTarget {
-    /// Where on the smaller halfedge.
+    /// The place on the edge's smaller halfedge, 0 to 1.
     along: f64,
-    /// Its number.
+    /// The number of the crossing.
     crossing: u32,
     /// Whether the trace leaves a face through the smaller halfedge.
     leaves: bool,
 }
 
-/// The darts and how they follow each other.
+/// The darts of the planar map, each with the next one around its cell.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Arrangement {
     /// By target halfedge: the range of its edge in `order`.
     ranges: TiVec<HalfedgeId, [u32; 2]>,
     /// Crossings along each target edge, in the direction of its smaller halfedge.
     order: Vec<OnTarget>,
-    /// Of each crossing the darts that arrive on the target edge: along `exit`, and along its twin.
+    /// By crossing, the darts that arrive on the target edge: along `exit`, and along its twin.
     arriving: Vec<[u32; 2]>,
     /// Number of the first dart of each source halfedge. Both halfedges of an edge follow each other.
     source_darts: TiVec<HalfedgeId, u32>,
@@ -57,8 +58,9 @@ pub(super) struct Arrangement {
     target_numbers: TiVec<VertexId, u32>,
     /// Overlay vertex of the first crossing.
     pub first_crossing: u32,
+    /// Number of the source's halfedges.
     source_halfedges: u32,
-    /// By dart, once described.
+    /// All darts; filled by [`Self::describe`].
     pub darts: Vec<Dart>,
 }
 
@@ -81,7 +83,7 @@ impl Arrangement {
         }
     }
 
-    /// Which part of its source halfedge a dart is.
+    /// The place of a dart among the parts of its source halfedge, from 0.
     pub fn source_part(&self, h: HalfedgeId, number: u32) -> u32 {
         number - self.source_darts[h]
     }
@@ -104,7 +106,7 @@ impl Arrangement {
         }
     }
 
-    /// Where on its edge's smaller halfedge a target edge is crossed; crossings are numbered along the edges.
+    /// The place of a crossing on the smaller halfedge of its target edge, 0 to 1; crossings are numbered along the edges.
     pub fn along_target(&self, number: u32) -> f64 {
         self.order[number as usize].along
     }
@@ -174,8 +176,8 @@ impl Arrangement {
         }
     }
 
-    /// What follows each dart: at the end of its halfedge the next halfedge of the face; at a crossing each dart turns to
-    /// its left. The trace, seen going east, crosses `exit` going north.
+    /// Links each dart to the next one around its cell: at the end of its halfedge that is the first dart of the face's next halfedge, at a
+    /// crossing the dart to its left. With the trace going east, `exit` goes north.
     fn link(&mut self, Traced { source, target, traces, .. }: Traced<'_>) {
         let [mesh, below] = [source.mesh, target.mesh];
         for h in mesh.edges() {
@@ -238,7 +240,7 @@ impl Arrangement {
         Ok(())
     }
 
-    /// Fills `darts`.
+    /// Fills [`Self::darts`].
     pub fn describe(&mut self, Traced { source, target, seats, traces }: Traced<'_>) {
         let [mesh, below] = [source.mesh, target.mesh];
         self.number_vertices(source, target);

@@ -1,8 +1,8 @@
 //! The straight sides of the base domain drawn on a parametrised mesh.
 //!
 //! On the cone surface the sides of its charts are straight lines from cone to cone. Followed on source and target they are
-//! lines that correspond under the map. Each starts at its angle and arrives at its landmark after its length, where the anchors
-//! are right; those that are not are found and mended by lines that arrive.
+//! lines that correspond under the map. Where the anchor of a landmark is right, the lines from it arrive at their landmarks after
+//! their lengths; wrong anchors are found and corrected by lines that arrive.
 
 use super::location::exit_edge;
 use crate::certificate::Start;
@@ -24,9 +24,9 @@ use typed_index_collections::{TiSlice, TiVec};
 pub struct BaseLine {
     /// From landmark to landmark, one point on every edge that is crossed.
     pub points: Vec<SurfacePoint>,
-    /// Distance between the end of the line and its landmark; infinite where the line does not come near it.
+    /// Distance between the end of the line and its landmark (the cone surface has area 1); infinite where the line misses it.
     pub end_error: f64,
-    /// The landmark at the end as the line finds it; `None` where the line misses it.
+    /// The anchor of the landmark at the end, as the line finds it; `None` where the line misses the landmark.
     pub arrival: Option<Anchor>,
     /// The line in each face that it passes, from the first to the last.
     pub sections: Vec<LineSection>,
@@ -43,14 +43,14 @@ pub struct LineSection {
     pub exit: Option<HalfedgeId>,
 }
 
-/// The same embedding with its anchors made to agree.
+/// Corrects the anchors of an embedding that disagree with the others.
 ///
 /// A plane's angle around a cone is known up to whole turns of the plane, which are not whole turns around the cone; an
-/// anchor that was turned too far in one step is mistaken. Lines that start at right anchors arrive, and tell the others.
+/// anchor that was turned too far in one step is wrong. Lines that start at right anchors arrive, and determine the others.
 pub fn mend_anchors(
     embedding: &mut Embedding,
     mesh: &SurfaceMesh,
-    landmarks: &Landmarks,
+    landmarks: &LandmarkVertices,
     surface: &ConeSurface,
 ) {
     let base = &surface.base;
@@ -81,7 +81,7 @@ pub fn mend_anchors(
 }
 
 /// The mesh's vertex of each landmark.
-type Landmarks = TiSlice<LandmarkId, VertexId>;
+type LandmarkVertices = TiSlice<LandmarkId, VertexId>;
 
 /// Follows base halfedge `h` on a mesh.
 pub fn base_line(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -> BaseLine {
@@ -104,7 +104,7 @@ pub fn base_line(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -
         let [p, q] = ends.map(|e| motion.apply(e));
         let arrival = [0, 1, 2].map(|k| HalfedgeId::of(face, k)).into_iter().find(|&c| {
             side.mesh.tail(c) == goal
-                // Near enough to be its end, if only a bad one: then the distance is told.
+                // Near enough that the line's end error can be stated, even if it is too large.
                 && corners[c].distance(q) < 1e-3 * length
                 && (step > 0 || c != start.corner)
         });
@@ -143,7 +143,7 @@ fn arrived(surface: &ConeSurface, h: HalfedgeId, corner: HalfedgeId, way_back: [
     Anchor { corner, chart: back.face(), motion }
 }
 
-/// Where base halfedge `h` starts on a mesh, by the anchor of its landmark.
+/// The corner and the direction in which base halfedge `h` starts on a mesh, by the anchor of its landmark.
 pub fn start(side: Parametrised<'_>, surface: &ConeSurface, h: HalfedgeId) -> Start {
     let landmark = surface.base.tail(h);
     let fan = Fan::new(surface, landmark);

@@ -1,4 +1,4 @@
-//! The cells of the arrangement as pieces: walked, given coordinates on both meshes, and checked.
+//! The cells of the arrangement made into pieces: their borders followed, coordinates computed on both meshes, and checked.
 
 use super::arrangement::{Arrangement, Side};
 use super::pieces::{Overlay, OverlayError, OverlayPoint, Piece, SideOf, face_area};
@@ -12,6 +12,7 @@ use crate::surface_map::parametrisation::embedding::Parametrised;
 use crate::surface_map::parametrisation::embedding::triangle;
 use typed_index_collections::TiVec;
 
+/// No number: of a cell or of a face.
 const NONE: u32 = u32::MAX;
 
 /// Pieces and halfedges between two questions to the monitor: some milliseconds.
@@ -24,7 +25,7 @@ struct Inside {
     barycentric: [f64; 3],
 }
 
-/// Working memory of the walk.
+/// Working memory of the cells.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cells {
     cell_of_dart: Vec<u32>,
@@ -191,7 +192,7 @@ impl Cells {
         lone.map_or(Ok(()), |piece| Err(mixed(None, Some(piece.target_face))))
     }
 
-    /// Coordinates of all corners, areas and their sums.
+    /// Computes the coordinates of all corners, the areas, and their sums over faces.
     fn place(
         &mut self,
         view: View<'_>,
@@ -220,7 +221,7 @@ impl Cells {
                 return Err(OverlayError::Negative { source_face, target_face, area });
             }
             piece.area = area.max(0.0);
-            // Only counted: a share of the area that rounding alone can make.
+            // Such pieces are only counted: rounding alone makes shares as small.
             *degenerate += usize::from(area < 1e-12 * size);
             self.covered[0][s] += piece.area;
             self.covered[1][t] += piece.area;
@@ -294,7 +295,7 @@ impl Cells {
 }
 
 impl View<'_> {
-    /// Below part i of a source halfedge, the motion from its source face to the target face.
+    /// The motion from the source face of a halfedge to the target face that holds part `i` of it.
     fn motion(&self, h: HalfedgeId, i: u32) -> Rigid2 {
         let edge = h.min(self.source.mesh.twin(h));
         let [begin, end] = self.traces.ranges[h];
@@ -320,7 +321,7 @@ fn unit(k: usize) -> [f64; 3] {
     barycentric
 }
 
-/// Which corner of a face a vertex is.
+/// The number, 0 to 2, of the corner of a face at which a vertex is.
 fn corner_in(mesh: &SurfaceMesh, f: FaceId, v: VertexId) -> usize {
     mesh.triangles()[f].iter().position(|&c| c == v).unwrap_or(0)
 }

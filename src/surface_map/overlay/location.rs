@@ -1,7 +1,7 @@
 //! Source vertices located in the target's triangles on the cone surface.
 //!
-//! Every face is developed in a plane of its own, so a point of the surface has many names. The names are matched at
-//! the landmarks, where the angle around the cone is known on both sides, and carried from vertex to vertex by walking
+//! Every face lies in a plane of its own, so a point of the surface has other coordinates in each. The planes of source and target are
+//! matched at a landmark, where the angle around the cone is known on both meshes, and from vertex to vertex by walking
 //! straight along source edges through target triangles: crossing an edge applies its transition.
 
 use crate::landmarks::LandmarkId;
@@ -17,7 +17,7 @@ use crate::surface_map::parametrisation::fan::{Fan, Wedge};
 use glam::DVec2;
 use typed_index_collections::TiVec;
 
-/// Where a source corner lies among the target's triangles.
+/// The location of a source corner in a target triangle.
 #[derive(Clone, Copy, Debug)]
 pub struct Location {
     /// The source halfedge whose start is located; the motion is that of its face.
@@ -28,7 +28,7 @@ pub struct Location {
     pub motion: Rigid2,
 }
 
-/// All source vertices among the target's triangles.
+/// The locations of all source vertices in the target's triangles.
 #[derive(Clone, Debug, Default)]
 pub struct Locations {
     /// By source vertex.
@@ -89,16 +89,16 @@ pub fn locate(
     Ok(locations)
 }
 
-/// Locates vertices; keeps its working memory from one time to the next.
+/// Locates vertices; keeps its working memory from one call to the next.
 #[derive(Clone, Debug, Default)]
 pub struct Locator {
-    /// By source vertex: of landmarks the target's vertex.
+    /// By source vertex the target's vertex of its landmark; `None` for vertices that are no landmarks.
     apexes: TiVec<VertexId, Option<VertexId>>,
     /// Vertices in the order in which they are found; at landmarks with the range of their corners.
     queue: Vec<(VertexId, [u32; 2])>,
 }
 
-/// Of a vertex that has not been found.
+/// The location of a vertex that has not been found yet.
 const NOWHERE: Location =
     Location { corner: HalfedgeId(u32::MAX), face: FaceId(u32::MAX), motion: Rigid2::IDENTITY };
 
@@ -135,7 +135,7 @@ impl Locator {
     /// Locates everything from one landmark.
     ///
     /// The angle of an edge around a cone is known up to whole turns of its plane only. Where the turn of the first landmark
-    /// is mistaken, the others are not met and the next one is tried; the turns at all others follow.
+    /// is mistaken, the walk misses the others and the next turn is tried; the turns at all others follow.
     fn fill_from(
         &mut self,
         [source, target]: [Parametrised<'_>; 2],
@@ -186,11 +186,11 @@ impl Locator {
     }
 }
 
-/// The corners of a vertex that has been found, one after the other: around an ordinary vertex the motions agree all around,
-/// at a landmark all corners are known.
+/// Iterates over the corners of a vertex that has been found: around an ordinary vertex the motions follow from one another, at a landmark
+/// all corners have been located.
 #[derive(Default)]
 struct Corners {
-    /// Of an ordinary vertex: its first corner, and the next one.
+    /// For an ordinary vertex its first corner, and the next one.
     around: Option<[HalfedgeId; 2]>,
     /// The last corner whose motion was asked for.
     known: Option<Location>,
@@ -232,7 +232,7 @@ impl Corners {
         while known.corner != corner {
             let across = known.corner.prev();
             known.corner = source.mesh.twin(across);
-            // The motion there is the inverse of the one onwards, which lies near.
+            // The motion stored there is the inverse of the one needed, and is near in memory.
             if source.embedding.transitions[across] != Rigid2::IDENTITY {
                 known.motion = known.motion.after(&source.embedding.transitions[known.corner]);
             }

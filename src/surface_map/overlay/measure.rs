@@ -1,5 +1,5 @@
 //! The overlay as far as the energy of a map needs it: pieces with their faces, areas and rotations, and the sides between
-//! them. No coordinates are made, so that it costs a third of an [`super::Overlay`].
+//! them. No coordinates are computed, so that it takes a third of the time of an [`super::Overlay`].
 //!
 //! Areas are sums over the sides: seen from corner 0 of the target face, each part of a source edge sweeps a triangle, and
 //! of the target's sides only the one opposite does. They add up exactly, whatever the order of the cells.
@@ -16,6 +16,7 @@ use crate::monitor::{Monitor, Pulse, Step};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::DVec2;
 
+/// No number: of a piece or of a face.
 const NONE: u32 = u32::MAX;
 
 /// Halfedges or faces between two questions to the monitor: some milliseconds.
@@ -30,7 +31,7 @@ pub struct MeasuredPiece {
     pub target_face: FaceId,
     /// Area on the cone surface, never negative.
     pub area: f64,
-    /// From the plane of the source face to that of the target face: (cos, sin) of the rotation.
+    /// The rotation from the plane of the source face to that of the target face, as (cos, sin) of its angle.
     pub rotation: DVec2,
 }
 
@@ -39,9 +40,9 @@ pub struct MeasuredPiece {
 pub struct Segment {
     /// The edge's smaller halfedge.
     pub halfedge: HalfedgeId,
-    /// Where the part begins: 0 at the start of the halfedge, 1 at its end.
+    /// The place at which the part begins: 0 at the start of the halfedge, 1 at its end.
     pub begin: f64,
-    /// Where the part ends.
+    /// The place at which the part ends, 0 to 1.
     pub end: f64,
     /// The piece on the left, in the face of the halfedge.
     pub left: u32,
@@ -61,7 +62,7 @@ pub struct Measure {
     /// Pieces that no source edge bounds.
     whole: Vec<u32>,
     stack: Vec<u32>,
-    /// Whether source and target were exchanged since.
+    /// Whether source and target were exchanged since the overlay was made.
     is_exchanged: bool,
 }
 
@@ -107,7 +108,7 @@ impl Measure {
         &self.pieces
     }
 
-    /// The same overlay with source and target exchanged.
+    /// Exchanges the roles of source and target.
     pub fn exchange_roles(&mut self) {
         self.is_exchanged = !self.is_exchanged;
         for piece in &mut self.pieces {
@@ -218,7 +219,7 @@ impl Measure {
         Ok(())
     }
 
-    /// Faces, rotations and twice the areas that source edges sweep.
+    /// Finds the faces and rotations of the pieces, and adds twice the areas that source edges sweep.
     fn sweep_source(
         &mut self,
         source: Parametrised<'_>,
@@ -233,7 +234,7 @@ impl Measure {
             let parts = end - begin + 1;
             let (left, right) = (&cells[ahead..ahead + parts], &cells[back..back + parts]);
             let ends = [seats.corners[h], seats.corners[h.next()]];
-            // Of the motion from the plane of the twin's face: the inverse, whose memory is not near.
+            // The rotation from the plane of the twin's face, as the inverse: the twin's own is far away in memory.
             let onwards = source.embedding.transitions[h].rotation;
             let across = DVec2::new(onwards.x, -onwards.y);
             let seat = &seats.seats[h];
@@ -260,7 +261,7 @@ impl Measure {
         Ok(())
     }
 
-    /// Target faces, and twice the areas that target edges sweep.
+    /// Finds the target faces of the pieces, and adds twice the areas that target edges sweep.
     fn sweep_target(&mut self, target: Parametrised<'_>) -> Result<(), OverlayError> {
         let Self { arrangement, cells, pieces, .. } = self;
         let mesh = target.mesh;
@@ -320,7 +321,7 @@ impl Measure {
         lone.map_or(Ok(()), |piece| Err(mixed(piece.source_face, piece.target_face)))
     }
 
-    /// Areas from the swept triangles; a negative one is rounding or an error.
+    /// Computes the areas from the swept triangles; a negative one is rounding or an error.
     fn finish(&mut self, target: Parametrised<'_>) -> Result<(), OverlayError> {
         for piece in &mut self.pieces {
             let area = 0.5 * piece.area;
@@ -344,7 +345,7 @@ impl Measure {
 }
 
 impl MeasuredPiece {
-    /// Takes over the faces that a side lies between, or finds them again.
+    /// Sets the faces and the rotation of a piece that has none; another piece must have these faces.
     #[inline]
     fn meet(&mut self, s: FaceId, t: FaceId, rotation: DVec2) -> Result<&mut Self, OverlayError> {
         if self.source_face == FaceId(NONE) {

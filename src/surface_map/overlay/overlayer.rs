@@ -1,4 +1,4 @@
-//! Source and target intersected: the common subdivision from the located source vertices.
+//! The intersection of source and target: their common subdivision from the located source vertices.
 //!
 //! Where source and target coincide, at a vertex or along an edge, the combinatorics of rounded tests need not fit
 //! together. The check finds that, and the overlay is made again with the source's free vertices moved by 1e-10 of their
@@ -13,10 +13,10 @@ use super::trace::{Traced, Traces};
 use crate::monitor::{Monitor, Step};
 use crate::surface_map::parametrisation::embedding::Parametrised;
 
-/// Attempts at an overlay, all but the first with the source shifted.
+/// Attempts at an overlay, all but the first with the source shifted, 30 times as far in each. Chosen by hand.
 const ATTEMPTS: usize = 6;
 
-/// Makes overlays; keeps its working memory from one to the next.
+/// Makes overlays; keeps its working memory from one call to the next.
 #[derive(Clone, Debug, Default)]
 pub struct Overlayer {
     seats: Seats,
@@ -50,7 +50,7 @@ impl Overlayer {
         result
     }
 
-    /// With the source shifted as the overlay says.
+    /// Intersects source and target with the source shifted `overlay.shifts` times.
     fn attempt(
         &mut self,
         [source, target]: [Parametrised<'_>; 2],

@@ -1,4 +1,4 @@
-//! The common subdivision of source and target: pieces on which the map is affine, and why there may be none.
+//! The common subdivision of source and target: pieces on which the map is affine, and its errors.
 
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle::signed_double_area;
@@ -15,7 +15,7 @@ pub struct Overlay {
     pub pieces: Vec<Piece>,
     /// Corners of all pieces.
     pub points: Vec<OverlayPoint>,
-    /// Number of different corners; [`OverlayPoint::vertex`] runs below it.
+    /// Number of different corners; every [`OverlayPoint::vertex`] is below it.
     pub vertex_count: usize,
     /// Largest relative difference between a source triangle's area on the cone surface and the sum of its pieces.
     pub source_area_defect: f64,
@@ -23,12 +23,12 @@ pub struct Overlay {
     pub target_area_defect: f64,
     /// Pieces whose area is zero up to rounding. They stay in the list, so that the pieces cover both meshes without gaps.
     pub degenerate: usize,
-    /// How often the source was shifted to end coincidences.
+    /// The number of times that the source was shifted to end coincidences.
     pub shifts: usize,
 }
 
 impl Overlay {
-    /// The same overlay with source and target exchanged.
+    /// Exchanges the roles of source and target.
     pub fn exchange_roles(&mut self) {
         for piece in &mut self.pieces {
             std::mem::swap(&mut piece.source_face, &mut piece.target_face);
@@ -60,7 +60,7 @@ pub struct Piece {
     pub motion: Rigid2,
 }
 
-/// Which mesh's edge a side of a piece lies on.
+/// The mesh on whose edge a side of a piece lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SideOf {
     /// A source edge.
@@ -78,7 +78,7 @@ pub struct OverlayPoint {
     pub target: [f64; 3],
     /// Number of the corner, the same in all pieces around it.
     pub vertex: u32,
-    /// What the side from this corner to the next lies on.
+    /// The mesh on whose edge the side from this corner to the next lies.
     pub side: SideOf,
 }
 
@@ -128,7 +128,7 @@ pub enum OverlayError {
 }
 
 impl OverlayError {
-    /// The error where it is one of the overlay.
+    /// The error, unless it is the wish to stop.
     ///
     /// # Errors
     /// The stop that was asked for.

@@ -1,4 +1,4 @@
-//! Where every source corner sits: the target face of the vertex and the motion from the corner's own source face.
+//! Seats: for every source corner the target face that holds its vertex, and the motion to it from the corner's source face.
 
 use super::location::{Location, Locations};
 use super::pieces::OverlayError;
@@ -23,7 +23,7 @@ const HOPS: usize = 64;
 /// two straight lines between the same cones go around another cone, or differ by far more; rounding makes 1e-12.
 const COINCIDENT: f64 = 1e-6;
 
-/// A place among the target's faces.
+/// The target face that holds a source corner, with the motion to its plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seat {
     /// The target face. At a landmark: the face into which the source halfedge points.
@@ -37,14 +37,14 @@ pub(super) struct Seat {
 pub(super) struct Seats {
     /// Corner positions, in the plane of each face, shifted where coincidences had to be ended.
     pub corners: TiVec<HalfedgeId, DVec2>,
-    /// By source halfedge, for its start.
+    /// By source halfedge, the seat of its start.
     pub seats: TiVec<HalfedgeId, Seat>,
-    /// Of source halfedges that start at a landmark, the target halfedge that begins the wedge they point into.
+    /// For source halfedges that start at a landmark, the target halfedge that begins the wedge into which they point.
     pub wedges: TiVec<HalfedgeId, Option<HalfedgeId>>,
 }
 
 impl Seats {
-    /// Fills the seats; `attempt` 0 leaves the source where it is, every other one shifts its free vertices another way.
+    /// Fills the seats; `attempt` 0 leaves the source where it is, every other one shifts its free vertices in another direction.
     pub fn fill(
         &mut self,
         source: Parametrised<'_>,
@@ -104,11 +104,11 @@ impl Seats {
         }
     }
 
-    /// Seats of source edges between two landmarks that coincide with a target edge: on its left, at both ends.
+    /// Seats source edges between two landmarks that coincide with a target edge on its left, at both ends.
     ///
     /// Both edges are the same straight line on the cone surface, and neither end may be moved. Rounding would put the source
     /// edge on the left at one end and on the right at the other, or send its trace around the landmark. So it is taken to lie on
-    /// the left by less than anything that is measured, as in simulation of simplicity (Edelsbrunner & Muecke 1990).
+    /// the left by an infinitesimal amount, as in simulation of simplicity (Edelsbrunner & Muecke 1990).
     fn part_coincident(&mut self, source: Parametrised<'_>, target: Parametrised<'_>) {
         for &v in source.landmark_vertices {
             for h in source.mesh.star(v) {
@@ -150,7 +150,7 @@ impl Seats {
         self.wedges[h] = Some(wedge);
     }
 
-    /// Seats of all corners of an ordinary vertex.
+    /// Seats all corners of an ordinary vertex.
     fn sit(&mut self, source: Parametrised<'_>, target: Parametrised<'_>, at: &Location) {
         let mesh = source.mesh;
         let mut seat = Seat { face: at.face, motion: at.motion };
@@ -164,7 +164,7 @@ impl Seats {
         loop {
             self.seats[h] = seat;
             let next = mesh.twin(h.prev());
-            // The motion there is the inverse of the one onwards, which lies near.
+            // The motion stored there is the inverse of the one needed, and is near in memory.
             if source.embedding.transitions[h.prev()] != Rigid2::IDENTITY {
                 seat.motion = seat.motion.after(&source.embedding.transitions[next]);
             }
@@ -175,7 +175,7 @@ impl Seats {
         }
     }
 
-    /// The seat of one corner of a landmark: in the wedge of target faces that its halfedge points into.
+    /// Seats one corner of a landmark: in the target face into which its halfedge points.
     fn sit_at_landmark(
         &mut self,
         source: Parametrised<'_>,

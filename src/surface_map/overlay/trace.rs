@@ -1,4 +1,4 @@
-//! Every source edge traced once, straight through the target's triangles.
+//! The traces of the source's edges: straight lines through the target's triangles.
 //!
 //! A trace goes from the seat of its tail to the seat of its head. Between them each step takes one exact predicate: on
 //! which side of the source edge lies the corner opposite the edge that was entered.
@@ -14,7 +14,7 @@ use crate::surface_map::parametrisation::embedding::Parametrised;
 use glam::DVec2;
 use typed_index_collections::TiVec;
 
-/// A source edge crosses a target edge.
+/// A crossing of a source edge and a target edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Crossing {
     /// The source edge as a halfedge whose direction the trace follows: the smaller one.
@@ -26,9 +26,9 @@ pub(super) struct Crossing {
     /// Number, in [`Traces::motions`], of the motion from the plane of the source face of `edge` to that of the face
     /// entered; [`AS_SEATED`] as long as it is that of the seat.
     pub motion: u32,
-    /// Where on the source edge: 0 at its start, 1 at its end; never falls along a trace.
+    /// The place on the source edge: 0 at its start, 1 at its end; never falls along a trace.
     pub along_source: f64,
-    /// Where on the target halfedge `exit`: 0 at its start, 1 at its end.
+    /// The place on the target halfedge `exit`: 0 at its start, 1 at its end.
     pub along_target: f64,
 }
 
@@ -41,7 +41,7 @@ const AS_SEATED: u32 = u32::MAX;
 /// The crossings of all source edges.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Traces {
-    /// Edge by edge, in the order of each trace.
+    /// The crossings, edge by edge, in the order of each trace.
     pub crossings: Vec<Crossing>,
     /// Motions other than those of the seats.
     pub motions: Vec<Rigid2>,
@@ -74,7 +74,7 @@ impl Traces {
         Ok(())
     }
 
-    /// After a crossing, the motion from the plane of the source face of its edge to that of the target face entered.
+    /// The motion from the plane of the source face of a crossing's edge to that of the target face entered there.
     pub fn motion<'a>(&'a self, seats: &'a Seats, crossing: &Crossing) -> &'a Rigid2 {
         self.motions.get(crossing.motion as usize).unwrap_or(&seats.seats[crossing.edge].motion)
     }
@@ -89,6 +89,7 @@ pub(super) struct Traced<'a> {
     pub traces: &'a Traces,
 }
 
+/// What the traces of all edges share.
 struct Tracer<'a> {
     source: Parametrised<'a>,
     target: Parametrised<'a>,
@@ -97,13 +98,13 @@ struct Tracer<'a> {
     most: usize,
 }
 
-/// Where a trace writes its crossings and motions.
+/// The lists to which a trace appends its crossings and motions.
 struct Log<'l> {
     crossings: &'l mut Vec<Crossing>,
     motions: &'l mut Vec<Rigid2>,
 }
 
-/// A trace on its way.
+/// A trace under way.
 struct Walk {
     edge: HalfedgeId,
     ends: [DVec2; 2],
@@ -121,13 +122,13 @@ struct Exit {
     left: f64,
 }
 
-/// Where a trace passes from a face to the next.
+/// The passage of a trace from one face to the next.
 struct Passage {
     /// The target halfedge that it leaves through.
     exit: HalfedgeId,
-    /// Where on the source edge, up to rounding.
+    /// The place on the source edge, 0 to 1 up to rounding.
     along_source: f64,
-    /// Where on `exit`, up to rounding.
+    /// The place on `exit`, 0 to 1 up to rounding.
     along_target: f64,
 }
 
@@ -204,8 +205,8 @@ impl Tracer<'_> {
         }
     }
 
-    /// How the line leaves a face that it entered through the twin of `before`: one predicate tells on which side the corner
-    /// opposite lies. Points on the line count as right of it.
+    /// The halfedge through which the line leaves a face that it entered through the twin of `before`: one predicate tells on which side
+    /// of the line the opposite corner lies. Points on the line count as right of it.
     #[inline]
     fn next_exit(&self, walk: &Walk, before: Exit) -> Exit {
         let entered = self.target.mesh.twin(before.halfedge);
@@ -218,7 +219,7 @@ impl Tracer<'_> {
         }
     }
 
-    /// How the line leaves the face where it starts.
+    /// The halfedge through which the line leaves the face in which it starts.
     fn first_exit(&self, walk: &Walk) -> Option<Exit> {
         let [p, q] = walk.line;
         let corner = |x: HalfedgeId| self.target.embedding.corners[x];
@@ -244,8 +245,8 @@ impl Tracer<'_> {
         }
     }
 
-    /// The head lies, up to rounding, on the border of the present face: goes over to the face of its seat, through one
-    /// edge or around one corner.
+    /// Passes into the face of the head's seat, through one edge or around one corner: the head lies, up to rounding, on the border of the
+    /// present face.
     fn step_over(&self, mut walk: Walk, end: &Seat, mut log: Log<'_>) -> Result<(), OverlayError> {
         let halfedges = |face: FaceId| (0..3).map(move |k| HalfedgeId::of(face, k));
         let mesh = &self.target.mesh;
@@ -276,8 +277,8 @@ impl Tracer<'_> {
 }
 
 /// Whether a walk is in the face of its goal, on the same way around the cones: `distance` is the square of the distance
-/// between the goal's two images in the face's plane. Ways around a cone differ by its angle, those that are equal by rounding:
-/// 1e-9 of the root of the area and 1e-6 rad lie between.
+/// between the goal's two images in the face's plane. Different ways around a cone differ by its angle, equal ways by rounding; the bounds,
+/// 1e-9 of the root of the area and 1e-6 rad, lie between.
 fn is_there(here: &Seat, end: &Seat, distance: f64) -> bool {
     here.face == end.face
         && distance < 1e-18

@@ -1,4 +1,4 @@
-//! A patched mesh coarsened down to its base domain.
+//! Coarsening of a patched mesh down to its base domain.
 //!
 //! Faces keep their patch: an interior vertex collapses into any neighbour, a path vertex only along its own path, a
 //! landmark never (Hoppe 1996, restricted to the patches).
@@ -12,7 +12,7 @@ use crate::monitor::Monitor;
 use crate::surface_map::error::MapError;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Where a vertex lies, which says where it may be collapsed to.
+/// The kind of a vertex, which restricts its collapses.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Hold {
     Landmark,

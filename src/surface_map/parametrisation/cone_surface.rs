@@ -75,7 +75,7 @@ impl ConeSurface {
         for f in mesh.faces() {
             let [a, b, c] = f.halfedges().map(|h| lengths[h]);
             let longest = a.max(b).max(c);
-            // Such a triangle is flatter than 2e-7 of its longest side: landmarks in line, up to the digits of files.
+            // The triangle's height is below 2e-7 of its longest side: its landmarks lie on a line, up to the digits of files.
             if triangle::area_from_lengths(a, b, c) < 1e-7 * longest * longest {
                 return Err(MapError::DegenerateBase { landmarks: mesh.triangles()[f].map(usize::from) });
             }

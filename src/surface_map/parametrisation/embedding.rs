@@ -20,7 +20,7 @@ pub struct Embedding {
     /// For each halfedge the rigid motion from the plane of its face to that of its twin's face. Fixed for the life of the
     /// embedding; around an ordinary vertex they come back to the identity.
     pub transitions: Arc<TiVec<HalfedgeId, Rigid2>>,
-    /// By landmark.
+    /// By landmark, its place on the cone surface.
     pub anchors: Arc<TiVec<LandmarkId, Anchor>>,
 }
 
@@ -38,7 +38,7 @@ pub fn triangle(corners: &TiSlice<HalfedgeId, DVec2>, f: FaceId) -> [DVec2; 3] {
     f.halfedges().map(|h| corners[h])
 }
 
-/// Where a plane of the parametrisation lies on the cone surface.
+/// The motion that takes a chart of the cone surface to a plane of the parametrisation, at a landmark.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Anchor {
     /// A halfedge of the mesh that starts at the landmark.
@@ -52,13 +52,13 @@ pub struct Anchor {
 /// A mesh with its parametrisation onto the common cone surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Parametrised<'a> {
-    /// The mesh, of area 1; with caps, of such a size that the skin that it shares with the other mesh is as large there.
+    /// The mesh, scaled to area 1; with caps, the target is scaled so that the skin that both meshes share has the same area on both.
     pub mesh: &'a SurfaceMesh,
     /// The mesh's vertex of each landmark.
     pub landmark_vertices: &'a TiSlice<LandmarkId, VertexId>,
     /// Its parametrisation.
     pub embedding: &'a Embedding,
-    /// How much its faces count in an energy of the map.
+    /// The weights of its faces in an energy of the map.
     pub weights: FaceWeights<'a>,
 }
 

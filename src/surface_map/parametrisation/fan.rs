@@ -1,4 +1,4 @@
-//! The base faces around a landmark: which angle around the cone a direction has, and how to get from chart to chart.
+//! The base faces around a landmark: angles of directions around the cone, and motions from chart to chart.
 
 use super::cone_surface::ConeSurface;
 use super::embedding::{Anchor, Embedding, Parametrised};
@@ -10,8 +10,8 @@ use crate::mesh::HalfedgeId;
 use glam::DVec2;
 use std::sync::Arc;
 
-/// The base faces around a landmark, counter-clockwise. Angles are counted from the first base halfedge, on and on around
-/// the cone.
+/// The base faces around a landmark, counter-clockwise. Angles, in radians, are counted from the first base halfedge, and go on growing
+/// with each turn around the cone.
 pub struct Fan<'a> {
     surface: &'a ConeSurface,
     /// Base halfedges that start at the landmark.
@@ -40,7 +40,7 @@ pub struct Wedge {
     pub motion: Rigid2,
 }
 
-/// Whole turns around a cone, at most: more are those of a cone angle that rounding has left without meaning.
+/// Whole turns around a cone, at most: more occur only where rounding has left a cone angle without meaning. Chosen by hand.
 const MOST_TURNS: i64 = 10_000;
 
 impl<'a> Fan<'a> {
@@ -61,7 +61,7 @@ impl<'a> Fan<'a> {
         self.spokes.iter().find(|spoke| spoke.halfedge == h).map(|spoke| spoke.angle)
     }
 
-    /// Place in the fan of an anchor's chart.
+    /// The number in the fan of an anchor's chart.
     fn place(&self, anchor: &Anchor) -> usize {
         self.spokes.iter().position(|spoke| spoke.halfedge.face() == anchor.chart).unwrap_or(0)
     }
@@ -101,7 +101,7 @@ impl<'a> Fan<'a> {
         })
     }
 
-    /// The motion from the chart at `place` to the chart at `to`, counted on and on around the cone.
+    /// The motion from the chart at `place` to the chart at `to`, a number that goes on growing around the cone.
     fn around(&self, place: usize, to: i64) -> Rigid2 {
         let n = self.spokes.len() as i64;
         let transitions = &self.surface.transitions;
@@ -140,8 +140,8 @@ impl<'a> Fan<'a> {
 }
 
 impl Embedding {
-    /// The same embedding with every anchor's chart below its halfedge: relaxations turn the planes around the cones, and
-    /// angles are told apart only within half a turn.
+    /// Moves every anchor to the chart that contains its halfedge: relaxations turn the planes around the cones, and angles are known only
+    /// within half a turn of the anchor's chart.
     pub fn normalise_anchors(&mut self, surface: &ConeSurface) {
         let normalised = |(landmark, anchor): (LandmarkId, &Anchor)| {
             let edge = self.corners[anchor.corner.next()] - self.corners[anchor.corner];

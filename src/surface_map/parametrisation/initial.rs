@@ -1,7 +1,7 @@
 //! The first parametrisation of a patched mesh onto the cone surface, coarse to fine.
 //!
-//! The mesh is coarsened down to the base domain, whose parametrisation is the charts themselves; then vertex by vertex
-//! comes back, each into the kernel of its star, and the level is relaxed whenever the number of vertices has grown
+//! The mesh is coarsened down to the base domain, whose triangles are mapped onto the charts. Then the vertices return one by
+//! one, each into the kernel of its star, and the level is relaxed whenever the number of vertices has grown
 //! fourfold. Every star is checked: positive triangles and one turn of 2 pi (positive areas alone admit double covers).
 
 use super::coarsen_to_base::coarsen_to_base;
@@ -20,15 +20,15 @@ use crate::surface_map::error::MapError;
 use std::sync::Arc;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Vertices that come back between two questions to the monitor.
+/// Vertices that return between two questions to the monitor: some milliseconds.
 const ASKED_EVERY: usize = 4096;
 
-/// How the first parametrisation is found.
+/// Options of the first parametrisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InitialOptions {
     /// A level is relaxed when its vertices have grown by this factor.
     pub growth: f64,
-    /// How far a level is relaxed.
+    /// Options of the relaxation of a level.
     pub level: FlatRelaxOptions,
 }
 
@@ -48,7 +48,7 @@ pub struct InitialReport {
     pub rescued_vertices: usize,
 }
 
-/// A parametrisation with every triangle positive.
+/// Finds a parametrisation of a patched mesh in which every triangle is positive.
 ///
 /// # Errors
 /// [`MapError::NoStart`] where a vertex finds no place.
@@ -100,7 +100,7 @@ fn on_charts<'a>(
     level
 }
 
-/// Brings vertices back until `goal` are there; the level is relaxed whenever it has grown.
+/// Restores vertices until the level has `goal` of them; it is relaxed whenever it has grown by `options.growth`.
 ///
 /// # Errors
 /// [`MapError::NoStart`] where a vertex finds no place.

@@ -1,4 +1,4 @@
-//! Where to put one vertex inside the polygon of its neighbours.
+//! The kernel of a star polygon: the places in which a vertex sees all its neighbours' edges from the left.
 
 use crate::math::triangle::signed_double_area;
 use glam::DVec2;
@@ -11,9 +11,9 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    /// The centroid of the kernel of a counter-clockwise star polygon: of all points that see every side from its left.
+    /// The centroid of the kernel of a counter-clockwise polygon: of all points that lie on the left of every side.
     ///
-    /// `None` where the kernel is empty or has no area to speak of.
+    /// `None` where the kernel is empty or has no area but rounding.
     pub fn centroid(&mut self, star: &[DVec2]) -> Option<DVec2> {
         let (low, high) = star.iter().fold((star[0], star[0]), |(l, h), p| (l.min(*p), h.max(*p)));
         self.polygon.clear();
@@ -26,7 +26,7 @@ impl Kernel {
         centroid(&self.polygon, 1e-14 * size.x * size.y)
     }
 
-    /// Keeps what lies on the left of the line from `a` to `b`.
+    /// Keeps the part of the polygon on the left of the line from `a` to `b`.
     fn clip(&mut self, a: DVec2, b: DVec2) {
         let side = |p: DVec2| signed_double_area(a, b, p);
         self.clipped.clear();

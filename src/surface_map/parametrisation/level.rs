@@ -1,8 +1,7 @@
-//! A level of a mesh with its parametrisation: vertices go and come back one at a time, and the level is relaxed in between.
+//! A level of a mesh with its parametrisation: vertices are removed and restored one at a time, and the level is relaxed in between.
 //!
-//! Every face has a plane of its own, so that nothing depends on patches: a vertex that comes back takes its star's planes,
-//! one that goes leaves them. Every star is checked: positive triangles and the right angle (positive areas alone admit
-//! double covers).
+//! Every face has a plane of its own, so that nothing depends on patches. Every star is checked: positive triangles and the right angle
+//! sum (positive areas alone admit double covers).
 
 use super::cone_surface::ConeSurface;
 use super::embedding::{Anchor, Embedding};
@@ -110,12 +109,12 @@ impl<'a> ParametrisedLevel<'a> {
         self.positions.len()
     }
 
-    /// Whether all vertices are there.
+    /// Whether the level has all vertices of the full resolution.
     pub fn is_full(&self) -> bool {
         self.mesh.live_vertices() == self.full_vertices()
     }
 
-    /// Sets a face's corner and the way out through its halfedge.
+    /// Sets the corner at the start of a face's halfedge, and the transition across that halfedge.
     pub fn set(&mut self, h: HalfedgeId, corner: DVec2, transition: Rigid2) {
         self.corners[h] = corner;
         self.transitions[h] = transition;
@@ -149,9 +148,9 @@ impl<'a> ParametrisedLevel<'a> {
         }
     }
 
-    /// Takes the start of `h` out by moving it into its end; `false`, unchanged, where a triangle would turn over.
+    /// Removes the start of `h` by collapsing `h` onto its end; `false`, with nothing changed, where a triangle would turn over.
     ///
-    /// The caller has asked for the link condition.
+    /// `h` must satisfy the link condition.
     pub fn remove(&mut self, h: HalfedgeId) -> bool {
         self.look_around(h);
         let count = self.star.halfedges.len();
@@ -233,7 +232,7 @@ impl<'a> ParametrisedLevel<'a> {
         turn_at(self.corners[h], self.corners[h.next()], self.corners[h.prev()])
     }
 
-    /// Brings back the vertex that was removed last, without a place yet.
+    /// Restores the vertex that was removed last, without a place yet.
     fn restore(&mut self) -> Option<VertexId> {
         let collapse = self.mesh.restore()?;
         let h = collapse.halfedge;
@@ -288,10 +287,10 @@ impl<'a> ParametrisedLevel<'a> {
         self.anchors[landmark] = Fan::new(&self.surface, landmark).recharted(&anchor, angle);
     }
 
-    /// Brings back the vertex that was removed last and puts it into the kernel of its star; `None` at full resolution.
+    /// Restores the vertex that was removed last and puts it into the kernel of its star; `None` at full resolution.
     ///
     /// # Errors
-    /// The vertex, taken out again, where its star has no kernel.
+    /// [`NoPlace`] where its star has no kernel; the vertex is removed again.
     pub fn refine(&mut self) -> Option<Result<VertexId, NoPlace>> {
         let v = self.restore()?;
         let h = self.mesh.outgoing(v);
@@ -325,7 +324,8 @@ impl<'a> ParametrisedLevel<'a> {
         }
     }
 
-    /// The best place for the vertex in the middle of the star, in the plane of its first face.
+    /// A place of low energy for the vertex in the middle of the star, in the plane of its first face; `None` where the star has no
+    /// kernel.
     fn place(&mut self, v: VertexId) -> Option<DVec2> {
         let Self { mesh, positions, star, .. } = self;
         star.triangles.clear();
@@ -386,6 +386,6 @@ impl<'a> ParametrisedLevel<'a> {
     }
 }
 
-/// The star of a vertex has no kernel.
+/// The error where the star of a vertex has no kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoPlace;

@@ -1,4 +1,4 @@
-//! A mesh developed onto the flat cone surface: the first parametrisation, levels of coarseness, the flat relaxation.
+//! Parametrisations of a mesh onto the flat cone surface: the first one, levels of coarseness, the flat relaxation.
 
 mod coarsen_to_base;
 pub mod cone_surface;

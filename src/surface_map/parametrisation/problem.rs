@@ -1,8 +1,8 @@
-//! The flat relaxation: least symmetric Dirichlet energy of a parametrisation onto the cone surface.
+//! The flat relaxation: minimises the symmetric Dirichlet energy of a parametrisation onto the cone surface.
 //!
-//! Unknown is one point z per free vertex in a reference chart; every corner sees it through a fixed rigid motion.
-//! Newton with the projected Hessian of [`crate::surface_map::energy::symmetric_dirichlet`], conjugate gradients, a step that
-//! keeps every triangle positive (Smith & Schaefer 2015) and an Armijo line search.
+//! The unknowns are one point z per free vertex, in the plane of its first face; fixed rigid motions take it to the planes of its other
+//! faces. Newton's method uses the projected Hessian of [`crate::surface_map::energy::symmetric_dirichlet`], conjugate gradients, a step
+//! that keeps every triangle positive (Smith & Schaefer 2015) and an Armijo line search.
 
 use super::rest_triangle::{Corner, FlatTriangle};
 use crate::math::rigid2::Rigid2;
@@ -14,7 +14,7 @@ use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::symmetric_dirichlet::SymmetricDirichlet;
 use glam::{DMat2, DVec2};
 
-/// How far a relaxation goes.
+/// Options of a flat relaxation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlatRelaxOptions {
     /// Stops when a step lowers the energy by less than this share.
@@ -74,15 +74,15 @@ impl FaceHessian {
     }
 }
 
-/// The derivatives of an energy that has a share of the flat one, from which Newton's direction is taken.
+/// The derivatives from which Newton's direction is computed, of an energy that includes the flat one with a weight.
 pub(in crate::surface_map) struct Derivatives<'a> {
     /// The gradient of the whole energy.
     pub slope: &'a [DVec2],
     /// Weight of the flat energy, whose Hessian is added.
     pub barrier: f64,
-    /// By triangle the Hessian of the rest by the Jacobian.
+    /// By triangle the Hessian of the remaining energy with respect to the Jacobian.
     pub by_triangle: &'a [FaceHessian],
-    /// Further Hessians by unknown.
+    /// Hessians of single vertices' energies, by unknown.
     pub by_unknown: &'a [(u32, DMat2)],
 }
 
@@ -105,7 +105,7 @@ pub struct FlatProblem {
     total_area: f64,
 }
 
-/// Newton's linear systems, with their working memory and how they ended.
+/// The solver of Newton's linear systems, with its working memory and counts.
 #[derive(Default)]
 struct NewtonSolver {
     workspace: CgWorkspace<DVec2>,
@@ -114,14 +114,14 @@ struct NewtonSolver {
     inexact: usize,
 }
 
-/// Conjugate gradient iterations of one Newton step, at most. Chosen by hand.
+/// Conjugate gradient iterations of one Newton step, at most: a bound on the time of a system that does not converge. Chosen by hand.
 const LINEAR_ITERATIONS: usize = 500;
 
 impl NewtonSolver {
-    /// Writes Newton's step for minus the slope.
+    /// Writes Newton's step to `step`; `downhill` is minus the gradient.
     ///
-    /// A system that is not solved to the tolerance is counted, and its last iterate is the step: that goes downhill, as every
-    /// iterate from 0 does, and every caller goes along it only as far as its energy falls.
+    /// A system that is not solved to the tolerance is counted, and its last iterate is the step: as every iterate from 0 it is a
+    /// descent direction, and every caller goes along it only as far as its energy falls.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -328,7 +328,7 @@ impl FlatProblem {
             (vec![DVec2::ZERO; n], vec![DVec2::ZERO; n], vec![DVec2::ZERO; n]);
         let begin = (self.solver.iterations, self.solver.inexact);
         for k in 0..options.max_steps {
-            // The number of steps is not known before: half of the stage is told after eight.
+            // The number of steps is not known in advance: progress is one half after eight steps.
             let fraction = k as f64 / (k as f64 + 8.0);
             monitor.step(Step { fraction, residual: Some(energy) })?;
             let within = &mut Portion::new(monitor, fraction, fraction);
@@ -352,8 +352,8 @@ impl FlatProblem {
         Ok(report)
     }
 
-    /// The energy after an Armijo step from z, written to `trial`; `None` where no step lowers it. `descent` is what the slope
-    /// at z promises of the whole step.
+    /// The energy after an Armijo step from z, whose end is written to `trial`; `None` where no step lowers it. `descent` is the decrease
+    /// that the gradient at z predicts for the whole step.
     fn line_search(
         &self,
         z: &[DVec2],

@@ -1,4 +1,4 @@
-//! Triangles of a parametrisation with the shapes that they want to have, and the Jacobians between both.
+//! Triangles of a parametrisation with their rest shapes, and the Jacobians between both.
 
 use super::embedding::Parametrised;
 use crate::math::rigid2::Rigid2;
@@ -7,17 +7,17 @@ use crate::math::triangle;
 use crate::mesh::FaceId;
 use glam::{DMat2, DVec2, DVec3};
 
-/// The shape that a face wants to have, and how much it counts.
+/// The rest shape of a face, with its weight.
 #[derive(Clone, Copy, Debug)]
 pub struct RestTriangle {
     /// Corners in space.
     pub corners: [DVec3; 3],
-    /// Its area, or more.
+    /// Its weight in the energy, an area: that of the triangle or more.
     pub weight: f64,
 }
 
 impl RestTriangle {
-    /// A triangle that counts by its area; one without area by 1e-30, so that no weight is 0.
+    /// The rest triangle with its area as weight; at least 1e-30, so that no weight is 0.
     pub fn of(corners: [DVec3; 3]) -> Self {
         Self { corners, weight: triangle::area(corners[0], corners[1], corners[2]).max(1e-30) }
     }
@@ -28,12 +28,12 @@ impl RestTriangle {
 pub enum Corner {
     /// The image of free vertex `.0` under motion `.1`.
     Free(u32, Rigid2),
-    /// A cone: stays where it is.
+    /// A fixed point: that of a cone.
     Fixed(DVec2),
 }
 
 impl Corner {
-    /// Where the corner is when the free vertices are at `z`.
+    /// The place of the corner when the free vertices are at `z`.
     #[inline]
     pub fn position(&self, z: &[DVec2]) -> DVec2 {
         match self {
@@ -83,7 +83,7 @@ impl FlatTriangle {
         self.corners.map(|corner| corner.position(z))
     }
 
-    /// How far the corners move when the free vertices move by `dz`.
+    /// The displacements of the corners when the free vertices move by `dz`.
     #[inline]
     pub(super) fn displacements(&self, dz: &[DVec2]) -> [DVec2; 3] {
         self.corners.map(|corner| match corner {

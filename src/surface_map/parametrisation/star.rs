@@ -1,4 +1,4 @@
-//! The star of one vertex developed into a plane, and the best place for the vertex in it.
+//! The star of one vertex laid out in a plane, and a place of low energy for the vertex in it.
 
 use super::kernel::Kernel;
 use super::rest_triangle::FlatTriangle;
@@ -11,7 +11,7 @@ use crate::surface_map::energy::symmetric_dirichlet::SymmetricDirichlet;
 use glam::{DMat2, DVec2};
 use std::f64::consts::TAU;
 
-/// The star of a vertex, seen from the plane of its first face.
+/// The star of a vertex, laid out in the plane of its first face.
 #[derive(Clone, Default)]
 pub struct Star {
     pub halfedges: Vec<HalfedgeId>,
@@ -24,7 +24,7 @@ pub struct Star {
 }
 
 impl Star {
-    /// Three Newton steps on the star's energy.
+    /// The place after three Newton steps from `start` on the star's symmetric Dirichlet energy.
     pub fn improved(&self, start: DVec2) -> DVec2 {
         let energy_at = |z: DVec2| {
             let energies =

@@ -4,8 +4,8 @@
 //! The paths around a patch go onto the sides of its chart by arc length, and every vertex inside is the mean of its neighbours with
 //! positive weights: cotangents within bounds. A path has the same places in both of its patches, so the whole is
 //! continuous; its derivative jumps there. No edge inside a patch joins two vertices of its border, so no triangle is flipped, in
-//! exact arithmetic. In f64 a limb inside a patch, whose vertices shrink into one point by a factor with each of its widths, ends in
-//! triangles that rounding cannot tell from points: the certificate counts them.
+//! exact arithmetic. In f64 the image of a limb inside a patch shrinks by a factor with each of its widths, until its triangles are as
+//! small as rounding: the certificate counts those that are flipped.
 
 use super::cone_surface::ConeSurface;
 use super::embedding::{Anchor, Embedding, Parametrised};
@@ -23,17 +23,19 @@ use glam::DVec2;
 use std::sync::Arc;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Weights are cotangents, of order 1, and within these bounds. Chosen by hand.
+/// Lower bound of the cotangent weights, which are of order 1: they must be positive, and a wider range makes the system harder to solve.
+/// Chosen by hand.
 const LEAST_WEIGHT: f64 = 0.02;
+/// Upper bound of the weights. Chosen by hand.
 const MOST_WEIGHT: f64 = 50.0;
 
-/// A solve ends at this share of its right-hand side; the next one goes on from what is left.
+/// A solve ends at this relative residual; the next one solves for the residual that is left.
 const SOLVE: CgOptions = CgOptions { tolerance: 1e-8, max_iterations: 1000 };
 
-/// Solves of a system, each for what the one before has left: then rounding is all that is left.
+/// Solves of a system, each for the residual of the one before: at 1e-8 each, three leave nothing but rounding.
 const SOLVES: usize = 3;
 
-/// Faces that are looked at between two questions to the monitor.
+/// Faces or vertices between two questions to the monitor: some milliseconds.
 const ASKED_EVERY: usize = 8192;
 
 /// The parametrisation of a patched mesh over the cone surface of its layout, patch by patch.
@@ -69,7 +71,7 @@ pub fn embed_patches(
     })
 }
 
-/// Every face lies in the chart of its patch: nothing moves inside a patch, and across a path it is as between the charts.
+/// The transitions of faces that lie in the chart of their patch: identities inside a patch, those of the charts across a path.
 fn transitions(patched: &PatchedMesh, surface: &ConeSurface) -> TiVec<HalfedgeId, Rigid2> {
     let mut transitions = ti_vec![Rigid2::IDENTITY; 3 * patched.mesh.face_count()];
     for (side, path) in patched.paths.iter_enumerated() {
@@ -89,22 +91,22 @@ fn weight(mesh: &SurfaceMesh, edge: HalfedgeId) -> f64 {
         cotangent_between(tail - apex, head - apex)
     };
     let weight = 0.5 * (cotangent(edge) + cotangent(mesh.twin(edge)));
-    // Beside a face without area it may be no number, and becomes the least one.
+    // Beside a face without area it may be NaN, which becomes the least weight.
     min(max(weight, LEAST_WEIGHT), MOST_WEIGHT)
 }
 
-/// Not a number of an unknown: of a vertex on a path, whose place is known.
+/// Marks a vertex on a path, whose place is known, instead of the number of an unknown.
 const KNOWN: u32 = u32::MAX;
 
 /// The patches of a mesh on their charts.
 struct Patches<'a> {
     patched: &'a PatchedMesh,
     surface: &'a ConeSurface,
-    /// By patch.
+    /// By patch, its faces.
     faces: TiVec<FaceId, Vec<FaceId>>,
     /// By vertex its number among those inside its patch, or [`KNOWN`].
     number: TiVec<VertexId, u32>,
-    /// By vertex of a path its place in the chart of the present patch, if it belongs to it.
+    /// By vertex of a path around the present patch, its place in the patch's chart.
     places: TiVec<VertexId, DVec2>,
     corners: TiVec<HalfedgeId, DVec2>,
     workspace: CgWorkspace<f64>,
@@ -140,7 +142,7 @@ impl<'a> Patches<'a> {
         })
     }
 
-    /// Finds the places of a patch.
+    /// Finds the places of all vertices of a patch.
     fn embed(&mut self, patch: FaceId, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
         monitor.step(Step::default())?;
         for side in patch.halfedges() {
@@ -177,7 +179,7 @@ impl<'a> Patches<'a> {
         }
     }
 
-    /// The system of the vertices inside a patch, relative to a point of its chart.
+    /// The linear system of the vertices inside a patch; their places are relative to `centre`.
     fn system(&self, patch: FaceId, centre: DVec2, monitor: &mut dyn Monitor) -> Result<System, Cancelled> {
         let mesh = &self.patched.mesh;
         let mut pulse = Pulse::new(monitor, ASKED_EVERY);
@@ -227,7 +229,7 @@ impl<'a> Patches<'a> {
                 stopped = monitor.step(Step::default());
                 stopped.is_ok()
             };
-            // Where it does not converge, what it found is nearer: the certificate judges the whole.
+            // Where it does not converge, the last iterate is still nearer: the certificate judges the whole.
             let _ = self.workspace.solve_while(laplacian, factor, &left, &mut step, &SOLVE, may_go_on);
             stopped?;
             x.iter_mut().zip(&step).for_each(|(x, step)| *x += step);
@@ -244,10 +246,10 @@ struct System {
     sides: [Vec<f64>; 2],
 }
 
-/// The same parametrisation with every vertex but the landmarks moved by a billionth of its shortest edge, further with each attempt.
+/// The same parametrisation with every vertex but the landmarks moved by 1e-9 of its shortest edge, and sixfold with each further attempt.
 ///
-/// The paths of both meshes have the same places on the cone surface, along which an overlay would have nothing but rounding to go by.
-/// Each mesh takes another attempt, so that two that are the same lie apart, too.
+/// The paths of both meshes lie on the same lines of the cone surface, where rounding alone would decide the overlay. The callers take
+/// another attempt for each mesh, so that two equal meshes do not coincide either.
 pub fn nudged(side: Parametrised<'_>, attempt: usize) -> Embedding {
     let unknowns = Unknowns::new(side);
     let mut nudged = side.embedding.clone();

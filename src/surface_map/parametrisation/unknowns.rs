@@ -1,4 +1,4 @@
-//! Between embeddings and the unknowns of a relaxation: one point per free vertex.
+//! The unknowns of a relaxation, one point per free vertex, from embeddings and back.
 
 use super::embedding::{Embedding, Parametrised};
 use super::problem::FlatProblem;
@@ -10,8 +10,8 @@ use crate::monitor::{Cancelled, Monitor};
 use glam::DVec2;
 use typed_index_collections::{TiSlice, TiVec};
 
-/// The corners of a parametrisation as its faces see them: those of the stars belong to free vertices, numbered in order, each
-/// with its coordinates in the plane of its star's first face; the others are fixed.
+/// The corners of a parametrisation in terms of the unknowns: those of the stars belong to free vertices, numbered in order, each
+/// with its coordinates in the plane of its star's first face and the motion from there; the others are fixed.
 pub(super) fn sights<I: Iterator<Item = HalfedgeId>>(
     stars: impl Iterator<Item = I>,
     corners: &TiSlice<HalfedgeId, DVec2>,
@@ -34,12 +34,12 @@ pub struct Unknowns<'a> {
     mesh: &'a SurfaceMesh,
     /// The free vertices, in order.
     free: Vec<VertexId>,
-    /// By halfedge: its start as seen from its face.
+    /// By halfedge, its start in terms of the unknowns.
     sights: TiVec<HalfedgeId, Corner>,
 }
 
 impl<'a> Unknowns<'a> {
-    /// All vertices but the landmarks, in order.
+    /// The unknowns of all vertices but the landmarks, in order.
     pub fn new(side: Parametrised<'a>) -> Self {
         let Parametrised { mesh, embedding, .. } = side;
         let is_landmark = side.landmark_flags();
@@ -60,7 +60,7 @@ impl<'a> Unknowns<'a> {
         FlatProblem::new(self.mesh.faces().map(triangle).collect(), self.free.len(), monitor)
     }
 
-    /// The start of a halfedge as seen from its face.
+    /// The start of a halfedge in terms of the unknowns.
     pub fn sight(&self, h: HalfedgeId) -> Corner {
         self.sights[h]
     }
@@ -70,8 +70,8 @@ impl<'a> Unknowns<'a> {
         self.free.iter().map(|&v| embedding.corners[self.mesh.outgoing(v)]).collect()
     }
 
-    /// The unknowns of an embedding; from attempt 1 on each is moved by a tiny part of its shortest edge, every time more,
-    /// in a direction that scatters with its number.
+    /// The unknowns of an embedding; from attempt 1 on each is moved by 1e-9 of its shortest edge, sixfold with each further attempt, in a
+    /// direction that scatters with its number.
     pub fn nudged(&self, embedding: &Embedding, attempt: usize) -> Vec<DVec2> {
         let corners = &embedding.corners;
         let shortest = |v: VertexId| {
@@ -87,7 +87,7 @@ impl<'a> Unknowns<'a> {
         z
     }
 
-    /// Writes the corners that unknowns mean.
+    /// Writes the corners of all faces for given values of the unknowns.
     pub fn place(&self, z: &[DVec2], corners: &mut TiVec<HalfedgeId, DVec2>) {
         for (corner, sight) in corners.iter_mut().zip(&self.sights) {
             *corner = sight.position(z);

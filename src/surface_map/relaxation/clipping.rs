@@ -12,7 +12,7 @@ pub struct BoxedTriangle {
     high: DVec2,
 }
 
-/// Room for the corners of a triangle that was clipped three times, also where rounding makes it a little concave.
+/// Memory for the corners of a triangle that was clipped three times, also where rounding makes it a little concave.
 type Polygon = [DVec2; 12];
 
 impl BoxedTriangle {
@@ -43,7 +43,7 @@ impl BoxedTriangle {
     }
 }
 
-/// Cuts off the part of a polygon where `side` is negative; the number of corners that are left.
+/// Cuts off the part of a polygon where `side` is negative; returns the number of corners left.
 fn clipped(polygon: &mut Polygon, count: usize, side: impl Fn(DVec2) -> f64) -> usize {
     let before = *polygon;
     let mut kept = 0;

@@ -28,7 +28,7 @@ pub struct Partner {
     pub motion: Rigid2,
 }
 
-/// One side with what overlaps its faces.
+/// One of both parametrised meshes, with the faces of the other one that overlap each of its faces.
 pub struct Sheet<'a> {
     pub side: Parametrised<'a>,
     pub is_landmark: TiVec<VertexId, bool>,
@@ -36,15 +36,16 @@ pub struct Sheet<'a> {
     pub partners: TiVec<FaceId, Vec<Partner>>,
 }
 
-/// A triangle of a star, seen from the place of its vertex.
+/// A triangle of a star, in coordinates whose origin is the vertex.
 pub struct Ray {
     pub halfedge: HalfedgeId,
     /// From the star's plane to the face's.
     pub motion: Rigid2,
+    /// The other two corners, counter-clockwise.
     pub ring: [DVec2; 2],
     /// Gradients of the hat functions in the rest plane, that of the star's vertex first.
     pub hats: [DVec2; 3],
-    /// How much the face counts.
+    /// The weight of the face in the energy.
     pub weight: FaceWeight,
 }
 
@@ -56,7 +57,7 @@ pub struct Cover {
     pub triangle: BoxedTriangle,
     /// From the star's plane to the rest plane.
     pub onto_rest: DMat2,
-    /// How much the face counts.
+    /// The weight of the face in the energy.
     pub weight: FaceWeight,
 }
 
@@ -64,7 +65,7 @@ pub struct Cover {
 pub struct CoveredStar {
     pub rays: Vec<Ray>,
     pub covers: Vec<Cover>,
-    /// Where the origin is in the plane of the first face.
+    /// The place of the vertex in the plane of the first face.
     pub origin: DVec2,
 }
 
@@ -79,7 +80,7 @@ pub struct Improved {
 /// Pieces between two questions to the monitor: some milliseconds.
 const ASKED_EVERY: usize = 16384;
 
-/// Both sides with what overlaps their faces, by their overlay.
+/// Both meshes with the overlapping faces of the other one, found from their overlay.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -104,17 +105,17 @@ pub fn sheets<'a>(
 }
 
 impl Sheet<'_> {
-    /// The face with its rest shape.
+    /// A face with its rest shape.
     fn rest(&self, f: FaceId) -> FlatTriangle {
         FlatTriangle::with_rest(self.triangle(f).map(Corner::Fixed), self.side.mesh.corners(f))
     }
 
-    /// The face in its plane.
+    /// The corners of a face in its plane.
     pub fn triangle(&self, f: FaceId) -> [DVec2; 3] {
         triangle(&self.corners, f)
     }
 
-    /// From the face's rest plane to its plane.
+    /// The Jacobian from a face's rest plane to its plane.
     pub fn jacobian(&self, f: FaceId) -> DMat2 {
         self.rest(f).jacobian_at(DVec2::ZERO)
     }
@@ -151,6 +152,7 @@ impl CoveredStar {
         let back = motion.inverse();
         let corners = other.triangle(face).map(|p| back.apply(p) - self.origin);
         let size = corners[0].distance(corners[1]);
+        // Two ways to the same triangle differ by rounding, two different ways around a cone by far more.
         let is_same = |cover: &Cover| {
             cover.face == face && cover.triangle.corners[0].distance(corners[0]) < 1e-6 * size
         };
@@ -163,7 +165,7 @@ impl CoveredStar {
         self.covers.push(Cover { face, motion, triangle: BoxedTriangle::new(corners), onto_rest, weight });
     }
 
-    /// Whether the covers' shares add up to the star.
+    /// Whether the covers' overlaps with the star add up to its area.
     pub fn is_covered(&self) -> bool {
         let (mut area, mut covered) = (0.0, 0.0);
         for ray in &self.rays {
@@ -206,6 +208,8 @@ impl CoveredStar {
             signed_double_area(z, p, q) / p.distance(q)
         };
         let room = self.rays.iter().map(height).fold(f64::INFINITY, min);
+        // The step of the difference quotients, a thousandth of the way to the nearest side: smaller ones round, larger ones are less exact.
+        // A Newton step is at most ten times that way, and is shortened. Chosen by hand.
         let h = 1e-3 * room;
         let [e, w] = [at(z + DVec2::new(h, 0.0))?, at(z - DVec2::new(h, 0.0))?];
         let [n, s] = [at(z + DVec2::new(0.0, h))?, at(z - DVec2::new(0.0, h))?];

@@ -11,7 +11,7 @@ use glam::DMat2;
 pub struct DentEnergy {
     /// The energy of the map.
     pub energy: MapEnergy,
-    /// Pieces with a density above this are dents.
+    /// The density above which a piece is a dent.
     pub brink: f64,
 }
 

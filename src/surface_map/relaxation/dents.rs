@@ -1,11 +1,11 @@
-//! The worst places of a map are healed.
+//! The repair of dents: the places where a map is distorted most.
 //!
-//! An integral hardly sees a distortion of a thousand on a millionth of the surface, and a Newton step of the whole map is no
-//! longer than such a place allows. So when a map is relaxed, the vertices of its worst pieces, of either mesh, move once
+//! A distortion of a thousand on a millionth of the surface hardly changes the integral, yet it limits the length of a Newton
+//! step of the whole map. So when a map is relaxed, the vertices of its worst pieces, of either mesh, move once
 //! more, one at a time. While a vertex moves within its star, the star as a whole is overlapped by the same few triangles of
-//! the other mesh: developed into the vertex' plane they share convex polygons with the star's triangles. What is lowered is
-//! the energy of the map there and the density's sixth power, which is nearly its maximum and still smooth: by Newton's
-//! method in two unknowns, from difference quotients of the logarithm. The worst vertices come first; one that gains little
+//! the other mesh: developed into the vertex' plane they share convex polygons with the star's triangles. Each move
+//! lowers the map's energy there and the sixth power of its density, a smooth stand-in for the maximum, by Newton's method
+//! in two unknowns, with difference quotients of the logarithm. The worst vertices come first; one that gains little
 //! rests until a vertex beside it moves. Triangles stay positive, and all other vertices keep their places.
 
 use super::clipping::BoxedTriangle;
@@ -25,25 +25,25 @@ use glam::{DMat2, DVec2};
 use std::collections::{BTreeMap, BTreeSet};
 use typed_index_collections::TiVec;
 
-/// How worst places are healed.
+/// Options of the repair of dents.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DentOptions {
-    /// The brink between two poses of one body: pieces with a density above it are dents.
+    /// The density above which a piece is a dent, between two poses of one body.
     pub pose_brink: f64,
-    /// The brink of other maps, where large distortion may be right.
+    /// The same for other maps, where large distortion may be right.
     pub brink: f64,
     /// Sweeps over the vertices of all dents, at most.
     pub sweeps: usize,
     /// Further sweeps over those of the deepest, with a density above ten times the brink, at most.
     pub deep_sweeps: usize,
-    /// The share of all vertices that may move in one sweep: those of the worst pieces.
+    /// The share of all vertices, 0 to 1, that may move in one sweep: those of the worst pieces.
     pub share: f64,
 }
 
 impl Default for DentOptions {
     fn default() -> Self {
-        // The brinks: a density of 20 is seen in a texture; other maps may have to distort a limb without a partner. The
-        // sweeps take 2 to 6 % of a map's time.
+        // The brinks: a density of 20 is seen in a texture; other maps may have to distort a limb that the other body lacks.
+        // The sweeps take 2 to 6 % of a map's time.
         Self { pose_brink: 20.0, brink: 500.0, sweeps: 12, deep_sweeps: 40, share: 0.006 }
     }
 }
@@ -54,7 +54,7 @@ const ASKED_EVERY: usize = 32;
 /// A vertex that lowers the cost of its star by less than this share rests. Chosen by hand.
 const REST: f64 = 5e-3;
 
-/// Number of vertices that may move in one sweep over a mesh of any size. Chosen by hand.
+/// Number of vertices that may move in one sweep even on the smallest meshes. Chosen by hand.
 const LEAST: usize = 20;
 
 /// Density above which a dent is deep, in units of the brink. Chosen by hand.
@@ -114,7 +114,7 @@ pub fn heal(
     }))
 }
 
-/// The source faces with dents. What lies in a cap is none: skin without a partner is pressed together there.
+/// The source faces with dents. Pieces that lie in a cap are none: skin that the other mesh lacks is pressed together there.
 fn dented(sides: [Parametrised<'_>; 2], overlay: &Overlay, brink: f64) -> BTreeSet<FaceId> {
     let [a, b] =
         sides.map(|side| side.mesh.faces().map(|f| rest_jacobian(side, f)).collect::<TiVec<FaceId, DMat2>>());
@@ -136,14 +136,15 @@ struct SheetVertex {
     vertex: VertexId,
 }
 
-/// Dents, and what may be moved to heal them.
+/// Dents, with the vertices that may be moved to heal them.
 struct Dents {
-    /// Source faces.
+    /// The source faces with dents.
     faces: BTreeSet<FaceId>,
     /// Vertices of the worst pieces, the worst first.
     vertices: Vec<SheetVertex>,
 }
 
+/// The repair of dents under way.
 struct Healer<'a> {
     sheets: [Sheet<'a>; 2],
     energy: DentEnergy,
@@ -186,7 +187,7 @@ impl Healer<'_> {
         Dents { faces: dented, vertices: found.into_iter().map(|(vertex, _)| vertex).collect() }
     }
 
-    /// The vertices around one that has moved may move again.
+    /// Lets the vertices around one that has moved move again.
     fn wake(&mut self, side: usize, star: &CoveredStar) {
         let own = star.rays.iter().map(|ray| (side, ray.halfedge.face()));
         for (side, f) in own.chain(star.covers.iter().map(|cover| (1 - side, cover.face))) {
@@ -196,14 +197,14 @@ impl Healer<'_> {
         }
     }
 
-    /// Whether a source face and its partner share more than rounding can make.
+    /// Whether the overlap of a source face and its partner is larger than rounding.
     fn is_certain(&self, s: FaceId, partner: &Partner) -> bool {
         let [p, q] = [self.sheets[0].triangle(s), self.sheets[1].triangle(partner.face)];
         let seen = BoxedTriangle::new(p.map(|corner| partner.motion.apply(corner)));
         distortion::is_certain(seen.overlap(&BoxedTriangle::new(q)), [&p, &q])
     }
 
-    /// Moves one vertex to lower the cost of its star; the star where it moved.
+    /// Moves one vertex to lower the cost of its star; returns the star if it moved.
     fn settled(&mut self, SheetVertex { side, vertex }: SheetVertex) -> Option<CoveredStar> {
         let star = CoveredStar::around(&self.sheets[side], &self.sheets[1 - side], vertex);
         if !star.is_covered() {
@@ -211,6 +212,7 @@ impl Healer<'_> {
         }
         let start = ln(star.cost(DVec2::ZERO, &self.energy)?);
         let (mut z, mut least) = (DVec2::ZERO, start);
+        // Three steps, or fewer where one gains less than 1 %: the vertex comes up again in the next sweep. Chosen by hand.
         for _ in 0..3 {
             let Some(better) = star.improved(z, least, &self.energy) else { break };
             let gained = least - better.log_cost;

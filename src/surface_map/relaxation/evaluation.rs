@@ -1,4 +1,4 @@
-//! The energy of a map at one state, with what its derivatives need.
+//! The energy of a map at one state, with the quantities from which its derivatives are computed.
 
 use crate::math::quantile::{Weighted, quantile, sort_by_value};
 use crate::math::rigid2;
@@ -18,22 +18,22 @@ use crate::surface_map::parametrisation::unknowns::Unknowns;
 use glam::{DMat2, DVec2};
 use typed_index_collections::TiVec;
 
-/// The energy of a map, and how much the faces of the moving and of the fixed mesh count in it.
+/// The energy of a map, with the weights of the faces of the moving and of the fixed mesh.
 #[derive(Clone, Copy)]
 pub struct CountedEnergy<'a> {
     pub energy: MapEnergy,
     pub weights: [FaceWeights<'a>; 2],
 }
 
-/// The overlay at some state with what derivatives need, seen from the moving side, which is the overlay's source.
+/// The overlay and the energies at one state. The overlay's source is the moving mesh.
 #[derive(Default)]
 pub struct Evaluation {
     pub overlay: Measure,
     /// Jacobians of the moving faces, from their rest planes.
     pub jacobians: Vec<DMat2>,
-    /// Of each piece the Jacobian from the plane of the moving face to the rest plane of the fixed face.
+    /// By piece the Jacobian from the plane of the moving face to the rest plane of the fixed face.
     pub onto_rest: Vec<DMat2>,
-    /// How much each piece counts.
+    /// By piece its weight in the energy.
     pub weights: Vec<PieceWeight>,
     /// The energy of the map, without the barrier and the constraints.
     pub energy: f64,
@@ -48,7 +48,7 @@ pub struct Evaluation {
 }
 
 impl Evaluation {
-    /// Jacobians and energy of an overlay whose moving side is at z.
+    /// Computes the Jacobians and the energy of the overlay, whose moving mesh is at z.
     pub fn measure(
         &mut self,
         problem: &FlatProblem,
@@ -73,7 +73,7 @@ impl Evaluation {
         self.energy = self.integral(energy);
     }
 
-    /// The energy of the constraints on the moving side, the first one; its vertices have been located.
+    /// Computes the energy of the constraints on the moving mesh, the first one, whose vertices have been located.
     pub fn constrain(
         &mut self,
         [from, onto]: [Parametrised<'_>; 2],
@@ -109,8 +109,9 @@ impl Evaluation {
         part.sum()
     }
 
-    /// Half the sum of the weighted means of the density's logarithm over both surfaces. What its weight takes from a piece that pays a
-    /// toll t counts as what an isometry with that toll costs: 1 + t / 2 times an isometry.
+    /// Half the sum of the weighted means of the density's logarithm over both surfaces. The area that its weight takes from a piece with
+    /// a toll t counts t times (at most once), with the density 1 + t / 2: the energy of an isometry with that toll, relative to one
+    /// without.
     pub fn mean_log(&self) -> f64 {
         let (mut sums, mut areas) = ([0.0; 2], [0.0; 2]);
         let pieces = self.overlay.pieces().iter().zip(&self.onto_rest).zip(&self.weights);

@@ -24,10 +24,10 @@ use crate::surface_map::parametrisation::unknowns::Unknowns;
 use glam::{DMat2, DVec2};
 use typed_index_collections::TiVec;
 
-/// How far the energy of the map is lowered.
+/// Options of the relaxation of the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapRelaxationOptions {
-    /// Rounds of one step on either side, at most.
+    /// Rounds, at most; in each both meshes move one step.
     pub max_rounds: usize,
     /// Stops when a round lowers the energy by less than this share.
     pub relative_decrease: f64,
@@ -76,7 +76,8 @@ impl Relaxed<'_> {
         }
     }
 
-    /// The areas, on the source and on the target, of what is skin on both ([`crate::mesh::face_weights`]); 0 without an overlay.
+    /// The areas, on the source and on the target, of the pieces that are skin on both ([`crate::mesh::face_weights`]); 0 without an
+    /// overlay.
     pub fn skin_areas(&self) -> [f64; 2] {
         let mut areas = self.relaxation.present.skin_areas();
         areas.rotate_left(self.relaxation.moving);
@@ -96,13 +97,13 @@ const ASKED_EVERY: usize = 32_768;
 /// Share of the diagonal that is added to the Hessian at first; adapted after every step. Chosen by hand.
 const FIRST_DAMPING: f64 = 0.03;
 
-/// Whether an edge joins two landmarks, and so is moved by no nudge.
+/// Whether an edge of the mesh joins two landmarks, so that no nudge moves it.
 fn has_fixed_edges(side: &Parametrised<'_>) -> bool {
     let landmarks = side.landmark_vertices;
     landmarks.iter().any(|&v| side.mesh.star(v).any(|h| landmarks.contains(&side.mesh.head(h))))
 }
 
-/// Nudges of a start without an overlay, at most; growing sixfold they end at 5e-5 of the shortest edge.
+/// Attempts to nudge a start that has no overlay; growing sixfold the nudges end at 5e-5 of the shortest edge. Chosen by hand.
 const NUDGES: usize = 8;
 
 /// Relative residual of the linear solves: the Hessian changes from step to step, so exact solutions are not worth their
@@ -125,7 +126,7 @@ pub fn relax<'a>(
 
 /// Lowers the energy of the map with soft constraints on vertices of both meshes.
 ///
-/// While one mesh moves only its own constraints count, so both lower slightly different energies.
+/// While one mesh moves, only its own constraints count, so that the steps of both meshes lower slightly different energies.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -167,7 +168,7 @@ pub fn relax_constrained<'a>(
     Ok(Relaxed { relaxation, energies })
 }
 
-/// Both sides; one moves over the other.
+/// A relaxation under way: one of both meshes moves over the other.
 struct Relaxation<'a> {
     sides: [Parametrised<'a>; 2],
     surface: &'a ConeSurface,
@@ -176,13 +177,14 @@ struct Relaxation<'a> {
     map_energy: MapEnergy,
     unknowns: [Unknowns<'a>; 2],
     problems: [FlatProblem; 2],
-    /// Where both sides are.
+    /// The present parametrisations.
     embeddings: [Embedding; 2],
-    /// Where the moving side may go.
+    /// The parametrisations that are tried.
     trials: [Embedding; 2],
-    /// Of each face the Jacobian from its plane to its rest plane.
+    /// By mesh and face the Jacobian from its plane to its rest plane.
     inverses: [TiVec<FaceId, DMat2>; 2],
     damping: [f64; 2],
+    /// The mesh that moves: 0 for the source, 1 for the target.
     moving: usize,
     locator: Locator,
     locations: Locations,
@@ -190,7 +192,7 @@ struct Relaxation<'a> {
     trial: Evaluation,
 }
 
-/// Makes something of the source, then of the target, with a question after each.
+/// Calls `make` for the source (0), then for the target (1), and asks the monitor after each.
 fn of_both<T>(monitor: &mut dyn Monitor, make: impl Fn(usize) -> T) -> Result<[T; 2], Cancelled> {
     let of_source = make(0);
     monitor.step(Step::default())?;
@@ -254,11 +256,11 @@ impl<'a> Relaxation<'a> {
                 return Ok(true);
             }
         }
-        // Nothing else stays where it is.
+        // Only edges between landmarks can still coincide with vertices of the other mesh: nudges do not move them.
         if self.sides.iter().any(has_fixed_edges) { self.begin_with_both(monitor) } else { Ok(false) }
     }
 
-    /// Evaluates the start with both sides nudged, by different lengths: edges between landmarks of one side stay where they are, and
+    /// Evaluates the start with both meshes nudged, by different lengths: edges between landmarks of one mesh stay where they are, and
     /// may pass through vertices of the other.
     fn begin_with_both(&mut self, monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
         let (moving, other) = (self.moving, 1 - self.moving);
@@ -363,7 +365,7 @@ impl<'a> Relaxation<'a> {
         self.inverses[moving] = self.present.jacobians.iter().map(DMat2::inverse).collect();
     }
 
-    /// The other side moves now: the same overlay seen from there.
+    /// Lets the other mesh move, and evaluates the same overlay from there.
     fn exchange_roles(&mut self) {
         self.moving = 1 - self.moving;
         self.present.overlay.exchange_roles();
@@ -376,7 +378,7 @@ impl<'a> Relaxation<'a> {
         self.present.total = self.present.energy + self.present.constrained + self.options.barrier * flat;
     }
 
-    /// The constraints at the present state, where there are any.
+    /// Evaluates the constraints at the present state.
     fn locate_constrained(&mut self) {
         let moving = self.moving;
         let sides =

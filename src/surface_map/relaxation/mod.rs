@@ -1,4 +1,4 @@
-//! The energy of the map itself is lowered: over the whole map, then vertex by vertex where it is distorted most.
+//! The relaxation of the map: lowers its energy as a whole, then vertex by vertex where it is distorted most.
 
 mod clipping;
 mod covered_star;
