@@ -7,6 +7,7 @@ use super::problem::{Place, Unread};
 use super::{gltf_file, obj, off, ply, reading, stl};
 use crate::mesh::soup::PolygonSoup;
 use crate::monitor::{Cancelled, Monitor, Pulse, Silent};
+use glam::DVec3;
 
 /// Files larger than this are refused.
 pub const MAX_BYTES: usize = 1 << 30;
@@ -82,13 +83,9 @@ pub fn read_mesh_asking(bytes: &[u8], monitor: &mut dyn Monitor) -> Result<Polyg
 
 /// Every coordinate finite and of sane size, every polygon with at least three existing vertices.
 fn check_numbers(soup: &PolygonSoup, pulse: &mut Pulse<'_>) -> Result<(), Unread> {
-    // Products of three coordinates stay finite up to 1e100.
-    let sane = |p: &glam::DVec3| p.is_finite() && p.abs().max_element() < 1e100;
-    if let Some(v) = soup.positions.iter().position(|p| !sane(p)) {
-        let [x, y, z] = soup.positions[v].to_array().map(short);
-        return Err(
-            (Place::Vertex(v), format!("the coordinates [{x}, {y}, {z}] are not usable numbers")).into()
-        );
+    let unusable = |(v, p): (usize, &DVec3)| Some((Place::Vertex(v), reading::unusable(*p)?));
+    if let Some(problem) = soup.positions.iter().enumerate().find_map(unusable) {
+        return Err(problem.into());
     }
     for (f, polygon) in soup.polygons.iter().enumerate() {
         pulse.beat()?;
@@ -105,14 +102,5 @@ fn check_polygon(polygon: &[u32], vertices: usize) -> Result<(), String> {
     match polygon.iter().find(|v| **v as usize >= vertices) {
         Some(v) => Err(format!("it names vertex {v}, but the file has {vertices} vertices")),
         None => Ok(()),
-    }
-}
-
-/// A number without hundreds of digits.
-fn short(x: f64) -> String {
-    if x == 0.0 || (1e-6..1e15).contains(&x.abs()) || !x.is_finite() {
-        x.to_string()
-    } else {
-        format!("{x:e}")
     }
 }
