@@ -50,7 +50,7 @@ pub(super) struct WholeLine<'a> {
     /// Its first word.
     pub kind: &'a str,
     first: &'a str,
-    /// Those that continue it.
+    /// The lines that continue it.
     rest: Vec<&'a str>,
 }
 

@@ -6,7 +6,7 @@ use crate::monitor::{Cancelled, Pulse};
 use glam::DVec3;
 use std::borrow::Cow;
 
-/// A file without what says only how its text is written: UTF-16 with its mark becomes UTF-8, the mark of UTF-8 goes.
+/// The bytes of a file without its mark: UTF-16 with its mark becomes UTF-8, and the mark of UTF-8 is taken away.
 pub fn unmarked(bytes: &[u8]) -> Cow<'_, [u8]> {
     let utf16 = |unit: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| unit([pair[0], pair[1]])).collect();
@@ -74,7 +74,8 @@ pub fn short(word: &str) -> String {
     word.chars().filter(|c| !c.is_control()).take(20).collect()
 }
 
-/// Why a vertex cannot be here: a coordinate that is not finite, or so large that products of three are not. `None` where it can.
+/// The sentence on a vertex that cannot be here, as one of its coordinates is not finite or so large that products of three are
+/// not; `None` for a usable vertex.
 pub fn unusable(p: DVec3) -> Option<String> {
     let [x, y, z] = p.to_array().map(in_few_digits);
     let is_usable = p.is_finite() && p.abs().max_element() < 1e100;
@@ -90,7 +91,7 @@ fn in_few_digits(x: f64) -> String {
     }
 }
 
-/// Polygons name the first of the vertices with exactly equal coordinates; formats without shared vertices need it.
+/// Makes polygons name the first of the vertices with exactly equal coordinates; formats without shared vertices need it.
 pub fn weld(mut soup: PolygonSoup, pulse: &mut Pulse<'_>) -> Result<PolygonSoup, Cancelled> {
     let mut first_at = rustc_hash::FxHashMap::default();
     let joined = |(number, p): (u32, &DVec3)| {

@@ -52,18 +52,18 @@ pub struct TransferWish {
 pub enum TransferWhat {
     /// Values of vertices.
     Values {
-        /// How a value is made.
+        /// How a value at a vertex is made of those of the other mesh.
         method: Carrying,
         /// Names of columns that are labels.
         labels: Vec<String>,
         /// Names of columns that are weights.
         weights: Vec<String>,
-        /// How they are written.
+        /// The format in which the values are written.
         format: ValueFormat,
     },
     /// Curves.
     Curves {
-        /// How they are written.
+        /// The format in which the curves are written.
         format: CurveFormat,
     },
     /// The giving mesh's texture.
@@ -77,11 +77,11 @@ pub enum TransferWhat {
     Shapes,
 }
 
-/// Texels by which colours are carried on beyond the charts, and the most in a row.
+/// Number of texels by which colours are carried on beyond the charts, and the largest number of texels in a row.
 const BORDER: usize = 8;
 const LARGEST_PICTURE: u16 = 8192;
 
-/// The share of the time that is spent before the first frame moves, about.
+/// About the share of the time that goes by before the first frame is brought over.
 const BEFORE_FRAMES: f64 = 0.2;
 
 /// Tells what a file may hold: a [`GivenFileReport`] as JSON.
