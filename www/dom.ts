@@ -20,17 +20,6 @@ export function make<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** A button that does something. */
-export function button(
-  text: string,
-  onClick: () => void,
-  attributes: Attributes = {},
-): HTMLButtonElement {
-  const element = make('button', { type: 'button', ...attributes }, text);
-  element.addEventListener('click', onClick);
-  return element;
-}
-
 /** The element with this id; the page is broken without it. */
 export function byId(id: string): HTMLElement {
   const element = document.getElementById(id);
@@ -38,6 +27,28 @@ export function byId(id: string): HTMLElement {
     throw new Error(`the page has no element #${id}`);
   }
   return element;
+}
+
+/** The types of input fields into which text or numbers are typed. */
+const TYPED = ['text', 'search', 'number', 'url'];
+
+/** Whether the keys that go to this element are typed into it, so that they mean nothing to the page. */
+export function isTyped(target: EventTarget | null): boolean {
+  return (
+    target instanceof HTMLTextAreaElement ||
+    (target instanceof HTMLInputElement && TYPED.includes(target.type)) ||
+    (target instanceof HTMLElement && target.isContentEditable)
+  );
+}
+
+/** Copies a text to the clipboard; whether that was done. A browser may forbid it, and gives a page that came by plain http no clipboard. */
+export async function copied(text: string): Promise<boolean> {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    return false;
+  }
 }
 
 /** How long a download's bytes are kept, in ms: browsers give no sign when they have read them, but begin at once. */

@@ -28,6 +28,7 @@ import { Flattener } from './app/flatten.ts';
 import { openTexturePicture } from './app/texture-picture.ts';
 import { startFlowing, startLayingOut, startSimplifying } from './app/watch.ts';
 import { compilePage, coreSource } from './compute/core.ts';
+import { failureOf } from './compute/messages.ts';
 import { SENTENCES } from './messages.ts';
 import { download } from './dom.ts';
 import { keepOffline } from './offline/register.ts';
@@ -330,11 +331,11 @@ document.addEventListener('visibilitychange', () => {
 window.addEventListener('pagehide', () => {
   void keeper.flush();
 });
-window.addEventListener('error', () => {
-  fail(SENTENCES.unexpected);
+window.addEventListener('error', ({ error, message }) => {
+  store.dispatch({ kind: 'error', sentence: SENTENCES.unexpected, failure: failureOf(error ?? message) });
 });
-window.addEventListener('unhandledrejection', () => {
-  fail(SENTENCES.unexpected);
+window.addEventListener('unhandledrejection', ({ reason }) => {
+  store.dispatch({ kind: 'error', sentence: SENTENCES.unexpected, failure: failureOf(reason) });
 });
 
 void start();

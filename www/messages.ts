@@ -93,7 +93,7 @@ export function pairGone(number: number): string {
 
 /** A mesh without files that it names. */
 export function missingParts(name: string, parts: readonly string[]): string {
-  return `${name}: Drop it together with ${parts.join(', ')}: its data is there.`;
+  return `${name}: its data is in ${parts.join(', ')}. Drop all of these files at once.`;
 }
 
 /** What there is to know about landmarks that were read: the first sentence, and how many more there are. */
@@ -107,20 +107,20 @@ export function unreadPictures(name: string, number: number): string {
   return `${name}: this browser cannot decode ${count(number, 'picture')} of it; the mesh is shown without.`;
 }
 
-/** Pairs that went with meshes or were replaced. */
+/** Pairs that were removed with their meshes, or replaced. */
 export function pairsGone(number: number): string {
-  return `${count(number, 'landmark pair')} went.`;
+  return `${count(number, 'landmark pair')} removed.`;
 }
 
-/** Pairs that came by a search, and others that went for them. */
+/** Pairs that a search has found, and how many others were removed for them. */
 export function foundSentence(came: number, went: number): string {
-  const others = went === 0 ? '' : ` ${count(went, 'other pair')} went.`;
+  const others = went === 0 ? '' : ` ${count(went, 'other pair')} removed.`;
   return `${count(came, 'landmark pair')} found.${others}`;
 }
 
-/** Pairs that came or changed by another answer of a search, and others that went for them. */
+/** Pairs that were added or changed by another answer of a search, and how many others were removed for them. */
 export function takenSentence(came: number, went: number): string {
-  const others = went === 0 ? '' : ` ${count(went, 'other pair')} went.`;
+  const others = went === 0 ? '' : ` ${count(went, 'other pair')} removed.`;
   return `${count(came, 'landmark pair')} placed as in the chosen answer.${others}`;
 }
 
@@ -130,12 +130,12 @@ export function settledSentence(settled: number, farthest: number): string {
   return `${pairs} settled, ${settled === 1 ? '' : 'at most '}${(100 * farthest).toFixed(1)} % of the target’s size away, and ${settled === 1 ? 'is' : 'are'} held there.`;
 }
 
-/** Pairs whose points on one mesh went with it. */
+/** Pairs whose points on one mesh were removed with it. */
 export function pointsGone(number: number): string {
   return `${count(number, 'landmark pair')} lost a point with its mesh; the partners wait for new ones.`;
 }
 
-/** Pairs whose points on one mesh went for those of a file. */
+/** Pairs whose points on one mesh gave way to those of a file. */
 export function pointsReplaced(number: number): string {
   return `${count(number, 'landmark pair')} lost a point.`;
 }
@@ -150,7 +150,7 @@ export const SENTENCES = {
   noWebGl:
     'This browser gives no WebGL 2, so the meshes cannot be drawn; files are read and maps made all the same. Turn on hardware acceleration or use a current browser.',
   noCore: 'The program could not be loaded. Reload the page; if that does not help, use a current browser.',
-  contextLost: 'The graphics card took the views away. They come back as soon as it answers.',
+  contextLost: 'The browser has lost its connection to the graphics card, so the meshes are not drawn. They come back by themselves when it is there again.',
   contextGone: 'The views could not be rebuilt after the graphics card was lost. Reload the page.',
   tooManyMeshes: 'Drop at most two meshes at once: a source and a target.',
   twoLandmarkFiles: 'Drop one landmark file at a time, or one for each mesh.',
@@ -235,14 +235,14 @@ export function staleSentence(changes: {
   readonly options: readonly string[];
 }): string {
   const { meshes, placed, moved, softened, removed, options } = changes;
-  const pairs = (numbers: readonly number[], verb: string): string[] =>
-    numbers.length === 0 ? [] : [`${numbers.length === 1 ? `pair ${numbers[0] ?? ''}` : count(numbers.length, 'pair')} ${verb}`];
+  const pairs = (numbers: readonly number[], done: string): string[] =>
+    numbers.length === 0 ? [] : [numbers.length === 1 ? `pair ${numbers[0] ?? ''} was ${done}` : `${count(numbers.length, 'pair')} were ${done}`];
   const words = [
     ...meshes.map((side) => `the ${side === 0 ? 'source' : 'target'} was replaced`),
-    ...pairs(placed, 'came'),
+    ...pairs(placed, 'added'),
     ...pairs(moved, 'moved'),
-    ...pairs(softened, 'became soft, or held'),
-    ...pairs(removed, 'went'),
+    ...pairs(softened, 'made soft or held again'),
+    ...pairs(removed, 'removed'),
     ...(options.length === 0 ? [] : ['the options changed']),
   ];
   const last = words.pop() ?? 'something changed';

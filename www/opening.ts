@@ -16,8 +16,18 @@ import { allowedBy } from './store/refused.ts';
 import { update } from './store/reducer.ts';
 import type { MeshFile, State } from './store/state.ts';
 
+/** A sentence that the page shows. */
+type Said = Extract<Event, { readonly kind: 'error' }>;
+
+/** Several sentences as one event, since the page shows the last one alone; none for none. */
+function together(said: readonly Said[]): Said[] {
+  const failure = said.findLast((each) => each.failure !== undefined)?.failure;
+  const sentence = said.map((each) => each.sentence).join(' ');
+  return said.length === 0 ? [] : [{ kind: 'error', sentence, ...(failure === undefined ? {} : { failure }) }];
+}
+
 /** What to say where landmarks that stay do not fit the meshes that come. */
-function keptMisfit(events: readonly Event[], state: State): Event[] {
+function keptMisfit(events: readonly Event[], state: State): Said[] {
   const failure = misfit(events.reduce(update, state));
   return failure === null ? [] : [{ kind: 'error', sentence: `${failureSentence(failure)} ${SENTENCES.keptMisfit}` }];
 }
@@ -240,7 +250,7 @@ function remarksOn({ file, reading }: ReadFile): string[] {
 }
 
 /** Sentences as an event. */
-function saidOfLooks(sentences: readonly string[]): Event[] {
+function saidOfLooks(sentences: readonly string[]): Said[] {
   return sentences.length === 0 ? [] : [{ kind: 'error', sentence: sentences.join(' ') }];
 }
 
@@ -267,8 +277,9 @@ function eventsBesideBad(read: ReadMeshes, landmarks: readonly GivenMarks[], sta
   const meshes = read.loaded.map((mesh): Event => ({ kind: 'mesh', ...mesh }));
   const refused: Event[] = read.refused.length === 0 ? [] : [{ kind: 'refused', refused: { meshes: read.refused, landmarks } }];
   const leftOut = landmarks.length > 0 && read.refused.length === 0 ? ` ${SENTENCES.landmarksLeftOut}` : '';
-  const errors = read.faults.map(({ message, failure }): Event => ({ kind: 'error', sentence: `${message}${leftOut}`, ...(failure === null ? {} : { failure }) }));
-  return [...meshes, ...saidOfLooks(read.remarks), ...(meshes.length === 0 ? [] : keptMisfit(meshes, state)), ...refused, ...errors];
+  const errors = read.faults.map(({ message, failure }): Said => ({ kind: 'error', sentence: `${message}${leftOut}`, ...(failure === null ? {} : { failure }) }));
+  const said = [...saidOfLooks(read.remarks), ...(meshes.length === 0 ? [] : keptMisfit(meshes, state)), ...errors];
+  return [...meshes, ...refused, ...together(said)];
 }
 
 /** The events that landmark files mean beside those of meshes; all or none. Throws {@link FileRefused}. */
@@ -290,11 +301,16 @@ export function eventsOfSides(meshes: readonly [ReadFile | null, ReadFile | null
   return eventsOfRead(read, { landmarkFiles, landmarks, map: null }, state);
 }
 
+/** Several reasons to refuse files as one, which is told with the first failure that was not a file's fault. */
+function allOf(faults: readonly FileRefused[]): FileRefused {
+  const failure = faults.find((fault) => fault.failure !== null)?.failure ?? null;
+  return new FileRefused(faults.map(({ message }) => message).join(' '), failure === null ? {} : { failure });
+}
+
 /** The events of meshes that were read, and of what came with them. Throws {@link FileRefused}. */
 function eventsOfRead(read: ReadMeshes, { landmarkFiles, landmarks, map }: Companions, state: State): Event[] {
-  const [fault] = read.faults;
-  if (fault !== undefined && read.loaded.length + read.refused.length === 0) {
-    throw fault;
+  if (read.faults.length > 0 && read.loaded.length + read.refused.length === 0) {
+    throw allOf(read.faults);
   }
   if (read.faults.length + read.refused.length > 0) {
     return eventsBesideBad(read, landmarkFiles, state);

@@ -82,13 +82,13 @@ impl Arguments {
                 "--fine-barrier" => arguments.options.multilevel.fine.barrier = number(),
                 "--coarse-rounds" => arguments.options.multilevel.coarse.max_rounds = number() as usize,
                 "--fine-rounds" => arguments.options.multilevel.fine.max_rounds = number() as usize,
-                "--relief-rounds" => arguments.options.multilevel.rigid_patches.rounds = number() as usize,
-                "--relief-from" => {
+                "--patch-rounds" => arguments.options.multilevel.rigid_patches.rounds = number() as usize,
+                "--patch-from" => {
                     arguments.options.multilevel.rigid_patches.least_vertices = number() as usize
                 }
-                "--relief-hold" => arguments.options.multilevel.rigid_patches.hold = number(),
-                "--relief-noise" => arguments.options.multilevel.rigid_patches.fit.noise = number(),
-                "--relief-spacing" => arguments.options.multilevel.rigid_patches.spacing = number(),
+                "--patch-hold" => arguments.options.multilevel.rigid_patches.hold = number(),
+                "--patch-noise" => arguments.options.multilevel.rigid_patches.fit.noise = number(),
+                "--patch-spacing" => arguments.options.multilevel.rigid_patches.spacing = number(),
                 "--own-rounds" => arguments.options.own_cones.rounds = number() as usize,
                 "--own-patience" => arguments.options.own_cones.patience = number() as usize,
                 "--own-gain" => arguments.options.own_cones.least_gain = number(),
@@ -99,9 +99,9 @@ impl Arguments {
                 "--candidates" => arguments.options.search.candidates = number() as usize,
                 "--twist-ratio" => arguments.options.search.twist_ratio = number(),
                 "--finer" => arguments.options.multilevel.finer = number() as usize,
-                "--relief-knee" => arguments.options.multilevel.rigid_patches.knee = number(),
-                "--relief-strength" => arguments.options.multilevel.rigid_patches.strength = number(),
-                "--relief-radius" => arguments.options.multilevel.rigid_patches.radii[1] = number(),
+                "--patch-knee" => arguments.options.multilevel.rigid_patches.knee = number(),
+                "--patch-strength" => arguments.options.multilevel.rigid_patches.strength = number(),
+                "--patch-radius" => arguments.options.multilevel.rigid_patches.radii[1] = number(),
                 "--cap-weight" => arguments.options.multilevel.cap_weight = number(),
                 "--toll" => arguments.options.multilevel.border_toll = number(),
                 "--rim-draws" => arguments.options.multilevel.rim_draws.rounds = number() as usize,

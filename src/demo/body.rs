@@ -7,11 +7,11 @@ use super::rounded_cone::RoundedCone;
 use crate::math::scalar::{max, min};
 use glam::{DVec2, DVec3};
 
-/// Beyond the reach of its blend a part counts this much farther, in units of the blend.
+/// The distance that a part counts farther than its blend reaches, in units of the blend.
 const SPARE: f64 = 0.1;
-/// Size of the boxes that know their parts, in units of the longest side of the body.
+/// The size of the boxes that know their parts, in units of the longest side of the body.
 const BOX: f64 = 1.0 / 48.0;
-/// The value far outside.
+/// The function's value far outside.
 const FAR: f64 = 1e3;
 
 /// A straight piece with elliptic sections that change along it, with round ends.
@@ -39,7 +39,7 @@ impl Section {
         Self { ends, sizes, length, inverse_length: length.recip(), reach, axes }
     }
 
-    /// Near the distance; `least` where that is smaller than any place of this section can be.
+    /// About the distance from the section; `least` where the distance is certainly larger than that.
     fn value(&self, p: DVec3, least: f64) -> f64 {
         let from_start = p - self.ends[0];
         let [axis, side, up] = self.axes;
@@ -85,20 +85,20 @@ impl Ellipsoid {
     }
 }
 
-/// Near the distance of a place, in the ellipsoid's own frame, from its surface.
+/// About the distance of a place, in the ellipsoid's own frame, from its surface.
 fn of_ellipsoid(q: DVec3, radii: DVec3) -> f64 {
     let scaled = q / radii;
     let (size, slope) = (scaled.length(), (scaled / radii).length());
     if slope < 1e-12 { -radii.min_element() } else { size * (size - 1.0) / slope }
 }
 
-/// What is put together.
+/// A solid of which parts are put together.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Solid {
     Section(Section),
     Ellipsoid(Ellipsoid),
     Cone(RoundedCone),
-    /// The side of a plane away from its normal; only to take away.
+    /// The half-space behind a plane, away from its normal; only to be taken away.
     Beyond {
         point: DVec3,
         normal: DVec3,
@@ -106,7 +106,7 @@ pub(super) enum Solid {
 }
 
 impl Solid {
-    /// Its value, or `least` where that is certainly smaller.
+    /// The value of the solid at a place; `least` where the value is certainly larger than that.
     fn value(&self, p: DVec3, least: f64) -> f64 {
         match self {
             Self::Section(section) => section.value(p, least),
@@ -137,12 +137,12 @@ enum Operation {
 #[derive(Clone, Debug)]
 pub(super) struct Part {
     solids: Vec<Solid>,
-    /// Taken away from this part alone, over a distance.
+    /// The solids that are taken away from this part alone, each rounded over a distance.
     without: Vec<(Solid, f64)>,
     operation: Operation,
-    /// Over which distance it goes over into the others.
+    /// The distance over which the part goes over into the others.
     blend: f64,
-    /// Length of the edges wanted on it.
+    /// The length of the edges wanted on the part.
     edge: f64,
 }
 
@@ -195,7 +195,7 @@ struct Felt {
 /// Parts, with boxes that know the solids which matter there.
 pub(super) struct Body {
     parts: Vec<Part>,
-    /// In the order of the parts.
+    /// The solids in the order of their parts.
     solids: Vec<Boxed>,
     low: DVec3,
     high: DVec3,
@@ -229,7 +229,7 @@ impl Body {
         body
     }
 
-    /// Tells the boxes that a solid touches of it.
+    /// Enters a solid into the boxes that it touches.
     fn enter(&mut self, k: usize) {
         let Boxed { low, high, .. } = self.solids[k];
         let at = |p: DVec3, axis: usize| {
@@ -251,7 +251,7 @@ impl Body {
         [self.low, self.high]
     }
 
-    /// Near the distance from the surface where that is small; negative inside.
+    /// About the distance from the surface where that is small; negative inside.
     pub fn value(&self, p: DVec3) -> f64 {
         self.felt(p).value
     }

@@ -48,13 +48,13 @@ impl Wrist {
 /// How fingers are held, in radians.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grip {
-    /// Of each finger from the index on, towards the thumb.
+    /// The angle by which each finger from the index on is spread, towards the thumb.
     pub spread: [f64; 4],
-    /// Of each joint of each finger, towards the palm.
+    /// The angle of each joint of each finger, towards the palm.
     pub curl: [[f64; 3]; 4],
     /// Joints and tip of the thumb: towards the thumb's side, along the hand, out of the palm.
     pub thumb: [[f64; 3]; 4],
-    /// Of the fingers' radii.
+    /// The factor by which the fingers' radii are multiplied.
     pub fullness: f64,
 }
 

@@ -13,11 +13,11 @@ struct Limbs {
     upper_arm: DVec3,
     forearm: DVec3,
     hand: DVec3,
-    /// Out of the palm.
+    /// The direction out of the palm.
     palm: DVec3,
     thigh: DVec3,
     shin: DVec3,
-    /// To the toes.
+    /// The direction to the toes.
     foot: DVec3,
 }
 
@@ -26,7 +26,7 @@ const FOREARM: f64 = 0.25;
 const HAND: f64 = 0.185;
 const THIGH: f64 = 0.43;
 const SHIN: f64 = 0.42;
-/// Lengths of edges on the body, and on the face, hands and feet.
+/// The lengths of edges on the body, and on the face, hands and feet.
 const EDGES: [f64; 2] = [0.0190, 0.0085];
 
 const fn at(x: f64, y: f64, z: f64) -> DVec3 {

@@ -19,7 +19,8 @@ pub struct Demo {
     pub landmarks: Vec<[u32; 2]>,
     /// One name per pair.
     pub labels: Vec<String>,
-    /// By vertex of the source its true image, on the target but for the size of its triangles; `None` where no map is the true one.
+    /// The true image of each vertex of the source, on the target but for the size of its triangles; `None` where no map is the
+    /// true one.
     pub truth: Option<Vec<DVec3>>,
 }
 
@@ -64,7 +65,7 @@ fn meshed([source, target]: [MarkedBody; 2], sizes: [f64; 2]) -> Demo {
     pair(skinned(&source, &first), skinned(&target, &second))
 }
 
-/// A body and the same bent, likewise.
+/// A body and the same body bent, meshed in cells of different sizes and places.
 fn bent(body: &MarkedBody, sizes: [f64; 2]) -> Demo {
     let [first, second] = cells(sizes);
     pair(skinned(body, &first), TURN.shape(skinned(body, &second)))

@@ -33,33 +33,33 @@ pub(super) enum Foot {
 
 /// A species at rest.
 pub(super) struct Build {
-    /// From the chest to the rump.
+    /// The torso's sections from the chest to the rump.
     pub torso: &'static [Profile],
-    /// From the torso to the poll.
+    /// The neck's sections from the torso to the poll.
     pub neck: &'static [Profile],
-    /// From the poll to the nose.
+    /// The head's sections from the poll to the nose.
     pub head: &'static [Profile],
     pub fore: Leg,
     pub hind: Leg,
-    /// From the torso to the tip.
+    /// The tail's sections from the torso to the tip.
     pub tail: &'static [Profile],
-    /// Over which distance torso, neck and legs go over into each other.
+    /// The distance over which torso, neck and legs go over into each other.
     pub blend: f64,
-    /// Lengths of edges on the torso and on the head.
+    /// The lengths of edges on the torso and on the head.
     pub edges: [f64; 2],
 }
 
 /// Turns of the joints, in radians; what is below or in front of a joint turns upwards where positive.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Pose {
-    /// The whole body around the hips.
+    /// The turn of the whole body around the hips.
     pub pitch: f64,
-    /// Of the whole neck, and of the head at its end.
+    /// The turn of the whole neck, and of the head at its end.
     pub neck: f64,
     pub head: f64,
-    /// Fore left and right.
+    /// The turns of the joints of the fore legs, left and right.
     pub fore: [[f64; 4]; 2],
-    /// Hind left and right.
+    /// The turns of the joints of the hind legs, left and right.
     pub hind: [[f64; 4]; 2],
     pub tail: f64,
 }
@@ -136,10 +136,10 @@ impl Outline {
 pub(super) struct Sculpture {
     pub parts: Vec<Part>,
     pub marks: Vec<Mark>,
-    /// Where torso and head have come to.
+    /// The placement of torso and head in the pose.
     pub torso: Placement,
     pub head: Placement,
-    /// Sections of the neck as they lie.
+    /// The sections of the neck as they lie in the pose.
     neck: Vec<Node>,
     edges: [f64; 2],
 }

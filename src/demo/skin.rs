@@ -12,21 +12,21 @@ use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec3;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-/// Cells to the side of a block.
+/// The number of cells along the side of a block.
 const BLOCK: usize = 4;
-/// A block whose middle is farther from the surface than this, in units of its half diagonal, is left out.
+/// The distance of a block's middle from the surface, in units of its half diagonal, beyond which the block is left out.
 const CAUTION: f64 = 1.3;
-/// How often the mesh is smoothed in each round of collapses, splits and flips.
+/// The number of smoothings in each round of collapses, splits and flips.
 const SMOOTHINGS: [usize; 3] = [1, 1, 3];
 
 /// Where the cells lie and how large they are.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cells {
-    /// Length of a cell's side.
+    /// The length of a cell's side.
     pub size: f64,
-    /// Place of the cells, in cells.
+    /// The offset of the cells, in cells.
     pub offset: DVec3,
-    /// All lengths of edges that the body wants are multiplied by this.
+    /// The factor by which all lengths of edges that the body wants are multiplied.
     pub coarseness: f64,
 }
 
@@ -185,9 +185,9 @@ fn split_long_edges(
     }
 }
 
-/// Edges shorter than this, in units of the wanted length, are collapsed.
+/// The length below which edges are collapsed, in units of the wanted length.
 const SHORT: f64 = 0.75;
-/// No collapse makes an edge longer than this, in units of the wanted length, and longer ones are split.
+/// The length beyond which edges are split, and which no collapse exceeds, in units of the wanted length.
 const LONG: f64 = 1.45;
 
 fn flip_to_delaunay(mesh: &mut CollapsibleMesh, positions: &TiSlice<VertexId, DVec3>) {

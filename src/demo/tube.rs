@@ -4,7 +4,7 @@ use super::body::{Section, Solid};
 use crate::math::scalar::max;
 use glam::{DVec2, DVec3};
 
-/// Straight pieces from node to node are about so long, in units of the tube's radius there.
+/// The length of the straight pieces from node to node, about, in units of the tube's radius there.
 const PIECE: f64 = 0.10;
 
 /// A section of a tube.

@@ -11,17 +11,17 @@ use crate::surface_map::flat_layout::FlatLayout;
 use glam::DVec2;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Triangles that overlap by less than this, in units of the root of the whole area, only touch.
+/// The largest overlap of triangles that only touch, in units of the root of the whole area.
 const TOUCH: f64 = 1e-9;
-/// Room between islands, in the same units.
+/// The room between islands, in the same units.
 const MARGIN: f64 = 0.03;
 
 /// Where the corners of every base face lie: within the unit square, all at one scale.
 #[derive(Clone, Debug)]
 pub struct FlatSheet {
-    /// By base face, counter-clockwise.
+    /// The corners of each base face, counter-clockwise.
     pub corners: TiVec<FaceId, [DVec2; 3]>,
-    /// By base face, the number of its island.
+    /// The number of the island of each base face.
     pub islands: TiVec<FaceId, u32>,
     /// Height of what is used of the unit square.
     pub height: f64,

@@ -34,7 +34,7 @@ impl MeshFormat {
         self.format().endings()[0]
     }
 
-    /// The format that a file's name ends with, in capitals or not; `None` where it is none of these.
+    /// The format that the ending of a file's name says, in capitals or not; `None` where it is none of these.
     pub fn of(file: &Path) -> Option<Self> {
         let ending = file.extension()?.to_str()?;
         let is_its = |format: &Self| format.format().endings().iter().any(|e| e.eq_ignore_ascii_case(ending));

@@ -13,21 +13,21 @@ use crate::mesh::FileFrame;
 use glam::DVec3;
 use serde_json::{Value, json};
 
-/// Moments at which the animation tells the weights.
+/// The number of moments at which the animation tells the weights.
 const MOMENTS: usize = 33;
-/// How long it takes, in seconds.
+/// The length of the animation, in seconds.
 const DURATION: f64 = 3.0;
 
 /// A mesh and its way, point by point.
 #[derive(Clone, Copy, Debug)]
 pub struct MorphingMesh<'a> {
-    /// Places at the begin and at the end.
+    /// The places of the points at the beginning and at the end.
     pub positions: [&'a [DVec3]; 2],
-    /// Unit normals at the begin and at the end.
+    /// The unit normals of the points at the beginning and at the end.
     pub normals: [&'a [DVec3]; 2],
     /// How far points are off the straight line at each key.
     pub bends: &'a [[DVec3; KEYS.len()]],
-    /// How their surroundings turn over the whole way, axis by radians.
+    /// The turn of each point's surroundings over the whole way: its direction is the axis, its length the angle in radians.
     pub turns: &'a [DVec3],
 }
 

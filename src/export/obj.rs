@@ -4,13 +4,13 @@ use crate::mesh::SurfaceMesh;
 use glam::DVec3;
 use std::fmt::Write;
 
-/// Vertices and triangles, in order.
+/// Writes the vertices and triangles of a mesh, in order.
 pub fn mesh(mesh: &SurfaceMesh) -> Vec<u8> {
     let faces = mesh.triangles().iter().map(|t| t.map(|v| v.0));
     polygons(mesh.positions().as_ref(), faces)
 }
 
-/// Vertices and polygons, in order.
+/// Writes vertices and polygons, in order.
 pub fn polygons(positions: &[DVec3], faces: impl IntoIterator<Item = impl AsRef<[u32]>>) -> Vec<u8> {
     let mut text = String::new();
     // Writing to a string does not fail.

@@ -3,7 +3,7 @@
 use crate::mesh::SurfaceMesh;
 use std::fmt::Write;
 
-/// Vertices and triangles, in order.
+/// Writes the vertices and triangles of a mesh, in order.
 pub fn mesh(mesh: &SurfaceMesh) -> Vec<u8> {
     let mut text = format!("OFF\n{} {} 0\n", mesh.vertex_count(), mesh.face_count());
     // Writing to a string does not fail.

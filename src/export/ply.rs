@@ -4,7 +4,7 @@ use crate::io::vertex_table::Column;
 use crate::mesh::SurfaceMesh;
 use glam::DVec3;
 
-/// Vertices and triangles, in order.
+/// Writes the vertices and triangles of a mesh, in order.
 pub fn mesh(mesh: &SurfaceMesh) -> Vec<u8> {
     let mut bytes = vertices(mesh.positions().as_ref(), mesh.face_count(), "uchar", &[]);
     for t in mesh.triangles() {
@@ -14,12 +14,12 @@ pub fn mesh(mesh: &SurfaceMesh) -> Vec<u8> {
     bytes
 }
 
-/// Vertices and polygons, in order. The number of corners takes four bytes, so that any polygon has room.
+/// Writes vertices and polygons, in order. The number of corners takes four bytes, so that any polygon has room.
 pub fn polygons(positions: &[DVec3], faces: &[Vec<u32>]) -> Vec<u8> {
     polygons_with(positions, faces, &[])
 }
 
-/// The same with further properties of the vertices; 0 where a vertex has no value.
+/// Writes vertices and polygons with further properties of the vertices; a vertex without a value gets 0.
 pub fn polygons_with(positions: &[DVec3], faces: &[Vec<u32>], properties: &[Column]) -> Vec<u8> {
     let mut bytes = vertices(positions, faces.len(), "uint", properties);
     for face in faces {

@@ -6,28 +6,28 @@ use crate::mesh::dressing::Dressed;
 use crate::mesh::look::CornerLook;
 use crate::surface_map::measures::transfer::CommonMesh;
 
-/// Squares of the checkerboard along one unit of texture coordinates (the whole surface has area 1 there).
+/// The number of squares of the checkerboard along one unit of texture coordinates (the whole surface has area 1 there).
 const SQUARES: f64 = 24.0;
 
 /// A surface with what lies on it. A point of it is there once for each look that it has around it.
 #[derive(Clone, Debug)]
 pub struct Skin {
-    /// By vertex its point.
+    /// The point of each vertex.
     points: Vec<u32>,
-    /// By vertex its place in the picture, down from the left upper corner.
+    /// The place of each vertex in the picture, from the left upper corner down.
     pub(super) uvs: Vec<[f32; 2]>,
-    /// By vertex its light; empty where all is white.
+    /// The light of each vertex; empty where all is white.
     pub(super) colours: Vec<[f32; 3]>,
     /// Its triangles by what lies on them.
     pub(super) parts: Vec<SkinPart>,
-    /// What programs show that do not read a picture's format (PNG).
+    /// The picture (PNG) for programs that do not read another one's format.
     pub(super) fallback: Vec<u8>,
 }
 
 /// Triangles with the same picture on them.
 #[derive(Clone, Debug)]
 pub(super) struct SkinPart {
-    /// The picture's file.
+    /// The file of the picture.
     pub(super) picture: Option<Vec<u8>>,
     /// Triples of vertices.
     pub(super) triangles: Vec<[u32; 3]>,
@@ -74,7 +74,7 @@ impl Skin {
         })
     }
 
-    /// Values by point as values by vertex.
+    /// The values of points as values of vertices.
     pub(super) fn gathered<T: Copy>(&self, values: &[T]) -> Vec<T> {
         self.points.iter().map(|point| values[*point as usize]).collect()
     }

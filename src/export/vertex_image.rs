@@ -5,7 +5,7 @@ use glam::DVec3;
 use serde_json::json;
 use std::fmt::Write;
 
-/// Which way a map is told.
+/// The direction in which a map is told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// Vertices of the source, images on the target.

@@ -69,7 +69,7 @@ pub(super) struct Pipelines {
     pub picture_layout: wgpu::BindGroupLayout,
 }
 
-/// How what is drawn meets what is there.
+/// In which order and with which depth test something is drawn.
 #[derive(Clone, Copy)]
 enum Layer {
     /// Hides what is behind it.

@@ -77,7 +77,7 @@ pub enum TextureKind {
 /// A texture, and how it lies on the flat metric.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Texture {
-    /// What it is.
+    /// What lies on the flat metric.
     pub kind: TextureKind,
     /// From texture coordinates to cells: the image of (1, 0), and where the origin lies.
     pub cells: [f32; 4],
@@ -97,9 +97,9 @@ pub enum Scale {
 pub struct Palette {
     /// The plain surface.
     pub surface: [f32; 3],
-    /// The plain surface behind one that has holes.
+    /// The plain surface that is seen through the holes of another one.
     pub under: [f32; 3],
-    /// Lines.
+    /// The colour of lines.
     pub line: [f32; 3],
     /// The light and the dark cells of patterns.
     pub pattern: [[f32; 3]; 2],
@@ -107,7 +107,7 @@ pub struct Palette {
     pub rim: [f32; 3],
 }
 
-/// One of the two views: where on the canvas, and what is in it.
+/// One of the two views: where it lies on the canvas, and what is drawn in it.
 pub struct ViewDraw<'a> {
     /// x, y, width, height in physical pixels from the top left.
     pub rectangle: [f32; 4],
@@ -115,7 +115,7 @@ pub struct ViewDraw<'a> {
     pub pose: Pose,
     /// What the surface's colours tell.
     pub paint: Paint,
-    /// The colours.
+    /// The colours of the view.
     pub palette: Palette,
     /// Half the width of lines in physical pixels.
     pub line_half_width: f32,
@@ -137,7 +137,7 @@ pub struct ViewDraw<'a> {
     pub tinted: Option<&'a Mesh>,
     /// Ribbons with colours of their own around them.
     pub traced: [Option<&'a Mesh>; 2],
-    /// Ribbons.
+    /// Ribbons in the colour of lines.
     pub lines: Option<&'a Mesh>,
     /// Ribbons with colours and strokes of their own.
     pub marks: Option<&'a Mesh>,
@@ -154,10 +154,10 @@ pub struct ViewDraw<'a> {
 /// A picture on the GPU.
 pub struct Picture(wgpu::BindGroup);
 
-/// How much a hollow takes of the light from around.
+/// The share of the light from around that a deep hollow loses.
 const HOLLOW_SHADE: f32 = 0.75;
 
-/// Of lines behind the surface.
+/// Opacity of lines behind the surface.
 const HIDDEN_LINE_OPACITY: f32 = 0.14;
 
 /// Everything that belongs to one canvas.
@@ -411,7 +411,7 @@ impl Renderer {
         }
     }
 
-    /// A negative style says that the surface lies behind.
+    /// The uniforms of the surface behind; a negative style says that it lies behind.
     fn under_uniform(&self, view: &ViewDraw<'_>) -> ViewUniform {
         let mut uniform = self.uniform(view);
         uniform.size_and_style[2] = -1.0;
@@ -419,7 +419,7 @@ impl Renderer {
         uniform
     }
 
-    /// Faces with colours of their own.
+    /// The uniforms of faces with colours of their own.
     fn painted_uniform(&self, view: &ViewDraw<'_>) -> ViewUniform {
         let mut uniform = self.uniform(view);
         uniform.size_and_style[2] = 6.0;

@@ -22,7 +22,7 @@ use crate::mesh::soup::PolygonSoup;
 pub struct Appearance {
     /// The look of the file's polygons; `None` where nothing is said of it.
     pub look: Option<PolygonLook>,
-    /// What is left out.
+    /// What of the look cannot be used and is left out.
     pub remarks: Vec<LookRemark>,
 }
 
@@ -103,7 +103,8 @@ fn of_obj(bytes: &[u8], soup: &PolygonSoup, set: &MaterialSet) -> Appearance {
     Appearance { look: joined(soup, colour, place, &set.pictures), remarks }
 }
 
-/// The colours behind the coordinates of an OBJ file's vertices, up to the first without one.
+/// The colours behind the coordinates of an OBJ file's vertices, from the first vertex to the last one before a vertex without a
+/// colour.
 fn vertex_colours(text: &str) -> Option<Vec<[u8; 3]>> {
     let share = |word: Option<&str>| word?.parse::<f64>().ok().filter(|x| (0.0..=1.0).contains(x));
     let colour = |line: obj::WholeLine<'_>| {
@@ -129,7 +130,8 @@ fn of_off(bytes: &[u8], soup: &PolygonSoup) -> Option<PolygonLook> {
     joined(soup, colour, |_, _| None, &[])
 }
 
-/// Colours by polygon and vertex, white where there is none, and places by polygon and corner as one; `None` where nothing is seen of them.
+/// The colours by polygon and vertex (white where there is none) and the places by polygon and corner, joined to one look; `None`
+/// where nothing is seen of them.
 fn joined(
     soup: &PolygonSoup,
     colour: impl Fn(usize, usize) -> Option<[u8; 3]>,

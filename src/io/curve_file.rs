@@ -24,14 +24,14 @@ pub struct Curve {
 /// First words of OBJ files in which curves are; tables have commas.
 const OBJ_WORDS: [&str; 11] = ["v", "vn", "vt", "l", "f", "o", "g", "s", "mtllib", "usemtl", "p"];
 
-/// More points than this are refused.
+/// The largest number of points; a file with more is refused.
 pub const MAX_POINTS: usize = 1_000_000;
 
 /// What is wrong with a curve file, and where.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{place}: {problem}")]
 pub struct CurveFileError {
-    /// Where.
+    /// The place of the fault.
     pub place: Place,
     /// What is wrong and what to do.
     pub problem: String,

@@ -4,7 +4,7 @@ use base64::alphabet::{STANDARD, URL_SAFE};
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use base64::{DecodeError, Engine};
 
-/// Either alphabet, with or without signs at the end that fill it up: files have all of them.
+/// Either alphabet, with or without padding at the end: files have all of them.
 const LENIENT: GeneralPurposeConfig =
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent);
 const USUAL: GeneralPurpose = GeneralPurpose::new(&STANDARD, LENIENT);

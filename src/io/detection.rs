@@ -4,7 +4,7 @@ use super::format::Format;
 use super::reading::unmarked;
 use super::{off, stl};
 
-/// OBJ has no magic word: so many first lines must all be of its kinds.
+/// OBJ has no magic word: this many of the first lines must all be of its kinds.
 const OBJ_LINES: usize = 6;
 
 /// The first words of the lines of an OBJ file, also of those that are passed over.
@@ -83,7 +83,7 @@ pub fn detect(bytes: &[u8]) -> Option<Format> {
     } else {
         is_obj(bytes).then_some(Format::Obj)
     };
-    // Last, since it is told by numbers that are likely alone.
+    // Binary STL comes last, since it is told only by numbers that are likely.
     by_text.or_else(|| stl::is_likely_binary(bytes).then_some(Format::Stl))
 }
 

@@ -18,10 +18,10 @@ pub enum Format {
 }
 
 impl Format {
-    /// All of them.
+    /// All formats.
     pub const ALL: [Self; 5] = [Self::Obj, Self::Off, Self::Ply, Self::Stl, Self::Gltf];
 
-    /// All of them in words.
+    /// All formats in words.
     pub const NAMES: &str = "OBJ, OFF, PLY, STL, GLB or glTF";
 
     /// The endings of its files' names, without the dot, the usual one first.

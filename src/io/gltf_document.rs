@@ -6,7 +6,7 @@
 
 use serde::Deserialize;
 
-/// More nodes than this are refused; a scene with one surface has a few.
+/// The largest number of nodes; a file with more is refused, and a scene with one surface has a few.
 const MAX_NODES: usize = 100_000;
 
 /// The root.
@@ -120,9 +120,9 @@ pub(super) struct View {
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Buffer {
-    /// Bytes that it should have.
+    /// The number of bytes that the buffer should have.
     pub(super) byte_length: u64,
-    /// Where it is; in the binary part of a GLB where there is none.
+    /// The address of the contents; in the binary part of a GLB where there is none.
     pub(super) uri: Option<String>,
 }
 
@@ -174,7 +174,7 @@ impl Document {
         Ok(tree)
     }
 
-    /// Checks an accessor down to the bytes that it names; `sizes` are those of the buffers.
+    /// Checks an accessor down to the bytes that it names; `sizes` are the sizes of the buffers in bytes.
     pub(super) fn check_accessor(&self, number: usize, sizes: &[Option<usize>]) -> Result<(), String> {
         let named = |problem: String| format!("accessor {number} {problem}");
         let accessor = self.accessors.get(number).ok_or_else(|| named("is not there".into()))?;
@@ -237,7 +237,7 @@ impl Document {
 }
 
 impl Accessor {
-    /// Bytes of one element.
+    /// The size of one element in bytes.
     fn element_size(&self) -> Result<u64, String> {
         let component = match self.component_type {
             5120 | 5121 => 1,

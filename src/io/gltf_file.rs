@@ -19,9 +19,10 @@ use gltf::accessor::{DataType, Dimensions};
 use gltf::mesh::Mode;
 use std::borrow::Cow;
 
-/// Corners in all.
+/// The largest number of corners of the whole scene.
 const MAX_CORNERS: usize = 60_000_000;
-/// Corners that a file may have beyond its number of bytes, so that a small one with many copies cannot ask for much memory.
+/// The number of corners that a file may have beyond its number of bytes, so that a small one with many copies cannot ask for much
+/// memory.
 const CORNERS_OF_COPIES: usize = 500_000;
 
 pub(super) fn read(bytes: &[u8], pulse: &mut Pulse<'_>) -> Result<PolygonSoup, Unread> {
@@ -58,7 +59,7 @@ pub(super) fn scene(reader: &Reader<'_>, pulse: &mut Pulse<'_>) -> Result<Scene,
     Ok(scene)
 }
 
-/// From a node's coordinates to those of the node above; `None` where numbers are not finite.
+/// The transform from a node's coordinates to those of the node above; `None` where its numbers are not finite.
 fn placement(node: &Node) -> Option<DMat4> {
     let matrix = match &node.matrix {
         Some(columns) => DMat4::from_cols_array(columns),
@@ -114,7 +115,7 @@ pub(super) struct Scene {
     pub(super) soup: PolygonSoup,
     /// Where they come from, in their order.
     pub(super) parts: Vec<Part>,
-    /// Positions and indices that were read for them.
+    /// Number of positions and indices that were read for them.
     corners: usize,
 }
 
@@ -127,9 +128,9 @@ pub(super) struct Part {
     pub(super) primitive: usize,
     /// The number of its first vertex in the scene.
     pub(super) first_vertex: usize,
-    /// How many vertices it has.
+    /// Number of its vertices.
     pub(super) vertices: usize,
-    /// How many triangles it has.
+    /// Number of its triangles.
     pub(super) triangles: usize,
 }
 
@@ -143,7 +144,7 @@ pub(super) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Of a file of so many bytes.
+    /// The reader of a file with this number of bytes.
     pub(super) fn new(
         document: &'a Document,
         container: Container<'a>,
@@ -199,7 +200,7 @@ impl<'a> Reader<'a> {
     ) -> Result<(), Unread> {
         let mode = mode(primitive.mode)?;
         if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
-            // Also what gives no corners counts, as it takes time.
+            // A primitive that gives no corners counts too, as it takes time.
             return Ok(self.count(1, scene)?);
         }
         let accessor =
@@ -399,7 +400,7 @@ fn component(kind: DataType, b: &[u8]) -> f64 {
     }
 }
 
-/// What stands for 1 in whole numbers.
+/// The number that stands for 1 in the whole numbers of a type.
 fn normal_divisor(kind: DataType) -> f64 {
     match kind {
         DataType::I8 => f64::from(i8::MAX),

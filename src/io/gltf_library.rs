@@ -80,7 +80,7 @@ fn buffer(byte_length: u64) -> json::Buffer {
     }
 }
 
-/// What is numbered beyond 32 bits is not there, and is never looked up.
+/// A number beyond 32 bits names nothing that is there, and is never looked up.
 fn index<T>(number: usize) -> Index<T> {
     Index::new(u32::try_from(number).unwrap_or(u32::MAX))
 }

@@ -45,11 +45,11 @@ struct Looks<'a> {
 /// The look of a primitive.
 #[derive(Default)]
 struct PartLook {
-    /// Linear red, green and blue by vertex; empty where there are none.
+    /// Linear red, green and blue of each vertex; empty where there are none.
     colours: Vec<[f32; 4]>,
-    /// By vertex, down from the left upper corner; empty where there are none.
+    /// The place in the picture of each vertex, from the left upper corner down; empty where there are none.
     places: Vec<[f32; 4]>,
-    /// Linear red, green and blue of the whole.
+    /// Linear red, green and blue by which the whole is multiplied.
     factor: [f64; 3],
     /// The number of its image in the document.
     image: Option<usize>,
@@ -58,11 +58,12 @@ struct PartLook {
 /// The pictures of a document that are used, in the order in which they were asked for.
 #[derive(Default)]
 pub(super) struct Used {
-    /// By their numbers in the document.
+    /// The number among the pictures of each image that was asked for, by its number in the document; `None` for one that cannot be
+    /// used.
     numbers: BTreeMap<usize, Option<u8>>,
-    /// Their files.
+    /// The pictures' files.
     pub(super) pictures: Vec<Vec<u8>>,
-    /// What cannot be used.
+    /// What of the look cannot be used.
     pub(super) remarks: Vec<LookRemark>,
 }
 

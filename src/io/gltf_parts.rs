@@ -11,14 +11,14 @@ use std::collections::BTreeMap;
 /// The files that a glTF file names.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct GltfParts {
-    /// Without these it cannot be read.
+    /// The names of buffers, without which the file cannot be read.
     pub buffers: Vec<String>,
-    /// Pictures of its textures.
+    /// The names of pictures of its textures.
     pub images: Vec<String>,
 }
 
 impl GltfParts {
-    /// Whether it names none.
+    /// Whether the file names no other.
     pub fn is_empty(&self) -> bool {
         self.buffers.is_empty() && self.images.is_empty()
     }

@@ -4,7 +4,7 @@ use crate::mesh::mirror::mirrored_weights;
 use rustc_hash::FxHashMap;
 use serde::{Deserialize, Serialize};
 
-/// More pairs than this are refused.
+/// The largest number of pairs; a file with more is refused.
 pub const MAX_PAIRS: usize = 10_000;
 
 /// What the two sides of a pair are called.
@@ -19,7 +19,7 @@ const SIDES: [&str; 2] = ["source", "target"];
 pub enum LandmarkPoint {
     /// A vertex, 0-based.
     Vertex(u32),
-    /// A point of a face.
+    /// A point inside a face.
     OnFace {
         /// The face, 0-based.
         face: u32,
@@ -93,24 +93,24 @@ pub struct LandmarkFile {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LandmarkFileError {
-    /// Not the JSON that was expected.
+    /// The file is not the JSON that was expected.
     #[error(
         "the landmark file, line {line}: {problem}; it should look like \
          {{\"pairs\": [[source vertex, target vertex], ...]}}"
     )]
     Json {
-        /// 1-based.
+        /// The line, 1-based.
         line: usize,
-        /// What the JSON reader says.
+        /// The sentence of the JSON reader.
         problem: String,
     },
-    /// Too many pairs.
+    /// There are too many pairs.
     #[error("the landmark file has {count} pairs; the limit is {MAX_PAIRS}")]
     TooMany {
-        /// How many.
+        /// Number of pairs.
         count: usize,
     },
-    /// Weights that are no barycentric coordinates.
+    /// The weights of a point are no barycentric coordinates.
     #[error(
         "landmark pair {} (the first is 1) has barycentric coordinates on the {} that are negative or do not sum to 1: \
          {weights}",
@@ -121,18 +121,18 @@ pub enum LandmarkFileError {
         side: usize,
         /// The pair, 0-based.
         pair: usize,
-        /// As given.
+        /// The weights as the file gives them.
         weights: String,
     },
-    /// As many radii as pairs are needed, or none.
+    /// The number of radii is not that of the pairs, nor 0.
     #[error("the landmark file has {count} radii for {pairs} pairs: give one for each pair, or none")]
     RadiusCount {
-        /// Of the radii.
+        /// Number of radii.
         count: usize,
-        /// Of the pairs.
+        /// Number of pairs.
         pairs: usize,
     },
-    /// No distance by which a landmark may be moved.
+    /// A radius is no distance by which a landmark may be moved.
     #[error(
         "landmark pair {} (the first is 1) has the radius {radius}: it must lie between 0 and {MAX_RADIUS} times the root of the target's \
          area",
@@ -141,15 +141,15 @@ pub enum LandmarkFileError {
     Radius {
         /// The pair, 0-based.
         pair: usize,
-        /// As given.
+        /// The radius as the file gives it.
         radius: String,
     },
-    /// One point in two pairs.
+    /// Two pairs have the same point.
     #[error("landmark pairs {} and {} (the first is 1) have the same point of the {}", pairs[0] + 1, pairs[1] + 1, SIDES[side % 2])]
     SharedPoint {
         /// 0 the source, 1 the target.
         side: usize,
-        /// The pairs, 0-based.
+        /// The two pairs, 0-based.
         pairs: [usize; 2],
     },
 }

@@ -9,19 +9,19 @@ pub enum LookRemark {
     /// A picture is not there.
     #[error("the picture {name} is missing: give it together with the mesh")]
     Missing {
-        /// What the file calls it.
+        /// The picture's name in the file.
         name: String,
     },
     /// A file that should be a picture is none.
     #[error("the picture {name} is no PNG, JPEG or WebP file, and is left out")]
     NoPicture {
-        /// What the file calls it.
+        /// The file's name in the mesh file.
         name: String,
     },
-    /// More pictures than are told apart.
+    /// There are more pictures than are told apart.
     #[error("only {MOST_PICTURES} pictures are shown; what others lie on has none")]
     TooMany,
-    /// Numbers that cannot be used.
+    /// Some numbers cannot be used.
     #[error("its colours are incomplete: {problem}")]
     Unusable {
         /// What is wrong.

@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 /// The materials of an OBJ file as one file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PackedMaterials {
-    /// The file.
+    /// The contents of the file.
     pub bytes: Vec<u8>,
     /// How many of the pictures that the materials name were found.
     pub found: usize,
@@ -49,7 +49,7 @@ fn libraries(mesh: &str) -> Vec<String> {
     head.filter(|line| line.kind == "mtllib").map(|line| rest(&line).replace('\\', "/")).collect()
 }
 
-/// What is called so, or by the bare name without folders.
+/// The file that is called so, or by the bare name without folders.
 fn found(path: &str, find: &dyn Fn(&str) -> Option<Vec<u8>>) -> Option<Vec<u8>> {
     find(path).or_else(|| find(path.rsplit('/').next().filter(|bare| *bare != path)?))
 }
@@ -69,7 +69,7 @@ fn picture_name(line: &WholeLine<'_>) -> String {
 struct SetWriter<'a> {
     find: &'a dyn Fn(&str) -> Option<Vec<u8>>,
     materials: Vec<Value>,
-    /// Pictures by name, `None` for those that were not found.
+    /// The pictures by name; `None` for those that were not found.
     images: Vec<(String, Option<Vec<u8>>)>,
 }
 
@@ -95,7 +95,7 @@ impl SetWriter<'_> {
         }
     }
 
-    /// Says something of the last material.
+    /// Adds an entry to the last material.
     fn tell(&mut self, key: &str, value: Value) {
         if let Some(material) = self.materials.last_mut() {
             material["extras"][key] = value;
@@ -113,7 +113,7 @@ impl SetWriter<'_> {
         })
     }
 
-    /// `None` where the set is larger than a file may be.
+    /// The file of the set; `None` where it is larger than a file may be.
     fn into_bytes(self) -> Option<Vec<u8>> {
         let mut packer = Packer::default();
         let (mut views, mut images) = (Vec::new(), Vec::new());
@@ -144,28 +144,28 @@ pub(super) struct MaterialSet {
     by_name: BTreeMap<String, Material>,
     /// The files of the pictures.
     pub(super) pictures: Vec<Vec<u8>>,
-    /// What cannot be used.
+    /// What of the materials cannot be used.
     pub(super) remarks: Vec<LookRemark>,
 }
 
 /// What a material says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Material {
-    /// Of what has no picture, as a screen shows it.
+    /// The colour of polygons without a picture, as a screen shows it.
     pub(super) colour: [u8; 3],
     /// The number of its picture.
     pub(super) picture: Option<u8>,
 }
 
 impl Material {
-    /// White, with the first picture.
+    /// A white material with the first picture.
     const FIRST: Self = Self { colour: [u8::MAX; 3], picture: Some(0) };
-    /// White, without a picture.
+    /// A white material without a picture.
     const BARE: Self = Self { picture: None, ..Self::FIRST };
 }
 
 impl MaterialSet {
-    /// Of a file that [`packed`] gave, or of a picture alone.
+    /// Reads the set that [`packed`] has made, or takes a picture alone.
     pub(super) fn read(companion: &[u8]) -> Self {
         if media_type(companion).is_some() {
             return Self { pictures: vec![companion.to_vec()], ..Self::default() };
@@ -195,7 +195,7 @@ impl MaterialSet {
         Self { by_name, pictures: used.pictures, remarks: used.remarks }
     }
 
-    /// By polygon of an OBJ file what its material says. A picture alone lies on all.
+    /// The material of each polygon of an OBJ file. A picture alone lies on all polygons.
     pub(super) fn by_polygon(&self, mesh: &str) -> Vec<Material> {
         let first = if self.pictures.is_empty() { Material::BARE } else { Material::FIRST };
         let mut current = first;

@@ -7,32 +7,33 @@ use super::problem::{Place, Unread};
 use super::{gltf_file, obj, off, ply, reading, stl};
 use crate::mesh::soup::PolygonSoup;
 use crate::monitor::{Cancelled, Monitor, Pulse, Silent};
+use glam::DVec3;
 
-/// Files larger than this are refused.
+/// The largest size of a file in bytes; larger files are refused.
 pub const MAX_BYTES: usize = 1 << 30;
 
 /// Why a file cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
-    /// No known format.
+    /// The file has no known format.
     #[error("this is not a mesh file that can be read: use {}", Format::NAMES)]
     UnknownFormat,
-    /// A file of another kind.
+    /// The file is one of another kind.
     #[error("{0}")]
     OtherFile(OtherFile),
-    /// Too large.
+    /// The file is too large.
     #[error("the file has {bytes} bytes; the limit is {MAX_BYTES}")]
     TooLarge {
-        /// Its size.
+        /// The file's size in bytes.
         bytes: usize,
     },
     /// Something in the file is wrong.
     #[error("{format} file, {place}: {problem}")]
     Malformed {
-        /// The format.
+        /// The file's format.
         format: Format,
-        /// Where.
+        /// The place of the fault.
         place: Place,
         /// What is wrong and what to do.
         problem: String,
@@ -42,7 +43,7 @@ pub enum ReadError {
     Stopped(#[from] Cancelled),
 }
 
-/// Elements of a file, lines of a text among them, that are read between two questions to the monitor: some milliseconds.
+/// The number of elements of a file, or of lines of a text, that are read between two questions to the monitor: some milliseconds.
 pub(super) const ASKED_EVERY: usize = 4096;
 
 /// Reads a mesh file of any known format.
@@ -53,7 +54,7 @@ pub fn read_mesh(bytes: &[u8]) -> Result<PolygonSoup, ReadError> {
     read_mesh_asking(bytes, &mut Silent)
 }
 
-/// The same, and asks the monitor whether to go on.
+/// Reads a mesh file of any known format, and asks the monitor meanwhile whether to go on.
 ///
 /// # Errors
 /// As [`read_mesh`], and [`ReadError::Stopped`].
@@ -80,15 +81,11 @@ pub fn read_mesh_asking(bytes: &[u8], monitor: &mut dyn Monitor) -> Result<Polyg
     })
 }
 
-/// Every coordinate finite and of sane size, every polygon with at least three existing vertices.
+/// Checks that every coordinate is finite and of sane size, and every polygon has at least three vertices that exist.
 fn check_numbers(soup: &PolygonSoup, pulse: &mut Pulse<'_>) -> Result<(), Unread> {
-    // Products of three coordinates stay finite up to 1e100.
-    let sane = |p: &glam::DVec3| p.is_finite() && p.abs().max_element() < 1e100;
-    if let Some(v) = soup.positions.iter().position(|p| !sane(p)) {
-        let [x, y, z] = soup.positions[v].to_array().map(short);
-        return Err(
-            (Place::Vertex(v), format!("the coordinates [{x}, {y}, {z}] are not usable numbers")).into()
-        );
+    let unusable = |(v, p): (usize, &DVec3)| Some((Place::Vertex(v), reading::unusable(*p)?));
+    if let Some(problem) = soup.positions.iter().enumerate().find_map(unusable) {
+        return Err(problem.into());
     }
     for (f, polygon) in soup.polygons.iter().enumerate() {
         pulse.beat()?;
@@ -97,7 +94,7 @@ fn check_numbers(soup: &PolygonSoup, pulse: &mut Pulse<'_>) -> Result<(), Unread
     Ok(())
 }
 
-/// At least three corners, at vertices that are there.
+/// Checks that a polygon has at least three corners, at vertices that exist.
 fn check_polygon(polygon: &[u32], vertices: usize) -> Result<(), String> {
     if polygon.len() < 3 {
         return Err(format!("it has {} corners; a face needs at least 3", polygon.len()));
@@ -105,14 +102,5 @@ fn check_polygon(polygon: &[u32], vertices: usize) -> Result<(), String> {
     match polygon.iter().find(|v| **v as usize >= vertices) {
         Some(v) => Err(format!("it names vertex {v}, but the file has {vertices} vertices")),
         None => Ok(()),
-    }
-}
-
-/// A number without hundreds of digits.
-fn short(x: f64) -> String {
-    if x == 0.0 || (1e-6..1e15).contains(&x.abs()) || !x.is_finite() {
-        x.to_string()
-    } else {
-        format!("{x:e}")
     }
 }

@@ -14,10 +14,10 @@ use glam::DVec3;
 /// What becomes of the normals in an OBJ file: they are those of the old places.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Normals {
-    /// They stay as they are.
+    /// The normals stay as they are.
     #[default]
     Kept,
-    /// Their lines go, and their numbers in faces, so that programs make new ones.
+    /// The lines of normals go, and their numbers in faces, so that programs make new ones.
     Dropped,
 }
 
@@ -25,35 +25,35 @@ pub enum Normals {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MoveError {
-    /// Its format has no lines that could be kept.
+    /// The file's format has no lines that could be kept.
     #[error(
         "lines can be kept of OBJ and OFF files only, and this is {}: save the mesh as OBJ first",
         .0.map_or("none of them".to_owned(), |format| format!("a file in the format {format}"))
     )]
     Format(Option<Format>),
-    /// It is a binary file.
+    /// The file is binary.
     #[error(
         "lines can be kept of text files only, and this is a binary OFF file: save the mesh as OBJ first"
     )]
     Binary,
-    /// It is not text.
+    /// The file is not text.
     #[error("the file holds bytes that are not text: it may be damaged; save the mesh anew as OBJ")]
     NotText,
-    /// It cannot be read.
+    /// The file cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// It could not be read with other places, or without its normals.
+    /// With other places, or without its normals, the file could not be read.
     #[error("what would be written cannot be read ({0}): save the mesh anew as OBJ")]
     Unreadable(ReadError),
-    /// It has another number of vertices.
+    /// The file has another number of vertices.
     #[error("the file has {found} vertices, but there are places for {places}")]
     Count {
-        /// Vertices in the file.
+        /// Number of vertices in the file.
         found: usize,
-        /// Places that were given.
+        /// Number of places that were given.
         places: usize,
     },
-    /// With other places it is another mesh.
+    /// With other places the file holds another mesh.
     #[error(
         "with its vertices at other places the file is read otherwise, at {0}: save the mesh anew as OBJ"
     )]
@@ -79,7 +79,7 @@ pub fn check(bytes: &[u8], normals: Normals) -> Result<(), MoveError> {
     }
     let soup = read_mesh(bytes)?;
     moved(bytes, &soup, &soup.positions, normals)?;
-    // Smaller by a third and moved, so that all words become others, of another length.
+    // The mesh is made smaller by a third and moved, so that all words become others, of another length.
     let size = soup.positions.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
     let shift = DVec3::new(size + 1.0, -size, size) / 3.0;
     let others: Vec<DVec3> = soup.positions.iter().map(|p| *p / 3.0 + shift).collect();
@@ -118,7 +118,7 @@ fn moved(bytes: &[u8], soup: &PolygonSoup, places: &[DVec3], normals: Normals) -
     }
 }
 
-/// Where a mesh is another one than it should be: these places, and the polygons of that one.
+/// The place at which a mesh that was read differs from what it should be: these places with the polygons of the other soup.
 fn other_place(soup: &PolygonSoup, places: &[DVec3], found: &PolygonSoup) -> Option<Place> {
     let shorter = places.len().min(found.positions.len());
     let vertex = (0..shorter).find(|&v| places[v] != found.positions[v]);
@@ -165,7 +165,7 @@ fn rewritten_off<'a>(text: &'a str, places: &[DVec3], _: Normals) -> String {
         words.axes.into_iter().zip(place.to_array()).for_each(|(word, x)| replacing.replace(word, x));
         words.divisor.into_iter().for_each(|word| replacing.replace(word, 1));
     };
-    // It was read before; where it is not, the result is not what it should be, which is found.
+    // The text was read before; where it cannot be read now, the result is not what it should be, which is found.
     let _ = off::each_vertex(text, replace);
     replacing.finish()
 }

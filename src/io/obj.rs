@@ -2,7 +2,7 @@
 //! read something of such a file.
 
 use super::problem::{Place, Problem, Unread};
-use super::reading::{lines, number, text, without_comment};
+use super::reading::{lines, number, text, unusable, without_comment};
 use crate::mesh::soup::PolygonSoup;
 use crate::monitor::Pulse;
 use glam::DVec3;
@@ -12,6 +12,8 @@ const CONTINUED: [&str; 5] = ["v", "vt", "vn", "f", "l"];
 
 pub(super) fn read(bytes: &[u8], pulse: &mut Pulse<'_>) -> Result<PolygonSoup, Unread> {
     let mut soup = PolygonSoup::default();
+    // The largest vertex index that a face names, with its line: a face may stand before its vertices.
+    let mut largest: Option<(u32, usize)> = None;
     for line in whole_lines(&text(bytes)?) {
         pulse.beat()?;
         match line.kind {
@@ -19,12 +21,26 @@ pub(super) fn read(bytes: &[u8], pulse: &mut Pulse<'_>) -> Result<PolygonSoup, U
             "f" => {
                 let corner = |word: &str| vertex(word, soup.positions.len(), line.number);
                 let polygon: Vec<u32> = corners(&line)?.map(corner).collect::<Result<_, _>>()?;
+                for &index in &polygon {
+                    if largest.is_none_or(|(most, _)| index > most) {
+                        largest = Some((index, line.number));
+                    }
+                }
                 soup.polygons.push(polygon);
             }
             _ => {}
         }
     }
-    Ok(soup)
+    let vertices = soup.positions.len();
+    match largest.filter(|&(index, _)| index as usize >= vertices) {
+        // The numbers of the file begin at 1.
+        Some((index, line)) => {
+            let number = u64::from(index) + 1;
+            let problem = format!("the face names vertex {number}, but the file has {vertices} vertices");
+            Err((Place::Line(line), problem).into())
+        }
+        None => Ok(soup),
+    }
 }
 
 /// A line with those that continue it: a backslash at its end joins the next one to it.
@@ -34,7 +50,7 @@ pub(super) struct WholeLine<'a> {
     /// Its first word.
     pub kind: &'a str,
     first: &'a str,
-    /// Those that continue it.
+    /// The lines that continue it.
     rest: Vec<&'a str>,
 }
 
@@ -89,7 +105,10 @@ fn coordinates(line: &WholeLine<'_>) -> Result<[f64; 3], Problem> {
     for (x, word) in p.iter_mut().zip(coordinate_words(line)) {
         *x = number(word, line.number, "a coordinate")?;
     }
-    Ok(p)
+    match unusable(DVec3::from(p)) {
+        Some(problem) => Err((Place::Line(line.number), problem)),
+        None => Ok(p),
+    }
 }
 
 /// The words of a face's corners, of which there must be three.

@@ -12,18 +12,18 @@ use glam::DVec3;
 struct Kind {
     /// A fourth coordinate, by which the others are divided.
     is_homogeneous: bool,
-    /// The number of coordinates follows the keyword.
+    /// The number of coordinates stands after the keyword.
     has_dimension: bool,
     /// A normal is among the numbers that are passed over.
     has_normals: bool,
-    /// So is a colour, after the normal.
+    /// A colour is among them too, after the normal.
     has_colours: bool,
     /// Numbers of a vertex that are passed over.
     others: usize,
 }
 
 impl Kind {
-    /// Of the first word of a file, with what stands in the word behind the keyword; `None` for other words.
+    /// The kind that the first word of a file tells, with what stands in the word behind the keyword; `None` for other words.
     fn of(word: &str) -> Option<(Self, &str)> {
         let end = word.find("OFF").or_else(|| word.find("off"))?;
         let (mut letters, rest) = (&word[..end], &word[end + 3..]);
@@ -107,9 +107,9 @@ pub(super) fn has_normals(text: &str) -> bool {
 /// The words of the coordinates of a vertex, as they stand in a text.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct CoordinateWords<'a> {
-    /// Of x, y and z, or of what becomes x, y and z.
+    /// The words of x, y and z, or of what becomes x, y and z.
     pub axes: [&'a str; 3],
-    /// Of the number by which the others are divided, where there is one.
+    /// The word of the number by which the others are divided, where there is one.
     pub divisor: Option<&'a str>,
 }
 
@@ -130,7 +130,7 @@ pub(super) fn each_vertex<'a>(
     read_text(text, text.len(), &mut told, &mut Pulse::new(&mut Silent, usize::MAX)).map(drop)
 }
 
-/// Elements announced.
+/// The numbers of elements that the header announces.
 #[derive(Clone, Copy)]
 struct Counts {
     vertices: usize,
@@ -203,7 +203,7 @@ struct Opening<'a> {
 }
 
 impl<'a> Opening<'a> {
-    /// Takes it from the lines of a text with their numbers; the text's file has that many bytes.
+    /// Takes the opening from the lines of a text with their numbers; the text's file has that many bytes.
     fn read(lines: &mut impl Iterator<Item = (usize, &'a str)>, bytes: usize) -> Result<Self, Problem> {
         let (mut line, first) = lines.next().unwrap_or((1, ""));
         let mut words: Vec<(usize, &str)> = first.split_whitespace().map(|word| (line, word)).collect();
@@ -242,9 +242,9 @@ impl<'a> Opening<'a> {
 pub(super) struct ElementLines<'a> {
     /// How many numbers stand before a vertex's colour; `None` where vertices have no colours.
     pub before_colour: Option<usize>,
-    /// Of the vertices.
+    /// The lines of the vertices.
     pub vertices: Vec<&'a str>,
-    /// Of the faces.
+    /// The lines of the faces.
     pub faces: Vec<&'a str>,
 }
 
@@ -266,7 +266,7 @@ pub(super) fn element_lines(text: &str) -> Option<ElementLines<'_>> {
 struct Announced {
     kind: Kind,
     counts: Counts,
-    /// Of the text.
+    /// The number of the last line of the text.
     last_line: usize,
 }
 

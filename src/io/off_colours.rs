@@ -5,9 +5,9 @@ use super::off::{ElementLines, element_lines};
 /// The colours of a file, red, green and blue as a screen shows them (sRGB).
 #[derive(Debug, PartialEq)]
 pub(super) enum OffColours {
-    /// By vertex.
+    /// The colours of the vertices.
     OfVertices(Vec<[u8; 3]>),
-    /// By face; white where a face has none.
+    /// The colours of the faces; white where a face has none.
     OfFaces(Vec<[u8; 3]>),
 }
 
@@ -25,7 +25,8 @@ pub(super) fn read(text: &str) -> Option<OffColours> {
     colours.iter().any(Option::is_some).then(|| OffColours::OfFaces(bytes(&colours)))
 }
 
-/// What follows the vertices of a face; a number alone there is of a table of colours that the file does not have.
+/// The colour that follows the vertices of a face; a single number there is one of a table of colours, which the file does not
+/// have.
 fn of_face(line: &str) -> Option<[f64; 3]> {
     let mut words = line.split_whitespace();
     let corners: usize = words.next()?.parse().ok()?;
@@ -38,7 +39,7 @@ fn channels<'a>(mut words: impl Iterator<Item = &'a str>) -> Option<[f64; 3]> {
     Some([next()?, next()?, next()?])
 }
 
-/// Where no number of the file is beyond 1 they are shares, else they go up to 255.
+/// The colours in bytes: where no number of the file is beyond 1 the numbers are shares, else they go up to 255.
 fn bytes(colours: &[Option<[f64; 3]>]) -> Vec<[u8; 3]> {
     let is_share = colours.iter().flatten().flatten().all(|x| *x <= 1.0);
     let unit = if is_share { 255.0 } else { 1.0 };

@@ -7,9 +7,9 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum OtherFile {
-    /// Nothing, or spaces alone.
+    /// The file holds nothing, or spaces alone.
     Empty,
-    /// Packed, with the name of the way.
+    /// The file is packed, by the way of this name.
     Packed(&'static str),
     /// A web page.
     WebPage,
@@ -62,7 +62,7 @@ const STARTS: [(&[u8], OtherFile); 31] = [
     (b"CONEMAP\0", OtherFile::Map),
 ];
 
-/// So much is looked at.
+/// The number of bytes that are looked at.
 const HEAD: usize = 4096;
 
 impl OtherFile {

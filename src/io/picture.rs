@@ -8,28 +8,28 @@ use std::io::Cursor;
 pub struct Picture {
     /// Pixels in a row.
     pub width: usize,
-    /// Rows.
+    /// Number of rows.
     pub height: usize,
     /// Red, green, blue and opacity, row by row from the top.
     pub pixels: Vec<[u8; 4]>,
 }
 
-/// More pixels than this are refused: a small file can hold a picture of any size.
+/// The largest number of pixels: a small file can hold a picture of any size.
 pub const MAX_PIXELS: usize = 1 << 27;
 
 /// Why a picture cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PictureError {
-    /// Another format.
+    /// The picture has another format.
     #[error("this is no PNG file: save the picture as PNG")]
     UnknownFormat,
-    /// Too large.
+    /// The picture is too large.
     #[error("the picture has {width} x {height} pixels; the limit is {MAX_PIXELS}")]
     TooLarge {
         /// Pixels in a row.
         width: usize,
-        /// Rows.
+        /// Number of rows.
         height: usize,
     },
     /// Something in the file is wrong.

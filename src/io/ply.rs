@@ -85,7 +85,7 @@ pub(super) fn vertex_element(bytes: &[u8]) -> Result<ElementDef, Problem> {
     vertices.ok_or_else(|| (Place::Header, "it has no vertices".to_owned()))
 }
 
-/// Elements that are read together.
+/// The number of elements that are read together.
 const TOGETHER: usize = 4096;
 
 /// The elements of a kind.
@@ -141,11 +141,11 @@ fn short(error: &ParseError) -> String {
     first.chars().filter(|c| !c.is_control()).take(160).collect::<String>().trim_end_matches('.').to_owned()
 }
 
-/// Bytes of a file that ask, each time the parser looks for more of them, whether to go on.
+/// The bytes of a file, which ask whether to go on each time the parser looks for more of them.
 struct Asking<'a, 'm, R> {
     bytes: R,
     pulse: &'a mut Pulse<'m>,
-    /// The parser's own errors have no place for it.
+    /// The wish to stop, for which the parser's own errors have no place.
     stopped: &'a Cell<Option<Cancelled>>,
 }
 
@@ -178,7 +178,7 @@ impl<R> Asking<'_, '_, R> {
 
 /// A file with its header as the library reads it.
 struct File<'a> {
-    /// Its lines end as on Unix, and its comments, which may be in any encoding, are empty.
+    /// The header; its lines end as on Unix, and its comments, which may be in any encoding, are empty.
     header: String,
     body: std::borrow::Cow<'a, [u8]>,
 }
@@ -326,7 +326,7 @@ impl PropertyAccess for Row {
 #[derive(Default)]
 struct MeshElement {
     place: [f64; 3],
-    /// None where there is no list of them, or where one is negative.
+    /// The vertices of a face; `None` where there is no list of them, or where one is negative.
     corners: Option<Vec<u32>>,
 }
 
@@ -347,7 +347,7 @@ impl PropertyAccess for MeshElement {
     }
 }
 
-/// Vertex numbers; none where one is negative, or no whole number.
+/// The vertex numbers of a list; `None` where one is negative, or no whole number.
 fn corners(list: Property) -> Option<Vec<u32>> {
     match list {
         Property::ListChar(x) => x.iter().map(|&v| u32::try_from(v).ok()).collect(),

@@ -3,9 +3,10 @@
 use super::problem::{Place, Problem};
 use crate::mesh::soup::PolygonSoup;
 use crate::monitor::{Cancelled, Pulse};
+use glam::DVec3;
 use std::borrow::Cow;
 
-/// A file without what says only how its text is written: UTF-16 with its mark becomes UTF-8, the mark of UTF-8 goes.
+/// The bytes of a file without its mark: UTF-16 with its mark becomes UTF-8, and the mark of UTF-8 is taken away.
 pub fn unmarked(bytes: &[u8]) -> Cow<'_, [u8]> {
     let utf16 = |unit: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| unit([pair[0], pair[1]])).collect();
@@ -73,13 +74,30 @@ pub fn short(word: &str) -> String {
     word.chars().filter(|c| !c.is_control()).take(20).collect()
 }
 
-/// Polygons name the first of the vertices with exactly equal coordinates; formats without shared vertices need it.
+/// The sentence on a vertex that cannot be here, as one of its coordinates is not finite or so large that products of three are
+/// not; `None` for a usable vertex.
+pub fn unusable(p: DVec3) -> Option<String> {
+    let [x, y, z] = p.to_array().map(in_few_digits);
+    let is_usable = p.is_finite() && p.abs().max_element() < 1e100;
+    (!is_usable).then(|| format!("the coordinates [{x}, {y}, {z}] are not usable numbers"))
+}
+
+/// A number without hundreds of digits.
+fn in_few_digits(x: f64) -> String {
+    if x == 0.0 || (1e-6..1e15).contains(&x.abs()) || !x.is_finite() {
+        x.to_string()
+    } else {
+        format!("{x:e}")
+    }
+}
+
+/// Makes polygons name the first of the vertices with exactly equal coordinates; formats without shared vertices need it.
 pub fn weld(mut soup: PolygonSoup, pulse: &mut Pulse<'_>) -> Result<PolygonSoup, Cancelled> {
     let mut first_at = rustc_hash::FxHashMap::default();
-    let joined = |(number, p): (u32, &glam::DVec3)| {
+    let joined = |(number, p): (u32, &DVec3)| {
         pulse.beat()?;
         // Adding 0 makes -0 and 0 the same bits.
-        let key = (*p + glam::DVec3::ZERO).to_array().map(f64::to_bits);
+        let key = (*p + DVec3::ZERO).to_array().map(f64::to_bits);
         Ok(*first_at.entry(key).or_insert(number))
     };
     soup.joined_with = (0..).zip(&soup.positions).map(joined).collect::<Result<_, _>>()?;

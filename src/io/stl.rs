@@ -38,7 +38,7 @@ fn triangle_count(bytes: &[u8]) -> Option<u64> {
     Some(u64::from(u32::from_le_bytes(bytes.get(80..HEADER)?.try_into().ok()?)))
 }
 
-/// Bytes of a binary file.
+/// The size of a binary file in bytes.
 fn size(triangles: u64) -> u64 {
     HEADER as u64 + TRIANGLE as u64 * triangles
 }

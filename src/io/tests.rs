@@ -319,11 +319,21 @@ fn errors_name_the_line() {
     assert_eq!(says(&OFF.replace("1 0 0", "1 x 0")), "OFF file, line 5: \"x\" should be a coordinate");
     assert_eq!(
         says(&OBJ.replace("f 2 3 4", "f 2 3 9")),
-        "OBJ file, face 2: it names vertex 8, but the file has 4 vertices"
+        "OBJ file, line 8: the face names vertex 9, but the file has 4 vertices"
+    );
+    // The face may stand before its vertices, and of several the one that misses its vertex by most is named.
+    assert_eq!(
+        says("f 1 2 3\nf 1 2 5\nf 1 9 2\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"),
+        "OBJ file, line 3: the face names vertex 9, but the file has 3 vertices"
+    );
+    assert_eq!(says(&OBJ.replace("f 2 3 4", "f 2 3 -5")), "OBJ file, line 8: there is no vertex -5");
+    assert_eq!(
+        says(&OFF.replace("3 1 2 3", "3 1 2 8")),
+        "OFF file, face 2: it names vertex 8, but the file has 4 vertices"
     );
     assert_eq!(
         says(&OBJ.replace("v 1 0 0", "v nan 0 0")),
-        "OBJ file, vertex 1: the coordinates [NaN, 0, 0] are not usable numbers"
+        "OBJ file, line 3: the coordinates [NaN, 0, 0] are not usable numbers"
     );
     assert!(says("hello world").contains("OBJ, OFF, PLY"));
     assert!(says("OFF\n4000000000 3 0\n").contains("more than the file can hold"));

@@ -17,7 +17,7 @@ pub enum TextureCoordinateError {
     /// The mesh cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// Another format, or none there.
+    /// The file has another format, or no texture coordinates.
     #[error(
         "it has no texture coordinates that can be read: give an OBJ file with `vt` lines, or a PLY file with the vertex properties u and v"
     )]
@@ -25,7 +25,7 @@ pub enum TextureCoordinateError {
     /// Something in them is wrong.
     #[error("{place}: {problem}")]
     Malformed {
-        /// Where.
+        /// The place of the fault.
         place: Place,
         /// What is wrong.
         problem: String,
@@ -68,7 +68,7 @@ pub(super) struct PolygonPlaces {
     pub(super) corners: Vec<Option<DVec2>>,
 }
 
-/// Those of an OBJ file, polygon by polygon.
+/// The texture coordinates of an OBJ file, polygon by polygon.
 pub(super) fn of_obj(bytes: &[u8]) -> Result<Vec<PolygonPlaces>, TextureCoordinateError> {
     let (mut given, mut polygons) = (Vec::new(), Vec::new());
     for line in obj::whole_lines(&text(bytes)?) {

@@ -58,7 +58,7 @@ impl WrittenText {
 /// A text in which some words are replaced; all else stays.
 pub(super) struct Replacing<'a> {
     text: &'a str,
-    /// Bytes of the text that are dealt with.
+    /// Number of bytes of the text that are dealt with.
     done: usize,
     result: String,
 }

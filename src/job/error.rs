@@ -19,15 +19,15 @@ pub enum JobError {
     /// A mesh file cannot be read.
     #[error("{error}")]
     Read {
-        /// The mesh.
+        /// The mesh at fault.
         side: MeshSide,
-        /// Why.
+        /// The reason.
         error: ReadError,
     },
     /// A mesh is not one closed surface of genus 0.
     #[error("{fault}")]
     Mesh {
-        /// The mesh.
+        /// The mesh at fault.
         side: MeshSide,
         /// What is wrong with it.
         fault: MeshFault,
@@ -35,9 +35,9 @@ pub enum JobError {
     /// A mesh is not one closed surface of genus 0, and cannot be repaired to one.
     #[error("{refusal}")]
     Repair {
-        /// The mesh.
+        /// The mesh at fault.
         side: MeshSide,
-        /// Why.
+        /// The reason.
         refusal: RepairRefusal,
     },
     /// The landmark files cannot be read or brought onto the meshes.
@@ -68,11 +68,11 @@ pub enum JobError {
         most >> 20
     )]
     Memory {
-        /// Of the source and of the target.
+        /// Number of triangles of the source and of the target.
         faces: [usize; 2],
-        /// Bytes that are foretold.
+        /// The number of bytes that the map is expected to take.
         expected: u64,
-        /// Bytes that it may have.
+        /// The number of bytes that it may take.
         most: u64,
     },
     /// There is no map.
@@ -107,7 +107,7 @@ pub enum JobFile {
 }
 
 impl JobError {
-    /// What is wrong with one of the meshes.
+    /// The error of a job that one of its meshes causes.
     pub(super) fn of_mesh(side: MeshSide, error: MeshFileError) -> Self {
         match error {
             MeshFileError::Read(error) => Self::Read { side, error },

@@ -5,7 +5,7 @@ use crate::landmarks::PlacedLandmarks;
 use crate::map_file::FileMesh;
 use crate::mesh::{FaceId, SurfacePoint};
 
-/// A point that was moved by less, in units of the root of the mesh's area, is where it was given but for rounding.
+/// The largest distance, in units of the root of the mesh's area, by which rounding alone may have moved a point.
 const MOVED: f64 = 1e-12;
 
 /// Tells the landmarks that were moved onto a corner or an edge where they are held, on the files' meshes, so that a map file and

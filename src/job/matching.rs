@@ -17,10 +17,10 @@ use typed_index_collections::TiVec;
 /// What becomes of fewer landmarks than a map needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FewLandmarks {
-    /// They are refused.
+    /// Fewer landmarks are refused.
     #[default]
     Refused,
-    /// They are held, and the program finds others.
+    /// The given ones are held, and the program finds others.
     Matched,
 }
 
@@ -88,17 +88,17 @@ pub struct CandidateReport {
     pub labels: Vec<String>,
     /// Where each pair comes from.
     pub origins: Vec<PairOrigin>,
-    /// The less the better.
+    /// The score of the pairs: the less, the better.
     pub score: f64,
     /// Mean log density of the coarse map; 0 for an isometry.
     pub mean_log: f64,
-    /// See [`Candidate::remoteness`].
+    /// The remoteness of the pairs, see [`Candidate::remoteness`].
     pub remoteness: f64,
-    /// See [`Candidate::agreement`].
+    /// The agreement of the pairs, see [`Candidate::agreement`].
     pub agreement: f64,
-    /// Ends of limbs without a partner, on the source and on the target.
+    /// Number of ends of limbs without a partner, on the source and on the target.
     pub unmatched: [usize; 2],
-    /// How it differs from the best; `null` for the best itself.
+    /// The difference from the best candidate; `null` for the best itself.
     pub difference: Option<DifferenceReport>,
 }
 
@@ -106,7 +106,7 @@ pub struct CandidateReport {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct DifferenceReport {
-    /// What a user would call it.
+    /// The kind of the difference, as a user would call it.
     pub kind: DifferenceKind,
     /// One sentence for the user.
     pub sentence: String,
@@ -117,9 +117,9 @@ pub struct DifferenceReport {
 /// Landmarks that the program found.
 #[derive(Clone, Debug)]
 pub struct Matched {
-    /// What is told of them.
+    /// The report on them.
     pub report: MatchReport,
-    /// By candidate: its coarse map, in the coordinates of the two meshes.
+    /// The coarse map of each candidate, in the coordinates of the two meshes.
     pub pictures: Vec<CoarsePicture>,
 }
 

@@ -2,9 +2,10 @@
 
 use crate::mesh::SurfaceMesh;
 
-/// Bytes that any map may take.
+/// The number of bytes that any map may take.
 pub const LEAST_MEMORY: u64 = 100 << 20;
-/// Bytes that each face of both meshes may add, with the files of the map written: above all that were measured (`docs/figures.md`).
+/// The number of bytes that each face of both meshes may add, with the files of the map written: above all that were measured
+/// (`docs/figures.md`).
 pub const MEMORY_PER_FACE: u64 = 10 << 10;
 
 /// Bytes that a map of two meshes takes at most, but for meshes whose triangles or landmarks are made to break programs.

@@ -9,14 +9,14 @@ use crate::monitor::{Cancelled, Monitor, Step};
 /// What becomes of a mesh that is not one closed surface of genus 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MeshFaults {
-    /// It is repaired, as far as the options let it, and the report says so.
+    /// The mesh is repaired, as far as the options let it, and the report says so.
     Repaired(RepairOptions),
-    /// It is refused.
+    /// The mesh is refused.
     Refused,
 }
 
 impl Default for MeshFaults {
-    /// What does not change the shape is repaired, and holes are capped.
+    /// By default, what does not change the shape is repaired, and holes are capped.
     fn default() -> Self {
         Self::Repaired(RepairOptions::default())
     }
@@ -35,13 +35,13 @@ pub struct ReadMesh {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshFileError {
-    /// It cannot be read.
+    /// The file cannot be read.
     #[error(transparent)]
     Read(ReadError),
     /// The mesh is not one closed surface of genus 0, and is not to be repaired.
     #[error(transparent)]
     Fault(#[from] MeshFault),
-    /// It cannot be repaired to one.
+    /// The mesh cannot be repaired to one closed surface of genus 0.
     #[error(transparent)]
     Refusal(RepairRefusal),
     /// The user asked to stop.

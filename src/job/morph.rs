@@ -14,8 +14,8 @@ use glam::DVec3;
 /// The usual name of the file of [`TakenMap::morph_glb`].
 pub const MORPH_FILE: &str = "source-to-target.glb";
 
-/// Where one mesh is this many times as large as the other they are taken to have other units, and the target gets the source's size.
-/// Chosen by hand.
+/// The ratio of sizes from which two meshes are taken to have other units, so that the target gets the source's size. Chosen by
+/// hand.
 const OTHER_UNITS: f64 = 8.0;
 
 /// Why there is no way from the source's shape to the target's.
@@ -25,22 +25,22 @@ pub enum MorphError {
     /// The map goes to the mirror image: nothing that turns becomes it.
     #[error("the map goes to the mirror image of the target, which the source cannot turn into")]
     Mirrored,
-    /// A vertex without an image.
+    /// A vertex has no image.
     #[error("vertex {vertex} of the source has no image")]
     NoImage {
-        /// Its number in the source's file.
+        /// The vertex's number in the source's file.
         vertex: usize,
     },
     /// Points, triangles and faces that do not belong together.
     #[error("{points} points have {images} images, and {triangles} triangles {faces} faces")]
     Counts {
-        /// Places on the source.
+        /// Number of places on the source.
         points: usize,
-        /// Places on the target.
+        /// Number of places on the target.
         images: usize,
-        /// Triangles of points.
+        /// Number of triangles of points.
         triangles: usize,
-        /// Faces of triangles.
+        /// Number of faces of triangles.
         faces: usize,
     },
     /// The shapes between were not found.
@@ -54,7 +54,7 @@ pub enum MorphError {
 /// A map's points as they are drawn, in the coordinates of the checked meshes, not mirrored.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawnPoints<'a> {
-    /// Places on the source and on the target.
+    /// The places of the points on the source and on the target.
     pub places: [&'a [DVec3]; 2],
     /// Triangles of points.
     pub triangles: &'a [[u32; 3]],
@@ -69,7 +69,7 @@ pub struct DrawnWay {
     pub begins: Vec<DVec3>,
     /// Their drawn places on the target, laid on the source.
     pub ends: Vec<DVec3>,
-    /// What laid them there, after they were drawn.
+    /// The rigid motion that laid them there, after they were drawn.
     pub laid: Rigid3,
     /// The way between.
     pub way: Way,
@@ -139,7 +139,7 @@ impl TakenMap<'_> {
     }
 }
 
-/// The length 1 of the checked target in the units of the checked source.
+/// The factor from lengths of the checked target to lengths in the units of the checked source.
 fn target_scale(meshes: [&FileMesh; 2]) -> f64 {
     let [source, target] = meshes.map(|mesh| mesh.mesh().area().sqrt());
     let in_files = meshes[1].frame().scale() / meshes[0].frame().scale();

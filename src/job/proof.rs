@@ -17,17 +17,17 @@ pub enum ProofError {
     /// A mesh file cannot be read.
     #[error("{error}")]
     Read {
-        /// Which.
+        /// The mesh at fault.
         side: MeshSide,
-        /// Why.
+        /// The reason.
         error: ReadError,
     },
     /// A mesh file has no triangles.
     #[error("{error}")]
     Mesh {
-        /// Which.
+        /// The mesh at fault.
         side: MeshSide,
-        /// Why.
+        /// The reason.
         error: MeshFault,
     },
     /// The map is refused.

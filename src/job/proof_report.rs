@@ -9,11 +9,11 @@ use serde::Serialize;
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(tag = "verdict", rename_all = "kebab-case")]
 pub enum ProofReport {
-    /// Proved, every piece exactly.
+    /// The map is proved, every piece exactly.
     Proved(ProofFigures),
-    /// Proved but for triangles that are doubtful within rounding.
+    /// The map is proved but for triangles that are doubtful within rounding.
     WithinRounding(ProofFigures),
-    /// No map between these meshes, or not told so.
+    /// The files hold no map between these meshes, or do not tell one.
     Refused {
         /// A stable name of the reason.
         kind: String,
@@ -28,19 +28,19 @@ pub enum ProofReport {
 pub struct ProofFigures {
     /// The verdict in a sentence.
     pub sentence: String,
-    /// Faces of both meshes.
+    /// Number of faces of both meshes.
     pub faces: FaceCounts,
-    /// Overlay vertices.
+    /// Number of overlay vertices.
     pub vertices: usize,
-    /// Pieces.
+    /// Number of pieces.
     pub pieces: usize,
-    /// Those of them without inside.
+    /// Number of pieces without inside.
     pub segments: usize,
-    /// The triangles into which the pieces were cut.
+    /// Number of triangles into which the pieces were cut.
     pub triangles: usize,
-    /// Triangles that are not proved to be positive.
+    /// The triangles that are not proved to be positive.
     pub doubtful: DoubtfulReport,
-    /// Signs of determinants.
+    /// The signs of determinants that were found.
     pub signs: SignCounts,
     /// The landmark pairs.
     pub landmarks: LandmarkFigures,
@@ -54,17 +54,17 @@ pub struct ProofFigures {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct FaceCounts {
-    /// Of the source.
+    /// Number of faces of the source.
     pub source: usize,
-    /// Of the target.
+    /// Number of faces of the target.
     pub target: usize,
 }
 
-/// See [`conemap_verify::Doubtful`].
+/// Triangles that are not proved to be positive, see [`conemap_verify::Doubtful`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct DoubtfulReport {
-    /// How many.
+    /// Number of these triangles.
     pub triangles: usize,
     /// The first piece with one of them.
     pub first_piece: Option<usize>,
@@ -80,9 +80,9 @@ pub struct DoubtfulReport {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct SignCounts {
-    /// All of them.
+    /// Number of all signs.
     pub all: u64,
-    /// Those that took integers.
+    /// Number of signs that took integers.
     pub by_integers: u64,
 }
 
@@ -90,9 +90,9 @@ pub struct SignCounts {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct LandmarkFigures {
-    /// How many.
+    /// Number of pairs.
     pub pairs: usize,
-    /// How many meet exactly, vertex on vertex.
+    /// Number of pairs that meet exactly, vertex on vertex.
     pub exact: usize,
     /// The largest distance of the others, in units of the root of the mesh's area.
     pub largest_distance: f64,
@@ -102,14 +102,14 @@ pub struct LandmarkFigures {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct MatrixFigures {
-    /// Pieces whose matrix is given.
+    /// Number of pieces whose matrix is given.
     pub given: usize,
-    /// How far images by matrices are off at most, in units of the root of the target's area.
+    /// The largest distance of an image by a matrix from its place, in units of the root of the target's area.
     pub largest_distance: f64,
 }
 
 impl ProofReport {
-    /// What is told of a proof.
+    /// The report on a proof.
     pub fn of(outcome: &Result<Proof, ProofError>) -> Self {
         match outcome {
             Ok(proof) if proof.is_exact() => Self::Proved(ProofFigures::of(proof)),

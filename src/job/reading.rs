@@ -36,11 +36,11 @@ pub struct JobFiles<'a> {
 pub struct ReadOptions {
     /// Which target is mapped onto.
     pub target_image: TargetImage,
-    /// What becomes of meshes with faults.
+    /// Says what becomes of meshes with faults.
     pub mesh_faults: MeshFaults,
-    /// What becomes of fewer landmarks than a map needs.
+    /// Says what becomes of fewer landmarks than a map needs.
     pub few_landmarks: FewLandmarks,
-    /// Bytes that a map may take by [`expected_memory`]; `None` for as many as there are.
+    /// The number of bytes that a map may take by [`expected_memory`]; `None` for as many as there are.
     pub most_memory: Option<u64>,
 }
 
@@ -134,7 +134,7 @@ fn read_meshes(
 
 /// Landmarks as they were given, and what the program adds to them.
 struct Given {
-    /// As they are told of the file.
+    /// The landmarks as they are told of the file.
     landmarks: LandmarkFile,
     /// Their points on the meshes as they are mapped.
     pairs: Vec<[LandmarkPoint; 2]>,

@@ -35,9 +35,9 @@ pub enum OpenMapError {
     /// A mesh cannot be used.
     #[error("{error}")]
     Mesh {
-        /// Which.
+        /// The mesh at fault.
         side: MeshSide,
-        /// Why.
+        /// The reason.
         error: FileMeshError,
     },
     /// The target has no mirror image.

@@ -20,7 +20,7 @@ pub struct SettledLandmark {
         tsify(type = "number | { face: number; barycentric: [number, number, number] }")
     )]
     pub point: LandmarkPoint,
-    /// How far that is from where it was given, in units of the root of the target's area.
+    /// The distance of this point from where the landmark was given, in units of the root of the target's area.
     pub moved: f64,
 }
 

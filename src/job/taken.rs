@@ -52,7 +52,7 @@ pub enum OutputKind {
 }
 
 impl OutputKind {
-    /// All of them.
+    /// All kinds of outputs.
     pub const ALL: [Self; 16] = [
         Self::Map,
         Self::Glb,

@@ -10,17 +10,17 @@ use typed_index_collections::TiVec;
 /// What is known of the true map.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) enum Truth {
-    /// Nothing.
+    /// Nothing is known of it.
     #[default]
     Unknown,
-    /// Vertex i corresponds to vertex i.
+    /// Vertex i of the source goes to vertex i of the target.
     SameConnectivity,
     /// The true images of the source's vertices, on the target as it is mapped; `None` where they are not known.
     Images(TiVec<VertexId, Option<DVec3>>),
 }
 
 impl Truth {
-    /// What a table tells of it that has the true images of the source's vertices, places in the target's file, in columns `x`, `y` and `z`.
+    /// Reads the true images of the source's vertices from a table: places in the target's file, in columns `x`, `y` and `z`.
     ///
     /// # Errors
     /// [`TruthError`].
@@ -34,7 +34,7 @@ impl Truth {
         Self::Images(places.map(|&p| Some(of_target(target, image(source.in_file(p))))).collect())
     }
 
-    /// As the pipeline takes it.
+    /// The truth as the pipeline takes it.
     pub(super) fn known(&self) -> GroundTruth<'_> {
         match self {
             Self::Unknown => GroundTruth::Unknown,
@@ -48,7 +48,7 @@ impl Truth {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TruthError {
-    /// It is no table of the source's vertices.
+    /// The file is no table of the source's vertices.
     #[error(transparent)]
     Table(#[from] TableError),
     /// A coordinate has no column.

@@ -17,9 +17,9 @@ use std::collections::BTreeMap;
 /// A base file with its vertices on the scan.
 #[derive(Clone, Debug)]
 pub struct WrappedFile {
-    /// The file: that of the base, but for the places of its vertices.
+    /// The contents of the file: that of the base, but for the places of its vertices.
     pub bytes: Vec<u8>,
-    /// The places, by vertex of the file.
+    /// The place of each vertex of the file.
     pub positions: Vec<DVec3>,
     /// How each vertex of the file came there; `None` for those of loose parts.
     pub laid: Vec<Option<Laid>>,
@@ -30,7 +30,7 @@ pub struct WrappedFile {
 /// The numbers of a wrapped file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WrappedFileReport {
-    /// Those of the surface.
+    /// The numbers of the wrapped surface.
     #[serde(flatten)]
     pub surface: WrapReport,
     /// Triangles that look the wrong way, by their numbers in the triangulated file.
@@ -45,16 +45,16 @@ pub struct WrappedFileReport {
     pub has_old_normals: bool,
 }
 
-/// Angles of polygons of four corners, in degrees.
+/// The angles of polygons of four corners, in degrees.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct QuadAngles {
-    /// How many polygons.
+    /// Number of these polygons.
     pub count: usize,
     /// The largest angle as given.
     pub largest_before: f64,
     /// The largest angle of the result.
     pub largest: f64,
-    /// How many polygons of the result have an angle of 180 or more.
+    /// Number of polygons of the result with an angle of 180 degrees or more.
     pub hollow: usize,
 }
 
@@ -132,7 +132,7 @@ impl TakenMap<'_> {
         if scan.is_mirrored() {
             return Err(WrapFileError::Mirrored);
         }
-        // Told before the work is done.
+        // What cannot be written is told before the work is done.
         moved::check(base_file, normals)?;
         let caps = CapFaces { source: base.checked().caps(), target: scan.checked().caps() };
         let map = &self.map().correspondence;

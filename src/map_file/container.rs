@@ -6,15 +6,15 @@ use super::version::{MAGIC, MAJOR, MINOR, is_one};
 use crate::io::MAX_BYTES;
 use std::collections::BTreeMap;
 
-/// Bytes before the header.
+/// The number of bytes before the header.
 const PREAMBLE: usize = 16;
 /// Sections and the header begin at multiples of this.
 const ALIGNMENT: usize = 8;
-/// Headers that are longer are refused: 10 000 landmarks with names take 2 MB.
+/// The largest size of a header in bytes: 10 000 landmarks with names take 2 MB.
 const MAX_HEADER: usize = 1 << 26;
-/// Effort of packing, 0 to 10: more takes three times as long for a file that is 3 % smaller.
+/// The effort of packing, 0 to 10: more takes three times as long for a file that is 3 % smaller.
 const LEVEL: u8 = 1;
-/// No deflated byte becomes more bytes than this.
+/// The largest number of bytes that one deflated byte can become.
 const MOST_UNPACKED: u64 = 1032;
 
 /// Sections being written.
@@ -25,18 +25,18 @@ pub(super) struct Sections {
 }
 
 impl Sections {
-    /// Small integers, packed.
+    /// Adds a section of small integers, packed.
     pub fn bytes(&mut self, name: &str, values: &[u8]) {
         self.push(name, SectionType::U8, values.len(), values, Packing::Deflate);
     }
 
-    /// Integers, packed.
+    /// Adds a section of integers, packed.
     pub fn integers(&mut self, name: &str, values: &[u32]) {
         let bytes: Vec<u8> = values.iter().flat_map(|x| x.to_le_bytes()).collect();
         self.push(name, SectionType::U32, values.len(), &bytes, Packing::Deflate);
     }
 
-    /// Numbers as they are: their digits do not pack.
+    /// Adds a section of numbers as they are: their digits do not pack.
     pub fn numbers(&mut self, name: &str, values: &[f64]) {
         let bytes: Vec<u8> = values.iter().flat_map(|x| x.to_le_bytes()).collect();
         self.push(name, SectionType::F64, values.len(), &bytes, Packing::None);
@@ -59,7 +59,7 @@ impl Sections {
         self.data.resize(self.data.len().next_multiple_of(ALIGNMENT), 0);
     }
 
-    /// The file.
+    /// The whole file.
     pub fn into_file(self, header: Header) -> Vec<u8> {
         let header = Header { sections: self.entries, ..header };
         // Strings, numbers and lists always have JSON.
@@ -173,7 +173,7 @@ fn sizes_checked(
         if end.is_none_or(|end| end > length as u64) {
             return Err(wrong(SectionProblem::Outside));
         }
-        // What this version does not know it never unpacks.
+        // A section that this version does not know is never unpacked.
         let size = entry.unpacked_size().unwrap_or_default();
         total = total.saturating_add(size);
         if total > MAX_BYTES as u64 {
@@ -195,7 +195,7 @@ fn sizes_checked(
     Ok(by_name)
 }
 
-/// A section's fault.
+/// The error of a section.
 pub(super) fn fault(section: &str, index: Option<usize>, problem: SectionProblem) -> MapFileError {
     MapFileError::Section { section: section.to_owned(), index, problem }
 }

@@ -17,13 +17,13 @@ pub struct MapFile {
     pub layout: Option<FlatLayout>,
     /// The base domain at the target as given: vertex k is landmark k.
     pub base: BaseDomain,
-    /// Curvature of each landmark's cone, in radians.
+    /// The curvature of each landmark's cone, in radians.
     pub cones: Vec<f64>,
     /// The landmarks, in the files' numbers.
     pub landmarks: LandmarkFile,
     /// What was chosen of the run, as JSON.
     pub options: serde_json::Value,
-    /// The map's numbers.
+    /// The measures of the map.
     pub summary: Summary,
     /// The run's report as JSON.
     pub report: serde_json::Value,

@@ -7,36 +7,36 @@ use crate::surface_map::correspondence::CorrespondenceFault;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MapFileError {
-    /// No map file.
+    /// The file is no map file.
     #[error("this is not a map file: it does not begin with \"CONEMAP\"")]
     NotAMapFile,
-    /// Too large.
+    /// The file is too large.
     #[error("the map file holds {bytes} bytes; the limit is {}", crate::io::MAX_BYTES)]
     TooLarge {
-        /// Its size, or that of its unpacked sections.
+        /// The size of the file, or that of its unpacked sections, in bytes.
         bytes: u64,
     },
-    /// A version that is not known.
+    /// The file has a version that is not known.
     #[error(
         "the map file has version {major}, but this program reads version {}: use a newer program",
         super::version::MAJOR
     )]
     Version {
-        /// The file's major version.
+        /// The major version of the file.
         major: u16,
     },
     /// Something that this program does not know is needed to read it.
     #[error("the map file needs \"{what}\", which this program does not know: use a newer program")]
     Needs {
-        /// What.
+        /// What is needed, by its name in the file.
         what: String,
     },
-    /// Shorter than it says.
+    /// The file is shorter than it says.
     #[error("the map file is cut off: it has {bytes} bytes and should have at least {needed}")]
     CutOff {
-        /// Its size.
+        /// The size of the file in bytes.
         bytes: usize,
-        /// What its header tells.
+        /// The size that its header tells.
         needed: u64,
     },
     /// The header is not as it should be.
@@ -48,7 +48,7 @@ pub enum MapFileError {
     /// A section is not as it should be.
     #[error("the map file, section \"{section}\"{}: {problem}", At(*.index))]
     Section {
-        /// Its name.
+        /// The name of the section.
         section: String,
         /// The element at fault, 0-based; `None` where it is the section as a whole.
         index: Option<usize>,
@@ -58,16 +58,16 @@ pub enum MapFileError {
     /// The pieces are no map.
     #[error("the map file: {0}")]
     NoMap(#[from] CorrespondenceFault),
-    /// Made with another mesh.
+    /// The map file was made with another mesh.
     #[error(
         "this is not the {side} that the map file was made with (the file's SHA-256 is {found}, the map's {wanted})"
     )]
     OtherMesh {
-        /// Which mesh.
+        /// The mesh that is another one.
         side: MeshSide,
-        /// Hash of the file that was given.
+        /// The hash of the file that was given.
         found: String,
-        /// Hash that the map file tells.
+        /// The hash that the map file tells.
         wanted: String,
     },
 }
@@ -95,70 +95,70 @@ impl std::fmt::Display for At {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SectionProblem {
-    /// It is not there.
+    /// The section is not there.
     #[error("it is missing")]
     Missing,
-    /// It is there twice.
+    /// The section is there twice.
     #[error("it is there twice")]
     Twice,
-    /// Elements of another type.
+    /// The elements have another type.
     #[error("its elements have the wrong type")]
     Type,
-    /// Not within the file.
+    /// The section does not lie within the file.
     #[error("it does not lie within the file")]
     Outside,
-    /// A length that does not fit.
+    /// The length does not fit.
     #[error("it has {found} elements and should have {expected}")]
     Count {
-        /// As it is.
+        /// The length that was found.
         found: usize,
-        /// As it should be.
+        /// The length that is expected.
         expected: usize,
     },
-    /// It cannot be unpacked.
+    /// The section cannot be unpacked.
     #[error("it cannot be unpacked: the file may be damaged")]
     Packed,
-    /// A number that is too large.
+    /// A number is too large.
     #[error("{value} is not below {limit}")]
     Range {
         /// The number.
         value: u64,
-        /// The limit.
+        /// The first number that is too large.
         limit: u64,
     },
-    /// A vertex that no face uses.
+    /// A vertex is one that no face uses.
     #[error("vertex {vertex} is used by no face")]
     UnusedVertex {
-        /// The vertex of the file.
+        /// The number of the vertex in the file.
         vertex: u32,
     },
-    /// Numbers that are no weights.
+    /// Some numbers are no barycentric weights.
     #[error("its weights are negative or do not sum to 1")]
     Weights,
-    /// A number that is not finite or not positive.
+    /// A number is not finite or not positive.
     #[error("{value} is no usable number")]
     Number {
         /// The number.
         value: f64,
     },
-    /// A base domain that is no sphere.
+    /// The base domain is no sphere.
     #[error("its triangles are no closed surface without handles")]
     Base,
-    /// A piece without a matrix.
+    /// A piece has no matrix.
     #[error("piece {piece} is too thin to tell its matrix, and none is given")]
     NoMatrix {
-        /// The piece.
+        /// The number of the piece.
         piece: usize,
     },
-    /// Too many texture triangles in faces that have many pieces.
+    /// Too many texture triangles lie in faces that have many pieces.
     #[error("triangles and pieces that share faces make {pairs} pairs; the limit is {limit}")]
     Crowded {
-        /// Pairs of a triangle and a piece.
+        /// Number of pairs of a triangle and a piece.
         pairs: u64,
-        /// The limit.
+        /// The largest number of pairs.
         limit: u64,
     },
-    /// Not the text that it should be.
+    /// The section is not the text that it should be.
     #[error("it is not JSON")]
     Json,
 }

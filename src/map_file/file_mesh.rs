@@ -63,10 +63,10 @@ pub struct FileMesh {
 /// Why a mesh file cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FileMeshError {
-    /// It cannot be read.
+    /// The file cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// It is not one closed surface of genus 0.
+    /// The mesh is not one closed surface of genus 0.
     #[error(transparent)]
     Mesh(#[from] MeshFault),
 }
@@ -140,12 +140,12 @@ impl FileMesh {
         &self.polygons
     }
 
-    /// Length of the file.
+    /// The length of the file in bytes.
     pub fn bytes(&self) -> usize {
         self.bytes
     }
 
-    /// Hash of the file's bytes.
+    /// The hash of the file's bytes.
     pub fn hash(&self) -> Hash {
         self.hash
     }
@@ -155,7 +155,7 @@ impl FileMesh {
         self.hash == Hash::of(bytes)
     }
 
-    /// Hash of the checked mesh, not mirrored: see `docs/map-file.md`.
+    /// The hash of the checked mesh, not mirrored: see `docs/map-file.md`.
     pub fn checked_hash(&self) -> Hash {
         self.checked_hash
     }

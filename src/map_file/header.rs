@@ -7,21 +7,21 @@ use serde::{Deserialize, Serialize};
 /// The header. Fields that are not known are left out of account.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Header {
-    /// What wrote the file.
+    /// The program that wrote the file.
     pub generator: String,
-    /// What a reader must know beyond this version; it refuses what it does not.
+    /// The names of what a reader must know beyond this version; it refuses what it does not.
     #[serde(default)]
     pub requires: Vec<String>,
     /// The source.
     pub source: MeshEntry,
     /// The target.
     pub target: MeshEntry,
-    /// Which target is mapped onto.
+    /// The image of the target that is mapped onto.
     #[serde(default)]
     pub target_image: TargetImage,
     /// The landmark file.
     pub landmarks: serde_json::Value,
-    /// What was chosen of the run.
+    /// What was chosen of the run, as JSON.
     #[serde(default)]
     pub options: serde_json::Value,
     /// The map's numbers.
@@ -33,15 +33,15 @@ pub(super) struct Header {
 /// A mesh that the map was made with.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct MeshEntry {
-    /// Length of its file.
+    /// The length of its file in bytes.
     pub bytes: u64,
-    /// SHA-256 of its file.
+    /// The SHA-256 of its file.
     pub sha256: String,
-    /// SHA-256 of the checked mesh.
+    /// The SHA-256 of the checked mesh.
     pub checked_sha256: String,
-    /// Vertices of the file.
+    /// Number of vertices of the file.
     pub vertices: u64,
-    /// Triangles.
+    /// Number of triangles.
     pub faces: u64,
 }
 
@@ -52,13 +52,13 @@ pub struct Summary {
     pub energy: f64,
     /// Mean density over the source; 1 for an isometry.
     pub mean: f64,
-    /// Half the sum of the means of its logarithm over source and target.
+    /// Half the sum of the means over source and target of the density's logarithm.
     pub mean_log: f64,
-    /// Its median.
+    /// The median of the density.
     pub median: f64,
-    /// Its 95 % quantile.
+    /// The 95 % quantile of the density.
     pub p95: f64,
-    /// Its maximum.
+    /// The maximum of the density.
     pub max: f64,
     /// Share of the area with a density above 20.
     pub dented: f64,
@@ -76,24 +76,24 @@ impl From<&DistortionReport> for Summary {
 /// Where an array lies.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct SectionEntry {
-    /// Its name.
+    /// The name of the section.
     pub name: String,
     /// The type of its elements.
     #[serde(rename = "type")]
     pub kind: SectionType,
-    /// How many.
+    /// Number of its elements.
     pub count: u64,
     /// How it is stored.
     #[serde(default)]
     pub packing: Packing,
     /// Where it begins, counted from the end of the header.
     pub offset: u64,
-    /// Its length as stored.
+    /// The length of the section as stored, in bytes.
     pub bytes: u64,
 }
 
 impl SectionEntry {
-    /// Its length once unpacked; `None` for elements of a type that this version does not know.
+    /// The length once unpacked, in bytes; `None` for elements of a type that this version does not know.
     pub fn unpacked_size(&self) -> Option<u64> {
         let width = match self.kind {
             SectionType::U8 => 1,
@@ -115,7 +115,7 @@ pub(super) enum SectionType {
     U32,
     /// Eight bytes.
     F64,
-    /// One that this version does not know.
+    /// A type that this version does not know.
     #[serde(other)]
     Other,
 }
@@ -124,12 +124,12 @@ pub(super) enum SectionType {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Packing {
-    /// As it is.
+    /// The section is stored as it is.
     #[default]
     None,
-    /// Deflate with a zlib header and checksum (RFC 1950).
+    /// The section is deflated with a zlib header and checksum (RFC 1950).
     Deflate,
-    /// One that this version does not know.
+    /// The section is packed in a way that this version does not know.
     #[serde(other)]
     Other,
 }

@@ -6,12 +6,12 @@ use super::file_mesh::FileMesh;
 use crate::mesh::{FaceId, HalfedgeId, Place, SurfacePoint};
 use glam::DMat2;
 
-/// Kinds of places, as they are written.
+/// The kinds of places, as they are written.
 const VERTEX: u8 = 0;
 const EDGE: u8 = 1;
 const FACE: u8 = 2;
 
-/// Sums of weights may differ from 1 by this much.
+/// The largest difference of a sum of weights from 1.
 const WEIGHT_SUM: f64 = 1e-9;
 
 /// Places as three arrays.

@@ -19,14 +19,14 @@ use glam::{DMat2, DVec2, DVec3};
 use std::ops::Range;
 use typed_index_collections::TiVec;
 
-/// Corners of a piece, at most: two triangles share a polygon of six.
+/// The largest number of corners of a piece: two triangles share a polygon of six.
 const MOST_CORNERS: usize = 16;
-/// Cones of a base domain, at most: the landmarks of a file and the program's own.
+/// The largest number of cones of a base domain: the landmarks of a file and the program's own.
 const MOST_CONES: usize = 2 * landmark_file::MAX_PAIRS;
-/// Pairs of a texture triangle and a piece in the same face, at most: each piece is compared with all triangles of its face. Faces
-/// are only cut at landmarks, so that there are a few triangles for each piece.
+/// The largest number of pairs of a texture triangle and a piece in the same face: each piece is compared with all triangles of its
+/// face. Faces are only cut at landmarks, so that there are a few triangles for each piece.
 const MOST_PAIRS_IN_FACES: u64 = 1 << 28;
-/// Texture coordinates, at most: beyond, triangles of pictures have no digits left.
+/// The largest texture coordinate: beyond it, triangles of pictures have no digits left.
 const LARGEST_UV: f64 = 1e6;
 
 /// Which image of its target a map file is made for: the meshes that [`read`] takes must be that.

@@ -12,5 +12,5 @@ pub fn is_one(bytes: &[u8]) -> bool {
 
 /// Files with another major version are refused.
 pub(super) const MAJOR: u16 = 1;
-/// Grows with what old readers may leave out.
+/// The minor version, which grows with what old readers may leave out.
 pub(super) const MINOR: u16 = 0;

@@ -3,23 +3,23 @@
 use super::FaceId;
 use typed_index_collections::TiSlice;
 
-/// Faces that were made up to close holes, by face of each mesh; `None` for a mesh without any. The rest is skin.
+/// The faces of each mesh that were made up to close holes, as marks by face; `None` for a mesh without any. The rest is skin.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CapFaces<'a> {
-    /// Of the source.
+    /// The marks of the source's faces.
     pub source: Option<&'a TiSlice<FaceId, bool>>,
-    /// Of the target.
+    /// The marks of the target's faces.
     pub target: Option<&'a TiSlice<FaceId, bool>>,
 }
 
 impl CapFaces<'_> {
-    /// The same with source and target exchanged.
+    /// The same marks with source and target exchanged.
     #[must_use]
     pub fn exchanged(self) -> Self {
         Self { source: self.target, target: self.source }
     }
 
-    /// Whether there is any on either mesh.
+    /// Whether either mesh has such a face.
     pub fn any(self) -> bool {
         [self.source, self.target].into_iter().flatten().any(|is_cap| is_cap.raw.contains(&true))
     }

@@ -8,7 +8,8 @@ use crate::monitor::{Cancelled, Monitor, Step};
 use glam::DVec3;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-/// Normals turn by less than 78 degrees, and no new triangle is flatter than 1/20 of its longest edge. Chosen by hand.
+/// The limits of shape: normals turn by less than 78 degrees, and no new triangle has a double area below 1/20 of its longest edge
+/// squared. Chosen by hand.
 const SHAPE: ShapeLimits = ShapeLimits { normal_cosine: 0.2, double_area: 0.05 };
 
 /// Collapses vertices into neighbours until `goal` are left or none may go; `may` says whether the start of a halfedge may
@@ -50,19 +51,20 @@ pub fn coarsen(
     Ok(mesh.live_vertices())
 }
 
-/// Vertices whose collapses are compared between two questions to the monitor: some milliseconds, also beside vertices of a thousand
-/// neighbours. Where collapses were counted instead, 256 of them, each next to such a vertex, took 276 ms.
+/// The number of vertices whose collapses are compared between two questions to the monitor: some milliseconds, also beside
+/// vertices of a thousand neighbours. Where collapses were counted instead, 256 of them, each next to such a vertex, took 276 ms.
 const ASKED_EVERY: usize = 1024;
 
-/// Neighbours that a held vertex keeps: around a sharp cone the angle must be shared among enough triangles. Chosen by hand.
+/// The number of neighbours that a held vertex keeps: around a sharp cone the angle must be shared among enough triangles. Chosen
+/// by hand.
 const HELD_DEGREE: usize = 8;
 
 /// Vertices that stay when a mesh is coarsened.
 #[derive(Clone, Copy)]
 pub struct Held<'a> {
-    /// Those that keep their degree as well, or a degree of 8 where they have more.
+    /// The vertices that keep their degree as well, or a degree of 8 where they have more.
     pub cones: &'a TiSlice<VertexId, bool>,
-    /// Those that only stay.
+    /// The vertices that only stay.
     pub others: &'a TiSlice<VertexId, bool>,
 }
 

@@ -8,7 +8,7 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 
-/// A mesh and its look, which it gives to what is drawn.
+/// A mesh and its look, which is given to what is drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct Giver<'a> {
     /// The mesh.
@@ -29,7 +29,8 @@ pub struct DressedPoint {
 /// A surface in a look.
 #[derive(Clone, Debug, Default)]
 pub struct Dressed {
-    /// A point is there once for each look that it has in the triangles around it, as on both sides of a seam.
+    /// The points with their looks: a point is there once for each look that it has in the triangles around it, as on both sides of
+    /// a seam.
     pub vertices: Vec<DressedPoint>,
     /// Triples of vertices by the number of the picture on them; those without a picture come first.
     pub triangles: BTreeMap<Option<u8>, Vec<[u32; 3]>>,

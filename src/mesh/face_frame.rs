@@ -8,7 +8,7 @@ use glam::{DMat2, DVec2};
 pub struct FaceFrame {
     /// The face that contains it.
     pub face: FaceId,
-    /// Weights of its three corners there.
+    /// The weights of its three corners in that face.
     pub corners: [[f64; 3]; 3],
 }
 

@@ -7,9 +7,9 @@ use typed_index_collections::TiSlice;
 /// How much a face counts in an energy of maps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceWeight {
-    /// From 0 to 1: skin has 1.
+    /// The weight, from 0 to 1: skin has 1.
     pub weight: f64,
-    /// What it costs per unit of area to lie over a face that has no toll, not negative; half the cost of an isometry is 1. Skin has
+    /// The cost per unit of area of lying over a face that has no toll, not negative; half the cost of an isometry is 1. Skin has
     /// none, nor has a cap under which nothing is known; a cap whose rim corresponds to a rim of the other mesh has one.
     pub toll: f64,
 }
@@ -22,17 +22,17 @@ impl FaceWeight {
 /// How much a piece of the overlay of two meshes counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PieceWeight {
-    /// From 0 to 1, the smaller one of both faces: 1 where both are skin.
+    /// The weight, from 0 to 1, which is the smaller one of both faces: 1 where both are skin.
     pub weight: f64,
-    /// What it costs that the faces do not belong together, per unit of area: the difference of their tolls.
+    /// The cost per unit of area of faces that do not belong together: the difference of their tolls.
     pub toll: f64,
 }
 
 impl PieceWeight {
-    /// Of a piece that is skin on both meshes.
+    /// The weight of a piece that is skin on both meshes.
     pub const SKIN: Self = Self { weight: 1.0, toll: 0.0 };
 
-    /// Of a piece of two faces.
+    /// The weight of a piece of two faces.
     #[inline]
     pub fn of([a, b]: [FaceWeight; 2]) -> Self {
         Self { weight: min(a.weight, b.weight), toll: (a.toll - b.toll).abs() }
@@ -44,10 +44,10 @@ impl PieceWeight {
 pub struct FaceWeights<'a>(Option<&'a TiSlice<FaceId, FaceWeight>>);
 
 impl<'a> FaceWeights<'a> {
-    /// Of a mesh that is all skin.
+    /// The weights of a mesh that is all skin.
     pub const EVEN: Self = Self(None);
 
-    /// Given by face; `None` for a mesh that is all skin.
+    /// The weights that are given by face; `None` for a mesh that is all skin.
     pub fn new(weights: Option<&'a TiSlice<FaceId, FaceWeight>>) -> Self {
         Self(weights)
     }

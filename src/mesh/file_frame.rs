@@ -19,15 +19,15 @@ pub struct FileFrame {
 }
 
 impl Default for FileFrame {
-    /// Both have the same coordinates.
+    /// The mesh has the coordinates of its file.
     fn default() -> Self {
         Self { scale: 1.0, origin: DVec3::ZERO }
     }
 }
 
-/// Sizes from one over this to this are left alone.
+/// The usual sizes, which are left alone, lie between one over this and this.
 const USUAL_SIZE: f64 = (1 << 20) as f64;
-/// Meshes whose distance from the origin is not more than so many times their size are left where they are.
+/// The distance of a mesh from the origin, in units of its size, up to which it is left where it is.
 const USUAL_DISTANCE: f64 = 1024.0;
 
 impl FileFrame {

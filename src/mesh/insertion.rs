@@ -70,7 +70,7 @@ struct Corner {
 
 struct Refinement<'a> {
     original: &'a SurfaceMesh,
-    /// Of an original face that was split, the faces that came with that, ascending.
+    /// The faces that came from each original face that was split, in rising order.
     added: FxHashMap<FaceId, Vec<FaceId>>,
     positions: TiVec<VertexId, DVec3>,
     faces: TiVec<FaceId, [VertexId; 3]>,

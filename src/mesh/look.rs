@@ -21,24 +21,24 @@ pub struct CornerLook {
 pub struct PicturePlace {
     /// The number of the picture.
     pub picture: u8,
-    /// The picture's left lower corner is (0, 0) and its right upper one (1, 1); beyond, it repeats.
+    /// The place: the picture's left lower corner is (0, 0) and its right upper one (1, 1); beyond these the picture repeats.
     pub at: [f32; 2],
 }
 
-/// More pictures than this are not told apart.
+/// The largest number of pictures that are told apart.
 pub const MOST_PICTURES: usize = u8::MAX as usize;
 
 impl CornerLook {
-    /// White, without a picture.
+    /// The look of a white corner without a picture.
     pub const WHITE: Self = Self { colour: [u8::MAX; 3], place: None };
-    /// Of faces that no file has, as those of caps.
+    /// The look of corners of faces that no file has, as those of caps.
     pub const MADE_UP: Self = Self { colour: [0x8a, 0x8a, 0x8a], place: None };
 }
 
 /// The look of a mesh as its file gives it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PolygonLook {
-    /// By polygon of the file and its corners.
+    /// The look of each polygon of the file at its corners.
     pub corners: Vec<Vec<CornerLook>>,
     /// The files of the pictures (PNG, JPEG or WebP), at most [`MOST_PICTURES`]; none where they are not there.
     pub pictures: Vec<Vec<u8>>,
@@ -47,13 +47,13 @@ pub struct PolygonLook {
 /// The look of a checked mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Look {
-    /// By face, corner by corner.
+    /// The look of each face at its corners.
     pub corners: TiVec<FaceId, [CornerLook; 3]>,
     /// The files of the pictures (PNG, JPEG or WebP), at most [`MOST_PICTURES`]; none where they are not there.
     pub pictures: Vec<Vec<u8>>,
 }
 
-/// In packed looks, in the place of a picture's number.
+/// The number that stands for no picture in packed looks.
 const NO_PICTURE: u8 = u8::MAX;
 
 impl PolygonLook {
@@ -117,7 +117,7 @@ impl Look {
         CornerLook { colour: [0, 1, 2].map(channel), place }
     }
 
-    /// All of it.
+    /// Adds the whole look to a packer.
     pub fn pack(&self, packer: &mut Packer) {
         let corners = || self.corners.iter().flatten();
         let colours: Vec<u32> = corners()
@@ -133,10 +133,10 @@ impl Look {
         self.pictures.iter().for_each(|picture| packer.bytes(picture));
     }
 
-    /// The look of so many faces that [`Self::pack`] took.
+    /// Takes back from an unpacker the look of a mesh with this number of faces, as [`Self::pack`] has added it.
     ///
     /// # Errors
-    /// [`PackedError`] where it is of another number of faces.
+    /// [`PackedError`] where it is the look of a mesh with another number of faces.
     pub fn unpack(unpacker: &mut Unpacker<'_>, faces: usize) -> Result<Self, PackedError> {
         let (colours, places) = (unpacker.wholes()?, unpacker.singles()?);
         let count = unpacker.count()?;

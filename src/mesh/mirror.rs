@@ -8,14 +8,15 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum TargetImage {
-    /// The target as it is in its file.
+    /// The map goes onto the target as it is in its file.
     #[default]
     AsGiven,
-    /// Its mirror image, for landmarks whose left and right are exchanged; results are told of the target as given.
+    /// The map goes onto the target's mirror image, for landmarks whose left and right are exchanged; results are told of the
+    /// target as given.
     Mirrored,
 }
 
-/// The mirror image. Vertices and faces keep their numbers; the last two corners of each face are exchanged.
+/// The mirror image of a mesh. Vertices and faces keep their numbers; the last two corners of each face are exchanged.
 ///
 /// # Errors
 /// [`MeshError`], which the connectivity of a mesh gives no cause for.
@@ -25,12 +26,12 @@ pub fn mirrored(mesh: &SurfaceMesh) -> Result<SurfaceMesh, MeshError> {
     SurfaceMesh::from_triangles(positions, faces)
 }
 
-/// The same point of the mirror image; its own inverse.
+/// The same point on the mirror image; the function is its own inverse.
 pub fn mirrored_point(point: SurfacePoint) -> SurfacePoint {
     SurfacePoint { barycentric: mirrored_weights(point.barycentric), ..point }
 }
 
-/// The weights of a face's corners in the mirror image; its own inverse.
+/// The weights of a face's corners in the mirror image; the function is its own inverse.
 pub fn mirrored_weights([a, b, c]: [f64; 3]) -> [f64; 3] {
     [a, c, b]
 }

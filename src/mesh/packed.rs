@@ -8,7 +8,7 @@ use super::packing::{PackedError, Packer, Unpacker};
 use super::{FaceId, FileFrame, HalfedgeId, SurfaceMesh, VertexId};
 use typed_index_collections::TiVec;
 
-/// Stands for no vertex.
+/// The number that stands for no vertex.
 const NONE: u32 = u32::MAX;
 
 impl FileFrame {
@@ -27,7 +27,7 @@ impl FileFrame {
 }
 
 impl CheckedMesh {
-    /// All of it.
+    /// Adds the whole mesh to a packer.
     pub fn pack(&self, packer: &mut Packer) {
         let Self { mesh, frame, vertex_from_file, turned, repaired_faces } = self;
         frame.pack(packer);
@@ -44,7 +44,7 @@ impl CheckedMesh {
         }
     }
 
-    /// The mesh that [`Self::pack`] took.
+    /// Takes back from an unpacker the mesh that [`Self::pack`] has added.
     ///
     /// # Errors
     /// [`PackedError`] where the numbers make no closed mesh.

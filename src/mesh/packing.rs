@@ -24,37 +24,37 @@ pub struct Packer {
 }
 
 impl Packer {
-    /// All that it took, as bytes.
+    /// The bytes of all that was added.
     pub fn into_bytes(self) -> Vec<u8> {
         self.bytes
     }
 
-    /// A number of things, or a small number.
+    /// Adds a number of things, or a small number.
     pub fn count(&mut self, count: usize) {
         self.bytes.extend((count as u64).to_le_bytes());
     }
 
-    /// One real number.
+    /// Adds one real number.
     pub fn real(&mut self, x: f64) {
         self.reals(std::iter::once(x));
     }
 
-    /// How many there are, and real numbers.
+    /// Adds real numbers, with their count before them.
     pub fn reals(&mut self, values: impl ExactSizeIterator<Item = f64>) {
         self.numbers(values, f64::to_le_bytes);
     }
 
-    /// How many there are, and real numbers in single precision.
+    /// Adds real numbers in single precision, with their count before them.
     pub fn singles(&mut self, values: impl ExactSizeIterator<Item = f32>) {
         self.numbers(values, f32::to_le_bytes);
     }
 
-    /// How many there are, and whole numbers.
+    /// Adds whole numbers, with their count before them.
     pub fn wholes(&mut self, values: impl ExactSizeIterator<Item = u32>) {
         self.numbers(values, u32::to_le_bytes);
     }
 
-    /// How many there are, and whole numbers in threes.
+    /// Adds whole numbers in threes, with their count before them.
     pub fn triples(&mut self, triples: impl ExactSizeIterator<Item = [u32; 3]>) {
         let bytes = |[a, b, c]: [u32; 3]| {
             let [[a, b, c, d], [e, f, g, h], [i, j, k, l]] = [a, b, c].map(u32::to_le_bytes);
@@ -63,7 +63,7 @@ impl Packer {
         self.numbers(triples, bytes);
     }
 
-    /// How many there are, and places.
+    /// Adds places, with their count before them.
     pub fn places(&mut self, places: impl ExactSizeIterator<Item = DVec3>) {
         self.count(places.len());
         let first = self.bytes.len();
@@ -75,12 +75,12 @@ impl Packer {
         }
     }
 
-    /// How many there are, and answers.
+    /// Adds truth values, with their count before them.
     pub fn flags(&mut self, values: impl ExactSizeIterator<Item = bool>) {
         self.numbers(values, |flag| [u8::from(flag)]);
     }
 
-    /// How many there are, and bytes.
+    /// Adds bytes, with their count before them.
     pub fn bytes(&mut self, bytes: &[u8]) {
         self.count(bytes.len());
         self.bytes.extend_from_slice(bytes);
@@ -106,33 +106,33 @@ pub struct Unpacker<'a> {
 }
 
 impl<'a> Unpacker<'a> {
-    /// Begins with these bytes.
+    /// An unpacker that begins with these bytes.
     pub fn new(bytes: &'a [u8]) -> Self {
         Self { rest: bytes }
     }
 
-    /// Nothing is left.
+    /// Makes sure that nothing is left.
     ///
     /// # Errors
-    /// [`PackedError`] where something is.
+    /// [`PackedError`] where something is left.
     pub fn end(&self) -> Result<(), PackedError> {
         if self.rest.is_empty() { Ok(()) } else { Err(PackedError::new("bytes are left over")) }
     }
 
-    /// A number of things, or a small number.
+    /// Takes a number of things, or a small number.
     ///
     /// # Errors
-    /// [`PackedError`] at the end.
+    /// [`PackedError`] where the bytes end before it.
     pub fn count(&mut self) -> Result<usize, PackedError> {
         let (bytes, rest) = self.rest.split_first_chunk().ok_or(ENDS_EARLY)?;
         self.rest = rest;
         usize::try_from(u64::from_le_bytes(*bytes)).map_err(|_| ENDS_EARLY)
     }
 
-    /// One real number.
+    /// Takes one real number.
     ///
     /// # Errors
-    /// [`PackedError`] where there is none, or not one.
+    /// [`PackedError`] where there is none, or more than one.
     pub fn real(&mut self) -> Result<f64, PackedError> {
         match self.reals()?[..] {
             [x] => Ok(x),
@@ -140,7 +140,7 @@ impl<'a> Unpacker<'a> {
         }
     }
 
-    /// Real numbers.
+    /// Takes real numbers.
     ///
     /// # Errors
     /// [`PackedError`] where the bytes end before them.
@@ -148,7 +148,7 @@ impl<'a> Unpacker<'a> {
         self.numbers(f64::from_le_bytes)
     }
 
-    /// Real numbers in single precision.
+    /// Takes real numbers in single precision.
     ///
     /// # Errors
     /// As [`Self::reals`].
@@ -156,7 +156,7 @@ impl<'a> Unpacker<'a> {
         self.numbers(f32::from_le_bytes)
     }
 
-    /// Whole numbers.
+    /// Takes whole numbers.
     ///
     /// # Errors
     /// As [`Self::reals`].
@@ -164,7 +164,7 @@ impl<'a> Unpacker<'a> {
         self.numbers(u32::from_le_bytes)
     }
 
-    /// Whole numbers in threes.
+    /// Takes whole numbers in threes.
     ///
     /// # Errors
     /// As [`Self::reals`].
@@ -174,7 +174,7 @@ impl<'a> Unpacker<'a> {
         })
     }
 
-    /// Places.
+    /// Takes places.
     ///
     /// # Errors
     /// As [`Self::reals`].
@@ -192,7 +192,7 @@ impl<'a> Unpacker<'a> {
         Ok(bytes.iter().map(place).collect())
     }
 
-    /// Answers.
+    /// Takes truth values.
     ///
     /// # Errors
     /// As [`Self::reals`].
@@ -200,7 +200,7 @@ impl<'a> Unpacker<'a> {
         self.numbers(|[byte]| byte != 0)
     }
 
-    /// Bytes.
+    /// Takes bytes.
     ///
     /// # Errors
     /// As [`Self::reals`].

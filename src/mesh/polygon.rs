@@ -12,7 +12,7 @@ use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation
 
 type Triangle = [u32; 3];
 
-/// Polygons with more corners than this are not cut ear by ear.
+/// The largest number of corners of a polygon that is cut ear by ear.
 const MOST_EARS: usize = 16;
 
 /// Cuts a polygon with at least three corners, numbers into `positions`, into triangles of its orientation.
@@ -63,7 +63,7 @@ fn cut_ears(positions: &[DVec3], polygon: &[u32], triangles: &mut Vec<Triangle>)
 /// Corners of a polygon, each vertex once, on the polygon's mean plane: coordinates from -2 to 2, the polygon counter-clockwise.
 struct Outline {
     corners: Vec<Corner>,
-    /// Numbers into the corners, in the polygon's order.
+    /// The numbers of the corners, in the polygon's order.
     ring: Vec<usize>,
 }
 

@@ -27,14 +27,14 @@ impl RefinedMesh {
         }
     }
 
-    /// The same, `factor` times as large.
+    /// The same mesh, `factor` times as large.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         let positions = self.mesh.positions().iter().map(|&p| p * factor).collect();
         Self { mesh: self.mesh.with_positions(positions), ..self.clone() }
     }
 
-    /// The same with points of the refined mesh inserted as vertices after those that there are, and the vertex of each point.
+    /// The same mesh with points of it inserted as vertices after those that there are, and the vertex of each point.
     ///
     /// # Errors
     /// [`MeshError`], which points of the mesh rule out.
@@ -57,7 +57,7 @@ impl RefinedMesh {
         Ok((refined, inserted.vertices))
     }
 
-    /// The same with at least `least` vertices: as long as there are fewer, every edge is bisected.
+    /// The same mesh with at least `least` vertices: as long as there are fewer, every edge is bisected.
     ///
     /// # Errors
     /// As [`Self::with_points`].
@@ -71,7 +71,7 @@ impl RefinedMesh {
         Ok(refined)
     }
 
-    /// The same with at least `degree` edges at each of some vertices: the widest faces there are bisected.
+    /// The same mesh with at least `degree` edges at each of some vertices: the widest faces there are bisected.
     ///
     /// # Errors
     /// As [`Self::with_points`].
@@ -118,7 +118,7 @@ impl RefinedMesh {
     }
 }
 
-/// Rounds of bisections at most: each one after the first is for vertices whose bisectors a neighbour's has cut.
+/// The largest number of rounds of bisections: each one after the first is for vertices whose bisectors a neighbour's has cut.
 const BISECTIONS: usize = 4;
 
 /// Where the bisectors of the widest faces at a vertex meet the opposite edges; as many as are missing to a degree.

@@ -17,7 +17,7 @@ pub(crate) struct SegmentIndex {
 pub(crate) struct OnSegment {
     /// The number of the segment.
     pub segment: usize,
-    /// The point.
+    /// The point's position in space.
     pub position: DVec3,
 }
 

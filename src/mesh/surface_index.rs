@@ -124,7 +124,7 @@ mod tests {
             let mut random = SplitMix::new(1);
             for _ in 0..200 {
                 let p = DVec3::from_array([0; 3].map(|_| 6.0 * random.unit() - 3.0));
-                // Of both answers, that with any normal is the nearer one.
+                // The nearer one of both answers is the nearest point with any normal.
                 let all = [p, -p].map(|normal| closest_point(&mesh, p, normal).position(&mesh).distance(p));
                 let found = index.nearest(p);
                 assert!((found.distance - all[0].min(all[1])).abs() < 1e-12);

@@ -191,7 +191,7 @@ impl SurfaceMesh {
         triangle::area(p, q, r)
     }
 
-    /// By vertex a third of the faces around it.
+    /// The area that belongs to each vertex: a third of the faces around it.
     pub fn vertex_areas(&self) -> TiVec<VertexId, f64> {
         let mut areas = ti_vec![0.0; self.vertex_count()];
         for f in self.faces() {
@@ -269,7 +269,7 @@ fn directed_edges(
 
 /// Halfedges by the vertices that they come from.
 struct ByTail {
-    /// By vertex its first entry, and one past the last.
+    /// The place of the first entry of each vertex, and one past the end.
     starts: Vec<u32>,
     /// The other end and the halfedge, ascending at each vertex.
     entries: Vec<(VertexId, HalfedgeId)>,

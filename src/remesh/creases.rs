@@ -12,28 +12,28 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Shortest line of sharp edges that is kept, in new edges. Shorter ones are left out again and again until none is left; left out only
-/// once, even lines below five left short ones where they had met others.
+/// The length of the shortest line of sharp edges that is kept, in new edges. Shorter ones are left out again and again until none
+/// is left; left out only once, even lines below five left short ones where they had met others.
 const SHORTEST: f64 = 3.0;
-/// A line turns by less than this at a vertex (45 degrees) that is no corner. Chosen by hand.
+/// The largest angle (45 degrees) by which a line turns at a vertex that is no corner. Chosen by hand.
 const BEND: f64 = std::f64::consts::FRAC_PI_4;
-/// Triangles with less double area by longest side squared have no normal that means anything. Chosen by hand.
+/// The ratio of double area to longest side squared below which a triangle's normal means nothing. Chosen by hand.
 const SLIVER: f64 = 0.02;
 
 /// What a vertex is to the sharp edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// On none.
+    /// The vertex is on no sharp edge.
     Free,
-    /// Inside the chain of that number.
+    /// The vertex is inside the chain of that number.
     Along(u32),
-    /// The end of a chain.
+    /// The vertex is the end of a chain.
     Corner,
 }
 
 /// The sharp edges of a mesh that changes, and their lines on the given surface.
 pub(super) struct Creases {
-    /// By edge, the lower vertex first, its chain.
+    /// The chain of each sharp edge, by the edge's vertices, the lower one first.
     chains: FxHashMap<[VertexId; 2], u32>,
     kinds: TiVec<VertexId, Kind>,
     /// The given surface's sharp edges.
@@ -141,7 +141,7 @@ fn is_sharp(surface: &SurfaceMesh, h: HalfedgeId, angle: f64) -> bool {
 /// Chains, and what they are made of.
 struct Lines {
     sharp: Vec<HalfedgeId>,
-    /// By sharp edge its chain.
+    /// The chain of each sharp edge.
     chains: Vec<u32>,
     is_corner: TiVec<VertexId, bool>,
 }

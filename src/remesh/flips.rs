@@ -5,7 +5,7 @@ use crate::math::triangle::angle_at;
 use crate::mesh::HalfedgeId;
 use std::f64::consts::PI;
 
-/// What the angles across an edge must have above pi, so that rounding decides nothing.
+/// The least excess over pi of the angles across an edge that is flipped, so that rounding decides nothing.
 const CLEARLY: f64 = 1e-6;
 
 impl Working<'_> {

@@ -5,9 +5,10 @@ use super::working::{Fit, Place, Working, distance};
 use crate::math::scalar::min;
 use crate::mesh::{HalfedgeId, VertexId};
 
-/// A vertex goes only where the surface stays within this share of the longest allowed edge: the ends of limbs stay. Chosen by hand.
+/// The largest distance from the surface, as a share of the longest allowed edge, within which a vertex may be collapsed: the ends
+/// of limbs stay. Chosen by hand.
 const DEVIATION: f64 = 0.25;
-/// No vertex gets more neighbours. Chosen by hand.
+/// The largest number of neighbours that a vertex gets. Chosen by hand.
 const MOST_NEIGHBOURS: usize = 12;
 
 impl Working<'_> {
@@ -106,7 +107,7 @@ impl Working<'_> {
         match self.creases.kind(v) {
             Kind::Free => true,
             Kind::Corner => false,
-            // Along its edge, unless that is a closed one of three.
+            // The vertex goes along its edge, unless that is part of a closed chain of three.
             Kind::Along(_) => {
                 self.is_sharp(h)
                     && neighbours()

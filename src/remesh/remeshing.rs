@@ -17,7 +17,7 @@ pub struct Options {
     pub faces: usize,
     /// Edges whose faces' normals differ by more than this, in radians, stay sharp; none do where it is pi.
     pub crease_angle: f64,
-    /// Rounds after which the number of faces must be near the wanted one.
+    /// The number of rounds after which the number of faces must be near the wanted one.
     pub max_rounds: usize,
 }
 
@@ -31,9 +31,9 @@ impl Options {
 /// The new mesh.
 #[derive(Clone, Debug)]
 pub struct Remeshed {
-    /// Closed and manifold, of the given surface's genus and number of parts; its vertices lie on the given surface.
+    /// The mesh, closed and manifold, of the given surface's genus and number of parts; its vertices lie on the given surface.
     pub mesh: SurfaceMesh,
-    /// What it is like.
+    /// The quality of the mesh.
     pub report: Report,
 }
 
@@ -47,19 +47,19 @@ pub enum Error {
         reached
     )]
     TooFewFaces {
-        /// How many were asked for.
+        /// The number of faces that was asked for.
         wanted: usize,
-        /// With how many the last round ended.
+        /// The number of faces with which the last round ended.
         reached: usize,
     },
     /// The number of faces did not come near the wanted one.
     #[error("the mesh has {reached} faces after {rounds} rounds, where {wanted} were asked for")]
     NotConverged {
-        /// How many were asked for.
+        /// The number of faces that was asked for.
         wanted: usize,
-        /// With how many the last round ended.
+        /// The number of faces with which the last round ended.
         reached: usize,
-        /// How many rounds there were.
+        /// The number of rounds.
         rounds: usize,
     },
     /// The user asked to stop.
@@ -67,13 +67,13 @@ pub enum Error {
     Cancelled(#[from] Cancelled),
 }
 
-/// Rounds that are made in any case: the first bring the lengths, the others regular triangles. Chosen by hand.
+/// The number of rounds that are made in any case: the first bring the lengths, the others regular triangles. Chosen by hand.
 const LEAST_ROUNDS: usize = 10;
-/// Rounds without splits and collapses at the end. Chosen by hand.
+/// The number of rounds without splits and collapses at the end. Chosen by hand.
 const LAST_ROUNDS: usize = 3;
-/// The share of the wanted faces by which a result may differ from it. Chosen by hand.
+/// The share of the wanted faces by which the result's number may differ from it. Chosen by hand.
 const TOLERANCE: f64 = 0.05;
-/// The difference at which no better one is waited for. Chosen by hand.
+/// The share of the wanted faces within which no better number is waited for. Chosen by hand.
 const AIM: f64 = 0.02;
 
 /// Remeshes a closed surface.
@@ -91,7 +91,7 @@ pub fn remesh(
         return Err(Error::TooFewFaces { wanted, reached: 4 });
     }
     let original = SurfaceIndex::new(surface);
-    // Of equilateral triangles.
+    // The length is that of equilateral triangles.
     let mut length = (4.0 * surface.area() / (3.0_f64.sqrt() * wanted as f64)).sqrt();
     let mut creases = Creases::find(surface, options.crease_angle, length);
     creases.hold(&tips::tips(surface, length));

@@ -12,24 +12,24 @@ use serde::Serialize;
 pub struct Report {
     /// Number of triangles.
     pub faces: usize,
-    /// Rounds that were made.
+    /// Number of rounds that were made.
     pub rounds: usize,
-    /// Of the edges.
+    /// The lengths of the edges.
     pub edge_length: EdgeLengths,
     /// Smallest angle of a triangle, in degrees.
     pub min_angle: f64,
     /// Mean over the triangles of their smallest angles, in degrees; 60 at most.
     pub mean_min_angle: f64,
-    /// To the given surface and from it.
+    /// The distances to the given surface and from it.
     pub distance: Distances,
 }
 
-/// How long edges are.
+/// The lengths of edges.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct EdgeLengths {
-    /// Mean.
+    /// The mean length.
     pub mean: f64,
-    /// Standard deviation.
+    /// The standard deviation of the lengths.
     pub deviation: f64,
 }
 
@@ -43,7 +43,7 @@ pub struct Distances {
 }
 
 impl Report {
-    /// The same with lengths in another unit, of which `factor` make one of this.
+    /// The same lengths in another unit, of which `factor` make one of this.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {
         let EdgeLengths { mean, deviation } = self.edge_length;
@@ -73,7 +73,7 @@ impl Report {
 }
 
 impl EdgeLengths {
-    /// Of a mesh.
+    /// The edge lengths of a mesh.
     pub fn of(mesh: &SurfaceMesh) -> Self {
         let count = mesh.edge_count() as f64;
         let mean = mesh.edges().map(|h| mesh.length(h)).sum::<f64>() / count;

@@ -8,7 +8,8 @@ use crate::mesh::{HalfedgeId, VertexId};
 use glam::DVec3;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// A vertex moves only where its old place stays within this share of an edge of the new triangles: rims and valleys stay. Chosen by hand.
+/// The largest distance of a vertex's old place from the new triangles, as a share of an edge: rims and valleys stay. Chosen by
+/// hand.
 const DEVIATION: f64 = 0.1;
 
 impl Working<'_> {
@@ -90,7 +91,7 @@ impl Working<'_> {
         if count > 0.0 { sum / count } else { self.places[v].position }
     }
 
-    /// By vertex the area of the triangles around it.
+    /// The area of the triangles around each vertex.
     fn areas(&self) -> TiVec<VertexId, f64> {
         let mut areas = ti_vec![0.0; self.places.len()];
         for f in self.mesh.faces() {

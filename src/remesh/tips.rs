@@ -5,9 +5,9 @@ use crate::mesh::{SurfaceMesh, VertexId};
 use glam::DVec3;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-/// Radius of the surface around a vertex by which it is judged a tip, in new edges. Chosen by hand.
+/// The radius of the surface around a vertex by which it is judged a tip, in new edges. Chosen by hand.
 const REACH: f64 = 1.5;
-/// Length of the mean unit direction from a tip to the surface around it, at least. It is the cosine of half the angle of a cone:
+/// The least length of the mean unit direction from a tip to the surface around it. It is the cosine of half the angle of a cone:
 /// 0.74 at the corner of a cube, 0.45 on its edges, 0 in the plane.
 const POINTED: f64 = 0.65;
 
@@ -21,7 +21,7 @@ pub(super) fn tips(surface: &SurfaceMesh, length: f64) -> Vec<VertexId> {
     let mut patches = Patches::new(surface, REACH * length);
     let mut is_tip = |&v: &VertexId| {
         let near = |w: VertexId| surface.positions()[w].distance(surface.positions()[v]) < REACH * length;
-        // Of equals the first.
+        // The first vertex is taken of equals.
         let more = |w: VertexId| pointed[w] > pointed[v] || (pointed[w] == pointed[v] && w < v);
         let beats = |&w: &VertexId| near(w) && more(w);
         pointed[v] > POINTED && !patches.around(v).iter().any(beats)
@@ -48,7 +48,7 @@ fn pointedness(
 struct Patches<'a> {
     surface: &'a SurfaceMesh,
     reach: f64,
-    /// By vertex the centre of the last patch that it was asked for.
+    /// The centre of the last patch that each vertex was asked for.
     seen: TiVec<VertexId, VertexId>,
 }
 

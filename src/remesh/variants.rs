@@ -16,14 +16,14 @@ pub fn decimated(mesh: &SurfaceMesh, faces: usize) -> SurfaceMesh {
     level.map_or_else(|_| mesh.clone(), |level| level.mesh)
 }
 
-/// Random moves of the vertices; the shares are of the mean length of the edges at the vertex.
+/// Random moves of the vertices, as shares of the mean length of the edges at the vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
-    /// Largest move in either of two directions of the tangent plane.
+    /// The largest move in either of two directions of the tangent plane.
     pub tangential: f64,
-    /// Largest move along the normal.
+    /// The largest move along the normal.
     pub normal: f64,
-    /// The same seed gives the same moves.
+    /// The seed: the same one gives the same moves.
     pub seed: u64,
 }
 

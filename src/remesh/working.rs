@@ -31,22 +31,22 @@ pub(super) struct Place {
 /// How well triangles lie on the surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fit {
-    /// Least cosine between a triangle's normal and the mean of the surface's at its corners.
+    /// The least cosine between a triangle's normal and the mean of the surface's at its corners.
     facing: f64,
-    /// Least ratio of double area to longest side squared; 0.87 for an equilateral triangle.
+    /// The least ratio of double area to longest side squared; 0.87 for an equilateral triangle.
     roundness: f64,
 }
 
-/// A triangle turned by less than this (75 degrees) may turn freely. Chosen by hand.
+/// The least cosine (75 degrees) with which a triangle may turn freely. Chosen by hand.
 const FACING: f64 = 0.25;
-/// A triangle rounder than this (about 6 degrees) may become thinner. Chosen by hand.
+/// The least ratio (about 6 degrees) with which a triangle may become thinner. Chosen by hand.
 const ROUNDNESS: f64 = 0.1;
 
 impl Fit {
-    /// Of no triangle.
+    /// The fit of no triangle.
     pub const BEST: Self = Self { facing: 1.0, roundness: 1.0 };
 
-    /// Of a triangle.
+    /// The fit of a triangle.
     pub fn of([a, b, c]: [Place; 3]) -> Self {
         let (p, q, r) = (a.position, b.position, c.position);
         let cross = (q - p).cross(r - p);
@@ -59,7 +59,7 @@ impl Fit {
         Self { facing: cross.dot(mean) / double_area, roundness: double_area / longest }
     }
 
-    /// The worse in either way.
+    /// The worse of both fits, in either number.
     pub fn worse(self, other: Self) -> Self {
         Self { facing: min(self.facing, other.facing), roundness: min(self.roundness, other.roundness) }
     }
@@ -71,7 +71,7 @@ impl Fit {
 }
 
 impl<'a> Working<'a> {
-    /// The given surface's own mesh.
+    /// The working mesh that is the given surface's own.
     pub fn new(original: &'a SurfaceIndex<'a>, creases: Creases) -> Self {
         let surface = original.mesh();
         let place = |v: VertexId| {

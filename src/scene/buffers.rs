@@ -10,9 +10,9 @@ use glam::{DVec3, Vec3};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct SurfaceVertex {
-    /// In scene coordinates.
+    /// Position, in scene coordinates.
     pub position: [f32; 3],
-    /// Unit.
+    /// Unit normal.
     pub normal: [f32; 3],
     /// Texture coordinates.
     pub uv: [f32; 2],
@@ -24,9 +24,10 @@ pub struct SurfaceVertex {
     pub image_normal: [f32; 3],
     /// How much it lies in a hollow (positive) or on a ridge (negative), from -1 to 1.
     pub hollow: f32,
-    /// Its colour in a look, red, green and blue as a screen shows them, and 255 where the picture is laid on it, or else 0.
+    /// The vertex's colour in a look, red, green and blue as a screen shows them; the fourth number is 255 where the picture is
+    /// laid on it, or else 0.
     pub tint: [u8; 4],
-    /// How it is off its straight way to the image, and turned there.
+    /// How far the vertex lies off its straight way to the image, and how it is turned there.
     pub bends: PackedBends,
 }
 
@@ -63,15 +64,15 @@ pub struct PinInstance {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct MarkerInstance {
-    /// In scene coordinates.
+    /// Centre, in scene coordinates.
     pub centre: [f32; 3],
-    /// In scene units.
+    /// Radius, in scene units.
     pub radius: f32,
     /// Linear red, green, blue.
     pub colour: [f32; 3],
 }
 
-/// From input coordinates to scene coordinates.
+/// The way from input coordinates to scene coordinates: a shift and a scaling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     centre: DVec3,
@@ -84,7 +85,7 @@ impl Frame {
         Self::around(mesh.positions().iter().copied())
     }
 
-    /// Likewise of any points.
+    /// The frame of any points, centred and scaled in the same way.
     pub fn around(points: impl Iterator<Item = DVec3> + Clone) -> Self {
         let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let (low, high) = points.clone().fold(start, |(l, h), p| (l.min(p), h.max(p)));
@@ -98,7 +99,7 @@ impl Frame {
         self.exact_place(p).as_vec3()
     }
 
-    /// Likewise in full precision.
+    /// A point in scene coordinates, in full precision.
     pub fn exact_place(&self, p: DVec3) -> DVec3 {
         (p - self.centre) * self.scale
     }

@@ -9,25 +9,26 @@ use glam::{Quat, Vec2, Vec3};
 use serde::Deserialize;
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
-/// Distances, in radii of the surface: nearest, single triangles of the finest meshes are large; farthest, the surface is small.
+/// The least and the largest distance, in radii of the surface: at the least one single triangles of the finest meshes are large,
+/// at the largest one the surface is small.
 const DISTANCES: [f32; 2] = [0.01, 20.0];
 
-/// How far the target may be moved from the middle of the surface.
+/// The largest distance of the target from the middle of the surface, in radii of the surface.
 const FARTHEST_TARGET: f32 = 3.0;
 
-/// What a drag as long as the view is high turns by, in radians.
+/// The angle by which a drag as long as the view is high turns, in radians.
 const TURN: f32 = 4.0;
 
-/// How many numbers are kept of a camera.
+/// The number of numbers that a camera is kept as.
 const KEPT: usize = 10;
 
-/// Distance from which a single place is looked at, where the camera is farther.
+/// The distance from which a single place is looked at, in radii of the surface, where the camera is farther away.
 const CLOSE_UP: f32 = 1.4;
 
-/// From so many radii something small is seen with what lies around it.
+/// The distance from which something small is seen with what lies around it, in units of its own radius.
 const ROOM: f32 = 5.0;
 
-/// Nearer the camera does not come by itself.
+/// The least distance to which the camera comes by itself, in radii of the surface.
 const NEAREST: f32 = 0.12;
 
 /// A direction to look from.
@@ -94,14 +95,14 @@ impl Camera {
         [self.yaw, self.pitch, self.roll, self.distance, a, b, c, d, e, f]
     }
 
-    /// The camera of kept numbers over a mesh with this up axis; `None` where they are none.
+    /// The camera of kept numbers over a mesh with this up axis; `None` where they are not the numbers of a camera.
     pub fn from_numbers(up: UpAxis, numbers: &[f32]) -> Option<Self> {
         let [yaw, pitch, roll, distance, a, b, c, d, e, f] = *<&[f32; KEPT]>::try_from(numbers).ok()?;
         let (target, pivot) = (Vec3::new(a, b, c), Vec3::new(d, e, f));
         Self { up, yaw, pitch, roll, distance, target, pivot }.bounded()
     }
 
-    /// The camera with angles, distance and points within their bounds; `None` where a number is none.
+    /// The camera with angles, distance and points within their bounds; `None` where a number is not finite.
     fn bounded(self) -> Option<Self> {
         let numbers = [self.yaw, self.pitch, self.roll, self.distance];
         let finite =
@@ -201,7 +202,7 @@ impl Camera {
         (self.yaw, self.pitch, self.roll) = (yaw, pitch, 0.0);
     }
 
-    /// Another axis of the mesh points up; the angles stay, and the picture is upright.
+    /// Makes another axis of the mesh point up; the angles stay, and the picture is upright.
     pub fn set_up(&mut self, up: UpAxis) {
         self.up = up;
         self.roll = 0.0;
@@ -213,7 +214,7 @@ impl Camera {
         if local.x.abs() + local.z.abs() > 1e-3 {
             self.yaw = local.x.atan2(local.z).rem_euclid(TAU);
         }
-        // Not quite from above or below, where one could not tell how the body stands.
+        // The camera does not look exactly from above or below, where one could not tell how the body stands.
         self.pitch = local.y.clamp(-1.0, 1.0).asin().clamp(-1.2, 1.2);
         self.roll = 0.0;
         self.distance = self.distance.min(CLOSE_UP);
@@ -221,7 +222,7 @@ impl Camera {
         self.pivot = place;
     }
 
-    /// Looks at everything within a distance of a place from ahead of it, likewise.
+    /// Looks at everything within a distance of a place, from ahead of it, and turns about the place from now on.
     pub fn face_around(&mut self, place: Vec3, normal: Vec3, radius: f32) {
         self.face(place, normal);
         self.distance = (ROOM * radius).clamp(NEAREST, Self::default().distance);

@@ -63,7 +63,7 @@ mod tests {
         let places: Vec<f32> = (0..vertices.len()).map(|v| v as f32 / 200.0).collect();
         let corners = circled(&vertices, &triangles, &places, &radii);
         assert_eq!(corners.len(), 3 * triangles.len());
-        // Nearly the unit sphere's.
+        // The unit is nearly that of the unit sphere.
         let unit = (4.0 * std::f64::consts::PI).sqrt();
         for (t, face) in triangles.iter().zip(corners.as_chunks::<3>().0) {
             for weights in [[0.2, 0.3, 0.5], [0.9, 0.05, 0.05], [0.0, 0.5, 0.5]] {

@@ -1,6 +1,6 @@
 //! Colours of landmarks and of scales, linear red, green and blue from 0 to 1.
 
-/// As style sheets write colours: eight bits of red, green and blue.
+/// A colour as style sheets write it: eight bits of red, green and blue.
 type Hex = u32;
 
 /// Colours that can be told apart, also by the colour-blind: each is the farthest from all before it (and from the grounds and

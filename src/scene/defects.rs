@@ -11,7 +11,7 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stroke {
-    /// In one piece.
+    /// A line in one piece.
     Solid,
     /// Dashes.
     Dashed,
@@ -24,7 +24,7 @@ pub enum Stroke {
 }
 
 impl Stroke {
-    /// Its number in the shader.
+    /// The number of the stroke in the shader.
     fn code(self) -> f32 {
         match self {
             Self::Solid => 0.0,
@@ -51,7 +51,7 @@ pub enum Fill {
 }
 
 impl Fill {
-    /// Its number in the shader.
+    /// The number of the filling in the shader.
     fn code(self) -> f32 {
         match self {
             Self::Stripes => 0.0,
@@ -73,7 +73,7 @@ pub enum Sign {
 }
 
 impl Sign {
-    /// Its number in the shader, among the kinds of pins.
+    /// The number of the sign in the shader, among the kinds of pins.
     fn code(self) -> f32 {
         match self {
             Self::Diamond => 4.0,
@@ -87,11 +87,11 @@ impl Sign {
 pub struct Look {
     /// Red, green and blue, eight bits each.
     pub colour: u32,
-    /// Its lines; `None` where it has none.
+    /// How its lines are drawn; `None` where it has none.
     pub stroke: Option<Stroke>,
-    /// Its faces; `None` where they are not painted.
+    /// How its faces are filled; `None` where they are not painted.
     pub fill: Option<Fill>,
-    /// Its places; `None` where it has none.
+    /// How its places are marked; `None` where it has none.
     pub sign: Option<Sign>,
 }
 
@@ -118,7 +118,7 @@ impl Look {
         }
     }
 
-    /// Its colour, linear red, green and blue.
+    /// The colour as linear red, green and blue.
     pub fn linear(&self) -> [f32; 3] {
         linear(self.colour)
     }
@@ -128,7 +128,7 @@ impl Look {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct MarkedLineVertex {
-    /// As of every line.
+    /// The vertex as that of every line.
     pub line: LineVertex,
     /// Linear red, green, blue.
     pub colour: [f32; 3],

@@ -5,11 +5,11 @@ use super::pose::Pose;
 /// A way that began at a pose; its end is the camera's own pose, which may move meanwhile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Glide {
-    /// Where it began.
+    /// Where the way began.
     pub from: Pose,
-    /// When it began, in milliseconds.
+    /// When the way began, in milliseconds.
     pub begin: f64,
-    /// How long it takes, in milliseconds.
+    /// How long the way takes, in milliseconds.
     pub duration: f64,
 }
 

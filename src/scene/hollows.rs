@@ -15,7 +15,7 @@ const MOST_ROUNDS: f64 = 24.0;
 /// What the spread slopes are multiplied by: an armpit comes near 1. Chosen by hand.
 const STRENGTH: f64 = 3.0;
 
-/// After so many rounds what has no value yet has none.
+/// The largest number of rounds in which points between vertices get values; what has none after them keeps none.
 const MOST_ROUNDS_BETWEEN: usize = 40;
 
 /// By vertex from -1 on sharp ridges to 1 in deep hollows, 0 where the surface is flat.

@@ -7,7 +7,7 @@ use std::ops::Range;
 /// A surface in a look as it is drawn.
 #[derive(Clone, Debug, Default)]
 pub struct DressedSurface {
-    /// Its vertices.
+    /// The vertices of the surface.
     pub vertices: Vec<SurfaceVertex>,
     /// Triples of vertices, picture after picture.
     pub indices: Vec<u32>,
@@ -39,9 +39,9 @@ pub fn drawn(dressed: &Dressed, bare: &[SurfaceVertex]) -> DressedSurface {
 /// A picture of 8-bit colours with opacity.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pixels {
-    /// In pixels.
+    /// Pixels in a row.
     pub width: u32,
-    /// In pixels.
+    /// Number of rows.
     pub height: u32,
     /// Red, green, blue and opacity, row after row.
     pub bytes: Vec<u8>,

@@ -16,11 +16,11 @@ pub struct MapPicker {
 /// A place of one mesh with its partner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapPlace {
-    /// On the source and on the target, in input coordinates.
+    /// The place on the source and on the target, in input coordinates.
     pub positions: [DVec3; 2],
     /// The points at the corners of the map's triangle that holds it.
     pub corners: [u32; 3],
-    /// Their weights: values that the map's points have are their mean there.
+    /// The weights of these points: a value of the map's points has its weighted mean at the place.
     pub weights: [f64; 3],
 }
 

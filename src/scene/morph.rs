@@ -36,12 +36,13 @@ pub fn bend_weights(time: f32) -> [f32; KEYS.len()] {
 pub struct PackedWay {
     /// The largest coordinate of a bend, in scene units.
     pub range: f32,
-    /// By point.
+    /// The packed bends and turn of each point.
     pub points: Vec<PackedBends>,
 }
 
 impl PackedWay {
-    /// Packs bends at the [`KEYS`], in scene units, and turns over the whole way, axis by radians; one of each by point.
+    /// Packs bends at the [`KEYS`], in scene units, and turns over the whole way, whose direction is the axis and whose length is
+    /// the angle in radians; one of each for every point.
     pub fn new(bends: &[[DVec3; KEYS.len()]], turns: &[DVec3]) -> Self {
         let largest = |most: f64, bend: &DVec3| most.max(bend.abs().max_element());
         let range = bends.iter().flatten().fold(0.0, largest).max(f64::from(f32::MIN_POSITIVE)) as f32;
@@ -55,7 +56,7 @@ impl PackedWay {
         Self { range, points: bends.iter().zip(turns).map(point).collect() }
     }
 
-    /// The bends of a point; none of one that there is not.
+    /// The packed bends of a point; zero for a number that no point has.
     pub fn at(&self, point: usize) -> PackedBends {
         self.points.get(point).copied().unwrap_or_default()
     }

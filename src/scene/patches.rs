@@ -8,7 +8,7 @@ use parry3d_f64::query::PointQueryWithLocation;
 use parry3d_f64::shape::TriMesh;
 use std::ops::Range;
 
-/// What is lit up is of a colour that neither cones nor patterns nor scales have.
+/// The colour of what is lit up: neither cones nor patterns nor scales have it.
 const LIT: u32 = 0xc2_189b;
 
 /// The patches of a map on one mesh, in its coordinates.

@@ -10,16 +10,16 @@ use parry3d_f64::query::{PointQuery, PointQueryWithLocation, Ray, RayCast};
 use parry3d_f64::shape::TriMesh;
 use rustc_hash::FxHashMap;
 
-/// Faces of a part.
+/// Number of faces of a part.
 const PART: usize = 10_000;
-/// A mesh of so many parts at most is ready from the beginning.
+/// The largest number of parts of a mesh that is ready from the beginning.
 const FEW_PARTS: usize = 6;
 
 /// A surface that can be picked, once it is ready.
 pub struct Picker {
-    /// Of the first faces, [`PART`] each; the last one may have fewer.
+    /// The hierarchies of the parts so far: of [`PART`] faces each, of which the last may have fewer.
     parts: Vec<TriMesh>,
-    /// How many there will be.
+    /// The number of parts of the whole mesh.
     count: usize,
 }
 
@@ -34,12 +34,12 @@ impl Picker {
         (count > 0).then_some(picker)
     }
 
-    /// Whether all of it is there; before, nothing is picked.
+    /// Whether all parts are there; before that, nothing is picked.
     pub fn is_ready(&self) -> bool {
         self.parts.len() >= self.count
     }
 
-    /// Builds the next part; `None` where there is nothing to pick in it.
+    /// Builds the next part; `None` where the part has nothing that can be picked.
     pub fn grow(&mut self, mesh: &SurfaceMesh) -> Option<()> {
         let first = PART * self.parts.len();
         let faces = mesh.triangles().raw.get(first..(first + PART).min(mesh.face_count()))?;

@@ -20,33 +20,33 @@ const BESIDE_STEM: f32 = 4.0;
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq)]
 #[serde(rename_all = "lowercase")]
 pub enum Stand {
-    /// As all.
+    /// A pin as all others.
     #[default]
     Plain,
-    /// Selected, or under the pointer here or in a list.
+    /// A pin that is selected, or under the pointer here or in a list.
     Raised,
-    /// Proposed, and no landmark yet.
+    /// A pin that is proposed, and is no landmark yet.
     Ghost,
 }
 
 /// A landmark of one side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pin {
-    /// In scene coordinates.
+    /// The place, in scene coordinates.
     pub base: Vec3,
     /// Linear red, green, blue.
     pub colour: [f32; 3],
-    /// Larger, or see-through, or as all.
+    /// How the pin stands out.
     pub stand: Stand,
 }
 
 impl Pin {
-    /// What is drawn of a pin behind the surface, at so many physical pixels per pixel of the page.
+    /// The pin as it is drawn behind the surface, at this number of physical pixels per pixel of the page.
     pub fn outline(&self, pixel_ratio: f32) -> PinInstance {
         PinInstance { kind: 1.0, ..self.instance(pixel_ratio) }
     }
 
-    /// What is drawn of a pin in sight.
+    /// The pin as it is drawn in front of the surface, at the same scale.
     pub fn instance(&self, pixel_ratio: f32) -> PinInstance {
         let radius = match self.stand {
             Stand::Plain => HEAD,

@@ -12,7 +12,7 @@ pub struct Pose {
     pub turn: Quat,
     /// The point in the middle of the view.
     pub target: Vec3,
-    /// From the eye to it.
+    /// Distance from the eye to the target.
     pub distance: f32,
 }
 

@@ -8,31 +8,31 @@ use crate::mesh::packing::{PackedError, Packer, Unpacker};
 /// Normals and hollows of a mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shading {
-    /// By vertex, unit.
+    /// Unit normals by vertex.
     pub normals: Vec<[f32; 3]>,
     /// By vertex how much it lies in a hollow (positive) or on a ridge (negative), from -1 to 1.
     pub hollows: Vec<f32>,
 }
 
 impl Shading {
-    /// Of a mesh.
+    /// The shading of a mesh.
     pub fn of(mesh: &SurfaceMesh) -> Self {
         let normals = vertex_normals(mesh);
         let hollows = hollows(mesh, &normals).into_iter().map(|hollow| hollow as f32).collect();
         Self { normals: normals.iter().map(|normal| normal.as_vec3().to_array()).collect(), hollows }
     }
 
-    /// All of it.
+    /// Adds all numbers of the shading to a packer.
     pub fn pack(&self, packer: &mut Packer) {
         let count = self.normals.len();
         packer.singles((0..3 * count).map(|k| self.normals[k / 3][k % 3]));
         packer.singles(self.hollows.iter().copied());
     }
 
-    /// The shading of so many vertices that [`Self::pack`] took.
+    /// Takes back from an unpacker the shading of a mesh with this number of vertices, as [`Self::pack`] has added it.
     ///
     /// # Errors
-    /// [`PackedError`] where it is of another number of vertices.
+    /// [`PackedError`] where it is the shading of a mesh with another number of vertices.
     pub fn unpack(unpacker: &mut Unpacker<'_>, vertices: usize) -> Result<Self, PackedError> {
         let (normals, hollows) = (unpacker.singles()?, unpacker.singles()?);
         let (normals, rest) = normals.as_chunks();

@@ -28,10 +28,10 @@ pub enum UpAxis {
 }
 
 impl UpAxis {
-    /// All six.
+    /// All six axes.
     pub const ALL: [Self; 6] = [Self::X, Self::MinusX, Self::Y, Self::MinusY, Self::Z, Self::MinusZ];
 
-    /// The direction, of length 1.
+    /// The direction of the axis, of length 1.
     pub fn direction(self) -> Vec3 {
         match self {
             Self::X => Vec3::X,

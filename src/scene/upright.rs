@@ -9,7 +9,7 @@ use crate::math::triangle::signed_double_area;
 use crate::mesh::SurfaceMesh;
 use glam::{DVec2, DVec3};
 
-/// What counts as lowest, as a share of the extent: as thick as feet. Chosen by hand.
+/// The part of the extent in which points count as lowest: as thick as feet. Chosen by hand.
 const SLICE: f64 = 0.06;
 
 /// How much wider the base must be than what is opposite, as a share of the body's box seen from above. Chosen by hand.

@@ -14,9 +14,9 @@ use typed_index_collections::TiVec;
 /// How attributes are brought over.
 #[derive(Clone, Debug)]
 pub struct AttributeOptions {
-    /// From which mesh to which.
+    /// The direction: from which mesh to which.
     pub direction: Direction,
-    /// How values are made.
+    /// How a value at a vertex is made of those of the other mesh.
     pub carrying: Carrying,
     /// Names of columns that are labels. Whole-numbered columns of a PLY file that are no colours are labels anyway.
     pub labels: Vec<String>,
@@ -27,18 +27,18 @@ pub struct AttributeOptions {
 /// Why attributes cannot be brought over.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum AttributeError {
-    /// A column was asked for that is not there.
+    /// A column that was asked for is not there.
     #[error("there is no column \"{name}\": there are {known}")]
     NoColumn {
-        /// The name.
+        /// The name of the column.
         name: String,
-        /// The names that there are.
+        /// The names of the columns that are there.
         known: String,
     },
     /// A column was called labels and weights.
     #[error("the column \"{name}\" cannot be both labels and weights")]
     TwoKinds {
-        /// The name.
+        /// The name of the column.
         name: String,
     },
     /// A vertex has no value.
@@ -58,7 +58,7 @@ pub enum AttributeError {
         vertex: usize,
         /// The column.
         name: String,
-        /// What it has.
+        /// The value of the column there.
         value: f64,
     },
     /// A weight is negative.
@@ -68,7 +68,7 @@ pub enum AttributeError {
         vertex: usize,
         /// The column.
         name: String,
-        /// What it has.
+        /// The value of the column there.
         value: f64,
     },
     /// The values could not be brought over.
@@ -84,7 +84,7 @@ enum Kind {
     Label,
 }
 
-/// Colours of PLY files: their whole numbers are no labels.
+/// The names of colours in PLY files: their whole numbers are no labels.
 const COLOURS: [&str; 12] = [
     "red",
     "green",
@@ -100,7 +100,7 @@ const COLOURS: [&str; 12] = [
     "diffuse_alpha",
 ];
 
-/// Larger whole numbers are not exact.
+/// The largest label: larger whole numbers are not exact.
 const LARGEST_LABEL: f64 = 1e15;
 
 /// The attributes of the giving file's vertices at the receiving file's vertices, told as they were given. Of vertices that were

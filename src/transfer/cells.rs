@@ -8,7 +8,7 @@ use glam::DVec2;
 /// A triangle of the overlay.
 #[derive(Clone, Copy, Debug)]
 pub struct Cell {
-    /// Weights of its three corners in the source's face and in the target's.
+    /// The weights of its three corners in the source's face and in the target's.
     pub weights: [[[f64; 3]; 3]; 2],
     /// Its area on the source and on the target; not negative.
     pub areas: [f64; 2],
@@ -30,7 +30,7 @@ pub struct Cells<'a> {
 }
 
 impl<'a> Cells<'a> {
-    /// Of a map that has passed [`crate::surface_map::correspondence::check`] with the meshes.
+    /// The cells of a map that has passed [`crate::surface_map::correspondence::check`] with the meshes.
     pub fn new(meshes: [&'a SurfaceMesh; 2], map: &'a Correspondence) -> Self {
         let areas = meshes.map(|mesh| mesh.faces().map(|f| mesh.face_area(f)).collect());
         Self { meshes, map, areas, rings: [Vec::new(), Vec::new()], cells: Vec::new() }
@@ -48,7 +48,7 @@ impl<'a> Cells<'a> {
             let area = |side: usize| {
                 let [p, q, r] = corners[side];
                 let share = signed_double_area(p, q, r);
-                // Rounding may turn the thinnest over.
+                // Rounding may turn the thinnest triangles over.
                 if share > 0.0 { share * areas[side][piece.faces[side].index()] } else { 0.0 }
             };
             cells.push(Cell {

@@ -21,21 +21,21 @@ pub enum CurveError {
     /// The user asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-    /// A point is at fault.
+    /// A point of a curve is at fault.
     #[error("curve {} (\"{name}\"), point {}: {problem}", curve + 1, point + 1)]
     Point {
-        /// The curve, from 0.
+        /// The number of the curve, from 0.
         curve: usize,
-        /// Its name.
+        /// The curve's name.
         name: String,
-        /// The point, from 0.
+        /// The number of the point, from 0.
         point: usize,
         /// What is wrong and what to do.
         problem: String,
     },
 }
 
-/// Weights below this count as 0 in given points: files have rounded digits.
+/// Weights below this count as 0 in given points, since files have rounded digits.
 const ZERO_WEIGHT: f64 = 1e-9;
 
 /// A point this near to a side or corner of a piece, in weights of its face, lies on it.
@@ -130,14 +130,14 @@ struct Stretch<'a> {
 /// A curve by its corners on a mesh.
 #[derive(Clone, Copy, Debug)]
 pub struct Polyline<'a> {
-    /// In their order; any two following ones lie in one face.
+    /// The corners in their order; any two following ones lie in one face.
     pub places: &'a [Place],
-    /// Whether the last is joined with the first.
+    /// Whether the last corner is joined with the first.
     pub is_closed: bool,
 }
 
 impl<'a> CurveCarrier<'a> {
-    /// By a map that has passed [`crate::surface_map::correspondence::check`] with the meshes.
+    /// The carrier of a map that has passed [`crate::surface_map::correspondence::check`] with the meshes.
     pub fn new(meshes: [&'a SurfaceMesh; 2], map: &'a Correspondence, direction: Direction) -> Self {
         let giver = direction.side();
         let pieces = PiecesByFace::new(map, giver, meshes[giver].face_count());
@@ -277,7 +277,8 @@ fn clipped(ring: &[DVec2], p: DVec2, q: DVec2) -> Option<[f64; 2]> {
     (is_thick && begin <= end).then_some([begin, end])
 }
 
-/// Stretches that follow each other from 0 to 1, those that go farthest. Where rounding left a gap the next one begins after it.
+/// The stretches that follow each other from 0 to 1, of those that begin at a place the one that goes farthest. Where rounding left
+/// a gap the next one begins after it.
 fn cover(mut stretches: Vec<Stretch<'_>>) -> Vec<Stretch<'_>> {
     stretches.sort_by(|a, b| a.begin.total_cmp(&b.begin).then(b.end.total_cmp(&a.end)));
     let mut chosen: Vec<Stretch<'_>> = Vec::new();

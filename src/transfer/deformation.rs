@@ -17,14 +17,14 @@ use crate::surface_map::correspondence::Correspondence;
 use glam::{DMat3, DVec3};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-/// Pieces after which progress is told.
+/// The number of pieces after which progress is told.
 const PIECES_A_STEP: usize = 1 << 14;
 
 /// What every frame needs: the overlay's shares, and the receiving mesh's system.
 pub struct DeformationTransfer<'a> {
     giving: &'a SurfaceMesh,
     receiving: &'a SurfaceMesh,
-    /// By face of the receiving mesh where its shares begin in `shares`, and the end.
+    /// The place in `shares` at which the shares of each face of the receiving mesh begin, and the end.
     begins: Vec<u32>,
     /// Faces of the giving mesh with the share of the receiving face that they have.
     shares: Vec<(FaceId, f64)>,
@@ -32,7 +32,7 @@ pub struct DeformationTransfer<'a> {
 }
 
 impl<'a> DeformationTransfer<'a> {
-    /// From one mesh to the other by a map that has passed [`crate::surface_map::correspondence::check`] with them.
+    /// The transfer from one mesh to the other by a map that has passed [`crate::surface_map::correspondence::check`] with them.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -87,7 +87,7 @@ impl<'a> DeformationTransfer<'a> {
 
 /// Faces of the giving mesh by face of the receiving one.
 struct Shares {
-    /// Where the shares of each face begin, and one past the last.
+    /// The place at which the shares of each face begin, and one past the last.
     begins: Vec<u32>,
     shares: Vec<(FaceId, f64)>,
 }

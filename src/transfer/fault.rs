@@ -23,7 +23,7 @@ pub enum TransferError {
     /// A file that was to be brought over is at fault.
     #[error("{fault}")]
     Given {
-        /// Its number among them, from 0.
+        /// The number of the file among them, from 0.
         number: usize,
         /// What is wrong.
         fault: GivenFault,
@@ -31,7 +31,7 @@ pub enum TransferError {
     /// A mesh file's texture coordinates cannot be used.
     #[error("{fault}")]
     Mesh {
-        /// Which mesh.
+        /// The mesh at fault.
         side: MeshSide,
         /// What is wrong.
         fault: ChartFault,

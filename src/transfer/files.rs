@@ -26,22 +26,22 @@ pub struct FileTransfer<'a> {
 /// How values are brought over.
 #[derive(Clone, Debug)]
 pub struct ValueOptions {
-    /// How they are made.
+    /// How a value at a vertex is made of those of the other mesh.
     pub carrying: Carrying,
     /// Names of columns that are labels.
     pub labels: Vec<String>,
     /// Names of columns that are weights.
     pub weights: Vec<String>,
-    /// How they are written.
+    /// The format in which the values are written.
     pub format: ValueFormat,
 }
 
 /// The size of a picture that is baked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Raster {
-    /// Texels in a row and in a column.
+    /// Number of texels in a row and in a column.
     pub size: usize,
-    /// Texels by which colours are carried on beyond the charts.
+    /// Number of texels by which colours are carried on beyond the charts.
     pub border: usize,
 }
 
@@ -67,7 +67,7 @@ impl From<MeshSide> for Direction {
 /// Values that were brought over.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CarriedValues {
-    /// Their file.
+    /// The contents of their file.
     pub bytes: Vec<u8>,
     /// Vertex properties that are lists, and were left out.
     pub left_out: Vec<String>,
@@ -77,7 +77,7 @@ pub struct CarriedValues {
 const ONLY: usize = 0;
 
 impl<'a> FileTransfer<'a> {
-    /// By a map between two files' meshes.
+    /// The transfer by a map between the meshes of two files.
     pub fn new(mapped: MappedFiles<'a>, direction: Direction) -> Self {
         Self { mapped, direction }
     }

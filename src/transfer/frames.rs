@@ -10,7 +10,7 @@ use typed_index_collections::TiSlice;
 /// Why a mesh file is no frame of a mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FrameError {
-    /// It cannot be read.
+    /// The file cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
     /// The mesh is not that of its file.
@@ -18,33 +18,33 @@ pub enum FrameError {
         "the mesh that it should be a frame of was repaired: save it by `conemap check MESH --repair --out FILE`, and map that one"
     )]
     Repaired,
-    /// It has other vertices.
+    /// The file has other vertices.
     #[error("it has {found} vertices, but the mesh that it should be a frame of has {expected}")]
     Vertices {
-        /// Its number of vertices.
+        /// Number of vertices of the file.
         found: usize,
-        /// The mesh's.
+        /// Number of vertices of the mesh.
         expected: usize,
     },
-    /// It has other polygons.
+    /// The file has other polygons.
     #[error("it has {found} faces, but the mesh that it should be a frame of has {expected}")]
     Faces {
-        /// Its number of polygons.
+        /// Number of polygons of the file.
         found: usize,
-        /// The mesh's.
+        /// Number of polygons of the mesh.
         expected: usize,
     },
-    /// A polygon has other corners.
+    /// A polygon of the file has other corners.
     #[error(
         "its face {face} has the vertices {found:?}, but that of the mesh that it should be a frame of has {expected:?}: frames must \
          have its vertices and faces in its order"
     )]
     Corners {
-        /// The polygon.
+        /// The number of the polygon.
         face: usize,
-        /// Its first corners.
+        /// The first corners of the file's polygon.
         found: Vec<u32>,
-        /// The mesh's.
+        /// The corners of the mesh's polygon.
         expected: Vec<u32>,
     },
 }
@@ -96,7 +96,7 @@ mod tests {
         let mesh = icosphere(1);
         let mut positions: Vec<DVec3> = mesh.positions().iter().copied().collect();
         let mut faces: Vec<[u32; 3]> = mesh.triangles().iter().map(|t| t.map(|v| v.0)).collect();
-        // A vertex before all others that no face uses.
+        // A vertex that no face uses, before all others.
         positions.insert(0, DVec3::splat(9.0));
         faces.iter_mut().flatten().for_each(|v| *v += 1);
         let file = FileMesh::read(&obj::polygons(&positions, &faces)).unwrap();

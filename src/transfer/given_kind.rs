@@ -32,19 +32,19 @@ pub struct GivenFile {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GivenKindError {
-    /// It has nothing.
+    /// The file is empty.
     #[error("the file is empty")]
     Empty,
-    /// A picture in another format.
+    /// The file is a picture in another format.
     #[error("only pictures in PNG are read: save the picture as PNG")]
     Picture,
-    /// A kind that is known, and of no use here.
+    /// The file is of a kind that is known, and of no use here.
     #[error("{0}")]
     Other(OtherFile),
-    /// A table that begins with a fault.
+    /// The file is a table that begins with a fault.
     #[error(transparent)]
     Table(#[from] TableError),
-    /// Nothing that is known.
+    /// The file holds nothing that is known.
     #[error(
         "nothing in it can be brought across: give values as a table (CSV) or PLY, curves as OBJ lines, CSV or JSON, a texture as \
          PNG, or the mesh in other poses"

@@ -8,8 +8,8 @@ use crate::mesh::{FaceId, SurfaceMesh, VertexId};
 use glam::{DMat3, DVec3};
 use typed_index_collections::{TiSlice, TiVec};
 
-/// A shape whose points are this far from an affine image of the mesh, on the mean in units of the mean distance from its middle,
-/// counts half as one. Chosen by hand.
+/// The distance of a shape from an affine image of the mesh at which it counts half as one: the mean of its points' distances, in
+/// units of their mean distance from its middle. Chosen by hand.
 const AFFINE: f64 = 1e-3;
 
 /// The 3 by 3 gradient of every face from the mesh to a shape with its connectivity.

@@ -7,7 +7,7 @@ use crate::surface_map::correspondence::Correspondence;
 /// A map that has passed [`crate::surface_map::correspondence::check`] with its meshes, source first.
 #[derive(Clone, Copy, Debug)]
 pub struct MappedFiles<'a> {
-    /// The meshes with their files' numbers.
+    /// The meshes with the numbers of their files.
     pub files: [&'a FileMesh; 2],
     /// The map.
     pub map: &'a Correspondence,

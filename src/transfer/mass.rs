@@ -7,12 +7,12 @@ use typed_index_collections::{TiVec, ti_vec};
 /// A mass matrix, face by face.
 pub struct Mass<'a> {
     mesh: &'a SurfaceMesh,
-    /// Integrals of the products of corners 00, 11, 22, 01, 12, 20 over each face.
+    /// The integrals of the products of the hat functions of corners 00, 11, 22, 01, 12, 20 over each face.
     faces: TiVec<FaceId, [f64; 6]>,
 }
 
 impl<'a> Mass<'a> {
-    /// Nothing is integrated yet.
+    /// The mass matrix of a mesh in which nothing is integrated yet.
     pub fn zero(mesh: &'a SurfaceMesh) -> Self {
         Self { mesh, faces: ti_vec![[0.0; 6]; mesh.face_count()] }
     }

@@ -26,15 +26,15 @@ pub struct Morph<'a> {
     mesh: &'a SurfaceMesh,
     end: &'a TiSlice<VertexId, DVec3>,
     gradients: TiVec<FaceId, DMat3>,
-    /// By face, axis by radians.
+    /// The turn of each face: its direction is the axis, its length the angle in radians.
     turns: TiVec<FaceId, DVec3>,
     poisson: Poisson<'a>,
     areas: TiVec<VertexId, f64>,
 }
 
 impl<'a> Morph<'a> {
-    /// From a mesh to a shape with its connectivity. What both differ by as a whole is part of the way: a shape that stands elsewhere, or is
-    /// turned, is better laid on the mesh before ([`crate::math::rigid3::laid_on`]).
+    /// The way from a mesh to a shape with its connectivity. What both differ by as a whole is part of the way: a shape that stands
+    /// elsewhere, or is turned, is better laid on the mesh before ([`crate::math::rigid3::laid_on`]).
     pub fn new(mesh: &'a SurfaceMesh, end: &'a TiSlice<VertexId, DVec3>) -> Self {
         let gradients = gradients(mesh, end);
         let turns = face_turns(mesh, &gradients);
@@ -69,7 +69,8 @@ impl<'a> Morph<'a> {
         Ok(ends.zip(&bends).map(|((p, q), bend)| p.lerp(*q, time) + *bend).collect())
     }
 
-    /// The turns of the vertices over the whole way, axis by radians: means of the faces around them, by area.
+    /// The turns of the vertices over the whole way, whose directions are axes and whose lengths are angles in radians: means of
+    /// those of the faces around them, by area.
     pub fn vertex_turns(&self) -> Shape {
         let mut turns: Shape = ti_vec![DVec3::ZERO; self.mesh.vertex_count()];
         for f in self.mesh.faces() {
@@ -86,22 +87,22 @@ impl<'a> Morph<'a> {
 /// Points of a mesh with their places on the other shape.
 #[derive(Clone, Copy, Debug)]
 pub struct MorphPoints<'a> {
-    /// Places on the mesh.
+    /// The places of the points on the mesh.
     pub positions: &'a [DVec3],
-    /// Places on the other shape.
+    /// The places of the points on the other shape.
     pub images: &'a [DVec3],
     /// Triangles of points.
     pub triangles: &'a [[u32; 3]],
-    /// By triangle the face of the mesh that it lies in.
+    /// The face of the mesh that each triangle lies in.
     pub faces: &'a [FaceId],
 }
 
 /// How points go from a mesh to another shape: straight, and off the straight line by bends that [`crate::math::bends`] mixes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Way {
-    /// By point how far it is off the straight line at each of the [`KEYS`].
+    /// The distance of each point from the straight line at each of the [`KEYS`], as a vector.
     pub bends: Vec<[DVec3; KEYS.len()]>,
-    /// By point how its surroundings are turned over the whole way, axis by radians.
+    /// The turn of each point's surroundings over the whole way: its direction is the axis, its length the angle in radians.
     pub turns: Vec<DVec3>,
 }
 

@@ -23,17 +23,17 @@ pub enum DeformationError {
     Solve(#[from] CgError),
 }
 
-/// Accuracy of the displacements, in units of the right-hand side.
+/// The accuracy of the displacements, in units of the right-hand side.
 const SOLVE: CgOptions = CgOptions { tolerance: 1e-11, max_iterations: 4000 };
 
-/// A right-hand side that is this small beside its terms is rounding.
+/// The size beside its terms below which a right-hand side is only rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// Weights of the preconditioner are at least this share of their mean: cotangents may be negative.
+/// The least weight of the preconditioner, as a share of their mean: cotangents may be negative.
 const LEAST_WEIGHT: f64 = 1e-3;
 
-/// Cotangents of a face are at most this. A face with larger ones, which is thinner than any that tells a gradient, counts less: in
-/// the system and on its right-hand side alike, so that what fits all faces still solves it.
+/// The largest cotangent of a face. A face with larger ones, which is thinner than any that tells a gradient, counts less: in the
+/// system and on its right-hand side alike, so that what fits all faces still solves it.
 const LARGEST_COTANGENT: f64 = 1e6;
 
 /// The system of a mesh with its factor, for any number of gradients.
@@ -52,7 +52,8 @@ impl<'a> Poisson<'a> {
         Self { mesh, laplacian, factor, workspace: CgWorkspace::default() }
     }
 
-    /// Displacements whose gradients are nearest to these; their mean is any. `usual` is a gradient that tells what size of them is
+    /// The displacements whose gradients are nearest to these; their mean may be any. `usual` is a gradient that tells what size of
+    /// them is
     /// only rounding.
     ///
     /// # Errors

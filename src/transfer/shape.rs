@@ -11,18 +11,18 @@ use glam::DVec3;
 use serde::Serialize;
 use typed_index_collections::TiVec;
 
-/// How near a mesh in another one's shape comes to that one. Lengths are those of the files.
+/// How near a mesh in the shape of another one comes to it. Lengths are those of the files.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShapeReport {
     /// Number of triangles of the mesh in the other's shape.
     pub faces: usize,
     /// Number of triangles of the other one.
     pub shape_faces: usize,
-    /// The root of the other one's area, to judge the distances by.
+    /// The root of the other one's area, by which the distances are judged.
     pub size: f64,
-    /// From the mesh in the other's shape to the other.
+    /// The distances from the mesh in the other's shape to the other.
     pub to_shape: Distances,
-    /// From the other to the mesh in its shape.
+    /// The distances from the other to the mesh in its shape.
     pub from_shape: Distances,
     /// The larger of both largest distances: the Hausdorff distance, as far as samples tell.
     pub hausdorff: f64,
@@ -33,9 +33,9 @@ pub struct ShapeReport {
 /// Distances from samples of one surface to another surface.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Distances {
-    /// The largest, over all samples and vertices.
+    /// The largest distance, over all samples and vertices.
     pub largest: f64,
-    /// The mean over the area.
+    /// The mean distance over the area.
     pub mean: f64,
     /// Number of samples on faces.
     pub samples: usize,
@@ -66,10 +66,10 @@ impl ShapeReport {
     }
 }
 
-/// Samples on faces of a surface, about.
+/// The number of samples on the faces of a surface, about.
 const SAMPLES: usize = 100_000;
 
-/// Faces after which progress is told.
+/// The number of faces after which progress is told.
 const FACES_A_STEP: usize = 1 << 10;
 
 /// The giving mesh (source of a direction) with its vertices at their images on the other one.

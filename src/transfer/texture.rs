@@ -32,11 +32,11 @@ pub struct GivenTexture<'a> {
 /// How a texture is baked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BakeOptions {
-    /// From which mesh to which.
+    /// The direction: from which mesh to which.
     pub direction: Direction,
-    /// Texels in a row and in a column.
+    /// Number of texels in a row and in a column.
     pub size: usize,
-    /// Texels by which colours are carried on beyond the charts.
+    /// Number of texels by which colours are carried on beyond the charts.
     pub border: usize,
 }
 
@@ -50,20 +50,20 @@ pub enum BakeError {
     /// The texture coordinates are not those of the mesh's polygons.
     #[error("face {face} of the file has no texture coordinates for all of its corners")]
     Corners {
-        /// The polygon.
+        /// The number of the polygon.
         face: usize,
     },
-    /// Receiving texture coordinates outside the picture.
+    /// Texture coordinates of the receiving mesh lie outside the picture.
     #[error(
         "face {face} has the texture coordinates {uv}: those of the mesh that receives a texture must be from 0 to 1"
     )]
     Outside {
-        /// The triangle.
+        /// The number of the triangle.
         face: usize,
-        /// Where a corner lies.
+        /// The texture coordinates of a corner.
         uv: DVec2,
     },
-    /// Charts that overlap many times.
+    /// Charts overlap many times.
     #[error("the texture coordinates cover the picture {times:.1} times: charts must not overlap")]
     Overlap {
         /// The sum of the areas of all triangles in the texture plane.
@@ -71,13 +71,13 @@ pub enum BakeError {
     },
 }
 
-/// Charts may cover the picture that often: mirrored halves share their charts in some models. Chosen by hand.
+/// The number of times that charts may cover the picture: mirrored halves share their charts in some models. Chosen by hand.
 const MOST_COVERED: f64 = 4.0;
 
-/// Texture coordinates may leave the picture by this much, by rounding.
+/// The distance by which texture coordinates may leave the picture, by rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// Faces after which progress is told.
+/// The number of faces after which progress is told.
 const FACES_A_STEP: usize = 1 << 10;
 
 /// Texture coordinates by face of a mesh from those of its file's polygons, corner by corner.
@@ -187,7 +187,7 @@ fn for_each_texel(corners: [DVec2; 3], size: usize, mut visit: impl FnMut(usize,
 
 /// Numbers of the texels whose middles lie between two coordinates.
 fn texels_between(from: f64, to: f64, size: usize) -> std::ops::Range<usize> {
-    // Casts of negative numbers give 0.
+    // A cast of a negative number gives 0.
     let first = (from - 0.5).ceil() as usize;
     let end = ((to - 0.5).floor() + 1.0) as usize;
     first.min(size)..end.min(size)

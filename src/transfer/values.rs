@@ -45,10 +45,10 @@ pub enum ValueError {
 /// Values by vertex of a mesh.
 pub type Values = TiVec<VertexId, f64>;
 
-/// Pieces after which progress is told.
+/// The number of pieces after which progress is told.
 const PIECES_A_STEP: usize = 1 << 14;
 
-/// Accuracy of the projection, in units of its right-hand side.
+/// The accuracy of the projection, in units of its right-hand side.
 const PROJECTION: CgOptions = CgOptions { tolerance: 1e-13, max_iterations: 400 };
 
 /// A map seen from the mesh that gives values to the one that receives them.
@@ -60,7 +60,7 @@ pub struct ValueCarrier<'a> {
 }
 
 impl<'a> ValueCarrier<'a> {
-    /// From one mesh to the other by a map that has passed [`crate::surface_map::correspondence::check`] with them.
+    /// The carrier from one mesh to the other by a map that has passed [`crate::surface_map::correspondence::check`] with them.
     pub fn new(meshes: [&'a SurfaceMesh; 2], map: &'a Correspondence, direction: Direction) -> Self {
         Self { meshes, map, giver: direction.side() }
     }

@@ -59,7 +59,7 @@ extern "C" {
     fn wants_result(this: &RunListener) -> Result<bool, JsValue>;
 }
 
-/// The least time between two messages of one stage, in milliseconds: more often nobody can see.
+/// The least time between two messages of one stage, in milliseconds: nobody can see more of them.
 const MESSAGE_INTERVAL: f64 = 33.0;
 
 /// The least time between two questions, in milliseconds.
@@ -175,22 +175,23 @@ impl Monitor for Messenger<'_> {
 /// What the views show of a map.
 pub(super) struct Shown {
     pub common: CommonMesh,
-    /// By point of `common`; empty for the thesis' method.
+    /// Distortion at each point of `common`, 1 for none; empty for the thesis' method.
     pub distortion: Vec<f64>,
-    /// By point of `common` the distance to its true image in units of the root of the target's area; empty where that is not known.
+    /// Distance of each point of `common` from its true image, in units of the root of the target's area; empty where that is not
+    /// known.
     pub truth: Vec<f64>,
-    /// On the source and on the target.
+    /// Patch lines on the source and on the target.
     pub patch_lines: [Vec<Vec<DVec3>>; 2],
     /// Curvature of each landmark's cone, in radians.
     pub cones: Vec<f64>,
-    /// `None` where the map does not tell how the base domain lies on the meshes.
+    /// The base domain; `None` where the map does not tell how it lies on the meshes.
     pub base: Option<BasePicture>,
-    /// JSON.
+    /// The report as JSON.
     pub report: String,
 }
 
 impl Shown {
-    /// Of a run; the map loses its patch lines to it.
+    /// What the views show of the map of a run, whose patch lines are moved out of `result`.
     pub(super) fn of_run(job: &Job, result: &mut MapResult, true_map: Option<fn(DVec3) -> DVec3>) -> Self {
         let mut common = result.common.clone();
         // Where a landmark lies inside a face the mapped mesh has more faces than the checked one.
@@ -213,7 +214,8 @@ impl Shown {
 #[wasm_bindgen]
 pub struct MapOutput {
     shown: Shown,
-    /// What files are made of; `None` for maps that were saved, whose files the saved map gives, and for those that are only looked at.
+    /// The run, of which files are made; `None` for maps that were saved, whose files the saved map gives, and for those that are
+    /// only looked at.
     run: Option<FinishedRun>,
 }
 
@@ -224,7 +226,7 @@ struct FinishedRun {
 }
 
 impl MapOutput {
-    /// A map that was saved, or that is compared with another one: for the views.
+    /// The output of a map that was saved, or that is compared with another one: it has what the views show, and makes no files.
     pub(super) fn for_views(shown: Shown) -> Self {
         Self { shown, run: None }
     }
@@ -280,7 +282,7 @@ pub fn run_map(
     Ok(MapOutput { shown, run: Some(FinishedRun { job, result, choices }) })
 }
 
-/// What says how both meshes look.
+/// The files that tell how both meshes look.
 pub(super) fn look_files<'a>(
     meshes: [&'a [u8]; 2],
     companions: [&'a Option<Vec<u8>>; 2],

@@ -8,14 +8,14 @@ use glam::DVec3;
 use serde_json::{Value, json};
 use wasm_bindgen::prelude::*;
 
-/// So many defects of a kind are listed.
+/// The largest number of defects of one kind that are listed.
 const LISTED: usize = 50;
 
 /// What is wrong with a mesh, or was before it was repaired.
 #[wasm_bindgen]
 pub struct MeshDefects {
     pub(super) defects: Defects,
-    /// At its positions.
+    /// Unit normals at the positions of the mesh.
     pub(super) normals: Vec<DVec3>,
 }
 

@@ -54,7 +54,7 @@ impl DemoFiles {
     pub fn mesh(&self, side: usize) -> Result<LoadedMesh, JsValue> {
         let mesh = self.meshes.get(side).ok_or_else(|| failure("mesh", "a demo has two meshes"))?;
         let checked = closed_genus_zero(&PolygonSoup::from(mesh)).map_err(|e| failure("mesh", e))?;
-        // What a file is taken for that names no other.
+        // The coordinate system of files that name none.
         Ok(LoadedMesh::new(checked, Space::Lps, None))
     }
 }

@@ -8,7 +8,7 @@ use wasm_bindgen::prelude::*;
 pub fn start() {
     std::panic::set_hook(Box::new(|panic| {
         console_error_panic_hook::hook(panic);
-        // Where the page finds it (`failureOf`): the browser's own error says no more than that something broke off.
+        // The page reads the sentence there (`failureOf`): the browser's own error says no more than that something broke off.
         let _ = js_sys::Reflect::set(&js_sys::global(), &"conemapPanic".into(), &panic.to_string().into());
     }));
 }

@@ -17,20 +17,22 @@ use wasm_bindgen::prelude::*;
 #[wasm_bindgen]
 pub struct RecordedFlows {
     records: [FlowRecord; 2],
-    /// Vertices of the checked meshes.
+    /// Numbers of vertices of the checked meshes.
     vertices: [usize; 2],
-    /// Of each mesh by vertex, before the first step and at the last moment, in units of a sphere's.
+    /// Gaussian curvatures of each mesh by vertex, before the first step and at the last moment, in units of that of a sphere of
+    /// the same area.
     curvatures: [[TiVec<VertexId, f64>; 2]; 2],
-    /// Of each mesh by vertex, before the first step, in units of the root of the mesh's area; empty where there are no circles.
+    /// Radii of the circles of each mesh by vertex before the first step, in units of the root of the mesh's area; empty where
+    /// there are no circles.
     radii: [Vec<f64>; 2],
     stops: [Stops; 2],
 }
 
 /// The faces that stopped a flow.
 struct Stops {
-    /// Their numbers in the triangulated file.
+    /// The numbers of the faces in the triangulated file.
     faces: Vec<u32>,
-    /// What is drawn of them.
+    /// The faces as a view draws them.
     shown: Defects,
 }
 

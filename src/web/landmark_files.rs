@@ -17,9 +17,9 @@ use wasm_bindgen::prelude::*;
 /// A format of landmark files.
 #[derive(Serialize, tsify::Tsify)]
 pub struct LandmarkFormatInfo {
-    /// The word by which the core knows it.
+    /// The word by which the core knows the format.
     id: LandmarkFormat,
-    /// Its name.
+    /// The format's name.
     title: String,
     /// The usual ending of its files' names, without the first dot.
     ending: &'static str,

@@ -1,4 +1,4 @@
-//! A mesh of the page: read and checked in a worker, handed over as bytes, shown here.
+//! A mesh of the page: read and checked in a worker, packed as bytes, and shown from these.
 
 use super::failure;
 use crate::io::landmark_file::LandmarkPoint;

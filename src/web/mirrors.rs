@@ -17,11 +17,11 @@ use wasm_bindgen::prelude::*;
 #[derive(Deserialize)]
 #[serde(rename_all = "lowercase", tag = "kind", deny_unknown_fields)]
 enum Wish {
-    /// The best one.
+    /// The plane that mirrors the mesh best.
     Found,
-    /// That across an axis of the file, 0 to 2, through the middle of the surface.
+    /// The plane across an axis of the file, 0 to 2, through the middle of the surface.
     Axis { axis: usize },
-    /// That between two points.
+    /// The plane half-way between two points.
     Points { points: [LandmarkPoint; 2] },
 }
 
@@ -36,7 +36,7 @@ struct Answer {
 fn wished(loaded: &LoadedMesh, wish: Wish) -> Option<Mirror> {
     let mesh = &loaded.checked.mesh;
     match wish {
-        // Who has enough of it ends the worker.
+        // Nothing asks this search to stop: the page ends its worker.
         Wish::Found => best_mirror(mesh, &mut Silent).ok()?,
         Wish::Axis { axis } => {
             mirror_of(mesh, MirrorPlane::across(DVec3::AXES.get(axis).copied()?, mesh.centre()?)?)

@@ -33,7 +33,7 @@ pub fn suggest_landmarks(loaded: &LoadedMesh, landmarks: &str, count: usize) -> 
     marked.dedup();
     let numbers = checked.file_from_vertex();
     let entry = |s: &Suggestion| json!({ "point": numbers[s.vertex.index()], "reason": s.reason, "partner": s.partner });
-    // Who has enough of it ends the worker.
+    // Nothing asks this search to stop: the page ends its worker.
     let suggestions = suggest(mesh, &marked, count, &mut Silent).map_err(|e| failure("cancelled", e))?;
     // What a repair made up has no number in the file, and takes no landmark.
     let suggestions = kept(&suggestions, |v| numbers[v.index()] < vertex_from_file.len());

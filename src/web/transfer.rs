@@ -38,18 +38,18 @@ pub struct TransferWish {
 pub enum TransferWhat {
     /// Values of vertices.
     Values {
-        /// How a value is made.
+        /// How a value at a vertex is made of those of the other mesh.
         method: Carrying,
         /// Names of columns that are labels.
         labels: Vec<String>,
         /// Names of columns that are weights.
         weights: Vec<String>,
-        /// How they are written.
+        /// The format in which the values are written.
         format: ValueFormat,
     },
     /// Curves.
     Curves {
-        /// How they are written.
+        /// The format in which the curves are written.
         format: CurveFormat,
     },
     /// The giving mesh's texture.
@@ -63,7 +63,7 @@ pub enum TransferWhat {
     Shapes,
 }
 
-/// The share of the time that is spent before the first frame moves, about.
+/// About the share of the time that goes by before the first frame is brought over.
 const BEFORE_FRAMES: f64 = 0.2;
 
 /// Tells what a file may hold: a [`GivenFileReport`] as JSON.

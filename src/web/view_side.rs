@@ -121,10 +121,10 @@ pub(super) struct ShownMirror {
     pub line: Option<Mesh>,
 }
 
-/// A mesh some collapses on.
+/// A mesh after some of its collapses to its landmarks.
 pub(super) struct CoarseStage {
     pub surface: Mesh,
-    /// `None` where they would lie too close to be told apart.
+    /// The edges of the mesh; `None` where they would lie too close to be told apart.
     pub edges: Option<Mesh>,
     /// The way of a vertex to its landmark, where one is shown.
     pub trail: Option<Mesh>,
@@ -201,7 +201,7 @@ pub(super) struct ShownDefects {
 /// A mesh that was refused.
 struct RefusedSurface {
     mesh: Mesh,
-    /// Some of its points, which tell its size.
+    /// Some of its points, by which its size is measured.
     points: Vec<Vec3>,
 }
 
@@ -309,7 +309,7 @@ impl Side {
         }
     }
 
-    /// Everything that is marked goes.
+    /// Removes everything that is marked.
     pub fn clear_marks(&mut self) {
         self.landmarks.clear();
         self.suggestions.clear();
@@ -317,7 +317,7 @@ impl Side {
         self.probe = None;
     }
 
-    /// What a result has brought goes.
+    /// Removes what a result has brought.
     pub fn clear_result(&mut self) {
         self.overlay = None;
         self.carried = None;
@@ -460,13 +460,13 @@ impl Side {
     }
 }
 
-/// Some 2000 points tell the size of a mesh well enough.
+/// The step at which points are taken to measure the size of a mesh: some 2000 of them tell it well enough.
 fn stride(points: usize) -> usize {
     points / 2000 + 1
 }
 
 impl ShownDefects {
-    /// What is drawn of them in a frame.
+    /// The marks of these defects, drawn in a frame.
     pub fn new(found: &MeshDefects, frame: Frame, renderer: &Renderer) -> Self {
         let DefectBuffers { faces, lines, signs } = painted(&found.defects, &found.normals, &frame);
         Self {
@@ -480,7 +480,7 @@ impl ShownDefects {
         }
     }
 
-    /// Together with the mesh as read.
+    /// The same marks with the mesh as it was read.
     #[must_use]
     pub fn with_surface(self, found: &MeshDefects, renderer: &Renderer) -> Self {
         let Triangles { vertices, indices } = surface_as_read(&found.defects, &found.normals, &self.frame);
@@ -492,7 +492,7 @@ impl ShownDefects {
 }
 
 impl SideMesh {
-    /// A mesh, and its vertices as they are drawn.
+    /// A mesh, with its vertices as they are drawn.
     pub fn new(loaded: &LoadedMesh, renderer: &Renderer) -> Self {
         let LoadedMesh { checked, shading, look, .. } = loaded;
         let frame = Frame::of(&checked.mesh);
@@ -506,7 +506,7 @@ impl SideMesh {
         Self { checked, shading, frame, picker, surface, look, dressed }
     }
 
-    /// Goes on with what takes long for a large mesh; whether there is more to do.
+    /// Does the next part of what takes long for a large mesh; true where more is left.
     pub fn prepare(&mut self) -> bool {
         let Some(picker) = self.picker.as_mut().filter(|picker| !picker.is_ready()) else { return false };
         if picker.grow(&self.checked.mesh).is_none() {

@@ -9,27 +9,27 @@ use crate::mesh::{FaceId, SurfaceMesh};
 use crate::surface_map::correspondence::PointLocator;
 use serde::Serialize;
 
-/// Points that are measured on each mesh, about. Chosen by hand. More of them make the mean exacter and take longer.
+/// The number of points that are measured on each mesh, about. More of them make the mean exacter and take longer. Chosen by hand.
 const COUNT: usize = 100_000;
 
 /// Distances from points of one surface, spread evenly over it, to another surface, in units of the root of the area of the scan's
 /// skin.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct DistanceFigures {
-    /// Mean.
+    /// The mean distance.
     pub mean: f64,
-    /// 95 % of the area are nearer.
+    /// The 95 % quantile of the distance, by area.
     pub p95: f64,
-    /// The largest: one side of the Hausdorff distance.
+    /// The largest distance: one side of the Hausdorff distance.
     pub max: f64,
 }
 
 /// Distances both ways, on skin whose partner is skin.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct WrapDistances {
-    /// From the laid base to the scan.
+    /// The distances from the laid base to the scan.
     pub to_scan: DistanceFigures,
-    /// From the scan to the laid base.
+    /// The distances from the scan to the laid base.
     pub from_scan: DistanceFigures,
 }
 

@@ -1,4 +1,4 @@
-//! What has no image follows what has.
+//! What has no image on the scan is laid on as rigidly as it can be from what has one.
 
 use super::images::{Frame, Images, frame};
 use super::rigid_energy::{Anchor, RigidEnergy};
@@ -9,16 +9,17 @@ use crate::monitor::{Cancelled, Monitor};
 use glam::DVec3;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Images are held softly to this many mean edges from what has none...
+/// The distance from what has no image within which images are held softly, in mean edges; the larger one of this and
+/// [`SOFT_SHARE`] counts.
 const SOFT_EDGES: f64 = 4.0;
 
-/// ... and to this share of the root of the base's area. Chosen by hand.
+/// That distance as a share of the root of the base's area. Chosen by hand.
 const SOFT_SHARE: f64 = 0.02;
 
-/// How much an image counts where softness ends, beside edges that count about 1. Chosen by hand.
+/// The weight of an image where softness ends, beside edges that count about 1. Chosen by hand.
 const HOLD: f64 = 4.0;
 
-/// Rounds in which stretches are evened out. Chosen by hand.
+/// The number of rounds in which stretches are evened out. Chosen by hand.
 const SMOOTHINGS: usize = 10;
 
 /// The places of the base's vertices: images on the scan, and what has none laid on as rigidly as it can be.
@@ -42,7 +43,7 @@ pub(super) fn extended(
     let (solid, torn): (Vec<VertexId>, Vec<VertexId>) = base.vertices().partition(is_solid);
     smooth_stretch(base, &solid, &mut frames);
     RigidEnergy::new(base, weights, torn, |_| None).spread_frames(&mut frames);
-    // From the rim on, so that what is missing as a whole begins whole.
+    // The free vertices are ordered from the rim on, so that what is missing as a whole begins whole.
     let free: Vec<VertexId> = moving.iter().copied().filter(|&v| !images.is_covered[v]).collect();
     RigidEnergy::new(base, weights, free, |_| None).place(&frames, &mut positions);
     let anchor = |v: VertexId| {
@@ -53,7 +54,7 @@ pub(super) fn extended(
     Ok(positions)
 }
 
-/// How much each image holds.
+/// The weight with which each image holds.
 fn hold(base: &SurfaceMesh, images: &Images) -> TiVec<VertexId, f64> {
     let is_lost = |&v: &VertexId| images.is_skin[v] && !images.is_covered[v];
     let lost: Vec<VertexId> = base.vertices().filter(is_lost).collect();

@@ -16,19 +16,19 @@ use crate::surface_map::correspondence::PointLocator;
 use glam::{DMat3, DVec3};
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Points that are taken on each mesh, about. Chosen by hand.
+/// The number of points that are taken on each mesh, about. Chosen by hand.
 const COUNT: usize = 60_000;
 
-/// Passes. A third changes nothing that can be seen (cat-lion).
+/// The number of passes. A third changes nothing that can be seen (cat-lion).
 const PASSES: usize = 2;
 
-/// How much a vertex' way from its image counts, beside distances from tangent planes. Chosen by hand.
+/// The weight of a vertex's way from its image, beside distances from tangent planes. Chosen by hand.
 const STAY: f64 = 0.05;
 
-/// How much the difference of neighbours' ways counts. With 0.02 or less faces are tangled that were not (cat-lion).
+/// The weight of the difference of neighbours' ways. With 0.02 or less faces are tangled that were not (cat-lion).
 const EVEN: f64 = 0.1;
 
-/// A nearest point counts if it is this near to the image, in mean edges. Chosen by hand.
+/// The largest distance of a nearest point from the image with which it counts, in mean edges. Chosen by hand.
 const SLIDE: f64 = 2.0;
 
 /// Each iteration lowers the energy, so that the last iterate is of use even where these are not enough.
@@ -39,7 +39,7 @@ struct Plane {
     corners: [VertexId; 3],
     shares: [f64; 3],
     normal: DVec3,
-    /// How far the point is from the plane, along its normal.
+    /// The distance of the point from the plane, along its normal.
     distance: f64,
     area: f64,
 }
@@ -115,9 +115,9 @@ fn planes(
 struct System<'a> {
     base: &'a SurfaceMesh,
     planes: Vec<Plane>,
-    /// By vertex, how much its way counts.
+    /// The weight of each vertex's way.
     stay: TiVec<VertexId, f64>,
-    /// By halfedge, how much the difference of its ends' ways counts.
+    /// The weight of the difference of the ways of each halfedge's ends.
     even: TiVec<HalfedgeId, f64>,
     diagonal: TiVec<VertexId, DMat3>,
 }
@@ -161,7 +161,7 @@ impl<'a> System<'a> {
         }
         right.iter_mut().for_each(|r| *r = -*r);
         let mut steps = vec![DVec3::ZERO; n];
-        // Not converged is no fault here, see above.
+        // A solve that has not converged is no fault here, see above.
         let _ = CgWorkspace::default().solve(self, self, &right, &mut steps, &SOLVE);
         steps
     }

@@ -8,7 +8,7 @@ use typed_index_collections::TiVec;
 
 /// Images of the base's vertices in space.
 pub(super) struct Images {
-    /// By vertex; of a vertex without an image the origin.
+    /// The image of each vertex; the origin for a vertex without one.
     pub positions: TiVec<VertexId, DVec3>,
     /// Whether a vertex belongs to the base's skin.
     pub is_skin: TiVec<VertexId, bool>,
@@ -39,9 +39,9 @@ impl Images {
 /// How the surface around a vertex is turned and stretched.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
-    /// The turn.
+    /// The rotation of the surface around the vertex.
     pub rotation: DMat3,
-    /// Logarithm of the stretch: half that of the ratio of areas.
+    /// The logarithm of the stretch: half that of the ratio of areas.
     pub log_stretch: f64,
 }
 

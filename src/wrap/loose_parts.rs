@@ -8,7 +8,7 @@ use crate::mesh::{SurfaceMesh, VertexId};
 use glam::{DMat3, DVec3};
 use typed_index_collections::TiVec;
 
-/// More parts than this move as the base as a whole does. Chosen by hand.
+/// The largest number of parts that are moved one by one; more move as the base as a whole does. Chosen by hand.
 const MOST_PARTS: usize = 256;
 
 /// How loose parts follow a laid base.
@@ -17,11 +17,11 @@ pub struct LooseParts<'a> {
     onto: &'a TiVec<VertexId, DVec3>,
     areas: TiVec<VertexId, f64>,
     whole: Similarity,
-    /// Parts so far.
+    /// Number of parts so far.
     parts: usize,
 }
 
-/// p -> s R p + t.
+/// The similarity p -> s R p + t.
 #[derive(Clone, Copy)]
 struct Similarity {
     scale: f64,

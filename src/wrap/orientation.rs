@@ -11,9 +11,9 @@ use typed_index_collections::{TiVec, ti_vec};
 
 /// Which way each face of the base should look, as far as the scan tells.
 pub(super) struct Orientation {
-    /// Twice the area vector of the face's image; `None` where less than half of the face has an image on skin.
+    /// Twice the area vector of each face's image; `None` where less than half of the face has an image on skin.
     image: TiVec<FaceId, Option<DVec3>>,
-    /// Share of the base's skin whose image is skin.
+    /// The share of the base's skin whose image is skin.
     pub covered: f64,
 }
 
@@ -72,7 +72,7 @@ impl Orientation {
             let wanted = self.wanted(f, base, positions, &is_asked);
             double_area_vector(base, positions, f).dot(wanted) > 0.0
         };
-        // What is no number does not look right.
+        // A direction that is not finite does not look right.
         base.faces().filter(|&f| is_asked(f)).filter(|f| !looks_right(f)).collect()
     }
 }

@@ -18,13 +18,13 @@ use typed_index_collections::{TiVec, ti_vec};
 /// Each iteration lowers the error, so that the last iterate is of use even where these are not enough.
 const SOLVE: CgOptions = CgOptions { tolerance: 1e-5, max_iterations: 300 };
 
-/// Rounds of turns and places at most. Chosen by hand.
+/// The largest number of rounds of turns and places. Chosen by hand.
 const ROUNDS: usize = 40;
 
-/// Rounds end when no vertex moves by more than this share of the mean edge. Chosen by hand.
+/// The share of the mean edge below which no vertex may move when the rounds end. Chosen by hand.
 const STILL: f64 = 1e-3;
 
-/// How much each edge counts: (cot a + cot b) / 2 of the angles across, each times how much its face counts; not less than a little,
+/// The weight of each edge: (cot a + cot b) / 2 of the angles across, each times how much its face counts; not less than a little,
 /// so that the system is a graph's.
 pub(super) fn edge_weights(
     base: &SurfaceMesh,
@@ -46,9 +46,9 @@ pub(super) fn edge_weights(
 /// A vertex that is drawn to a place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Anchor {
-    /// How much that counts, beside edges that count about 1.
+    /// The weight of the place, beside edges that count about 1.
     pub weight: f64,
-    /// The place.
+    /// The place to which the vertex is drawn.
     pub place: DVec3,
 }
 
@@ -58,7 +58,7 @@ pub(super) struct RigidEnergy<'a> {
     weights: &'a TiVec<HalfedgeId, f64>,
     /// The vertices that move.
     moving: Vec<VertexId>,
-    /// The number of each in `moving`.
+    /// The number in `moving` of each vertex that moves.
     number: TiVec<VertexId, Option<u32>>,
     anchors: Vec<Option<Anchor>>,
     graph: Graph,
@@ -140,7 +140,7 @@ impl<'a> RigidEnergy<'a> {
     fn solve(&self, workspace: &mut CgWorkspace<f64>, mut right: Vec<f64>) -> Vec<f64> {
         right.push(-right.iter().sum::<f64>());
         let mut x = vec![0.0; right.len()];
-        // Not converged is no fault here, see above.
+        // A solve that has not converged is no fault here, see above.
         let _ = workspace.solve(&self.graph, &self.factor, &right, &mut x, &SOLVE);
         let ground = x.pop().unwrap_or(0.0);
         x.iter_mut().for_each(|x| *x -= ground);

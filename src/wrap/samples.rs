@@ -7,7 +7,7 @@ use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint};
 pub(super) struct Sample {
     /// The point.
     pub point: SurfacePoint,
-    /// The area.
+    /// The area that the point stands for.
     pub area: f64,
 }
 

@@ -10,13 +10,13 @@ use crate::monitor::{Cancelled, Monitor, Step};
 use glam::DVec3;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Rounds at most; each takes the faces around what moved in the one before. Chosen by hand.
+/// The largest number of rounds; each takes the faces around what moved in the one before. Chosen by hand.
 const ROUNDS: usize = 300;
 
-/// The share of its wanted area that a face should have at least. Chosen by hand.
+/// The least share of its wanted area that a face should have. Chosen by hand.
 const LEAST: f64 = 0.1;
 
-/// Of what a face lacks this much is given: a little more, so that rounding leaves nothing.
+/// The share that is given of what a face lacks: a little more than all, so that rounding leaves nothing.
 const GIVEN: f64 = 1.05;
 
 /// Slides the corners of faces that look the wrong way; some may stay so.

@@ -19,9 +19,9 @@ use typed_index_collections::TiVec;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Laid {
-    /// Its image is on the scan's skin.
+    /// The vertex's image is on the scan's skin.
     OnScan,
-    /// There the scan has no skin: it follows the vertices around it.
+    /// The scan has no skin there: the vertex follows those around it.
     Extended,
 }
 
@@ -30,7 +30,7 @@ pub enum Laid {
 pub struct Wrapped {
     /// The place of each vertex of the base, in the scan's coordinates.
     pub positions: TiVec<VertexId, DVec3>,
-    /// How each vertex came there; of vertices that only caps have, `Extended`.
+    /// How each vertex came there; `Extended` for vertices that only caps have.
     pub laid: TiVec<VertexId, Laid>,
     /// The faces of the base's skin that look the wrong way; empty where all is well.
     pub flipped: Vec<FaceId>,
@@ -41,13 +41,13 @@ pub struct Wrapped {
 /// The numbers of a laid base.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WrapReport {
-    /// Vertices of the base's skin whose image is on the scan's skin.
+    /// Number of vertices of the base's skin whose image is on the scan's skin.
     pub on_scan: usize,
-    /// Vertices of the base's skin that were laid on beyond it.
+    /// Number of vertices of the base's skin that were laid on beyond it.
     pub extended: usize,
-    /// Share of the base's skin whose image is the scan's skin.
+    /// The share of the base's skin whose image is the scan's skin.
     pub covered: f64,
-    /// Triangles of the base's skin that look the wrong way.
+    /// Number of triangles of the base's skin that look the wrong way.
     pub flipped_triangles: usize,
     /// Distances between the laid base and the scan, where both are skin.
     pub distance: WrapDistances,
@@ -71,7 +71,7 @@ impl From<Cancelled> for WrapError {
     }
 }
 
-/// How much a cap's faces count in the shape of what follows: they only hold together what they join. As in the relaxation.
+/// The weight of a cap's faces in the shape of what follows: they only hold together what they join. As in the relaxation.
 const CAP_WEIGHT: f64 = 0.01;
 
 /// Lays a base onto a scan.

@@ -30,5 +30,6 @@ fn small_meshes_take_own_cones_in_several_rounds() {
     let files = JobFiles { source, target, landmarks: &landmarks };
     let job = Job::read(files, TargetImage::AsGiven, &mut Silent).unwrap();
     let report = job.run(&PipelineOptions::default(), &mut Silent).unwrap().report;
+    assert!(report.own_landmarks > 0, "no own cone was taken");
     assert!(report.certificate.is_some_and(|c| c.bijective));
 }

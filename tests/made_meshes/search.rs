@@ -26,7 +26,9 @@ fn limbs_turned_by_a_whole_turn_are_turned_back() {
     let mut candidates = Candidates::new(meshes, &landmarks, &mut Silent).unwrap();
     let straight = candidates.next(&mut Silent).expect("not stopped").expect("a layout");
     let least = mean_log(&straight.layout, &mut Silent).expect("not stopped").expect("a map");
-    for twisted in candidates.twists(&straight, 2, 3.0, &mut Silent).expect("not stopped") {
+    let twists = candidates.twists(&straight, 2, 3.0, &mut Silent).expect("not stopped");
+    assert!(!twists.is_empty(), "no limb can be turned");
+    for twisted in twists {
         assert!(!same_class(&straight.layout, &twisted.layout));
         let mut fresh = Candidates::new(meshes, &landmarks, &mut Silent).unwrap();
         let options = SearchOptions::default();

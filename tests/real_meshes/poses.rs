@@ -6,7 +6,7 @@ use conemap::pipeline::{DistortionReport, GroundTruth, PipelineOptions, run};
 use conemap::registration::rigid_patches::RigidPatchOptions;
 use std::path::Path;
 
-tests![; long: the_relief_of_the_skin_brings_the_map_nearer_to_the_known_one];
+tests![; long: rigid_patches_bring_the_map_nearer_to_the_known_one];
 
 /// Hardly any dents, and the worst places told in order, at points of the meshes.
 fn no_dents(distortion: &DistortionReport, faces: [usize; 2]) {
@@ -24,16 +24,16 @@ fn no_dents(distortion: &DistortionReport, faces: [usize; 2]) {
     }
 }
 
-fn the_relief_of_the_skin_brings_the_map_nearer_to_the_known_one(data: &Path) {
+fn rigid_patches_bring_the_map_nearer_to_the_known_one(data: &Path) {
     let pair = common::read_pair(data, "horse-horse01");
     let landmarks = common::landmarks(&pair);
     let input = pair.input(&landmarks, GroundTruth::SameConnectivity);
-    let error = |relief: RigidPatchOptions| {
+    let error = |rigid_patches: RigidPatchOptions| {
         let mut options = PipelineOptions::default();
-        options.multilevel.rigid_patches = relief;
+        options.multilevel.rigid_patches = rigid_patches;
         let result = run(input, &options, &mut Silent).unwrap();
         assert!(result.report.certificate.as_ref().unwrap().bijective);
-        if relief == RigidPatchOptions::default() {
+        if rigid_patches == RigidPatchOptions::default() {
             no_dents(&result.report.distortion, [pair.source.face_count(), pair.target.face_count()]);
         }
         result.report.ground_truth.unwrap().mean

@@ -89,6 +89,24 @@ test('a file that never comes to its end, once it is left, holds up no other', a
   expect(names()).toEqual([undefined, 'tetrahedron.obj']);
 });
 
+test('what breaks off holds up no other', async () => {
+  const places = {
+    links: { waits: false, cancel: vi.fn(), take: vi.fn() },
+    reader: READER,
+    maps: { open: () => Promise.reject(new Error('broken')), openOfProject: vi.fn() },
+  };
+  // Whatever fails while the first file is brought, beyond what is told.
+  const spy = vi.spyOn(store, 'dispatch').mockImplementationOnce(() => {
+    throw new Error('broken');
+  });
+  const first = openDropped(store, places, [own.source], 0);
+  const second = openDropped(store, places, [own.target], 1);
+  await expect(first).rejects.toThrow('broken');
+  spy.mockRestore();
+  await second;
+  expect(names()).toEqual([undefined, 'tetrahedron.obj']);
+});
+
 test('something else that is begun meanwhile was wanted last', async () => {
   const dropped = drop([own.source, 0], [own.target, 1]);
   const task = { sentence: 'Building the demo…' };

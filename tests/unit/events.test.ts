@@ -102,7 +102,7 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
       findings: [],
       job: { kind: 'idle' },
       ui: ui(READY, { cameras: [null, [2]] }),
-      ...toast('4 landmark pairs went.'),
+      ...toast('4 landmark pairs removed.'),
     },
   },
   mirrored: {
@@ -150,7 +150,7 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
       groundTruth: 'truth.txt',
       findings: [],
       ui: READY.ui,
-      ...toast('4 landmark pairs went.'),
+      ...toast('4 landmark pairs removed.'),
     },
   },
   'side-marks': {

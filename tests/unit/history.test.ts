@@ -199,7 +199,7 @@ describe('the toast of a step that dropped something', () => {
     store.dispatch(...demo);
     expect(store.state.toast).toBeNull();
     store.dispatch(...demo);
-    expect(store.state.toast).toEqual({ sentence: '1 landmark pair went.', undo: true });
+    expect(store.state.toast).toEqual({ sentence: '1 landmark pair removed.', undo: true });
   });
 });
 

@@ -378,6 +378,17 @@ describe('a new visit', () => {
     expect(await meshNames()).toEqual(['cat.off', 'lion.off']);
   });
 
+  test('cannot be continued while a run goes on, and is offered on', async () => {
+    await (await catAndLion()).close();
+    const tab = await new Tab().visit();
+    tab.does({ kind: 'run-started' });
+    await tab.keeper.accept();
+    expect(tab.state).toMatchObject({ offer: { session: 'session-1' }, pairs: [], error: expect.stringContaining('Cancel it first') as string });
+    tab.does({ kind: 'run-cancelled' });
+    await tab.keeper.accept();
+    expect([tab.state.offer, tab.state.pairs.length]).toEqual([null, 5]);
+  });
+
   test('that continues after a step of its own can take that back', async () => {
     const earlier = await catAndLion();
     await earlier.close();

@@ -104,7 +104,7 @@ describe('meshes in several files', () => {
     const [gltf, buffer] = twoFiles();
     const state = after(INITIAL, ...openingOf([buffer, gltf], 0, INITIAL).events);
     expect([state.meshes[0]?.name, state.meshes[0]?.faceCount]).toEqual(['tetra.glb', 4]);
-    expect(refusal([gltf], 0, INITIAL)).toBe('tetra.gltf: Drop it together with tetra hedron.bin: its data is there.');
+    expect(refusal([gltf], 0, INITIAL)).toBe('tetra.gltf: its data is in tetra hedron.bin. Drop all of these files at once.');
     expect(refusal([buffer], 0, INITIAL)).toMatch(/^tetra hedron\.bin: this is a part of a mesh/);
   });
 

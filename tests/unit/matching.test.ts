@@ -43,7 +43,7 @@ describe('found pairs', () => {
     const before: State = { ...TWO, pairs: [...TWO.pairs, ...halves], nextId: 9 };
     const found = after(before, SEARCH, FOUND);
     expect(found.pairs).toEqual([...TWO.pairs, pair(5, 4, 14, 'tail'), pair(6, 5, 15), halves[3]]);
-    expect(found.toast).toEqual({ sentence: '2 landmark pairs found. 1 other pair went.', undo: true });
+    expect(found.toast).toEqual({ sentence: '2 landmark pairs found. 1 other pair removed.', undo: true });
     expect(after(found, { kind: 'undo' }).pairs).toBe(before.pairs);
   });
 
@@ -122,7 +122,7 @@ describe('an answer', () => {
     expect(other.toast).toEqual({ sentence: '3 landmark pairs placed as in the chosen answer.', undo: true });
     const back = after(other, take(0));
     expect(pointsOf(back)).toEqual(pointsOf(found));
-    expect(back.toast?.sentence).toBe('2 landmark pairs placed as in the chosen answer. 1 other pair went.');
+    expect(back.toast?.sentence).toBe('2 landmark pairs placed as in the chosen answer. 1 other pair removed.');
     // The map of the first answer is current again.
     expect(staleness({ ...back, result: DONE.result && { ...DONE.result, inputs: found } })).toBeNull();
   });

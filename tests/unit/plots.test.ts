@@ -168,7 +168,7 @@ describe('the files of a plot', () => {
     expect(svg).toContain('A &#38; B &#60;c&#62;');
     expect(svg).not.toMatch(/style=|<script/);
     // The gap ends the curve: two pieces of one point each, and one of three.
-    const paths = [...svg.matchAll(/<path d="(M[^"]*)" fill="none" stroke="#(?:0b678a|b35c00)"/g)].map(([, d]) => d);
+    const paths = [...svg.matchAll(/<path d="(M[^"]*)" fill="none" stroke="#(?:0b678a|8a5300)"/g)].map(([, d]) => d);
     expect(paths).toEqual(['M76.00 48.00', 'M704.00 380.00', 'M76.00 214.00L390.00 214.00L704.00 214.00']);
     expect([...svg.matchAll(/<circle/g)]).toHaveLength(5);
   });

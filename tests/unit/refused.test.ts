@@ -167,6 +167,8 @@ test('a file without a mesh is told, and there is nothing to show of it', () => 
   expect(state.refused).toBeNull();
   expect(state.error).toMatch(/^points\.obj: .*The landmarks were left out/);
   expect(() => openingOf([points], null, EMPTY)).toThrow(/^points\.obj: /);
+  const others = obj('others.obj', { vertices: CORNER.vertices, faces: [] });
+  expect(() => openingOf([points, others], null, EMPTY)).toThrow(/^points\.obj: .* others\.obj: /);
 });
 
 test('what is wrong with a refused mesh is told by kind and place, and given back with it', () => {

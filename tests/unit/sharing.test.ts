@@ -152,6 +152,26 @@ describe('a link', () => {
     expect((await linkOf(receiver)).hash).toBe(hash);
   });
 
+  test('waits while a run goes on, and is opened by a click after it', async () => {
+    vi.stubGlobal('fetch', async (url: string) => Promise.resolve(new Response(octahedron(url.includes('cat') ? 1 : 2) as BodyInit)));
+    const { hash } = await linkOf(page(['https://data.example/cat.obj', 'https://data.example/lion.obj']));
+    const receiver = new Store();
+    receiver.dispatch({ kind: 'ready', demos: [] });
+    const links = new Links(receiver, READER);
+    address.hash = hash;
+    await links.follow();
+    receiver.dispatch({ kind: 'run-started' });
+    links.accept();
+    expect(receiver.state).toMatchObject({ receiving: { kind: 'click' }, error: expect.stringContaining('Cancel it first') as string });
+    receiver.dispatch({ kind: 'run-cancelled' });
+    links.accept();
+    // A run that begins while the files come is not given up for them either.
+    receiver.dispatch({ kind: 'run-started' });
+    await until(() => receiver.state.receiving.kind === 'nothing');
+    expect(receiver.state).toMatchObject({ pairs: [], job: { kind: 'running' }, error: expect.stringContaining('Cancel it first') as string });
+    expect(address.hash).toBe(hash);
+  });
+
   test('of addresses brings meshes and landmarks', async () => {
     vi.stubGlobal('fetch', async (url: string) =>
       Promise.resolve(new Response(url.endsWith('.json') ? '{"pairs":[[0,1],[1,0],[2,2],[3,3]]}' : (octahedron(1) as BodyInit))),

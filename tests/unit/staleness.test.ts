@@ -34,16 +34,16 @@ describe('a result is outdated', () => {
   });
 
   test.each<[string, readonly Event[], string]>([
-    ['a deleted pair', [{ kind: 'pair-deleted', id: 4 }], 'pair 4 went'],
-    ['two exchanged targets', [{ kind: 'targets-exchanged', ids: [1, 2] }], '2 pairs moved'],
-    ['a moved point', [{ kind: 'point-moved', id: 3, side: 1, point: 99, gesture: 1 }], 'pair 3 moved'],
-    ['no pairs', [{ kind: 'pairs-cleared' }], '4 pairs went'],
-    ['a new pair', PICKS, 'pair 5 came'],
-    ['another mesh', [{ kind: 'mesh', side: 1, file: mesh('horse.off') }], 'the target was replaced and 4 pairs went'],
+    ['a deleted pair', [{ kind: 'pair-deleted', id: 4 }], 'pair 4 was removed'],
+    ['two exchanged targets', [{ kind: 'targets-exchanged', ids: [1, 2] }], '2 pairs were moved'],
+    ['a moved point', [{ kind: 'point-moved', id: 3, side: 1, point: 99, gesture: 1 }], 'pair 3 was moved'],
+    ['no pairs', [{ kind: 'pairs-cleared' }], '4 pairs were removed'],
+    ['a new pair', PICKS, 'pair 5 was added'],
+    ['another mesh', [{ kind: 'mesh', side: 1, file: mesh('horse.off') }], 'the target was replaced and 4 pairs were removed'],
     [
       'several of these',
       [...PICKS, { kind: 'pair-deleted', id: 1 }, { kind: 'options', options: { method: 'thesis' } }],
-      'pair 5 came, pair 1 went and the options changed',
+      'pair 5 was added, pair 1 was removed and the options changed',
     ],
   ])('after %s, until it is undone', (_, events, words) => {
     const changed = after(DONE, ...events);
@@ -86,7 +86,7 @@ describe('a result is shown', () => {
 
   test('of what the run was about, when it ends after a change of the page', () => {
     const state = after(READY, { kind: 'run-started' }, { kind: 'pair-deleted', id: 4 }, { kind: 'run-done', output: OUTPUT, report: REPORT });
-    expect(saying(state)).toBe('This map was made before pair 4 went.');
+    expect(saying(state)).toBe('This map was made before pair 4 was removed.');
   });
 });
 

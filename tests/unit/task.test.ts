@@ -1,6 +1,6 @@
 /** Work that keeps the page busy. */
-import { beforeEach, expect, test, vi } from 'vitest';
-import { perform } from '../../www/app/task.ts';
+import { beforeEach, describe, expect, test, vi } from 'vitest';
+import { perform, performBeside } from '../../www/app/task.ts';
 import { FileRefused } from '../../www/files.ts';
 import { Store } from '../../www/store/store.ts';
 
@@ -89,4 +89,37 @@ test.each([
 ])('that fails %s is over and says why', async (_, prepare, work) => {
   await perform(store, 'Reading…', prepare, work);
   expect(store.state).toMatchObject({ job: { kind: 'idle' }, error: 'cat.off is empty.' });
+});
+
+describe('what is made beside the page’s work', () => {
+  const RUN = { kind: 'run-started' } as const;
+
+  test('is made at rest as a task of its own', async () => {
+    const used: unknown[] = [];
+    const made = performBeside(store, 'Packing…', () => Promise.resolve(7), (prepared) => used.push(prepared));
+    expect(store.state.job).toMatchObject({ kind: 'busy', task: { sentence: 'Packing…' } });
+    await made;
+    expect([used, store.state.job]).toEqual([[7], { kind: 'idle' }]);
+  });
+
+  test('leaves a run and a task as they are, and is used all the same', async () => {
+    const used: unknown[] = [];
+    for (const begin of [RUN, { kind: 'task-begun', task: { sentence: 'Reading…' } } as const]) {
+      store = new Store();
+      store.dispatch(begin);
+      const { job } = store.state;
+      await performBeside(store, 'Packing…', () => Promise.resolve(begin.kind), (prepared) => used.push(prepared));
+      expect(store.state.job).toBe(job);
+    }
+    expect(used).toEqual(['run-started', 'task-begun']);
+  });
+
+  test('says why it fails, in its preparation or itself', async () => {
+    for (const [prepare, use] of [[refuse, nothing], [() => Promise.reject(REFUSED), nothing], [() => Promise.resolve(), refuse]] as const) {
+      store = new Store();
+      store.dispatch(RUN);
+      await performBeside(store, 'Packing…', async () => prepare(), use);
+      expect(store.state).toMatchObject({ job: { kind: 'running' }, error: 'cat.off is empty.' });
+    }
+  });
 });

@@ -108,7 +108,7 @@ test('two real meshes and their landmarks give a certified map', async ({ page }
   await pickOn(page, '#view-target', async () => (await rows.count()) === count + 1);
   await expect(rows).toHaveCount(count + 1);
   await openStep(page, 'map');
-  await expect(page.locator('#result')).toContainText(`This map was made before pair ${count + 1} came.`);
+  await expect(page.locator('#result')).toContainText(`This map was made before pair ${count + 1} was added.`);
   await openStep(page, 'landmarks');
   await page.getByRole('button', { name: `Delete pair ${count + 1}`, exact: true }).click();
   await expect(rows).toHaveCount(count);

@@ -1,9 +1,8 @@
 /** Meshes that are refused are seen, with what is wrong painted and listed; a click turns the camera there. */
-import { existsSync, readdirSync } from 'node:fs';
 import type { Page } from '@playwright/test';
 import { expect, test } from '@playwright/test';
 import { countPixels, pixelsOf, SETTLED } from './canvas.ts';
-import { DATA, drop, dropContents, open, ROOT } from './page.ts';
+import { DATA, drop, dropContents, needsSharedData, open, ROOT } from './page.ts';
 
 type Point = readonly [number, number, number];
 
@@ -102,12 +101,21 @@ test('a refused mesh is painted, its defects turn the camera, and the repaired o
   await expect(page.locator('.defects')).toHaveCount(0);
 });
 
+/** Those of the data folder that cannot be mapped as they are. */
+const BAD = [
+  'camel-nonmanifold.off',
+  'cow-pinched-vertex.off',
+  'genus1-rocker-arm.off',
+  'horse-slit.off',
+  'open-teapot.off',
+  'suzanne-parts.off',
+];
+
 test('every bad mesh is painted', { tag: '@long' }, async ({ page }) => {
-  const folder = `${DATA}/bad`;
-  test.skip(!existsSync(folder), 'the bad meshes (../shared/data/bad) are not here');
+  needsSharedData();
   await open(page, '#demo=sphere-tetrahedron');
-  for (const name of readdirSync(folder).filter((file) => file.endsWith('.off'))) {
-    await drop(page, [`${folder}/${name}`]);
+  for (const name of BAD) {
+    await drop(page, [`${DATA}/bad/${name}`]);
     const caption = page.locator('.caption', { hasText: name });
     await expect(caption).toContainText(/not accepted|repaired/, { timeout: 60_000 });
     if ((await page.getByRole('button', { name: 'Leave it out' }).count()) === 0) {

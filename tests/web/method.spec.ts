@@ -334,7 +334,7 @@ test('both meshes are simplified to their landmarks, and come back', { tag: '@lo
   const without = await red();
   const box = (await page.locator('#view-source').boundingBox()) ?? fail('no view');
   await page.mouse.move(box.x + 0.45 * box.width, box.y + 0.48 * box.height, { steps: 4 });
-  await expect(history).toHaveText(/^On the source: gone with collapse [\d,]+ of 2,5\d\d.* On the target: /);
+  await expect(history).toHaveText(/^On the source: merged into its neighbour by collapse [\d,]+ of 2,5\d\d.* On the target: /);
   await expect.poll(red).toBeGreaterThan(without + 0.0003);
   await page.screenshot({ path: `${ROOT}test-results/simplification-history.png` });
   await page.mouse.move(box.x + 3, box.y + 3);

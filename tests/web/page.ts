@@ -10,11 +10,11 @@ const SHARED = `${ROOT}../shared`;
 export const DATA = `${SHARED}/data`;
 export const RUN_TIMEOUT = 200_000;
 
-/** Leaves a test out where the real meshes are not here. */
+/** Skips a test in a plain checkout. Where `../shared` is there, a file that it lacks fails the test that reads it. */
 export function needsSharedData(): void {
   test.skip(
     !existsSync(SHARED),
-    'the real meshes (../shared/data: cat.off, lion.off, cat-lion.json, open-teapot.off) are not here',
+    'the real meshes (../shared/data) are not part of a plain checkout',
   );
 }
 

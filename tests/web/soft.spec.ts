@@ -44,7 +44,7 @@ test('a soft landmark settles when the map is made, and is held there; undo give
   await expect(soft).toHaveAttribute('aria-pressed', 'true');
   expect((await saved()).pairs).toEqual(given.pairs);
   await openStep(page, 'map');
-  await expect(page.getByText(/This map was made before pair 3 moved/)).toBeVisible();
+  await expect(page.getByText(/This map was made before pair 3 was moved/)).toBeVisible();
   await openStep(page, 'landmarks');
   await page.keyboard.press('Control+y');
   await expect(soft).toHaveAttribute('aria-pressed', 'false');

@@ -4,15 +4,15 @@ use crate::container::{Container, expect_count, of_section};
 use crate::refusal::Refusal;
 use std::ops::Range;
 
-/// Corners of a piece, at most: two triangles share a polygon of six.
+/// The largest number of corners of a piece: two triangles share a polygon of six.
 const MOST_CORNERS: usize = 16;
 
 /// The pieces as the file has them.
 pub struct Pieces {
-    /// Overlay vertices, piece by piece.
+    /// The overlay vertices of all pieces, piece by piece.
     corners: Vec<u32>,
     ranges: Vec<Range<usize>>,
-    /// By mesh, source first: the face of each piece.
+    /// The face of each piece on each mesh, the source's first.
     faces: [Vec<u32>; 2],
 }
 
@@ -43,7 +43,7 @@ impl Pieces {
         Ok(Self { corners, ranges, faces })
     }
 
-    /// How many pieces.
+    /// The number of pieces.
     pub fn len(&self) -> usize {
         self.ranges.len()
     }
@@ -167,6 +167,6 @@ fn check_connected(
             }
         }
     }
-    // A file without any piece that has an inside reaches none of none, and is no sphere.
+    // A file without any piece that has an inside reaches none of them, and is no sphere.
     if reached == solid.len() { Ok(()) } else { Err(Refusal::Parts { reached, pieces: solid.len() }) }
 }

@@ -7,12 +7,12 @@ const MAGIC: &[u8; 8] = b"CONEMAP\0";
 /// The version of the format that this crate reads.
 const MAJOR: u16 = 1;
 const PREAMBLE: usize = 16;
-/// Files, and what their sections unpack to, are no larger.
+/// The largest size of a file, and of what its sections unpack to, in bytes.
 const MOST_BYTES: u64 = 1 << 30;
 const MOST_HEADER_BYTES: usize = 1 << 26;
-/// No deflated byte becomes more bytes than this.
+/// The largest number of bytes that one deflated byte can become.
 const MOST_UNPACKED: u64 = 1032;
-/// What is read unpacks to no more than this many times the file's length, and a MiB: real maps unpack to two or three times, as their
+/// The largest ratio of what is unpacked to the file's length, beside one MiB: real maps unpack to two or three times, as their
 /// weights do not pack at all. So a small file takes little memory, whatever it says.
 const MOST_GROWTH: u64 = 16;
 const FREE_BYTES: u64 = 1 << 20;
@@ -88,7 +88,7 @@ impl<'a> Container<'a> {
         Ok(bytes.as_chunks().0.iter().map(|b| u32::from_le_bytes(*b)).collect())
     }
 
-    /// Finite numbers.
+    /// A section of finite numbers.
     pub fn numbers(&self, name: &str) -> Result<Vec<f64>, Refusal> {
         let bytes = self.unpacked(name, Kind::F64)?;
         let values: Vec<f64> = bytes.as_chunks().0.iter().map(|b| f64::from_le_bytes(*b)).collect();

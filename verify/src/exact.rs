@@ -36,19 +36,19 @@ impl Weight {
     }
 }
 
-/// Weights are at most this, so that six products of three of them, with all their rounding, are off by less than `CERTAIN`.
+/// The largest weight, so that six products of three weights, with all their rounding, are off by less than `CERTAIN`.
 pub const LARGEST: f64 = 1.0 + 1e-9;
 
-/// A determinant in f64 beyond this has the sign of the exact one. Entries are off by 2^-53 of themselves and at most
-/// [`LARGEST`]; each of six products takes two roundings, their sums five: below 64 x 2^-53 = 7.2e-15 in all.
+/// The size of a determinant in f64 beyond which it has the sign of the exact one. Entries are off by 2^-53 of themselves and at
+/// most [`LARGEST`]; each of six products takes two roundings, their sums five: below 64 x 2^-53 = 7.2e-15 in all.
 const CERTAIN: f64 = 2e-14;
 
-/// Counts what the signs took.
+/// Counts the signs that were found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
-    /// Signs that were asked for.
+    /// The number of signs that were asked for.
     pub signs: u64,
-    /// Those of them that f64 could not tell.
+    /// The number of signs that f64 could not tell.
     pub by_integers: u64,
 }
 

@@ -44,7 +44,7 @@ pub enum LandmarkPoint {
     OnFace { face: u32, barycentric: [f64; 3] },
 }
 
-/// Where an array lies.
+/// The place and the type of a section.
 #[derive(Debug, Deserialize)]
 pub struct SectionEntry {
     pub name: String,
@@ -58,7 +58,7 @@ pub struct SectionEntry {
 }
 
 impl SectionEntry {
-    /// Its length once unpacked; 0 for elements of a type that is not known.
+    /// The section's length once unpacked, in bytes; 0 for elements of a type that is not known.
     pub fn unpacked_bytes(&self) -> u64 {
         let width = match self.kind.as_str() {
             "u8" => 1,

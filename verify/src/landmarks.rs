@@ -6,19 +6,19 @@ use crate::refusal::Refusal;
 use crate::tiling::Map;
 use std::ops::ControlFlow;
 
-/// Landmarks inside faces are met where the map comes as near as this, in units of the root of the mesh's area.
+/// The largest distance at which a landmark inside a face is met, in units of the root of the mesh's area.
 const NEAR: f64 = 1e-9;
-/// Overlay vertices that are compared with landmarks, at most; a face of a real map has some hundred.
+/// The largest number of overlay vertices that are compared with landmarks; a face of a real map has some hundred.
 const MOST_COMPARED: usize = 1 << 26;
-/// Landmark pairs, at most, as in landmark files.
+/// The largest number of landmark pairs, as in landmark files.
 const MOST_PAIRS: usize = 10_000;
 
 /// What is known of the landmark pairs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Landmarks {
-    /// How many.
+    /// The number of pairs.
     pub pairs: usize,
-    /// How many are vertices of both meshes that meet exactly.
+    /// The number of pairs of vertices of both meshes that meet exactly.
     pub exact: usize,
     /// The largest distance of the others: from the nearest overlay vertex to the landmark on the source, or from that vertex's
     /// place to the partner on the target; in units of the root of the mesh's area. In f64.
@@ -65,7 +65,7 @@ pub fn check(
         }
         let distance = [0, 1].map(|side| index.distance(map, side, ends[side].0, ends[side].1));
         let distance = distance[0].max(distance[1]);
-        // Not a number is not near.
+        // A distance that is not a number is not near.
         if !distance.lt(&NEAR) {
             return Err(wrong(&format!("is missed by {distance:.1e} of the size of the mesh")));
         }

@@ -5,15 +5,15 @@ use crate::exact::{Weight, Weights};
 use crate::refusal::Refusal;
 use crate::tiling::Map;
 
-/// Pieces thinner than this in the weights of their faces have their matrix in the file.
+/// The ratio of a piece's width to its length, in the weights of its faces, below which its matrix stands in the file.
 const THIN: f64 = 1e-4;
-/// How far matrices may carry corners away, in units of their size.
+/// The largest distance by which matrices may carry corners away, in units of their size.
 const ROUNDING: f64 = 1e-6;
 
 /// How the matrices of the pieces, which answer images of points, agree with the map that takes corners to corners.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Matrices {
-    /// Pieces whose matrix is given, as their corners do not tell it.
+    /// The number of pieces whose matrix is given, as their corners do not tell it.
     pub given: usize,
     /// The largest distance on the target between a point's image by a matrix and by the corners, in units of the root of the
     /// target's area. In f64.
@@ -21,7 +21,7 @@ pub struct Matrices {
 }
 
 type Point = [f64; 2];
-/// By columns: m11, m21, m12, m22.
+/// A matrix by columns: m11, m21, m12, m22.
 type Matrix = [f64; 4];
 
 fn applied(m: Matrix, [x, y]: Point) -> Point {
@@ -130,7 +130,7 @@ fn worst(matrix: Matrix, [source, target]: &[Vec<Point>; 2]) -> Point {
         for j in i + 1..source.len() {
             let there = difference(target[j], target[i]);
             let error = difference(there, applied(matrix, difference(source[j], source[i])));
-            // Not a number counts as worst.
+            // An error that is not a number counts as worst.
             if length(error).partial_cmp(&length(worst)) != Some(std::cmp::Ordering::Less) {
                 worst = error;
             }

@@ -5,7 +5,7 @@ use sha2::{Digest, Sha256};
 /// A mesh as its file has it: vertices in the file's order, triangles with their corners in the file's order.
 #[derive(Clone, Copy, Debug)]
 pub struct GivenMesh<'a> {
-    /// By vertex of the file.
+    /// The position of each vertex of the file.
     pub positions: &'a [[f64; 3]],
     /// For each vertex of the file the first one that it was joined with, at the same place; empty where none was.
     pub joined_with: &'a [u32],
@@ -17,22 +17,22 @@ pub struct GivenMesh<'a> {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshProblem {
-    /// Fewer than four faces.
+    /// The mesh has fewer than four faces.
     #[error("it has {0} faces; the least are 4")]
     Faces(usize),
-    /// More than can be numbered.
+    /// The mesh has more elements than can be numbered.
     #[error("it has too many faces")]
     TooLarge,
-    /// A face with a vertex that does not exist, or with one twice.
+    /// A face names a vertex that does not exist, or one twice.
     #[error("face {0} has a vertex twice or one that does not exist")]
     Face(usize),
-    /// An edge that has not two faces.
+    /// An edge has not two faces.
     #[error("the edge between vertices {0} and {1} has not two faces")]
     Edge(u32, u32),
-    /// Faces that cannot be turned so that neighbours agree.
+    /// The faces cannot be turned so that neighbours agree.
     #[error("it is one-sided near face {0}")]
     OneSided(usize),
-    /// Several parts, or parts that touch at a vertex, or handles.
+    /// The mesh has several parts, or parts that touch at a vertex, or handles.
     #[error("V - E + F is {0} instead of 2, or it has several parts")]
     Euler(i64),
 }
@@ -86,12 +86,12 @@ impl<'a> Mesh<'a> {
         Ok(Self { given, turned, numbers, used })
     }
 
-    /// How many triangles.
+    /// The number of triangles.
     pub fn face_count(&self) -> usize {
         self.given.triangles.len()
     }
 
-    /// How many vertices the file has.
+    /// The number of vertices of the file.
     pub fn file_vertices(&self) -> usize {
         self.given.positions.len()
     }
@@ -157,7 +157,7 @@ impl<'a> Mesh<'a> {
     }
 }
 
-/// By side 3 f + k, from corner k of face f to the next: the other side of its edge.
+/// The other side of the edge of each side 3 f + k, which goes from corner k of face f to the next.
 fn across(triangles: &[[u32; 3]]) -> Result<Vec<u32>, MeshProblem> {
     let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * triangles.len());
     for (f, t) in triangles.iter().enumerate() {

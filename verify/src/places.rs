@@ -5,7 +5,7 @@ use crate::exact::{LARGEST, Weight, Weights};
 use crate::mesh::Mesh;
 use crate::refusal::{Refusal, Side};
 
-/// Sums of weights may differ from 1 by this much: rounding of a program that divided by their sum.
+/// The largest difference of a sum of weights from 1: the rounding of a program that divided by their sum.
 const SUM: f64 = 1e-9;
 
 /// A point of a mesh, by its file's numbers.
@@ -57,7 +57,7 @@ pub fn read(container: &Container<'_>, mesh: &Mesh<'_>, side: Side) -> Result<Ve
 struct Reader<'a> {
     mesh: &'a Mesh<'a>,
     side: Side,
-    /// Parameters of the places that are still to come.
+    /// The parameters of the places that are still to come.
     rest: &'a [f64],
 }
 

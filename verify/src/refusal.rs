@@ -13,7 +13,7 @@ pub enum Side {
 }
 
 impl Side {
-    /// Both, the source first.
+    /// Both sides, the source first.
     pub const BOTH: [Self; 2] = [Self::Source, Self::Target];
 }
 
@@ -39,7 +39,7 @@ pub enum Refusal {
     /// An array is missing or has another length, type or packing than the format says.
     #[error("section \"{section}\" of the map file: {problem}")]
     Section {
-        /// Its name.
+        /// The section's name.
         section: String,
         /// What is wrong.
         problem: String,
@@ -47,9 +47,9 @@ pub enum Refusal {
     /// A mesh is no sphere.
     #[error("the {side} is no closed surface without handles: {problem}")]
     Mesh {
-        /// Which mesh.
+        /// The mesh at fault.
         side: Side,
-        /// Why not.
+        /// The reason.
         problem: MeshProblem,
     },
     /// The map was made with another mesh.
@@ -57,11 +57,11 @@ pub enum Refusal {
         "the {side} is not the mesh that the map was made with: its SHA-256 is {found}, and the map file says {wanted}"
     )]
     OtherMesh {
-        /// Which mesh.
+        /// The mesh that is another one.
         side: Side,
         /// The hash of its arrays.
         found: String,
-        /// The map file's.
+        /// The hash that the map file has.
         wanted: String,
     },
     /// A place names a vertex, edge or face that does not exist, or is of no known kind.
@@ -69,7 +69,7 @@ pub enum Refusal {
     NoPlace {
         /// The overlay vertex.
         vertex: usize,
-        /// Which mesh.
+        /// The mesh on which the vertex lies.
         side: Side,
         /// What does not exist.
         what: String,
@@ -79,7 +79,7 @@ pub enum Refusal {
     BesideEdge {
         /// The overlay vertex.
         vertex: usize,
-        /// Which mesh.
+        /// The mesh on which the vertex lies.
         side: Side,
         /// The parameter.
         along: f64,
@@ -91,7 +91,7 @@ pub enum Refusal {
     Weights {
         /// The overlay vertex.
         vertex: usize,
-        /// Which mesh.
+        /// The mesh on which the vertex lies.
         side: Side,
         /// The weights.
         weights: [f64; 3],
@@ -111,9 +111,9 @@ pub enum Refusal {
         piece: usize,
         /// The overlay vertex.
         vertex: u32,
-        /// Which mesh.
+        /// The mesh on which the corner lies.
         side: Side,
-        /// The piece's face.
+        /// The face of the piece.
         face: u32,
     },
     /// A side of a piece has no partner.
@@ -132,21 +132,21 @@ pub enum Refusal {
         /// The side's start and end.
         ends: [u32; 2],
     },
-    /// A vertex of no piece.
+    /// A vertex belongs to no piece.
     #[error("overlay vertex {vertex} is a corner of no piece")]
     Unused {
         /// The overlay vertex.
         vertex: usize,
     },
-    /// Several parts.
+    /// The pieces are several parts.
     #[error("the pieces fall into several parts: {reached} of {pieces} hang together")]
     Parts {
-        /// How many hang together with the first one.
+        /// The number of pieces that hang together with the first one.
         reached: usize,
-        /// How many there are.
+        /// The number of all pieces.
         pieces: usize,
     },
-    /// Not a sphere.
+    /// The pieces are no sphere.
     #[error("the pieces are no sphere: V - E + F is {euler} instead of 2")]
     NotASphere {
         /// V - E + F.
@@ -157,9 +157,9 @@ pub enum Refusal {
     Turned {
         /// The piece.
         piece: usize,
-        /// Which mesh.
+        /// The mesh on which the piece is turned over.
         side: Side,
-        /// How much of its face the triangle covers that is turned over.
+        /// The share of its face that the triangle covers which is turned over.
         share: f64,
     },
     /// A face is covered not at all, or several times.
@@ -167,9 +167,9 @@ pub enum Refusal {
     Covered {
         /// The face.
         face: usize,
-        /// Which mesh.
+        /// The mesh of the face.
         side: Side,
-        /// How often.
+        /// The number of times that the face is covered.
         times: i64,
     },
     /// No point was found at which the cover could be counted: all tried ones lie on sides of pieces.
@@ -177,7 +177,7 @@ pub enum Refusal {
     Uncountable {
         /// The face.
         face: usize,
-        /// Which mesh.
+        /// The mesh of the face.
         side: Side,
     },
     /// A matrix is missing, not invertible, or does not carry its piece's corners.

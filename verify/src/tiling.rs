@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 /// refused as wrong either. It is what the format allows.
 pub const WITHIN_ROUNDING: f64 = 1e-6;
 
-/// How many pieces are judged before the caller is asked whether to go on.
+/// The number of pieces that are judged before the caller is asked whether to go on.
 const ASK_EVERY: usize = 4096;
 
 /// Both meshes with the places of the overlay's vertices on them, and the pieces between.
@@ -46,13 +46,13 @@ impl Map<'_> {
 /// Triangles that have no positive area on both meshes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Doubtful {
-    /// How many.
+    /// The number of these triangles.
     pub triangles: usize,
     /// The first piece with one of them.
     pub first_piece: Option<usize>,
-    /// Their share of the source's area.
+    /// The share of the source's area that they have.
     pub source_share: f64,
-    /// Their share of the target's area.
+    /// The share of the target's area that they have.
     pub target_share: f64,
     /// The largest share of a face that one of them covers the wrong way round.
     pub turned_share: f64,
@@ -60,7 +60,7 @@ pub struct Doubtful {
 
 /// The pieces cut into triangles.
 pub struct Cut {
-    /// By piece: the corner that all of its triangles share, as the number of the corner in the piece.
+    /// The corner that all triangles of a piece share, by its number in the piece.
     apexes: Vec<u8>,
     pub triangles: usize,
     pub doubtful: Doubtful,

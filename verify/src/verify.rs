@@ -15,23 +15,23 @@ use std::ops::ControlFlow;
 /// What was found of a map that is not refused.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Proof {
-    /// Faces of the source and of the target.
+    /// The numbers of faces of the source and of the target.
     pub faces: [usize; 2],
-    /// Overlay vertices.
+    /// The number of overlay vertices.
     pub vertices: usize,
-    /// Pieces.
+    /// The number of pieces.
     pub pieces: usize,
-    /// Those of them without inside, which two edges make that coincide.
+    /// The number of pieces without inside, which two edges make that coincide.
     pub segments: usize,
-    /// The triangles into which the pieces were cut.
+    /// The number of triangles into which the pieces were cut.
     pub triangles: usize,
     /// Triangles that are not proved to be positive; the map is proved where there are none.
     pub doubtful: Doubtful,
-    /// Signs of determinants that were found, and those of them that took integers.
+    /// The signs of determinants that were found, and those of them that took integers.
     pub signs: Tally,
     /// The landmark pairs.
     pub landmarks: Landmarks,
-    /// The pieces' matrices.
+    /// The matrices of the pieces.
     pub matrices: Matrices,
     /// Whether the map goes to the mirror image of the target.
     pub is_mirrored: bool,

@@ -46,7 +46,7 @@ fn a_vertex_moved_over_its_neighbours_is_refused() {
     let weights = e.numbers("vertices.target.parameters")[at.clone()].to_vec();
     let most = (0..3).max_by(|&a, &b| weights[a].total_cmp(&weights[b])).expect("three");
     let refusal = e.refused(|e| {
-        // To the far corner of its face.
+        // The corner is moved to the far end of its face.
         let moved = [0, 1, 2].map(|k| if k == (most + 1) % 3 { 0.98 } else { 0.01 });
         e.numbers("vertices.target.parameters")[at].copy_from_slice(&moved);
     });

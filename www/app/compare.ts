@@ -42,6 +42,8 @@ export class Comparer {
 
   #start(core: Core, which: OtherMap): void {
     const { dispatch } = this.#store;
+    // The same map may have been asked for once more.
+    this.#end();
     this.#end = startOtherMap(
       this.#store,
       core,

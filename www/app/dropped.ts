@@ -10,7 +10,7 @@ import { errorOf } from './task.ts';
 
 const PROJECT = /\.zip$/i;
 
-/** By page what was brought last, as long as it is read. */
+/** By page the reading of what was brought last, as long as it lasts. It never fails: what comes next waits for its end alone. */
 const LAST = new WeakMap<Store, Promise<void>>();
 
 interface Places extends Openers {
@@ -24,10 +24,14 @@ interface Places extends Openers {
 export async function openDropped(store: Store, places: Places, files: readonly File[], side: Side | null): Promise<void> {
   const before = LAST.get(store);
   const opened = before === undefined ? openNow(store, places, files, side) : openAfter(before, store, places, files, side);
-  LAST.set(store, opened);
-  await opened;
-  if (LAST.get(store) === opened) {
-    LAST.delete(store);
+  const ended = opened.catch(() => undefined);
+  LAST.set(store, ended);
+  try {
+    await opened;
+  } finally {
+    if (LAST.get(store) === ended) {
+      LAST.delete(store);
+    }
   }
 }
 

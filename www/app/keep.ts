@@ -194,6 +194,10 @@ export class Keeper {
     if (state.offer === null || this.#database === null) {
       return;
     }
+    if (state.job.kind === 'running') {
+      dispatch({ kind: 'error', sentence: SENTENCES.whileRunning });
+      return;
+    }
     const id = state.offer.session;
     dispatch({ kind: 'offer-closed' });
     const reading = readSession(await this.#database.session(id).catch(() => undefined));

@@ -1,16 +1,8 @@
 /** Keys of the whole page; those of a view are the viewer's. */
+import { isTyped } from '../dom.ts';
 import { proposed } from '../store/proposal.ts';
 import type { Store } from '../store/store.ts';
 import { leaveTask } from './task.ts';
-
-/** Whether keys are typed into this element. */
-function isTyped(target: EventTarget | null): boolean {
-  return (
-    target instanceof HTMLTextAreaElement ||
-    (target instanceof HTMLInputElement && ['text', 'search', 'number', 'url'].includes(target.type)) ||
-    (target instanceof HTMLElement && target.isContentEditable)
-  );
-}
 
 /** What a key asks of the history: Ctrl+Z, and Ctrl+Shift+Z or Ctrl+Y, on a Mac with Cmd. */
 export function moveOf(event: Pick<KeyboardEvent, 'key' | 'ctrlKey' | 'metaKey' | 'shiftKey' | 'altKey'>): 'undo' | 'redo' | null {

@@ -105,11 +105,12 @@ export class Planes {
     let answer: PlaneAnswer | null = null;
     try {
       answer = JSON.parse(await this.#reader.ask({ kind: 'plane', mesh: of.mesh.packed(), wish }, null)) as PlaneAnswer | null;
+      if (choice === 'found') {
+        this.#found.set(of, answer);
+      }
     } catch (thrown) {
+      // Nothing is known of the mesh then: whoever chooses the plane again has it looked for again.
       dispatch(errorOf(thrown));
-    }
-    if (choice === 'found') {
-      this.#found.set(of, answer);
     }
     // Meanwhile the meshes may have changed sides, or another plane may have been chosen.
     const at = SIDES.find((candidate) => this.#store.state.meshes[candidate] === of) ?? side;

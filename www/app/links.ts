@@ -75,7 +75,11 @@ export class Links {
 
   /** The click that the link waits for. */
   readonly accept = (): void => {
-    this.#receiver.accept();
+    if (this.#store.state.job.kind === 'running') {
+      this.#store.dispatch({ kind: 'error', sentence: SENTENCES.whileRunning });
+    } else {
+      this.#receiver.accept();
+    }
   };
 
   /** Gives the link up. */
@@ -143,6 +147,11 @@ export class Links {
   }
 
   async #open({ link, meshes, landmarks }: Delivery): Promise<void> {
+    if (this.#store.state.job.kind === 'running') {
+      // A run has begun while the files came: the link stays in the address, to be opened by a reload.
+      this.#store.dispatch({ kind: 'error', sentence: SENTENCES.whileRunning });
+      return;
+    }
     forget();
     const { work } = link;
     const arriving = (mesh: Delivery['meshes'][0]): ArrivingMesh | null => mesh && { ...mesh, address: mesh.address?.url ?? null };

@@ -7,7 +7,7 @@ import { FileRefused } from '../files.ts';
 import { failureSentence } from '../messages.ts';
 import type { Result } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
-import { perform, errorOf } from './task.ts';
+import { errorOf, performBeside } from './task.ts';
 
 /** What a map's own worker gives for `use`. Throws `FileRefused`. */
 export async function askMap<T>(core: Core, { output, inputs }: Result, use: (saved: SavedMapHandle) => Promise<T>): Promise<T> {
@@ -27,18 +27,6 @@ export async function askMap<T>(core: Core, { output, inputs }: Result, use: (sa
   }
 }
 
-/** Makes something of the map on the page while the page says so; beside a run or other work, which are not given up for it. */
-async function make<T>(store: Store, sentence: string, prepare: () => Promise<T>, use: (made: T) => void): Promise<void> {
-  const { job } = store.state;
-  if (job.kind === 'running' || job.kind === 'busy') {
-    await prepare().then(use, (thrown: unknown) => {
-      store.dispatch(errorOf(thrown));
-    });
-    return;
-  }
-  await perform(store, sentence, prepare, use);
-}
-
 /** A file of a map: the core's name for it, that under which it is saved, and its type. */
 interface MadeFile {
   readonly made: string;
@@ -50,7 +38,7 @@ interface MadeFile {
 export async function saveMadeFile(store: Store, core: Core, { made, name, type }: MadeFile): Promise<void> {
   const { result } = store.state;
   if (result !== null) {
-    await make(store, `Making ${name}…`, () => askMap(core, result, (saved) => saved.file(made)), (bytes) => {
+    await performBeside(store, `Making ${name}…`, () => askMap(core, result, (saved) => saved.file(made)), (bytes) => {
       download(name, type, bytes);
     });
   }
@@ -63,7 +51,7 @@ export async function saveWrapped(store: Store, core: Core): Promise<void> {
   if (result === null || source === null) {
     return;
   }
-  await make(store, `Laying ${source.name} onto the target…`, () => askMap(core, result, (saved) => saved.wrapped()), ({ bytes, sentence }) => {
+  await performBeside(store, `Laying ${source.name} onto the target…`, () => askMap(core, result, (saved) => saved.wrapped()), ({ bytes, sentence }) => {
     download(`wrapped-${source.name}`, 'application/octet-stream', bytes);
     store.dispatch({ kind: 'toast', sentence, undo: false });
   });

@@ -14,7 +14,7 @@ import type { Store } from '../store/store.ts';
 import { workName } from '../store/work.ts';
 import type { Openers } from './open.ts';
 import { place, readArriving, sentWorkOf, withMeshes } from './sent-work.ts';
-import { perform } from './task.ts';
+import { perform, performBeside } from './task.ts';
 
 function projectMesh(file: MeshFile | null): ProjectMesh | null {
   if (file === null) {
@@ -37,7 +37,7 @@ function projectOf(state: State): Project {
 /** Saves the project under the names of its meshes. */
 export async function saveProject(store: Store): Promise<void> {
   const { state } = store;
-  await perform(
+  await performBeside(
     store,
     'Packing the project…',
     () => writeProject(projectOf(state), JSON.stringify(landmarkFileOf(state), null, 1), inWorker),

@@ -37,6 +37,20 @@ export function leaveTask(store: Store): void {
   }
 }
 
+/** Prepares something and uses it, while the page says so; beside a run or another task, which is not given up for it. */
+export async function performBeside<T>(store: Store, sentence: string, prepare: () => Promise<T>, use: (made: T) => void): Promise<void> {
+  const { job } = store.state;
+  if (job.kind !== 'running' && job.kind !== 'busy') {
+    await perform(store, sentence, prepare, use);
+    return;
+  }
+  try {
+    use(await prepare());
+  } catch (thrown) {
+    store.dispatch(errorOf(thrown));
+  }
+}
+
 /** What became of a work: done, broken off with a sentence, or left out because another one had begun. */
 export type Outcome = 'done' | 'failed' | 'left-out';
 

@@ -15,7 +15,7 @@ export async function openTexturePicture(store: Store, file: File): Promise<void
     store.dispatch({ kind: 'error', sentence });
   };
   if (file.size > LARGEST) {
-    tell(`${file.name} has ${Math.ceil(file.size / 2 ** 20)} MiB; a picture may have 64: make it smaller`);
+    tell(`${file.name} has ${Math.ceil(file.size / 2 ** 20)} MiB; a picture may have 64. Make it smaller.`);
     return;
   }
   const picture = await file.arrayBuffer().then(
@@ -26,7 +26,7 @@ export async function openTexturePicture(store: Store, file: File): Promise<void
     return;
   }
   if (picture === null) {
-    tell(`${file.name} is no picture that this browser can read: choose a PNG, JPEG or WebP file`);
+    tell(`${file.name} is no picture that this browser can read: choose a PNG, JPEG or WebP file.`);
     return;
   }
   store.dispatch({ kind: 'texture-picture', picture: { name: file.name, ...picture } });

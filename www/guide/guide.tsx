@@ -210,7 +210,7 @@ function Limits(): VNode {
       <p>
         <strong>What is refused.</strong> What is mapped is one closed surface without handles. Holes are capped, faults of the mesh are
         repaired, and both are told. Handles are cut only where you ask for it; one-sided surfaces and open sheets are refused in a
-        sentence, and so are several large parts, of which the page offers to keep the largest. A surface that goes through itself is not noticed. Fewer than four pairs are no start, and two pairs
+        sentence, and so are several large parts, of which the page offers to keep the largest. A surface that goes through itself is not noticed. A map needs at least four pairs, and two pairs
         cannot share a point.
       </p>
       <p>

@@ -1,51 +1,42 @@
 /** Colours of the base domain, and its picture as a file. */
-import { INK, LIT, NEGATIVE, POSITIVE } from '../colours.ts';
+import type { Lighting, Shades } from '../colours.ts';
+import { FACE, GROUND, INK, LIT, LIT_FACE, NEGATIVE, POSITIVE, RIM, SIDE } from '../colours.ts';
 import { escaped } from '../svg.ts';
 import type { Ball, Facet, Picture, Spot } from './picture.ts';
 
-/** Red, green and blue, 0 to 255. */
-type Colour = readonly [number, number, number];
-
 export interface Palette {
   /** A triangle in the shade and in full light. */
-  readonly face: readonly [Colour, Colour];
+  readonly face: Lighting;
   readonly side: string;
   readonly rim: string;
   readonly positive: string;
   readonly negative: string;
   /** What is lit up; the meshes have the same. */
   readonly lit: string;
-  readonly litFace: readonly [Colour, Colour];
+  readonly litFace: Lighting;
   readonly ink: string;
   readonly ground: string;
 }
 
-export const LIGHT: Palette = {
-  face: [[128, 122, 112], [232, 226, 215]],
-  side: '#3a3f45',
-  rim: '#ffffff',
-  positive: POSITIVE.light,
-  negative: NEGATIVE.light,
-  lit: LIT.light,
-  litFace: [[142, 34, 116], [236, 120, 206]],
-  ink: INK.light,
-  ground: '#ffffff',
-};
+function paletteOf(shade: keyof Shades): Palette {
+  return {
+    face: FACE[shade],
+    side: SIDE[shade],
+    rim: RIM[shade],
+    positive: POSITIVE[shade],
+    negative: NEGATIVE[shade],
+    lit: LIT[shade],
+    litFace: LIT_FACE[shade],
+    ink: INK[shade],
+    ground: GROUND[shade],
+  };
+}
 
-export const DARK: Palette = {
-  face: [[66, 62, 56], [176, 168, 155]],
-  side: '#14161a',
-  rim: '#14161a',
-  positive: POSITIVE.dark,
-  negative: NEGATIVE.dark,
-  lit: LIT.dark,
-  litFace: [[122, 24, 98], [240, 110, 205]],
-  ink: INK.dark,
-  ground: '#1b1e24',
-};
+export const LIGHT = paletteOf('light');
+export const DARK = paletteOf('dark');
 
 /** A mixture of two colours: the first at share 0. */
-export function mixed([from, to]: readonly [Colour, Colour], share: number): string {
+export function mixed([from, to]: Lighting, share: number): string {
   const part = (k: 0 | 1 | 2): number => Math.round(from[k] + share * (to[k] - from[k]));
   return `rgb(${part(0)} ${part(1)} ${part(2)})`;
 }

@@ -20,6 +20,7 @@ export function startPlanes(request: With<PlaneRequest>, listener: PlaneListener
   const worker = new Worker(new URL('./plane-worker.ts', import.meta.url), { type: 'module' });
   const waiting = new Map<number, (answer: PlaneAnswers[keyof PlaneAnswers]) => void>();
   let asked = 0;
+  let isOver = false;
   const planes: Planes = {
     ask: <K extends keyof PlaneQuestions>(kind: K, question: PlaneQuestions[K]) =>
       new Promise<PlaneAnswers[K]>((resolve) => {
@@ -29,11 +30,20 @@ export function startPlanes(request: With<PlaneRequest>, listener: PlaneListener
         worker.postMessage({ kind, number: asked, question });
       }),
   };
-  const fail = (failure: Failure): void => {
+  const end = (): void => {
+    isOver = true;
     worker.terminate();
-    listener.failed(failure);
+  };
+  const fail = (failure: Failure): void => {
+    if (!isOver) {
+      end();
+      listener.failed(failure);
+    }
   };
   worker.addEventListener('message', ({ data }: MessageEvent<PlaneMessage>) => {
+    if (isOver) {
+      return;
+    }
     switch (data.kind) {
       case 'progress':
         listener.progress(data.share);
@@ -54,8 +64,9 @@ export function startPlanes(request: With<PlaneRequest>, listener: PlaneListener
     event.preventDefault();
     fail({ code: 'worker', message: event.message });
   });
+  worker.addEventListener('messageerror', () => {
+    fail({ code: 'worker', message: 'an unreadable message' });
+  });
   postWithCore(worker, request, fail);
-  return () => {
-    worker.terminate();
-  };
+  return end;
 }

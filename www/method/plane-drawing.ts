@@ -1,5 +1,5 @@
 /** A mesh in the plane as pixels and as files; drawn in a worker. */
-import { ACCENT, CUT } from '../colours.ts';
+import { ACCENT, CUT, PAPER } from '../colours.ts';
 import { escaped } from '../svg.ts';
 import type { Palette } from './drawing.ts';
 import { DARK, LIGHT, mixed } from './drawing.ts';
@@ -216,7 +216,7 @@ export function planeSvg(sheet: Sheet, { curvatures, names, circles, shown }: Dr
   const cones = sheet.cones.filter(({ when }) => when <= shown).map(({ cone, at }) => {
     const curvature = curvatures[cone] ?? 0;
     const [x, y] = across(placing, at);
-    const label = named.has(cone) ? '' : `<text x="${(x + 8).toFixed(2)}" y="${(y + 4).toFixed(2)}" fill="${LIGHT.ink}" stroke="#fff" stroke-width="3" paint-order="stroke">${escaped(names[cone] ?? String(cone + 1))}</text>`;
+    const label = named.has(cone) ? '' : `<text x="${(x + 8).toFixed(2)}" y="${(y + 4).toFixed(2)}" fill="${LIGHT.ink}" stroke="${PAPER}" stroke-width="3" paint-order="stroke">${escaped(names[cone] ?? String(cone + 1))}</text>`;
     named.add(cone);
     const colour = LIGHT[curvature < 0 ? 'negative' : 'positive'];
     return `<circle cx="${x.toFixed(2)}" cy="${y.toFixed(2)}" r="${coneRadius(curvature).toFixed(2)}" fill="${colour}" stroke="${LIGHT.rim}"/>${label}`;

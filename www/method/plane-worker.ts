@@ -1,4 +1,5 @@
 /** Both flat metrics in the plane: the flows once, then layouts and pictures as they are asked for. */
+import { PAPER } from '../colours.ts';
 import { failureOf } from '../compute/messages.ts';
 import { progressListener } from '../compute/progress-listener.ts';
 import type { Side } from '../landmarks.ts';
@@ -82,7 +83,7 @@ async function fileOf({ sheet, painter }: Laid, { format, names, circles, shown,
       const paper = new OffscreenCanvas(size.width, size.height);
       const context = paper.getContext('2d');
       if (context !== null) {
-        context.fillStyle = '#fff';
+        context.fillStyle = PAPER;
         context.fillRect(0, 0, size.width, size.height);
         context.drawImage(drawn, 0, 0);
       }

@@ -87,12 +87,15 @@ function useLatest<Q>(answer: (question: Q) => Promise<void>): (question: Q) => 
   latest.current = answer;
   const next = async (): Promise<void> => {
     busy.current = true;
-    while (waiting.current !== null) {
-      const { question } = waiting.current;
-      waiting.current = null;
-      await latest.current(question);
+    try {
+      while (waiting.current !== null) {
+        const { question } = waiting.current;
+        waiting.current = null;
+        await latest.current(question);
+      }
+    } finally {
+      busy.current = false;
     }
-    busy.current = false;
   };
   return (question) => {
     waiting.current = { question };

@@ -53,10 +53,10 @@ function historyWords(found: Simplifications, trails: readonly [Trail | null, Tr
     const [first] = steps;
     const all = integer(found[side].collapses.length / 2);
     if (first === undefined) {
-      return `On the ${name}: a landmark, which stays.`;
+      return `On the ${name}: a landmark, which is never removed.`;
     }
-    const then = steps.length === 1 ? '' : `, ${steps.length === 2 ? 'and one more' : `and ${integer(steps.length - 1)} more`} until collapse ${integer(steps.at(-1)?.collapse ?? 0)}`;
-    return `On the ${name}: gone with collapse ${integer(first.collapse)} of ${all}${then}.`;
+    const then = steps.length === 1 ? '' : `, merged ${steps.length === 2 ? 'once' : `${integer(steps.length - 1)} times`} more until collapse ${integer(steps.at(-1)?.collapse ?? 0)}`;
+    return `On the ${name}: merged into its neighbour by collapse ${integer(first.collapse)} of ${all}${then}.`;
   };
   return `${of('source', 0)} ${of('target', 1)}`;
 }

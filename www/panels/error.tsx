@@ -1,6 +1,7 @@
 /** What went wrong, in one sentence over the views. */
 import type { VNode } from 'preact';
 import { useState } from 'preact/hooks';
+import { copied } from '../dom.ts';
 import { breakdownReport, toldBreakdown } from '../store/breakdown.ts';
 import type { State } from '../store/state.ts';
 import type { PartProps } from './actions.ts';
@@ -14,9 +15,6 @@ function ReportButton({ state }: { readonly state: State }): VNode | null {
     return null;
   }
   const report = breakdownReport(state, breakdown, { address: location.href, browser: navigator.userAgent });
-  const answered = (isCopied: boolean) => (): void => {
-    setShown({ report, isCopied });
-  };
   const told = shown?.report === report ? shown : null;
   return (
     <>
@@ -25,7 +23,9 @@ function ReportButton({ state }: { readonly state: State }): VNode | null {
         id="copy-report"
         title="Sizes, options and what broke off; nothing of your files"
         onClick={() => {
-          navigator.clipboard.writeText(report).then(answered(true), answered(false));
+          void copied(report).then((isCopied) => {
+            setShown({ report, isCopied });
+          });
         }}
       >
         {told?.isCopied === true ? 'Copied' : 'Copy a report'}

@@ -1,5 +1,6 @@
 /** The demos as pictures, each with what to see in it and its link. */
 import type { VNode } from 'preact';
+import { copied } from '../dom.ts';
 import type { Demo } from '../store/state.ts';
 import type { Actions, PartProps } from './actions.ts';
 import { IconButton } from './controls.tsx';
@@ -38,11 +39,7 @@ function linkOf(id: string): string {
 }
 
 async function copy(url: string, { dispatch }: Pick<Actions, 'dispatch'>): Promise<void> {
-  const isCopied = await navigator.clipboard.writeText(url).then(
-    () => true,
-    () => false,
-  );
-  const sentence = isCopied ? 'The link is copied.' : `The browser does not let the page copy. The link is ${url}`;
+  const sentence = (await copied(url)) ? 'The link is copied.' : `The browser does not let the page copy. The link is ${url}`;
   dispatch({ kind: 'toast', sentence, undo: false });
 }
 

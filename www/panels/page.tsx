@@ -1,7 +1,7 @@
 /** The whole page; it is drawn anew after every change, and only what is other is touched. */
 import type { VNode } from 'preact';
 import { render } from 'preact';
-import { byId } from '../dom.ts';
+import { byId, isTyped } from '../dom.ts';
 import type { State } from '../store/state.ts';
 import type { Actions, PartProps } from './actions.ts';
 import { GuideDialog } from './guide-dialog.tsx';
@@ -38,8 +38,7 @@ function Page(props: PartProps): VNode {
 /** Keys of the whole page that open steps and the help; what is typed into a field is the field's. */
 function listenForKeys(state: () => State, actions: Actions, shell: Shell): void {
   window.addEventListener('keydown', (event) => {
-    const typing = event.target instanceof HTMLInputElement && event.target.type === 'text';
-    if (typing || event.target instanceof HTMLSelectElement || event.ctrlKey || event.metaKey || event.altKey) {
+    if (isTyped(event.target) || event.target instanceof HTMLSelectElement || event.ctrlKey || event.metaKey || event.altKey) {
       return;
     }
     const step = STEPS[Number(event.key) - 1];

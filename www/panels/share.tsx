@@ -1,6 +1,7 @@
 /** What the Share button opens: the link to what is on the page, what its receiver will see, and the project file. */
 import type { VNode } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
+import { copied } from '../dom.ts';
 import { prospectSentence, SENTENCES } from '../messages.ts';
 import type { State } from '../store/state.ts';
 import type { Actions } from './actions.ts';
@@ -13,17 +14,16 @@ interface LinkBoxProps {
 
 /** The link to copy by hand or by a button. */
 function LinkBox({ shared }: LinkBoxProps): VNode {
-  const [copied, setCopied] = useState('');
+  const [onClipboard, setOnClipboard] = useState('');
   const field = useRef<HTMLInputElement>(null);
   const copy = (): void => {
     // A browser that forbids it leaves the link selected.
     field.current?.select();
-    navigator.clipboard.writeText(shared.url).then(
-      () => {
-        setCopied(shared.url);
-      },
-      () => undefined,
-    );
+    void copied(shared.url).then((isCopied) => {
+      if (isCopied) {
+        setOnClipboard(shared.url);
+      }
+    });
   };
   return (
     <>
@@ -40,10 +40,10 @@ function LinkBox({ shared }: LinkBoxProps): VNode {
         }}
       />
       <button type="button" id="copy-link" class="main" onClick={copy}>
-        {copied === shared.url ? 'Copied' : 'Copy link'}
+        {onClipboard === shared.url ? 'Copied' : 'Copy link'}
       </button>
       <span role="status" class="unseen">
-        {copied === shared.url ? 'The link is copied.' : ''}
+        {onClipboard === shared.url ? 'The link is copied.' : ''}
       </span>
     </>
   );

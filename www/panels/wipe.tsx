@@ -1,4 +1,4 @@
-/** The line that is dragged across the source: before it the mesh as it is by itself, behind it what the map carries there. */
+/** A line to drag across the source's view: left of it the source is drawn as it is by itself, right of it with what the map carries onto it. */
 import type { VNode } from 'preact';
 import { useRef, useState } from 'preact/hooks';
 import { shownResult } from '../store/staleness.ts';
@@ -78,7 +78,7 @@ export function WipeLine({ state, actions }: Props): VNode | null {
       style={{ '--wipe': String(wipe) }}
       role="slider"
       tabIndex={0}
-      aria-label="Where what the map carries begins on the source"
+      aria-label="Border between the source by itself and what the map carries onto it"
       aria-orientation="horizontal"
       aria-valuenow={Math.round(100 * wipe)}
       aria-valuemin={0}

@@ -1,5 +1,5 @@
 /** A plot as files: SVG and CSV. The SVG stands alone, dark on white, as papers need it. */
-import { ACCENT, INK, LINE, QUIET } from '../colours.ts';
+import { ACCENT, DOUBT, INK, LINE, PAPER, QUIET } from '../colours.ts';
 import { escaped } from '../svg.ts';
 import type { Axis, Chart, Curve } from './chart.ts';
 import { markText, shareOf } from './chart.ts';
@@ -7,7 +7,7 @@ import { markText, shareOf } from './chart.ts';
 /** In pixels. */
 export const SIZE = { width: 720, height: 440 };
 const BOX = { left: 76, right: 704, top: 48, bottom: 380 };
-const COLOURS: Readonly<Record<Curve['colour'], string>> = { first: ACCENT.light, second: '#b35c00' };
+const COLOURS: Readonly<Record<Curve['colour'], string>> = { first: ACCENT.light, second: DOUBT.light };
 /** How strongly the map before is drawn. */
 export const FAINT = 0.45;
 
@@ -88,7 +88,7 @@ export function chartSvg(chart: Chart): string {
   const { width, height } = SIZE;
   const curves = chart.curves.map((curve) => curveMarkup(chart, curve)).join('');
   const title = text(BOX.left, 18, chart.title, ' font-weight="600"');
-  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="system-ui, sans-serif" font-size="12"><rect width="${width}" height="${height}" fill="#fff"/>${title}${legend(chart)}${axes(chart)}${curves}</svg>\n`;
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="system-ui, sans-serif" font-size="12"><rect width="${width}" height="${height}" fill="${PAPER}"/>${title}${legend(chart)}${axes(chart)}${curves}</svg>\n`;
 }
 
 function cell(content: string): string {

@@ -70,9 +70,9 @@ function withCandidate(state: State, { pairs, labels }: Candidate): State {
   return withNewPairs({ ...state, pairs: present, error: null }, made);
 }
 
-/** Places of the source that are to be marked, as rings. */
+/** Places of the source that are to be marked, as rings with letters; after Z comes A again. */
 function ringsAt(places: readonly number[]): Suggestion[] {
-  return places.map((point, index) => ({ point, reason: 'far', letter: String.fromCharCode(65 + index), partner: null }));
+  return places.map((point, index) => ({ point, reason: 'far', letter: String.fromCharCode(65 + (index % 26)), partner: null }));
 }
 
 /** A search is over: the best pairs are taken, or places are shown where there are none. */

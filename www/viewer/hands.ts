@@ -228,10 +228,14 @@ export class Hands {
     if (this.#pointer === null) {
       requestAnimationFrame(() => {
         const viewer = this.#bench.viewer();
-        if (viewer !== null) {
-          this.#look(viewer);
+        try {
+          if (viewer !== null) {
+            this.#look(viewer);
+          }
+        } finally {
+          // Also where the look broke off: otherwise no later move would be looked at.
+          this.#pointer = null;
         }
-        this.#pointer = null;
       });
     }
     this.#pointer = { side, at };

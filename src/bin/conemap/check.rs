@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 /// Tells whether a mesh can be mapped, as it is or repaired; an error where it cannot.
 pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
-    // Asked before the work is done.
+    // What cannot be written is found before the work is done.
     let out = arguments.out.as_deref().map(|out| Ok::<_, Failure>((out, input::format(out)?))).transpose()?;
     let is_file = |path: &&PathBuf| *path != Path::new("-");
     let files = arguments.out.iter().chain(arguments.report.iter().filter(is_file)).cloned();
@@ -59,20 +59,20 @@ struct CheckReport {
     changes: Vec<ChangeReport>,
     /// Share of the repaired surface's area that is caps; `null` where the mesh cannot be repaired.
     cap_share: Option<f64>,
-    /// Vertices of the repaired mesh.
+    /// Number of vertices of the repaired mesh.
     vertices: Option<usize>,
-    /// Its faces.
+    /// Number of faces of the repaired mesh.
     faces: Option<usize>,
     /// The numbers in the file of its elements; `null` where they stay those of the file.
     numbers: Option<Numbers>,
 }
 
-/// Something wrong.
+/// A fault or a refusal.
 #[derive(Serialize)]
 struct Fault {
-    /// Its stable name.
+    /// The stable name of what is wrong.
     kind: &'static str,
-    /// What it is, where, and what to do.
+    /// The sentence that says what it is, where, and what to do.
     sentence: String,
 }
 
@@ -80,14 +80,14 @@ struct Fault {
 /// faces on for elements that the repair made.
 #[derive(Serialize)]
 struct Numbers {
-    /// By vertex of the repaired mesh.
+    /// The number of each vertex of the repaired mesh.
     vertices: Vec<usize>,
-    /// By face of the repaired mesh.
+    /// The number of each face of the repaired mesh.
     faces: Vec<usize>,
 }
 
 impl Numbers {
-    /// `None` where all are the mesh's own, but for those that the repair made.
+    /// The numbers of a mesh; `None` where all are the mesh's own, but for those that the repair made.
     fn of(checked: &CheckedMesh) -> Option<Self> {
         let vertices = checked.file_from_vertex();
         let faces: Vec<usize> = checked.mesh.faces().map(|f| checked.file_from_face(f).index()).collect();
@@ -153,7 +153,7 @@ fn places(change: &ChangeReport) -> String {
     [
         list("vertices", numbers(&change.vertices)),
         list("edges", edges),
-        // Of dropped parts the faces are more than the parts.
+        // The number of faces is larger than that of the parts that were dropped.
         list(if change.kind == "dropped_parts" { "faces from" } else { "faces" }, numbers(&change.faces)),
         list("with", holes.collect()),
         list("with loops of", handles.collect()),

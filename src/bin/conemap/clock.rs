@@ -18,24 +18,24 @@ pub struct Clock {
     time_limit: Option<Duration>,
     /// Whether the user wants the result now.
     interrupt: Option<Arc<AtomicBool>>,
-    /// When the program must have ended.
+    /// The deadline at which the program must have ended.
     deadline: Option<Deadline>,
     /// Whether the deadline has stopped the run.
     is_stopped: bool,
-    /// Energy of the map that is being relaxed.
+    /// The energy of the map that is being relaxed.
     energy: Option<f64>,
     begun: Instant,
     stage: Option<(Stage, Instant)>,
     seconds: BTreeMap<String, f64>,
-    /// Hidden where there is no terminal.
+    /// The progress bar; hidden where there is no terminal.
     bar: ProgressBar,
     progress: Progress,
 }
 
-/// The bar's steps: a tenth of a percent each.
+/// The number of the bar's steps: a tenth of a percent each.
 const BAR_STEPS: u64 = 1000;
 
-/// How often the bar is drawn, in times a second, at most.
+/// The largest number of times a second that the bar is drawn.
 const BAR_RATE: u8 = 15;
 
 impl Clock {
@@ -131,7 +131,7 @@ impl Clock {
 }
 
 impl Drop for Clock {
-    /// No bar stays behind, also where the run ends in an error.
+    /// No bar is left behind, also where the run ends in an error.
     fn drop(&mut self) {
         self.bar.finish_and_clear();
     }

@@ -7,10 +7,11 @@ use crate::told::say;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// The share of the time after which the run is to finish: on the largest meshes, to finish takes about as long as what comes before.
+/// The share of the time after which the run is to finish: on the largest meshes, finishing takes about as long as what comes
+/// before.
 const FINISH_FROM: f64 = 0.5;
 
-/// How long after the deadline the program ends by itself; two seconds are promised.
+/// The time after the deadline at which the program ends by itself; two seconds are promised.
 const GRACE: Duration = Duration::from_millis(1500);
 
 /// The exit code of a program without a map.

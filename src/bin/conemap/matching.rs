@@ -63,5 +63,5 @@ pub fn tell(report: &MatchReport) {
     }
 }
 
-/// Alternatives that are told; the report has all of them.
+/// The number of alternatives that are told; the report has all of them.
 const TOLD: usize = 3;

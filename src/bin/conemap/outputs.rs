@@ -64,7 +64,7 @@ fn written(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     if let Some(folder) = folder(path) {
         fs::create_dir_all(folder)?;
     }
-    // What a link leads to is replaced, and the link stays.
+    // The file to which a link leads is replaced, and the link stays.
     let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let is_link = fs::symlink_metadata(&place).is_ok_and(|data| data.is_symlink());
     if is_special(path) || is_link {
@@ -79,7 +79,7 @@ fn written(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     let moved = file.write_all(bytes).and_then(|()| file.sync_all()).and_then(|()| {
         drop(file);
         if let Ok(old) = fs::metadata(&place) {
-            // Who may read it stays; where that cannot be, the file counts more.
+            // The permissions of the old file stay; where that cannot be, the file counts more.
             drop(fs::set_permissions(&beside, old.permissions()));
         }
         fs::rename(&beside, &place)

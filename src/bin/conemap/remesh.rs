@@ -12,7 +12,7 @@ use serde_json::json;
 /// Remeshes, and writes the mesh and its report.
 pub fn run(arguments: &RemeshArguments) -> Result<(), Failure> {
     let out = &arguments.out;
-    // Asked before the work is done.
+    // What cannot be written is found before the work is done.
     let format = input::format(out)?;
     outputs::check([&arguments.mesh], std::iter::once(out).chain(&arguments.report).cloned())?;
     let checked = input::mesh(&arguments.mesh, arguments.faults)?;

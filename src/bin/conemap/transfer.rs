@@ -15,7 +15,7 @@ use conemap::transfer::{
 };
 use std::path::{Path, PathBuf};
 
-/// Brings over what was asked for.
+/// Brings over what is asked for.
 pub fn run(arguments: &TransferArguments) -> Result<(), Failure> {
     let what = What::of(arguments)?;
     outputs::check(inputs(arguments), outputs_of(arguments))?;
@@ -45,7 +45,7 @@ enum What<'a> {
 }
 
 impl<'a> What<'a> {
-    /// Asked before the work is done: the name of the file that is written says the format.
+    /// The wish of a command line, before the work is done: the ending of the file's name says the format that is written.
     fn of(arguments: &'a TransferArguments) -> Result<Self, Failure> {
         let out = &arguments.out;
         Ok(match (&arguments.attributes, &arguments.curves, &arguments.texture) {

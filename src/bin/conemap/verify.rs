@@ -49,7 +49,7 @@ fn tell(proof: &Proof) -> Result<(), Failure> {
     ))
 }
 
-/// What is known, stable as JSON.
+/// The report on a proof, stable as JSON.
 #[derive(Serialize)]
 struct Told {
     #[serde(flatten)]

@@ -14,7 +14,7 @@ use serde_json::json;
 /// Maps the base onto the scan, and writes it laid there.
 pub fn run(arguments: &WrapArguments) -> Result<(), Failure> {
     let base = input::bytes(&arguments.base)?;
-    // Asked before the work is done.
+    // What cannot be written is found before the work is done.
     let normals = if arguments.drop_normals { Normals::Dropped } else { Normals::Kept };
     check_files(arguments, &base, normals)?;
     let WrapArguments { base: file, scan, scan_landmarks, landmarks, out, report, .. } = arguments;

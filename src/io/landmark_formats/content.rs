@@ -8,10 +8,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
 pub enum Space {
-    /// To the patient's left, back and head; the one of mesh files that name none.
+    /// The axes go to the patient's left, back and head: the system of mesh files that name none.
     #[default]
     Lps,
-    /// To the patient's right, front and head.
+    /// The axes go to the patient's right, front and head.
     Ras,
 }
 
@@ -28,7 +28,7 @@ impl Space {
         if self == other { p } else { half_turned(p) }
     }
 
-    /// Its name.
+    /// The name of the system.
     pub fn name(self) -> &'static str {
         match self {
             Self::Lps => "LPS",
@@ -45,9 +45,9 @@ pub fn half_turned(p: DVec3) -> DVec3 {
 /// Where a landmark is, as its file says it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spot {
-    /// On the surface, with the numbers of the mesh's file.
+    /// A point on the surface, with the numbers of the mesh's file.
     OnMesh(LandmarkPoint),
-    /// In space, in the coordinates of the file.
+    /// A point in space, in the coordinates of the file.
     InSpace(DVec3),
 }
 

@@ -7,7 +7,7 @@ use crate::io::reading;
 use serde::de::IgnoredAny;
 use std::collections::BTreeMap;
 
-/// Bytes that are looked at in text formats: headers with comments are shorter.
+/// The number of bytes that are looked at in text formats: headers with comments are shorter.
 const HEAD: usize = 1 << 14;
 
 /// Tells the format of a landmark file. Where the content allows several, the ending of the name decides; a file that is not of

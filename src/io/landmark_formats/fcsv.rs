@@ -11,12 +11,12 @@ const COLUMNS: &str = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNo
 /// The columns that matter.
 struct Columns {
     coordinates: [usize; 3],
-    /// The name of the point.
+    /// The column with the name of the point.
     label: Option<usize>,
 }
 
 impl Columns {
-    /// From a list of names apart by commas; `None` where the coordinates are not among them.
+    /// The columns of a list of names apart by commas; `None` where the coordinates are not among them.
     fn named(list: &str) -> Option<Self> {
         let names = fields(&list.to_ascii_lowercase(), ',');
         let column = |name: &str| names.iter().position(|n| n == name);

@@ -34,16 +34,16 @@ pub enum LandmarkFormat {
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "snake_case")]
 pub enum Holds {
-    /// Always of both.
+    /// A file always holds landmarks of both meshes.
     Both,
-    /// Of one.
+    /// A file holds landmarks of one mesh.
     One,
-    /// Of one or of both, as is wanted.
+    /// A file holds landmarks of one mesh or of both, as is wanted.
     OneOrBoth,
 }
 
 impl LandmarkFormat {
-    /// All of them.
+    /// All formats.
     pub const ALL: [Self; 9] = [
         Self::Conemap,
         Self::SlicerJson,
@@ -56,7 +56,7 @@ impl LandmarkFormat {
         Self::Csv,
     ];
 
-    /// All of them in words.
+    /// All formats in words.
     pub const NAMES: &str =
         "Conemap JSON, Slicer .mrk.json or .fcsv, Wrap JSON, MeshLab .pp, IDAV .pts, .tps, .nts or CSV";
 

@@ -6,7 +6,7 @@ use super::text::{coordinates, lines, one_word, point_count, position};
 use crate::io::problem::{Place, Problem};
 use glam::DVec3;
 
-/// Where points lie that were not placed.
+/// The place at which points lie that were not placed.
 const MISSING: DVec3 = DVec3::splat(9999.0);
 
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<MarkList>, Problem> {

@@ -1,7 +1,7 @@
 //! What landmark files may ask for.
 
-/// More points than this are refused.
+/// The largest number of points; a file with more is refused.
 pub const MAX_POINTS: usize = 100_000;
 
-/// Landmark files larger than this are refused.
+/// The largest size of a landmark file in bytes; larger ones are refused.
 pub const MAX_BYTES: usize = 1 << 26;

@@ -26,7 +26,7 @@ struct Parameters {
     columns: usize,
     row_labels: Labels,
     has_column_labels: bool,
-    /// What stands for an unknown coordinate.
+    /// The number that stands for an unknown coordinate.
     missing: Option<f64>,
 }
 

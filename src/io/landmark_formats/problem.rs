@@ -9,13 +9,13 @@ use crate::io::problem::Place;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LandmarkReadError {
-    /// No known format.
+    /// The file has no known format.
     #[error("this is no landmark file that can be read: use {}", LandmarkFormat::NAMES)]
     UnknownFormat,
-    /// Too large.
+    /// The file is too large.
     #[error("the landmark file has {bytes} bytes; the limit is {MAX_BYTES}")]
     TooLarge {
-        /// Its size.
+        /// The file's size in bytes.
         bytes: usize,
     },
     /// Something in a file of the program's own format is wrong.
@@ -24,29 +24,29 @@ pub enum LandmarkReadError {
     /// Something in a file of another format is wrong.
     #[error("{format} file, {place}: {problem}")]
     Malformed {
-        /// The format.
+        /// The file's format.
         format: LandmarkFormat,
-        /// Where.
+        /// The place of the fault.
         place: Place,
         /// What is wrong and what to do.
         problem: String,
     },
-    /// No landmarks.
+    /// The file holds no landmarks.
     #[error("{format} file: it holds no landmarks")]
     Empty {
-        /// The format.
+        /// The file's format.
         format: LandmarkFormat,
     },
-    /// More lists than there are meshes.
+    /// The file holds more lists than there are meshes.
     #[error(
         "{format} file: it holds the landmarks of {count} meshes ({names}): keep one, or two with the source's first"
     )]
     TooManyLists {
-        /// The format.
+        /// The file's format.
         format: LandmarkFormat,
-        /// How many.
+        /// Number of lists.
         count: usize,
-        /// The first of their names.
+        /// The first names of the lists.
         names: String,
     },
 }

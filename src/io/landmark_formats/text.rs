@@ -5,7 +5,7 @@ use crate::io::problem::{Place, Problem};
 use crate::io::reading;
 use glam::DVec3;
 
-/// The longest line in bytes.
+/// The length of the longest line in bytes.
 const MAX_LINE: usize = 1 << 20;
 
 /// The lines of a text (UTF-8, as [`super::read`] gives it) with their numbers, counted from 1.

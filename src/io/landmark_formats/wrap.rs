@@ -104,7 +104,7 @@ fn in_space(numbers: &Triple) -> Result<Spot, String> {
     position.map(Spot::InSpace).ok_or_else(|| "it has no usable coordinates".to_owned())
 }
 
-/// By their names where every point has one of its own, as a list elsewhere.
+/// Writes the points by their names where every point has a name of its own, and else as a list.
 pub(super) fn write(side: &SurfaceMarks) -> Vec<u8> {
     let mut names = rustc_hash::FxHashSet::default();
     let is_named = side.marks.iter().all(|mark| !mark.label.is_empty() && names.insert(&mark.label));

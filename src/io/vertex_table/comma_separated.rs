@@ -7,10 +7,10 @@ use super::number_type::NumberType;
 use crate::io::problem::{Place, Problem};
 use crate::io::reading::{content_lines, number, text};
 
-/// The longest line in bytes.
+/// The length of the longest line in bytes.
 const MAX_LINE: usize = 1 << 20;
 
-/// Values in all, whether a line of the table gives them or not.
+/// The largest number of values in all, whether a line of the table gives them or not.
 const MAX_VALUES: usize = 1 << 27;
 
 /// Names of a column of vertex numbers.
@@ -98,7 +98,7 @@ struct Filling {
     columns: Vec<Column>,
     /// The line of each vertex, 0 for none so far.
     line_of: Vec<usize>,
-    /// Rows so far.
+    /// Number of rows so far.
     rows: usize,
 }
 

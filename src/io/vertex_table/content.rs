@@ -29,9 +29,9 @@ pub enum Rows {
 /// Whether the first line of a table names its columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Heading {
-    /// It does.
+    /// The first line names the columns.
     Named,
-    /// It has numbers as all others, and the columns are called `1`, `2` and so on.
+    /// The first line has numbers as all others, and the columns are called `1`, `2` and so on.
     Missing,
 }
 
@@ -42,7 +42,7 @@ pub struct Column {
     pub name: String,
     /// How its numbers are written.
     pub number_type: NumberType,
-    /// By vertex of the file; `None` where it has none.
+    /// The value of each vertex of the file; `None` where it has none.
     pub values: Vec<Option<f64>>,
 }
 
@@ -59,7 +59,7 @@ pub struct AnnouncedColumn {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{place}: {problem}")]
 pub struct TableError {
-    /// Where.
+    /// The place of the fault.
     pub place: Place,
     /// What is wrong and what to do.
     pub problem: String,

@@ -28,7 +28,7 @@ pub(super) fn read(bytes: &[u8], vertices: usize) -> Result<VertexTable, Problem
         return Err((Place::Header, problem));
     }
     let (mut columns, mut left_out) = (Vec::new(), Vec::new());
-    // Among the properties that are no lists.
+    // The number of the property among those that are no lists.
     let mut number = 0;
     for (name, property) in &announced.properties {
         let number_type = match &property.data_type {

@@ -12,7 +12,7 @@ use typed_index_collections::{TiSlice, TiVec};
 pub struct CheckedMesh {
     /// One closed component of genus 0, oriented outwards, in coordinates that formulas can take.
     pub mesh: SurfaceMesh,
-    /// From these coordinates to those of the file; the same for usual meshes.
+    /// The way from these coordinates to those of the file; the same coordinates for usual meshes.
     pub frame: FileFrame,
     /// The mesh's vertex for each vertex of the file; `None` for vertices that no face uses, which are left out.
     pub vertex_from_file: Vec<Option<VertexId>>,

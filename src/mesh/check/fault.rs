@@ -3,22 +3,22 @@
 use serde::Serialize;
 use std::fmt;
 
-/// Elements at fault: how many, and the first few by number.
+/// Elements at fault: their number, and the first few of them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Elements<T> {
-    /// How many.
+    /// The number of elements.
     pub count: usize,
-    /// At most ten of them, in the file's 0-based numbers.
+    /// At most ten of the elements, in the file's 0-based numbers.
     pub first: Vec<T>,
 }
 
 impl<T> Elements<T> {
-    /// None at all.
+    /// No elements at all.
     pub(in crate::mesh) fn none() -> Self {
         Self { count: 0, first: Vec::new() }
     }
 
-    /// These and others.
+    /// These elements and others.
     pub(in crate::mesh) fn and(mut self, other: Self) -> Self {
         self.count += other.count;
         self.first.extend(other.first);
@@ -44,13 +44,13 @@ impl<T> FromIterator<T> for Elements<T> {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshFault {
-    /// No faces.
+    /// The soup has no faces.
     #[error("the mesh has no faces")]
     Empty,
-    /// Faces with a repeated vertex or without area.
+    /// Some faces have a repeated vertex or no area.
     #[error("{} without area ({}): remove degenerate faces or merge their vertices", Count::new(&.0.count, "face is", "faces are"), List("face", &.0.first))]
     DegenerateFaces(Elements<usize>),
-    /// Edges with three or more faces.
+    /// Some edges have three or more faces.
     #[error(
         "{} more than two faces ({}){}: separate or remove the extra faces there",
         Count::new(&.edges.count, "edge has", "edges have"),
@@ -58,39 +58,39 @@ pub enum MeshFault {
         Parts(*.parts)
     )]
     NonManifoldEdges {
-        /// The edges.
+        /// The edges with more than two faces.
         edges: Elements<[usize; 2]>,
-        /// Parts into which the surface falls when it is cut there.
+        /// The number of parts into which the surface falls when it is cut along these edges.
         parts: usize,
     },
-    /// Edges with one face.
+    /// Some edges have one face.
     #[error("the surface is open: {} only one face ({}): close the holes", Count::new(&.0.count, "edge has", "edges have"), Edges(&.0.first))]
     OpenEdges(Elements<[usize; 2]>),
-    /// Neighbouring faces that cannot be oriented alike.
+    /// Neighbouring faces cannot be oriented alike.
     #[error("the surface cannot be oriented: it is one-sided near edge {}-{}", edge[0], edge[1])]
     NotOrientable {
-        /// Vertices of the edge.
+        /// The vertices of the edge between them.
         edge: [usize; 2],
     },
-    /// Vertices where several fans of faces touch.
+    /// Several fans of faces touch at some vertices.
     #[error("at {} of the surface only touch ({}): split the vertex into one per part", Count::new(&.0.count, "vertex several parts", "vertices several parts"), List("vertex", &.0.first))]
     PinchedVertices(Elements<usize>),
-    /// Several components.
+    /// The surface has several components.
     #[error("the mesh has {} separate parts (largest first: {} faces): keep only one of them", .faces.len(), Sizes(.faces))]
     Components {
-        /// Faces of each, largest first.
+        /// The number of faces of each component, the largest first.
         faces: Vec<usize>,
     },
-    /// Handles.
+    /// The surface has handles.
     #[error("the surface has {genus} handle{} (genus {genus}): only surfaces without handles, like a sphere, can be mapped; cut and close the handles", if *.genus == 1 { "" } else { "s" })]
     Genus {
         /// Number of handles.
         genus: usize,
     },
-    /// The file says more than fits.
+    /// The file says more faces than fit.
     #[error("the mesh has {faces} faces; the limit is {MAX_FACES}")]
     TooManyFaces {
-        /// How many.
+        /// The number of faces.
         faces: usize,
     },
 }
@@ -112,7 +112,7 @@ impl MeshFault {
     }
 }
 
-/// More faces than this are refused.
+/// The largest number of faces; a soup with more is refused.
 pub const MAX_FACES: usize = 20_000_000;
 
 pub(in crate::mesh) struct Count(usize, &'static str, &'static str);

@@ -18,7 +18,7 @@ pub fn closed_genus_zero(soup: &PolygonSoup) -> Result<CheckedMesh, MeshFault> {
     closed_genus_zero_asking(soup, &mut || Ok(()))
 }
 
-/// The same, and asks between its parts whether to go on.
+/// Judges a soup, and asks between the parts of the judgement whether to go on.
 ///
 /// # Errors
 /// As [`closed_genus_zero`], and what the question answers.

@@ -6,7 +6,7 @@ use crate::mesh::polygon::triangulate;
 use crate::mesh::soup::PolygonSoup;
 use glam::DVec3;
 
-/// Vertices of the file, three by three.
+/// A triangle by three vertices of the file.
 pub(crate) type Triangle = [u32; 3];
 
 /// Triangles, and the polygon that each comes from.
@@ -44,6 +44,6 @@ pub(super) fn check_degenerate(
 pub(in crate::mesh) fn is_degenerate(positions: &[DVec3], t: &Triangle) -> bool {
     let [p, q, r] = t.map(|v| positions[v as usize]);
     let longest = p.distance_squared(q).max(q.distance_squared(r)).max(r.distance_squared(p));
-    // Height below 2e-14 of the longest edge: rounding of the coordinates.
+    // A height below 2e-14 of the longest edge is a rounding of the coordinates.
     t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || triangle::area(p, q, r) <= 1e-14 * longest
 }

@@ -6,17 +6,17 @@ use crate::mesh::check::{Elements, Triangle, is_degenerate};
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// Numbers of faces of the file that this step changed.
+/// The faces of the file that this step changed, by their numbers.
 #[derive(Clone, Debug)]
 pub(super) struct Degenerate {
-    /// Those that went.
+    /// The faces that were dropped.
     pub dropped: Elements<usize>,
-    /// Those that were cut in two, where the corner of a face without area lay on their edge.
+    /// The faces that were cut in two, where the corner of a face without area lay on their edge.
     pub recut: Elements<usize>,
 }
 
 impl Degenerate {
-    /// Of two steps.
+    /// The faces that two steps changed.
     pub fn and(self, other: Self) -> Self {
         Self { dropped: self.dropped.and(other.dropped), recut: self.recut.and(other.recut) }
     }
@@ -25,16 +25,16 @@ impl Degenerate {
 /// What may be added to a surface where a face without area goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Additions {
-    /// Nothing: what cannot go without is a hole then.
+    /// Nothing may be added: a face that cannot be dropped without it leaves a hole.
     Nothing,
-    /// Vertices over caps: these stay, as fins that are next to nothing.
+    /// Vertices may be added over caps: these stay, as fins that are next to nothing.
     Vertices,
 }
 
-/// Rounds at most: each one is for faces that lie beside one changed before. Chosen by hand.
+/// The largest number of rounds: each one is for faces that lie beside one changed before. Chosen by hand.
 const ROUNDS: usize = 20;
 
-/// An edge this much shorter than the longest of its face has both ends at one place but for rounding.
+/// The ratio of an edge's length to the longest of its face below which both of its ends are at one place but for rounding.
 const SAME_PLACE: f64 = 1e-12;
 
 /// The draft without faces that name a vertex twice or have no area.
@@ -93,7 +93,7 @@ fn longest_side(positions: &[DVec3], corners: &Triangle) -> usize {
     (0..3).max_by(|&i, &j| squares[i].total_cmp(&squares[j])).unwrap_or(0)
 }
 
-/// Height of a fin over its length: enough for its triangles to have an area.
+/// The height of a fin over its length: enough for its triangles to have an area.
 const FIN: f64 = 1e-4;
 
 /// Caps without area become fins: the corner on the longest side gets a vertex above it, whose edges nothing else has.
@@ -218,9 +218,9 @@ fn with_raised_edges(mut draft: Draft, raised: FxHashMap<[u32; 2], [usize; 2]>) 
 
 /// What is done about faces without area in one round.
 struct Cuts {
-    /// Those that go.
+    /// The faces that are dropped.
     gone: Vec<usize>,
-    /// Their neighbours at the longest edges, and what comes in the place of each.
+    /// The faces beside them at their longest edges, and what comes in the place of each.
     cut: FxHashMap<usize, [DraftFace; 2]>,
 }
 

@@ -22,23 +22,23 @@ pub(super) struct DraftFace {
     pub corners: Triangle,
     /// The file's vertices at its corners, before any were joined; [`NONE`] at those that the repair added.
     pub file_corners: Triangle,
-    /// Where it comes from.
+    /// Where the face comes from.
     pub origin: FaceOrigin,
 }
 
 /// Where a face comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FaceOrigin {
-    /// The triangulated file.
+    /// The face is one of the triangulated file.
     File {
-        /// Its number there.
+        /// The face's number there.
         number: u32,
-        /// Whether its last two corners were exchanged.
+        /// Whether the face's last two corners were exchanged.
         turned: bool,
     },
     /// A face of the file was cut where the corner of a face without area lay on its edge.
     Recut,
-    /// A hole was closed.
+    /// The face is part of a cap, which closes a hole.
     Cap,
 }
 
@@ -123,7 +123,7 @@ pub(super) fn edges(faces: &[DraftFace]) -> Vec<Edge> {
     sides.chunk_by(same_ends).map(edge).collect()
 }
 
-/// No side.
+/// The number that stands for no side.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// The side across each side where exactly two faces meet; [`NONE`] at other edges.

@@ -19,7 +19,7 @@ pub(super) fn joined(draft: Draft, within: f64) -> Draft {
     } else {
         join_equal(&draft.positions, &open, &mut sets);
     }
-    // The least number of a set stands for it.
+    // The vertex with the least number stands for a set.
     let mut least: FxHashMap<usize, u32> = FxHashMap::default();
     let stands: FxHashMap<u32, u32> =
         open.iter().map(|&v| (v, *least.entry(sets.root(v as usize)).or_insert(v))).collect();

@@ -6,17 +6,17 @@ use serde::Deserialize;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct RepairOptions {
-    /// Vertices on open edges are joined where they are within this distance, in the file's units; 0 for exactly equal places.
+    /// The distance within which vertices on open edges are joined, in the file's units; 0 for exactly equal places.
     pub join_within: f64,
-    /// Which parts may stay and go.
+    /// Says which parts may stay and go.
     pub parts: Parts,
-    /// What becomes of handles.
+    /// Says what becomes of handles.
     pub handles: Handles,
 }
 
 impl RepairOptions {
-    /// Whatever there is, but that vertices are joined at equal places only. A mesh that is repaired with less is repaired alike
-    /// with these: each option only allows what would be refused without it.
+    /// Allows every repair, but that vertices are joined at equal places only. A mesh that is repaired with less is repaired alike
+    /// with these options: each of them only allows what would be refused without it.
     pub fn everything() -> Self {
         Self { join_within: 0.0, parts: Parts::LargestAlone, handles: Handles::Cut }
     }
@@ -26,10 +26,10 @@ impl RepairOptions {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Handles {
-    /// A surface that has some is refused: to cut them changes its shape.
+    /// A surface that has handles is refused: to cut them changes its shape.
     #[default]
     Refused,
-    /// They are cut along their shortest loops, and closed.
+    /// Handles are cut along their shortest loops, and closed.
     Cut,
 }
 

@@ -26,11 +26,12 @@ use typed_index_collections::TiVec;
 pub struct RepairedMesh {
     /// The mesh.
     pub checked: CheckedMesh,
-    /// What was changed.
+    /// The report on what was changed.
     pub report: RepairReport,
 }
 
-/// More of the surface than this must not be caps: it would be an open sheet whose other side is made up. Chosen by hand.
+/// The largest share of the surface that caps may be: with more it would be an open sheet whose other side is made up. Chosen by
+/// hand.
 const MOST_CAP: f64 = 0.45;
 
 /// Repairs a soup as far as it is not a closed surface of genus 0 already.
@@ -170,9 +171,9 @@ struct Closed {
     sheets: Sheets,
     dropped: Option<DroppedParts>,
     caps: Option<Capped>,
-    /// Caps of holes without area.
+    /// The faces without area among the caps.
     degenerate: Degenerate,
-    /// Share of the area that is caps.
+    /// The share of the area that is caps.
     cap_share: f64,
 }
 

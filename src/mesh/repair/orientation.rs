@@ -6,7 +6,7 @@ use crate::mesh::check::MeshFault;
 
 /// Which faces have to be turned so that neighbours agree.
 pub(super) struct Turns {
-    /// By face; in each part as most of its faces lie, and none in one-sided parts.
+    /// Whether each face is to be turned: in each part faces stay as most of them lie, and in one-sided parts none is turned.
     pub turned: Vec<bool>,
     /// Sides across which one-sided parts cannot agree.
     pub seams: Vec<usize>,

@@ -5,17 +5,17 @@ use super::options::Parts;
 use super::refusal::RepairRefusal;
 use crate::mesh::check::Elements;
 
-/// What went.
+/// The parts that were dropped.
 pub(super) struct DroppedParts {
-    /// Number of parts.
+    /// Number of these parts.
     pub parts: usize,
-    /// Faces of the file in them.
+    /// The faces of the file in these parts.
     pub faces: Elements<usize>,
-    /// Their share of the area before.
+    /// The share of the area before that these parts had.
     pub area_share: f64,
 }
 
-/// Parts that have together less than this share of the area are specks. Chosen by hand.
+/// The share of the area below which parts together are specks. Chosen by hand.
 const SPECKS: f64 = 0.01;
 
 /// The part of largest area alone, and what went; nothing where there is one part.
@@ -29,7 +29,7 @@ pub(super) fn largest(draft: Draft, allowed: Parts) -> Result<(Draft, Option<Dro
         return Ok((draft, None));
     }
     let areas = areas(&draft, &part);
-    // Of equal ones the first.
+    // The first part is taken of equal ones.
     let largest = (0..count).rev().max_by(|&a, &b| areas[a].total_cmp(&areas[b])).unwrap_or(0);
     let area_share = 1.0 - areas[largest] / areas.iter().sum::<f64>();
     if area_share >= SPECKS && allowed == Parts::LargestAndSpecks {

@@ -9,11 +9,11 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RepairRefusal {
-    /// A fault that no step takes away; its numbers are the file's, or, from its number of vertices on, those of vertices that the
-    /// repair added.
+    /// The mesh has a fault that no step takes away; its numbers are the file's, or, from its number of vertices on, those of
+    /// vertices that the repair added.
     #[error("{0}")]
     Fault(#[from] MeshFault),
-    /// Parts beside the largest one that are more than specks.
+    /// The parts beside the largest one are more than specks.
     #[error(
         "the mesh has {count} separate parts, and those beside the largest have {:.1} % of the area: keep the largest alone \
          (--largest-component), or choose one in the file",
@@ -22,10 +22,10 @@ pub enum RepairRefusal {
     Parts {
         /// Number of parts.
         count: usize,
-        /// Share of the area of all parts but the largest.
+        /// The share of the area of all parts but the largest.
         area_share: f64,
     },
-    /// Handles, which may not be cut.
+    /// The surface has handles, which may not be cut.
     #[error(
         "the surface has {} ({}): only surfaces without handles, like a sphere, can be mapped; have {} cut there and closed \
          (--cut-handles)",
@@ -37,14 +37,14 @@ pub enum RepairRefusal {
         /// The handles, the one with the shortest loop first, and what to cut them would come to.
         Vec<Handle>,
     ),
-    /// So many handles that they are not looked for.
+    /// The surface has so many handles that they are not looked for.
     #[error(
         "the surface has {genus} handles, and at most {most} are cut: close its small tunnels and bridges in another program first"
     )]
     TooManyHandles {
-        /// How many.
+        /// Number of handles.
         genus: usize,
-        /// How many would be cut.
+        /// The largest number of handles that are cut.
         most: usize,
     },
     /// The surface is more hole than skin.
@@ -54,7 +54,7 @@ pub enum RepairRefusal {
         100.0 * cap_share
     )]
     OpenSheet {
-        /// Share of the area that caps would have.
+        /// The share of the area that caps would have.
         cap_share: f64,
     },
     /// Nothing is left.
@@ -77,7 +77,7 @@ impl fmt::Display for Counted {
 /// Where handles are and how long their loops are, as far as a sentence goes.
 struct Loops<'a>(&'a [Handle]);
 
-/// So many handles are told one by one.
+/// The number of handles that are told one by one.
 const TOLD: usize = 5;
 
 impl fmt::Display for Loops<'_> {

@@ -25,14 +25,14 @@ pub enum Change {
     JoinedVertices(Elements<usize>),
     /// Vertices that no face of the file uses were left out.
     UnusedVertices(Elements<usize>),
-    /// Faces without area went.
+    /// Faces without area were dropped.
     DegenerateFaces {
-        /// Those that went.
+        /// The faces that were dropped.
         dropped: Elements<usize>,
-        /// Neighbours that were cut in two where a corner lay on their edge.
+        /// The neighbours that were cut in two where a corner lay on their edge.
         recut: Elements<usize>,
     },
-    /// Of faces with the same vertices one stayed, or none of two that looked opposite ways.
+    /// One of the faces with the same vertices stayed, or none of two that looked opposite ways.
     DuplicateFaces(Elements<usize>),
     /// Edges with more than two faces were cut, and the faces paired.
     SplitEdges(Elements<[usize; 2]>),
@@ -40,31 +40,31 @@ pub enum Change {
     SplitVertices(Elements<usize>),
     /// Faces were turned over, to agree with their neighbours and to look outwards.
     TurnedFaces(Elements<usize>),
-    /// Loose parts went.
+    /// Loose parts were dropped.
     DroppedParts {
-        /// How many parts.
+        /// Number of these parts.
         parts: usize,
-        /// Their faces.
+        /// The faces of these parts.
         faces: Elements<usize>,
-        /// Their share of the area before.
+        /// The share of the area before that these parts had.
         area_share: f64,
     },
     /// Holes were closed.
     CappedHoles {
         /// The holes, the longest first.
         holes: Elements<Hole>,
-        /// Faces of all caps.
+        /// Number of faces of all caps.
         faces: usize,
-        /// Share of the repaired surface's area that these caps have.
+        /// The share of the repaired surface's area that these caps have.
         area_share: f64,
     },
     /// Handles were cut, and closed.
     CutHandles {
         /// The handles, as they were cut one after the other: the one with the shortest loop first.
         handles: Elements<Handle>,
-        /// Faces that closed them.
+        /// Number of faces that closed them.
         faces: usize,
-        /// Share of the repaired surface's area that these faces have.
+        /// The share of the repaired surface's area that these faces have.
         area_share: f64,
     },
 }
@@ -72,11 +72,11 @@ pub enum Change {
 /// A hole that was closed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Hole {
-    /// Number of its edges.
+    /// Number of edges of its rim.
     pub edges: usize,
-    /// Length of its rim in units of the square root of the repaired surface's area.
+    /// The length of its rim in units of the square root of the repaired surface's area.
     pub rim_length: f64,
-    /// Share of the repaired surface's area that its cap has.
+    /// The share of the repaired surface's area that its cap has.
     pub area_share: f64,
     /// At most ten vertices of its rim in a row, by their numbers in the file.
     pub vertices: Vec<usize>,
@@ -85,17 +85,17 @@ pub struct Hole {
 /// A handle, and what to cut it along the shortest loop comes to.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Handle {
-    /// Number of the loop's edges.
+    /// Number of edges of the loop.
     pub edges: usize,
-    /// Length of the loop in units of the square root of the area of the surface that was cut.
+    /// The length of the loop in units of the square root of the area of the surface that was cut.
     pub loop_length: f64,
-    /// Faces that close the surface on both sides of the cut.
+    /// Number of faces that close the surface on both sides of the cut.
     pub faces: usize,
-    /// Their share of the area of the surface that was cut.
+    /// The share that these faces have of the area of the surface that was cut.
     pub area_share: f64,
     /// The vertices of the loop, by their numbers in the file; from its number of vertices on where the loop passes over a cap.
     pub vertices: Vec<usize>,
-    /// Where these are, in the file's units.
+    /// The places of these vertices, in the file's units.
     #[serde(skip)]
     pub places: Vec<DVec3>,
 }
@@ -103,13 +103,13 @@ pub struct Handle {
 /// A change as reports tell it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ChangeReport {
-    /// Its stable name.
+    /// The change's stable name.
     pub kind: &'static str,
     /// What was done, in words.
     pub sentence: String,
-    /// How many of the elements that its name names.
+    /// The number of elements of the kind that the name says.
     pub count: usize,
-    /// The first of them, if they are vertices.
+    /// The first of these elements, if they are vertices.
     pub vertices: Vec<usize>,
     /// The first edges.
     pub edges: Vec<[usize; 2]>,
@@ -119,7 +119,7 @@ pub struct ChangeReport {
     pub holes: Vec<Hole>,
     /// The first handles.
     pub handles: Vec<Handle>,
-    /// Share of the area that went, or that was added; `null` where the area stays.
+    /// The share of the area that was dropped or added; `null` where the area stays.
     pub area_share: Option<f64>,
 }
 

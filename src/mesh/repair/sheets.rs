@@ -10,13 +10,13 @@ use crate::mesh::check::Elements;
 use rustc_hash::FxHashMap;
 use std::f64::consts::PI;
 
-/// What came apart, and what stayed one, in the numbers of the file.
+/// The edges and vertices that came apart, and those that stayed one, in the numbers of the file.
 pub(super) struct Sheets {
-    /// Edges that had more than two faces.
+    /// The edges that had more than two faces.
     pub edges: Elements<[usize; 2]>,
-    /// Vertices of the file that are several now.
+    /// The vertices of the file that are several now.
     pub split: Elements<usize>,
-    /// Vertices of the file that are one with another one.
+    /// The vertices of the file that are one with another one.
     pub joined: Elements<usize>,
 }
 

@@ -13,7 +13,7 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen]
 impl Viewer {
-    /// From now on, in this time, a view's camera glides to where it is put; without a duration it jumps.
+    /// Makes a view's camera glide from now on, for this time, to where it is put; without a duration it jumps.
     pub fn glide(&mut self, side: usize, now: f64, duration: f64) {
         self.now = now;
         let side = self.side_mut(side);
@@ -56,7 +56,7 @@ impl Viewer {
         self.side_mut(side).fit();
     }
 
-    /// Back to the first look.
+    /// Puts the camera back to the first look.
     #[wasm_bindgen(js_name = resetCamera)]
     pub fn reset_camera(&mut self, side: usize) {
         self.side_mut(side).first_look();
@@ -72,7 +72,7 @@ impl Viewer {
         let side = self.side_mut(side);
         side.camera.look_from(from);
         side.fit();
-        // It stays as it was asked for when the mesh is turned upright or the window changes.
+        // The view stays as it was asked for when the mesh is turned upright or the window changes.
         side.look = Look::Whole;
         Ok(())
     }
@@ -157,7 +157,8 @@ impl Viewer {
         Ok(())
     }
 
-    /// Brings the image of what is in the middle of a view to the middle of the other one; whether there is a map and a place.
+    /// Brings the image of what is in the middle of a view to the middle of the other one; false where there is no map or no such
+    /// place.
     pub fn follow(&mut self, leader: usize) -> bool {
         let leader = leader.min(1);
         if self.shows_another_shape(leader) {

@@ -33,7 +33,7 @@ pub(super) struct Style {
     /// Whether parts of the surfaces may be unmapped: the plain meshes are drawn behind.
     #[serde(default)]
     pub(super) holes: bool,
-    /// Likewise of the map that is compared with.
+    /// Whether parts of the surfaces of the map that is compared with may be unmapped.
     #[serde(default)]
     pub(super) compared_holes: bool,
 }
@@ -51,9 +51,9 @@ pub(super) enum SurfaceStyle {
     Ribbons,
     Coordinates,
     Picture,
-    /// A scale from little to much, by the overlays' places on it.
+    /// A scale from little to much, by the places of the overlays' points on it.
     Rising,
-    /// Likewise from what shrinks to what grows.
+    /// A scale from what shrinks to what grows, by the same places.
     Diverging,
     Look,
 }
@@ -197,7 +197,7 @@ impl Viewer {
         side.first_look();
     }
 
-    /// Goes on with what a large mesh needs before it can be pointed at, for some milliseconds; whether there is more to do.
+    /// Does a part of what a large mesh needs before it can be pointed at, for some milliseconds; true where more is left.
     pub fn prepare(&mut self) -> bool {
         self.sides.iter_mut().filter_map(|side| side.mesh.as_mut()).any(SideMesh::prepare)
     }

@@ -38,7 +38,7 @@ impl Viewer {
         }
     }
 
-    /// The second view shows its own side again.
+    /// Shows the second view's own side again.
     #[wasm_bindgen(js_name = clearCompared)]
     pub fn clear_compared(&mut self) {
         self.compared = None;

@@ -37,7 +37,8 @@ impl Viewer {
         side.defects = Some(shown);
     }
 
-    /// Shows nothing of the kind any more; where a refused mesh was shown the mesh of the side is, with its camera as it was.
+    /// Shows no defects of a side any more; where a refused mesh was shown, the side's own mesh is shown again with its camera as
+    /// it was.
     #[wasm_bindgen(js_name = clearDefects)]
     pub fn clear_defects(&mut self, side: usize) {
         self.side_mut(side).uncover();

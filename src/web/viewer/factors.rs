@@ -43,7 +43,7 @@ impl Viewer {
         self.factor_share = share.clamp(0.0, 1.0);
     }
 
-    /// Both sides look as before.
+    /// Shows both sides as they were before.
     #[wasm_bindgen(js_name = clearFactors)]
     pub fn clear_factors(&mut self) {
         self.sides.iter_mut().for_each(|side| side.factors = None);

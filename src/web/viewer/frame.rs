@@ -202,12 +202,12 @@ impl Viewer {
         if self.style.dark { dark } else { light }
     }
 
-    /// Pins, hidden ones below and raised ones on top, then the rings of a place that is asked for.
+    /// The pins of a view, hidden ones below and raised ones on top, then the rings of a place that is asked for.
     fn pins(&self, view: usize) -> Vec<PinInstance> {
         let k = self.side_in(view);
         let side = self.side(k);
         let pose = side.pose(self.now);
-        // In another shape nothing is where it was.
+        // In another shape nothing lies at its usual place.
         let still = !self.shows_another_shape(k);
         let is_shown = |mark: &&Landmark| still && (self.style.markers || mark.pin.stand == Stand::Ghost);
         let shown = side.landmarks.iter().flatten().filter(is_shown);
@@ -236,12 +236,12 @@ impl Viewer {
         signs.map(sign).chain(pins.into_iter().map(|(_, _, pin)| pin)).chain(ring).collect()
     }
 
-    /// Cones in red (positive) and blue (negative curvature).
+    /// The cones as balls, red for positive and blue for negative curvature.
     fn balls(&self, view: usize) -> Vec<MarkerInstance> {
         let k = self.side_in(view);
         let ball = |Landmark { pin, cone }: &Landmark| {
             let curvature = *cone.as_ref()?;
-            // A ball's radius is 0.012 to 0.03 of the surface's and grows with the root of the curvature.
+            // A ball has a radius of 0.012 to 0.03 of the surface's, which grows with the root of the curvature.
             let size = (curvature.abs() as f32 / std::f32::consts::TAU).min(1.0).sqrt();
             let colour = if curvature >= 0.0 { [0.78, 0.04, 0.03] } else { [0.03, 0.16, 0.80] };
             Some(MarkerInstance { centre: pin.base.to_array(), radius: 0.012 + 0.018 * size, colour })

@@ -58,7 +58,7 @@ impl Viewer {
         Some((0..count).map(vertex).collect())
     }
 
-    /// How a point of the map is off its straight way; only the source goes on a way.
+    /// How far a point of the map lies off its straight way; only the source goes on a way.
     fn bends_at(&self, side: usize, point: usize) -> PackedBends {
         self.way.as_ref().filter(|_| side == 0).map(|way| way.at(point)).unwrap_or_default()
     }
@@ -198,7 +198,7 @@ impl Viewer {
         self.way = Some(PackedWay { range, points });
     }
 
-    /// Everything of a result goes.
+    /// Removes everything that a result has brought.
     #[wasm_bindgen(js_name = clearResult)]
     pub fn clear_result(&mut self) {
         self.sides.iter_mut().for_each(Side::clear_result);

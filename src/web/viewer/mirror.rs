@@ -11,7 +11,8 @@ use crate::scene::plane_cut::drawn;
 use serde_json::json;
 use wasm_bindgen::prelude::*;
 
-/// As near as this to what lies across from a point, in units of the root of the area, a pin is taken to stand there. Chosen by hand.
+/// A pin that is nearer than this to what lies across from a point, in units of the root of the area, is taken to stand there.
+/// Chosen by hand.
 const SAME_PLACE: f64 = 0.03;
 
 #[wasm_bindgen]

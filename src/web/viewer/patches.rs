@@ -29,7 +29,7 @@ impl Viewer {
             Patches::new(points, triangles, starts, strips(line_points, line_starts));
     }
 
-    /// The patches are not asked for any more, and nothing of them is lit up.
+    /// Removes the patches, and lights up nothing.
     #[wasm_bindgen(js_name = clearPatches)]
     pub fn clear_patches(&mut self) {
         for side in &mut self.sides {

@@ -23,7 +23,7 @@ impl Viewer {
         self.sides[0].preview = Some(preview);
     }
 
-    /// Shows what was there before.
+    /// Shows again what was there before the previews.
     #[wasm_bindgen(js_name = clearPreview)]
     pub fn clear_preview(&mut self) {
         self.sides[0].preview = None;

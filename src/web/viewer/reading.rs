@@ -1,4 +1,4 @@
-//! What the page gives, read.
+//! Reads what the page gives: points, lines and values as JSON.
 
 use super::super::failure;
 use glam::{DVec3, Vec3};

@@ -8,7 +8,7 @@ use crate::scene::seams;
 use glam::Vec3;
 use wasm_bindgen::prelude::*;
 
-/// Edges are drawn of meshes with at most so many triangles. Chosen by hand.
+/// The largest number of triangles of a mesh whose edges are drawn. Chosen by hand.
 const MOST_WITH_EDGES: usize = 30_000;
 
 #[wasm_bindgen]
@@ -47,7 +47,7 @@ impl Viewer {
         stage.trail = (!indices.is_empty()).then(|| self.renderer.marked_line_mesh(&vertices, &indices));
     }
 
-    /// Both sides look as before.
+    /// Shows both sides as they were before.
     #[wasm_bindgen(js_name = clearStages)]
     pub fn clear_stages(&mut self) {
         self.sides.iter_mut().for_each(|side| side.stage = None);

@@ -11,17 +11,18 @@ use crate::mesh::check::MeshFault;
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// What was capped.
+/// The holes that were capped.
 pub(in crate::mesh::repair) struct Capped {
     /// The holes, the longest first.
     pub holes: Vec<Hole>,
-    /// Faces of all caps.
+    /// Number of faces of all caps.
     pub faces: usize,
-    /// Their share of the area after.
+    /// The share of the area after that these faces have.
     pub area_share: f64,
 }
 
-/// A rim shorter than this, in units of sqrt(area), is a small hole's: its cap goes on as the surface around. Chosen by hand.
+/// The length of a rim, in units of the square root of the area, below which its hole is small: the cap goes on as the surface
+/// around. Chosen by hand.
 const SMALL: f64 = 0.6;
 
 /// The draft with a cap over each hole; nothing is said where there is none.
@@ -60,11 +61,11 @@ pub(in crate::mesh::repair) fn capped(mut draft: Draft) -> Result<(Draft, Option
 struct Cap<'a> {
     /// The vertices of its rim.
     rim: &'a [u32],
-    /// Length of the rim.
+    /// The length of the rim.
     length: f64,
-    /// Its area.
+    /// The area of the cap.
     area: f64,
-    /// Number of its faces.
+    /// Number of faces of the cap.
     faces: usize,
 }
 

@@ -8,15 +8,15 @@ use super::patch::Patch;
 use crate::numerics::conjugate_gradients::{CgOptions, CgWorkspace, LinearOperator, Preconditioner};
 use glam::DVec3;
 
-/// A plate may have this much more area than the membrane: beyond, the surface around leads it astray. Chosen by hand.
+/// The largest ratio of a plate's area to the membrane's: beyond it, the surface around leads the plate astray. Chosen by hand.
 const PLATE_AREA: f64 = 1.5;
 
 /// Which surface a cap becomes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Fairness {
-    /// Stretched over the rim, as a large hole's.
+    /// The cap is stretched over the rim, as that of a large hole.
     Membrane,
-    /// Going on smoothly over the rim, as a small hole's.
+    /// The cap goes on smoothly over the rim, as that of a small hole.
     Plate,
 }
 
@@ -84,7 +84,7 @@ fn stencils(patch: &Patch, around: &[Vec<DVec3>]) -> Vec<Stencil> {
 /// Each iteration lowers the energy, so that the last iterate is of use even where these are not enough.
 const SOLVE: CgOptions = CgOptions { tolerance: 1e-6, max_iterations: 500 };
 
-/// One over the diagonal.
+/// The inverses of the diagonal's entries.
 struct Diagonal(Vec<f64>);
 
 impl Preconditioner<f64> for Diagonal {

@@ -20,7 +20,7 @@ pub(super) struct Rim<'a> {
     pub taken: &'a FxHashSet<[u32; 2]>,
 }
 
-/// Loops up to this length are filled at best; the time grows with its cube.
+/// The length of the longest loop that is filled at best; the time grows with its cube.
 const AT_BEST: usize = 160;
 
 /// Triangles over a loop's vertices by their numbers along it; the number after the last is a vertex at `middle`.
@@ -117,7 +117,7 @@ impl Cost {
 /// The best triangulation of every stretch of a loop, between two of its vertices and their chord.
 struct Stretches {
     n: usize,
-    /// By first and last vertex; `None` where there is no triangulation.
+    /// The cost by first and last vertex; `None` where there is no triangulation.
     cost: Vec<Option<Cost>>,
     /// The third vertex of the triangle at the chord.
     top: Vec<u32>,

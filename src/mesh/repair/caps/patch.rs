@@ -12,19 +12,19 @@ pub(super) struct Patch {
     pub rim: usize,
     /// Corners of the triangles.
     pub triangles: Vec<[u32; 3]>,
-    /// The side across each side; `RIM` at the rim.
+    /// The side across each side; [`RIM`] at the rim.
     across: Vec<u32>,
     /// All edges between its vertices, those of the surface around among them.
     taken: FxHashSet<[u32; 2]>,
 }
 
-/// No side across.
+/// The number that stands for no side across.
 const RIM: u32 = u32::MAX;
 
-/// Cotangents at both corners opposite an edge that sum to less than this say that the other diagonal is better.
+/// The sum of the cotangents at both corners opposite an edge below which the other diagonal is better.
 const WORSE: f64 = -1e-9;
 
-/// Rounds of flips at most: off the plane nothing else ends them.
+/// The largest number of rounds of flips: off the plane nothing else ends them.
 const FLIP_ROUNDS: usize = 20;
 
 fn ends(a: u32, b: u32) -> [u32; 2] {
@@ -156,7 +156,7 @@ impl Patch {
         normals.is_some_and(|normals| !(0..self.across.len()).any(|side| bent_back(&normals, side)))
     }
 
-    /// Its area.
+    /// The area of the cap.
     pub fn area(&self) -> f64 {
         let area = |t: usize| {
             let [p, q, r] = self.corners(t);
@@ -166,10 +166,11 @@ impl Patch {
     }
 }
 
-/// Height of a sound triangle over its longest side, at least. Chosen by hand.
+/// The least height of a sound triangle over its longest side. Chosen by hand.
 const FLAT: f64 = 1e-6;
 
-/// Cosine of the angle between the normals of neighbours in a sound cap, at least: they fold by 120 degrees at most. Chosen by hand.
+/// The least cosine of the angle between the normals of neighbours in a sound cap: they fold by 120 degrees at most. Chosen by
+/// hand.
 const BENT_BACK: f64 = -0.5;
 
 #[cfg(test)]

@@ -3,16 +3,16 @@
 use super::patch::Patch;
 use glam::DVec3;
 
-/// How much longer edges become with each unit of way from the rim: a wide hole needs few vertices in its middle. Chosen by hand.
+/// The growth of edge lengths with each unit of way from the rim: a wide hole needs few vertices in its middle. Chosen by hand.
 const GROWTH: f64 = 0.12;
 
-/// A triangle is divided where its middle is farther from its corners than the lengths there over this.
+/// The divisor of the lengths at a triangle's corners: a triangle whose middle is farther from them than the quotient is divided.
 const DENSITY: f64 = std::f64::consts::SQRT_2;
 
-/// Rounds at most. Each divides every triangle that is too large in three. Chosen by hand.
+/// The largest number of rounds. Each divides every triangle that is too large in three. Chosen by hand.
 const ROUNDS: usize = 40;
 
-/// Vertices at most, for each one of the rim: a limit that caps of sound rims do not reach.
+/// The largest number of vertices for each one of the rim: a limit that caps of sound rims do not reach.
 const VERTICES: usize = 40;
 
 /// Divides the triangles of a cap and makes them Delaunay; `lengths` are the means of both edges of the rim at each of

@@ -11,9 +11,9 @@ use rustc_hash::FxHashSet;
 
 /// The two rims of a surface that was cut along a loop. Both follow the loop: equal places in them are at one place.
 pub(in crate::mesh::repair) struct CutRims {
-    /// Where the faces beside the rim run along the loop.
+    /// The rim along which the faces beside it run as the loop does.
     pub along: Vec<u32>,
-    /// Where they run against it.
+    /// The rim along which the faces beside it run against the loop.
     pub against: Vec<u32>,
 }
 

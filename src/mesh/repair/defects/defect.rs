@@ -6,10 +6,10 @@ use glam::DVec3;
 use serde::Serialize;
 use std::fmt;
 
-/// So many defects of a kind are given one by one; the others are counted.
+/// The largest number of defects of a kind that are given one by one; the others are counted.
 pub const MOST_DEFECTS: usize = 1000;
 
-/// Lines of one kind have so many points in all; a line that would have more ends early.
+/// The largest number of points of all lines of one kind; a line that would have more ends early.
 pub const MOST_POINTS: usize = 100_000;
 
 /// What is wrong at a place.
@@ -37,7 +37,7 @@ pub enum DefectKind {
     DoubleFace,
     /// A surface that a repair made up to close a hole or a cut.
     Cap,
-    /// A face at which a flow stopped, because it would lose its area: not the mesh's fault.
+    /// A face at which a flow stopped, because the face would lose its area: not the mesh's fault.
     StopsFlow,
 }
 
@@ -57,7 +57,7 @@ impl DefectKind {
         Self::StopsFlow,
     ];
 
-    /// One and several, in words.
+    /// The kind in words, for one defect and for several.
     fn words(self) -> [&'static str; 2] {
         match self {
             Self::OpenRim => ["open rim", "open rims"],
@@ -85,7 +85,7 @@ pub struct Defect {
     /// Lines along it, by numbers of [`Defects::positions`]; a closed one ends where it begins, and a place alone is a line of one
     /// point.
     pub lines: Vec<Vec<u32>>,
-    /// Its faces, by numbers of [`Defects::triangles`], rising.
+    /// The faces of the defect, by numbers of [`Defects::triangles`], rising.
     pub faces: Vec<u32>,
 }
 
@@ -94,7 +94,7 @@ pub struct Defect {
 pub struct DefectGroup {
     /// What is wrong.
     pub kind: DefectKind,
-    /// How many there are.
+    /// The number of defects of the kind.
     pub count: usize,
     /// The first [`MOST_DEFECTS`] at most, the largest first but for vertices and single faces, which are in the file's order.
     pub defects: Vec<Defect>,
@@ -125,14 +125,14 @@ impl fmt::Display for DefectGroup {
 /// What is wrong with a mesh, with what is needed to show it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Defects {
-    /// From the positions to the file's coordinates; that of the mesh which a repair makes of the file.
+    /// The way from the positions to the file's coordinates: that of the mesh which a repair makes of the file.
     pub frame: FileFrame,
     /// The file's vertices by their numbers there, then vertices of caps.
     pub positions: Vec<DVec3>,
     /// The triangulated file's faces by their numbers there, with vertices at one place joined and turned until neighbours agree
     /// and look outwards; then faces of caps.
     pub triangles: Vec<Triangle>,
-    /// How many of the positions are the file's.
+    /// The number of positions that are the file's.
     pub file_vertices: usize,
     /// The kinds of which there are some, in their order.
     pub groups: Vec<DefectGroup>,
@@ -158,7 +158,7 @@ impl Defects {
         found
     }
 
-    /// Takes further defects of a kind.
+    /// Adds further defects of a kind.
     pub(super) fn add(&mut self, kind: DefectKind, defects: Vec<Defect>) {
         self.groups.extend(DefectGroup::new(kind, defects));
     }

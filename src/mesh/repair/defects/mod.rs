@@ -5,8 +5,8 @@
 //! open edges and crowded ones as lines, patches that look the other way, parts beside the largest, vertices where parts only
 //! touch. Handles are those that the repair would cut.
 //!
-//! Limits: so many defects of one kind are given one by one ([`MOST_DEFECTS`], [`MOST_POINTS`]); all are counted. Handles are
-//! looked for where the repair gets as far, with all other parts left out.
+//! Limits: at most [`MOST_DEFECTS`] defects of one kind with [`MOST_POINTS`] points are given one by one; all are counted. Handles
+//! are looked for where the repair gets as far, with all other parts left out.
 
 mod caps;
 mod chains;

@@ -10,11 +10,11 @@ pub struct Outlook {
     pub place: DVec3,
     /// The unit direction from there to the viewer.
     pub normal: DVec3,
-    /// All of it is within this distance of the place.
+    /// The radius of a ball around the place that holds all of the defect.
     pub radius: f64,
 }
 
-/// Normals around a defect that cancel each other to less than this share tell no direction. Chosen by hand.
+/// The least length of the mean unit normal of a defect with which it tells a direction. Chosen by hand.
 const CLEAR: f64 = 0.3;
 
 impl Defects {
@@ -46,7 +46,7 @@ impl Defects {
             let outermost = *points.iter().max_by(|&&a, &&b| from_body(a).total_cmp(&from_body(b)))?;
             let way = at(outermost) - body;
             let normal = normals[outermost as usize];
-            // Of a surface whose faces look every way, the way out.
+            // For a surface whose faces look every way, the normal is the way out.
             (at(outermost), if normal.dot(way) > 0.0 { normal } else { way })
         };
         let radius = points.iter().map(|&v| at(v).distance(place)).fold(0.0, f64::max);

@@ -5,7 +5,7 @@ use crate::mesh::FileFrame;
 use crate::mesh::packing::{PackedError, Packer, Unpacker};
 
 impl Defects {
-    /// All of them, with what is needed to show them.
+    /// Adds all defects to a packer, with what is needed to show them.
     pub fn pack(&self, packer: &mut Packer) {
         let Self { frame, positions, triangles, file_vertices, groups } = self;
         frame.pack(packer);
@@ -25,7 +25,7 @@ impl Defects {
         }
     }
 
-    /// The defects that [`Self::pack`] took.
+    /// Takes back from an unpacker the defects that [`Self::pack`] has added.
     ///
     /// # Errors
     /// [`PackedError`] where a number names nothing.

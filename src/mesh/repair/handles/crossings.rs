@@ -4,7 +4,7 @@ use super::graph::Graph;
 use crate::math::disjoint_sets::DisjointSets;
 use crate::math::min_queue::shortest_paths;
 
-/// No edge.
+/// The number that stands for no edge.
 pub(super) const NO_EDGE: u32 = u32::MAX;
 
 /// The classes of loops on a closed surface.
@@ -27,11 +27,11 @@ pub(super) struct Generator {
     pub vertices: Vec<u32>,
 }
 
-/// More handles than this are not told apart.
+/// The largest number of handles that are told apart.
 pub(in crate::mesh::repair) const MOST_HANDLES: usize = u128::BITS as usize / 2;
 
 impl Crossings {
-    /// Of a connected surface of genus 1 to [`MOST_HANDLES`].
+    /// The classes of a connected surface of genus 1 to [`MOST_HANDLES`].
     pub fn new(graph: &Graph) -> Self {
         let tree = Tree::new(graph);
         let (cotree, left) = cotree(graph, &tree);
@@ -45,7 +45,7 @@ impl Crossings {
 /// Shortest paths from one vertex.
 struct Tree {
     distance: Vec<f64>,
-    /// The edge towards the root.
+    /// The edge of each vertex towards the root.
     before: Vec<u32>,
 }
 
@@ -105,7 +105,7 @@ pub(super) fn closed_loop(graph: &Graph, edge: u32, before: impl Fn(u32) -> u32)
 struct Cotree {
     /// Faces from the root on, each after the one before it.
     order: Vec<u32>,
-    /// The edge towards the root.
+    /// The edge of each face towards the root.
     before: Vec<u32>,
 }
 

@@ -17,11 +17,11 @@ pub(in crate::mesh::repair) struct WithoutHandles {
     pub draft: Draft,
     /// The handles in the order in which they were cut; lengths and shares are those of the surface after.
     pub handles: Vec<Handle>,
-    /// Faces of all walls.
+    /// Number of faces of all walls.
     pub faces: usize,
-    /// Their share of the area after.
+    /// The share of the area after that these faces have.
     pub area_share: f64,
-    /// Share of the area after that is caps, walls among them.
+    /// The share of the area after that is caps, walls among them.
     pub cap_share: f64,
 }
 
@@ -29,13 +29,13 @@ pub(in crate::mesh::repair) struct WithoutHandles {
 struct Cut {
     /// The loop's vertices in the numbers of the file.
     vertices: Vec<usize>,
-    /// Where they are.
+    /// The places of these vertices.
     places: Vec<DVec3>,
-    /// Its length.
+    /// The length of the loop.
     length: f64,
-    /// Faces of both walls.
+    /// Number of faces of both walls.
     faces: usize,
-    /// Their area.
+    /// The area of these faces.
     area: f64,
 }
 

@@ -8,18 +8,18 @@ pub(super) struct Graph {
     pub ends: Vec<[u32; 2]>,
     /// Both sides 3 f + k along each edge, the lesser first.
     pub sides: Vec<[u32; 2]>,
-    /// Their lengths.
+    /// The lengths of the edges.
     pub lengths: Vec<f64>,
     /// Number of faces.
     pub faces: usize,
-    /// Where the links of each vertex begin, and after the last where they end.
+    /// The place of the first link of each vertex, and the end of the last one.
     first: Vec<u32>,
-    /// Edges by vertex.
+    /// The edges of each vertex, one vertex after the other.
     links: Vec<u32>,
 }
 
 impl Graph {
-    /// `None` where an edge has not two faces.
+    /// The graph of a surface; `None` where an edge has not two faces.
     pub fn new(draft: &Draft) -> Option<Self> {
         let edges = edges(&draft.faces);
         let ends: Vec<[u32; 2]> = edges.iter().map(|edge| edge.ends).collect();

@@ -1,0 +1,53 @@
+/** What the page knows of elements and of the clipboard. */
+import { describe, expect, test, vi } from 'vitest';
+import { copied, isTyped } from '../../www/dom.ts';
+
+/** Elements as a browser has them, as far as it is asked. */
+class FakeElement extends EventTarget {
+  isContentEditable = false;
+}
+class FakeArea extends FakeElement {}
+class FakeInput extends FakeElement {
+  readonly type: string;
+
+  constructor(type: string) {
+    super();
+    this.type = type;
+  }
+}
+
+test('keys are typed into fields of text and numbers, and into nothing else', () => {
+  vi.stubGlobal('HTMLElement', FakeElement);
+  vi.stubGlobal('HTMLTextAreaElement', FakeArea);
+  vi.stubGlobal('HTMLInputElement', FakeInput);
+  for (const type of ['text', 'number', 'search', 'url']) {
+    expect(isTyped(new FakeInput(type)), type).toBe(true);
+  }
+  expect(isTyped(new FakeArea())).toBe(true);
+  expect(isTyped(Object.assign(new FakeElement(), { isContentEditable: true }))).toBe(true);
+  for (const other of [new FakeInput('range'), new FakeInput('radio'), new FakeInput('checkbox'), new FakeElement(), new EventTarget(), null]) {
+    expect(isTyped(other)).toBe(false);
+  }
+});
+
+describe('a text is copied', () => {
+  const written: string[] = [];
+  const clipboard = (writeText: (text: string) => Promise<void>): void => {
+    vi.stubGlobal('navigator', { clipboard: { writeText } });
+  };
+
+  test('where the browser lets it', async () => {
+    clipboard((text) => {
+      written.push(text);
+      return Promise.resolve();
+    });
+    expect([await copied('a link'), written]).toEqual([true, ['a link']]);
+  });
+
+  test('but not where it forbids that, or has no clipboard for the page', async () => {
+    clipboard(() => Promise.reject(new Error('not allowed')));
+    expect(await copied('a link')).toBe(false);
+    vi.stubGlobal('navigator', {});
+    expect(await copied('a link')).toBe(false);
+  });
+});
