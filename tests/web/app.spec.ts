@@ -1,6 +1,6 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { DATA, drop, fail, needsSharedData, open, openDemo, openStep, pairs, ROOT, RUN_TIMEOUT, runMap, showSurface } from './page.ts';
 
 interface Half {

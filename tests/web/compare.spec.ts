@@ -1,7 +1,7 @@
 /** The map on the page beside others of the same meshes and landmarks: chosen by one click, seen on the source, told in figures. */
 import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { SETTLED } from './canvas.ts';
 import { fail, openDemo, openStep, ROOT, runMap } from './page.ts';
 import { trapping } from './trapping.ts';

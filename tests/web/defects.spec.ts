@@ -1,6 +1,6 @@
 /** Meshes that are refused are seen, with what is wrong painted and listed; a click turns the camera there. */
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { countPixels, pixelsOf, SETTLED } from './canvas.ts';
 import { DATA, drop, dropContents, needsSharedData, open, ROOT } from './page.ts';
 

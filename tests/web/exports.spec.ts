@@ -1,6 +1,6 @@
 /** What the page gives back: landmark files that load again, and exports that other programs can read. */
 import { readFileSync, writeFileSync } from 'node:fs';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { downloaded, glbFaults, readGlb } from './glb.ts';
 import { DATA, finished, needsSharedData, openDemo, openStep, pairs, runMap } from './page.ts';
 

@@ -1,6 +1,6 @@
 /** A run that is asked for its result before it is done. */
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { DATA, finished, needsSharedData, openDemo, openStep, pairs } from './page.ts';
 
 /** The energy that the result shows. */

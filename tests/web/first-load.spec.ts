@@ -6,7 +6,7 @@ import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { brotliCompressSync, constants, gzipSync } from 'node:zlib';
 import type { Page, Request } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { dropContents, fail, open, openDemo, ROOT, runMap, TETRAHEDRON } from './page.ts';
 
 const ASSETS = join(ROOT, 'dist/assets');
@@ -71,17 +71,30 @@ async function packedSize(request: Request): Promise<number> {
   return brotliCompressSync(body, { params: { [constants.BROTLI_PARAM_LGWIN]: 24, [constants.BROTLI_PARAM_SIZE_HINT]: body.length } }).length;
 }
 
-test('the core is asked for when the page can be used', async ({ page }) => {
-  const first = await firstRequests(page);
-  expect(first.filter((request) => request.url().includes('page_bg'))).toHaveLength(1);
-});
+test.describe('a visit as users have it', () => {
+  test.use({ warmsCore: true });
 
-// Of the modules as they are published, which the short tests do without.
-test('the first load is small', { tag: '@long' }, async ({ page }) => {
-  const first = await firstRequests(page);
-  const sizes = await Promise.all(first.map(packedSize));
-  const list = first.map((request, k) => `${request.url().replace(/.*\//, '')} ${sizes[k]}`).join(', ');
-  expect(sizes.reduce((sum, size) => sum + size, 0), list).toBeLessThan(BUDGET);
+  test('the core is asked for when the page can be used', async ({ page }) => {
+    const first = await firstRequests(page);
+    expect(first.filter((request) => request.url().includes('page_bg'))).toHaveLength(1);
+  });
+
+  // Of the modules as they are published, which the short tests do without.
+  test('the first load is small', { tag: '@long' }, async ({ page }) => {
+    const first = await firstRequests(page);
+    const sizes = await Promise.all(first.map(packedSize));
+    const list = first.map((request, k) => `${request.url().replace(/.*\//, '')} ${sizes[k]}`).join(', ');
+    expect(sizes.reduce((sum, size) => sum + size, 0), list).toBeLessThan(BUDGET);
+  });
+
+  test('the core is warmed while nobody asks for a map, by a worker that ends', async ({ page }) => {
+    const warming = page.waitForEvent('worker', (worker) => worker.url().includes('/warmer-'));
+    await openDemo(page);
+    const warmer = await warming;
+    const ended = warmer.waitForEvent('close');
+    await page.locator('#run').click();
+    await ended;
+  });
 });
 
 /** Keeps the core back until what this gives is called. */

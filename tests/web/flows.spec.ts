@@ -1,7 +1,7 @@
 /** The family of flows in the step Method: each by its name, and the place where one without flips stops. */
 import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { countPixels, pixelsOf, SETTLED } from './canvas.ts';
 import { CORNERS, rod } from '../unit/rod.ts';
 import { upload } from './own-files.ts';

@@ -3,7 +3,7 @@
  * size: nothing but positions and normals, one light.
  */
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { SETTLED } from './canvas.ts';
 import { upload } from './own-files.ts';
 import { fail, open } from './page.ts';

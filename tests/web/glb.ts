@@ -1,7 +1,7 @@
 /** GLB files as the page gives them and takes them. */
 import { readFileSync } from 'node:fs';
 import type { Page } from '@playwright/test';
-import { test } from '@playwright/test';
+import { test } from './test.ts';
 import { validateBytes } from 'gltf-validator';
 
 interface Accessor {

@@ -1,6 +1,6 @@
 /** What surfaces show of the flat metric: textures, an own picture among them, and heat maps with their values under the mouse. */
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { countPixels, halvesPicture, pixelsOf, seen } from './canvas.ts';
 import { fail, openDemo, openStep, runMap, showSurface } from './page.ts';
 

@@ -1,6 +1,6 @@
 /** Nothing is lost: steps taken back and made again, reloads, new visits, and two tabs. */
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import type { Upload } from './own-files.ts';
 import { ownFiles, upload } from './own-files.ts';
 import { dropContents, TETRAHEDRON } from './page.ts';

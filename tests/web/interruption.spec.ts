@@ -1,6 +1,6 @@
 /** Runs that end before their time: cancelled at any moment, or broken off. */
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { finished, openDemo, openStep, pairs } from './page.ts';
 import { Random } from '../unit/random.ts';
 import { trapping } from './trapping.ts';

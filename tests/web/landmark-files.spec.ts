@@ -1,7 +1,7 @@
 /** Landmark files of other programs and meshes in several files, by the choosers and menus alone. */
 import { readFileSync } from 'node:fs';
 import type { Download, FileChooser, Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { zipSync } from 'fflate';
 import { tetrahedron } from '../unit/tetrahedron.ts';
 import { openDemo, openStep, pairs } from './page.ts';

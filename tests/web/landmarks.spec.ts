@@ -1,5 +1,5 @@
 /** Landmark files and picks that cannot be: named at once, and nothing is lost. */
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { openDemo, openStep, pairs } from './page.ts';
 
 /** A tetrahedron with its edges' middles: vertices and faces, from 1 as in OBJ files. */

@@ -1,6 +1,6 @@
 /** Left and right together: one click makes two pairs, one step takes them back, and a map is made with them. */
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import type { Spot } from './canvas.ts';
 import { distance, heads, SETTLED, STEM } from './canvas.ts';
 import { fail, openDemo, openStep, pairs, ROOT, runMap } from './page.ts';

@@ -1,7 +1,7 @@
 /** The table of landmarks: everything by keys and by mouse, undone by a toast, fast with many rows. */
 import { readFileSync } from 'node:fs';
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { openDemo, openStep, pairs } from './page.ts';
 
 async function numbers(page: Page): Promise<string[]> {

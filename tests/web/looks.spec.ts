@@ -1,7 +1,7 @@
 /** The colours and pictures of the user's own files, and how the map carries them. */
 import { zipSync } from 'fflate';
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { halvesPicture, seen } from './canvas.ts';
 import type { OwnFiles } from './own-files.ts';
 import { ownFiles } from './own-files.ts';

@@ -1,6 +1,6 @@
 /** What a finished map is good for in the views: morph, wipe, proposed partners, worst places. One page and one map for all. */
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import type { Spot } from './canvas.ts';
 import { countDraws, distance, drawn, heads, moves, SETTLED, STEM } from './canvas.ts';
 import { fail, openDemo, openStep, runMap, showSurface } from './page.ts';

@@ -1,7 +1,7 @@
 /** Finished maps that come back from their files: as after the run, without computing. */
 import { readFileSync } from 'node:fs';
 import type { BrowserContext, Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { unzipSync } from 'fflate';
 import { dropContents, fail, finished, open, openDemo, openStep, pairs, showSurface, TETRAHEDRON } from './page.ts';
 

@@ -1,6 +1,6 @@
 /** Landmarks that the program finds: from no pair to a certified map, and back by one step. */
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { ownFiles } from './own-files.ts';
 import { openDemo, openStep, pairs, ROOT, runMap } from './page.ts';
 

@@ -5,7 +5,7 @@
 import { readFileSync } from 'node:fs';
 import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import type { Spot } from './canvas.ts';
 import { countPixels, pixelsOf, seen, SETTLED } from './canvas.ts';
 import { fail, openDemo, openStep, ROOT, runMap } from './page.ts';

@@ -1,6 +1,6 @@
 /** The way of the source to the target's shape: straight at first, and then one on which limbs turn. */
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { pixelsOf, SETTLED } from './canvas.ts';
 import { openDemo, runMap } from './page.ts';
 

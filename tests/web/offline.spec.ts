@@ -4,7 +4,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { writeServiceWorker } from '../../www/offline/build.ts';
 import { runMap } from './page.ts';
 import { staticHost } from './static-host.ts';

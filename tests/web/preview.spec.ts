@@ -1,6 +1,6 @@
 /** The map in the making: seen soon after the start, refined, gone with the end of the run. */
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { keepPreviews, SETTLED } from './canvas.ts';
 import { finished, openDemo, openStep } from './page.ts';
 

@@ -1,6 +1,6 @@
 /** Files are read beside the page: it answers while a large mesh is read, can leave it, and outlives a reader that breaks. */
 import type { JSHandle, Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { dropContents, fail, open, openDemo, TETRAHEDRON } from './page.ts';
 
 /** About twice their squares are the numbers of triangles of the large meshes. */

@@ -3,7 +3,7 @@
  * map of a demo can be made afterwards. CONEMAP_VISITS and CONEMAP_SEED choose how many visits and which.
  */
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { CORNERS, rod } from '../unit/rod.ts';
 import { Random } from '../unit/random.ts';
 import { upload } from './own-files.ts';

@@ -2,7 +2,7 @@
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import type { Page, Request } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import type { Link } from '../../www/send/link.ts';
 import { readLink } from '../../www/send/link.ts';
 import { dropContents } from './page.ts';

@@ -1,6 +1,6 @@
 /** Many maps in one page: what the browser holds for it stays. */
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { finished, openDemo, openStep } from './page.ts';
 
 const MAPS = Number(process.env['CONEMAP_SOAK'] ?? 40);

@@ -1,6 +1,6 @@
 /** Soft landmarks: their points on the target settle when the map is made, and one step takes that back. */
 import { readFileSync } from 'node:fs';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { openDemo, openStep, pairs, ROOT, runMap } from './page.ts';
 
 interface SavedFile {

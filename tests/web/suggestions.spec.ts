@@ -1,5 +1,5 @@
 /** Suggested landmarks: taken by a click on a ring, by the keyboard, or all at once. */
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { openDemo, openStep, pairs, ROOT } from './page.ts';
 
 test('suggestions are taken one by one and all at once', async ({ page }) => {

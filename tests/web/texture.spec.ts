@@ -1,5 +1,5 @@
 /** The boundary of the texture that a map carries, red on both meshes (thesis fig. 4.5). */
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { seen } from './canvas.ts';
 import { openDemo, openStep, runMap } from './page.ts';
 

@@ -2,7 +2,7 @@
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { unzipSync } from 'fflate';
 import { buildDemo, initSync } from '../../www/wasm/page.js';
 import type { Upload } from './own-files.ts';

@@ -1,5 +1,5 @@
 /** Where the true map is known, the page tells how far a map is from it. */
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import { openDemo, openStep, runMap, showSurface } from './page.ts';
 
 const TRUTH = 'Distance to the truth';

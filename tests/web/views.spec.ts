@@ -1,6 +1,6 @@
 /** Cameras and pins under the hand: turned, zoomed, dragged and nudged as a user does, read off where the pins' numbers are. */
 import type { Page } from '@playwright/test';
-import { expect, test } from '@playwright/test';
+import { expect, test } from './test.ts';
 import type { Spot } from './canvas.ts';
 import { countDraws, distance, drawn, heads, keepPreviews, moves, previewTimes, SETTLED, STEM } from './canvas.ts';
 import { fail, openStep, showSurface } from './page.ts';
