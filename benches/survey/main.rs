@@ -226,7 +226,7 @@ fn main() {
             eprintln!(
                 "cargo xtask survey TABLE [--pairs NAME,NAME] [--seeds N] [--jobs N] [--time-limit SECONDS]"
             );
-            SURVEYS.iter().for_each(|survey| eprintln!("  {:12}{}", survey.name, survey.about));
+            SURVEYS.iter().for_each(|survey| eprintln!("  {:16}{}", survey.name, survey.about));
         }
     }
 }

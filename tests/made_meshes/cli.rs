@@ -362,28 +362,51 @@ fn writes_demos_that_can_be_mapped() {
 #[test]
 fn the_report_tells_how_far_a_map_is_from_the_known_one() {
     let folder = folder("the_report_tells_how_far_a_map_is_from_the_known_one");
+    // The source bent: each vertex goes to the vertex of its number.
+    let mesh = octasphere();
+    let image = fixtures::bent(&mesh);
+    let landmarks: Vec<_> = extreme_vertices(&mesh).into_iter().map(|v| [v.0; 2]).collect();
+    let [source, target, pairs] = write_files(&folder, [&mesh, &image], &landmarks);
+    let rows = image.positions().iter_enumerated().map(|(v, p)| format!("{},{},{},{}\n", v.0, p.x, p.y, p.z));
+    let [truth, report] = ["truth.csv", "report.json"].map(|name| folder.join(name));
+    std::fs::write(&truth, format!("source_vertex,x,y,z\n{}", rows.collect::<String>())).unwrap();
+    let map = || {
+        let files = [&source, &target].map(|path| path.as_os_str());
+        let options = [("--landmarks", &pairs), ("--truth", &truth), ("--report", &report)];
+        let options = options.into_iter().flat_map(|(name, path)| [OsStr::new(name), path.as_os_str()]);
+        conemap([OsStr::new("map")].into_iter().chain(files).chain(options))
+    };
+    let mapped = map();
+    assert!(mapped.status.success(), "{}", errors(&mapped));
+    assert!(errors(&mapped).contains("true images: mean"), "{}", errors(&mapped));
+    let told: Value = serde_json::from_slice(&std::fs::read(&report).unwrap()).unwrap();
+    let mean = told["ground_truth"]["mean"].as_f64().unwrap();
+    // The bend of a ball is not the map of least energy, but near it.
+    assert!(0.0 < mean && mean < 0.02, "{mean}");
+    std::fs::write(&truth, "source_vertex,x,y\n0,1,2\n").unwrap();
+    let refused = map();
+    assert!(!refused.status.success());
+    assert!(errors(&refused).contains("there is no column \"z\""), "{}", errors(&refused));
+}
+
+/// The demo whose true map is known has a file of it that its own map is held against.
+#[test]
+#[ignore = "long: run by `cargo xtask test --all`"]
+fn the_turning_horse_is_near_its_known_map() {
+    let folder = folder("the_turning_horse_is_near_its_known_map");
     let id = "horse-turning";
     let written = conemap([OsStr::new("demo"), OsStr::new(id), OsStr::new("--out"), folder.as_os_str()]);
     assert!(written.status.success(), "{}", errors(&written));
     let [source, target, pairs, truth] =
         ["-source.obj", "-target.obj", ".json", "-truth.csv"].map(|end| folder.join(format!("{id}{end}")));
     let report = folder.join("report.json");
-    let map = |truth: &Path| {
-        let files = [&source, &target].map(|path| path.as_os_str());
-        let options = [("--landmarks", &*pairs), ("--truth", truth), ("--report", &*report)];
-        let options = options.into_iter().flat_map(|(name, path)| [OsStr::new(name), path.as_os_str()]);
-        conemap([OsStr::new("map")].into_iter().chain(files).chain(options))
-    };
-    let mapped = map(&truth);
+    let options = [("--landmarks", &pairs), ("--truth", &truth), ("--report", &report)];
+    let options = options.into_iter().flat_map(|(name, path)| [OsStr::new(name), path.as_os_str()]);
+    let meshes = [&source, &target].map(|path| path.as_os_str());
+    let mapped = conemap([OsStr::new("map")].into_iter().chain(meshes).chain(options));
     assert!(mapped.status.success(), "{}", errors(&mapped));
-    assert!(errors(&mapped).contains("true images: mean"), "{}", errors(&mapped));
-    let told: Value = serde_json::from_slice(&std::fs::read(&report).unwrap()).unwrap();
-    let mean = told["ground_truth"]["mean"].as_f64().unwrap();
+    let mean = json(&report)["ground_truth"]["mean"].as_f64().unwrap();
     assert!(mean < 0.01, "{mean}");
-    std::fs::write(&truth, "source_vertex,x,y\n0,1,2\n").unwrap();
-    let refused = map(&truth);
-    assert!(!refused.status.success());
-    assert!(errors(&refused).contains("there is no column \"z\""), "{}", errors(&refused));
 }
 
 #[test]
@@ -836,7 +859,9 @@ fn landmarks_that_nobody_gave_are_found_or_asked_for() {
     assert_eq!(told["candidates"][0]["pairs"].as_array().unwrap().len(), file.pairs.len(), "{told}");
     assert!(errors(&output).contains(told["verdict"]["sentence"].as_str().unwrap()), "{}", errors(&output));
 
-    let output = conemap([OsStr::new("map")].into_iter().chain(meshes).chain([to, report.as_os_str()]));
+    // Cones of the program's own, which so few landmarks would get, have their own tests.
+    let flags = ["map", "--own-cones", "0"].map(OsStr::new);
+    let output = conemap(flags.into_iter().chain(meshes).chain([to, report.as_os_str()]));
     assert!(errors(&output).contains("certified bijective"), "{}", errors(&output));
     let matching = &json(&report)["matching"];
     assert!(errors(&output).contains(matching["verdict"]["sentence"].as_str().unwrap()), "{matching}");
