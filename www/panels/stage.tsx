@@ -30,6 +30,8 @@ function changed(file: MeshFile): string {
 function Caption({ state, side }: { readonly state: State; readonly side: Side }): VNode {
   const compared = comparedCaptions(state);
   const shown: Side = compared === null ? side : 0;
+  // The name of the map that the view shows, in place of the size where it is not the finished one.
+  const mark = compared?.[side] ?? (side === 0 && shownPreview(state) !== null ? 'coarse map' : null);
   const file = state.meshes[shown];
   const refused = state.refused?.meshes.find((mesh) => mesh.side === side);
   if (refused !== undefined) {
@@ -45,14 +47,13 @@ function Caption({ state, side }: { readonly state: State; readonly side: Side }
       {file !== null && (
         <>
           {shown === 0 ? 'Source' : 'Target'} <strong>{file.name}</strong>{' '}
-          {compared === null ? (
+          {mark === null ? (
             <span class="facts">
               {integer(file.faceCount)} triangles{changed(file)}
             </span>
           ) : (
-            <span class="coarse-map">{compared[side]}</span>
+            <span class="coarse-map">{mark}</span>
           )}
-          {side === 0 && shownPreview(state) !== null && <span class="coarse-map">coarse map</span>}
         </>
       )}
     </p>
