@@ -46,13 +46,18 @@ impl ShapeOutput {
     }
 
     /// The figures of shapes as JSON.
-    pub fn figures(shapes: &[Self]) -> OutputFile {
+    ///
+    /// # Errors
+    /// [`TransferError::Unwritten`] where they cannot be written as JSON.
+    pub fn figures(shapes: &[Self]) -> Result<OutputFile, TransferError> {
         let figure = |shape: &Self| {
             let [mesh, onto] = shape.direction.names();
             (format!("{mesh}_in_{onto}_shape"), json!(shape.report))
         };
         let figures: Map<_, _> = shapes.iter().map(figure).collect();
-        OutputFile { name: FIGURES, bytes: serde_json::to_vec_pretty(&figures).unwrap_or_default() }
+        let bytes =
+            serde_json::to_vec_pretty(&figures).map_err(|e| TransferError::Unwritten(e.to_string()))?;
+        Ok(OutputFile { name: FIGURES, bytes })
     }
 }
 

@@ -219,7 +219,7 @@ impl Desk<'_> {
             shapes.push(self.open.shape(direction, &mut Portion::new(monitor, from, to))?);
         }
         let sentences: Vec<String> = shapes.iter().map(ShapeOutput::sentence).collect();
-        let figures = ShapeOutput::figures(&shapes);
+        let figures = ShapeOutput::figures(&shapes)?;
         let files = shapes.into_iter().map(|shape| shape.file).chain([figures]);
         let files = files.map(|file| (file.name.to_owned(), file.bytes)).collect();
         Ok(BroughtFiles { files, remark: Some(sentences.join(". ")) })

@@ -174,7 +174,7 @@ impl Transfer<'_> {
             outputs::write(&out.join(shape.file.name), &shape.file.bytes)?;
             shapes.push(shape);
         }
-        let figures = ShapeOutput::figures(&shapes);
+        let figures = ShapeOutput::figures(&shapes)?;
         outputs::write(&out.join(figures.name), &figures.bytes)
     }
 
