@@ -315,13 +315,14 @@ fn full(known: &Known, candidate: &Candidate, arguments: &Arguments) -> Result<(
     let truth = result.report.ground_truth.as_ref();
     let truth = truth.map_or(String::new(), |truth| format!(" truth {:.2} %", 100.0 * truth.mean));
     let text = format!(
-        "\n    full {seconds:.1} s E {:.3} log {:.3}{truth} | error {:5.2} % wrong {:2} | exchanged {:5.2} % {:2}",
+        "\n    full {seconds:.1} s E {:.3} log {:.3}{truth} | error {:5.2} % wrong {:2} | exchanged {:5.2} % {:2}{}",
         d.energy,
         d.mean_log,
         100.0 * fits[0].error,
         fits[0].wrong.len(),
         100.0 * fits[1].error,
-        fits[1].wrong.len()
+        fits[1].wrong.len(),
+        faults(&fits)
     );
     Ok((text, fits))
 }
