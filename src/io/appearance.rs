@@ -153,6 +153,7 @@ fn joined(
 
 #[cfg(test)]
 mod tests {
+    use super::super::picture::tests::png_that_announces;
     use super::*;
     use crate::io::read_mesh;
     use serde_json::json;
@@ -293,7 +294,10 @@ mod tests {
             remarks
         };
         assert_eq!(told("missing.png"), [LookRemark::Missing { name: "missing.png".into() }]);
-        assert_eq!(told(&data_uri(b"<script>")), [LookRemark::NoPicture { name: "number 0".into() }]);
+        let name = "number 0".to_owned();
+        assert_eq!(told(&data_uri(b"<script>")), [LookRemark::NoPicture { name: name.clone() }]);
+        let large = png_that_announces([40_000, 30_000]);
+        assert_eq!(told(&data_uri(&large)), [LookRemark::TooLarge { name, width: 40_000, height: 30_000 }]);
     }
 
     #[test]

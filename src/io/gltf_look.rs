@@ -8,7 +8,7 @@ use super::gltf_container;
 use super::gltf_document::Document;
 use super::gltf_file::{Part, Reader, Scene, scene};
 use super::look_remark::LookRemark;
-use super::picture::media_type;
+use super::picture::{media_type, too_large};
 use crate::math::screen_light::screen_byte;
 use crate::mesh::look::{CornerLook, MOST_PICTURES, PicturePlace, PolygonLook};
 use crate::monitor::{Pulse, Silent};
@@ -120,9 +120,13 @@ impl Images<'_> {
             Some(uri) => data_uri::data(uri).and_then(Result::ok),
             None => self.in_buffer(image),
         };
-        bytes
+        let bytes = bytes
             .filter(|bytes| media_type(bytes).is_some())
-            .ok_or_else(|| LookRemark::NoPicture { name: name() })
+            .ok_or_else(|| LookRemark::NoPicture { name: name() })?;
+        match too_large(&bytes) {
+            Some([width, height]) => Err(LookRemark::TooLarge { name: name(), width, height }),
+            None => Ok(bytes),
+        }
     }
 
     fn in_buffer(&self, image: &Value) -> Option<Vec<u8>> {

@@ -1,5 +1,6 @@
 //! What cannot be used of how a mesh file says that its surface looks.
 
+use super::picture::MAX_PIXELS;
 use crate::mesh::look::MOST_PICTURES;
 
 /// What cannot be used of a look. The mesh is good without it.
@@ -17,6 +18,18 @@ pub enum LookRemark {
     NoPicture {
         /// The file's name in the mesh file.
         name: String,
+    },
+    /// A picture is too large.
+    #[error(
+        "the picture {name} has {width} x {height} pixels, the limit is {MAX_PIXELS}, and is left out: make it smaller"
+    )]
+    TooLarge {
+        /// The picture's name in the file.
+        name: String,
+        /// Pixels in a row.
+        width: usize,
+        /// Number of rows.
+        height: usize,
     },
     /// There are more pictures than are told apart.
     #[error("only {MOST_PICTURES} pictures are shown; what others lie on has none")]

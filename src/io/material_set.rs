@@ -8,7 +8,7 @@ use super::gltf_look::{Images, Used, index};
 use super::gltf_parts::{Packer, glb};
 use super::look_remark::LookRemark;
 use super::obj::{WholeLine, whole_lines};
-use super::picture::media_type;
+use super::picture::{media_type, too_large};
 use super::reading::text;
 use super::{Format, detect};
 use serde_json::{Map, Value, json};
@@ -167,6 +167,11 @@ impl Material {
 impl MaterialSet {
     /// Reads the set that [`packed`] has made, or takes a picture alone.
     pub(super) fn read(companion: &[u8]) -> Self {
+        let remarked = |remark: LookRemark| Self { remarks: vec![remark], ..Self::default() };
+        let name = || "that came with it".to_owned();
+        if let Some([width, height]) = too_large(companion) {
+            return remarked(LookRemark::TooLarge { name: name(), width, height });
+        }
         if media_type(companion).is_some() {
             return Self { pictures: vec![companion.to_vec()], ..Self::default() };
         }
@@ -175,8 +180,7 @@ impl MaterialSet {
             let root: Value = serde_json::from_slice(container.json).ok()?;
             Some(Self::of_document(&root, container.binary.unwrap_or_default()))
         };
-        let name = "that came with it".to_owned();
-        set().unwrap_or_else(|| Self { remarks: vec![LookRemark::NoPicture { name }], ..Self::default() })
+        set().unwrap_or_else(|| remarked(LookRemark::NoPicture { name: name() }))
     }
 
     fn of_document(root: &Value, binary: &[u8]) -> Self {
@@ -215,6 +219,7 @@ impl MaterialSet {
 
 #[cfg(test)]
 mod tests {
+    use super::super::picture::tests::png_that_announces;
     use super::*;
     use crate::math::random::SplitMix;
 
@@ -301,5 +306,12 @@ mod tests {
             assert_eq!(set.by_polygon(MESH), [Material::BARE; 5]);
             assert_eq!(set.remarks, [LookRemark::NoPicture { name: "that came with it".into() }]);
         }
+        let [width, height] = [70_000, 2_000];
+        let name = "that came with it".to_owned();
+        let set = MaterialSet::read(&png_that_announces([width, height].map(|n| n as u32)));
+        assert_eq!(
+            (set.pictures.len(), set.remarks),
+            (0, vec![LookRemark::TooLarge { name, width, height }])
+        );
     }
 }

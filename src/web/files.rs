@@ -28,6 +28,15 @@ impl MeshParts {
     }
 }
 
+/// Checks a picture that the browser is to decode, by its head alone.
+///
+/// # Errors
+/// `{"code": "file", "message"}`: it is no PNG, JPEG or WebP file, is damaged or has too many pixels.
+#[wasm_bindgen(js_name = checkPicture)]
+pub fn check_picture(bytes: &[u8]) -> Result<(), JsValue> {
+    io::picture::check(bytes).map_err(|e| failure("file", e))
+}
+
 /// The files that a mesh file names, by what it calls them.
 #[wasm_bindgen(js_name = meshParts)]
 pub fn mesh_parts(bytes: &[u8]) -> MeshParts {

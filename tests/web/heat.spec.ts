@@ -70,7 +70,10 @@ test('a picture of one’s own lies on both meshes; what is no picture is told, 
     expect((await seen(page, view)).green).toBeGreaterThan(0.01);
   }
   await page.locator('#texture-file').setInputFiles({ name: 'two.txt', mimeType: 'text/plain', buffer: Buffer.from('no picture') });
-  await expect(page.getByText('two.txt is no picture that this browser can read')).toBeVisible();
+  await expect(page.getByText('two.txt: This is no PNG, JPEG or WebP file')).toBeVisible();
+  const head = Buffer.from('89504e470d0a1a0a0000000d494844520000ea600000c350080600000000000000', 'hex');
+  await page.locator('#texture-file').setInputFiles({ name: 'huge.png', mimeType: 'image/png', buffer: head });
+  await expect(page.getByText('huge.png: The picture has 60000 x 50000 pixels')).toBeVisible();
   expect((await seen(page, 'source')).red).toBeGreaterThan(0.01);
   await page.getByRole('button', { name: 'Close the message' }).click();
   await showSurface(page, 'Checkerboard');

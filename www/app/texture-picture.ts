@@ -1,12 +1,27 @@
 /** Lays a picture of the user's on the flat metric. */
+import type { Failure } from '../compute/messages.ts';
+import { failureOf } from '../compute/messages.ts';
+import { fileSentence } from '../messages.ts';
 import type { Store } from '../store/store.ts';
+import type { Pixels } from '../viewer/decoded.ts';
 import { decoded } from '../viewer/decoded.ts';
+import { checkPicture } from '../wasm/page.js';
 
 /** Bytes of a picture's file; no camera makes larger ones. */
 const LARGEST = 64 * 2 ** 20;
 
 /** How many were asked for: a slow one does not take the place of one that was chosen after it. */
 let asked = 0;
+
+/** The pixels of a picture, or why it is not decoded: a small file can hold a picture of any size. */
+function read(bytes: Uint8Array<ArrayBuffer>): Promise<Pixels | null> | Failure {
+  try {
+    checkPicture(bytes);
+  } catch (thrown) {
+    return failureOf(thrown);
+  }
+  return decoded(bytes);
+}
 
 /** Reads a picture and shows it; what cannot be read is told, and the last picture stays. */
 export async function openTexturePicture(store: Store, file: File): Promise<void> {
@@ -19,7 +34,7 @@ export async function openTexturePicture(store: Store, file: File): Promise<void
     return;
   }
   const picture = await file.arrayBuffer().then(
-    (bytes) => decoded(new Uint8Array(bytes)),
+    (bytes) => read(new Uint8Array(bytes)),
     () => null,
   );
   if (number !== asked) {
@@ -27,6 +42,10 @@ export async function openTexturePicture(store: Store, file: File): Promise<void
   }
   if (picture === null) {
     tell(`${file.name} is no picture that this browser can read: choose a PNG, JPEG or WebP file.`);
+    return;
+  }
+  if ('code' in picture) {
+    tell(fileSentence(file.name, picture));
     return;
   }
   store.dispatch({ kind: 'texture-picture', picture: { name: file.name, ...picture } });

@@ -67,7 +67,7 @@ export function FileInputs({ state, actions }: { readonly state: State; readonly
       <FileInput id="landmarks-of-target" accept={landmarks} onFiles={open(1)} />
       <FileInput
         id="texture-file"
-        accept="image/*"
+        accept="image/png, image/jpeg, image/webp"
         onFiles={(files) => {
           files.slice(0, 1).forEach(actions.openTexturePicture);
         }}
