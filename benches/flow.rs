@@ -4,23 +4,22 @@
 mod common;
 
 use conemap::base_domain::simplify;
-use conemap::cone_metric::{FlowOptions, base_domain_curvature, flow};
+use conemap::cone_metric::{FlowOptions, base_domain_curvature};
 use conemap::monitor::Silent;
-use criterion::Criterion;
+use divan::Bencher;
 
 fn main() {
-    let mut criterion = Criterion::default().configure_from_args().sample_size(10);
-    if let Some(data) = common::data_folder("the benchmarks of the flow") {
-        for name in ["homer", "horse97k"] {
-            let mesh = common::read_mesh(&data.join("single").join(format!("{name}.off")));
-            let landmarks = common::farthest_points(&mesh, 33);
-            let base = simplify(&mesh, &landmarks, &mut Silent).expect("a base domain");
-            let target = base_domain_curvature(mesh.vertex_count(), &landmarks, &base);
-            let options = FlowOptions::default();
-            criterion.bench_function(&format!("flow/{name}"), |bencher| {
-                bencher.iter(|| flow(&mesh, &target, &options, &mut Silent).expect("the flow converges"));
-            });
-        }
-    }
-    criterion.final_summary();
+    divan::main();
+}
+
+#[divan::bench(args = ["homer", "horse97k"], sample_count = 10, sample_size = 1)]
+fn flow(bencher: Bencher, name: &str) {
+    let Some(data) = common::data_folder("the benchmarks of the flow") else { return };
+    let mesh = common::read_mesh(&data.join("single").join(format!("{name}.off")));
+    let landmarks = common::farthest_points(&mesh, 33);
+    let base = simplify(&mesh, &landmarks, &mut Silent).expect("a base domain");
+    let target = base_domain_curvature(mesh.vertex_count(), &landmarks, &base);
+    let options = FlowOptions::default();
+    let to_target = || conemap::cone_metric::flow(&mesh, &target, &options, &mut Silent);
+    bencher.bench_local(|| to_target().expect("the flow converges"));
 }

@@ -42,14 +42,15 @@ fn expect_closed(picture: &BasePicture, lines: &[Vec<Vec<DVec3>>; 2]) {
 
 #[test]
 fn patches_are_all_of_both_meshes_and_a_saved_map_has_the_same() {
-    let files = Files::of_demo("horse-cat", 12);
+    let (id, landmarks) = ("sphere-tetrahedron", 5);
+    let files = Files::of_demo(id, landmarks);
     // Few landmarks: the program adds cones of its own.
     let (job, result) = run(&files, &PipelineOptions::default(), &mut Silent);
     let picture = job.base_picture(&result);
     expect_closed(&picture, &result.patch_lines);
-    assert_eq!(picture.shapes[0].cones.len(), 12 + result.report.own_landmarks);
+    assert_eq!(picture.shapes[0].cones.len(), landmarks + result.report.own_landmarks);
     assert!(result.report.own_landmarks > 0);
-    let demo = conemap::demo::build("horse-cat").unwrap();
+    let demo = conemap::demo::build(id).unwrap();
     for (shape, mesh) in picture.shapes.iter().zip([&demo.source, &demo.target]) {
         let triangles = &shape.patches.triangles;
         assert!((area(&shape.points, triangles) / area_of_mesh(mesh) - 1.0).abs() < 1e-9);

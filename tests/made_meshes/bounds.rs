@@ -164,11 +164,15 @@ fn the_same_mesh_with_other_landmarks_has_the_inverse_map_when_exchanged() {
 
 #[test]
 fn a_run_stops_wherever_it_is_asked_to() {
-    let demo = demo::build("sphere-tetrahedron").unwrap();
-    let landmarks = Landmarks::from_vertices(&demo.source, &demo.target, &demo.landmarks).unwrap();
-    let input = MapInput::new(&demo.source, &demo.target, &landmarks);
+    let ball = icosphere(2);
+    let bent =
+        ball.with_positions(ball.positions().iter().map(|p| DVec3::new(1.4 * p.x, p.y, p.z)).collect());
+    // Few landmarks: the program adds cones of its own.
+    let landmarks = Landmarks::from_vertices(&ball, &bent, &every(27, 162)).unwrap();
+    let input = MapInput::new(&ball, &bent, &landmarks);
     let mut whole = Counter::up_to(usize::MAX);
-    run(input, &PipelineOptions::default(), &mut whole).unwrap();
+    let result = run(input, &PipelineOptions::default(), &mut whole).unwrap();
+    assert!(result.report.own_landmarks > 0);
     let mut random = SplitMix::new(5);
     for _ in 0..12 {
         let mut counter = Counter::up_to((random.unit() * whole.asked as f64) as usize);

@@ -11,8 +11,8 @@ use std::path::Path;
 use typed_index_collections::TiVec;
 
 tests![
-    cat_and_lion_cut_at_the_neck_are_mapped_rim_to_rim,
-    horse_and_camel_cut_at_the_neck_are_mapped_rim_to_rim
+    cat_and_lion_cut_at_the_neck_are_mapped_rim_to_rim;
+    long: horse_and_camel_cut_at_the_neck_are_mapped_rim_to_rim
 ];
 
 fn cat_and_lion_cut_at_the_neck_are_mapped_rim_to_rim(data: &Path) {

@@ -77,9 +77,9 @@ test.beforeEach(({ page }) => {
 test('two real meshes and their landmarks give a certified map', async ({ page }) => {
   needsSharedData();
   await open(page);
-  await drop(page, [`${DATA}/sumner/lion.off`, `${DATA}/sumner/cat.off`, `${DATA}/pairs/cat-lion.json`]);
-  await expect(page.locator('#view-source')).toContainText('cat.off');
-  await expect(page.locator('#view-target')).toContainText('lion.off');
+  await drop(page, [`${DATA}/shrec07/400.off`, `${DATA}/shrec07/381.off`, `${DATA}/pairs/shrec07-381-400.json`]);
+  await expect(page.locator('#view-source')).toContainText('381.off');
+  await expect(page.locator('#view-target')).toContainText('400.off');
   await openStep(page, 'landmarks');
   const rows = pairs(page);
   await expect(rows.nth(10)).toBeVisible();
@@ -87,12 +87,12 @@ test('two real meshes and their landmarks give a certified map', async ({ page }
 
   await runMap(page);
   await page.waitForTimeout(1500);
-  await page.screenshot({ path: `${ROOT}test-results/cat-lion.png` });
+  await page.screenshot({ path: `${ROOT}test-results/real-pair.png` });
   await expect(page.locator('#details')).toContainText(/classes? tried/);
   await showSurface(page, 'Distortion');
   await expect(page.locator('.scale')).toBeVisible();
   await page.waitForTimeout(1500);
-  await page.screenshot({ path: `${ROOT}test-results/cat-lion-distortion.png` });
+  await page.screenshot({ path: `${ROOT}test-results/real-pair-distortion.png` });
   for (const half of await readHalves(page)) {
     expect(half.covered).toBeGreaterThan(0.03);
     expect(half.colours).toBeGreaterThan(20);
