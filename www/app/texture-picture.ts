@@ -13,14 +13,19 @@ const LARGEST = 64 * 2 ** 20;
 /** How many were asked for: a slow one does not take the place of one that was chosen after it. */
 let asked = 0;
 
-/** The pixels of a picture, or why it is not decoded: a small file can hold a picture of any size. */
-function read(bytes: Uint8Array<ArrayBuffer>): Promise<Pixels | null> | Failure {
+/** The pixels of a picture; `null` where it cannot be decoded, and why where its head alone says so: a small file can hold a picture of any size. */
+async function read(file: File): Promise<Pixels | Failure | null> {
+  const bytes = await file.arrayBuffer().catch(() => null);
+  if (bytes === null) {
+    return null;
+  }
+  const picture = new Uint8Array(bytes);
   try {
-    checkPicture(bytes);
+    checkPicture(picture);
   } catch (thrown) {
     return failureOf(thrown);
   }
-  return decoded(bytes);
+  return decoded(picture);
 }
 
 /** Reads a picture and shows it; what cannot be read is told, and the last picture stays. */
@@ -33,10 +38,7 @@ export async function openTexturePicture(store: Store, file: File): Promise<void
     tell(`${file.name} has ${Math.ceil(file.size / 2 ** 20)} MiB; a picture may have 64. Make it smaller.`);
     return;
   }
-  const picture = await file.arrayBuffer().then(
-    (bytes) => read(new Uint8Array(bytes)),
-    () => null,
-  );
+  const picture = await read(file);
   if (number !== asked) {
     return;
   }
