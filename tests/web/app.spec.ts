@@ -88,7 +88,7 @@ test('two real meshes and their landmarks give a certified map', async ({ page }
   await runMap(page);
   await page.waitForTimeout(1500);
   await page.screenshot({ path: `${ROOT}test-results/real-pair.png` });
-  await expect(page.locator('#details')).toContainText(/classes? tried/);
+  await expect(page.locator('#details')).toContainText(/class(es)? tried/);
   await showSurface(page, 'Distortion');
   await expect(page.locator('.scale')).toBeVisible();
   await page.waitForTimeout(1500);
