@@ -108,8 +108,34 @@ fn at_random(pair: &Pair, seed: u64) -> Case<'_> {
         let centre = (random.unit() * pair.source.vertex_count() as f64) as u32;
         remove_around(&pair.source, VertexId(centre), *share, &mut removed);
     }
+    remove_cut_off(&pair.source, &mut removed);
     let told: Vec<String> = shares.iter().map(|share| format!("{:.1}", 100.0 * share)).collect();
     Case { pair, name: format!("{seed}: {}", told.join(" ")), removed }
+}
+
+/// Removes what holes have cut off, as a ring around a leg does: all parts but that with the most faces.
+fn remove_cut_off(mesh: &SurfaceMesh, removed: &mut TiVec<FaceId, bool>) {
+    let mut part: TiVec<FaceId, Option<usize>> = mesh.faces().map(|_| None).collect();
+    let mut sizes = Vec::new();
+    for first in mesh.faces() {
+        if removed[first] || part[first].is_some() {
+            continue;
+        }
+        let (mut reached, mut size) = (vec![first], 0);
+        part[first] = Some(sizes.len());
+        while let Some(face) = reached.pop() {
+            size += 1;
+            for next in face.halfedges().map(|h| mesh.twin(h).face()) {
+                if !removed[next] && part[next].is_none() {
+                    part[next] = Some(sizes.len());
+                    reached.push(next);
+                }
+            }
+        }
+        sizes.push(size);
+    }
+    let largest = (0..sizes.len()).max_by_key(|&k| sizes[k]);
+    mesh.faces().for_each(|f| removed[f] |= part[f] != largest);
 }
 
 /// The maps of some cases, and what they reached together.

@@ -28,7 +28,7 @@ pub enum PictureError {
         wanted: &'static str,
     },
     /// The picture is too large.
-    #[error("the picture has {width} x {height} pixels; the limit is {MAX_PIXELS}")]
+    #[error("the picture has {width} x {height} pixels; the limit is {MAX_PIXELS}: make it smaller")]
     TooLarge {
         /// Pixels in a row.
         width: usize,

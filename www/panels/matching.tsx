@@ -27,7 +27,7 @@ interface Told {
 /** How sure a search is, in the page's words. */
 const VERDICTS: Readonly<Record<MatchReport['verdict']['kind'], Told>> = {
   sure: { icon: 'check', word: 'Sure.', sentence: 'No other answer comes near.' },
-  doubtful: { icon: 'doubt', word: 'Doubtful.', sentence: 'Another answer fits nearly as well. The question below settles it.' },
+  doubtful: { icon: 'doubt', word: 'Doubtful.', sentence: 'It may be right. The question below settles it.' },
   unknown: {
     icon: 'help',
     word: 'Not found.',
