@@ -153,8 +153,8 @@ fn joined(
 
 #[cfg(test)]
 mod tests {
-    use super::super::picture::tests::png_that_announces;
     use super::*;
+    use crate::io::picture::tests::png_that_announces;
     use crate::io::read_mesh;
     use serde_json::json;
 

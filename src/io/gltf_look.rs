@@ -8,7 +8,7 @@ use super::gltf_container;
 use super::gltf_document::Document;
 use super::gltf_file::{Part, Reader, Scene, scene};
 use super::look_remark::LookRemark;
-use super::picture::{media_type, too_large};
+use super::picture::media_type;
 use crate::math::screen_light::screen_byte;
 use crate::mesh::look::{CornerLook, MOST_PICTURES, PicturePlace, PolygonLook};
 use crate::monitor::{Pulse, Silent};
@@ -123,10 +123,7 @@ impl Images<'_> {
         let bytes = bytes
             .filter(|bytes| media_type(bytes).is_some())
             .ok_or_else(|| LookRemark::NoPicture { name: name() })?;
-        match too_large(&bytes) {
-            Some([width, height]) => Err(LookRemark::TooLarge { name: name(), width, height }),
-            None => Ok(bytes),
-        }
+        LookRemark::too_large(&bytes, name).map_or(Ok(bytes), Err)
     }
 
     fn in_buffer(&self, image: &Value) -> Option<Vec<u8>> {

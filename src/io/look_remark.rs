@@ -1,6 +1,6 @@
 //! What cannot be used of how a mesh file says that its surface looks.
 
-use super::picture::MAX_PIXELS;
+use super::picture::{self, MAX_PIXELS, PictureError};
 use crate::mesh::look::MOST_PICTURES;
 
 /// What cannot be used of a look. The mesh is good without it.
@@ -40,4 +40,16 @@ pub enum LookRemark {
         /// What is wrong.
         problem: String,
     },
+}
+
+impl LookRemark {
+    /// The remark on a picture whose head tells more pixels than a picture may have; `None` for any other.
+    pub(super) fn too_large(picture: &[u8], name: impl FnOnce() -> String) -> Option<Self> {
+        match picture::check(picture) {
+            Err(PictureError::TooLarge { width, height }) => {
+                Some(Self::TooLarge { name: name(), width, height })
+            }
+            _ => None,
+        }
+    }
 }

@@ -8,7 +8,7 @@ use super::gltf_look::{Images, Used, index};
 use super::gltf_parts::{Packer, glb};
 use super::look_remark::LookRemark;
 use super::obj::{WholeLine, whole_lines};
-use super::picture::{media_type, too_large};
+use super::picture::media_type;
 use super::reading::text;
 use super::{Format, detect};
 use serde_json::{Map, Value, json};
@@ -169,8 +169,8 @@ impl MaterialSet {
     pub(super) fn read(companion: &[u8]) -> Self {
         let remarked = |remark: LookRemark| Self { remarks: vec![remark], ..Self::default() };
         let name = || "that came with it".to_owned();
-        if let Some([width, height]) = too_large(companion) {
-            return remarked(LookRemark::TooLarge { name: name(), width, height });
+        if let Some(remark) = LookRemark::too_large(companion, name) {
+            return remarked(remark);
         }
         if media_type(companion).is_some() {
             return Self { pictures: vec![companion.to_vec()], ..Self::default() };
@@ -219,8 +219,8 @@ impl MaterialSet {
 
 #[cfg(test)]
 mod tests {
-    use super::super::picture::tests::png_that_announces;
     use super::*;
+    use crate::io::picture::tests::png_that_announces;
     use crate::math::random::SplitMix;
 
     const MESH: &str = "# by hand\r\nmtllib my skins.mtl\r\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n\
@@ -306,12 +306,9 @@ mod tests {
             assert_eq!(set.by_polygon(MESH), [Material::BARE; 5]);
             assert_eq!(set.remarks, [LookRemark::NoPicture { name: "that came with it".into() }]);
         }
-        let [width, height] = [70_000, 2_000];
+        let set = MaterialSet::read(&png_that_announces([70_000, 2_000]));
         let name = "that came with it".to_owned();
-        let set = MaterialSet::read(&png_that_announces([width, height].map(|n| n as u32)));
-        assert_eq!(
-            (set.pictures.len(), set.remarks),
-            (0, vec![LookRemark::TooLarge { name, width, height }])
-        );
+        assert_eq!(set.remarks, [LookRemark::TooLarge { name, width: 70_000, height: 2_000 }]);
+        assert_eq!(set.pictures.len(), 0);
     }
 }

@@ -66,14 +66,6 @@ pub fn check(bytes: &[u8]) -> Result<(), PictureError> {
     check_size([size.width, size.height])
 }
 
-/// Width and height that the head of a picture tells, where they are more than a picture may have.
-pub(super) fn too_large(bytes: &[u8]) -> Option<[usize; 2]> {
-    match check(bytes) {
-        Err(PictureError::TooLarge { width, height }) => Some([width, height]),
-        _ => None,
-    }
-}
-
 fn check_size([width, height]: [usize; 2]) -> Result<(), PictureError> {
     match width.checked_mul(height) {
         Some(1..=MAX_PIXELS) => Ok(()),
