@@ -8,6 +8,7 @@ import { Keeper } from '../../www/app/keep.ts';
 import { Database } from '../../www/keep/database.ts';
 import type { SessionRecord } from '../../www/keep/record.ts';
 import { keptOf, readSession, recordOf } from '../../www/keep/record.ts';
+import type { Tabs } from '../../www/keep/tabs.ts';
 import { FileRefused } from '../../www/named-file.ts';
 import type { Event } from '../../www/store/events.ts';
 import type { MeshFile, State } from '../../www/store/state.ts';
@@ -349,6 +350,30 @@ describe('a reload', () => {
       ['session-2', 6],
     ]);
   });
+});
+
+test('a reload that comes before the page has let go continues its session, and offers it to nobody', async () => {
+  const before = await catAndLion();
+  const [session = ''] = locks.keys();
+  const tabs = (): Tabs => ({
+    claim: (name) => {
+      const isFree = name !== session;
+      // It is free as soon as nobody waits for it.
+      locks.delete(session);
+      return Promise.resolve(isFree);
+    },
+    release: () => undefined,
+    open: () => Promise.resolve(new Set(locks.keys())),
+  });
+  const tab = await new Tab(new Map(before.memory), { tabs }).visit();
+  expect(tab.isResumed).toBe(true);
+  expect(tab.state.offer).toBeNull();
+  expect(contentOf(tab.state)).toEqual(contentOf(before.state));
+  await tab.keeper.flush();
+  expect((await records()).map(({ id }) => id)).toEqual(['session-2']);
+  const again = await new Tab(await tab.close()).visit();
+  expect(again.isResumed).toBe(true);
+  expect(again.state.offer).toBeNull();
 });
 
 describe('a new visit', () => {

@@ -42,19 +42,40 @@ async function readHalves(page: Page): Promise<Half[]> {
   );
 }
 
-/** Looks for the body in a view from its middle outwards, and clicks until the list or the hint changes. */
-async function pickOn(page: Page, view: string, picked: () => Promise<boolean>): Promise<void> {
+/** Places well inside the picture of the body in a view, in pixels of the page, from the view's middle outwards. */
+async function placesOnBody(page: Page, view: string): Promise<{ readonly x: number; readonly y: number }[]> {
   const box = (await page.locator(view).boundingBox()) ?? fail(`${view} has no box`);
-  for (const [dx, dy] of [
-    [0, 0],
-    [0.06, 0.02],
-    [-0.08, 0.03],
-    [0.03, -0.08],
-    [-0.04, 0.1],
-    [0.15, 0],
-    [-0.15, 0],
-  ] as const) {
-    await page.mouse.click(box.x + box.width * (0.5 + dx), box.y + box.height * (0.5 + dy));
+  const picture = (await page.screenshot({ clip: box, scale: 'css' })).toString('base64');
+  const places = await page.evaluate(async (base64) => {
+    const STEP = 12;
+    const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${base64}`)).blob());
+    const { width, height } = image;
+    const context = new OffscreenCanvas(width, height).getContext('2d');
+    if (context === null) {
+      throw new Error('no 2D context');
+    }
+    context.drawImage(image, 0, 0);
+    const pixels = new Uint32Array(context.getImageData(0, 0, width, height).data.buffer);
+    const isBody = (x: number, y: number): boolean => pixels[y * width + x] !== pixels[2 * width + 2];
+    const found: { x: number; y: number }[] = [];
+    for (let y = STEP; y < height - STEP; y += STEP) {
+      for (let x = STEP; x < width - STEP; x += STEP) {
+        const around = [-STEP, 0, STEP].flatMap((dy) => [-STEP, 0, STEP].map((dx) => isBody(x + dx, y + dy)));
+        if (around.every(Boolean)) {
+          found.push({ x, y });
+        }
+      }
+    }
+    const fromMiddle = ({ x, y }: { x: number; y: number }): number => Math.hypot(x - width / 2, y - height / 2);
+    return found.sort((a, b) => fromMiddle(a) - fromMiddle(b));
+  }, picture);
+  return places.map(({ x, y }) => ({ x: box.x + x, y: box.y + y }));
+}
+
+/** Clicks on the body in a view until the list or the hint changes: a click on a pin takes that. */
+async function pickOn(page: Page, view: string, picked: () => Promise<boolean>): Promise<void> {
+  for (const { x, y } of (await placesOnBody(page, view)).slice(0, 12)) {
+    await page.mouse.click(x, y);
     await page.waitForTimeout(400);
     if (await picked()) {
       return;

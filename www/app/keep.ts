@@ -254,6 +254,11 @@ export class Keeper {
       // The browser may need a moment to see that it is free.
       open.delete(before);
     }
+    if (own !== null && own.id !== this.#id) {
+      // A page that was reloaded may let go late: what comes onto this page is continued here, and not offered.
+      this.#absorbed = open.has(own.id) ? null : own.id;
+      open.add(own.id);
+    }
     const choice = choiceOf(await database.sessions(), open);
     this.#offerable = choice.offerable;
     await database.remove(choice.obsolete);
