@@ -131,6 +131,19 @@ describe('the service worker', { timeout: 60_000 }, () => {
     expect(later.ask('mesh.obj')).toBeUndefined();
   });
 
+  test('asks again for a file that broke off, past what the browser has of it', async () => {
+    const caches = new Caches();
+    const broken = new Set(['assets/index-1.js default', 'no-cache']);
+    const flaky = async (url: string, options?: RequestInit): Promise<Response> => {
+      const request = `${url.slice(SCOPE.length)} ${options?.cache ?? ''}`.trim();
+      return broken.delete(request) ? Promise.reject(new TypeError('broke off')) : net(url, options);
+    };
+    asked.length = 0;
+    await started(code, caches, flaky).install();
+    expect(asked.sort()).toEqual(['assets/index-1.js reload', 'icon.svg no-cache', 'reload']);
+    expect(await started(code, caches, offline).ask('assets/index-1.js')).toBe('a script');
+  });
+
   test('is not installed by halves', async () => {
     const missing = async (url: string): Promise<Response> => Promise.resolve(new Response('', { status: url.endsWith('.svg') ? 404 : 200 }));
     await expect(started(code, new Caches(), missing).install()).rejects.toThrow('404');

@@ -15,14 +15,10 @@ const NAME = cacheName(scope, PRECACHE.version);
 /** Servers say of files that they vary with what the browser takes; the page's do not. */
 const ANY_VARIANT = { ignoreVary: true };
 
-/** The file as the server has it now; of a file whose name holds its hash, an earlier build's copy is as good. */
-async function fetched({ path, integrity }: KeptFile): Promise<Response> {
+/** The file as the server has it; how the browser's own cache may answer for it is told by `cache`. */
+async function fetched({ path, integrity }: KeptFile, cache: RequestCache): Promise<Response> {
   const url = `${scope}${path}`;
-  const earlier = isHashed(path) ? await caches.match(url, ANY_VARIANT) : undefined;
-  if (earlier !== undefined) {
-    return earlier;
-  }
-  const response = await fetch(url, { integrity, cache: isHashed(path) ? 'default' : 'no-cache' });
+  const response = await fetch(url, { integrity, cache });
   if (!response.ok) {
     throw new Error(`${url}: ${response.status}`);
   }
@@ -30,9 +26,25 @@ async function fetched({ path, integrity }: KeptFile): Promise<Response> {
   return response.redirected ? new Response(response.body, { headers: response.headers }) : response;
 }
 
+/** Keeps the file as the server has it now; of a file whose name holds its hash, an earlier build's copy is as good. */
+async function keep(cache: Cache, file: KeptFile): Promise<void> {
+  const url = `${scope}${file.path}`;
+  const earlier = isHashed(file.path) ? await caches.match(url, ANY_VARIANT) : undefined;
+  if (earlier !== undefined) {
+    await cache.put(url, earlier);
+    return;
+  }
+  try {
+    await cache.put(url, await fetched(file, isHashed(file.path) ? 'default' : 'no-cache'));
+  } catch {
+    // One answer of many that broke off is not the end of all; this one passes by what the browser may have half of.
+    await cache.put(url, await fetched(file, 'reload'));
+  }
+}
+
 async function fill(): Promise<void> {
   const cache = await caches.open(NAME);
-  await Promise.all(PRECACHE.files.map(async (file) => cache.put(`${scope}${file.path}`, await fetched(file))));
+  await Promise.all(PRECACHE.files.map((file) => keep(cache, file)));
 }
 
 async function begin(): Promise<void> {
