@@ -8,7 +8,7 @@ import { buildDemo, initSync } from '../../www/wasm/page.js';
 import type { Upload } from './own-files.ts';
 import { upload } from './own-files.ts';
 import { halvesPicture } from './canvas.ts';
-import { fail, open, openStep, runMap } from './page.ts';
+import { fail, open, openDemo, openStep, runMap } from './page.ts';
 
 type Point = readonly [number, number, number];
 
@@ -306,7 +306,7 @@ test('what goes on is shown, and left when it is cancelled', async () => {
 
 test('without a map the section says what it is for', async ({ browser }) => {
   const fresh = await browser.newPage();
-  await open(fresh, '#demo=sphere-tetrahedron');
+  await openDemo(fresh, '#demo=sphere-tetrahedron');
   await openStep(fresh, 'use');
   await expect(fresh.locator('#panel')).toContainText('Once there is a map, what belongs to one mesh can be brought onto the other');
   await fresh.close();
