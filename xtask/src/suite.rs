@@ -14,7 +14,7 @@ const PACKAGES: [&str; 4] = ["--package", "conemap", "--package", "conemap-verif
 /// Which tests are run.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
-    /// All but the long ones, which are shown as ignored: some sixteen minutes on two processors from nothing.
+    /// All but the long ones, which are shown as ignored: some fifteen minutes on two processors from nothing.
     Usual,
     All,
 }
