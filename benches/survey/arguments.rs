@@ -125,6 +125,9 @@ impl Arguments {
     /// The names of the pairs that are asked for.
     pub fn names(&self) -> Vec<String> {
         let mut names = common::pair_names(&self.data);
+        for wanted in self.pairs.iter().filter(|p| !names.iter().any(|name| name.starts_with(p.as_str()))) {
+            eprintln!("no pair's name begins with {wanted}");
+        }
         names.retain(|name| self.pairs.is_empty() || self.pairs.iter().any(|p| name.starts_with(p.as_str())));
         names
     }
