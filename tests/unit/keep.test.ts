@@ -352,28 +352,42 @@ describe('a reload', () => {
   });
 });
 
-test('a reload that comes before the page has let go continues its session, and offers it to nobody', async () => {
-  const before = await catAndLion();
-  const [session = ''] = locks.keys();
-  const tabs = (): Tabs => ({
-    claim: (name) => {
-      const isFree = name !== session;
-      // It is free as soon as nobody waits for it.
-      locks.delete(session);
-      return Promise.resolve(isFree);
-    },
-    release: () => undefined,
-    open: () => Promise.resolve(new Set(locks.keys())),
+describe('a reload that comes before the page has let go', () => {
+  /** Tabs in which a session is held until it was asked for once. */
+  function lateTabs(session: string): () => Tabs {
+    return () => ({
+      claim: (name) => {
+        const isFree = name !== session;
+        locks.delete(session);
+        return Promise.resolve(isFree);
+      },
+      release: () => undefined,
+      open: () => Promise.resolve(new Set(locks.keys())),
+    });
+  }
+
+  test('continues its session, and offers it to nobody', async () => {
+    const before = await catAndLion();
+    const tab = await new Tab(new Map(before.memory), { tabs: lateTabs('session-1') }).visit();
+    expect(tab.isResumed).toBe(true);
+    expect(tab.state.offer).toBeNull();
+    expect(contentOf(tab.state)).toEqual(contentOf(before.state));
+    await tab.keeper.flush();
+    expect((await records()).map(({ id }) => id)).toEqual(['session-2']);
+    const again = await new Tab(await tab.close()).visit();
+    expect(again.isResumed).toBe(true);
+    expect(again.state.offer).toBeNull();
   });
-  const tab = await new Tab(new Map(before.memory), { tabs }).visit();
-  expect(tab.isResumed).toBe(true);
-  expect(tab.state.offer).toBeNull();
-  expect(contentOf(tab.state)).toEqual(contentOf(before.state));
-  await tab.keeper.flush();
-  expect((await records()).map(({ id }) => id)).toEqual(['session-2']);
-  const again = await new Tab(await tab.close()).visit();
-  expect(again.isResumed).toBe(true);
-  expect(again.state.offer).toBeNull();
+
+  test('and does not bring its work leaves that where it is', async () => {
+    const before = await catAndLion();
+    const read = (): Promise<never> => Promise.reject(new FileRefused('cat.off: it cannot be read'));
+    const tab = await new Tab(new Map(before.memory), { tabs: lateTabs('session-1'), read }).visit();
+    expect(tab.isResumed).toBe(false);
+    tab.does({ kind: 'mesh', side: 0, file: mesh('cow.off') });
+    await tab.close();
+    expect((await records()).map(({ id }) => id)).toContain('session-1');
+  });
 });
 
 describe('a new visit', () => {

@@ -180,6 +180,9 @@ export class Keeper {
     }
     this.#written = own.id === this.#id ? new Set(own.hashes) : null;
     const isThere = await this.#restore(own);
+    if (isThere && own.id !== this.#id) {
+      await this.#quietly(() => this.#continueWith(own.id));
+    }
     if (!isThere && this.#tabs !== null) {
       // What comes onto the page in place of it is not written over it.
       const tabs = this.#tabs;
@@ -204,9 +207,7 @@ export class Keeper {
     if (reading.kind !== 'session') {
       dispatch({ kind: 'error', sentence: SENTENCES.keptUnreadable });
     } else if (await this.#restore(reading.record)) {
-      const isOpen = (await this.#tabs?.open())?.has(id) ?? false;
-      this.#absorbed = isOpen ? null : id;
-      this.#schedule();
+      await this.#continueWith(id);
     }
   }
 
@@ -254,9 +255,8 @@ export class Keeper {
       // The browser may need a moment to see that it is free.
       open.delete(before);
     }
-    if (own !== null && own.id !== this.#id) {
-      // A page that was reloaded may let go late: what comes onto this page is continued here, and not offered.
-      this.#absorbed = open.has(own.id) ? null : own.id;
+    if (own !== null) {
+      // A page that was reloaded may let go late, after another session was begun here: what comes onto this page is not offered.
       open.add(own.id);
     }
     const choice = choiceOf(await database.sessions(), open);
@@ -271,6 +271,13 @@ export class Keeper {
     this.#written = null;
     await tabs.claim(this.#id, PATIENCE);
     this.#around.memory().setItem(MEMORY_KEY, this.#id);
+  }
+
+  /** This tab's session goes on with the work of another one, which is on the page, and takes its place unless a tab has it open. */
+  async #continueWith(id: string): Promise<void> {
+    const isOpen = (await this.#tabs?.open())?.has(id) ?? false;
+    this.#absorbed = isOpen ? null : id;
+    this.#schedule();
   }
 
   /** Puts a session's work onto the page; `false` where it does not come, and says why where it cannot be read. */
