@@ -1,5 +1,6 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import type { Page } from '@playwright/test';
+import { placesOnBody } from './canvas.ts';
 import { expect, test } from './test.ts';
 import { DATA, drop, fail, needsSharedData, open, openDemo, openStep, pairs, ROOT, RUN_TIMEOUT, runMap, showSurface } from './page.ts';
 
@@ -42,47 +43,9 @@ async function readHalves(page: Page): Promise<Half[]> {
   );
 }
 
-/** Places well inside the picture of the body in a view, in pixels of the page, from the view's middle outwards. */
-async function placesOnBody(page: Page, view: string): Promise<{ readonly x: number; readonly y: number }[]> {
-  const box = (await page.locator(view).boundingBox()) ?? fail(`${view} has no box`);
-  const picture = (await page.screenshot({ clip: box, scale: 'css' })).toString('base64');
-  const places = await page.evaluate(async (base64) => {
-    const STEP = 12;
-    const MOST = 6;
-    const APART = 40;
-    const image = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))]));
-    const { width, height } = image;
-    const context = new OffscreenCanvas(width, height).getContext('2d');
-    if (context === null) {
-      throw new Error('no 2D context');
-    }
-    context.drawImage(image, 0, 0);
-    const pixels = new Uint32Array(context.getImageData(0, 0, width, height).data.buffer);
-    const isBody = (x: number, y: number): boolean => pixels[y * width + x] !== pixels[2 * width + 2];
-    const found: { x: number; y: number }[] = [];
-    for (let y = STEP; y < height - STEP; y += STEP) {
-      for (let x = STEP; x < width - STEP; x += STEP) {
-        const around = [-STEP, 0, STEP].flatMap((dy) => [-STEP, 0, STEP].map((dx) => isBody(x + dx, y + dy)));
-        if (around.every(Boolean)) {
-          found.push({ x, y });
-        }
-      }
-    }
-    const fromMiddle = ({ x, y }: { x: number; y: number }): number => Math.hypot(x - width / 2, y - height / 2);
-    const apart: typeof found = [];
-    for (const place of found.sort((a, b) => fromMiddle(a) - fromMiddle(b))) {
-      if (apart.length < MOST && apart.every(({ x, y }) => Math.hypot(x - place.x, y - place.y) > APART)) {
-        apart.push(place);
-      }
-    }
-    return apart;
-  }, picture);
-  return places.map(({ x, y }) => ({ x: box.x + x, y: box.y + y }));
-}
-
 /** Clicks on the body in a view until the list or the hint changes: a click on a pin takes that, and picks nothing. */
 async function pickOn(page: Page, view: string, picked: () => Promise<boolean>): Promise<void> {
-  for (const { x, y } of await placesOnBody(page, view)) {
+  for (const { x, y } of (await placesOnBody(page, view)).slice(0, 6)) {
     await page.mouse.click(x, y);
     // A click waits whether it is a double one, and a busy machine draws late.
     for (let waited = 0; waited < 3000; waited += 100) {

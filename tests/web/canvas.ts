@@ -133,26 +133,67 @@ export async function halvesPicture(page: Page, colours: readonly [string, strin
   return Buffer.from(url.slice(url.indexOf(',') + 1), 'base64');
 }
 
-/** The pixels of what is seen of an element, four bytes each: red, green, blue, opacity. */
-export async function pixelsOf(page: Page, element: string): Promise<Uint8Array> {
+/** What is seen of an element: four bytes a pixel (red, green, blue, opacity), row by row. */
+interface Seen {
+  readonly width: number;
+  readonly pixels: Uint8Array;
+}
+
+async function pictureOf(page: Page, element: string): Promise<Seen> {
   const clip = (await page.locator(element).boundingBox()) ?? fail(`${element} has no box`);
   const picture = (await page.screenshot({ clip })).toString('base64');
-  const read = await page.evaluate(async (base64) => {
+  const { width, read } = await page.evaluate(async (base64) => {
     const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
     const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
     const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
     context?.drawImage(image, 0, 0);
     const pixels = context?.getImageData(0, 0, image.width, image.height).data ?? new Uint8ClampedArray();
     // By far the quickest way to a text.
-    return new Promise<string>((resolve) => {
+    const text = await new Promise<string>((resolve) => {
       const reader = new FileReader();
       reader.onload = () => {
         resolve(typeof reader.result === 'string' ? reader.result : '');
       };
       reader.readAsDataURL(new Blob([pixels]));
     });
+    return { width: image.width, read: text };
   }, picture);
-  return Buffer.from(read.slice(read.indexOf(',') + 1), 'base64');
+  return { width, pixels: Buffer.from(read.slice(read.indexOf(',') + 1), 'base64') };
+}
+
+/** The pixels of what is seen of an element, four bytes each: red, green, blue, opacity. */
+export async function pixelsOf(page: Page, element: string): Promise<Uint8Array> {
+  return (await pictureOf(page, element)).pixels;
+}
+
+/** How far a place lies inside the body at least, and how far from the next one, in pixels. */
+const INSIDE = 12;
+const APART = 40;
+
+/** Places well inside the picture of the body in a view, apart from each other, from the view's middle outwards. */
+export async function placesOnBody(page: Page, view: string): Promise<Spot[]> {
+  const box = (await page.locator(view).boundingBox()) ?? fail(`${view} has no box`);
+  const { width, pixels } = await pictureOf(page, view);
+  const height = pixels.length / (4 * width);
+  const colour = (x: number, y: number): string => pixels.subarray(4 * (y * width + x), 4 * (y * width + x + 1)).join();
+  const ground = colour(2, 2);
+  const around = [-INSIDE, 0, INSIDE].flatMap((dx) => [-INSIDE, 0, INSIDE].map((dy) => [dx, dy] as const));
+  const found: Spot[] = [];
+  for (let y = INSIDE; y < height - INSIDE; y += INSIDE) {
+    for (let x = INSIDE; x < width - INSIDE; x += INSIDE) {
+      if (around.every(([dx, dy]) => colour(x + dx, y + dy) !== ground)) {
+        found.push({ x, y });
+      }
+    }
+  }
+  const middle = { x: width / 2, y: height / 2 };
+  const apart: Spot[] = [];
+  for (const spot of found.sort((a, b) => distance(a, middle) - distance(b, middle))) {
+    if (apart.every((other) => distance(spot, other) > APART)) {
+      apart.push(spot);
+    }
+  }
+  return apart.map(({ x, y }) => ({ x: box.x + x, y: box.y + y }));
 }
 
 /** How many pixels are so. */
