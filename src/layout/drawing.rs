@@ -339,6 +339,14 @@ impl Drawing {
         }
     }
 
+    /// Takes the vertices that erased paths left behind out of both meshes. Plans made before are void.
+    pub fn thin(&mut self) {
+        for side in &mut self.sides {
+            let numbers = side.mesh.thin();
+            side.paths.iter_mut().flatten().for_each(|v| *v = numbers[*v]);
+        }
+    }
+
     /// The sum of the detours of all paths ([`super::LayoutReport::detour`]).
     pub fn detour(&self, distances: &LandmarkDistances) -> f64 {
         (0..self.ends.len()).map(|path| self.detour_of(path, distances)).sum()

@@ -22,6 +22,7 @@ mod patches;
 mod path_search;
 mod refinable;
 mod search;
+mod thinning;
 mod twists;
 mod variants;
 

@@ -127,6 +127,7 @@ fn with_paths(complete: &Drawing, mut kept: Vec<[LandmarkId; 2]>) -> Drawing {
     while let Some(p) = drawing.ends.iter().rposition(|ends| !is_kept(ends)) {
         drawing.erase(p);
     }
+    drawing.thin();
     drawing
 }
 
@@ -184,6 +185,7 @@ impl Tree {
     fn turned(mut self, planner: &mut Planner<'_>, turn: Turn) -> Option<Self> {
         let TurnedPath { side, found, .. } = self.turned_path(planner, turn)?;
         self.drawing.exchange(side, self.between, &found)?;
+        self.drawing.thin();
         Some(self)
     }
 

@@ -20,6 +20,19 @@ pub fn squares(m: &DMat2) -> f64 {
     m.x_axis.length_squared() + m.y_axis.length_squared()
 }
 
+/// Least determinant of an [`invertible`] matrix in units of its squares: some hundred times the rounding of a determinant.
+const LEAST_DETERMINANT: f64 = 1e-14;
+
+/// A matrix, whose determinant is positive but may be lost in rounding, with a positive one: where it is below 1e-14 |m|^2 the matrix is
+/// changed by 1e-14 of its size.
+pub fn invertible(m: DMat2) -> DMat2 {
+    // det(m + t cof(m)) = (1 + t^2) det(m) + t |m|^2.
+    if m.determinant() < LEAST_DETERMINANT * squares(&m) {
+        return m + cofactor(&m) * (2.0 * LEAST_DETERMINANT);
+    }
+    m
+}
+
 /// Eigenvalues and eigenvectors of a symmetric matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SymmetricEigen {
@@ -41,6 +54,19 @@ pub fn symmetric_eigen([xx, xy, yy]: [f64; 3]) -> SymmetricEigen {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_determinant_that_rounding_lost_is_positive_again() {
+        for (column, factor) in [(DVec2::new(660295.7, -660295.1), 0.962787), (DVec2::new(1e-9, 3e-9), 1e5)] {
+            let lost = DMat2::from_cols(column, column * factor);
+            let found = invertible(lost);
+            assert!(lost.determinant() < LEAST_DETERMINANT * squares(&lost));
+            assert!(found.determinant() > LEAST_DETERMINANT * squares(&found));
+            assert!(squares(&(found - lost)).sqrt() < 1e-13 * squares(&lost).sqrt());
+        }
+        let usual = DMat2::from_cols_array(&[1.5, 0.3, -0.2, 0.8]);
+        assert_eq!(invertible(usual), usual);
+    }
 
     #[test]
     fn the_cofactor_matrix_is_the_derivative_of_the_determinant() {

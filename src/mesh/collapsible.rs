@@ -43,13 +43,25 @@ pub struct CollapsibleMesh {
 impl CollapsibleMesh {
     /// The full resolution.
     pub fn new(mesh: &SurfaceMesh) -> Self {
+        let tails = mesh.halfedges().map(|h| mesh.tail(h)).collect();
+        let twins = mesh.halfedges().map(|h| mesh.twin(h)).collect();
+        Self::from_halfedges(tails, twins, mesh.vertices().map(|v| mesh.outgoing(v)).collect())
+    }
+
+    /// The mesh with these halfedges: by halfedge its tail and its twin, by vertex an outgoing halfedge. It must be closed and simple.
+    pub fn from_halfedges(
+        tails: TiVec<HalfedgeId, VertexId>,
+        twins: TiVec<HalfedgeId, HalfedgeId>,
+        outgoing: TiVec<VertexId, HalfedgeId>,
+    ) -> Self {
+        let (faces, vertices) = (tails.len() / 3, outgoing.len());
         Self {
-            tails: mesh.halfedges().map(|h| mesh.tail(h)).collect(),
-            twins: mesh.halfedges().map(|h| mesh.twin(h)).collect(),
-            outgoing: mesh.vertices().map(|v| mesh.outgoing(v)).collect(),
-            face_alive: ti_vec![true; mesh.face_count()],
-            vertex_alive: ti_vec![true; mesh.vertex_count()],
-            live_vertices: mesh.vertex_count(),
+            tails,
+            twins,
+            outgoing,
+            face_alive: ti_vec![true; faces],
+            vertex_alive: ti_vec![true; vertices],
+            live_vertices: vertices,
             collapses: Vec::new(),
         }
     }

@@ -1,5 +1,6 @@
 //! The pieces of a map between two meshes.
 
+use crate::math::matrix2::invertible;
 use crate::math::triangle::signed_double_area;
 use crate::mesh::{Carrier, FaceId, Place, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Pulse};
@@ -81,7 +82,7 @@ impl Correspondence {
             pieces.push(MappedPiece {
                 faces: [*source_face, *target_face],
                 corners: begin..corners.len(),
-                map: onto[*target_face].inverse() * motion.turn() * from[*source_face],
+                map: invertible(onto[*target_face].inverse() * motion.turn() * from[*source_face]),
                 is_certain: is_certain(piece.area, [&triangles[0], &triangles[1]]),
             });
         }
@@ -100,7 +101,7 @@ impl Correspondence {
             let [from, onto] = [0, 1].map(|side| (carriers[side].frame)(piece.faces[side]));
             MappedPiece {
                 faces: [from.face, onto.face],
-                map: onto.matrix() * piece.map * from.matrix().inverse(),
+                map: invertible(onto.matrix() * piece.map * from.matrix().inverse()),
                 ..piece.clone()
             }
         };
