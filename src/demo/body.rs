@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 
 /// The distance that a part counts farther than its blend reaches, in units of the blend.
 const SPARE: f64 = 0.1;
-/// The size of the boxes that know their parts, in units of the longest side of the body.
+/// The size of the boxes that know their parts, in units of the longest extent of the body.
 const BOX: f64 = 1.0 / 48.0;
 /// The function's value far outside.
 const FAR: f64 = 1e3;
@@ -29,20 +29,20 @@ pub(super) struct Section {
 }
 
 impl Section {
-    /// Sizes are half the width, along `side`, and half the height, at both ends; `side` is a unit vector across the axis.
-    pub fn new(ends: [DVec3; 2], sizes: [DVec2; 2], side: DVec3) -> Self {
+    /// Sizes are half the width, along `across`, and half the height, at both ends; `across` is a unit vector across the axis.
+    pub fn new(ends: [DVec3; 2], sizes: [DVec2; 2], across: DVec3) -> Self {
         let along = ends[1] - ends[0];
         let length = along.length();
         let axis = along / length;
         let reach = max(sizes[0].element_sum(), sizes[1].element_sum()) * 0.5;
-        let axes = [axis, side, side.cross(axis)];
+        let axes = [axis, across, across.cross(axis)];
         Self { ends, sizes, length, inverse_length: length.recip(), reach, axes }
     }
 
     /// About the distance from the section; `least` where the distance is certainly larger than that.
     fn value(&self, p: DVec3, least: f64) -> f64 {
         let from_start = p - self.ends[0];
-        let [axis, side, up] = self.axes;
+        let [axis, across, up] = self.axes;
         let x = from_start.dot(axis);
         let t = (x * self.inverse_length).clamp(0.0, 1.0);
         let beyond = x - t * self.length;
@@ -50,7 +50,7 @@ impl Section {
             return least;
         }
         let size = self.sizes[0].lerp(self.sizes[1], t);
-        let q = DVec3::new(beyond, from_start.dot(side), from_start.dot(up));
+        let q = DVec3::new(beyond, from_start.dot(across), from_start.dot(up));
         of_ellipsoid(q, DVec3::new(0.5 * (size.x + size.y), size.x, size.y))
     }
 
@@ -199,7 +199,7 @@ pub(super) struct Body {
     solids: Vec<Boxed>,
     low: DVec3,
     high: DVec3,
-    side: f64,
+    box_size: f64,
     count: [usize; 3],
     /// The solids of each box, in their order.
     near: Vec<Vec<u32>>,
@@ -219,10 +219,10 @@ impl Body {
         let [low, high] = solids.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[l, h], solid| {
             [l.min(solid.low), h.max(solid.high)]
         });
-        let side = (high - low).max_element() * BOX;
-        let count = ((high - low) / side).to_array().map(|n| n as usize + 1);
+        let box_size = (high - low).max_element() * BOX;
+        let count = ((high - low) / box_size).to_array().map(|n| n as usize + 1);
         let near = vec![Vec::new(); count.iter().product()];
-        let mut body = Self { parts, solids, low, high, side, count, near };
+        let mut body = Self { parts, solids, low, high, box_size, count, near };
         for k in 0..body.solids.len() {
             body.enter(k);
         }
@@ -233,7 +233,7 @@ impl Body {
     fn enter(&mut self, k: usize) {
         let Boxed { low, high, .. } = self.solids[k];
         let at = |p: DVec3, axis: usize| {
-            let place = (p[axis] - self.low[axis]) / self.side;
+            let place = (p[axis] - self.low[axis]) / self.box_size;
             (max(place, 0.0) as usize).min(self.count[axis] - 1)
         };
         let [x, y, z] = [0, 1, 2].map(|axis| at(low, axis)..=at(high, axis));
@@ -273,7 +273,7 @@ impl Body {
         if p.cmplt(self.low).any() || p.cmpge(self.high).any() {
             return felt;
         }
-        let [x, y, z] = ((p - self.low) / self.side).to_array().map(|n| n as usize);
+        let [x, y, z] = ((p - self.low) / self.box_size).to_array().map(|n| n as usize);
         let index = (z.min(self.count[2] - 1) * self.count[1] + y.min(self.count[1] - 1)) * self.count[0];
         let mut part = u32::MAX;
         let mut least = FAR;

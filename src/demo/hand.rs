@@ -40,7 +40,7 @@ impl Wrist {
             centre: self.at(x, y, z),
             height: height * self.scale,
             width: width * self.scale,
-            side: self.thumb,
+            across: self.thumb,
         }
     }
 }
@@ -133,17 +133,17 @@ pub(super) fn parts(wrist: &Wrist, grip: &Grip, edge: f64) -> Vec<Part> {
         let (joints, _) = finger(wrist, grip, k);
         let radii = RADII[k].map(|r| r * scale * grip.fullness);
         let root = joints[0] - (joints[1] - joints[0]) * 0.25;
-        let mut nodes = vec![Node { side: wrist.thumb, ..Node::round(root, radii[0]) }];
+        let mut nodes = vec![Node { across: wrist.thumb, ..Node::round(root, radii[0]) }];
         for i in 0..3 {
             // Joints are thicker than the bones between them.
             let middle = joints[i].midpoint(joints[i + 1]);
-            nodes.push(Node { side: wrist.thumb, ..Node::round(joints[i], radii[i]) });
+            nodes.push(Node { across: wrist.thumb, ..Node::round(joints[i], radii[i]) });
             nodes.push(Node {
-                side: wrist.thumb,
+                across: wrist.thumb,
                 ..Node::round(middle, 0.5 * (radii[i] + radii[i + 1]) * 0.93)
             });
         }
-        nodes.push(Node { side: wrist.thumb, ..Node::round(joints[3], radii[3]) });
+        nodes.push(Node { across: wrist.thumb, ..Node::round(joints[3], radii[3]) });
         parts.push(Part::join(tube(&nodes), 0.026 * scale, edge));
         // The knuckle, seen on the back of the hand.
         let knuckle = joints[0] - wrist.palm * (0.022 * scale);
@@ -179,11 +179,11 @@ fn nails(wrist: &Wrist, grip: &Grip, edge: f64) -> Vec<Part> {
 }
 
 /// A nail on the back of the last bone of a finger.
-fn nail([joint, tip]: [DVec3; 2], back: DVec3, side: DVec3, radius: f64, edge: f64) -> Part {
+fn nail([joint, tip]: [DVec3; 2], back: DVec3, across: DVec3, radius: f64, edge: f64) -> Part {
     let along = (tip - joint).normalize();
     let at = |t: f64| tip + along * (t * radius) + back * (0.92 * radius);
     let node =
-        |t: f64, share: f64| Node { centre: at(t), height: 0.30 * radius, width: share * radius, side };
+        |t: f64, share: f64| Node { centre: at(t), height: 0.30 * radius, width: share * radius, across };
     Part::join(tube(&[node(-0.55, 0.70), node(0.1, 0.74), node(0.65, 0.62)]), 0.10 * radius, 0.75 * edge)
 }
 

@@ -96,8 +96,12 @@ fn figure(limbs: [Limbs; 2]) -> MarkedBody {
 
 fn trunk() -> Vec<Part> {
     let edge = EDGES[0];
-    let node =
-        |[y, z, depth, width]: [f64; 4]| Node { centre: at(0.0, y, z), height: depth, width, side: DVec3::X };
+    let node = |[y, z, depth, width]: [f64; 4]| Node {
+        centre: at(0.0, y, z),
+        height: depth,
+        width,
+        across: DVec3::X,
+    };
     let trunk = [
         [0.875, -0.005, 0.080, 0.120],
         [0.95, -0.005, 0.100, 0.160],
@@ -222,7 +226,7 @@ fn add_leg(limbs: &Limbs, side: f64, parts: &mut Vec<Part>, marks: &mut Vec<Mark
         centre: place(forward, below, 0.0),
         height,
         width,
-        side: across,
+        across,
     };
     let foot = [
         node(-0.040, 0.048, 0.026, 0.027),
@@ -267,7 +271,7 @@ fn add_arm(limbs: &Limbs, side: f64, parts: &mut Vec<Part>, marks: &mut Vec<Mark
         centre: elbow + lower * (t * FOREARM),
         height,
         width,
-        side: wrist.thumb,
+        across: wrist.thumb,
     };
     let arm = [
         on_upper(-0.08, 0.056),

@@ -84,7 +84,7 @@ impl Placement {
     }
 
     fn node(&self, [x, y, z, height, width]: Profile) -> Node {
-        Node { centre: self.point(DVec3::new(x, y, z)), height, width, side: DVec3::Z }
+        Node { centre: self.point(DVec3::new(x, y, z)), height, width, across: DVec3::Z }
     }
 
     pub fn tube(&self, sections: &[Profile]) -> Vec<Solid> {
@@ -320,7 +320,7 @@ impl Sculpture {
                 centre: head.point(base + along * (k as f64 / 5.0)),
                 height: thick * [1.2, 1.0, 0.9, 0.85, 0.8, 0.6][k],
                 width: width * share,
-                side: head.direction(broad),
+                across: head.direction(broad),
             };
             let nodes: Vec<_> =
                 ear.outline.widths().into_iter().enumerate().map(|(k, w)| node(k, w)).collect();
@@ -367,7 +367,7 @@ impl Sculpture {
                     centre: node.centre + up * (node.height + 0.15 * height),
                     height: 1.3 * height,
                     width: 0.75 * height,
-                    side: DVec3::Z,
+                    across: DVec3::Z,
                 }
             })
             .collect();

@@ -12,7 +12,7 @@ use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec3;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-/// The number of cells along the side of a block.
+/// The number of cells along the edge of a block.
 const BLOCK: usize = 4;
 /// The distance of a block's middle from the surface, in units of its half diagonal, beyond which the block is left out.
 const CAUTION: f64 = 1.3;
@@ -22,7 +22,7 @@ const SMOOTHINGS: [usize; 3] = [1, 1, 3];
 /// Where the cells lie and how large they are.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cells {
-    /// The length of a cell's side.
+    /// The length of an edge of a cell.
     pub size: f64,
     /// The offset of the cells, in cells.
     pub offset: DVec3,

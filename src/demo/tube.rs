@@ -11,18 +11,18 @@ const PIECE: f64 = 0.10;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub centre: DVec3,
-    /// Half the height across `side` and the tube.
+    /// Half the height perpendicular to `across` and the tube.
     pub height: f64,
-    /// Half the width along `side`.
+    /// Half the width along `across`.
     pub width: f64,
     /// Direction of the width; what of it is along the tube does not count.
-    pub side: DVec3,
+    pub across: DVec3,
 }
 
 impl Node {
     /// A round section.
     pub fn round(centre: DVec3, radius: f64) -> Self {
-        Self { centre, height: radius, width: radius, side: DVec3::Z }
+        Self { centre, height: radius, width: radius, across: DVec3::Z }
     }
 }
 
@@ -42,9 +42,9 @@ pub(super) fn tube(nodes: &[Node]) -> Vec<Solid> {
 
 fn piece(a: Node, b: Node) -> Solid {
     let axis = (b.centre - a.centre).normalize();
-    let side = a.side + b.side;
+    let across = a.across + b.across;
     let across =
-        (side - axis * side.dot(axis)).try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector());
+        (across - axis * across.dot(axis)).try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector());
     let sizes = [a, b].map(|node| DVec2::new(node.width, node.height));
     Solid::Section(Section::new([a.centre, b.centre], sizes, across))
 }
@@ -66,7 +66,7 @@ fn between(nodes: [Node; 4], t: f64) -> Node {
         centre: mean(|n| n.centre),
         height: number(|n| n.height),
         width: number(|n| n.width),
-        side: nodes[1].side.lerp(nodes[2].side, t),
+        across: nodes[1].across.lerp(nodes[2].across, t),
     }
 }
 
@@ -81,7 +81,7 @@ mod tests {
             centre: DVec3::new(x, y, 0.0),
             height,
             width,
-            side: DVec3::Z,
+            across: DVec3::Z,
         };
         let nodes = [node(0.0, 0.0, 0.2, 0.1), node(0.5, 0.2, 0.15, 0.2), node(1.0, 0.0, 0.1, 0.1)];
         let body = Body::new(vec![Part::join(tube(&nodes), 0.05, 0.03)]);

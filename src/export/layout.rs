@@ -94,7 +94,7 @@ impl Paper<'_> {
     }
 }
 
-/// One of both meshes, cut along the sides of the base domain, with its texture coordinates on the sheet: where source and target
+/// One of both meshes, cut along the edges of the base domain, with its texture coordinates on the sheet: where source and target
 /// have the same, they correspond. `position` tells where a vertex of the drawing is in space, by its number.
 pub fn obj(layout: &FlatLayout, drawing: &FlatDrawing, position: impl Fn(usize) -> DVec3) -> Vec<u8> {
     let sheet = FlatSheet::new(layout);
@@ -121,7 +121,7 @@ pub fn obj(layout: &FlatLayout, drawing: &FlatDrawing, position: impl Fn(usize) 
     }
     for polygon in &drawing.polygons {
         let mut corners = drawing.corners[polygon.corners.clone()].to_vec();
-        // Where a side of the base domain runs through a vertex, corners of a polygon may be one point.
+        // Where an edge of the base domain runs through a vertex, corners of a polygon may be one point.
         corners.dedup_by_key(|v| vertices[*v as usize]);
         while corners.len() > 1
             && vertices[corners[0] as usize] == vertices[corners[corners.len() - 1] as usize]

@@ -227,7 +227,7 @@ fn refined_caps(is_cap: &TiSlice<FaceId, bool>, refined: &RefinedMesh) -> TiVec<
     refined.face_origin.iter().map(|&f| is_cap[f]).collect()
 }
 
-/// The sides of the base faces on one of both meshes, in its input coordinates.
+/// The edges of the base faces on one of both meshes, in its input coordinates.
 fn patch_lines(map: &Parametrisation, side: usize, input: &SurfaceMesh) -> Vec<Vec<DVec3>> {
     let base = &map.surface.base.mesh;
     let refined = &map.sides[side].refined;

@@ -17,7 +17,7 @@ pub struct Patches {
     triangles: Vec<[u32; 3]>,
     /// By patch where its triangles start, and one past the end.
     starts: Vec<usize>,
-    /// Patch lines: the sides of the base triangles.
+    /// Patch lines: the edges of the base domain.
     lines: Vec<Vec<DVec3>>,
     /// A hierarchy over the triangles, made when it is first needed.
     shape: Option<TriMesh>,

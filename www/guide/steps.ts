@@ -68,7 +68,7 @@ export const METHOD: readonly MethodStep[] = [
   {
     name: 'Make one flat surface with cones',
     text: [
-      'The triangles of the base domain are made flat. Each side is as long as the mean of the distances of its landmarks in space, on both meshes. Glued together they are one surface that is flat but at the landmarks, where it has cones: this is the place where both meshes meet.',
+      'The triangles of the base domain are made flat. Each edge is as long as the mean of the distances of its landmarks in space, on both meshes. Glued together they are one surface that is flat but at the landmarks, where it has cones: this is the place where both meshes meet.',
       'The curvature of a cone is what its triangles lack of a full turn. A saddle-like cone has more than a full turn, and negative curvature. All curvatures together are 4π, whatever the shape.',
     ],
     formula: {
@@ -93,7 +93,7 @@ export const METHOD: readonly MethodStep[] = [
   {
     name: 'Relax on the flat surface',
     text: [
-      'On each triangle the map onto the flat surface is linear, with the matrix J and its singular values σ₁ and σ₂. The symmetric Dirichlet energy of these matrices is lowered by Newton’s method with the exact Hessian, made positive, per triangle. Vertices cross the sides of the base domain; a step ends before the first triangle would turn over, where the energy is infinite.',
+      'On each triangle the map onto the flat surface is linear, with the matrix J and its singular values σ₁ and σ₂. The symmetric Dirichlet energy of these matrices is lowered by Newton’s method with the exact Hessian, made positive, per triangle. Vertices cross the edges of the base domain; a step ends before the first triangle would turn over, where the energy is infinite.',
     ],
     formula: {
       tex: String.raw`\|J\|^2+\|J^{-1}\|^2=\sigma_1^2+\sigma_2^2+\sigma_1^{-2}+\sigma_2^{-2}`,
@@ -120,7 +120,7 @@ export const METHOD: readonly MethodStep[] = [
   {
     name: 'Prove it',
     text: [
-      'A check that shares nothing with all that went before looks at every triangle of both meshes on the flat surface: each is positive, by exact predicates; the angles around each vertex sum to a full turn, around each landmark to the angle of its cone. Positive triangles alone would not do: they may wind twice. And each side of the base domain, followed straight over the mesh, arrives at its landmark without crossing another.',
+      'A check that shares nothing with all that went before looks at every triangle of both meshes on the flat surface: each is positive, by exact predicates; the angles around each vertex sum to a full turn, around each landmark to the angle of its cone. Positive triangles alone would not do: they may wind twice. And each edge of the base domain, followed straight over the mesh, arrives at its landmark without crossing another.',
       'Then both halves are one-to-one and onto, and so is the map.',
     ],
     formula: {

@@ -1,7 +1,7 @@
 //! The check whether pieces, such as those read from a file, are a map between two meshes.
 //!
-//! The pieces must form a sphere (every side of a piece occurs once more, in the opposite direction, in another piece; the pieces are
-//! connected across sides; V - E + F = 2), lie in their faces, be positively oriented, cover every face of both meshes once, and have
+//! The pieces must form a sphere (every edge of a piece occurs once more, in the opposite direction, in another piece; the pieces are
+//! connected across edges; V - E + F = 2), lie in their faces, be positively oriented, cover every face of both meshes once, and have
 //! matrices that map their corners onto each other. Then every point of either mesh has an image. Without the first condition, one sphere
 //! of pieces could cover the source and shrink to a point of the target, and another the other way round.
 
@@ -46,14 +46,14 @@ pub enum CorrespondenceFault {
         /// The vertex.
         vertex: usize,
     },
-    /// A side belongs to one piece only, or to more than two.
-    #[error("the pieces do not fit together at the side between overlay vertices {} and {}", side[0], side[1])]
-    Side {
+    /// An edge belongs to one piece only, or to more than two.
+    #[error("the pieces do not fit together at the edge between overlay vertices {} and {}", edge[0], edge[1])]
+    Edge {
         /// Its ends.
-        side: [u32; 2],
+        edge: [u32; 2],
     },
     /// The pieces are not connected.
-    #[error("the pieces do not hang together: {reached} of {pieces} are joined across their sides")]
+    #[error("the pieces do not hang together: {reached} of {pieces} are joined across their edges")]
     Parts {
         /// Pieces that are joined with the first one.
         reached: usize,
@@ -149,17 +149,17 @@ fn check_sphere(map: &Correspondence) -> Result<(), CorrespondenceFault> {
     }
     check_parts(map)?;
     // A connected surface has Euler characteristic 2 at most. A vertex at which several fans of pieces only touch makes V smaller than
-    // that of the surface, so that at 2 there is none. A piece of two corners adds one side and one piece.
+    // that of the surface, so that at 2 there is none. A piece of two corners adds one edge and one piece.
     let edges = map.corners.len() as i64 / 2;
     let euler = map.vertices.len() as i64 - edges + map.pieces.len() as i64;
     if euler == 2 { Ok(()) } else { Err(CorrespondenceFault::NotASphere { euler }) }
 }
 
-/// Checks that every side occurs once in each direction, and that all pieces are connected across sides. A piece of two corners lies
-/// along a side of two others, which count as neighbours.
+/// Checks that every edge occurs once in each direction, and that all pieces are connected across edges. A piece of two corners lies
+/// along an edge of two others, which count as neighbours.
 fn check_parts(map: &Correspondence) -> Result<(), CorrespondenceFault> {
     let ring = |number: usize| &map.corners[map.pieces[number].corners.clone()];
-    let wrong = |[a, b]: [u32; 2]| CorrespondenceFault::Side { side: [a.min(b), a.max(b)] };
+    let wrong = |[a, b]: [u32; 2]| CorrespondenceFault::Edge { edge: [a.min(b), a.max(b)] };
     let mut runs: Vec<([u32; 2], usize)> = Vec::with_capacity(map.corners.len());
     for number in (0..map.pieces.len()).filter(|&number| ring(number).len() > 2) {
         let ends = ring(number).iter().zip(ring(number).iter().cycle().skip(1));
@@ -169,17 +169,17 @@ fn check_parts(map: &Correspondence) -> Result<(), CorrespondenceFault> {
     if let Some(twice) = runs.windows(2).find(|pair| pair[0].0 == pair[1].0) {
         return Err(wrong(twice[0].0));
     }
-    let on_side = |side: [u32; 2]| {
-        let found = runs.binary_search_by_key(&side, |run| run.0);
-        found.map(|k| runs[k].1).map_err(|_| wrong(side))
+    let on_edge = |edge: [u32; 2]| {
+        let found = runs.binary_search_by_key(&edge, |run| run.0);
+        found.map(|k| runs[k].1).map_err(|_| wrong(edge))
     };
     let mut sets = DisjointSets::new(map.pieces.len());
     for &([a, b], number) in &runs {
-        sets.join(number, on_side([b, a])?);
+        sets.join(number, on_edge([b, a])?);
     }
     for number in 0..map.pieces.len() {
         if let &[a, b] = ring(number) {
-            sets.join(number, on_side([a, b])?);
+            sets.join(number, on_edge([a, b])?);
         }
     }
     let pieces = map.pieces.len();

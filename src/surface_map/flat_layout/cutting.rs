@@ -1,4 +1,4 @@
-//! The faces of one mesh cut along the base domain's sides: the points on the border of each face, the chords that cross it, and the
+//! The faces of one mesh cut along the base domain's edges: the points on the border of each face, the chords that cross it, and the
 //! polygons between them.
 
 use crate::landmarks::LandmarkId;
@@ -11,12 +11,12 @@ use glam::DVec2;
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// A crossing of a side of the base domain and an edge of the mesh.
+/// A crossing of an edge of the base domain and an edge of the mesh.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossing {
-    /// The base halfedge that is followed: the smaller one of its side.
+    /// The base halfedge that is followed: the smaller one of its edge.
     pub line: HalfedgeId,
-    /// The place along the side, 0 at its start and 1 at its end.
+    /// The place along the base edge, 0 at its start and 1 at its end.
     pub along_line: f64,
     /// The smaller halfedge of the mesh's edge.
     pub edge: HalfedgeId,
@@ -33,27 +33,27 @@ pub enum Node {
     Crossing(u32),
 }
 
-/// The line on which the side of a polygon lies.
+/// The edge on which an edge of a polygon lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SideKind {
+pub enum PolygonEdge {
     /// Part `part` of the mesh's edge, counted along its smaller halfedge.
-    Edge {
+    OfMesh {
         /// The halfedge of the polygon's face.
         halfedge: HalfedgeId,
         /// The number of the part.
         part: u32,
     },
-    /// A base side, run along this base halfedge: its face is on the polygon's side.
-    Line(HalfedgeId),
+    /// A base edge, run along this base halfedge: its face is that of the polygon.
+    OfBase(HalfedgeId),
 }
 
-/// A corner of a polygon, and the side that begins there.
+/// A corner of a polygon, and the edge that begins there.
 #[derive(Clone, Copy, Debug)]
 pub struct Corner {
     /// The point at the corner.
     pub node: Node,
-    /// The side to the next corner.
-    pub side: SideKind,
+    /// The edge to the next corner.
+    pub edge: PolygonEdge,
 }
 
 /// A part of a face.
@@ -65,20 +65,20 @@ pub struct Part {
     pub corners: Vec<Corner>,
 }
 
-/// A base side inside a face.
+/// A base edge inside a face.
 #[derive(Clone, Copy, Debug)]
 pub struct Chord {
     /// The base halfedge.
     pub line: HalfedgeId,
-    /// The point at which the side enters the face, or starts.
+    /// The point at which the base edge enters the face, or starts.
     pub from: Node,
-    /// The point at which the side leaves the face, or ends.
+    /// The point at which it leaves the face, or ends.
     pub to: Node,
-    /// Both ends of the whole side in the plane of the face.
+    /// Both ends of the whole edge in the plane of the face.
     pub ends: [DVec2; 2],
 }
 
-/// All base sides on one mesh.
+/// All base edges on one mesh.
 #[derive(Clone, Debug, Default)]
 pub struct Cuts {
     /// All crossings.
@@ -90,7 +90,7 @@ pub struct Cuts {
 }
 
 impl Cuts {
-    /// Follows all base sides over the mesh; `None` where one does not arrive at its landmark.
+    /// Follows all base edges over the mesh; `None` where one does not arrive at its landmark.
     pub fn new(side: Parametrised<'_>, surface: &ConeSurface) -> Option<Self> {
         let mesh = side.mesh;
         let mut cuts = Self {
@@ -163,14 +163,14 @@ impl Cuts {
             let is_smaller = halfedge < twin;
             let crossings = &self.on_edge[halfedge.min(twin)];
             let count = crossings.len();
-            let side = |k: usize| {
+            let edge = |k: usize| {
                 let part = if is_smaller { k } else { count - k } as u32;
-                SideKind::Edge { halfedge, part }
+                PolygonEdge::OfMesh { halfedge, part }
             };
-            border.push(Corner { node: Node::Vertex(mesh.tail(halfedge)), side: side(0) });
+            border.push(Corner { node: Node::Vertex(mesh.tail(halfedge)), edge: edge(0) });
             for k in 0..count {
                 let number = crossings[if is_smaller { k } else { count - 1 - k }];
-                border.push(Corner { node: Node::Crossing(number), side: side(k + 1) });
+                border.push(Corner { node: Node::Crossing(number), edge: edge(k + 1) });
             }
         }
         border
@@ -185,7 +185,7 @@ fn split(part: &[Corner], [from, to]: [usize; 2], [left, right]: [HalfedgeId; 2]
         let count = (end + n - begin) % n;
         (0..count).map(move |k| part[(begin + k) % n])
     };
-    let start = |at: usize, line| Corner { node: part[at].node, side: SideKind::Line(line) };
+    let start = |at: usize, line| Corner { node: part[at].node, edge: PolygonEdge::OfBase(line) };
     let left = std::iter::once(start(from, left)).chain(around(to, from)).collect();
     let right = std::iter::once(start(to, right)).chain(around(from, to)).collect();
     [left, right]

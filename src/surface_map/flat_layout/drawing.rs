@@ -1,6 +1,6 @@
 //! One mesh drawn on the charts of the base domain: the parts of its faces, each in its chart.
 
-use super::cutting::{Crossing, Cuts, Neighbours, Node, Part, PartOfEdge, SideKind};
+use super::cutting::{Crossing, Cuts, Neighbours, Node, Part, PartOfEdge, PolygonEdge};
 use crate::math::barycentric;
 use crate::math::rigid2::Rigid2;
 use crate::mesh::{Carrier, FaceId, HalfedgeId, Place, SurfaceMesh, SurfacePoint, VertexId};
@@ -15,7 +15,7 @@ use typed_index_collections::{TiVec, ti_vec};
 /// One mesh on the flat triangles of its base domain.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FlatDrawing {
-    /// Corners of the polygons; a place on a side of the base domain occurs once per chart.
+    /// Corners of the polygons; a place on an edge of the base domain occurs once per chart.
     pub vertices: Vec<FlatVertex>,
     /// Parts of faces, each in one chart. Together they cover all faces and all charts.
     pub polygons: Vec<FlatPolygon>,
@@ -28,7 +28,7 @@ pub struct FlatDrawing {
 pub struct FlatVertex {
     /// Its place on the mesh.
     pub place: Place,
-    /// Its barycentric coordinates in its chart, the base face of its polygons; exactly 0 for the corner opposite a side that it lies on.
+    /// Its barycentric coordinates in its chart, the base face of its polygons; exactly 0 for the corner opposite an edge that it lies on.
     pub weights: [f64; 3],
 }
 
@@ -44,7 +44,7 @@ pub struct FlatPolygon {
 }
 
 impl FlatDrawing {
-    /// The sides of the base domain as they run over the mesh, once each: numbers of vertices in order.
+    /// The edges of the base domain as they run over the mesh, once each: numbers of vertices in order.
     pub fn side_lines(&self, base: &SurfaceMesh) -> Vec<Vec<u32>> {
         let mut by_side: Vec<Vec<u32>> = vec![Vec::new(); 3 * base.face_count()];
         let mut charts = vec![None; self.vertices.len()];
@@ -87,18 +87,19 @@ impl FlatDrawing {
         TrianglesByChart { triangles: by_chart.concat(), faces: faces.concat(), starts }
     }
 
-    /// The parts of the sides of the base domain inside each face, from both of their charts.
+    /// The parts of the edges of the base domain inside each face, from both of their charts.
     pub fn border_parts(&self) -> Vec<BorderPart> {
         let mut parts = Vec::new();
         for polygon in &self.polygons {
             let corners = &self.corners[polygon.corners.clone()];
             for (k, &from) in corners.iter().enumerate() {
                 let to = corners[(k + 1) % corners.len()];
-                let is_on =
-                    |v: u32, side: HalfedgeId| self.vertices[v as usize].weights[side.prev().corner()] == 0.0;
-                let sides = polygon.chart.halfedges();
-                if let Some(side) = sides.into_iter().find(|&side| is_on(from, side) && is_on(to, side)) {
-                    parts.push(BorderPart { side, face: polygon.face, from, to });
+                let is_on = |v: u32, border: HalfedgeId| {
+                    self.vertices[v as usize].weights[border.prev().corner()] == 0.0
+                };
+                let borders = polygon.chart.halfedges();
+                if let Some(border) = borders.into_iter().find(|&h| is_on(from, h) && is_on(to, h)) {
+                    parts.push(BorderPart { border, face: polygon.face, from, to });
                 }
             }
         }
@@ -167,11 +168,11 @@ pub struct TrianglesByChart {
     pub starts: Vec<usize>,
 }
 
-/// The part of a side of the base domain inside a face.
+/// The part of an edge of the base domain inside a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BorderPart {
     /// The base halfedge, in the chart of the part.
-    pub side: HalfedgeId,
+    pub border: HalfedgeId,
     /// The face of the mesh.
     pub face: FaceId,
     /// The number of the drawing's vertex at which it begins, in the chart's counter-clockwise order.
@@ -191,7 +192,7 @@ struct Seen {
 /// Faces and parts of faces between two questions to the monitor: some milliseconds.
 const ASKED_EVERY: usize = 8192;
 
-/// Draws a mesh on the charts; `None` where a base side does not arrive, or base sides cross.
+/// Draws a mesh on the charts; `None` where a base edge does not arrive, or base edges cross.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -239,7 +240,7 @@ fn neighbours_of(
     for (k, part) in parts.iter().enumerate() {
         pulse.beat()?;
         for corner in &part.corners {
-            if let Some(key) = part_of_edge(mesh, corner.side) {
+            if let Some(key) = part_of_edge(mesh, corner.edge) {
                 neighbours.entry(key).or_default().push(k as u32);
             }
         }
@@ -254,7 +255,7 @@ struct Charts<'a> {
     cuts: &'a Cuts,
 }
 
-/// The chart of each part: known at base sides, and spread from there across the mesh's edges.
+/// The chart of each part: known at base edges, and spread from there across the mesh's edges.
 fn charts_of(
     parts: &[Part],
     neighbours: &Neighbours,
@@ -270,7 +271,8 @@ fn charts_of(
         pulse.beat()?;
         let Some(here) = seen[k as usize] else { continue };
         for corner in &parts[k as usize].corners {
-            let (Some(key), SideKind::Edge { halfedge, .. }) = (part_of_edge(mesh, corner.side), corner.side)
+            let (Some(key), PolygonEdge::OfMesh { halfedge, .. }) =
+                (part_of_edge(mesh, corner.edge), corner.edge)
             else {
                 continue;
             };
@@ -286,20 +288,20 @@ fn charts_of(
     Ok(seen.into_iter().collect())
 }
 
-fn part_of_edge(mesh: &SurfaceMesh, side: SideKind) -> Option<PartOfEdge> {
+fn part_of_edge(mesh: &SurfaceMesh, side: PolygonEdge) -> Option<PartOfEdge> {
     match side {
-        SideKind::Edge { halfedge, part } => {
+        PolygonEdge::OfMesh { halfedge, part } => {
             Some(PartOfEdge { edge: halfedge.min(mesh.twin(halfedge)), part })
         }
-        SideKind::Line(_) => None,
+        PolygonEdge::OfBase(_) => None,
     }
 }
 
-/// The chart of a part that has a base side on its border.
+/// The chart of a part that has a base edge on its border.
 fn beside_line(part: &Part, surface: &ConeSurface, cuts: &Cuts) -> Option<Seen> {
-    let line = part.corners.iter().find_map(|corner| match corner.side {
-        SideKind::Line(h) => Some(h),
-        SideKind::Edge { .. } => None,
+    let line = part.corners.iter().find_map(|corner| match corner.edge {
+        PolygonEdge::OfBase(h) => Some(h),
+        PolygonEdge::OfMesh { .. } => None,
     })?;
     let twin = surface.base.mesh.twin(line);
     let chord = cuts.chords[part.face].iter().find(|chord| chord.line == line || chord.line == twin)?;
@@ -328,7 +330,7 @@ struct Pen<'a> {
 
 impl Pen<'_> {
     fn draw(&mut self, part: &Part, seen: Seen) {
-        // The part between a base side and an edge along which it runs has no area.
+        // The part between a base edge and an edge along which it runs has no area.
         if part.corners.len() < 3 {
             return;
         }
@@ -369,7 +371,7 @@ impl Pen<'_> {
         Place::of(self.side.mesh, SurfacePoint::on_halfedge(edge, along_edge))
     }
 
-    /// Barycentric coordinates of a point of a base side in one of the two charts beside it.
+    /// Barycentric coordinates of a point of a base edge in one of the two charts beside it.
     fn on_side(&self, crossing: &Crossing, chart: FaceId) -> [f64; 3] {
         let Crossing { line, along_line, .. } = *crossing;
         let (h, along) = if line.face() == chart {

@@ -20,7 +20,7 @@ pub struct FlatLayout {
 }
 
 impl FlatLayout {
-    /// Draws both meshes; `None` where, by rounding at coincident points, a base side does not arrive or two of them cross.
+    /// Draws both meshes; `None` where, by rounding at coincident points, a base edge does not arrive or two of them cross.
     ///
     /// # Errors
     /// [`Cancelled`].

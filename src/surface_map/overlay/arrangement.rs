@@ -3,9 +3,10 @@
 //! A dart is a piece of a halfedge between two neighbouring crossings or ends. The next dart around the cell on its left
 //! follows from the crossing's orientation alone; at a landmark the source's star is merged into the target's wedges.
 
-use super::pieces::{OverlayError, SideOf};
+use super::pieces::OverlayError;
 use super::seats::Seats;
 use super::trace::Traced;
+use crate::landmarks::MeshSide;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::monitor::{Monitor, Step};
 use crate::surface_map::parametrisation::embedding::Parametrised;
@@ -76,10 +77,10 @@ impl Arrangement {
     }
 
     /// The source halfedge of a dart, or its target halfedge.
-    pub fn halfedge(&self, dart: &Dart) -> Side {
+    pub fn halfedge(&self, dart: &Dart) -> MeshHalfedge {
         match dart.halfedge.checked_sub(self.source_halfedges) {
-            None => Side::Source(HalfedgeId(dart.halfedge)),
-            Some(x) => Side::Target(HalfedgeId(x)),
+            None => MeshHalfedge::Source(HalfedgeId(dart.halfedge)),
+            Some(x) => MeshHalfedge::Target(HalfedgeId(x)),
         }
     }
 
@@ -99,10 +100,10 @@ impl Arrangement {
     }
 
     /// Number, for [`Self::along_target`], of the first crossing of a target edge; 0 for an edge of the source.
-    pub fn crossings_on_target(&self, x: HalfedgeId, side: SideOf) -> u32 {
+    pub fn crossings_on_target(&self, x: HalfedgeId, side: MeshSide) -> u32 {
         match side {
-            SideOf::Source => 0,
-            SideOf::Target => self.ranges[x][0],
+            MeshSide::Source => 0,
+            MeshSide::Target => self.ranges[x][0],
         }
     }
 
@@ -297,7 +298,7 @@ impl Arrangement {
 
 /// A halfedge of one of the meshes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
+pub(super) enum MeshHalfedge {
     Source(HalfedgeId),
     Target(HalfedgeId),
 }

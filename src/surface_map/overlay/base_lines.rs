@@ -1,6 +1,6 @@
-//! The straight sides of the base domain drawn on a parametrised mesh.
+//! The straight edges of the base domain drawn on a parametrised mesh.
 //!
-//! On the cone surface the sides of its charts are straight lines from cone to cone. Followed on source and target they are
+//! On the cone surface the edges of its charts are straight lines from cone to cone. Followed on source and target they are
 //! lines that correspond under the map. Where the anchor of a landmark is right, the lines from it arrive at their landmarks after
 //! their lengths; wrong anchors are found and corrected by lines that arrive.
 
@@ -19,7 +19,7 @@ use glam::DVec2;
 use std::sync::Arc;
 use typed_index_collections::{TiSlice, TiVec};
 
-/// One side of a base face on a mesh.
+/// One edge of a base face on a mesh.
 #[derive(Clone, Debug)]
 pub struct BaseLine {
     /// From landmark to landmark, one point on every edge that is crossed.

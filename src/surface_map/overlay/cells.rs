@@ -1,9 +1,10 @@
 //! The cells of the arrangement made into pieces: their borders followed, coordinates computed on both meshes, and checked.
 
-use super::arrangement::{Arrangement, Side};
-use super::pieces::{Overlay, OverlayError, OverlayPoint, Piece, SideOf, face_area};
+use super::arrangement::{Arrangement, MeshHalfedge};
+use super::pieces::{Overlay, OverlayError, OverlayPoint, Piece, face_area};
 use super::seats::Seats;
 use super::trace::Traces;
+use crate::landmarks::MeshSide;
 use crate::math::barycentric;
 use crate::math::rigid2::Rigid2;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, SurfacePoint, VertexId};
@@ -127,12 +128,12 @@ impl Cells {
             self.darts.push(number);
             let dart = &view.arrangement.darts[number as usize];
             match view.arrangement.halfedge(dart) {
-                Side::Source(h) => {
+                MeshHalfedge::Source(h) => {
                     is_mixed |= *source_face.get_or_insert(h.face()) != h.face();
                     is_mixed |= *target_face.get_or_insert(dart.below) != dart.below;
                     motion.get_or_insert_with(|| view.motion(h, view.arrangement.source_part(h, number)));
                 }
-                Side::Target(x) => is_mixed |= *target_face.get_or_insert(x.face()) != x.face(),
+                MeshHalfedge::Target(x) => is_mixed |= *target_face.get_or_insert(x.face()) != x.face(),
             }
             if is_mixed {
                 return Err(mixed(source_face, target_face));
@@ -169,11 +170,11 @@ impl Cells {
                 let darts = &self.darts[piece.points.clone()];
                 let across =
                     |&dart: &u32| match view.arrangement.halfedge(&view.arrangement.darts[dart as usize]) {
-                        Side::Target(x) => {
+                        MeshHalfedge::Target(x) => {
                             let twin = mesh.twin(x);
                             Some((twin, self.cell_of_dart[view.arrangement.target_dart(twin) as usize]))
                         }
-                        Side::Source(_) => None,
+                        MeshHalfedge::Source(_) => None,
                     };
                 let known = |(_, other): &(HalfedgeId, u32)| {
                     overlay.pieces[*other as usize].source_face != FaceId(NONE)
@@ -213,7 +214,7 @@ impl Cells {
             let on_target = share(ring, |p| &p.target) * self.areas[1][t];
             let area = on_source;
             let size = self.areas[0][s].min(self.areas[1][t]);
-            // Rounding: of the barycentric coordinates, and of coordinates of order 1 (up to 7e-15) along a side.
+            // Rounding: of the barycentric coordinates, and of coordinates of order 1 (up to 7e-15) along an edge.
             let slack = 1e-9 * size + 1e-14 * size.sqrt();
             if !(on_source >= -slack && on_target >= -slack) {
                 let (source_face, target_face) = (s.index(), t.index());
@@ -238,7 +239,8 @@ impl Cells {
     fn point(&mut self, view: View<'_>, piece: &Piece, number: u32) -> Result<OverlayPoint, OverlayError> {
         let dart = &view.arrangement.darts[number as usize];
         let halfedge = view.arrangement.halfedge(dart);
-        let side = if matches!(halfedge, Side::Source(_)) { SideOf::Source } else { SideOf::Target };
+        let edge_of =
+            if matches!(halfedge, MeshHalfedge::Source(_)) { MeshSide::Source } else { MeshSide::Target };
         let vertex = dart.origin;
         let (s, t) = (piece.source_face, piece.target_face);
         if let Some(c) = vertex.checked_sub(view.arrangement.first_crossing) {
@@ -247,19 +249,21 @@ impl Cells {
             let exit = [crossing.exit, crossing.entered];
             let source = on_edge(edge, s, crossing.along_source);
             let target = on_edge(exit, t, crossing.along_target);
-            return Ok(OverlayPoint { source, target, vertex, side });
+            return Ok(OverlayPoint { source, target, vertex, edge_of });
         }
         let [mesh, below] = [view.source, view.target].map(|s| s.mesh);
         let is_source = (vertex as usize) < mesh.vertex_count();
         let (source, target) = match halfedge {
-            Side::Source(h) => match view.seats.wedges[h] {
+            MeshHalfedge::Source(h) => match view.seats.wedges[h] {
                 Some(wedge) => (unit(h.corner()), unit(corner_in(below, t, below.tail(wedge)))),
                 None => (unit(h.corner()), self.source_in_target(view, h, t)?),
             },
-            Side::Target(x) if is_source => (unit(corner_in(mesh, s, VertexId(vertex))), unit(x.corner())),
-            Side::Target(x) => (self.target_in_source(view, x, piece)?, unit(x.corner())),
+            MeshHalfedge::Target(x) if is_source => {
+                (unit(corner_in(mesh, s, VertexId(vertex))), unit(x.corner()))
+            }
+            MeshHalfedge::Target(x) => (self.target_in_source(view, x, piece)?, unit(x.corner())),
         };
-        Ok(OverlayPoint { source, target, vertex, side })
+        Ok(OverlayPoint { source, target, vertex, edge_of })
     }
 
     fn source_in_target(

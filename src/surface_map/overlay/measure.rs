@@ -1,14 +1,15 @@
-//! The overlay as far as the energy of a map needs it: pieces with their faces, areas and rotations, and the sides between
+//! The overlay as far as the energy of a map needs it: pieces with their faces, areas and rotations, and the edges between
 //! them. No coordinates are computed, so that it takes a third of the time of an [`super::Overlay`].
 //!
-//! Areas are sums over the sides: seen from corner 0 of the target face, each part of a source edge sweeps a triangle, and
-//! of the target's sides only the one opposite does. They add up exactly, whatever the order of the cells.
+//! Areas are sums over the edges: seen from corner 0 of the target face, each part of a source edge sweeps a triangle, and
+//! of the target's edges only the one opposite does. They add up exactly, whatever the order of the cells.
 
 use super::arrangement::Arrangement;
 use super::location::Locations;
-use super::pieces::{OverlayError, SideOf, face_area};
+use super::pieces::{OverlayError, face_area};
 use super::seats::Seats;
 use super::trace::{Traced, Traces};
+use crate::landmarks::MeshSide;
 use crate::math::rigid2::{Rigid2, complex_mul};
 use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh};
@@ -126,11 +127,11 @@ impl Measure {
     pub fn segments<'a>(
         &'a self,
         mesh: &'a SurfaceMesh,
-        side: SideOf,
+        side: MeshSide,
     ) -> impl Iterator<Item = Segment> + use<'a> {
         let side = match (side, self.is_exchanged) {
-            (SideOf::Source, false) | (SideOf::Target, true) => SideOf::Source,
-            (SideOf::Target, false) | (SideOf::Source, true) => SideOf::Target,
+            (MeshSide::Source, false) | (MeshSide::Target, true) => MeshSide::Source,
+            (MeshSide::Target, false) | (MeshSide::Source, true) => MeshSide::Target,
         };
         mesh.edges().flat_map(move |h| self.segments_of(mesh, side, h))
     }
@@ -138,12 +139,12 @@ impl Measure {
     fn segments_of(
         &self,
         mesh: &SurfaceMesh,
-        side: SideOf,
+        side: MeshSide,
         h: HalfedgeId,
     ) -> impl Iterator<Item = Segment> + use<'_> {
         let first = |h: HalfedgeId| match side {
-            SideOf::Source => self.arrangement.source_dart(h),
-            SideOf::Target => self.arrangement.target_dart(h),
+            MeshSide::Source => self.arrangement.source_dart(h),
+            MeshSide::Target => self.arrangement.target_dart(h),
         };
         // The twin's darts follow, against the direction of the edge.
         let (ahead, back) = (first(h), first(mesh.twin(h)));
@@ -151,8 +152,8 @@ impl Measure {
         let [from, _] = self.traces.ranges.get(h).copied().unwrap_or_default();
         let on_target = self.arrangement.crossings_on_target(h, side);
         let place = move |k: u32| match side {
-            SideOf::Source => self.traces.crossings[(from + k) as usize].along_source,
-            SideOf::Target => self.arrangement.along_target(on_target + k),
+            MeshSide::Source => self.traces.crossings[(from + k) as usize].along_source,
+            MeshSide::Target => self.arrangement.along_target(on_target + k),
         };
         (0..parts).map(move |k| Segment {
             halfedge: h,
@@ -273,7 +274,7 @@ impl Measure {
                 1 => 2.0 * face_area(&target.embedding.corners, x.face()),
                 _ => 0.0,
             });
-            let first = arrangement.crossings_on_target(x, SideOf::Target);
+            let first = arrangement.crossings_on_target(x, MeshSide::Target);
             let mut from = 0.0;
             for k in 0..parts {
                 let to = if k + 1 < parts { arrangement.along_target(first + k) } else { 1.0 };
@@ -332,7 +333,7 @@ impl Measure {
             let (s, t) = (piece.source_face, piece.target_face);
             let sizes = [(&self.seats.corners, s), (&target.embedding.corners, t)];
             let [on_source, on_target] = sizes.map(|(corners, f)| face_area(corners, f));
-            // As in `cells`: rounding of shares, and of coordinates of order 1 along a side.
+            // As in `cells`: rounding of shares, and of coordinates of order 1 along an edge.
             let slack = 1e-9 * on_source.min(on_target) + 1e-14 * on_source.max(on_target).sqrt();
             if area.is_nan() || area < -slack {
                 let (source_face, target_face) = (s.index(), t.index());

@@ -19,4 +19,4 @@ mod trace;
 
 pub use measure::{Measure, MeasuredPiece, Segment};
 pub use overlayer::{Overlayer, overlay};
-pub use pieces::{Overlay, OverlayError, OverlayPoint, Piece, SideOf};
+pub use pieces::{Overlay, OverlayError, OverlayPoint, Piece};

@@ -1,5 +1,6 @@
 //! The common subdivision of source and target: pieces on which the map is affine, and its errors.
 
+use crate::landmarks::MeshSide;
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, HalfedgeId};
@@ -36,9 +37,9 @@ impl Overlay {
         }
         for point in &mut self.points {
             std::mem::swap(&mut point.source, &mut point.target);
-            point.side = match point.side {
-                SideOf::Source => SideOf::Target,
-                SideOf::Target => SideOf::Source,
+            point.edge_of = match point.edge_of {
+                MeshSide::Source => MeshSide::Target,
+                MeshSide::Target => MeshSide::Source,
             };
         }
         std::mem::swap(&mut self.source_area_defect, &mut self.target_area_defect);
@@ -60,15 +61,6 @@ pub struct Piece {
     pub motion: Rigid2,
 }
 
-/// The mesh on whose edge a side of a piece lies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SideOf {
-    /// A source edge.
-    Source,
-    /// A target edge.
-    Target,
-}
-
 /// A corner of a piece: the same point of the cone surface on both meshes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OverlayPoint {
@@ -78,8 +70,8 @@ pub struct OverlayPoint {
     pub target: [f64; 3],
     /// Number of the corner, the same in all pieces around it.
     pub vertex: u32,
-    /// The mesh on whose edge the side from this corner to the next lies.
-    pub side: SideOf,
+    /// The mesh on whose edge the piece's edge from this corner to the next lies.
+    pub edge_of: MeshSide,
 }
 
 /// Why there is no overlay. Certified parametrisations that are not degenerate have one.

@@ -2,6 +2,7 @@
 
 use super::location::{Locations, Locator, locate};
 use crate::landmarks::Landmarks;
+use crate::landmarks::MeshSide;
 use crate::layout::{self, BaseLayout, LayoutOptions};
 use crate::math::random::SplitMix;
 use crate::math::rigid2::Rigid2;
@@ -72,7 +73,7 @@ fn nearest(mesh: &SurfaceMesh, p: DVec3) -> u32 {
     mesh.vertices().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap().0
 }
 
-/// A closed mesh of pieces, by its corners' numbers alone: every side has one partner, and V - E + F = 2.
+/// A closed mesh of pieces, by its corners' numbers alone: every edge has one partner, and V - E + F = 2.
 fn assert_is_a_sphere(overlay: &Overlay) {
     let mut sides = BTreeMap::new();
     let mut used = vec![false; overlay.vertex_count];
@@ -80,7 +81,7 @@ fn assert_is_a_sphere(overlay: &Overlay) {
         let ring = &overlay.points[piece.points.clone()];
         for k in 0..ring.len() {
             let (a, b) = (ring[k].vertex, ring[(k + 1) % ring.len()].vertex);
-            *sides.entry((a, b, ring[k].side == SideOf::Source)).or_insert(0) += 1;
+            *sides.entry((a, b, ring[k].edge_of == MeshSide::Source)).or_insert(0) += 1;
             used[a as usize] = true;
         }
     }
@@ -143,7 +144,7 @@ fn measures_are_those_of_the_whole_overlay() {
 fn segments_cover_every_edge_and_are_the_sides_of_the_pieces() {
     let pair = Pair::bent([2, 3], 0.4);
     let (overlay, measure) = (pair.overlay(), measured(pair.sides(), &pair.surface));
-    for (k, side) in [SideOf::Source, SideOf::Target].into_iter().enumerate() {
+    for (k, side) in [MeshSide::Source, MeshSide::Target].into_iter().enumerate() {
         let mesh = pair.sides()[k].mesh;
         let face = |piece: u32| {
             let piece = &measure.pieces()[piece as usize];
@@ -165,7 +166,7 @@ fn segments_cover_every_edge_and_are_the_sides_of_the_pieces() {
         assert!(lengths.values().all(|&end| end == 1.0));
         for (piece, &sides) in overlay.pieces.iter().zip(&rings) {
             let ring = &overlay.points[piece.points.clone()];
-            assert_eq!(ring.iter().filter(|p| p.side == side).count(), sides);
+            assert_eq!(ring.iter().filter(|p| p.edge_of == side).count(), sides);
         }
     }
 }
@@ -182,8 +183,8 @@ fn measures_can_be_seen_from_the_other_side() {
         assert!((identity - DVec2::X).length() < 1e-14);
     }
     let [source, target] = pair.sides().map(|side| side.mesh);
-    assert!(there.segments(source, SideOf::Target).eq(here.segments(source, SideOf::Source)));
-    assert!(there.segments(target, SideOf::Source).eq(here.segments(target, SideOf::Target)));
+    assert!(there.segments(source, MeshSide::Target).eq(here.segments(source, MeshSide::Source)));
+    assert!(there.segments(target, MeshSide::Source).eq(here.segments(target, MeshSide::Target)));
 }
 
 #[test]

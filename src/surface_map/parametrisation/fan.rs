@@ -109,7 +109,7 @@ impl<'a> Fan<'a> {
         let mut at = place as i64;
         let to = to.clamp(at - MOST_TURNS * n, at + MOST_TURNS * n);
         while at < to {
-            // Counter-clockwise: out through the side that ends at the landmark.
+            // Counter-clockwise: out through the edge that ends at the landmark.
             motion = transitions[self.spokes[at.rem_euclid(n) as usize].halfedge.prev()].after(&motion);
             at += 1;
         }

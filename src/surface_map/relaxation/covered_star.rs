@@ -20,7 +20,7 @@ use crate::surface_map::parametrisation::rest_triangle::{Corner, FlatTriangle};
 use glam::{DMat2, DVec2};
 use typed_index_collections::{TiVec, ti_vec};
 
-/// A face of the other side that overlaps a face.
+/// A face of the other mesh that overlaps a face.
 #[derive(Clone, Copy)]
 pub struct Partner {
     pub face: FaceId,

@@ -6,13 +6,13 @@
 //! areas change too, which adds the jump of the density over each edge to the gradient (Reynolds' transport theorem).
 
 use super::evaluation::{CountedEnergy, Evaluation};
+use crate::landmarks::MeshSide;
 use crate::math::matrix2::cofactor;
 use crate::mesh::{FaceId, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Pulse, Silent, Step};
 use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::energy::point_constraint::PointConstraint;
-use crate::surface_map::overlay::SideOf;
 use crate::surface_map::overlay::location::{Locations, Locator};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
 use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
@@ -442,7 +442,7 @@ impl<'a> Relaxation<'a> {
     /// per motion of its ends.
     fn add_sweeps(&self, densities: &[f64], faces: &mut [FaceDerivatives]) {
         let corners = &self.embeddings[self.moving].corners;
-        for segment in self.present.overlay.segments(self.sides[self.moving].mesh, SideOf::Source) {
+        for segment in self.present.overlay.segments(self.sides[self.moving].mesh, MeshSide::Source) {
             let h = segment.halfedge;
             let along = (corners[h.next()] - corners[h]) * (segment.end - segment.begin);
             let jump = densities[segment.left as usize] - densities[segment.right as usize];
