@@ -11,7 +11,7 @@ use super::landmarked_mesh::LandmarkedMesh;
 use super::mesh_with_coarse::{self, MeshWithCoarse};
 use super::multilevel::{CoarseMap, LevelImages, solve_fine};
 use super::options::MultilevelOptions;
-use super::own_points::{Wanted, pairs, with};
+use super::own_points::{PointChoice, pairs, with};
 use crate::layout::SearchOptions;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion};
@@ -257,7 +257,7 @@ impl<'a> Adding<'_, 'a> {
         let Some((full_cell, levels_cell)) = self.cells.next() else { return Ok(None) };
         let share = |done: f64| (number as f64 + done) / own.rounds as f64;
         let placing = &mut Portion::new(monitor, share(0.0), share(0.1));
-        let pairs = pairs(full, images, &self.before, Wanted { count: own.count, may: &may }, placing)?;
+        let pairs = pairs(full, images, &self.before, PointChoice { count: own.count, may: &may }, placing)?;
         let Some(with_own) = with(inputs, full, &pairs, placing)? else { return Ok(None) };
         self.before = pairs.iter().map(|pair| pair.source).collect();
         let with_own = full_cell.get_or_init(|| with_own);

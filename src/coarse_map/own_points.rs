@@ -31,20 +31,20 @@ pub(super) struct OwnPair {
 }
 
 /// The own points that a round may take.
-pub(super) struct Wanted<'a> {
+pub(super) struct PointChoice<'a> {
     /// Number of points, at most.
     pub count: usize,
     /// Whether a vertex of the source level may be taken.
     pub may: &'a dyn Fn(VertexId) -> bool,
 }
 
-/// Chooses points of the source, at most `wanted.count`, far from the landmarks and from each other and not at those of the round before,
+/// Chooses points of the source, at most `choice.count`, far from the landmarks and from each other and not at those of the round before,
 /// with their images on the target.
 pub(super) fn pairs(
     full: &[LandmarkedMesh; 2],
     images: &LevelImages,
     before: &[VertexId],
-    wanted: Wanted<'_>,
+    choice: PointChoice<'_>,
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<OwnPair>, Cancelled> {
     let [source, target] = &images.levels;
@@ -62,8 +62,8 @@ pub(super) fn pairs(
     // The vertices that the round before inserted around its own points are not in the mesh with the user's landmarks alone.
     let known = full[0].refined.mesh.vertex_count();
     mesh.vertices().filter(|&v| source.vertices[v].index() >= known).for_each(|v| free[v.index()] = false);
-    let spread = Spread { count: wanted.count, least_distance: LEAST_DISTANCE };
-    let may = |v: VertexId| free[v.index()] && (wanted.may)(v);
+    let spread = Spread { count: choice.count, least_distance: LEAST_DISTANCE };
+    let may = |v: VertexId| free[v.index()] && (choice.may)(v);
     let chosen = farthest_points(mesh, distances(mesh, &user), spread, may, monitor)?;
     let mut places: Vec<DVec3> =
         full[1].landmarks.iter().map(|&v| full[1].refined.mesh.positions()[v]).collect();
@@ -152,8 +152,8 @@ mod tests {
         let images = LevelImages::of_itself(&Level::coarse(surface, &landmarks, 600, &mut Silent).unwrap());
         let mut before: Vec<VertexId> = Vec::new();
         for round in 0..4 {
-            let wanted = Wanted { count: 12, may: &|_| true };
-            let found: Vec<VertexId> = pairs(&full, &images, &before, wanted, &mut Silent)
+            let choice = PointChoice { count: 12, may: &|_| true };
+            let found: Vec<VertexId> = pairs(&full, &images, &before, choice, &mut Silent)
                 .unwrap()
                 .iter()
                 .map(|p| p.source)

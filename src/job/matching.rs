@@ -156,10 +156,10 @@ pub fn match_meshes(
     let input = MatchInput { source: &placed[0].mesh, target: &placed[1].mesh, given: &pairs, may_mark };
     let found = match_landmarks(input, options, monitor)?;
     let numbers = meshes.map(CheckedMesh::file_from_vertex);
-    let told = Told { given, numbers: &numbers };
+    let in_file_numbers = InFileNumbers { given, numbers: &numbers };
     let report = MatchReport {
-        verdict: told.verdict(&found.verdict),
-        candidates: found.candidates.iter().map(|candidate| told.candidate(candidate)).collect(),
+        verdict: in_file_numbers.verdict(&found.verdict),
+        candidates: found.candidates.iter().map(|candidate| in_file_numbers.candidate(candidate)).collect(),
     };
     Ok(Matched {
         report,
@@ -186,13 +186,13 @@ fn may_mark(mesh: &CheckedMesh, placed: &Insertion) -> Option<TiVec<VertexId, bo
     Some(placed.mesh.vertices().map(|v| in_file(v) && !on_cap(v)).collect())
 }
 
-/// What is told of a match in the numbers of the files.
-struct Told<'a> {
+/// A match in the numbers of the files.
+struct InFileNumbers<'a> {
     given: &'a LandmarkFile,
     numbers: &'a [Vec<usize>; 2],
 }
 
-impl Told<'_> {
+impl InFileNumbers<'_> {
     /// The file's number of a vertex; given landmarks inside faces, which no file numbers, are named by their pair elsewhere.
     fn number(&self, side: MeshSide, v: VertexId) -> usize {
         self.numbers[side as usize].get(v.index()).copied().unwrap_or(v.index())

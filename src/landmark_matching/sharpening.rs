@@ -109,9 +109,9 @@ mod tests {
     use crate::mesh::generators::icosphere;
 
     /// Keeps the fractions.
-    struct Told(Vec<f64>);
+    struct Fractions(Vec<f64>);
 
-    impl Monitor for Told {
+    impl Monitor for Fractions {
         fn step(&mut self, step: Step) -> Result<(), Cancelled> {
             self.0.push(step.fraction);
             Ok(())
@@ -126,7 +126,7 @@ mod tests {
         let images = mesh.vertices().map(|v| SurfacePoint::at_vertex(&mesh, v)).collect();
         let mut candidates =
             [Candidate { pairs: (0..6).map(pair).collect(), ..Candidate::of_images(&mesh, images) }];
-        let mut told = Told(Vec::new());
+        let mut told = Fractions(Vec::new());
         sharpen(MatchInput::new(&mesh, &mesh), &mut candidates, &mut told).unwrap();
         assert!(told.0.is_sorted() && told.0[0] < 0.1, "{:?}", told.0);
         let first_half = told.0.iter().filter(|fraction| **fraction < 0.5).count();

@@ -115,13 +115,13 @@ pub fn settle(
 }
 
 /// The predicted place of a landmark near the target's surface, whose area is 1.
-struct Wanted {
+struct PredictedPlace {
     place: DVec3,
     /// A normal of the surface nearby, of any length.
     normal: DVec3,
 }
 
-impl Wanted {
+impl PredictedPlace {
     /// The point of the target nearest to the place, or, where that is farther from the given point than the landmark's radius, a point
     /// within it in the same direction.
     fn within(self, input: SettlingInput<'_>, i: usize, given: SurfacePoint, scale: f64) -> SurfacePoint {
@@ -146,7 +146,7 @@ struct Seen {
 
 impl Seen {
     /// The place of a landmark that the map of its surroundings predicts; `None` where they are too few.
-    fn place(&self, landmark: LandmarkId, rings: usize) -> Option<Wanted> {
+    fn place(&self, landmark: LandmarkId, rings: usize) -> Option<PredictedPlace> {
         let [source, target] = &self.images.levels;
         let own = self.landmarks[0][landmark];
         let around = surroundings(&source.mesh, own, rings);
@@ -156,7 +156,7 @@ impl Seen {
         let place = predicted(source.mesh.positions()[own], &points, &images)?;
         let faces = target.mesh.star(self.landmarks[1][landmark]).map(|h| target.mesh.corners(h.face()));
         let normal = faces.map(|[a, b, c]| (b - a).cross(c - a)).sum();
-        Some(Wanted { place, normal })
+        Some(PredictedPlace { place, normal })
     }
 }
 

@@ -17,7 +17,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
     let files = SavedFiles::read(&arguments.saved)?;
     let outcome = prove(files.bytes(), &mut |_| ControlFlow::Continue(()));
     if let Some(path) = &arguments.report {
-        let report = Told { proof: ProofReport::of(&outcome), seconds: begun.elapsed().as_secs_f64() };
+        let report = TimedProof { proof: ProofReport::of(&outcome), seconds: begun.elapsed().as_secs_f64() };
         outputs::write(path, &serde_json::to_vec_pretty(&report)?)?;
     }
     match outcome {
@@ -51,7 +51,7 @@ fn tell(proof: &Proof) -> Result<(), Failure> {
 
 /// The report on a proof, stable as JSON.
 #[derive(Serialize)]
-struct Told {
+struct TimedProof {
     #[serde(flatten)]
     proof: ProofReport,
     seconds: f64,

@@ -3,8 +3,8 @@
 //! A dart is a piece of a halfedge between two neighbouring crossings or ends. The next dart around the cell on its left
 //! follows from the crossing's orientation alone; at a landmark the source's star is merged into the target's wedges.
 
+use super::corner_locations::CornerLocations;
 use super::pieces::OverlayError;
-use super::seats::Seats;
 use super::trace::Traced;
 use crate::landmarks::MeshSide;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
@@ -205,7 +205,7 @@ impl Arrangement {
 
     /// At landmarks both stars share a vertex: around it, the next outgoing dart clockwise may be of the other mesh.
     fn merge_stars(&mut self, traced: Traced<'_>) -> Result<(), OverlayError> {
-        let Traced { source, target, seats, traces } = traced;
+        let Traced { source, target, located, traces } = traced;
         let [mesh, below] = [source.mesh, target.mesh];
         self.last_in_wedge.resize(below.face_count() * 3, None);
         let landmarks = source.landmark_vertices.iter().zip(target.landmark_vertices);
@@ -215,10 +215,10 @@ impl Arrangement {
             for h in mesh.star(v) {
                 let before = h.prev();
                 let following = mesh.twin(before);
-                let [Some(wedge), Some(next)] = [h, following].map(|g| seats.wedges[g]) else {
+                let [Some(wedge), Some(next)] = [h, following].map(|g| located.wedges[g]) else {
                     return Err(lost);
                 };
-                let [along, turned] = [h, following].map(|g| heading(seats, g));
+                let [along, turned] = [h, following].map(|g| heading(located, g));
                 if wedge == next && along.perp_dot(turned) >= 0.0 {
                     continue;
                 }
@@ -242,7 +242,7 @@ impl Arrangement {
     }
 
     /// Fills [`Self::darts`].
-    pub fn describe(&mut self, Traced { source, target, seats, traces }: Traced<'_>) {
+    pub fn describe(&mut self, Traced { source, target, located, traces }: Traced<'_>) {
         let [mesh, below] = [source.mesh, target.mesh];
         self.number_vertices(source, target);
         self.source_halfedges = mesh.face_count() as u32 * 3;
@@ -254,7 +254,7 @@ impl Arrangement {
             let origins = |vertex: VertexId, c: Option<u32>| c.map_or(vertex.0, |c| first + c);
             let face = |c: Option<u32>| match c {
                 Some(c) => traces.crossings[c as usize].entered.face(),
-                None => seats.seats[h].face,
+                None => located.locations[h].face,
             };
             for k in begin..=end {
                 let before = (k > begin).then(|| k - 1);
@@ -304,6 +304,6 @@ pub(super) enum MeshHalfedge {
 }
 
 /// Direction of a source halfedge at a landmark, in the plane of the target face that it points into.
-fn heading(seats: &Seats, h: HalfedgeId) -> DVec2 {
-    seats.seats[h].motion.rotate(seats.corners[h.next()] - seats.corners[h])
+fn heading(located: &CornerLocations, h: HalfedgeId) -> DVec2 {
+    located.locations[h].motion.rotate(located.corners[h.next()] - located.corners[h])
 }

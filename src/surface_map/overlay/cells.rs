@@ -1,8 +1,8 @@
 //! The cells of the arrangement made into pieces: their borders followed, coordinates computed on both meshes, and checked.
 
 use super::arrangement::{Arrangement, MeshHalfedge};
+use super::corner_locations::CornerLocations;
 use super::pieces::{Overlay, OverlayError, OverlayPoint, Piece, face_area};
-use super::seats::Seats;
 use super::trace::Traces;
 use crate::landmarks::MeshSide;
 use crate::math::barycentric;
@@ -48,7 +48,7 @@ pub(super) struct Cells {
 pub(super) struct View<'a> {
     pub source: Parametrised<'a>,
     pub target: Parametrised<'a>,
-    pub seats: &'a Seats,
+    pub located: &'a CornerLocations,
     pub traces: &'a Traces,
     pub arrangement: &'a Arrangement,
 }
@@ -103,7 +103,7 @@ impl Cells {
         overlay.pieces.clear();
         overlay.points.clear();
         overlay.degenerate = 0;
-        let corners = [&view.seats.corners, &view.target.embedding.corners];
+        let corners = [&view.located.corners, &view.target.embedding.corners];
         for (k, mesh) in [source, target].into_iter().enumerate() {
             self.areas[k].clear();
             self.areas[k].extend(mesh.faces().map(|f| face_area(corners[k], f)));
@@ -254,7 +254,7 @@ impl Cells {
         let [mesh, below] = [view.source, view.target].map(|s| s.mesh);
         let is_source = (vertex as usize) < mesh.vertex_count();
         let (source, target) = match halfedge {
-            MeshHalfedge::Source(h) => match view.seats.wedges[h] {
+            MeshHalfedge::Source(h) => match view.located.wedges[h] {
                 Some(wedge) => (unit(h.corner()), unit(corner_in(below, t, below.tail(wedge)))),
                 None => (unit(h.corner()), self.source_in_target(view, h, t)?),
             },
@@ -274,10 +274,10 @@ impl Cells {
     ) -> Result<[f64; 3], OverlayError> {
         let v = view.source.mesh.tail(h);
         let inside = self.source_inside[v].get_or_insert_with(|| {
-            let seat = &view.seats.seats[h];
-            let at = seat.motion.apply(view.seats.corners[h]);
-            let corners = view.target.embedding.triangle(seat.face);
-            Inside { face: seat.face, barycentric: barycentric::clamped_in(corners, at) }
+            let location = &view.located.locations[h];
+            let at = location.motion.apply(view.located.corners[h]);
+            let corners = view.target.embedding.triangle(location.face);
+            Inside { face: location.face, barycentric: barycentric::clamped_in(corners, at) }
         });
         if inside.face == t { Ok(inside.barycentric) } else { Err(mixed(Some(h.face()), Some(t))) }
     }
@@ -292,7 +292,7 @@ impl Cells {
         let w = view.target.mesh.tail(x);
         let inside = self.target_inside[w].get_or_insert_with(|| {
             let at = piece.motion.inverse().apply(view.target.embedding.corners[x]);
-            Inside { face: s, barycentric: barycentric::clamped_in(triangle(&view.seats.corners, s), at) }
+            Inside { face: s, barycentric: barycentric::clamped_in(triangle(&view.located.corners, s), at) }
         });
         if inside.face == s { Ok(inside.barycentric) } else { Err(mixed(Some(s), Some(piece.target_face))) }
     }
@@ -303,11 +303,11 @@ impl View<'_> {
     fn motion(&self, h: HalfedgeId, i: u32) -> Rigid2 {
         let edge = h.min(self.source.mesh.twin(h));
         let [begin, end] = self.traces.ranges[h];
-        // Parts counted along the trace: part 0 begins at the seat, part k at crossing k - 1.
+        // Parts counted along the trace: part 0 begins at the location, part k at crossing k - 1.
         let along = if h == edge { i } else { end - begin - i };
         let motion = match along.checked_sub(1) {
-            Some(k) => self.traces.motion(self.seats, &self.traces.crossings[(begin + k) as usize]),
-            None => &self.seats.seats[edge].motion,
+            Some(k) => self.traces.motion(self.located, &self.traces.crossings[(begin + k) as usize]),
+            None => &self.located.locations[edge].motion,
         };
         let transition = &self.source.embedding.transitions[h];
         if h == edge || *transition == Rigid2::IDENTITY { *motion } else { motion.after(transition) }

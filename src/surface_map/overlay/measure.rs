@@ -5,9 +5,9 @@
 //! of the target's edges only the one opposite does. They add up exactly, whatever the order of the cells.
 
 use super::arrangement::Arrangement;
+use super::corner_locations::CornerLocations;
 use super::location::Locations;
 use super::pieces::{OverlayError, face_area};
-use super::seats::Seats;
 use super::trace::{Traced, Traces};
 use crate::landmarks::MeshSide;
 use crate::math::rigid2::{Rigid2, complex_mul};
@@ -54,7 +54,7 @@ pub struct Segment {
 /// The pieces of an overlay and its working memory, used again by the next one.
 #[derive(Clone, Debug, Default)]
 pub struct Measure {
-    seats: Seats,
+    located: CornerLocations,
     traces: Traces,
     arrangement: Arrangement,
     /// By dart the number of its piece.
@@ -83,11 +83,11 @@ impl Measure {
         monitor: &mut dyn Monitor,
     ) -> Result<(), OverlayError> {
         self.is_exchanged = false;
-        let Self { seats, traces, arrangement, .. } = self;
-        seats.fill(source, target, locations, 0)?;
+        let Self { located, traces, arrangement, .. } = self;
+        located.fill(source, target, locations, 0)?;
         monitor.step(Step::default())?;
-        traces.fill([source, target], seats, monitor)?;
-        arrangement.fill(Traced { source, target, seats, traces }, monitor)?;
+        traces.fill([source, target], located, monitor)?;
+        arrangement.fill(Traced { source, target, located, traces }, monitor)?;
         monitor.step(Step::default())?;
         self.label(source.mesh, target.mesh, monitor)?;
         monitor.step(Step::default())?;
@@ -226,7 +226,7 @@ impl Measure {
         source: Parametrised<'_>,
         target: Parametrised<'_>,
     ) -> Result<(), OverlayError> {
-        let Self { seats, traces, arrangement, cells, pieces, .. } = self;
+        let Self { located, traces, arrangement, cells, pieces, .. } = self;
         let mesh = source.mesh;
         for h in mesh.edges() {
             let twin = mesh.twin(h);
@@ -234,12 +234,12 @@ impl Measure {
             let [ahead, back] = [h, twin].map(|h| arrangement.source_dart(h) as usize);
             let parts = end - begin + 1;
             let (left, right) = (&cells[ahead..ahead + parts], &cells[back..back + parts]);
-            let ends = [seats.corners[h], seats.corners[h.next()]];
+            let ends = [located.corners[h], located.corners[h.next()]];
             // The rotation from the plane of the twin's face, as the inverse: the twin's own is far away in memory.
             let onwards = source.embedding.transitions[h].rotation;
             let across = DVec2::new(onwards.x, -onwards.y);
-            let seat = &seats.seats[h];
-            let (mut face, mut motion, mut from) = (seat.face, &seat.motion, 0.0);
+            let location = &located.locations[h];
+            let (mut face, mut motion, mut from) = (location.face, &location.motion, 0.0);
             let mut line = [motion.apply(ends[0]), motion.apply(ends[1])];
             let mut turned = complex_mul(motion.rotation, across);
             for (k, (&left, &right)) in left.iter().zip(right.iter().rev()).enumerate() {
@@ -251,7 +251,7 @@ impl Measure {
                 pieces[right as usize].meet(twin.face(), face, turned)?.area -= swept;
                 let Some(crossing) = crossing else { break };
                 (face, from) = (crossing.entered.face(), to);
-                let next = traces.motion(seats, crossing);
+                let next = traces.motion(located, crossing);
                 if !std::ptr::eq(next, motion) {
                     motion = next;
                     line = [motion.apply(ends[0]), motion.apply(ends[1])];
@@ -331,7 +331,7 @@ impl Measure {
                 continue;
             }
             let (s, t) = (piece.source_face, piece.target_face);
-            let sizes = [(&self.seats.corners, s), (&target.embedding.corners, t)];
+            let sizes = [(&self.located.corners, s), (&target.embedding.corners, t)];
             let [on_source, on_target] = sizes.map(|(corners, f)| face_area(corners, f));
             // As in `cells`: rounding of shares, and of coordinates of order 1 along an edge.
             let slack = 1e-9 * on_source.min(on_target) + 1e-14 * on_source.max(on_target).sqrt();

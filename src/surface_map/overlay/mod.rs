@@ -8,11 +8,11 @@
 mod arrangement;
 pub mod base_lines;
 mod cells;
+mod corner_locations;
 pub mod location;
 mod measure;
 mod overlayer;
 mod pieces;
-mod seats;
 #[cfg(test)]
 mod tests;
 mod trace;

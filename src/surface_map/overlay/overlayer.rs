@@ -6,9 +6,9 @@
 
 use super::arrangement::Arrangement;
 use super::cells::{Cells, View};
+use super::corner_locations::CornerLocations;
 use super::location::Locations;
 use super::pieces::{Overlay, OverlayError};
-use super::seats::Seats;
 use super::trace::{Traced, Traces};
 use crate::monitor::{Monitor, Step};
 use crate::surface_map::parametrisation::embedding::Parametrised;
@@ -19,7 +19,7 @@ const ATTEMPTS: usize = 6;
 /// Makes overlays; keeps its working memory from one call to the next.
 #[derive(Clone, Debug, Default)]
 pub struct Overlayer {
-    seats: Seats,
+    located: CornerLocations,
     traces: Traces,
     arrangement: Arrangement,
     cells: Cells,
@@ -58,15 +58,15 @@ impl Overlayer {
         overlay: &mut Overlay,
         monitor: &mut dyn Monitor,
     ) -> Result<(), OverlayError> {
-        let Self { seats, traces, arrangement, cells } = self;
-        seats.fill(source, target, locations, overlay.shifts)?;
+        let Self { located, traces, arrangement, cells } = self;
+        located.fill(source, target, locations, overlay.shifts)?;
         monitor.step(Step::default())?;
-        traces.fill([source, target], seats, monitor)?;
-        let traced = Traced { source, target, seats, traces };
+        traces.fill([source, target], located, monitor)?;
+        let traced = Traced { source, target, located, traces };
         arrangement.fill(traced, monitor)?;
         arrangement.describe(traced);
         monitor.step(Step::default())?;
-        cells.fill(View { source, target, seats, traces, arrangement }, overlay, monitor)
+        cells.fill(View { source, target, located, traces, arrangement }, overlay, monitor)
     }
 }
 

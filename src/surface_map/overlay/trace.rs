@@ -1,10 +1,10 @@
 //! The traces of the source's edges: straight lines through the target's triangles.
 //!
-//! A trace goes from the seat of its tail to the seat of its head. Between them each step takes one exact predicate: on
+//! A trace goes from the location of its tail to the location of its head. Between them each step takes one exact predicate: on
 //! which side of the source edge lies the corner opposite the edge that was entered.
 
+use super::corner_locations::{CornerLocation, CornerLocations};
 use super::pieces::OverlayError;
-use super::seats::{Seat, Seats};
 use crate::math::predicates::orient2d;
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle::signed_double_area;
@@ -24,7 +24,7 @@ pub(super) struct Crossing {
     /// Its twin, in the face that the trace enters.
     pub entered: HalfedgeId,
     /// Number, in [`Traces::motions`], of the motion from the plane of the source face of `edge` to that of the face
-    /// entered; [`AS_SEATED`] as long as it is that of the seat.
+    /// entered; [`AS_LOCATED`] as long as it is that of the location.
     pub motion: u32,
     /// The place on the source edge: 0 at its start, 1 at its end; never falls along a trace.
     pub along_source: f64,
@@ -35,15 +35,15 @@ pub(super) struct Crossing {
 /// Edges traced between two questions to the monitor: some milliseconds.
 const ASKED_EVERY: usize = 4096;
 
-/// The motion of a trace that has not left the plane of its seat.
-const AS_SEATED: u32 = u32::MAX;
+/// The motion of a trace that has not left the plane of its location.
+const AS_LOCATED: u32 = u32::MAX;
 
 /// The crossings of all source edges.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Traces {
     /// The crossings, edge by edge, in the order of each trace.
     pub crossings: Vec<Crossing>,
-    /// Motions other than those of the seats.
+    /// Motions other than those of the located corners.
     pub motions: Vec<Rigid2>,
     /// By the smaller source halfedge of an edge: its range of `crossings`; the other halfedge has the same.
     pub ranges: TiVec<HalfedgeId, [u32; 2]>,
@@ -54,7 +54,7 @@ impl Traces {
     pub fn fill(
         &mut self,
         [source, target]: [Parametrised<'_>; 2],
-        seats: &Seats,
+        located: &CornerLocations,
         monitor: &mut dyn Monitor,
     ) -> Result<(), OverlayError> {
         let mesh = source.mesh;
@@ -62,7 +62,7 @@ impl Traces {
         self.crossings.clear();
         self.motions.clear();
         self.ranges.resize(mesh.face_count() * 3, [0; 2]);
-        let tracer = Tracer { source, target, seats, most: target.mesh.face_count() + 1000 };
+        let tracer = Tracer { source, target, located, most: target.mesh.face_count() + 1000 };
         for h in mesh.edges() {
             pulse.beat()?;
             let begin = self.crossings.len() as u32;
@@ -75,17 +75,17 @@ impl Traces {
     }
 
     /// The motion from the plane of the source face of a crossing's edge to that of the target face entered there.
-    pub fn motion<'a>(&'a self, seats: &'a Seats, crossing: &Crossing) -> &'a Rigid2 {
-        self.motions.get(crossing.motion as usize).unwrap_or(&seats.seats[crossing.edge].motion)
+    pub fn motion<'a>(&'a self, located: &'a CornerLocations, crossing: &Crossing) -> &'a Rigid2 {
+        self.motions.get(crossing.motion as usize).unwrap_or(&located.locations[crossing.edge].motion)
     }
 }
 
-/// Source and target with the seats of the source's corners and the traces of its edges.
+/// Source and target with the locations of the source's corners and the traces of its edges.
 #[derive(Clone, Copy)]
 pub(super) struct Traced<'a> {
     pub source: Parametrised<'a>,
     pub target: Parametrised<'a>,
-    pub seats: &'a Seats,
+    pub located: &'a CornerLocations,
     pub traces: &'a Traces,
 }
 
@@ -93,7 +93,7 @@ pub(super) struct Traced<'a> {
 struct Tracer<'a> {
     source: Parametrised<'a>,
     target: Parametrised<'a>,
-    seats: &'a Seats,
+    located: &'a CornerLocations,
     /// Crossings of one edge, at most: a straight line crosses no face twice but around cones.
     most: usize,
 }
@@ -108,7 +108,7 @@ struct Log<'l> {
 struct Walk {
     edge: HalfedgeId,
     ends: [DVec2; 2],
-    seat: Seat,
+    location: CornerLocation,
     motion: u32,
     /// The ends in the plane of the target face.
     line: [DVec2; 2],
@@ -141,12 +141,12 @@ impl Walk {
         let entered = target.mesh.twin(exit);
         self.along = along_source.clamp(self.along, 1.0);
         if *transition != Rigid2::IDENTITY {
-            self.seat.motion = transition.after(&self.seat.motion);
-            self.line = [self.seat.motion.apply(self.ends[0]), self.seat.motion.apply(self.ends[1])];
+            self.location.motion = transition.after(&self.location.motion);
+            self.line = [self.location.motion.apply(self.ends[0]), self.location.motion.apply(self.ends[1])];
             self.motion = log.motions.len() as u32;
-            log.motions.push(self.seat.motion);
+            log.motions.push(self.location.motion);
         }
-        self.seat.face = entered.face();
+        self.location.face = entered.face();
         log.crossings.push(Crossing {
             edge: self.edge,
             exit,
@@ -160,15 +160,15 @@ impl Walk {
 
 impl Tracer<'_> {
     fn trace(&self, h: HalfedgeId, mut log: Log<'_>) -> Result<(), OverlayError> {
-        let ends = [self.seats.corners[h], self.seats.corners[h.next()]];
-        let seat = self.seats.seats[h];
-        let line = [seat.motion.apply(ends[0]), seat.motion.apply(ends[1])];
-        let mut walk = Walk { edge: h, ends, seat, motion: AS_SEATED, line, along: 0.0 };
+        let ends = [self.located.corners[h], self.located.corners[h.next()]];
+        let location = self.located.locations[h];
+        let line = [location.motion.apply(ends[0]), location.motion.apply(ends[1])];
+        let mut walk = Walk { edge: h, ends, location, motion: AS_LOCATED, line, along: 0.0 };
         let end = self.end(h);
         let goal = end.motion.apply(ends[1]);
         let mut before = None;
         for _ in 0..self.most {
-            if is_there(&walk.seat, &end, walk.line[1].distance_squared(goal)) {
+            if is_there(&walk.location, &end, walk.line[1].distance_squared(goal)) {
                 return Ok(());
             }
             let exit = match before {
@@ -194,14 +194,17 @@ impl Tracer<'_> {
         self.step_over(walk, &end, log)
     }
 
-    /// The seat of the head, as seen from the face of the halfedge. At a landmark it lies in the wedge from which the edge
+    /// The location of the head, as seen from the face of the halfedge. At a landmark it lies in the wedge from which the edge
     /// comes.
-    fn end(&self, h: HalfedgeId) -> Seat {
-        if self.seats.at_landmark(h.next()) {
-            let seat = self.seats.seats[self.source.mesh.twin(h)];
-            Seat { motion: seat.motion.after(&self.source.embedding.transitions[h]), ..seat }
+    fn end(&self, h: HalfedgeId) -> CornerLocation {
+        if self.located.at_landmark(h.next()) {
+            let location = self.located.locations[self.source.mesh.twin(h)];
+            CornerLocation {
+                motion: location.motion.after(&self.source.embedding.transitions[h]),
+                ..location
+            }
         } else {
-            self.seats.seats[h.next()]
+            self.located.locations[h.next()]
         }
     }
 
@@ -223,12 +226,12 @@ impl Tracer<'_> {
     fn first_exit(&self, walk: &Walk) -> Option<Exit> {
         let [p, q] = walk.line;
         let corner = |x: HalfedgeId| self.target.embedding.corners[x];
-        if let Some(wedge) = self.seats.wedges[walk.edge] {
+        if let Some(wedge) = self.located.wedges[walk.edge] {
             let halfedge = wedge.next();
             let [right, left] = [halfedge, wedge.prev()].map(|x| signed_double_area(p, q, corner(x)));
             return Some(Exit { halfedge, right, left });
         }
-        let x = HalfedgeId::of(walk.seat.face, 0);
+        let x = HalfedgeId::of(walk.location.face, 0);
         let [y, z] = [x.next(), x.prev()];
         let (at_x, at_y, at_z) =
             (orient2d(p, q, corner(x)), orient2d(p, q, corner(y)), orient2d(p, q, corner(z)));
@@ -245,25 +248,26 @@ impl Tracer<'_> {
         }
     }
 
-    /// Passes into the face of the head's seat, through one edge or around one corner: the head lies, up to rounding, on the border of the
+    /// Passes into the face of the head's location, through one edge or around one corner: the head lies, up to rounding, on the border of the
     /// present face.
-    fn step_over(&self, mut walk: Walk, end: &Seat, mut log: Log<'_>) -> Result<(), OverlayError> {
+    fn step_over(&self, mut walk: Walk, end: &CornerLocation, mut log: Log<'_>) -> Result<(), OverlayError> {
         let halfedges = |face: FaceId| (0..3).map(move |k| HalfedgeId::of(face, k));
         let mesh = &self.target.mesh;
         let goal = end.motion.apply(walk.ends[1]);
-        let after = |seat: &Seat, x: HalfedgeId| Seat {
+        let after = |location: &CornerLocation, x: HalfedgeId| CornerLocation {
             face: mesh.twin(x).face(),
-            motion: self.target.embedding.transitions[x].after(&seat.motion),
+            motion: self.target.embedding.transitions[x].after(&location.motion),
         };
-        let arrives =
-            |seat: &Seat| is_there(seat, end, seat.motion.apply(walk.ends[1]).distance_squared(goal));
-        let once = halfedges(walk.seat.face).find(|&x| arrives(&after(&walk.seat, x)));
+        let arrives = |location: &CornerLocation| {
+            is_there(location, end, location.motion.apply(walk.ends[1]).distance_squared(goal))
+        };
+        let once = halfedges(walk.location.face).find(|&x| arrives(&after(&walk.location, x)));
         let twice = || {
-            let pairs = halfedges(walk.seat.face).flat_map(|x| {
+            let pairs = halfedges(walk.location.face).flat_map(|x| {
                 let entered = mesh.twin(x);
                 [[x, entered.next()], [x, entered.prev()]]
             });
-            pairs.into_iter().find(|&[x, y]| arrives(&after(&after(&walk.seat, x), y)))
+            pairs.into_iter().find(|&[x, y]| arrives(&after(&after(&walk.location, x), y)))
         };
         let way = once.map(|x| [Some(x), None]).or_else(|| twice().map(|pair| pair.map(Some)));
         let ends = [walk.edge, walk.edge.next()].map(|h| self.source.mesh.tail(h).index());
@@ -279,7 +283,7 @@ impl Tracer<'_> {
 /// Whether a walk is in the face of its goal, on the same way around the cones: `distance` is the square of the distance
 /// between the goal's two images in the face's plane. Different ways around a cone differ by its angle, equal ways by rounding; the bounds,
 /// 1e-9 of the root of the area and 1e-6 rad, lie between.
-fn is_there(here: &Seat, end: &Seat, distance: f64) -> bool {
+fn is_there(here: &CornerLocation, end: &CornerLocation, distance: f64) -> bool {
     here.face == end.face
         && distance < 1e-18
         && here.motion.rotation.distance_squared(end.motion.rotation) < 1e-12

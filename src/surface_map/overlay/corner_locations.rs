@@ -1,4 +1,4 @@
-//! Seats: for every source corner the target face that holds its vertex, and the motion to it from the corner's source face.
+//! CornerLocations: for every source corner the target face that holds its vertex, and the motion to it from the corner's source face.
 
 use super::location::{Location, Locations};
 use super::pieces::OverlayError;
@@ -25,26 +25,26 @@ const COINCIDENT: f64 = 1e-6;
 
 /// The target face that holds a source corner, with the motion to its plane.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Seat {
+pub(super) struct CornerLocation {
     /// The target face. At a landmark: the face into which the source halfedge points.
     pub face: FaceId,
     /// From the plane of the halfedge's source face to that of the target face.
     pub motion: Rigid2,
 }
 
-/// Positions of the source's corners and their seats.
+/// Positions of the source's corners, and where they lie on the target.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Seats {
+pub(super) struct CornerLocations {
     /// Corner positions, in the plane of each face, shifted where coincidences had to be ended.
     pub corners: TiVec<HalfedgeId, DVec2>,
-    /// By source halfedge, the seat of its start.
-    pub seats: TiVec<HalfedgeId, Seat>,
+    /// By source halfedge, the location of its start.
+    pub locations: TiVec<HalfedgeId, CornerLocation>,
     /// For source halfedges that start at a landmark, the target halfedge that begins the wedge into which they point.
     pub wedges: TiVec<HalfedgeId, Option<HalfedgeId>>,
 }
 
-impl Seats {
-    /// Fills the seats; `attempt` 0 leaves the source where it is, every other one shifts its free vertices in another direction.
+impl CornerLocations {
+    /// Locates the corners; `attempt` 0 leaves the source where it is, every other one shifts its free vertices in another direction.
     pub fn fill(
         &mut self,
         source: Parametrised<'_>,
@@ -57,7 +57,8 @@ impl Seats {
         self.corners.extend(source.embedding.corners.iter().copied());
         self.wedges.clear();
         self.wedges.resize(mesh.face_count() * 3, None);
-        self.seats.resize(mesh.face_count() * 3, Seat { face: FaceId(0), motion: Rigid2::IDENTITY });
+        self.locations
+            .resize(mesh.face_count() * 3, CornerLocation { face: FaceId(0), motion: Rigid2::IDENTITY });
         for location in &locations.at_landmarks {
             self.wedges[location.corner] = Some(location.corner);
         }
@@ -65,12 +66,12 @@ impl Seats {
             self.shift(source, attempt);
         }
         for location in &locations.at_landmarks {
-            self.sit_at_landmark(source, target, location)?;
+            self.locate_at_landmark(source, target, location)?;
         }
         self.part_coincident(source, target);
         for (v, location) in locations.by_vertex.iter_enumerated() {
             if self.wedges[mesh.outgoing(v)].is_none() {
-                self.sit(source, target, location);
+                self.locate(source, target, location);
             }
         }
         Ok(())
@@ -104,7 +105,7 @@ impl Seats {
         }
     }
 
-    /// Seats source edges between two landmarks that coincide with a target edge on its left, at both ends.
+    /// CornerLocations source edges between two landmarks that coincide with a target edge on its left, at both ends.
     ///
     /// Both edges are the same straight line on the cone surface, and neither end may be moved. Rounding would put the source
     /// edge on the left at one end and on the right at the other, or send its trace around the landmark. So it is taken to lie on
@@ -118,8 +119,8 @@ impl Seats {
                     && let Some(x) = self.coincident(target, h)
                     && self.coincident(target, twin) == Some(target.mesh.twin(x))
                 {
-                    self.seat_beside(target, h, x, x);
-                    self.seat_beside(target, twin, target.mesh.twin(x), x.next());
+                    self.locate_beside(target, h, x, x);
+                    self.locate_beside(target, twin, target.mesh.twin(x), x.next());
                 }
             }
         }
@@ -128,8 +129,8 @@ impl Seats {
     /// The target halfedge on which a source halfedge from landmark to landmark lies: a side of the wedge that it points into.
     fn coincident(&self, target: Parametrised<'_>, h: HalfedgeId) -> Option<HalfedgeId> {
         let wedge = self.wedges[h]?;
-        let seat = &self.seats[h];
-        let [from, to] = [h, h.next()].map(|k| seat.motion.apply(self.corners[k]));
+        let location = &self.locations[h];
+        let [from, to] = [h, h.next()].map(|k| location.motion.apply(self.corners[k]));
         let near = COINCIDENT * to.distance(from);
         let is_head = |x: HalfedgeId| target.embedding.corners[x].distance(to) < near;
         if is_head(wedge.next()) {
@@ -139,34 +140,34 @@ impl Seats {
         }
     }
 
-    /// Seats a source halfedge, which coincides with the target halfedge `x`, in the wedge on the left or on the right of it.
-    fn seat_beside(&mut self, target: Parametrised<'_>, h: HalfedgeId, x: HalfedgeId, wedge: HalfedgeId) {
+    /// CornerLocations a source halfedge, which coincides with the target halfedge `x`, in the wedge on the left or on the right of it.
+    fn locate_beside(&mut self, target: Parametrised<'_>, h: HalfedgeId, x: HalfedgeId, wedge: HalfedgeId) {
         let Some(present) = self.wedges[h].filter(|present| *present != wedge) else { return };
         // From the left of x to its right, or back.
         let across = if present == x { x } else { target.mesh.twin(x) };
-        let seat = &mut self.seats[h];
-        seat.motion = target.embedding.transitions[across].after(&seat.motion);
-        seat.face = wedge.face();
+        let location = &mut self.locations[h];
+        location.motion = target.embedding.transitions[across].after(&location.motion);
+        location.face = wedge.face();
         self.wedges[h] = Some(wedge);
     }
 
-    /// Seats all corners of an ordinary vertex.
-    fn sit(&mut self, source: Parametrised<'_>, target: Parametrised<'_>, at: &Location) {
+    /// CornerLocations all corners of an ordinary vertex.
+    fn locate(&mut self, source: Parametrised<'_>, target: Parametrised<'_>, at: &Location) {
         let mesh = source.mesh;
-        let mut seat = Seat { face: at.face, motion: at.motion };
+        let mut location = CornerLocation { face: at.face, motion: at.motion };
         let point = self.corners[at.corner];
         for _ in 0..HOPS {
-            let Some(h) = outside_of(target, seat.face, seat.motion.apply(point)) else { break };
-            seat.motion = target.embedding.transitions[h].after(&seat.motion);
-            seat.face = target.mesh.twin(h).face();
+            let Some(h) = outside_of(target, location.face, location.motion.apply(point)) else { break };
+            location.motion = target.embedding.transitions[h].after(&location.motion);
+            location.face = target.mesh.twin(h).face();
         }
         let mut h = at.corner;
         loop {
-            self.seats[h] = seat;
+            self.locations[h] = location;
             let next = mesh.twin(h.prev());
             // The motion stored there is the inverse of the one needed, and is near in memory.
             if source.embedding.transitions[h.prev()] != Rigid2::IDENTITY {
-                seat.motion = seat.motion.after(&source.embedding.transitions[next]);
+                location.motion = location.motion.after(&source.embedding.transitions[next]);
             }
             h = next;
             if h == at.corner {
@@ -175,8 +176,8 @@ impl Seats {
         }
     }
 
-    /// Seats one corner of a landmark: in the target face into which its halfedge points.
-    fn sit_at_landmark(
+    /// CornerLocations one corner of a landmark: in the target face into which its halfedge points.
+    fn locate_at_landmark(
         &mut self,
         source: Parametrised<'_>,
         target: Parametrised<'_>,
@@ -187,27 +188,27 @@ impl Seats {
         let lost = OverlayError::Landmark { vertex: v.index() };
         let landmark = source.landmark_vertices.position(|&other| other == v).ok_or(lost)?;
         let apex = target.landmark_vertices[landmark];
-        let mut seat = Seat { face: at.face, motion: at.motion };
+        let mut location = CornerLocation { face: at.face, motion: at.motion };
         let start = (0..3).map(|k| HalfedgeId::of(at.face, k)).find(|&x| mesh.tail(x) == apex);
         let mut wedge = start.ok_or(lost)?;
         let along = self.corners[at.corner.next()] - self.corners[at.corner];
         let corner = |x: HalfedgeId| target.embedding.corners[x];
         let mut hops = 0..HOPS;
-        let mut cross = |seat: &mut Seat, across: HalfedgeId| {
-            seat.motion = target.embedding.transitions[across].after(&seat.motion);
-            seat.face = mesh.twin(across).face();
+        let mut cross = |location: &mut CornerLocation, across: HalfedgeId| {
+            location.motion = target.embedding.transitions[across].after(&location.motion);
+            location.face = mesh.twin(across).face();
             hops.next().ok_or(lost)
         };
         // Clockwise, then counter-clockwise: asked of each border once, so that rounding cannot send it to and fro.
-        while (corner(wedge.next()) - corner(wedge)).perp_dot(seat.motion.rotate(along)) < 0.0 {
-            cross(&mut seat, wedge)?;
+        while (corner(wedge.next()) - corner(wedge)).perp_dot(location.motion.rotate(along)) < 0.0 {
+            cross(&mut location, wedge)?;
             wedge = mesh.twin(wedge).next();
         }
-        while seat.motion.rotate(along).perp_dot(corner(wedge.prev()) - corner(wedge)) <= 0.0 {
-            cross(&mut seat, wedge.prev())?;
+        while location.motion.rotate(along).perp_dot(corner(wedge.prev()) - corner(wedge)) <= 0.0 {
+            cross(&mut location, wedge.prev())?;
             wedge = mesh.twin(wedge.prev());
         }
-        self.seats[at.corner] = seat;
+        self.locations[at.corner] = location;
         self.wedges[at.corner] = Some(wedge);
         Ok(())
     }
