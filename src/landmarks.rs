@@ -8,6 +8,7 @@ use crate::mesh::insertion::{Insertion, insert};
 use crate::mesh::{FaceId, MeshError, SurfaceMesh, SurfacePoint, VertexId, ids_id as id};
 use rustc_hash::FxHashMap;
 use serde::{Deserialize, Serialize};
+use typed_index_collections::TiVec;
 
 id!(
     /// A landmark: the same number on the source, the target and the base domain.
@@ -21,9 +22,9 @@ pub const LEAST_LANDMARKS: usize = 4;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Landmarks {
     /// Vertex of the source, by landmark.
-    pub source: Vec<VertexId>,
+    pub source: TiVec<LandmarkId, VertexId>,
     /// Vertex of the target, by landmark.
-    pub target: Vec<VertexId>,
+    pub target: TiVec<LandmarkId, VertexId>,
 }
 
 /// One of the two meshes.
@@ -263,8 +264,8 @@ impl Landmarks {
             return Err(LandmarkError::TooFew { count: pairs.len() });
         }
         Ok(Self {
-            source: checked_side(pairs, MeshSide::Source, source)?,
-            target: checked_side(pairs, MeshSide::Target, target)?,
+            source: checked_side(pairs, MeshSide::Source, source)?.into(),
+            target: checked_side(pairs, MeshSide::Target, target)?.into(),
         })
     }
 

@@ -218,7 +218,7 @@ fn map(
         let vertex = |pair: &[u32; 2]| sides[k].checked.vertex_from_file[pair[k] as usize];
         pairs.iter().map(|pair| vertex(pair).expect("landmarks are on skin")).collect()
     };
-    let landmarks = Landmarks { source: on(0), target: on(1) };
+    let landmarks = Landmarks { source: on(0).into(), target: on(1).into() };
     let [source, target] = [0, 1].map(|k| &sides[k].checked.mesh);
     let caps = CapFaces { source: sides[0].checked.caps(), target: sides[1].checked.caps() };
     let input = MapInput { source, target, landmarks: &landmarks, ground_truth: GroundTruth::Unknown, caps };

@@ -131,7 +131,8 @@ impl Case {
     pub fn placed(&self) -> Result<PlacedLandmarks, String> {
         let side = |k: usize| insert(&self.meshes[k], &self.points[k]).map_err(|e| e.to_string());
         let (source, target) = (side(0)?, side(1)?);
-        let landmarks = Landmarks { source: source.vertices.clone(), target: target.vertices.clone() };
+        let landmarks =
+            Landmarks { source: source.vertices.clone().into(), target: target.vertices.clone().into() };
         Ok(PlacedLandmarks { source, target, landmarks })
     }
 

@@ -40,7 +40,8 @@ fn one(arguments: &Arguments, name: &str, vertices: usize) -> String {
     let landmarked = |mesh: &SurfaceMesh, held: &[VertexId]| {
         LandmarkedMesh::new(mesh, held).expect("room around landmarks")
     };
-    let full = [landmarked(&pair.source, &landmarks.source), landmarked(&pair.target, &landmarks.target)];
+    let full =
+        [landmarked(&pair.source, &landmarks.source.raw), landmarked(&pair.target, &landmarks.target.raw)];
     let sides = [0, 1].map(|k| {
         MeshWithCoarse::new(&full[k], vertices, arguments.options.multilevel.rims, &mut Silent)
             .expect("nobody stops")

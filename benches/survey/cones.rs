@@ -36,8 +36,8 @@ fn told(case: &Case, options: &PipelineOptions, seconds: f64) -> Result<String, 
     let stretch = |mesh: &SurfaceMesh, landmarks: &[VertexId]| {
         stretch(mesh, landmarks, &result.cone_curvatures, &options.flow)
     };
-    let source = stretch(input.source, &input.landmarks.source)?;
-    let target = stretch(input.target, &input.landmarks.target)?;
+    let source = stretch(input.source, &input.landmarks.source.raw)?;
+    let target = stretch(input.target, &input.landmarks.target.raw)?;
     Ok(line([source, target], &result))
 }
 

@@ -43,8 +43,8 @@ pub struct Fit {
 impl Fit {
     fn coarse(name: &str, meshes: [&SurfaceMesh; 2], landmarks: &Landmarks) -> Self {
         let sides = [&landmarks.source, &landmarks.target];
-        let levels =
-            [0, 1].map(|s| Level::coarse(meshes[s], sides[s], COARSE, &mut Silent).expect("nobody stops"));
+        let levels = [0, 1]
+            .map(|s| Level::coarse(meshes[s], &sides[s].raw, COARSE, &mut Silent).expect("nobody stops"));
         let [source, target] = [0, 1].map(|s| levels[s].numbers(sides[s]).collect());
         let meshes = levels.map(|level| level.mesh);
         let numbers = (0..landmarks.len()).collect();
@@ -64,7 +64,8 @@ impl Fit {
         let chosen: Vec<usize> =
             (0..count).map(|_| left.swap_remove((random.share() * left.len() as f64) as usize)).collect();
         let of = |all: &[VertexId]| chosen.iter().map(|&k| all[k]).collect();
-        let landmarks = Landmarks { source: of(&self.landmarks.source), target: of(&self.landmarks.target) };
+        let landmarks =
+            Landmarks { source: of(&self.landmarks.source.raw), target: of(&self.landmarks.target.raw) };
         Self { landmarks, numbers: chosen.iter().map(|&k| self.numbers[k]).collect(), ..self.clone() }
     }
 
@@ -188,11 +189,15 @@ fn clicked(name: &str, meshes: [&SurfaceMesh; 2], landmarks: &Landmarks, random:
         insert(meshes[s], &moved(meshes[s], &points, random)).expect("points can be inserted")
     });
     let [source, target] = [0, 1].map(|s: usize| inserted[s].vertices.clone());
-    Fit::coarse(name, [&inserted[0].mesh, &inserted[1].mesh], &Landmarks { source, target })
+    Fit::coarse(
+        name,
+        [&inserted[0].mesh, &inserted[1].mesh],
+        &Landmarks { source: source.into(), target: target.into() },
+    )
 }
 
 fn jittered(meshes: [&SurfaceMesh; 2], landmarks: &Landmarks, random: &mut Random) -> Landmarks {
-    let mut sides = [landmarks.source.clone(), landmarks.target.clone()];
+    let mut sides = [landmarks.source.raw.clone(), landmarks.target.raw.clone()];
     for (mesh, side) in meshes.iter().zip(&mut sides) {
         for k in 0..side.len() {
             let around = around(mesh, side[k], MOVED * random.share());
@@ -203,7 +208,7 @@ fn jittered(meshes: [&SurfaceMesh; 2], landmarks: &Landmarks, random: &mut Rando
         }
     }
     let [source, target] = sides;
-    Landmarks { source, target }
+    Landmarks { source: source.into(), target: target.into() }
 }
 
 /// The vertices connected with one within a ball of a radius in units of the root of the area, itself among them.

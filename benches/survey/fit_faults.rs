@@ -64,7 +64,7 @@ pub fn mirror(row: &str, fit: &Fit, random: &mut Random, named: &mut Counts) {
 fn single(row: &str, fit: &Fit, partners: &[[usize; 2]], named: &mut Counts) {
     for &[a, b] in partners {
         let mut wrong = fit.clone();
-        wrong.landmarks.target.swap(a, b);
+        wrong.landmarks.target.raw.swap(a, b);
         count((row, usize::MAX), &wrong, [a.min(b), a.max(b)], named);
     }
 }
@@ -79,7 +79,7 @@ fn several(fit: &Fit, partners: &[[usize; 2]], random: &mut Random, named: &mut 
         let chosen: Vec<[usize; 2]> =
             (0..count).map(|_| left.swap_remove((random.share() * left.len() as f64) as usize)).collect();
         let mut wrong = fit.clone();
-        chosen.iter().for_each(|&[a, b]| wrong.landmarks.target.swap(a, b));
+        chosen.iter().for_each(|&[a, b]| wrong.landmarks.target.raw.swap(a, b));
         let findings = wrong.findings();
         let swaps = swaps(&findings);
         let is = |[a, b]: &[usize; 2]| chosen.contains(&[*a, *b]) || chosen.contains(&[*b, *a]);
@@ -102,7 +102,7 @@ fn exchanged(landmarks: usize, fit: &Fit, random: &mut Random, named: &mut Count
         "any two, far"
     };
     let mut wrong = fit.clone();
-    wrong.landmarks.target.swap(a, b);
+    wrong.landmarks.target.raw.swap(a, b);
     count((row, landmarks), &wrong, [a.min(b), a.max(b)], named);
 }
 
@@ -118,7 +118,7 @@ fn misplaced((landmarks, away): (usize, f64), fit: &Fit, random: &mut Random, na
         return;
     }
     let mut wrong = fit.clone();
-    wrong.landmarks.target[pair] = places[(random.share() * places.len() as f64) as usize];
+    wrong.landmarks.target.raw[pair] = places[(random.share() * places.len() as f64) as usize];
     let findings = wrong.findings();
     let told = findings.iter().any(|f| f.repair() == Repair::Check { pair });
     let others = findings.iter().any(|f| f.repair() != Repair::Check { pair });

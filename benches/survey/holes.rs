@@ -246,7 +246,7 @@ fn map(arguments: &Arguments, sides: [&Punched; 2], pairs: &[[u32; 2]]) -> Resul
         let vertex = |pair: &[u32; 2]| sides[k].checked.vertex_from_file[pair[k] as usize];
         pairs.iter().map(|pair| vertex(pair).expect("landmarks are on skin")).collect()
     };
-    let landmarks = Landmarks { source: on(0), target: on(1) };
+    let landmarks = Landmarks { source: on(0).into(), target: on(1).into() };
     let [source, target] = sides.map(|side| &side.checked.mesh);
     let caps = CapFaces { source: Some(&sides[0].is_cap), target: Some(&sides[1].is_cap) };
     let input = MapInput { source, target, landmarks: &landmarks, ground_truth: GroundTruth::Unknown, caps };

@@ -53,8 +53,8 @@ fn one(arguments: &Arguments, case: &Case, variant: &str) {
     let placed = case.placed().expect("points can be inserted");
     let input = Case::input(&placed);
     let landmarked = [
-        LandmarkedMesh::new(input.source, &input.landmarks.source),
-        LandmarkedMesh::new(input.target, &input.landmarks.target),
+        LandmarkedMesh::new(input.source, &input.landmarks.source.raw),
+        LandmarkedMesh::new(input.target, &input.landmarks.target.raw),
     ]
     .map(|mesh| mesh.expect("room around landmarks"));
     let vertices = multilevel.coarse_vertices.max(LEAST_PER_LANDMARK * input.landmarks.len());

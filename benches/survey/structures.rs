@@ -28,14 +28,15 @@ fn tell(case: &Case) -> Result<(), String> {
     let placed = case.placed()?;
     let input = Case::input(&placed);
     let landmarks = [&input.landmarks.source, &input.landmarks.target];
-    let base = base_domain::simplify(input.target, landmarks[1], &mut Silent).map_err(|e| e.to_string())?;
-    let goal = base_domain_curvature(input.target.vertex_count(), landmarks[1], &base);
+    let base =
+        base_domain::simplify(input.target, &landmarks[1].raw, &mut Silent).map_err(|e| e.to_string())?;
+    let goal = base_domain_curvature(input.target.vertex_count(), &landmarks[1].raw, &base);
     let sides = [("source", input.source, landmarks[0]), ("target", input.target, landmarks[1])];
     for scheme in Scheme::ALL {
         for (name, mesh, own) in sides {
             let mut curvature: TiVec<VertexId, f64> = ti_vec![0.0; mesh.vertex_count()];
             own.iter().zip(landmarks[1]).for_each(|(&v, &t)| curvature[v] = goal[t]);
-            let line = flowed(mesh, own, &curvature, scheme)?;
+            let line = flowed(mesh, &own.raw, &curvature, scheme)?;
             println!("{:20} {:18} {name:6} {line}", case.name, format!("{scheme:?}"));
         }
     }

@@ -49,7 +49,7 @@ impl<'a> MeshWithCoarse<'a> {
     }
 
     /// The coarse level's vertex of each landmark.
-    fn coarse_landmarks(&self) -> Vec<VertexId> {
+    fn coarse_landmarks(&self) -> TiVec<LandmarkId, VertexId> {
         self.coarse.numbers(self.landmarks).collect()
     }
 }

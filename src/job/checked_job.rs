@@ -182,7 +182,7 @@ impl Job {
 
     /// By landmark its vertex on the mapped source and on the mapped target.
     pub fn landmark_vertices(&self) -> [&[VertexId]; 2] {
-        [&self.placed.landmarks.source, &self.placed.landmarks.target]
+        [&self.placed.landmarks.source.raw, &self.placed.landmarks.target.raw]
     }
 
     /// By face of the mapped source and of the mapped target the face of the checked mesh that contains it.

@@ -4,7 +4,7 @@
 //! places in space are reliable there, but change with the pose. So groups are weighted by how nearly they are similar on both meshes.
 
 use super::orders::{Votes, nearest};
-use crate::landmarks::Landmarks;
+use crate::landmarks::{LandmarkId, Landmarks};
 use crate::layout::LandmarkDistances;
 use crate::math::scalar::ln;
 use crate::mesh::SurfaceMesh;
@@ -25,7 +25,8 @@ pub(super) fn agreement(
     target_of: &[usize],
 ) -> f64 {
     let source: Vec<DVec3> = landmarks.source.iter().map(|&v| meshes[0].positions()[v]).collect();
-    let target = target_of.iter().map(|&j| meshes[1].positions()[landmarks.target[j]]).collect();
+    let target =
+        target_of.iter().map(|&j| meshes[1].positions()[landmarks.target[LandmarkId::from(j)]]).collect();
     let places = [source, target];
     let mut votes = Votes::default();
     for i in 0..landmarks.len() {

@@ -52,7 +52,7 @@ impl<'a> Fit<'a> {
         Self {
             distances,
             target_of: (0..n).collect(),
-            targets: &landmarks.target,
+            targets: &landmarks.target.raw,
             left_out: vec![false; n],
             source,
             target,

@@ -153,9 +153,9 @@ pub(super) type SlotPairs = [Vec<usize>; 2];
 impl Drawing {
     /// Nothing drawn yet.
     pub fn new(source: &SurfaceMesh, target: &SurfaceMesh, landmarks: &Landmarks) -> Self {
-        let bare = |mesh: &SurfaceMesh, vertices: &[VertexId]| MeshWithPaths {
-            mesh: RefinableMesh::new(mesh, vertices),
-            landmarks: vertices.iter().copied().collect(),
+        let bare = |mesh: &SurfaceMesh, vertices: &TiVec<LandmarkId, VertexId>| MeshWithPaths {
+            mesh: RefinableMesh::new(mesh, &vertices.raw),
+            landmarks: vertices.clone(),
             paths: Vec::new(),
             lengths: Vec::new(),
         };

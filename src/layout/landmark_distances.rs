@@ -26,7 +26,7 @@ impl LandmarkDistances {
         landmarks: &Landmarks,
         monitor: &mut dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let vertices = [&landmarks.source[..], &landmarks.target[..]];
+        let vertices = [&landmarks.source.raw[..], &landmarks.target.raw];
         let refinable = [0, 1].map(|s| RefinableMesh::new(meshes[s], vertices[s]));
         Self::without_paths([&refinable[0], &refinable[1]], vertices, monitor)
     }

@@ -122,8 +122,8 @@ pub(super) fn counted_caps(
     };
     let mut told = Vec::new();
     if asked != Borders::Missing {
-        let source = Borderline::new(input.source, source, &input.landmarks.source, monitor)?;
-        let target = Borderline::new(input.target, target, &input.landmarks.target, monitor)?;
+        let source = Borderline::new(input.source, source, &input.landmarks.source.raw, monitor)?;
+        let target = Borderline::new(input.target, target, &input.landmarks.target.raw, monitor)?;
         for RimPair { numbers: [s, t], misfit } in corresponding([&source, &target], asked) {
             for (weights, rim) in [(&mut *on_source, &source.rims[s]), (&mut *on_target, &target.rims[t])] {
                 rim.rim.cap.iter().for_each(|&f| weights[f].toll = border_toll);

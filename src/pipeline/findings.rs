@@ -171,10 +171,11 @@ pub fn findings(
     let numbers =
         |level: &Level, ends: Vec<VertexId>| ends.iter().map(|&v| level.vertices[v].index()).collect();
     let coarsening = &mut Portion::new(monitor, 0.0, 0.0);
-    let levels = [coarse(input.source, source, coarsening)?, coarse(input.target, target, coarsening)?];
+    let levels =
+        [coarse(input.source, &source.raw, coarsening)?, coarse(input.target, &target.raw, coarsening)?];
     let landmarks = Landmarks {
-        source: levels[0].numbers(source).collect(),
-        target: levels[1].numbers(target).collect(),
+        source: levels[0].numbers(&source.raw).collect(),
+        target: levels[1].numbers(&target.raw).collect(),
     };
     let meshes = [&levels[0].mesh, &levels[1].mesh];
     let mut found = Vec::new();
@@ -184,7 +185,7 @@ pub fn findings(
     }
     let mut reports: Vec<_> = found.iter().map(|finding| FindingReport::new(finding, labels)).collect();
     let sides = if monitor.wants_result() { 0 } else { 2 };
-    for (side, marks) in [&landmarks.source, &landmarks.target].into_iter().enumerate().take(sides) {
+    for (side, marks) in [&landmarks.source.raw, &landmarks.target.raw].into_iter().enumerate().take(sides) {
         let level = &levels[side];
         let half = &mut Portion::new(monitor, 0.5 + 0.25 * side as f64, 0.75 + 0.25 * side as f64);
         let ends: Vec<usize> = numbers(level, unmarked_limbs(&level.mesh, marks, half)?);

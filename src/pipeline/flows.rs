@@ -39,7 +39,7 @@ impl Flows {
             metric_of(MeshSide::Source, input, base, options, monitor).map_err(PipelineError::source_flow)?;
         let (metric, target) =
             metric_of(MeshSide::Target, input, base, options, monitor).map_err(PipelineError::target_flow)?;
-        let atlas = flat_atlas(input.target, &metric, &input.landmarks.target, monitor)?;
+        let atlas = flat_atlas(input.target, &metric, &input.landmarks.target.raw, monitor)?;
         Ok(Self {
             cones: cones(input, base, options),
             target_atlas: Some(atlas),
@@ -75,7 +75,7 @@ impl Flows {
         let (_, source) = tried(MeshSide::Source, &mut *monitor)?;
         let (metric, target) = tried(MeshSide::Target, &mut *monitor)?;
         let target_atlas = match &metric {
-            Some(metric) => Some(flat_atlas(input.target, metric, &input.landmarks.target, monitor)?),
+            Some(metric) => Some(flat_atlas(input.target, metric, &input.landmarks.target.raw, monitor)?),
             None => None,
         };
         let flows = Self {
@@ -151,8 +151,8 @@ fn on_both<T>(
     };
     let Landmarks { source, target } = input.landmarks;
     Ok([
-        of_side(Stage::SourceConeMetric, input.source, source).map_err(PipelineError::source_flow)?,
-        of_side(Stage::TargetConeMetric, input.target, target).map_err(PipelineError::target_flow)?,
+        of_side(Stage::SourceConeMetric, input.source, &source.raw).map_err(PipelineError::source_flow)?,
+        of_side(Stage::TargetConeMetric, input.target, &target.raw).map_err(PipelineError::target_flow)?,
     ])
 }
 
@@ -165,8 +165,8 @@ fn metric_of(
     monitor: &mut dyn Monitor,
 ) -> Result<(ConeMetric, FlowReport), FlowError> {
     let (stage, mesh, landmarks) = match side {
-        MeshSide::Source => (Stage::SourceConeMetric, input.source, &input.landmarks.source),
-        MeshSide::Target => (Stage::TargetConeMetric, input.target, &input.landmarks.target),
+        MeshSide::Source => (Stage::SourceConeMetric, input.source, &input.landmarks.source.raw),
+        MeshSide::Target => (Stage::TargetConeMetric, input.target, &input.landmarks.target.raw),
     };
     monitor.enter(stage);
     cone_metric(mesh, landmarks, base, options, monitor)
@@ -174,7 +174,7 @@ fn metric_of(
 
 /// Target curvature of each landmark, in radians.
 fn cones(input: MapInput<'_>, base: &BaseDomain, options: &PipelineOptions) -> Vec<f64> {
-    let target = &input.landmarks.target;
+    let target = &input.landmarks.target.raw;
     let goal = curvature(input.target, target, base, options.cones);
     target.iter().map(|&v| goal[v]).collect()
 }

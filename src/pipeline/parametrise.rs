@@ -108,9 +108,9 @@ pub(super) fn parametrise(
     let CountedCaps { weights: [on_source, on_target], report: borders } =
         counted_caps(input, options, monitor)?;
     monitor.step(Step::default())?;
-    let source = LandmarkedMesh::new(input.source, source)?.with_weights(on_source);
+    let source = LandmarkedMesh::new(input.source, &source.raw)?.with_weights(on_source);
     monitor.step(Step::default())?;
-    let target = LandmarkedMesh::new(input.target, target)?.with_weights(on_target);
+    let target = LandmarkedMesh::new(input.target, &target.raw)?.with_weights(on_target);
     let full = [source, target];
     let most = full.iter().map(|mesh| mesh.refined.mesh.vertex_count()).max().unwrap_or(0);
     let vertices = first_level(input.landmarks.len(), options);
@@ -240,7 +240,7 @@ fn coarse<'a>(
             let landmarks = coarse_landmarks(sides);
             let meshes = [&sides[0].coarse.mesh, &sides[1].coarse.mesh];
             let part = &mut Portion::new(monitor, 0.0, 0.3);
-            let base = base_domain::simplify(input.target, &input.landmarks.target, part)?;
+            let base = base_domain::simplify(input.target, &input.landmarks.target.raw, part)?;
             let part = &mut Portion::new(monitor, 0.3, 0.5);
             let layout = layout::from_base(meshes, &landmarks, &base, part)?;
             let part = &mut Portion::new(monitor, 0.5, 0.8);

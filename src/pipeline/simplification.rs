@@ -17,8 +17,8 @@ pub fn simplifications(
     monitor.enter(Stage::BaseDomain);
     let MapInput { source, target, landmarks, .. } = input;
     Ok([
-        simplification_stages(source, &landmarks.source, &mut Portion::new(monitor, 0.0, 0.5))?,
-        simplification_stages(target, &landmarks.target, &mut Portion::new(monitor, 0.5, 1.0))?,
+        simplification_stages(source, &landmarks.source.raw, &mut Portion::new(monitor, 0.0, 0.5))?,
+        simplification_stages(target, &landmarks.target.raw, &mut Portion::new(monitor, 0.5, 1.0))?,
     ])
 }
 

@@ -54,7 +54,7 @@ pub(super) fn draw(
         }
         Base::Qem => {
             let half = &mut Portion::new(monitor, 0.0, 0.5);
-            let base = base_domain::simplify(input.target, &input.landmarks.target, half)?;
+            let base = base_domain::simplify(input.target, &input.landmarks.target.raw, half)?;
             layout::from_base(meshes, input.landmarks, &base, &mut Portion::new(monitor, 0.5, 1.0))?
         }
     })

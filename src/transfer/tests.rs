@@ -55,7 +55,7 @@ pub fn ball_on_egg() -> &'static Mapped {
     static MAP: OnceLock<Mapped> = OnceLock::new();
     MAP.get_or_init(|| {
         let (source, target) = (ball(), egg());
-        let landmarks = Landmarks { source: ends(&source), target: ends(&target) };
+        let landmarks = Landmarks { source: ends(&source).into(), target: ends(&target).into() };
         let input = MapInput::new(&source, &target, &landmarks);
         let result = run(input, &PipelineOptions::default(), &mut Silent).unwrap();
         let map = result.correspondence.unwrap();

@@ -58,10 +58,10 @@ fn coarse_with_known_map(case: &Case, goal: usize) -> ([SurfaceMesh; 2], Landmar
     let Case { name, source, target, landmarks, .. } = case;
     assert_eq!(landmarks.source, landmarks.target, "{name} has a known map");
     assert_eq!(source.triangles(), target.triangles(), "{name} has a known map");
-    let (level, numbers) = coarse(source, &landmarks.source, goal);
+    let (level, numbers) = coarse(source, &landmarks.source.raw, goal);
     let positions = level.vertices.iter().map(|&v| target.positions()[v]).collect();
     let target = level.mesh.with_positions(positions);
-    ([level.mesh, target], Landmarks { source: numbers.clone(), target: numbers })
+    ([level.mesh, target], Landmarks { source: numbers.clone().into(), target: numbers.into() })
 }
 
 /// The layout of the identity: the source's own drawing on both sides.

@@ -20,9 +20,14 @@ pub struct Case {
 
 impl Case {
     pub fn of(case: &theorems::Case) -> Self {
-        let (source, from) = coarse(&case.source, &case.landmarks.source);
-        let (target, onto) = coarse(&case.target, &case.landmarks.target);
-        Self { name: case.name.clone(), source, target, landmarks: Landmarks { source: from, target: onto } }
+        let (source, from) = coarse(&case.source, &case.landmarks.source.raw);
+        let (target, onto) = coarse(&case.target, &case.landmarks.target.raw);
+        Self {
+            name: case.name.clone(),
+            source,
+            target,
+            landmarks: Landmarks { source: from.into(), target: onto.into() },
+        }
     }
 
     pub fn findings(&self, landmarks: &Landmarks) -> Vec<Finding> {
@@ -81,7 +86,7 @@ pub fn exchanged_targets_are_named(case: &Case) {
             continue;
         }
         let mut landmarks = case.landmarks.clone();
-        landmarks.target.swap(a, b);
+        landmarks.target.raw.swap(a, b);
         let swaps = swaps(&case.findings(&landmarks));
         assert!(swaps.iter().all(|pairs| *pairs == [b, a]), "{name}: {swaps:?} for {b} and {a}");
         tried += 1;

@@ -23,7 +23,10 @@ pub fn with_points(
         };
         insert(meshes[k], &vertices[k].iter().map(beside).collect::<Vec<_>>()).unwrap()
     });
-    let landmarks = Landmarks { source: inserted[0].vertices.clone(), target: inserted[1].vertices.clone() };
+    let landmarks = Landmarks {
+        source: inserted[0].vertices.clone().into(),
+        target: inserted[1].vertices.clone().into(),
+    };
     let input = MapInput {
         source: &inserted[0].mesh,
         target: &inserted[1].mesh,

@@ -137,7 +137,7 @@ pub fn has_a_valid_layout(case: &Case) {
 /// on both meshes, every invariant held.
 pub fn simplified_base_is_drawn(case: &Case) {
     let Case { name, landmarks, .. } = case;
-    let base = base_domain::simplify(&case.target, &landmarks.target, &mut Silent)
+    let base = base_domain::simplify(&case.target, &landmarks.target.raw, &mut Silent)
         .unwrap_or_else(|e| panic!("{name}: {e}"));
     assert_eq!(base.mesh.vertex_count(), landmarks.len(), "{name}");
     assert_eq!(base.mesh.face_count(), 2 * landmarks.len() - 4, "{name}");
@@ -281,7 +281,7 @@ fn preimage(map: &MapResult, place: DVec3, target: &SurfaceMesh) -> DVec3 {
 
 /// A mesh is mapped identically onto itself.
 pub fn identity_is_found(name: &str, mesh: &SurfaceMesh, chosen: &[VertexId]) {
-    let landmarks = Landmarks { source: chosen.to_vec(), target: chosen.to_vec() };
+    let landmarks = Landmarks { source: chosen.to_vec().into(), target: chosen.to_vec().into() };
     let ground_truth = GroundTruth::SameConnectivity;
     let case =
         Case { name: name.into(), source: mesh.clone(), target: mesh.clone(), landmarks, ground_truth };
@@ -374,7 +374,7 @@ pub fn farthest_landmarks(case: &Case, count: usize) -> Case {
         chosen.push(far);
     }
     let of = |side: &[VertexId]| chosen.iter().map(|&k| side[k]).collect();
-    let landmarks = Landmarks { source: of(&all.source), target: of(&all.target) };
+    let landmarks = Landmarks { source: of(&all.source.raw), target: of(&all.target.raw) };
     Case { landmarks, ..case.clone() }
 }
 

@@ -503,7 +503,7 @@ fn a_flow_that_does_not_converge_fails_and_still_reports() {
     let case = fixtures::rough_demo("horse-cat");
     let mesh = folder.join("cat.obj");
     std::fs::write(&mesh, export::obj::mesh(&case.target)).unwrap();
-    a_failed_flow_reports(&mesh, &case.landmarks.target, &folder);
+    a_failed_flow_reports(&mesh, &case.landmarks.target.raw, &folder);
 }
 
 /// Fails with code 1 and one sentence that holds all the words.

@@ -53,9 +53,9 @@ fn remeshed(mesh: &SurfaceMesh, faces: usize, vertices: &[VertexId]) -> (Surface
 /// A demo with other triangles, so many on the source and the target.
 pub fn remeshed_demo(id: &str, faces: [usize; 2]) -> Case {
     let Case { source, target, landmarks, ground_truth, .. } = demo(id);
-    let (source, from) = remeshed(&source, faces[0], &landmarks.source);
-    let (target, onto) = remeshed(&target, faces[1], &landmarks.target);
-    let landmarks = Landmarks { source: from, target: onto };
+    let (source, from) = remeshed(&source, faces[0], &landmarks.source.raw);
+    let (target, onto) = remeshed(&target, faces[1], &landmarks.target.raw);
+    let landmarks = Landmarks { source: from.into(), target: onto.into() };
     Case { name: format!("{id} with {faces:?} faces"), source, target, landmarks, ground_truth }
 }
 

@@ -51,7 +51,7 @@ impl Poses {
         let on = |mesh: &CheckedMesh| -> Vec<VertexId> {
             self.landmarks.iter().map(|v| mesh.vertex_from_file[v.index()].unwrap()).collect()
         };
-        let landmarks = Landmarks { source: on(source), target: on(target) };
+        let landmarks = Landmarks { source: on(source).into(), target: on(target).into() };
         let input = MapInput {
             source: &source.mesh,
             target: &target.mesh,

@@ -24,7 +24,7 @@ fn exchanged_targets_are_named() {
 fn agreement_changes_sign_in_the_mirror() {
     let demo = conemap::demo::build("horse-cat").expect("a demo");
     let vertices = |k: usize| demo.landmarks.iter().map(|pair| VertexId(pair[k])).collect::<Vec<_>>();
-    let landmarks = Landmarks { source: vertices(0), target: vertices(1) };
+    let landmarks = Landmarks { source: vertices(0).into(), target: vertices(1).into() };
     let agreement = |target: &SurfaceMesh| {
         let meshes = [&demo.source, target];
         order_agreement(meshes, &landmarks, &LandmarkDistances::new(meshes, &landmarks, &mut Silent).unwrap())

@@ -16,7 +16,7 @@ fn demo_pair(id: &str, goal: usize) -> ([SurfaceMesh; 2], Landmarks) {
         (level.mesh, numbers)
     };
     let ((s, source), (t, target)) = (side(0, &demo.source), side(1, &demo.target));
-    ([s, t], Landmarks { source, target })
+    ([s, t], Landmarks { source: source.into(), target: target.into() })
 }
 
 #[test]

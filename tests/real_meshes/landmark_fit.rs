@@ -4,7 +4,7 @@ use crate::common;
 use crate::data::{self, pair_names};
 use crate::fit::{self, Case, mirrored, only_the_mirror_image_raises_an_alarm, swaps};
 use conemap::landmark_fit::{Finding, Repair};
-use conemap::landmarks::Landmarks;
+use conemap::landmarks::{LandmarkId, Landmarks};
 use conemap::layout::LandmarkDistances;
 use conemap::mesh::VertexId;
 use conemap::monitor::Silent;
@@ -37,8 +37,10 @@ fn few_landmarks_of_real_pairs_raise_no_alarm(data: &Path) {
         for count in [4, 6, 12] {
             let step = case.landmarks.len() / count;
             let some = |all: &[VertexId]| all.iter().copied().step_by(step).take(count).collect();
-            let landmarks =
-                Landmarks { source: some(&case.landmarks.source), target: some(&case.landmarks.target) };
+            let landmarks = Landmarks {
+                source: some(&case.landmarks.source.raw),
+                target: some(&case.landmarks.target.raw),
+            };
             let findings = case.findings(&landmarks);
             assert!(findings.is_empty(), "{name}, {count} landmarks: {findings:?}");
         }
@@ -67,7 +69,7 @@ fn exchanged_left_and_right_partners_are_named_first(data: &Path) {
         let case = read(data, &name);
         for &[a, b] in partners {
             let mut landmarks = case.landmarks.clone();
-            landmarks.target.swap(a, b);
+            landmarks.target.raw.swap(a, b);
             let findings = case.findings(&landmarks);
             let named = findings.first().is_some_and(|f| f.repair() == Repair::Swap { pairs: [a, b] });
             assert!(named || name != "cat-lion", "{name}, {a} and {b}: {findings:?}");
@@ -86,7 +88,7 @@ fn ears_and_eyes_exchanged_together_are_named_both(data: &Path) {
     let case = read(data, "cat-lion");
     let mut landmarks = case.landmarks.clone();
     let both = [[9, 13], [27, 29]];
-    both.iter().for_each(|&[a, b]| landmarks.target.swap(a, b));
+    both.iter().for_each(|&[a, b]| landmarks.target.raw.swap(a, b));
     let findings = case.findings(&landmarks);
     let mut swaps = swaps(&findings);
     swaps.sort_unstable();
@@ -98,7 +100,7 @@ fn an_exchange_in_a_mirrored_set_is_named_after_the_mirror(data: &Path) {
     let case = read(data, "cat-lion");
     let case = Case { target: mirrored(&case.target), ..case };
     let mut landmarks = case.landmarks.clone();
-    landmarks.target.swap(9, 13);
+    landmarks.target.raw.swap(9, 13);
     let repairs: Vec<Repair> = case.findings(&landmarks).iter().map(Finding::repair).collect();
     assert_eq!(repairs, [Repair::MirrorTarget, Repair::Swap { pairs: [9, 13] }]);
 }
@@ -117,7 +119,7 @@ fn a_target_on_the_wrong_limb_is_named(data: &Path) {
             let turned = (0..800).map(|k| VertexId((k * 37 + pair as u32 * 101) % 800));
             let wrong = turned.into_iter().find(far).expect("the body is longer than that");
             let mut landmarks = case.landmarks.clone();
-            landmarks.target[pair] = wrong;
+            landmarks.target[LandmarkId::from(pair)] = wrong;
             let findings = case.findings(&landmarks);
             assert!(swaps(&findings).is_empty(), "{name}, pair {pair}: {findings:?}");
             found += usize::from(findings.iter().any(|f| f.repair() == Repair::Check { pair }));

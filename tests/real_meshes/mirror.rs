@@ -39,8 +39,11 @@ fn known_partners_lie_across_from_each_other(data: &Path) {
         let is_first = mesh < other;
         let pair = common::read_pair(data, &format!("shrec07-{}-{}", mesh.min(other), mesh.max(other)));
         let landmarks = common::landmarks(&pair);
-        let (mesh, points) =
-            if is_first { (&pair.source, &landmarks.source) } else { (&pair.target, &landmarks.target) };
+        let (mesh, points) = if is_first {
+            (&pair.source, &landmarks.source.raw)
+        } else {
+            (&pair.target, &landmarks.target.raw)
+        };
         let mirror = best(mesh);
         assert!(mirror.fits() && mirror.misfit < 0.004, "{name}: {mirror:?}");
         let index = SurfaceIndex::new(mesh);
