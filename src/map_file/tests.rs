@@ -257,7 +257,7 @@ fn faults_name_section_and_element() {
     let corner = with("pieces.corners", |corners| corners[7] = 9999);
     assert_eq!(corner, "the map file, section \"pieces.corners\", element 7: 9999 is not below 43");
     let turned = changed(|m| m.correspondence.corners.swap(0, 1));
-    assert!(turned.contains("do not fit together at the side") || turned.contains("turned over"), "{turned}");
+    assert!(turned.contains("do not fit together at the edge") || turned.contains("turned over"), "{turned}");
     let face = with("pieces.target_faces", |faces| faces[2] = 80);
     assert_eq!(face, "the map file, section \"pieces.target_faces\", element 2: 80 is not below 80");
     let elsewhere = with("pieces.target_faces", |faces| faces[2] = 70);
