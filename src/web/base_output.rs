@@ -61,7 +61,11 @@ impl MapOutput {
     #[wasm_bindgen(js_name = patchBorders)]
     pub fn patch_borders(&self, side: usize) -> Vec<u32> {
         let parts = self.base_shape(side).map(|shape| &shape.borders);
-        parts.into_iter().flatten().flat_map(|part| [part.border.0, part.face.0, part.from, part.to]).collect()
+        parts
+            .into_iter()
+            .flatten()
+            .flat_map(|part| [part.border.0, part.face.0, part.from, part.to])
+            .collect()
     }
 
     /// By base triangle the face of the checked mesh in the middle of its patch.
