@@ -195,8 +195,26 @@ fn average(a: &InputWeights, b: &InputWeights) -> InputWeights {
     mean
 }
 
+/// What holds of every refined mesh, for the tests of layouts.
+#[cfg(test)]
+pub(super) mod testing {
+    use super::*;
+
+    /// Checks that a mesh is a closed manifold of genus 0 and area 1 whose arrays agree; returns it.
+    pub(in crate::layout) fn assert_consistent(mesh: &RefinableMesh) -> SurfaceMesh {
+        let refined = SurfaceMesh::from_triangles(mesh.positions.clone(), mesh.faces.clone()).unwrap();
+        assert_eq!(refined.euler_characteristic(), 2);
+        assert!((refined.area() - 1.0).abs() < 1e-12);
+        refined.halfedges().for_each(|h| assert_eq!(refined.twin(h), mesh.twins[h]));
+        refined.halfedges().for_each(|h| assert_eq!(mesh.on_path[h], mesh.on_path[mesh.twins[h]]));
+        refined.vertices().for_each(|v| assert_eq!(mesh.tail(mesh.outgoing[v]), v));
+        refined
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use super::testing::assert_consistent;
     use super::*;
     use crate::mesh::generators::icosphere;
 
@@ -207,14 +225,8 @@ mod tests {
         for k in 0..200_u32 {
             mesh.split_edge(HalfedgeId(k * 7919 % mesh.twins.len() as u32));
         }
-        let refined = SurfaceMesh::from_triangles(mesh.positions.clone(), mesh.faces.clone()).unwrap();
-        assert_eq!(refined.euler_characteristic(), 2);
-        assert!((refined.area() - 1.0).abs() < 1e-12);
-        for h in refined.halfedges() {
-            assert_eq!(refined.twin(h), mesh.twins[h]);
-        }
+        let refined = assert_consistent(&mesh);
         for v in refined.vertices() {
-            assert_eq!(mesh.tail(mesh.outgoing[v]), v);
             let scale = input.area().sqrt();
             let p = mesh.origin(v, &input).position(&input) / scale;
             assert!(p.distance(mesh.positions[v]) < 1e-12);

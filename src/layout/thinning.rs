@@ -90,10 +90,10 @@ impl RefinableMesh {
 mod tests {
     use super::super::drawing::Drawing;
     use super::super::joint::{Ground, draw};
+    use super::super::refinable::testing::assert_consistent;
     use super::super::twists::testing::figures;
     use super::super::variants::VARIANTS;
     use super::*;
-    use crate::mesh::SurfaceMesh;
     use crate::mesh::generators::icosphere;
     use crate::monitor::Silent;
 
@@ -106,15 +106,6 @@ mod tests {
         }
         faces.sort_unstable();
         faces
-    }
-
-    fn assert_consistent(mesh: &RefinableMesh) {
-        let refined = SurfaceMesh::from_triangles(mesh.positions.clone(), mesh.faces.clone()).unwrap();
-        assert_eq!(refined.euler_characteristic(), 2);
-        assert!((refined.area() - 1.0).abs() < 1e-9);
-        refined.halfedges().for_each(|h| assert_eq!(refined.twin(h), mesh.twins[h]));
-        refined.halfedges().for_each(|h| assert_eq!(mesh.on_path[h], mesh.on_path[mesh.twins[h]]));
-        refined.vertices().for_each(|v| assert_eq!(mesh.tail(mesh.outgoing[v]), v));
     }
 
     #[test]

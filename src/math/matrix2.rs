@@ -24,7 +24,7 @@ pub fn squares(m: &DMat2) -> f64 {
 const LEAST_DETERMINANT: f64 = 1e-14;
 
 /// A matrix, whose determinant is positive but may be lost in rounding, with a positive one: where it is below 1e-14 |m|^2 the matrix is
-/// changed by 1e-14 of its size.
+/// changed by 2e-14 of its size.
 pub fn invertible(m: DMat2) -> DMat2 {
     // det(m + t cof(m)) = (1 + t^2) det(m) + t |m|^2.
     if m.determinant() < LEAST_DETERMINANT * squares(&m) {

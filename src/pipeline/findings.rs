@@ -174,8 +174,8 @@ pub fn findings(
     let levels =
         [coarse(input.source, &source.raw, coarsening)?, coarse(input.target, &target.raw, coarsening)?];
     let landmarks = Landmarks {
-        source: levels[0].numbers(&source.raw).collect(),
-        target: levels[1].numbers(&target.raw).collect(),
+        source: levels[0].numbers(source).collect(),
+        target: levels[1].numbers(target).collect(),
     };
     let meshes = [&levels[0].mesh, &levels[1].mesh];
     let mut found = Vec::new();
