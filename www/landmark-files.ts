@@ -33,6 +33,12 @@ export interface SideRead {
   readonly remarks: readonly string[];
 }
 
+/** Pairs in the meshes' own numbers, and sentences about their file. */
+export interface OwnFileRead {
+  readonly file: LandmarkFile;
+  readonly remarks: readonly string[];
+}
+
 /** The landmarks of both meshes, and sentences about them. */
 export interface PairsRead {
   readonly file: LandmarkFile;
@@ -73,12 +79,17 @@ export function contentOf(file: NamedBytes): LandmarkContent | null {
 }
 
 /** Reads a file of the program's own format. */
-export function landmarkFile(file: NamedBytes): LandmarkFile {
+export function ownFileRead(file: NamedBytes): OwnFileRead {
   try {
-    return JSON.parse(readLandmarks(file.bytes)) as LandmarkFile;
+    return JSON.parse(readLandmarks(file.bytes)) as OwnFileRead;
   } catch (thrown) {
     throw refusal(file, thrown);
   }
+}
+
+/** The landmarks of a file of the program's own format. */
+export function landmarkFile(file: NamedBytes): LandmarkFile {
+  return ownFileRead(file).file;
 }
 
 /** Reads the landmarks of one mesh. */

@@ -2,7 +2,7 @@
 import { checkFit, examinedOf, meshFile, misfit } from './files.ts';
 import type { LandmarkFile, Side } from './landmarks.ts';
 import { otherSide, SIDES } from './landmarks.ts';
-import { landmarkFile, pairsRead, sideCalledLike, sideRead } from './landmark-files.ts';
+import { ownFileRead, pairsRead, sideCalledLike, sideRead } from './landmark-files.ts';
 import { checkMeshes, headOf, sideIn } from './map-files.ts';
 import { failureSentence, remarksSentence, repairedSentence, SENTENCES } from './messages.ts';
 import type { NamedBytes } from './named-file.ts';
@@ -117,8 +117,8 @@ function landmarksOf(files: readonly GivenMarks[], over: Side | null): Landmarks
     return { events: (meshes) => pairEvents(ordered(meshes), meshes), file: first, pairs: null };
   }
   if (first.content === 'pairs') {
-    const pairs = landmarkFile(first);
-    return { events: () => [{ kind: 'landmarks', file: pairs }], file: first, pairs };
+    const { file: pairs, remarks } = ownFileRead(first);
+    return { events: () => [{ kind: 'landmarks', file: pairs }, ...told(remarks)], file: first, pairs };
   }
   const isWhole = first.content === 'both';
   const events = (meshes: State['meshes']): Event[] => (isWhole ? pairEvents([first], meshes) : sideEvents(first, over, meshes));

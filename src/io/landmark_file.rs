@@ -1,8 +1,11 @@
 //! Landmark pairs as JSON.
 
+use super::reading;
 use crate::mesh::mirror::mirrored_weights;
 use rustc_hash::FxHashMap;
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// The largest number of pairs; a file with more is refused.
 pub const MAX_PAIRS: usize = 10_000;
@@ -152,6 +155,17 @@ pub enum LandmarkFileError {
         /// The two pairs, 0-based.
         pairs: [usize; 2],
     },
+}
+
+/// The entries of a landmark file.
+const ENTRIES: [&str; 6] = ["source", "target", "pairs", "radii", "labels", "ground_truth"];
+
+/// The names of a landmark file's entries that mean nothing here, in alphabetical order: another program's, or misspelt. None where
+/// the bytes are no JSON object.
+pub fn unknown_entries(bytes: &[u8]) -> Vec<String> {
+    let text = reading::text(bytes).unwrap_or_default();
+    let entries: BTreeMap<String, IgnoredAny> = serde_json::from_str(&text).unwrap_or_default();
+    entries.into_keys().filter(|name| !ENTRIES.contains(&name.as_str())).collect()
 }
 
 /// Reads a landmark file. What can be said without the meshes is checked: weights, and points that two pairs share.

@@ -1,3 +1,4 @@
+use super::landmark_file::{LandmarkFile, LandmarkPoint};
 use super::mesh_reader::ASKED_EVERY;
 use super::*;
 use crate::mesh::SurfaceMesh;
@@ -371,6 +372,28 @@ fn landmark_files_are_refused_by_line_and_pairs() {
         let sentence = says(&format!("[[0, 1],\n[2, {wrong}]]"));
         assert!(sentence.starts_with("the landmark file, line 2: "), "{wrong}: {sentence}");
     }
+}
+
+#[test]
+fn entries_of_landmark_files_are_known_or_told() {
+    let whole = LandmarkFile {
+        source: Some("cat.off".into()),
+        target: Some("lion.off".into()),
+        pairs: vec![[LandmarkPoint::Vertex(0); 2]],
+        radii: Some(vec![0.1]),
+        labels: Some(vec!["nose".into()]),
+        ground_truth: Some("same connectivity".into()),
+    };
+    let whole = String::from_utf8(landmark_file::write(&whole)).unwrap();
+    assert_eq!(whole.matches("\": ").count(), 6, "each entry is written");
+    assert!(landmark_file::unknown_entries(whole.as_bytes()).is_empty());
+    let more = whole.replacen('{', "{\"radius\": [0.1], \"Comment\": {\"pairs\": 1},", 1);
+    assert!(landmark_file::read(more.as_bytes()).is_ok());
+    assert_eq!(landmark_file::unknown_entries(more.as_bytes()), ["Comment", "radius"]);
+    let marked: Vec<u8> =
+        [0xff, 0xfe].into_iter().chain(more.encode_utf16().flat_map(u16::to_le_bytes)).collect();
+    assert_eq!(landmark_file::unknown_entries(&marked), ["Comment", "radius"]);
+    assert!(landmark_file::unknown_entries(b"[1]").is_empty());
 }
 
 proptest! {

@@ -15,7 +15,7 @@ mod writing;
 pub use mesh_names::compare_names;
 pub use problem::{Advice, ExchangeError};
 pub use projection::{PlacedMark, SideLandmarks};
-pub use reading::{GivenFile, PairLandmarks, read_pairs, read_side};
+pub use reading::{GivenFile, PairLandmarks, read_pairs, read_side, remarks_on};
 pub use remark::Remark;
 pub use surface::Surface;
 pub use writing::{ExchangeWriteError, write_pairs, write_side};

@@ -43,17 +43,12 @@ pub fn read_pairs(
     let [source, target] = surfaces;
     match files {
         [file] => match content(file, 0)? {
-            (format, Content::Pairs(file)) => {
-                let pairs = file.pairs.len();
-                let labels = file.labels.as_ref().map_or(pairs, Vec::len);
-                let remarks = (labels != pairs).then_some(Remark::LabelCount { labels, pairs });
-                Ok(PairLandmarks {
-                    file,
-                    formats: vec![format],
-                    distances: vec![[0.0; 2]; pairs],
-                    remarks: remarks.into_iter().collect(),
-                })
-            }
+            (format, Content::Pairs(pairs)) => Ok(PairLandmarks {
+                formats: vec![format],
+                distances: vec![[0.0; 2]; pairs.pairs.len()],
+                remarks: remarks_on(&pairs, file.bytes),
+                file: pairs,
+            }),
             (format, Content::Sides([a, b])) => {
                 let sides =
                     [place(&a, source, MeshSide::Source, 0)?, place(&b, target, MeshSide::Target, 0)?];
@@ -93,6 +88,16 @@ fn one_side(file: &GivenFile<'_>, number: usize) -> Result<(LandmarkFormat, Mark
         (format, Content::Side(list)) => Ok((format, list)),
         _ => Err(ExchangeError::BothMeshes { file: number }),
     }
+}
+
+/// What there is to know about a file of pairs in the meshes' own numbers, whatever the meshes are.
+pub fn remarks_on(file: &LandmarkFile, bytes: &[u8]) -> Vec<Remark> {
+    let pairs = file.pairs.len();
+    let labels = file.labels.as_ref().map_or(pairs, Vec::len);
+    let miscounted = (labels != pairs).then_some(Remark::LabelCount { labels, pairs });
+    let names = landmark_file::unknown_entries(bytes);
+    let unknown = (!names.is_empty()).then_some(Remark::UnknownEntries { names });
+    miscounted.into_iter().chain(unknown).collect()
 }
 
 /// Pairs the landmarks; those without a point on one side are left out.

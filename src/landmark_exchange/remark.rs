@@ -47,6 +47,11 @@ pub enum Remark {
         /// Pairs.
         pairs: usize,
     },
+    /// The file has entries that mean nothing here.
+    UnknownEntries {
+        /// Their names.
+        names: Vec<String>,
+    },
     /// A file names another mesh than the one given.
     OtherMesh {
         /// The mesh.
@@ -68,11 +73,15 @@ impl Remark {
             Self::OffSurface { .. } | Self::More { off_surface: true, .. } => "off_surface",
             Self::PairedByOrder => "paired_by_order",
             Self::LabelCount { .. } => "label_count",
+            Self::UnknownEntries { .. } => "unknown_entries",
             Self::OtherMesh { .. } => "other_mesh",
             Self::ExchangedMeshes => "exchanged_meshes",
         }
     }
 }
+
+/// Unknown entries of a file that are named in one sentence, at most.
+const MOST_NAMES: usize = 5;
 
 /// A landmark's number and name in words.
 pub(super) struct Named<'a> {
@@ -123,6 +132,17 @@ impl fmt::Display for Remark {
                 write!(
                     f,
                     "the file has {labels} labels for {pairs} pairs: names may stand at other pairs than theirs"
+                )
+            }
+            Self::UnknownEntries { names } => {
+                let told: Vec<_> =
+                    names.iter().take(MOST_NAMES).map(|name| format!("\"{}\"", short(name))).collect();
+                let more = names.len().saturating_sub(MOST_NAMES);
+                let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+                write!(
+                    f,
+                    "the landmark file has entries that are not known and not used: {}{more}",
+                    told.join(", ")
                 )
             }
             Self::OtherMesh { side, named, given } => {

@@ -1,4 +1,4 @@
-//! What files hold and need, before a mesh is read; and the program's own landmark files.
+//! What files hold and need, before a mesh is read; and whether landmarks fit a mesh.
 
 use super::failure;
 use super::loaded_mesh::LoadedMesh;
@@ -101,16 +101,6 @@ pub fn mesh_formats() -> String {
 pub fn mesh_endings() -> String {
     let endings = io::Format::ALL.into_iter().flat_map(io::Format::endings);
     endings.map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(",")
-}
-
-/// Reads a landmark file and gives it back as normalised JSON.
-///
-/// # Errors
-/// `{"code": "landmarks", "message"}`.
-#[wasm_bindgen(js_name = readLandmarks)]
-pub fn read_landmarks(bytes: &[u8]) -> Result<String, JsValue> {
-    let file = landmark_file::read(bytes).map_err(|e| failure("landmarks", e))?;
-    serde_json::to_string(&file).map_err(|e| failure("landmarks", e))
 }
 
 /// Checks that the points of a landmark file on one side, 0 the source and 1 the target, are different points of its mesh.

@@ -6,8 +6,8 @@ use crate::io;
 use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 use crate::io::landmark_formats::{self, Content, Holds, LandmarkFormat, detect};
 use crate::landmark_exchange::{
-    ExchangeError, GivenFile, PairLandmarks, PlacedMark, Remark, Surface, read_pairs, read_side, write_pairs,
-    write_side,
+    ExchangeError, GivenFile, PairLandmarks, PlacedMark, Remark, Surface, read_pairs, read_side, remarks_on,
+    write_pairs, write_side,
 };
 use crate::landmarks::{MeshSide, check_side};
 use serde::Serialize;
@@ -44,6 +44,15 @@ pub struct ReadSide {
     /// In the order of the file.
     marks: Vec<ReadMark>,
     /// What there is to know about them, as sentences.
+    remarks: Vec<String>,
+}
+
+/// Pairs in the meshes' own numbers that were read.
+#[derive(Serialize)]
+pub struct OwnFileRead {
+    /// The pairs.
+    file: LandmarkFile,
+    /// What there is to know about their file, as sentences.
     remarks: Vec<String>,
 }
 
@@ -144,6 +153,17 @@ pub fn read_landmark_side(
     let marks =
         marks.map(|PlacedMark { label, point, distance }| ReadMark { label, point, distance }).collect();
     as_json(&ReadSide { marks, remarks: sentences(&read.remarks) })
+}
+
+/// Reads a file of the program's own format, which needs no mesh to be read: JSON, `OwnFileRead`.
+///
+/// # Errors
+/// `{"code": "landmarks", "message"}`.
+#[wasm_bindgen(js_name = readLandmarks)]
+pub fn read_landmarks(bytes: &[u8]) -> Result<String, JsValue> {
+    let file = landmark_file::read(bytes).map_err(|e| failure("landmarks", e))?;
+    let remarks = sentences(&remarks_on(&file, bytes));
+    as_json(&OwnFileRead { file, remarks })
 }
 
 /// Reads the landmarks of both meshes, from one file that holds both or from the source's and the target's: JSON, `ReadPairs`.

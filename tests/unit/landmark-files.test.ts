@@ -77,6 +77,16 @@ describe('landmark files', () => {
     expect(then.pairs.map((pair) => pair.points)).toEqual(landmarks.pairs);
   });
 
+  test('with entries that nothing here uses are opened, and the entries told', () => {
+    const more = { ...landmarks, radius: [0.1], labels: ['nose'] };
+    const { events } = openingOf([text('more.json', JSON.stringify(more))], null, open);
+    expect(after(open, ...events).pairs.map((pair) => pair.points)).toEqual(landmarks.pairs);
+    const said = events.flatMap((event) => (event.kind === 'error' ? [event.sentence] : []));
+    expect(said).toHaveLength(1);
+    expect(said[0]).toMatch(/has entries that are not known and not used: "radius"/);
+    expect(said[0]).toMatch(/1 labels for \d+ pairs/);
+  });
+
   test('that cannot be placed are refused with what to do', () => {
     const far = text('far.csv', 'name,x,y,z\nnose,1e6,0,0\n');
     expect(refusal([far], 0, open)).toMatch(/^far\.csv: Landmark 1 \("nose"\) of the source lies .* off the surface/);
