@@ -116,7 +116,7 @@ impl CoarseMap<'_> {
     /// [`MapError::Cancelled`].
     pub fn finish(&mut self, options: &MultilevelOptions, monitor: &mut dyn Monitor) -> Result<(), MapError> {
         self.relax(&options.coarse, &mut Portion::new(monitor, 0.0, 0.5))?;
-        if self.median < options.pose_median {
+        if self.median < options.pose_median && self.mean_log < options.pose_mean_log {
             self.energy = MapEnergy::POSES;
             let poses = MapRelaxationOptions { energy: self.energy, ..options.coarse };
             self.relax(&poses, &mut Portion::new(monitor, 0.5, 1.0))?;
