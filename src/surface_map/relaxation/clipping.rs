@@ -1,10 +1,11 @@
-//! The area that two triangles of a plane share.
+//! The polygon that two triangles of a plane share, and its area.
 
 use crate::math::scalar::max;
 use crate::math::triangle::signed_double_area;
 use glam::DVec2;
 
 /// A counter-clockwise triangle with its bounding box.
+#[derive(Clone, Copy)]
 pub struct BoxedTriangle {
     /// Its corners.
     pub corners: [DVec2; 3],
@@ -22,25 +23,44 @@ impl BoxedTriangle {
         Self { corners, low: p.min(q).min(r), high: p.max(q).max(r) }
     }
 
-    /// The area that two triangles share: one is clipped by the other's sides (Sutherland & Hodgman 1974).
+    /// The area that two triangles share.
     pub fn overlap(&self, clip: &Self) -> f64 {
-        if !(self.low.cmple(clip.high).all() && clip.low.cmple(self.high).all()) {
-            return 0.0;
-        }
         let mut polygon: Polygon = [DVec2::ZERO; 12];
+        let count = self.shared(clip, &mut polygon);
+        0.5 * max(fan(&polygon[..count]).map(|[p, q, r]| signed_double_area(p, q, r)).sum(), 0.0)
+    }
+
+    /// The triangles of a fan of the polygon that two triangles share; none where it has no area.
+    pub fn shared_triangles(&self, clip: &Self) -> impl Iterator<Item = Self> + use<> {
+        let mut polygon: Polygon = [DVec2::ZERO; 12];
+        let count = self.shared(clip, &mut polygon);
+        let triangles: Vec<_> = fan(&polygon[..count]).collect();
+        triangles.into_iter().filter(|&[p, q, r]| signed_double_area(p, q, r) > 0.0).map(Self::new)
+    }
+
+    /// The polygon that two triangles share, one clipped by the other's sides (Sutherland & Hodgman 1974); returns the number of its
+    /// corners.
+    fn shared(&self, clip: &Self, polygon: &mut Polygon) -> usize {
+        if !(self.low.cmple(clip.high).all() && clip.low.cmple(self.high).all()) {
+            return 0;
+        }
         polygon[..3].copy_from_slice(&self.corners);
         let mut count = 3;
         for k in 0..3 {
             let from = clip.corners[k];
             let along = clip.corners[(k + 1) % 3] - from;
-            count = clipped(&mut polygon, count, |p| along.perp_dot(p - from));
+            count = clipped(polygon, count, |p| along.perp_dot(p - from));
             if count < 3 {
-                return 0.0;
+                return 0;
             }
         }
-        let fan = (1..count - 1).map(|i| signed_double_area(polygon[0], polygon[i], polygon[i + 1]));
-        0.5 * max(fan.sum(), 0.0)
+        count
     }
+}
+
+/// The triangles of a convex polygon that have its first corner.
+fn fan(polygon: &[DVec2]) -> impl Iterator<Item = [DVec2; 3]> {
+    (2..polygon.len()).map(|i| [polygon[0], polygon[i - 1], polygon[i]])
 }
 
 /// Cuts off the part of a polygon where `side` is negative; returns the number of corners left.
@@ -80,5 +100,11 @@ mod tests {
         assert_eq!(unit.overlap(&at([0.5, 0.0], 1.0)), 0.125);
         assert_eq!(at([0.5, 0.0], 1.0).overlap(&unit), 0.125);
         assert_eq!(unit.overlap(&at([1.0, 1.0], 1.0)), 0.0);
+        let slanted = BoxedTriangle::new([[-1.0, -1.0], [0.5, -1.0], [0.5, 2.0]].map(DVec2::from));
+        let parts: Vec<_> = unit.shared_triangles(&slanted).collect();
+        assert_eq!(unit.overlap(&slanted), 0.375);
+        assert_eq!(parts.iter().map(|part| part.overlap(&unit)).sum::<f64>(), 0.375);
+        assert_eq!((parts.len(), parts[0].overlap(&parts[1])), (2, 0.0));
+        assert_eq!(unit.shared_triangles(&at([1.0, 1.0], 1.0)).count(), 0);
     }
 }

@@ -2,10 +2,13 @@
 //! vertex' place alone.
 //!
 //! While a vertex moves within its star, the star as a whole is overlapped by the same few triangles of the other mesh:
-//! developed into the vertex' plane they share convex polygons with the star's triangles.
+//! developed into the vertex' plane they share convex polygons with the star's triangles. Where a star bends round a cone, a triangle
+//! that passes the cone on one side is developed onto the star's part on the other side as well, where it is not: there only those
+//! parts of the triangles count that lie over the star.
 
 use super::clipping::BoxedTriangle;
 use super::dent_energy::DentEnergy;
+use crate::math::golden::direction;
 use crate::math::matrix2::{SymmetricEigen, symmetric_eigen};
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::{ln, max, min};
@@ -50,10 +53,12 @@ pub struct Ray {
 }
 
 /// A triangle of the other side over a star.
+#[derive(Clone, Copy)]
 pub struct Cover {
     pub face: FaceId,
     /// From the star's plane to the face's.
     pub motion: Rigid2,
+    /// The whole triangle, or a part of it.
     pub triangle: BoxedTriangle,
     /// From the star's plane to the rest plane.
     pub onto_rest: DMat2,
@@ -121,6 +126,15 @@ impl Sheet<'_> {
     }
 }
 
+impl Cover {
+    /// Whether this is the whole of a face with these corners in the star's plane.
+    fn is(&self, face: FaceId, corners: [DVec2; 3]) -> bool {
+        // Two ways to the same triangle differ by rounding, two different ways around a cone by far more.
+        let size = corners[0].distance(corners[1]);
+        self.face == face && self.triangle.corners[0].distance(corners[0]) < 1e-6 * size
+    }
+}
+
 impl CoveredStar {
     /// The star of a free vertex.
     pub fn around(own: &Sheet<'_>, other: &Sheet<'_>, v: VertexId) -> Self {
@@ -144,25 +158,44 @@ impl CoveredStar {
             }
             motion = own.side.embedding.transitions[h.prev()].after(&motion);
         }
+        if !star.is_covered() {
+            star.cut_covers(own, other);
+        }
         star
+    }
+
+    /// The corners of a triangle of the other side in the star's plane.
+    fn developed(&self, other: &Sheet<'_>, face: FaceId, motion: Rigid2) -> [DVec2; 3] {
+        let back = motion.inverse();
+        other.triangle(face).map(|p| back.apply(p) - self.origin)
     }
 
     /// Adds a triangle of the other side, unless it is there.
     fn cover(&mut self, other: &Sheet<'_>, face: FaceId, motion: Rigid2) {
-        let back = motion.inverse();
-        let corners = other.triangle(face).map(|p| back.apply(p) - self.origin);
-        let size = corners[0].distance(corners[1]);
-        // Two ways to the same triangle differ by rounding, two different ways around a cone by far more.
-        let is_same = |cover: &Cover| {
-            cover.face == face && cover.triangle.corners[0].distance(corners[0]) < 1e-6 * size
-        };
-        if self.covers.iter().any(is_same) {
+        let corners = self.developed(other, face, motion);
+        if self.covers.iter().any(|cover| cover.is(face, corners)) {
             return;
         }
         let rest = other.jacobian(face).inverse();
         let onto_rest = rest * motion.turn();
         let weight = other.side.weights.of(face);
         self.covers.push(Cover { face, motion, triangle: BoxedTriangle::new(corners), onto_rest, weight });
+    }
+
+    /// Keeps of each cover the parts that lie over those triangles of the star that it overlaps on the surface.
+    pub fn cut_covers(&mut self, own: &Sheet<'_>, other: &Sheet<'_>) {
+        let mut parts = Vec::new();
+        for ray in &self.rays {
+            let triangle = BoxedTriangle::new([DVec2::ZERO, ray.ring[0], ray.ring[1]]);
+            for partner in &own.partners[ray.halfedge.face()] {
+                let corners = self.developed(other, partner.face, partner.motion.after(&ray.motion));
+                if let Some(&whole) = self.covers.iter().find(|cover| cover.is(partner.face, corners)) {
+                    let shared = triangle.shared_triangles(&whole.triangle);
+                    parts.extend(shared.map(|triangle| Cover { triangle, ..whole }));
+                }
+            }
+        }
+        self.covers = parts;
     }
 
     /// Whether the covers' overlaps with the star add up to its area.
@@ -228,6 +261,32 @@ impl CoveredStar {
             step *= 0.3;
         }
         None
+    }
+}
+
+/// Directions, and distances each half as large as the one before, of the places that are looked at. Chosen by hand.
+const LOOKS: [usize; 2] = [24, 16];
+
+impl CoveredStar {
+    /// The best of many places around `z`, out to the farthest corner of the star: where several pieces are equally bad the cost has
+    /// a crease, along which Newton's method does not find down. `least` is the logarithm of the cost at z; other `looks` are in other
+    /// directions.
+    pub fn best_seen(&self, z: DVec2, least: f64, looks: usize, energy: &DentEnergy) -> Option<Improved> {
+        let reach = self.rays.iter().map(|ray| ray.ring[0].distance(z)).fold(0.0, max);
+        let [directions, distances] = LOOKS;
+        let mut best = Improved { z, log_cost: least };
+        for step in looks * directions..(looks + 1) * directions {
+            let mut away = direction(step) * reach;
+            for _ in 0..distances {
+                away *= 0.5;
+                if let Some(log_cost) = self.cost(z + away, energy).map(ln)
+                    && log_cost < best.log_cost
+                {
+                    best = Improved { z: z + away, log_cost };
+                }
+            }
+        }
+        (best.log_cost < least).then_some(best)
     }
 }
 
