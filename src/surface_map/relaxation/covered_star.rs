@@ -72,6 +72,8 @@ pub struct CoveredStar {
     pub covers: Vec<Cover>,
     /// The place of the vertex in the plane of the first face.
     pub origin: DVec2,
+    /// Whether the covers' overlaps with the star add up to its area; else its cost means nothing.
+    pub is_covered: bool,
 }
 
 /// A better place for the vertex in the middle of a star.
@@ -140,7 +142,7 @@ impl CoveredStar {
     pub fn around(own: &Sheet<'_>, other: &Sheet<'_>, v: VertexId) -> Self {
         let mesh = own.side.mesh;
         let origin = own.corners[mesh.outgoing(v)];
-        let mut star = Self { rays: Vec::new(), covers: Vec::new(), origin };
+        let mut star = Self { rays: Vec::new(), covers: Vec::new(), origin, is_covered: false };
         let mut motion = Rigid2::IDENTITY;
         for h in mesh.star(v) {
             let (f, back) = (h.face(), motion.inverse());
@@ -158,8 +160,10 @@ impl CoveredStar {
             }
             motion = own.side.embedding.transitions[h.prev()].after(&motion);
         }
-        if !star.is_covered() {
+        star.is_covered = star.covers_add_up();
+        if !star.is_covered {
             star.cut_covers(own, other);
+            star.is_covered = star.covers_add_up();
         }
         star
     }
@@ -199,7 +203,7 @@ impl CoveredStar {
     }
 
     /// Whether the covers' overlaps with the star add up to its area.
-    pub fn is_covered(&self) -> bool {
+    pub fn covers_add_up(&self) -> bool {
         let (mut area, mut covered) = (0.0, 0.0);
         for ray in &self.rays {
             let [p, q] = ray.ring;

@@ -83,29 +83,19 @@ pub fn heal(
     let vertices = sides.iter().map(|side| side.mesh.vertex_count()).sum::<usize>();
     let most = ((options.share * vertices as f64) as usize).max(LEAST);
     let mut moved = false;
-    for sweep in 0..options.sweeps + options.deep_sweeps {
-        let deep_sweep = sweep.checked_sub(options.sweeps);
-        let depth = if deep_sweep.is_some() { DEEP } else { 1.0 };
-        let Dents { faces: mut dented, vertices } = healer.dents(&faces, depth * energy.brink, most);
-        if vertices.is_empty() || (sweep > 0 && monitor.wants_result()) {
-            break;
-        }
-        for (k, vertex) in vertices.into_iter().enumerate() {
-            if k.is_multiple_of(ASKED_EVERY) {
-                monitor.step(Step::default())?;
+    'phases: for (depth, sweeps, looks) in [(1.0, options.sweeps, false), (DEEP, options.deep_sweeps, true)] {
+        // What Newton's method does not move may be moved by looking round.
+        healer.at_rest.clear();
+        for sweep in 0..sweeps {
+            if moved && monitor.wants_result() {
+                break 'phases;
             }
-            let Some(star) = healer.settled(vertex, deep_sweep) else {
-                healer.at_rest.insert(vertex);
-                continue;
-            };
-            moved = true;
-            healer.wake(vertex.side, &star);
-            match vertex.side {
-                0 => dented.extend(star.rays.iter().map(|ray| ray.halfedge.face())),
-                _ => dented.extend(star.covers.iter().map(|cover| cover.face)),
+            let dents = healer.dents(&faces, depth * energy.brink, most);
+            if dents.vertices.is_empty() {
+                break;
             }
+            faces = healer.sweep(dents, looks.then_some(sweep), &mut moved, monitor)?;
         }
-        faces = dented;
     }
     Ok(moved.then(|| {
         healer.sheets.map(|sheet| {
@@ -189,6 +179,33 @@ impl Healer<'_> {
         Dents { faces: dented, vertices: found.into_iter().map(|(vertex, _)| vertex).collect() }
     }
 
+    /// Moves the vertices of dents; returns the source faces that may have dents then. `moved` becomes true where one moves.
+    fn sweep(
+        &mut self,
+        dents: Dents,
+        looks: Option<usize>,
+        moved: &mut bool,
+        monitor: &mut dyn Monitor,
+    ) -> Result<BTreeSet<FaceId>, Cancelled> {
+        let Dents { mut faces, vertices } = dents;
+        for (k, vertex) in vertices.into_iter().enumerate() {
+            if k.is_multiple_of(ASKED_EVERY) {
+                monitor.step(Step::default())?;
+            }
+            let Some(star) = self.settled(vertex, looks) else {
+                self.at_rest.insert(vertex);
+                continue;
+            };
+            *moved = true;
+            self.wake(vertex.side, &star);
+            match vertex.side {
+                0 => faces.extend(star.rays.iter().map(|ray| ray.halfedge.face())),
+                _ => faces.extend(star.covers.iter().map(|cover| cover.face)),
+            }
+        }
+        Ok(faces)
+    }
+
     /// Lets the vertices around one that has moved move again.
     fn wake(&mut self, side: usize, star: &CoveredStar) {
         let own = star.rays.iter().map(|ray| (side, ray.halfedge.face()));
@@ -214,7 +231,7 @@ impl Healer<'_> {
         looks: Option<usize>,
     ) -> Option<CoveredStar> {
         let star = CoveredStar::around(&self.sheets[side], &self.sheets[1 - side], vertex);
-        if !star.is_covered() {
+        if !star.is_covered {
             return None;
         }
         let start = ln(star.cost(DVec2::ZERO, &self.energy)?);
@@ -379,7 +396,7 @@ mod tests {
         let energy = DentEnergy { brink: f64::INFINITY, energy: MapEnergy::PLAIN };
         for v in free_vertices(sides[0]) {
             let star = CoveredStar::around(&sheets[0], &sheets[1], v);
-            assert!(star.is_covered(), "{v:?}");
+            assert!(star.is_covered, "{v:?}");
             let faces: Vec<FaceId> = star.rays.iter().map(|ray| ray.halfedge.face()).collect();
             let pieces = overlay.pieces.iter().zip(&measured.by_piece);
             let there = pieces.filter(|(piece, _)| faces.contains(&piece.source_face));
@@ -395,7 +412,7 @@ mod tests {
             // In parts, which are more, the covers are the same, wherever the vertex is.
             let mut cut = CoveredStar::around(&sheets[0], &sheets[1], v);
             cut.cut_covers(&sheets[0], &sheets[1]);
-            assert!(cut.is_covered() && cut.covers.len() >= star.covers.len(), "{v:?}");
+            assert!(cut.covers_add_up() && cut.covers.len() >= star.covers.len(), "{v:?}");
             let places = [DVec2::ZERO, 0.1 * star.rays[0].ring[0], 0.3 * star.rays[1].ring[1]];
             for [whole, parts] in places.map(|z| [&star, &cut].map(|star| star.cost(z, &energy))) {
                 assert_eq!(whole.is_some(), parts.is_some());
