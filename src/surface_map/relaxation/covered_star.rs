@@ -137,6 +137,9 @@ impl Cover {
     }
 }
 
+/// Directions, and distances each half as large as the one before, of the places that are looked at. Chosen by hand.
+const LOOKS: [usize; 2] = [24, 16];
+
 impl CoveredStar {
     /// The star of a free vertex.
     pub fn around(own: &Sheet<'_>, other: &Sheet<'_>, v: VertexId) -> Self {
@@ -266,15 +269,10 @@ impl CoveredStar {
         }
         None
     }
-}
 
-/// Directions, and distances each half as large as the one before, of the places that are looked at. Chosen by hand.
-const LOOKS: [usize; 2] = [24, 16];
-
-impl CoveredStar {
     /// The best of many places around `z`, out to the farthest corner of the star: where several pieces are equally bad the cost has
-    /// a crease, along which Newton's method does not find down. `least` is the logarithm of the cost at z; other `looks` are in other
-    /// directions.
+    /// a crease, along which Newton's method does not find down. `least` is the logarithm of the cost at z; each number of
+    /// `looks` has directions of its own.
     pub fn best_seen(&self, z: DVec2, least: f64, looks: usize, energy: &DentEnergy) -> Option<Improved> {
         let reach = self.rays.iter().map(|ray| ray.ring[0].distance(z)).fold(0.0, max);
         let [directions, distances] = LOOKS;

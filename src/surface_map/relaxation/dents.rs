@@ -82,12 +82,12 @@ pub fn heal(
     monitor.step(Step::default())?;
     let vertices = sides.iter().map(|side| side.mesh.vertex_count()).sum::<usize>();
     let most = ((options.share * vertices as f64) as usize).max(LEAST);
-    let mut moved = false;
+    let (mut moved, mut swept) = (false, false);
     'phases: for (depth, sweeps, looks) in [(1.0, options.sweeps, false), (DEEP, options.deep_sweeps, true)] {
         // What Newton's method does not move may be moved by looking round.
         healer.at_rest.clear();
         for sweep in 0..sweeps {
-            if moved && monitor.wants_result() {
+            if swept && monitor.wants_result() {
                 break 'phases;
             }
             let dents = healer.dents(&faces, depth * energy.brink, most);
@@ -95,6 +95,7 @@ pub fn heal(
                 break;
             }
             faces = healer.sweep(dents, looks.then_some(sweep), &mut moved, monitor)?;
+            swept = true;
         }
     }
     Ok(moved.then(|| {
@@ -189,7 +190,8 @@ impl Healer<'_> {
     ) -> Result<BTreeSet<FaceId>, Cancelled> {
         let Dents { mut faces, vertices } = dents;
         for (k, vertex) in vertices.into_iter().enumerate() {
-            if k.is_multiple_of(ASKED_EVERY) {
+            // To look round takes some milliseconds for one vertex.
+            if looks.is_some() || k.is_multiple_of(ASKED_EVERY) {
                 monitor.step(Step::default())?;
             }
             let Some(star) = self.settled(vertex, looks) else {
