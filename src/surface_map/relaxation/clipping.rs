@@ -31,11 +31,11 @@ impl BoxedTriangle {
     }
 
     /// The triangles of a fan of the polygon that two triangles share; none where it has no area.
-    pub fn shared_triangles(&self, clip: &Self) -> impl Iterator<Item = Self> + use<> {
+    pub fn shared_triangles(&self, clip: &Self) -> Vec<Self> {
         let mut polygon: Polygon = [DVec2::ZERO; 12];
         let count = self.shared(clip, &mut polygon);
-        let triangles: Vec<_> = fan(&polygon[..count]).collect();
-        triangles.into_iter().filter(|&[p, q, r]| signed_double_area(p, q, r) > 0.0).map(Self::new)
+        let has_area = |&[p, q, r]: &[DVec2; 3]| signed_double_area(p, q, r) > 0.0;
+        fan(&polygon[..count]).filter(has_area).map(Self::new).collect()
     }
 
     /// The polygon that two triangles share, one clipped by the other's sides (Sutherland & Hodgman 1974); returns the number of its
@@ -101,10 +101,10 @@ mod tests {
         assert_eq!(at([0.5, 0.0], 1.0).overlap(&unit), 0.125);
         assert_eq!(unit.overlap(&at([1.0, 1.0], 1.0)), 0.0);
         let slanted = BoxedTriangle::new([[-1.0, -1.0], [0.5, -1.0], [0.5, 2.0]].map(DVec2::from));
-        let parts: Vec<_> = unit.shared_triangles(&slanted).collect();
+        let parts = unit.shared_triangles(&slanted);
         assert_eq!(unit.overlap(&slanted), 0.375);
         assert_eq!(parts.iter().map(|part| part.overlap(&unit)).sum::<f64>(), 0.375);
         assert_eq!((parts.len(), parts[0].overlap(&parts[1])), (2, 0.0));
-        assert_eq!(unit.shared_triangles(&at([1.0, 1.0], 1.0)).count(), 0);
+        assert_eq!(unit.shared_triangles(&at([1.0, 1.0], 1.0)).len(), 0);
     }
 }

@@ -198,7 +198,7 @@ impl CoveredStar {
                 let corners = self.developed(other, partner.face, partner.motion.after(&ray.motion));
                 if let Some(&whole) = self.covers.iter().find(|cover| cover.is(partner.face, corners)) {
                     let shared = triangle.shared_triangles(&whole.triangle);
-                    parts.extend(shared.map(|triangle| Cover { triangle, ..whole }));
+                    parts.extend(shared.into_iter().map(|triangle| Cover { triangle, ..whole }));
                 }
             }
         }

@@ -6,7 +6,8 @@
 //! the other mesh: developed into the vertex' plane they share convex polygons with the star's triangles. Each move
 //! lowers the map's energy there and the sixth power of its density, a smooth stand-in for the maximum, by Newton's method
 //! in two unknowns, with difference quotients of the logarithm. The worst vertices come first; one that gains little
-//! rests until a vertex beside it moves. Triangles stay positive, and all other vertices keep their places.
+//! rests until a vertex beside it moves. Deep dents are looked at once more: where Newton's method gains little, the best of many
+//! places is taken. Triangles stay positive, and all other vertices keep their places.
 
 use super::clipping::BoxedTriangle;
 use super::covered_star::{CoveredStar, Partner, Sheet, sheets};
@@ -44,7 +45,7 @@ impl Default for DentOptions {
     fn default() -> Self {
         // The brinks: a density of 20 is seen in a texture; other maps may have to distort a limb that the other body lacks.
         // With 12 sweeps over 0.006 of the vertices twice to three times as much of the skin of three pairs of poses kept a density above 20,
-        // and E was 0.1 to 0.3 % higher, in the same time within what repetitions differ by. The sweeps take 2 to 6 % of a map's time.
+        // and E was 0.1 to 0.3 % higher, in the same time within what repetitions differ by. Those 12 took 2 to 6 % of a map's time.
         Self { pose_brink: 20.0, brink: 500.0, sweeps: 30, deep_sweeps: 40, share: 0.02 }
     }
 }
@@ -76,13 +77,18 @@ pub fn heal(
     monitor: &mut dyn Monitor,
 ) -> Result<Option<[Embedding; 2]>, Cancelled> {
     monitor.step(Step::default())?;
-    let mut healer = Healer { sheets: sheets(sides, overlay, monitor)?, energy, at_rest: BTreeSet::new() };
+    let mut healer = Healer {
+        sheets: sheets(sides, overlay, monitor)?,
+        energy,
+        at_rest: BTreeSet::new(),
+        has_moved: false,
+    };
     monitor.step(Step::default())?;
     let mut faces = dented(sides, overlay, energy.brink);
     monitor.step(Step::default())?;
     let vertices = sides.iter().map(|side| side.mesh.vertex_count()).sum::<usize>();
     let most = ((options.share * vertices as f64) as usize).max(LEAST);
-    let (mut moved, mut swept) = (false, false);
+    let mut swept = false;
     'phases: for (depth, sweeps, looks) in [(1.0, options.sweeps, false), (DEEP, options.deep_sweeps, true)] {
         // What Newton's method does not move may be moved by looking round.
         healer.at_rest.clear();
@@ -94,11 +100,11 @@ pub fn heal(
             if dents.vertices.is_empty() {
                 break;
             }
-            faces = healer.sweep(dents, looks.then_some(sweep), &mut moved, monitor)?;
+            faces = healer.sweep(dents, looks.then_some(sweep), monitor)?;
             swept = true;
         }
     }
-    Ok(moved.then(|| {
+    Ok(healer.has_moved.then(|| {
         healer.sheets.map(|sheet| {
             let mut embedding = Embedding { corners: sheet.corners, ..sheet.side.embedding.clone() };
             embedding.normalise_anchors(surface);
@@ -143,6 +149,8 @@ struct Healer<'a> {
     energy: DentEnergy,
     /// Vertices that do not move any further while nothing moves around them.
     at_rest: BTreeSet<SheetVertex>,
+    /// Whether a vertex has moved.
+    has_moved: bool,
 }
 
 impl Healer<'_> {
@@ -180,12 +188,11 @@ impl Healer<'_> {
         Dents { faces: dented, vertices: found.into_iter().map(|(vertex, _)| vertex).collect() }
     }
 
-    /// Moves the vertices of dents; returns the source faces that may have dents then. `moved` becomes true where one moves.
+    /// Moves the vertices of dents; returns the source faces that may have dents then.
     fn sweep(
         &mut self,
         dents: Dents,
         looks: Option<usize>,
-        moved: &mut bool,
         monitor: &mut dyn Monitor,
     ) -> Result<BTreeSet<FaceId>, Cancelled> {
         let Dents { mut faces, vertices } = dents;
@@ -198,7 +205,7 @@ impl Healer<'_> {
                 self.at_rest.insert(vertex);
                 continue;
             };
-            *moved = true;
+            self.has_moved = true;
             self.wake(vertex.side, &star);
             match vertex.side {
                 0 => faces.extend(star.rays.iter().map(|ray| ray.halfedge.face())),
