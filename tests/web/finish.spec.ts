@@ -3,6 +3,14 @@ import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
 import { DATA, finished, needsSharedData, openDemo, openStep, pairs } from './page.ts';
 
+/** What the line of the status said at one time. */
+interface Said {
+  readonly sentence: string;
+  /** The number that the run brings down. */
+  readonly number: string;
+  readonly finishable: boolean;
+}
+
 /** The energy that the result shows. */
 async function energyOf(page: Page): Promise<number> {
   await finished(page);
@@ -20,27 +28,31 @@ test('Finish now gives a certified map that is marked as finished early', async 
   await expect(page.locator('#result .warning').first()).toContainText('Finished early on request, at energy');
 
   await page.evaluate(() => {
-    const said: [string, boolean][] = [];
+    // The relaxation of so small a map is too short to be looked for from outside: all that the line says is written down.
+    const said: Said[] = [];
     Reflect.set(window, 'said', said);
-    const status = document.querySelector('#status');
+    const line = document.querySelector('#status-line');
+    const textOf = (name: string): string => line?.querySelector(name)?.textContent ?? '';
     const note = (): void => {
-      said.push([status?.textContent ?? '', document.querySelector<HTMLElement>('#finish')?.hidden ?? false]);
+      const finishable = line?.querySelector<HTMLElement>('#finish')?.hidden === false;
+      said.push({ sentence: textOf('#status'), number: textOf('.residual'), finishable });
     };
-    if (status !== null) {
-      new MutationObserver(note).observe(status, { childList: true, characterData: true, subtree: true });
+    if (line !== null) {
+      new MutationObserver(note).observe(line, { childList: true, characterData: true, subtree: true });
     }
   });
   await page.locator('#run').click();
-  await expect(page.locator('.residual')).toContainText(/Energy \d\.\d+/, { timeout: 60_000 });
   const full = await energyOf(page);
   await expect(page.locator('#result')).not.toContainText('finished early');
   expect(full).toBeLessThan(early);
   // Offered as long as there is something to shorten.
-  const said = await page.evaluate(() => Reflect.get(window, 'said') as [string, boolean][]);
-  expect(said.filter(([sentence]) => sentence.startsWith('Relaxing')).map(([, hidden]) => hidden)).toContain(false);
-  const late = said.filter(([sentence]) => /^(Checking|Carrying)/.test(sentence));
+  const said = await page.evaluate(() => Reflect.get(window, 'said') as Said[]);
+  const relaxing = said.filter(({ sentence }) => sentence.startsWith('Relaxing'));
+  expect(relaxing.some(({ number }) => /^Energy \d\.\d+ .*, level \d$/.test(number))).toBe(true);
+  expect(relaxing.some(({ finishable }) => finishable)).toBe(true);
+  const late = said.filter(({ sentence }) => /^(Checking|Carrying)/.test(sentence));
   expect(late.length).toBeGreaterThan(1);
-  expect(late.every(([, hidden]) => hidden)).toBe(true);
+  expect(late.some(({ finishable }) => finishable)).toBe(false);
 });
 
 test('a run on real meshes finishes when asked during its relaxation', { tag: '@long' }, async ({ page }) => {
