@@ -14,7 +14,7 @@ const RADIUS: f64 = 0.8;
 const HEIGHT: f64 = 1.7;
 /// Radius of its apex and its rim.
 const ROUND: f64 = 0.1;
-/// A place inside the cone, from where its landmarks are seen.
+/// A place inside the cone: a landmark lies where a ray from here leaves the surface.
 const INSIDE: DVec3 = DVec3::new(0.0, 0.35, 0.0);
 
 /// The landmarks between the apex and the middle of the base: each ring's share of the way down the slant, and its names.
@@ -24,7 +24,7 @@ const RINGS: [(f64, [&str; 5]); 3] = [
     (1.00, ["rim 1", "rim 2", "rim 3", "rim 4", "rim 5"]),
 ];
 
-/// A ball of triangles that halve each other.
+/// A ball whose triangles come from repeated subdivision.
 pub(super) fn ball() -> Shape {
     let mut points = vec![("apex", DVec3::Y)];
     for (k, (share, names)) in RINGS.into_iter().enumerate() {
