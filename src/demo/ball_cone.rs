@@ -9,8 +9,9 @@ use crate::mesh::generators::icosphere;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
-/// Base radius and height of the cone before it is rounded.
+/// The base radius of the cone before it is rounded.
 const RADIUS: f64 = 0.8;
+/// The height of the cone before it is rounded.
 const HEIGHT: f64 = 1.7;
 /// Radius of its apex and its rim.
 const ROUND: f64 = 0.1;
@@ -49,8 +50,9 @@ pub(super) fn cone() -> Shape {
     skinned(&MarkedBody { body, marks: places.into_iter().map(mark).collect() }, &CELLS)
 }
 
-/// Length of the edges wanted on the cone, and the cells in which it is meshed.
+/// The length of the edges that is wanted on the cone.
 const EDGE: f64 = 0.0266;
+/// The cells in which the cone is meshed.
 const CELLS: Cells = Cells { size: 0.032, offset: DVec3::splat(0.4), coarseness: 1.0 };
 
 /// Five points around the y axis; every other ring is turned by half a step.

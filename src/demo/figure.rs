@@ -13,6 +13,7 @@ struct Limbs {
     shin: DVec3,
 }
 
+// The lengths of the bones.
 const UPPER_ARM: f64 = 0.50;
 const FOREARM: f64 = 0.52;
 const THIGH: f64 = 0.62;

@@ -24,8 +24,7 @@ pub struct Demo {
     pub truth: Option<Vec<DVec3>>,
 }
 
-/// The sizes of the cells in which source and target are meshed: for animals, which are about 2 long, for a figure 1.8 high, and for a hand
-/// 1 long.
+// The sizes of the cells in which source and target are meshed: of animals, which are about 2 long, of a figure 1.8 high, and of a hand 1 long.
 const ANIMAL: [f64; 2] = [0.0225, 0.0235];
 const FIGURE: [f64; 2] = [0.0105, 0.0110];
 const HAND: [f64; 2] = [0.0145, 0.0152];

@@ -144,6 +144,7 @@ pub(super) struct Sculpture {
     edges: [f64; 2],
 }
 
+/// The signs of z on the left and on the right side.
 const SIDES: [f64; 2] = [1.0, -1.0];
 
 impl Sculpture {
