@@ -1,5 +1,5 @@
-//! Measures how the time of a whole map (all stages, on one thread) grows with the number of faces, and how near the map's energy is to that of
-//! a map that is relaxed until nothing moves. The horse and cat demo, or a pair of the data folder that the command line names
+//! Measures how the time of a whole map (all stages, on one thread) grows with the number of faces, and how near the map's energy is to
+//! that of a map that is relaxed until nothing moves. The horse and cat demo, or a pair of the data folder that the command line names
 //! (`cargo bench --bench scaling -- cat-dog`), is subdivided again and again. A table is printed, with the exponent of the growth.
 #![allow(clippy::print_stdout, clippy::expect_used, reason = "a benchmark prints its figures")]
 

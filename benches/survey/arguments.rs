@@ -30,8 +30,9 @@ pub struct Arguments {
     pub landmarks: usize,
     /// Numbers of vertices of the coarse levels on which the table `classes` searches.
     pub levels: Vec<usize>,
-    /// How much a table does beyond the usual. In `classes`: the number of twists made one after the other (1 or 2). In `orders`, `match` and the
-    /// tables that measure silences 2 prints more lines: all layouts that were judged, all candidates, the calls after a long silence.
+    /// How much a table does beyond the usual. In `classes`: the number of twists made one after the other (1 or 2). In `orders`, `match`
+    /// and the tables that measure silences 2 prints more lines: all layouts that were judged, all candidates, the calls after a long
+    /// silence.
     pub depth: usize,
     /// The pipeline's options: the defaults, changed by what the command line says.
     pub options: PipelineOptions,

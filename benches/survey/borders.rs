@@ -86,8 +86,8 @@ struct Reached {
     certified: bool,
     /// The energy of the map of the cut pair, skin on skin, and that of the closed pair's map on the same skin.
     energy: [f64; 2],
-    /// The distance of the images of rim vertices from the other mesh's rims: the mean along the rims and the largest, each of the direction in
-    /// which it is larger.
+    /// The distance of the images of rim vertices from the other mesh's rims: the mean along the rims and the largest, each of the
+    /// direction in which it is larger.
     rims: [f64; 2],
     /// The mean error of the source's vertices within 0.1 of its rims: of the cut pair's map, and of the closed pair's. Where the truth is not
     /// known, the closed pair's images count as true, and its error is 0.

@@ -189,8 +189,8 @@ impl Case {
     }
 }
 
-/// Keeps `count` of the pairs: first the one whose source point is farthest from the mean of all, then again and again the one that is farthest
-/// in space from those kept.
+/// Keeps `count` of the pairs: first the one whose source point is farthest from the mean of all, then again and again the one that is
+/// farthest in space from those kept.
 pub fn thinned(source: &SurfaceMesh, all: &[[u32; 2]], count: usize) -> Vec<[u32; 2]> {
     let place = |pair: &[u32; 2]| source.positions()[pair[0].into_vertex()];
     let mean = all.iter().map(place).sum::<DVec3>() / all.len() as f64;

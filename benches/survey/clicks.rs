@@ -34,8 +34,8 @@ pub fn random(arguments: &Arguments) {
     compare(&map_all(cases, arguments), "vertices");
 }
 
-/// Maps each pair with its landmarks inside faces, given as such or as vertices of a refined mesh, and at other places beside the same vertices;
-/// compares with the landmarks inside faces.
+/// Maps each pair with its landmarks inside faces, given as such or as vertices of a refined mesh, and at other places beside the same
+/// vertices; compares with the landmarks inside faces.
 pub fn same_points(arguments: &Arguments) {
     header();
     let mut cases: Vec<Make<'_>> = Vec::new();

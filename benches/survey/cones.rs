@@ -1,5 +1,5 @@
-//! Compares the cones of the base domain with equal cones (thesis fig. 4.15 to 4.18). Maps are made by the thesis' method, whose map depends on
-//! the cones.
+//! Compares the cones of the base domain with equal cones (thesis fig. 4.15 to 4.18). Maps are made by the thesis' method, whose map
+//! depends on the cones.
 
 use crate::arguments::Arguments;
 use crate::case::{Case, Limit};

@@ -9,8 +9,8 @@ use conemap::math::random::SplitMix;
 use conemap::monitor::Silent;
 use conemap::pipeline::Report;
 
-/// Makes four maps of each pair: two of the same files, one with the meshes exchanged and one with the landmarks permuted. The process ends with
-/// code 1 where the first two differ.
+/// Makes four maps of each pair: two of the same files, one with the meshes exchanged and one with the landmarks permuted. The process ends
+/// with code 1 where the first two differ.
 pub fn table(arguments: &Arguments) {
     println!(
         "{:22} {:>16} {:>9} {:>22} {:>22}",

@@ -232,8 +232,8 @@ pub fn around(mesh: &SurfaceMesh, v: VertexId, radius: f64) -> Vec<VertexId> {
     found
 }
 
-/// Bends a mesh by random folds of space: each turns what lies beyond a random plane about a line in that plane, by at most `angle` radians, with
-/// a smooth transition.
+/// Bends a mesh by random folds of space: each turns what lies beyond a random plane about a line in that plane, by at most `angle`
+/// radians, with a smooth transition.
 pub fn folded(mesh: &SurfaceMesh, angle: f64, random: &mut Random) -> SurfaceMesh {
     let width = WIDTH * mesh.area().sqrt();
     let mut places: Vec<DVec3> = mesh.positions().iter().copied().collect();

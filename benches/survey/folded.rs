@@ -34,9 +34,9 @@ const BODIES: [&str; 16] = [
 /// The largest angle of a fold, in radians.
 const ANGLE: f64 = 1.2;
 
-/// Maps each body onto a copy that is folded at random and remeshed to its number of faces, with 12 and with 6 landmarks, which are farthest
-/// points and their true images. The energy of the true map stands in brackets. `--seeds N` maps N copies of each body, `--landmarks N` takes that
-/// number of landmarks only, `--pairs FOLDER/NAME,...` chooses the bodies.
+/// Maps each body onto a copy that is folded at random and remeshed to its number of faces, with 12 and with 6 landmarks, which are
+/// farthest points and their true images. The energy of the true map stands in brackets. `--seeds N` maps N copies of each body,
+/// `--landmarks N` takes that number of landmarks only, `--pairs FOLDER/NAME,...` chooses the bodies.
 pub fn bodies(arguments: &Arguments) {
     header();
     let counts = if arguments.landmarks > 0 { vec![arguments.landmarks] } else { vec![12, 6] };

@@ -1,5 +1,5 @@
-//! Maps between two poses of one body after holes were punched into them and capped again: the errors outside the holes, compared with those of
-//! the closed pairs. The true map is known.
+//! Maps between two poses of one body after holes were punched into them and capped again: the errors outside the holes, compared with
+//! those of the closed pairs. The true map is known.
 
 use crate::arguments::Arguments;
 use crate::case::Limit;
@@ -64,8 +64,8 @@ struct Reached {
     errors: [f64; 2],
     /// The same mean over the vertices within 0.1 of a rim.
     near: [f64; 2],
-    /// How much nearer to the holes the images of the vertices near a rim lie than their true images, on average: positive where skin slides into
-    /// the holes, negative where it slides out of them. Of the map with holes, and of the closed pair's.
+    /// How much nearer to the holes the images of the vertices near a rim lie than their true images, on average: positive where skin
+    /// slides into the holes, negative where it slides out of them. Of the map with holes, and of the closed pair's.
     slid: [f64; 2],
     /// The shares of the source's and of the target's skin that the map carries into a cap although its true partner is skin.
     hidden: [f64; 2],

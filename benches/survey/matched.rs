@@ -1,8 +1,8 @@
 //! Landmark pairs found by the program, judged by known landmarks: how far the map takes these from their partners, and whether the verdict
 //! (sure, doubtful, unknown) is justified.
 //!
-//! A match is right when the image of each known landmark is nearer to its partner than to any other landmark, leaving out those within 0.15 of
-//! the root of the area from the partner. Left and right of the whole body may be as given or exchanged.
+//! A match is right when the image of each known landmark is nearer to its partner than to any other landmark, leaving out those within
+//! 0.15 of the root of the area from the partner. Left and right of the whole body may be as given or exchanged.
 
 use crate::arguments::Arguments;
 use crate::common;

@@ -7,8 +7,8 @@ use conemap::job::{LEAST_MEMORY, MEMORY_PER_FACE};
 use conemap::monitor::Silent;
 use std::process::Command;
 
-/// Prints a line for each ball of 5,000 to 82,000 faces, or for the pairs and meshes that are named. Each is mapped in a process of its own, so that
-/// the largest memory of the process is that of this map.
+/// Prints a line for each ball of 5,000 to 82,000 faces, or for the pairs and meshes that are named. Each is mapped in a process of its
+/// own, so that the largest memory of the process is that of this map.
 pub fn table(arguments: &Arguments) {
     let names = ["ball-4", "ball-5", "ball-6"].map(str::to_owned).to_vec();
     let names = if arguments.pairs.is_empty() { names } else { arguments.pairs.clone() };

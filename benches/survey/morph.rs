@@ -1,5 +1,5 @@
-//! The way from the source's shape to the target's: how much edges change their lengths half-way, on straight lines and on the bent way, and how
-//! closely one, two or three keys follow the bent way.
+//! The way from the source's shape to the target's: how much edges change their lengths half-way, on straight lines and on the bent way,
+//! and how closely one, two or three keys follow the bent way.
 
 use crate::arguments::Arguments;
 use crate::case::Case;

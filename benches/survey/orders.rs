@@ -11,9 +11,9 @@ use conemap::mesh::VertexId;
 use conemap::monitor::Silent;
 use cpu_time::ThreadTime;
 
-/// Searches for the class of each pair as it is, with `--seeds` other orders of its landmarks and with as many clicked sets. A line has the mean
-/// log density of the coarse map that the search chooses, the same after the map is relaxed and on the next finer level, the number of layouts
-/// that were judged, and the processor seconds of the search.
+/// Searches for the class of each pair as it is, with `--seeds` other orders of its landmarks and with as many clicked sets. A line has the
+/// mean log density of the coarse map that the search chooses, the same after the map is relaxed and on the next finer level, the number of
+/// layouts that were judged, and the processor seconds of the search.
 pub fn table(arguments: &Arguments) {
     println!(
         "{:20} {:12} {:>8} {:>8} {:>8} {:>4} {:>7} {:>7} {:>6}",

@@ -8,8 +8,8 @@ use conemap::mesh::generators::midpoint_subdivision;
 use conemap::monitor::Silent;
 use conemap::remesh::{Noise, Options, carried, decimated, perturbed, remesh};
 
-/// Maps each pair with its target remeshed in several ways, its landmarks carried to the nearest points, which lie inside faces; compares with the
-/// map of the pair as it is.
+/// Maps each pair with its target remeshed in several ways, its landmarks carried to the nearest points, which lie inside faces; compares
+/// with the map of the pair as it is.
 pub fn targets(arguments: &Arguments) {
     header();
     let mut cases: Vec<Make<'_>> = Vec::new();
@@ -33,8 +33,8 @@ pub fn targets(arguments: &Arguments) {
     compare(&map_all(cases, arguments), "as it is");
 }
 
-/// Maps pairs with a known truth, with the target as it is (the source's connectivity) and remeshed to its own number of faces, and with 33, 12
-/// and 6 landmarks.
+/// Maps pairs with a known truth, with the target as it is (the source's connectivity) and remeshed to its own number of faces, and with
+/// 33, 12 and 6 landmarks.
 pub fn truth(arguments: &Arguments) {
     header();
     let mut cases: Vec<Make<'_>> = Vec::new();

@@ -139,8 +139,8 @@ fn read(files: &Files, monitor: &mut dyn Monitor) -> Result<Job, String> {
     Job::read(given, options, monitor).map_err(|e| e.to_string())
 }
 
-/// The files of a pair, with one of its meshes replaced. Where the replaced source and the target are two poses of one body, the true images of
-/// the source's vertices are known.
+/// The files of a pair, with one of its meshes replaced. Where the replaced source and the target are two poses of one body, the true
+/// images of the source's vertices are known.
 fn of_pair(
     arguments: &Arguments,
     pair: &str,
@@ -260,8 +260,8 @@ fn figures(job: &Job, result: &MapResult, truth: Option<&Truth>) -> String {
     )
 }
 
-/// The mean and the 95 % quantile of the straight distance between the images of the file's vertices and their true images, which are first put
-/// on the nearest point of the target; in units of the root of the target's area.
+/// The mean and the 95 % quantile of the straight distance between the images of the file's vertices and their true images, which are first
+/// put on the nearest point of the target; in units of the root of the target's area.
 fn errors(job: &Job, result: &MapResult, truth: &[DVec3]) -> Option<[f64; 2]> {
     let map = job.map_file(result, &Choices::default())?;
     let taken = job.taken(&map);

@@ -1,5 +1,5 @@
-//! The silences of a run: how long it asks its monitor nothing, stage by stage, from the first byte read. They are measured on balls of 5,000 to
-//! 328,000 faces, on pairs by name, and on single meshes by path, which are mapped onto bent copies of themselves.
+//! The silences of a run: how long it asks its monitor nothing, stage by stage, from the first byte read. They are measured on balls of
+//! 5,000 to 328,000 faces, on pairs by name, and on single meshes by path, which are mapped onto bent copies of themselves.
 
 use crate::arguments::Arguments;
 use crate::job_files::files;

@@ -15,8 +15,8 @@ const MISS: f64 = 0.015;
 /// The radius within which soft landmarks may move, in the same unit.
 const RADIUS: f64 = 0.02;
 
-/// Maps pairs with a known truth after all landmarks on the target were moved by `MISS` in random directions: once held there, and once soft. The
-/// right landmarks are declared soft, too. Compares with the map of the right landmarks.
+/// Maps pairs with a known truth after all landmarks on the target were moved by `MISS` in random directions: once held there, and once
+/// soft. The right landmarks are declared soft, too. Compares with the map of the right landmarks.
 pub fn table(arguments: &Arguments) {
     header();
     let mut cases: Vec<Make<'_>> = Vec::new();

@@ -1,5 +1,5 @@
-//! A monitor that measures its silences: how long the run asks it nothing. It takes the processor time of its thread, so that other programs on
-//! the machine do not count.
+//! A monitor that measures its silences: how long the run asks it nothing. It takes the processor time of its thread, so that other
+//! programs on the machine do not count.
 
 use crate::arguments::Arguments;
 use conemap::monitor::{Cancelled, Monitor, Stage, Step};

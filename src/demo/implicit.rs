@@ -25,8 +25,8 @@ impl RoundCone {
         far < 0.0 || p.distance_squared(centre) > far * far
     }
 
-    /// The distance from the cone's axis minus the cone's radius at the nearest point of the axis; for slender cones nearly the distance from the
-    /// cone.
+    /// The distance from the cone's axis minus the cone's radius at the nearest point of the axis; for slender cones nearly the distance
+    /// from the cone.
     fn value(&self, p: DVec3) -> f64 {
         let along = self.ends[1] - self.ends[0];
         let t = nearest_share(p, self.ends);

@@ -19,12 +19,13 @@ pub struct Demo {
     pub landmarks: Vec<[u32; 2]>,
     /// One name per pair.
     pub labels: Vec<String>,
-    /// The true image of each vertex of the source; it lies on the smooth shape that the target's triangles approximate. `None` where no map is
-    /// the true one.
+    /// The true image of each vertex of the source; it lies on the smooth shape that the target's triangles approximate. `None` where no
+    /// map is the true one.
     pub truth: Option<Vec<DVec3>>,
 }
 
-// The sizes of the cells in which source and target are meshed: of animals, which are about 2 long, of a figure 1.8 high, and of a hand 1 long.
+// The sizes of the cells in which source and target are meshed: of animals, which are about 2 long, of a figure 1.8 high, and of a hand 1
+// long.
 const ANIMAL: [f64; 2] = [0.0225, 0.0235];
 const FIGURE: [f64; 2] = [0.0105, 0.0110];
 const HAND: [f64; 2] = [0.0145, 0.0152];
@@ -54,8 +55,8 @@ pub fn build(id: &str) -> Option<Demo> {
 /// The bend of a horse that walks on a circle.
 const TURN: Bend = Bend { radius: 1.6 };
 
-/// The true map of a demo, which takes a place of the source to a place on the smooth shape that the target's triangles approximate; `None` where no
-/// map is the true one.
+/// The true map of a demo, which takes a place of the source to a place on the smooth shape that the target's triangles approximate; `None`
+/// where no map is the true one.
 pub fn true_map(id: &str) -> Option<fn(DVec3) -> DVec3> {
     (id == "horse-turning").then_some(|p| TURN.place(p))
 }

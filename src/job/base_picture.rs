@@ -73,8 +73,8 @@ impl TakenMap<'_> {
 }
 
 impl BasePicture {
-    /// The base domain of a flat layout. `given` brings a place of a side's mapped mesh to the mesh as it was given, and `checked` brings a face
-    /// to the face of the checked mesh that holds it. `None` where a cone lies nowhere.
+    /// The base domain of a flat layout. `given` brings a place of a side's mapped mesh to the mesh as it was given, and `checked` brings a
+    /// face to the face of the checked mesh that holds it. `None` where a cone lies nowhere.
     fn of_layout(
         layout: &FlatLayout,
         meshes: [&SurfaceMesh; 2],

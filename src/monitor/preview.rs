@@ -24,7 +24,7 @@ impl PreviewOf {
 
 /// A map that is still being made. Nothing is computed before it is asked for.
 pub trait MapPreview {
-    /// The approximate image of each vertex of a mesh, in the other mesh's coordinates and near its surface. `None` where the map is not known at
-    /// this moment.
+    /// The approximate image of each vertex of a mesh, in the other mesh's coordinates and near its surface. `None` where the map is not
+    /// known at this moment.
     fn images(&self, of: PreviewOf) -> Option<Vec<DVec3>>;
 }

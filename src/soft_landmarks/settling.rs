@@ -27,8 +27,8 @@ pub struct SettlingInput<'a> {
     pub meshes: [&'a SurfaceMesh; 2],
     /// The points of each landmark on both meshes.
     pub points: &'a [[SurfacePoint; 2]],
-    /// The largest distance that each landmark's point on the target may move, in units of the root of the target's area; 0 for a landmark that
-    /// is held.
+    /// The largest distance that each landmark's point on the target may move, in units of the root of the target's area; 0 for a landmark
+    /// that is held.
     pub radii: &'a [f64],
     /// Whether a landmark may lie in a face of the target.
     pub may_hold: &'a dyn Fn(FaceId) -> bool,

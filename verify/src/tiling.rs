@@ -108,8 +108,8 @@ pub fn cut(
     Ok(cut)
 }
 
-/// The first corner around which all triangles are positive on both meshes; where there is none, a corner with the fewest triangles that are not
-/// positive, and those triangles.
+/// The first corner around which all triangles are positive on both meshes; where there is none, a corner with the fewest triangles that
+/// are not positive, and those triangles.
 fn best_apex(weights: &[Vec<Weights>; 2], turns: [i8; 2], tally: &mut Tally) -> (usize, Vec<[usize; 3]>) {
     let corners = weights[0].len();
     let mut best: Option<(usize, Vec<[usize; 3]>)> = None;

@@ -4,8 +4,8 @@ use crate::run::{cargo, run, run_for};
 use crate::{page, wasm};
 use std::time::Duration;
 
-/// Builds the program and the wasm modules, and runs `benches/agreement.mjs` on the pair files of the command line, or on all of `../shared/data`.
-/// Fails where a number differs. The program is built in the profile of the tests, on which no number depends.
+/// Builds the program and the wasm modules, and runs `benches/agreement.mjs` on the pair files of the command line, or on all of
+/// `../shared/data`. Fails where a number differs. The program is built in the profile of the tests, on which no number depends.
 pub fn agree(rest: &[String]) -> Result<(), String> {
     page::ensure_packages()?;
     wasm::build(wasm::Optimised::Fully, wasm::Names::Removed)?;

@@ -1,4 +1,5 @@
-//! Finds a Chromium for the browser tests: the one that is installed, or else the system's package, or else Playwright's own, which are installed.
+//! Finds a Chromium for the browser tests: the one that is installed, or else the system's package, or else Playwright's own, which are
+//! installed.
 
 use crate::run::{output_of, run, run_with, works};
 use crate::suite::Extent;
@@ -6,8 +7,8 @@ use crate::suite::Extent;
 /// Names under which a Chromium may be on the PATH.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
 
-/// Runs the browser tests on the built page. Tests tagged `@long` run only where all are asked for. Tests tagged `@alone`, which measure times,
-/// run one after the other when the rest is done.
+/// Runs the browser tests on the built page. Tests tagged `@long` run only where all are asked for. Tests tagged `@alone`, which measure
+/// times, run one after the other when the rest is done.
 pub fn test(extent: Extent) -> Result<(), String> {
     let variables: Vec<(&str, String)> =
         chromium()?.into_iter().map(|program| ("CHROMIUM", program)).collect();

@@ -1,5 +1,5 @@
-//! Builds the wasm modules with cargo and makes them ready for the browser with wasm-bindgen, which is a library of this helper, in the version
-//! that Cargo.lock names.
+//! Builds the wasm modules with cargo and makes them ready for the browser with wasm-bindgen, which is a library of this helper, in the
+//! version that Cargo.lock names.
 
 use crate::run::{cargo, output_of, root, run};
 use wasm_bindgen_cli_support::Bindgen;
