@@ -1,10 +1,10 @@
-// The same map natively and as the page's wasm module, in every number of the report and every byte of the map file but its
-// clocks.
+// Makes the same maps natively and with the page's wasm module, and compares every number of the report and every byte of the map
+// file. The seconds in both are not compared.
 //
 //     cargo xtask agree [PAIR.json ...]
 //
 // A pair file names its meshes in `source` and `target`, by paths that begin at its own folder or at the one above it; without files
-// the pairs are all of ../shared/data. The module runs in Node, which needs no browser. Seconds are not compared.
+// the pairs are all of ../shared/data. The module runs in Node, which needs no browser.
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -17,14 +17,14 @@ const target = process.env['CARGO_TARGET_DIR'] ?? join(root, 'target');
 const program = join(target, 'debug/conemap');
 const data = join(root, '../shared/data/pairs');
 
-/** What a JSON value holds, by path: numbers, texts, and whether something is there. */
+/** The values inside a JSON value that hold no others (numbers, texts, truth values, nulls), by their paths. */
 function* leaves(value, path = '') {
   if (value === null || typeof value !== 'object') {
     yield [path, value];
     return;
   }
   for (const [key, inner] of Object.entries(value)) {
-    // Clocks differ, and arrays of another length have other paths.
+    // Seconds differ in each run and are left out. Arrays of different lengths have different paths.
     if (key !== 'seconds') yield* leaves(inner, `${path}/${key}`);
   }
 }
@@ -36,23 +36,23 @@ function difference(a, b) {
   return Math.abs(a - b) / Math.max(Math.abs(a), Math.abs(b));
 }
 
-/** The sections of a map file but its report, which has clocks' seconds: by name, with what its header says beside them. */
+/** The sections of a map file by name, with the rest of its header; without the report, which holds seconds. */
 function sections(map) {
-  // docs/map-file.md: 16 bytes, the last four of them the header's length.
+  // The file begins with 16 bytes, the last four of which are the length of the header (docs/map-file.md).
   const begin = 16 + map.readUInt32LE(12);
   const { sections: entries, ...header } = JSON.parse(map.subarray(16, begin).toString('utf8'));
   const all = entries.map(({ name, offset, bytes }) => [name, map.subarray(begin + offset, begin + offset + bytes)]);
   return new Map([['header', Buffer.from(JSON.stringify(header))], ...all.filter(([name]) => name !== 'report')]);
 }
 
-/** How many bytes two map files have beside their reports, and the sections that differ. */
+/** The number of bytes that two map files have without their reports, and the sections that differ. */
 function comparedMaps(ours, theirs) {
   const [a, b] = [sections(ours), sections(theirs)];
   const differing = [...new Set([...a.keys(), ...b.keys()])].filter((name) => !(a.get(name)?.equals(b.get(name) ?? Buffer.alloc(0)) ?? false));
   return { bytes: [...a.values()].reduce((sum, { length }) => sum + length, 0), differing };
 }
 
-/** How many values both reports have, and the place where they differ most. */
+/** The number of values that both reports have, and the path at which they differ most. */
 function compared(ours, theirs) {
   const [a, b] = [new Map(leaves(ours)), new Map(leaves(theirs))];
   let worst = { relative: 0, path: '' };

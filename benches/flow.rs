@@ -1,4 +1,4 @@
-//! The flow to the base domain's cones, 33 landmarks by farthest points.
+//! Times the discrete Ricci flow of a mesh to the cones of its base domain; 33 farthest points are the landmarks.
 
 #[path = "../tests/common/mod.rs"]
 mod common;

@@ -1,4 +1,4 @@
-//! The map from cat to lion: the whole, and each stage on its own.
+//! Times the map from cat to lion as a whole, and single stages of it.
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -26,7 +26,7 @@ struct Pair {
     landmarks: Landmarks,
 }
 
-/// Cat and lion; `None` in a plain checkout.
+/// The cat and the lion; `None` in a plain checkout, which has no data folder.
 static CAT_AND_LION: LazyLock<Option<Pair>> = LazyLock::new(|| {
     let pair = common::read_pair(&common::data_folder("the benchmarks of the map")?, "cat-lion");
     let landmarks = common::landmarks(&pair);
@@ -54,14 +54,14 @@ fn layout(bencher: Bencher) {
     bencher.bench_local(|| pair.layout());
 }
 
-/// What the stages after the layout begin with.
+/// The layout of the pair and its cone surface, with which the later stages begin.
 struct Laid {
     layout: BaseLayout,
     surface: Arc<ConeSurface>,
 }
 
 impl Laid {
-    /// `None` in a plain checkout.
+    /// Makes the layout; `None` in a plain checkout.
     fn new() -> Option<Self> {
         let layout = CAT_AND_LION.as_ref()?.layout();
         let surface = Arc::new(ConeSurface::of_layout(&layout).expect("a cone surface"));

@@ -1,6 +1,6 @@
-//! How the time of a whole map grows with the meshes, all stages, one thread, and how near its energy is to that of a map
-//! relaxed until nothing moves. The horse and cat demo, or a pair of the data folder that is named on the command line
-//! (`cargo bench --bench scaling -- cat-dog`), is subdivided again and again. Prints a table and the exponent of the growth.
+//! Measures how the time of a whole map (all stages, on one thread) grows with the number of faces, and how near the map's energy is to
+//! that of a map that is relaxed until nothing moves. The horse and cat demo, or a pair of the data folder that the command line names
+//! (`cargo bench --bench scaling -- cat-dog`), is subdivided again and again. A table is printed, with the exponent of the growth.
 #![allow(clippy::print_stdout, clippy::expect_used, reason = "a benchmark prints its figures")]
 
 #[path = "../tests/common/mod.rs"]
@@ -16,9 +16,9 @@ use conemap::pipeline::{self, MapInput, PipelineOptions, Report};
 use conemap::surface_map::relaxation::map_relaxation::MapRelaxationOptions;
 use std::time::Instant;
 
-/// No larger meshes are mapped.
+/// The largest number of faces of a mesh that is mapped.
 const MOST_FACES: usize = 350_000;
-/// No larger meshes are relaxed until nothing moves, which takes minutes.
+/// The largest number of faces of a mesh that is also relaxed until nothing moves, which takes minutes.
 const MOST_CONVERGED: usize = 100_000;
 
 fn main() {
@@ -45,7 +45,7 @@ fn main() {
         }
         println!();
         measured.push(((source.face_count() + target.face_count()) as f64, seconds));
-        // Midpoints keep the vertices' numbers, and with them the landmarks.
+        // The subdivision keeps the numbers of the vertices, and with them the landmarks.
         (source, target) = (midpoint_subdivision(&source), midpoint_subdivision(&target));
     }
     if let [first, .., last] = measured[..] {
@@ -72,7 +72,7 @@ fn timed(input: MapInput<'_>, options: &PipelineOptions) -> (Report, f64) {
     (map.report, start.elapsed().as_secs_f64())
 }
 
-/// The same classes and levels, but every finer level is relaxed as far as it goes.
+/// The default options, except that every finer level is relaxed until a round lowers the energy by less than 1e-6 of it, or for 200 rounds.
 fn until_nothing_moves() -> PipelineOptions {
     let mut options = PipelineOptions::default();
     let fine = options.multilevel.fine;

@@ -1,4 +1,5 @@
-// The time of whole maps as wasm in Chromium against native: the same files, the same stages, runs of both in turn.
+// Compares the time of whole maps as wasm in Chromium with the time of the native program: the same files, the same stages, runs
+// of both in turn.
 //
 //     cargo xtask compare [--runs N] [PAIR.json ...]
 //
@@ -20,7 +21,7 @@ const target = process.env['CARGO_TARGET_DIR'] ?? join(root, 'target');
 const folder = join(target, 'compare');
 const program = join(target, 'release/conemap');
 
-/** Loads its files, says so, waits to be started, and tells its answer. */
+/** The worker's program: it loads its files, says so, waits to be started, and posts its answer. */
 const worker = `
 import init, { buildDemo, demoList, runMap } from './wasm/core.js';
 const bytes = async (path) => new Uint8Array(await (await fetch(path)).arrayBuffer());
@@ -46,7 +47,7 @@ self.onmessage = async ({ data: { module, paths } }) => {
   self.postMessage('ready');
 };`;
 
-/** Serves the module and files, these by their numbers. */
+/** Serves the module, and the files by their numbers. */
 async function serve(files) {
   const fixed = {
     '/': ['text/html', '<!doctype html><title>comparison</title>'],
@@ -62,7 +63,7 @@ async function serve(files) {
   return { address: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() };
 }
 
-/** Answers of as many workers, one after the other, in a new browser, with the processor time of each. */
+/** Runs so many workers one after the other in a new browser; returns their answers with the processor time of each. */
 async function inBrowser(files, count) {
   const server = await serve(files);
   const browser = await chromium.launchServer({
@@ -125,16 +126,16 @@ function workerSeconds(browser) {
         }
       }
     } catch {
-      // It ended meanwhile: no process with workers.
+      // The process has ended in the meantime; those with workers are still there.
     }
   }
   return seconds;
 }
 
-/** Seconds of all programs that this one has run to their end; NaN where the system does not tell. */
+/** Seconds of processor time of all programs that this one has run to their end; NaN where the system does not tell. */
 function childSeconds() {
   if (process.platform !== 'linux') return NaN;
-  // Hundredths of a second after the name in brackets.
+  // The times stand after the name in brackets, in hundredths of a second.
   const [user, system] = readFileSync('/proc/self/stat', 'utf8').split(') ')[1].split(' ').slice(13, 15);
   return (Number(user) + Number(system)) / 100;
 }
@@ -174,7 +175,7 @@ function least(runs) {
   return Object.fromEntries(names.map((name) => [name, Math.min(...rows.map((row) => row[name] ?? NaN))]));
 }
 
-/** Every run must give the same map. */
+/** The energy at which all runs of a map end, to 12 digits; throws where they differ. */
 function judge(name, runs) {
   const energies = new Set(runs.map(({ answer }) => answer.distortion.energy.toPrecision(12)));
   if (energies.size > 1) throw new Error(`${name}: the runs' energies differ: ${[...energies].join(', ')}`);

@@ -39,6 +39,7 @@ pub enum MeshSide {
     Target,
 }
 
+/// Both sides in the order of a pair.
 const SIDES: [MeshSide; 2] = [MeshSide::Source, MeshSide::Target];
 
 impl std::fmt::Display for MeshSide {
@@ -138,7 +139,7 @@ pub enum LandmarkError {
         side: MeshSide,
         /// The pair, 0-based.
         pair: usize,
-        /// As given.
+        /// The weights as they were given.
         weights: [f64; 3],
     },
     /// Insertion failed.

@@ -1,4 +1,4 @@
-//! What a survey is asked for.
+//! The command line of a survey.
 
 use crate::common;
 use conemap::demo;
@@ -10,34 +10,36 @@ use std::path::PathBuf;
 pub struct Arguments {
     /// The table's name.
     pub table: String,
-    /// The folder with the meshes.
+    /// The data folder, which has the meshes and the pair files.
     pub data: PathBuf,
-    /// Names of pairs, or beginnings of names; all when empty.
+    /// The pairs to map, by their names or the beginnings of their names; empty for all pairs.
     pub pairs: Vec<String>,
-    /// Names of variants; all when empty.
+    /// The variants to map, by their names; empty for all variants.
     pub variants: Vec<String>,
-    /// Random repetitions.
+    /// The number of repetitions of a random variant, each with a seed of its own.
     pub seeds: u64,
-    /// Where random numbers begin.
+    /// The first seed.
     pub seed: u64,
-    /// How long a table without an end of its own goes on.
+    /// Minutes of wall time after which a table without an end of its own (`torture`) stops.
     pub minutes: f64,
-    /// Maps that are made at once.
+    /// The number of threads; each makes one map at a time.
     pub jobs: usize,
-    /// Processor seconds after which a map is given up.
+    /// Seconds of processor time after which a map is given up.
     pub time_limit: f64,
-    /// Landmarks, thinned by farthest points; 0 for all.
+    /// The number of landmarks that are kept of each pair, chosen by farthest points; 0 keeps all.
     pub landmarks: usize,
-    /// Vertices of the coarse levels of the classes.
+    /// Numbers of vertices of the coarse levels on which the table `classes` searches.
     pub levels: Vec<usize>,
-    /// Twists made one after the other.
+    /// How much a table does beyond the usual. In `classes`: the number of twists made one after the other (1 or 2). In `orders`, `match`
+    /// and the tables that measure silences 2 prints more lines: all layouts that were judged, all candidates, the calls after a long
+    /// silence.
     pub depth: usize,
-    /// Other options of the pipeline.
+    /// The pipeline's options: the defaults, changed by what the command line says.
     pub options: PipelineOptions,
 }
 
 impl Arguments {
-    /// Those of this process. `--bench`, which cargo adds, is left out.
+    /// Reads the arguments of this process. `--bench`, which cargo adds, is ignored.
     pub fn read() -> Self {
         let mut given = std::env::args().skip(1).filter(|argument| argument != "--bench");
         let mut arguments = Self {

@@ -1,5 +1,7 @@
-//! Bodies cut at the neck on both meshes, and capped: rim to rim, with the cost of skin over caps that correspond and without it,
-//! beside the map of the closed pair.
+//! Maps between bodies that are both cut at the neck and capped, compared with the map of the closed pair.
+//!
+//! Each cut pair is mapped with its holes taken for missing data and with its holes taken to correspond (rim to rim, where skin that lies
+//! over a cap costs extra energy); the table has the distance between the rims.
 
 use crate::arguments::Arguments;
 use crate::case::Limit;
@@ -15,7 +17,7 @@ use conemap::surface_map::correspondence;
 use cpu_time::ThreadTime;
 use typed_index_collections::TiVec;
 
-/// A cut by a plane through vertices of a source, with the end that it cuts off.
+/// A plane cut across a source: the vertices that the plane passes through, and a vertex at the tip of the part that it cuts off.
 struct CutPlace {
     through: &'static [u32],
     end: u32,
@@ -64,7 +66,7 @@ struct Variant {
     limb: bool,
     /// By how much the target's cut at the neck is moved towards the end, in units of the root of its area.
     moved: f64,
-    /// Into how many each edge of the target's rims is cut.
+    /// The number of parts into which each edge of the target's rims is cut.
     parts: u32,
 }
 
@@ -79,24 +81,26 @@ const VARIANTS: [Variant; 6] = [
     Variant { name: "neck and limb", limb: true, ..USUAL },
 ];
 
-/// Distances in units of the root of the area of the mesh on which they are.
+/// The figures of one map. Distances are in units of the root of the area of the mesh on which they are measured.
 struct Reached {
     certified: bool,
-    /// Of skin, and of the closed pair on the same skin.
+    /// The energy of the map of the cut pair, skin on skin, and that of the closed pair's map on the same skin.
     energy: [f64; 2],
-    /// Of the images of the source's rims to the target's rims and of the target's to the source's: mean and largest.
+    /// The distance of the images of rim vertices from the other mesh's rims: the mean along the rims and the largest, each of the
+    /// direction in which it is larger.
     rims: [f64; 2],
-    /// Mean within 0.1 of the rims from the true images: with caps, and closed. Without a known truth those of the closed pair are true.
+    /// The mean error of the source's vertices within 0.1 of its rims: of the cut pair's map, and of the closed pair's. Where the truth is not
+    /// known, the closed pair's images count as true, and its error is 0.
     errors: [f64; 2],
-    /// Share of both skins in caps.
+    /// The share of the skin of both meshes whose partner lies in a cap.
     hidden: f64,
     case: BorderCase,
-    /// Of the rims that correspond.
+    /// The misfit of each pair of rims that the map takes to correspond.
     misfits: Vec<f64>,
 }
 
-/// Each pair with each cut, with caps under which nothing is known and as the program guesses; where that does not take the rims to
-/// correspond, as if the user had said so.
+/// Maps each pair with each cut, first with holes that are missing data, then as the program guesses; where it does not guess that the rims
+/// correspond, a third map is made in which the user says so.
 pub fn cut(arguments: &Arguments) {
     println!(
         "{:14} {:11} {:13} {:13} {:>8} {:>8} {:>15} {:>15} {:>8} {:>7}  misfit",
@@ -177,8 +181,8 @@ fn of_variant(
     }
 }
 
-/// The cuts of source and target: those of a target with the source's connectivity are the same; of another, by the planes nearest to
-/// the images of the source's rims under the closed pair's map.
+/// The cuts of source and target. A target with the source's connectivity is cut at the same vertices; any other target is cut by the planes
+/// nearest to the images of the source's rims under the closed pair's map.
 fn cuts(pair: &Pair, places: &Places, closed: &MapResult, variant: &Variant) -> [Cuts; 2] {
     let ends = if variant.limb { vec![&places.neck, &places.limb] } else { vec![&places.neck] };
     let planes = |moved: f64| -> Vec<(Plane, VertexId)> {
@@ -256,7 +260,7 @@ fn measured(
     }
 }
 
-/// Mean distance from the truth of the source's vertices near its rims, cut and closed.
+/// The mean error of the source's vertices near its rims, under the cut pair's map and under the closed pair's.
 fn errors(pair: &Pair, sides: &[Open; 2], [result, closed]: [&MapResult; 2]) -> [f64; 2] {
     let (own, other) = (&sides[0], &sides[1].checked.mesh);
     let mesh = &own.checked.mesh;

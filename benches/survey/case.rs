@@ -1,4 +1,4 @@
-//! One map of a survey, and what it reached.
+//! One map of a survey, and its figures.
 
 use crate::arguments::Arguments;
 use crate::common;
@@ -17,13 +17,13 @@ pub struct Case {
     pub name: String,
     pub variant: String,
     pub meshes: [SurfaceMesh; 2],
-    /// By side and landmark.
+    /// The landmarks on the source and on the target, in the order of the pairs.
     pub points: [Vec<SurfacePoint>; 2],
     /// The true image of each vertex of the source in space, where it is known.
     pub truth: Option<Vec<DVec3>>,
 }
 
-/// What a map reached.
+/// The figures of a map.
 #[derive(Clone, Debug, Default)]
 pub struct Reached {
     pub certified: bool,
@@ -32,13 +32,15 @@ pub struct Reached {
     pub mean_log: f64,
     pub p95: f64,
     pub max: f64,
-    /// Share of both areas with a density above 20, the larger of the two.
+    /// The share of the area with a density above 20, of the source or of the target, whichever is larger.
     pub dented: f64,
     /// Mean, median and 95 % quantile of the distance to the true images, in units of the root of the target's area.
     pub truth: Option<[f64; 3]>,
+    /// The number of points that the program added as cones of its own.
     pub own: usize,
+    /// The number of layouts that were judged by their coarse maps.
     pub judged: usize,
-    /// Mean log density of the coarse map and that of the next best class.
+    /// The mean log density of the chosen coarse map and that of the next best class.
     pub coarse: [f64; 2],
 }
 
@@ -47,18 +49,18 @@ pub struct Outcome {
     pub name: String,
     pub variant: String,
     pub reached: Result<Reached, String>,
-    /// Processor seconds.
+    /// Seconds of processor time of the thread that made the map.
     pub seconds: f64,
 }
 
-/// Ends a run after a number of processor seconds.
+/// A monitor that cancels a run after so many seconds of processor time.
 pub struct Limit {
     begun: ThreadTime,
     seconds: f64,
 }
 
 impl Limit {
-    /// From now on.
+    /// Starts the clock.
     pub fn new(seconds: f64) -> Self {
         Self { begun: ThreadTime::now(), seconds }
     }
@@ -74,7 +76,7 @@ impl Case {
     /// A demo with its landmarks.
     ///
     /// # Panics
-    /// Where there is no demo of this name.
+    /// Panics where there is no demo of this name.
     pub fn of_demo(id: &str) -> Self {
         let demo = demo::build(id).expect("a demo of the list");
         let meshes = [demo.source, demo.target];
@@ -136,7 +138,7 @@ impl Case {
         Ok(PlacedLandmarks { source, target, landmarks })
     }
 
-    /// What the pipeline starts from.
+    /// The pipeline's input: both meshes with their landmarks, without caps or a known truth.
     pub fn input(placed: &PlacedLandmarks) -> MapInput<'_> {
         let PlacedLandmarks { source, target, landmarks } = placed;
         let ground_truth = GroundTruth::Unknown;
@@ -187,7 +189,8 @@ impl Case {
     }
 }
 
-/// `count` of the pairs by farthest points of the source in space, from the one farthest from their mean on.
+/// Keeps `count` of the pairs: first the one whose source point is farthest from the mean of all, then again and again the one that is
+/// farthest in space from those kept.
 pub fn thinned(source: &SurfaceMesh, all: &[[u32; 2]], count: usize) -> Vec<[u32; 2]> {
     let place = |pair: &[u32; 2]| source.positions()[pair[0].into_vertex()];
     let mean = all.iter().map(place).sum::<DVec3>() / all.len() as f64;
@@ -205,7 +208,7 @@ pub fn thinned(source: &SurfaceMesh, all: &[[u32; 2]], count: usize) -> Vec<[u32
     chosen
 }
 
-/// Vertex numbers of landmark files.
+/// Turns vertex numbers of landmark files into ids.
 trait IntoVertex {
     fn into_vertex(self) -> conemap::mesh::VertexId;
 }
@@ -216,10 +219,11 @@ impl IntoVertex for u32 {
     }
 }
 
-/// Reads or changes meshes when its turn has come.
+/// Makes a case (reads or changes its meshes) when the case's turn has come.
 pub type Make<'a> = Box<dyn FnOnce() -> Case + Send + 'a>;
 
-/// Maps all cases, some at once, and hands each outcome over as it comes.
+/// Maps all cases, as many at once as there are threads; prints each line as soon as it is known and returns the outcomes in the order of the
+/// cases.
 pub fn map_all(cases: Vec<Make<'_>>, arguments: &Arguments) -> Vec<Outcome> {
     let queue =
         std::sync::Mutex::new(cases.into_iter().enumerate().collect::<std::collections::VecDeque<_>>());
@@ -244,7 +248,7 @@ pub fn map_all(cases: Vec<Make<'_>>, arguments: &Arguments) -> Vec<Outcome> {
     outcomes.into_iter().map(|(_, outcome)| outcome).collect()
 }
 
-/// Mean, median and 95 %.
+/// The mean, the median and the 95 % quantile of some numbers.
 pub fn mean_and_quantiles(mut all: Vec<f64>) -> [f64; 3] {
     all.sort_by(f64::total_cmp);
     let at = |share: f64| all[(share * (all.len() - 1) as f64) as usize];

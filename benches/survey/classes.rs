@@ -1,4 +1,5 @@
-//! Whether the search finds the best class: all twists by one exchanged path, and all pairs of them, judged.
+//! Tests whether the search finds the best class of maps: every class that a twist of the chosen one gives (one path exchanged) is judged, and
+//! with `--depth 2` every class that two twists give.
 
 use crate::arguments::Arguments;
 use crate::common;
@@ -10,8 +11,8 @@ use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::Silent;
 use cpu_time::ThreadTime;
 
-/// For each pair and number of coarse vertices: the mean log density of the class that the search chose, and the least ones
-/// among its neighbours by one twist and by two.
+/// Prints for each pair and each number of coarse vertices the mean log density of the class that the search chose, and the least ones among
+/// the classes one twist and two twists away from it.
 pub fn exhaustive(arguments: &Arguments) {
     println!(
         "{:20} {:>6} {:>8} {:>4} {:>7}  {:>8} {:>4}  {:>8} {:>4} {:>7}",
@@ -58,7 +59,7 @@ fn one(arguments: &Arguments, name: &str, vertices: usize) -> String {
         Err(error) => return format!("{name:20} {vertices:6} FAILED: {error}"),
     };
     let searched = begun.elapsed().as_secs_f64();
-    // As the pipeline judges the finalists.
+    // The pipeline judges its finalists in this way.
     let judge = |candidate: &Candidate| {
         let map = solve_coarse(&sides, &candidate.layout, options.multilevel, &mut Silent);
         map.ok().map_or(f64::INFINITY, |mut map| {

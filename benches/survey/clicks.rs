@@ -1,4 +1,4 @@
-//! Landmarks where users put them: inside faces, beside edges, on edges.
+//! Landmarks as users click them: inside faces, beside edges and on edges.
 
 use crate::arguments::Arguments;
 use crate::case::{Case, Make, map_all};
@@ -7,7 +7,8 @@ use conemap::math::random::SplitMix;
 use conemap::mesh::insertion::insert;
 use conemap::mesh::{SurfaceMesh, SurfacePoint};
 
-/// Each landmark at a random point of a random face beside its vertex, both meshes independently; against the vertices.
+/// Maps each pair with every landmark moved to a random point of a random face beside its vertex, on both meshes independently, and compares
+/// with the map of the landmarks at their vertices.
 pub fn random(arguments: &Arguments) {
     header();
     let mut cases: Vec<Make<'_>> = Vec::new();
@@ -33,7 +34,8 @@ pub fn random(arguments: &Arguments) {
     compare(&map_all(cases, arguments), "vertices");
 }
 
-/// The same points of the surface given in several ways; against points inside faces.
+/// Maps each pair with its landmarks inside faces, given as such or as vertices of a refined mesh, and at other places beside the same
+/// vertices; compares with the landmarks inside faces.
 pub fn same_points(arguments: &Arguments) {
     header();
     let mut cases: Vec<Make<'_>> = Vec::new();
@@ -62,7 +64,7 @@ pub fn same_points(arguments: &Arguments) {
     compare(&map_all(cases, arguments), "in faces");
 }
 
-/// Weights of the landmark's own corner and the two others of its face.
+/// Where the landmarks are put in each variant: the barycentric weights of the landmark's own corner and of the two other corners of its face.
 const PLACES: [(&str, [f64; 3]); 6] = [
     ("in faces", [0.6, 0.2, 0.2]),
     ("as vertices", [0.6, 0.2, 0.2]),
@@ -79,7 +81,7 @@ fn at(vertex: &SurfacePoint, [own, next, last]: [f64; 3]) -> SurfacePoint {
     SurfacePoint { face: vertex.face, barycentric }
 }
 
-/// Each point, a vertex, moved to a random point of a random face beside it.
+/// Moves each point, which is a vertex, to a random point of a random face beside it.
 pub fn moved(mesh: &SurfaceMesh, points: &[SurfacePoint], random: &mut Random) -> Vec<SurfacePoint> {
     let place = |point: &SurfacePoint| {
         let k = (0..3).find(|&k| point.barycentric[k] > 0.5).expect("a vertex");
@@ -92,17 +94,17 @@ pub fn moved(mesh: &SurfaceMesh, points: &[SurfacePoint], random: &mut Random) -
     points.iter().map(place).collect()
 }
 
-/// Random clicks.
+/// A generator of random clicks.
 pub struct Random(SplitMix);
 
 impl Random {
-    /// The same numbers for the same seed.
+    /// A generator that gives the same numbers for the same seed.
     pub fn new(seed: u64) -> Self {
-        // Neighbouring seeds far apart, or the draws of one would be those of the next, shifted.
+        // Neighbouring seeds are spread far apart: otherwise the draws of one seed would be those of the next one, shifted.
         Self(SplitMix::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5bf0_3635))
     }
 
-    /// Uniform in [0, 1).
+    /// A random number, uniform in [0, 1).
     pub fn share(&mut self) -> f64 {
         self.0.unit()
     }

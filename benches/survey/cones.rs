@@ -1,4 +1,5 @@
-//! Cones of the base domain against equal ones (thesis fig. 4.15 to 4.18), by the thesis' map, which follows them.
+//! Compares the cones of the base domain with equal cones (thesis fig. 4.15 to 4.18). Maps are made by the thesis' method, whose map
+//! depends on the cones.
 
 use crate::arguments::Arguments;
 use crate::case::{Case, Limit};
@@ -9,7 +10,7 @@ use conemap::monitor::Silent;
 use conemap::pipeline::{Cones, MapResult, Method, PipelineOptions, run};
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Each demo's map with either kind of cones (`--pairs NAME,...`: of those that begin so).
+/// Maps each demo with either kind of cones (`--pairs NAME,...`: only the demos whose names begin so).
 pub fn table(arguments: &Arguments) {
     println!(
         "{:20} {:12} {:>29} {:>7} {:>9} {:>15} {:>9} {:>8} {:>9}",
@@ -28,7 +29,7 @@ pub fn table(arguments: &Arguments) {
     }
 }
 
-/// The line of a map and its flows.
+/// The figures of a map and of the flows of both meshes, as a line.
 fn told(case: &Case, options: &PipelineOptions, seconds: f64) -> Result<String, String> {
     let placed = case.placed()?;
     let input = Case::input(&placed);

@@ -1,4 +1,5 @@
-//! The same input gives the same bytes, and exchanged meshes the inverse map; how far the map depends on the order of the landmarks.
+//! Tests that the same input gives the same bytes, and measures how much a map changes when source and target are exchanged or the landmarks
+//! come in another order.
 
 use crate::arguments::Arguments;
 use crate::job_files::files;
@@ -8,7 +9,8 @@ use conemap::math::random::SplitMix;
 use conemap::monitor::Silent;
 use conemap::pipeline::Report;
 
-/// Four maps of each pair.
+/// Makes four maps of each pair: two of the same files, one with the meshes exchanged and one with the landmarks permuted. The process ends
+/// with code 1 where the first two differ.
 pub fn table(arguments: &Arguments) {
     println!(
         "{:22} {:>16} {:>9} {:>22} {:>22}",
@@ -27,10 +29,10 @@ pub fn table(arguments: &Arguments) {
     }
 }
 
-/// What is compared of a pair.
+/// Makes the four maps of a pair and returns the line of the table.
 ///
 /// # Errors
-/// What differs where nothing may: a file of the same map made twice.
+/// Names the file that differs between two maps of the same input.
 fn line(files: &Files) -> Result<String, String> {
     let map = |files: &Files| mapped(files, &mut Silent).map_err(|outcome| format!("{outcome:?}"));
     let first = map(files)?;
@@ -50,7 +52,7 @@ fn line(files: &Files) -> Result<String, String> {
     Ok(format!("{same:>16} {energy:9.4} {} {}", off(&exchanged), off(&permuted)))
 }
 
-/// How many files both maps have, byte for byte, beside their reports.
+/// Compares the files and reports of two maps byte for byte, and returns how many files there are.
 fn same_files(first: &Mapped, again: &Mapped) -> Result<String, String> {
     let (one, other) = (first.outputs(), again.outputs());
     let differing = one.iter().zip(&other).find(|(a, b)| a != b).map(|(a, _)| a.name);

@@ -1,7 +1,8 @@
-//! Landmarks that do not fit: how often correct pairs raise an alarm, and which share of the faults put in on purpose is named.
+//! Landmarks that do not fit: how often correct pairs raise a false alarm, and which share of the faults put in on purpose is named.
 //!
-//! Correct: the pairs as they are, in both directions, with few of their landmarks, clicked beside, moved by up to 3 % of the
-//! root of the area, and bent by folds of space. Faults: see `fit_faults`.
+//! The correct pairs are those of the data folder as they are, with source and target exchanged, with few of their landmarks, with landmarks
+//! clicked beside their vertices or moved by up to 3 % of the root of the area, and with targets bent by folds of space. The module
+//! `fit_faults` puts in the faults.
 
 use crate::arguments::Arguments;
 use crate::clicks::{Random, moved};
@@ -19,15 +20,17 @@ use cpu_time::ThreadTime;
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
 
-/// Vertices of the coarse levels, as many as before a map is made.
+/// The number of vertices of the coarse levels on which landmarks are doubted: the same as before a map is made (`pipeline::findings`).
 const COARSE: usize = 1500;
-/// Numbers of landmarks that are tried, all of them apart.
+/// The numbers of landmarks that are tried, besides all of them.
 pub const COUNTS: [usize; 4] = [6, 8, 12, 16];
-/// How far landmarks are moved, in units of the root of the area.
+/// The largest distance by which landmarks are moved, in units of the root of the area.
 const MOVED: f64 = 0.03;
-/// Folds of space: how many, their greatest angles in radians, and their width in units of the root of the area.
+/// The number of folds that bend a mesh.
 const FOLDS: usize = 4;
+/// The largest angles of a fold that are tried, in radians.
 const ANGLES: [f64; 3] = [0.6, 1.2, 1.8];
+/// The width of the band in which a fold bends, in units of the root of the area.
 const WIDTH: f64 = 0.06;
 
 /// Two coarse meshes with corresponding vertices.
@@ -57,7 +60,7 @@ impl Fit {
         landmark_fit(meshes, &self.landmarks, &distances, &mut Silent).expect("nobody stops")
     }
 
-    /// With some of the landmarks, chosen at random and in random order.
+    /// The same meshes with some of the landmarks, chosen at random and in random order.
     pub fn some(&self, count: usize, random: &mut Random) -> Self {
         let mut left: Vec<usize> = (0..self.numbers.len()).collect();
         let count = count.min(left.len());
@@ -83,12 +86,12 @@ impl Fit {
     }
 }
 
-/// Counts by row and column of a table.
+/// The counts of a table, by the title of a row and the number of landmarks: all cases, then the cases of each of the three columns.
 #[derive(Default)]
 pub struct Counts(BTreeMap<(String, usize), [usize; 4]>);
 
 impl Counts {
-    /// One more case, and which of the three columns it counts in.
+    /// Adds a case, and counts it in those of the three columns that are true.
     pub fn add(&mut self, row: &str, landmarks: usize, columns: [bool; 3]) {
         let counts = self.0.entry((row.to_owned(), landmarks)).or_default();
         counts[0] += 1;
@@ -110,7 +113,7 @@ impl Counts {
     }
 }
 
-/// The tables of false alarms and of faults.
+/// Prints the table of false alarms and the table of faults.
 pub fn table(arguments: &Arguments) {
     let (mut alarms, mut named) = (Counts::default(), Counts::default());
     for name in arguments.names() {
@@ -140,7 +143,7 @@ pub fn table(arguments: &Arguments) {
     named.print("faults", ["named", "first, alone", "another pair"]);
 }
 
-/// What the doubts cost, beside the coarse levels and distances that they are asked on.
+/// Prints the processor time that the doubts take, and that of the coarse levels and the distances that they need.
 fn processor_time(arguments: &Arguments) {
     let mut seconds = [0.0; 3];
     for name in arguments.names() {
@@ -161,7 +164,7 @@ fn processor_time(arguments: &Arguments) {
     println!("cpu: coarse levels {levels:.2} s, distances {distances:.2} s, landmark_fit {fit:.3} s");
 }
 
-/// Correct pairs, all of their landmarks and some.
+/// Counts the alarms on a correct pair, with all of its landmarks and with some.
 fn correct(row: &str, fit: &Fit, random: &mut Random, alarms: &mut Counts) {
     let mut count = |landmarks: usize, fit: &Fit| {
         let findings = fit.findings();
@@ -211,7 +214,7 @@ fn jittered(meshes: [&SurfaceMesh; 2], landmarks: &Landmarks, random: &mut Rando
     Landmarks { source: source.into(), target: target.into() }
 }
 
-/// The vertices connected with one within a ball of a radius in units of the root of the area, itself among them.
+/// The vertices that are connected with a vertex inside the ball around it, itself among them; the radius is in units of the root of the area.
 pub fn around(mesh: &SurfaceMesh, v: VertexId, radius: f64) -> Vec<VertexId> {
     let radius = radius * mesh.area().sqrt();
     let near = |w: VertexId| mesh.positions()[w].distance(mesh.positions()[v]) <= radius;
@@ -229,7 +232,8 @@ pub fn around(mesh: &SurfaceMesh, v: VertexId, radius: f64) -> Vec<VertexId> {
     found
 }
 
-/// Folds of space: what lies beyond a random plane is turned about a line in it, smoothly.
+/// Bends a mesh by random folds of space: each turns what lies beyond a random plane about a line in that plane, by at most `angle`
+/// radians, with a smooth transition.
 pub fn folded(mesh: &SurfaceMesh, angle: f64, random: &mut Random) -> SurfaceMesh {
     let width = WIDTH * mesh.area().sqrt();
     let mut places: Vec<DVec3> = mesh.positions().iter().copied().collect();

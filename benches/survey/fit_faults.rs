@@ -1,5 +1,5 @@
-//! Faults put in on purpose: mirrored sets, exchanged targets of left and right partners and of any two pairs, targets moved
-//! away.
+//! Faults that are put into landmark pairs on purpose: mirrored sets, targets exchanged between left and right partners or between any two
+//! pairs, and targets moved away.
 
 use crate::clicks::Random;
 use crate::common::Pair;
@@ -12,14 +12,14 @@ use conemap::monitor::Silent;
 
 /// Left and right partners among the 21 landmarks of the animals of SHREC07.
 const SHREC07: [[usize; 2]; 8] = [[2, 3], [4, 10], [5, 11], [6, 8], [7, 9], [15, 16], [17, 18], [19, 20]];
-/// Any two pairs nearer to each other than this, in units of the root of the area, are near.
+/// The distance between two landmarks, in units of the root of the area, below which the table calls them near.
 const NEAR: f64 = 0.3;
-/// How far targets are moved away, in units of the root of the area.
+/// The distances by which targets are moved away, in units of the root of the area.
 const AWAY: [f64; 4] = [0.1, 0.2, 0.3, 0.5];
-/// Random faults for each pair of meshes and number of landmarks.
+/// The number of random faults of each kind for each pair of meshes and each number of landmarks.
 const REPETITIONS: usize = 2;
 
-/// Left and right partners of a pair file: those of SHREC07, or by their names.
+/// The left and right partners of a pair file: the known ones of SHREC07, or else those that the landmarks' names tell.
 pub fn partners(pair: &Pair) -> Vec<[usize; 2]> {
     if pair.name.starts_with("shrec07") {
         return SHREC07.to_vec();
@@ -27,7 +27,7 @@ pub fn partners(pair: &Pair) -> Vec<[usize; 2]> {
     let labels = pair.file.labels.as_deref().unwrap_or_default();
     let partner = |(left, label): (usize, &String)| {
         let mirrored = format!("right{}", label.strip_prefix("left")?);
-        // Points on the outside of a paw are on its left side on the left.
+        // A point on the outside of a paw is named "left side" on a left paw and "right side" on a right one.
         let other = mirrored.replace("left side", "right side");
         let right = labels.iter().position(|l| *l == mirrored || *l == other)?;
         Some([left, right])
@@ -35,7 +35,7 @@ pub fn partners(pair: &Pair) -> Vec<[usize; 2]> {
     labels.iter().enumerate().filter_map(partner).collect()
 }
 
-/// All faults but those of bent meshes.
+/// Puts in and counts all faults but those of bent meshes.
 pub fn all(fit: &Fit, partners: &[[usize; 2]], random: &mut Random, named: &mut Counts) {
     mirror("mirrored", fit, random, named);
     single("left and right", fit, partners, named);
@@ -49,7 +49,7 @@ pub fn all(fit: &Fit, partners: &[[usize; 2]], random: &mut Random, named: &mut 
     }
 }
 
-/// Mirror images: named as mirrored, that first and alone, and other findings.
+/// Mirrors the target and counts how often the set is named as mirrored, how often that is the only finding, and how often there are others.
 pub fn mirror(row: &str, fit: &Fit, random: &mut Random, named: &mut Counts) {
     for landmarks in COUNTS.into_iter().chain([usize::MAX]) {
         let findings = fit.some(landmarks, random).reflected().findings();
@@ -60,7 +60,7 @@ pub fn mirror(row: &str, fit: &Fit, random: &mut Random, named: &mut Counts) {
     }
 }
 
-/// The targets of one pair of partners exchanged.
+/// Exchanges the targets of each pair of partners in turn.
 fn single(row: &str, fit: &Fit, partners: &[[usize; 2]], named: &mut Counts) {
     for &[a, b] in partners {
         let mut wrong = fit.clone();
@@ -69,7 +69,7 @@ fn single(row: &str, fit: &Fit, partners: &[[usize; 2]], named: &mut Counts) {
     }
 }
 
-/// The targets of half of the partners exchanged: named when every swap is one of these.
+/// Exchanges the targets of two and of three pairs of partners at once: these count as named where a swap that is found is one of them.
 fn several(fit: &Fit, partners: &[[usize; 2]], random: &mut Random, named: &mut Counts) {
     for count in [2, 3] {
         if partners.len() < count {
@@ -89,7 +89,7 @@ fn several(fit: &Fit, partners: &[[usize; 2]], random: &mut Random, named: &mut 
     }
 }
 
-/// The targets of two random pairs exchanged.
+/// Exchanges the targets of two random pairs.
 fn exchanged(landmarks: usize, fit: &Fit, random: &mut Random, named: &mut Counts) {
     let n = fit.numbers.len();
     let a = (random.share() * n as f64) as usize;
@@ -106,7 +106,7 @@ fn exchanged(landmarks: usize, fit: &Fit, random: &mut Random, named: &mut Count
     count((row, landmarks), &wrong, [a.min(b), a.max(b)], named);
 }
 
-/// The target of one pair moved to another place at about this distance.
+/// Moves the target of one random pair to another vertex at about the given distance along the surface.
 fn misplaced((landmarks, away): (usize, f64), fit: &Fit, random: &mut Random, named: &mut Counts) {
     let pair = (random.share() * fit.numbers.len() as f64) as usize;
     let distances = LandmarkDistances::new([&fit.meshes[0], &fit.meshes[1]], &fit.landmarks, &mut Silent)

@@ -1,4 +1,4 @@
-//! Bodies and the same bodies with their limbs in other places, in triangles of their own: the true map is known.
+//! Maps of bodies onto copies of themselves whose limbs are in other places and whose triangles are others: the true map is known.
 
 use crate::arguments::Arguments;
 use crate::case::{Case, Make, map_all};
@@ -11,7 +11,7 @@ use conemap::mesh::SurfacePoint;
 use conemap::monitor::Silent;
 use conemap::remesh::{Options, carried, remesh};
 
-/// Closed bodies of genus 0 with limbs.
+/// The bodies: closed meshes of genus 0 with limbs.
 const BODIES: [&str; 16] = [
     "shrec07/381",
     "shrec07/383",
@@ -31,11 +31,12 @@ const BODIES: [&str; 16] = [
     "single/spot",
 ];
 
-/// The greatest angle of a fold, in radians.
+/// The largest angle of a fold, in radians.
 const ANGLE: f64 = 1.2;
 
-/// Each body onto a copy that is folded at random and remeshed to its number of faces, with 12 and 6 landmarks by farthest points, exact; the
-/// energy of the true map stands in brackets. `--seeds N`: N copies; `--landmarks N`: only with so many; `--pairs FOLDER/NAME,...`.
+/// Maps each body onto a copy that is folded at random and remeshed to its number of faces, with 12 and with 6 landmarks, which are
+/// farthest points and their true images. The energy of the true map stands in brackets. `--seeds N` maps N copies of each body,
+/// `--landmarks N` takes that number of landmarks only, `--pairs FOLDER/NAME,...` chooses the bodies.
 pub fn bodies(arguments: &Arguments) {
     header();
     let counts = if arguments.landmarks > 0 { vec![arguments.landmarks] } else { vec![12, 6] };

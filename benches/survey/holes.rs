@@ -1,4 +1,5 @@
-//! Poses with a known truth and holes punched into them, capped again: errors outside the holes, beside those of the closed pairs.
+//! Maps between two poses of one body after holes were punched into them and capped again: the errors outside the holes, compared with
+//! those of the closed pairs. The true map is known.
 
 use crate::arguments::Arguments;
 use crate::case::Limit;
@@ -17,7 +18,7 @@ use conemap::pipeline::{CapFaces, GroundTruth, MapInput, MapResult, run};
 use cpu_time::ThreadTime;
 use typed_index_collections::TiVec;
 
-/// Where a mesh of the data folder has its parts, as vertices.
+/// A vertex at a foot and one at the neck of a mesh of the data folder, around which holes are punched.
 struct Places {
     mesh: &'static str,
     foot: u32,
@@ -29,10 +30,10 @@ const PLACES: [Places; 2] = [
     Places { mesh: "tosca/cat", foot: 23269, neck: 3423 },
 ];
 
-/// Holes of one mesh.
+/// A set of holes.
 struct Holes {
     name: &'static str,
-    /// Share of the area removed around the foot and around the neck.
+    /// The shares of the area that are removed around the foot and around the neck.
     shares: [f64; 2],
 }
 
@@ -44,43 +45,43 @@ const HOLES: [Holes; 5] = [
     Holes { name: "limb and neck 2", shares: [0.02, 0.02] },
 ];
 
-/// Which meshes of a pair have the holes: source, target.
+/// Which meshes of a pair have the holes, the source first.
 const SIDES: [(&str, [bool; 2]); 3] =
     [("target", [false, true]), ("source", [true, false]), ("both", [true, true])];
 
-/// A mesh as it is mapped, with the marks of its caps and its vertices in the closed mesh's numbers.
+/// A mesh as it is mapped (its vertices know their numbers in the closed mesh), and which of its faces are caps.
 struct Punched {
     checked: CheckedMesh,
     is_cap: TiVec<FaceId, bool>,
 }
 
-/// What a map with holes reached, beside the closed pair's map on the same vertices; lengths in units of the root of the target's
-/// area.
+/// The figures of a map of meshes with holes, and those of the closed pair's map at the same vertices. Lengths are in units of the root of the
+/// target's area.
 struct Reached {
     certified: bool,
     energy: f64,
-    /// Mean error of the source's vertices that are skin on both meshes: with holes, and closed.
+    /// The mean error of the source's vertices that are skin on both meshes: of the map with holes, and of the closed pair's.
     errors: [f64; 2],
-    /// The same within 0.1 of a rim.
+    /// The same mean over the vertices within 0.1 of a rim.
     near: [f64; 2],
-    /// How much nearer to the holes the images there lie than the true images, on average: skin that slides into holes has positive
-    /// numbers, skin that slides out of them negative ones.
+    /// How much nearer to the holes the images of the vertices near a rim lie than their true images, on average: positive where skin
+    /// slides into the holes, negative where it slides out of them. Of the map with holes, and of the closed pair's.
     slid: [f64; 2],
-    /// Share of the source's and of the target's skin that lies in a cap although its partner is there.
+    /// The shares of the source's and of the target's skin that the map carries into a cap although its true partner is skin.
     hidden: [f64; 2],
-    /// Share of both that the closed pair's map carries into the holes although its partner is outside: no map of the punched meshes can
-    /// know better.
+    /// The shares of the source's and of the target's skin that the closed pair's map carries into the place of a hole although its true
+    /// partner is skin. A map of the punched meshes cannot be expected to do better.
     hidden_closed: [f64; 2],
 }
 
-/// A pair of poses with the faces that are removed, the same ones of both.
+/// A pair of poses with the faces that are removed, which are the same faces of both meshes.
 struct Case<'a> {
     pair: &'a Pair,
     name: String,
     removed: TiVec<FaceId, bool>,
 }
 
-/// Each pair of poses with each set of holes, in the target, in the source, and in both.
+/// Maps each pair of poses with each set of holes: in the target, in the source, and in both.
 pub fn punched(arguments: &Arguments) {
     let pairs = pairs(arguments);
     let wanted =
@@ -90,7 +91,7 @@ pub fn punched(arguments: &Arguments) {
     table(arguments, cases.collect());
 }
 
-/// Each pair of poses with holes at random places, as many sets of them as there are seeds.
+/// Maps each pair of poses with holes at random places, one set of holes for each seed.
 pub fn anywhere(arguments: &Arguments) {
     let pairs = pairs(arguments);
     let seeds = arguments.seed..arguments.seed + arguments.seeds;
@@ -98,7 +99,7 @@ pub fn anywhere(arguments: &Arguments) {
     table(arguments, cases.collect());
 }
 
-/// One to three holes around random vertices, each of 0.5 to 5 percent of the area.
+/// A pair with one to three holes around random vertices, each of 0.5 to 5 percent of the area.
 fn at_random(pair: &Pair, seed: u64) -> Case<'_> {
     let mut random = SplitMix::new(seed);
     let mut removed: TiVec<FaceId, bool> = pair.source.faces().map(|_| false).collect();
@@ -113,7 +114,7 @@ fn at_random(pair: &Pair, seed: u64) -> Case<'_> {
     Case { pair, name: format!("{seed}: {}", told.join(" ")), removed }
 }
 
-/// Removes what holes have cut off, as a ring around a leg does: all parts but that with the most faces.
+/// Removes the parts that holes have cut off, as a hole that goes round a leg does: all but the part with the most faces.
 fn remove_cut_off(mesh: &SurfaceMesh, removed: &mut TiVec<FaceId, bool>) {
     let mut part: TiVec<FaceId, Option<usize>> = mesh.faces().map(|_| None).collect();
     let mut sizes = Vec::new();
@@ -138,7 +139,7 @@ fn remove_cut_off(mesh: &SurfaceMesh, removed: &mut TiVec<FaceId, bool>) {
     mesh.faces().for_each(|f| removed[f] |= part[f] != largest);
 }
 
-/// The maps of some cases, and what they reached together.
+/// Maps the cases, prints a line for each map, and sums up.
 fn table(arguments: &Arguments, cases: Vec<Case<'_>>) {
     println!(
         "{:16} {:15} {:7} {:>8} {:>17} {:>17} {:>17} {:>17} {:>17} {:>7}",
@@ -170,7 +171,7 @@ fn table(arguments: &Arguments, cases: Vec<Case<'_>>) {
     sum_up(&reached.into_inner().expect("a list"));
 }
 
-/// The pairs of poses with the same connectivity, and one of both poses that are a target.
+/// The pairs of poses with the same connectivity, and a pair of the two horses that are targets there.
 fn pairs(arguments: &Arguments) -> Vec<Pair> {
     let names = ["cat-cat1", "horse-horse01", "horse-horse05"];
     let mut pairs: Vec<Pair> = names.iter().map(|name| common::read_pair(&arguments.data, name)).collect();
@@ -186,7 +187,7 @@ fn pairs(arguments: &Arguments) -> Vec<Pair> {
 }
 
 impl Holes {
-    /// Which faces of both meshes are removed, chosen on the source.
+    /// The faces of both meshes that are removed. They are chosen by their distances on the source.
     fn of(&self, pair: &Pair) -> TiVec<FaceId, bool> {
         let source = pair.file.source.as_deref().unwrap_or_default();
         let places =
@@ -199,7 +200,7 @@ impl Holes {
     }
 }
 
-/// The closed pair with the landmarks that are left, then the maps with holes.
+/// Maps the closed pair with the landmarks that the holes leave, then the pair with holes in the target, in the source and in both.
 fn of_case(arguments: &Arguments, case: &Case<'_>) -> Vec<Reached> {
     let Case { pair, name: holes, removed } = case;
     let left: Vec<[u32; 2]> = common::vertex_pairs(&pair.file)
@@ -226,7 +227,7 @@ fn of_case(arguments: &Arguments, case: &Case<'_>) -> Vec<Reached> {
     reached
 }
 
-/// A mesh without some faces, as a user's file would be read.
+/// Removes faces from a mesh, and repairs what is left as if it came from a user's file.
 fn punch(mesh: &SurfaceMesh, removed: &TiVec<FaceId, bool>) -> Punched {
     let kept = mesh.triangles().iter_enumerated().filter(|(f, _)| !removed[*f]);
     let soup = PolygonSoup {
@@ -254,7 +255,8 @@ fn map(arguments: &Arguments, sides: [&Punched; 2], pairs: &[[u32; 2]]) -> Resul
     run(input, &arguments.options, &mut limit).map_err(|e| e.to_string())
 }
 
-/// Compares a map with holes and the closed pair's with the truth: vertex i of one closed mesh is vertex i of the other.
+/// Compares a map of meshes with holes, and the closed pair's map, with the true map, which takes vertex i of the closed source to vertex i of
+/// the closed target.
 fn measured(
     closed: [&SurfaceMesh; 2],
     sides: [&Punched; 2],
@@ -311,7 +313,7 @@ fn measured(
     }
 }
 
-/// By vertex of a closed mesh the distance from the rims of the holes: positive inside them.
+/// The distance of each vertex of a closed mesh from the rims of the holes along the surface, positive inside the holes.
 fn depths(mesh: &SurfaceMesh, removed: &TiVec<FaceId, bool>) -> TiVec<VertexId, f64> {
     let is_skin = |v: VertexId| mesh.star(v).any(|h| !removed[h.face()]);
     let is_rim = |v: &VertexId| is_skin(*v) && mesh.star(*v).any(|h| removed[h.face()]);
@@ -320,7 +322,8 @@ fn depths(mesh: &SurfaceMesh, removed: &TiVec<FaceId, bool>) -> TiVec<VertexId, 
     mesh.vertices().map(|v| if is_skin(v) { -away[v] } else { away[v] }).collect()
 }
 
-/// How deep in holes the vertices of a mesh lie; those of caps, which the closed mesh does not have, at their rims.
+/// How deep inside holes the vertices of a mesh lie. Vertices that a cap has added, which the closed mesh does not have, count as lying at the
+/// rim (0).
 struct Depths(TiVec<VertexId, f64>);
 
 impl Depths {
@@ -340,14 +343,14 @@ impl Depths {
     }
 }
 
-/// The other mesh' face at the image of each vertex of one side.
+/// The face of the other mesh that holds the image of each vertex of one mesh.
 fn vertex_images(map: &MapResult, meshes: [&SurfaceMesh; 2], side: usize) -> TiVec<VertexId, Option<FaceId>> {
     let correspondence = map.correspondence.as_ref().expect("the relaxed map has its pieces");
     let images = correspondence.vertex_images(meshes, side);
     images.iter().map(|image| image.map(|image| image.face)).collect()
 }
 
-/// Share of a closed mesh' skin that is hidden, by the areas of vertices; `removed` are the faces in holes.
+/// The share of a closed mesh's skin that is hidden, measured by the areas of vertices; `removed` tells the faces in holes.
 fn hidden(closed: &SurfaceMesh, removed: &TiVec<FaceId, bool>, is_hidden: impl Fn(VertexId) -> bool) -> f64 {
     let areas = closed.vertex_areas();
     let (mut skin, mut inside) = (0.0, 0.0);
@@ -379,7 +382,7 @@ fn line(outcome: &Result<Reached, String>, seconds: f64) -> String {
     }
 }
 
-/// How many maps are certified, and how many reach what is wanted.
+/// Prints how many maps are certified, and how many keep each of the limits that are wanted.
 fn sum_up(reached: &[Reached]) {
     let count = |is: &dyn Fn(&Reached) -> bool| reached.iter().filter(|r| is(r)).count();
     let mean =

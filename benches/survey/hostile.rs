@@ -1,4 +1,4 @@
-//! Shapes and landmarks made to break the program: every one ends in a certified map or in a sentence, in bounded time and memory.
+//! Shapes and landmarks made to break the program: every case is to end in a certified map or in a sentence, in bounded time and memory.
 //!
 //! Each case runs in a process of its own, whose largest memory is read while it runs (on Linux).
 
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// All cases, one after the other.
+/// Runs all cases, one after the other.
 pub fn table(arguments: &Arguments) {
     println!(
         "{:22} {:>8} {:>9} {:>10}  {:34} outcome",
@@ -33,7 +33,7 @@ pub fn table(arguments: &Arguments) {
     }
 }
 
-/// One case, in this process.
+/// Runs one case in this process and prints what `table` reads: the longest silence of the monitor, its stage, and the outcome.
 pub fn case(arguments: &Arguments) {
     for case in cases(arguments).into_iter().filter(|case| name(case) == arguments.pairs[0]) {
         let mut watch = Watch::new(arguments);
@@ -43,7 +43,7 @@ pub fn case(arguments: &Arguments) {
     }
 }
 
-/// The landmark files.
+/// The landmark files of the cases that are asked for.
 fn cases(arguments: &Arguments) -> Vec<PathBuf> {
     let folder = arguments.data.join("hostile/shapes");
     let entries = std::fs::read_dir(folder).expect("the folder of hostile shapes");
@@ -60,7 +60,7 @@ fn name(case: &Path) -> String {
     case.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// The meshes of a landmark file, by its name.
+/// The paths of both meshes of a case, which the name of its landmark file tells.
 fn meshes(name: &str) -> [String; 2] {
     let shape = |name: &str| format!("hostile/shapes/{}.off", if name == "sph" { "ico4" } else { name });
     let itself = |name: &str| [shape(name), shape(name)];
@@ -74,7 +74,7 @@ fn meshes(name: &str) -> [String; 2] {
         "cube-cube8" => itself("cube"),
         "octa-octa6" => itself("octa"),
         _ if name.starts_with("sphere-perm-") => itself("ico4"),
-        // Names of shapes may hold the sign between both.
+        // SOURCE-TARGET: the first hyphen separates the shapes, whose own names may hold another ("sliver1e-06").
         _ => {
             let (source, target) = name.split_once('-').unwrap_or((name, name));
             [shape(source), shape(target)]
@@ -112,7 +112,7 @@ fn mapped(data: &Path, case: &Path, monitor: &mut Watch) -> String {
     }
 }
 
-/// Waits for a process; its largest memory in MiB, and what it prints.
+/// Waits for a process, which is killed at the limit, and returns its largest memory in MiB and what it prints.
 fn watched(mut child: Child, limit: Duration) -> (f64, String) {
     let begun = Instant::now();
     let mut peak = f64::NAN;
@@ -134,7 +134,7 @@ fn watched(mut child: Child, limit: Duration) -> (f64, String) {
     }
 }
 
-/// The largest memory that a process has had, in MiB, where the system tells it.
+/// The largest memory that a process has held, in MiB; `None` where the system does not tell.
 fn largest_memory(process: u32) -> Option<f64> {
     let status = std::fs::read_to_string(format!("/proc/{process}/status")).ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

@@ -1,4 +1,4 @@
-//! The files of jobs by name: made balls, pairs of the data folder, and its single meshes onto themselves bent.
+//! The files of a job by name: a generated ball or a mesh of the data folder with a bent copy of itself, or a pair of the data folder.
 
 use crate::arguments::Arguments;
 use crate::common::{farthest_points, read_mesh};
@@ -9,7 +9,8 @@ use conemap::mesh::generators::icosphere;
 use conemap::mesh::{SurfaceMesh, VertexId};
 use glam::DVec3;
 
-/// A ball of subdivisions ("ball-6"), a pair ("cat-lion"), or a mesh of the data folder ("single/horse97k.off").
+/// The files of the job that a name stands for: an icosphere of so many subdivisions ("ball-6"), a pair ("cat-lion"), or a mesh of the data
+/// folder ("single/horse97k.off").
 pub fn files(arguments: &Arguments, name: &str) -> Files {
     if let Some(levels) = name.strip_prefix("ball-") {
         let ball = icosphere(levels.parse().expect("a number of subdivisions"));

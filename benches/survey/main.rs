@@ -1,8 +1,8 @@
 //! Tables of many maps: `cargo xtask survey TABLE [--pairs NAME,NAME] [--seeds N] [--jobs N] [--time-limit SECONDS]`.
 //!
 //! A table maps the pairs of the data folder as they are, or as users would have given them: clicked inside faces, remeshed,
-//! with few landmarks. Each line tells what a map reached, with its processor time; the last lines sum up. A map that fails
-//! or takes longer than the limit is told in its line, never left out.
+//! with few landmarks. Each line has the figures of one map, with its processor time; the last lines sum up. A map that fails
+//! or takes longer than the limit has a line that says so.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a survey prints its tables")]
 #![allow(clippy::expect_used, reason = "without its data a survey ends")]
 
@@ -55,7 +55,7 @@ mod wrap;
 
 use arguments::Arguments;
 
-/// A table by its name, with one line about it.
+/// A table: its name, a line about it for the list of tables, and the function that prints it.
 struct Survey {
     name: &'static str,
     about: &'static str,
@@ -72,12 +72,12 @@ const SURVEYS: &[Survey] = &[
     },
     Survey {
         name: "beside",
-        about: "the same points in faces, as vertices, beside edges, on edges",
+        about: "landmarks inside faces, given as such or as vertices of a refined mesh, beside edges and on edges",
         run: clicks::same_points,
     },
     Survey {
         name: "classes",
-        about: "the class chosen against all twists (--depth 2: and pairs of them)",
+        about: "the class chosen, compared with all classes a twist away (--depth 2: and two twists away)",
         run: classes::exhaustive,
     },
     Survey {
@@ -107,17 +107,17 @@ const SURVEYS: &[Survey] = &[
     },
     Survey {
         name: "holes",
-        about: "poses with holes punched and capped, against the closed pairs; --variants 'foot 0.5','limb 10',... --cap-weight 1 counts caps like skin",
+        about: "poses with holes punched and capped, compared with the closed pairs; --variants 'foot 0.5','limb 10',... --cap-weight 1 counts caps like skin",
         run: holes::punched,
     },
     Survey {
         name: "holes-anywhere",
-        about: "the same with one to three holes of 0.5 to 5 % at random places; --seed S --seeds N",
+        about: "poses with one to three holes of 0.5 to 5 % of the area at random places; --seed S --seeds N",
         run: holes::anywhere,
     },
     Survey {
         name: "borders",
-        about: "both meshes cut at the neck: rim to rim, errors beside it, against the closed pair; --variants head,'neck and limb',... --toll 0.5",
+        about: "both meshes cut at the neck: distance from rim to rim, errors near the rims, compared with the closed pair; --variants head,'neck and limb',... --toll 0.5",
         run: borders::cut,
     },
     Survey {
@@ -163,7 +163,7 @@ const SURVEYS: &[Survey] = &[
     },
     Survey {
         name: "hostile",
-        about: "shapes and landmarks made to break it: outcome, seconds, memory, silence; --pairs sphere-perm,cube",
+        about: "shapes and landmarks made to break the program: outcome, seconds, memory, silence; --pairs sphere-perm,cube",
         run: hostile::table,
     },
     Survey {
@@ -188,7 +188,7 @@ const SURVEYS: &[Survey] = &[
     },
     Survey {
         name: "torture-case",
-        about: "some of them in this process: --pairs slivers-17,hubs-3",
+        about: "cases of torture in this process: --pairs slivers-17,hubs-3",
         run: torture::cases,
     },
     Survey {
@@ -196,8 +196,16 @@ const SURVEYS: &[Survey] = &[
         about: "the largest memory of whole jobs by faces: balls, pairs by name, meshes by path (--pairs)",
         run: memory::table,
     },
-    Survey { name: "memory-case", about: "some of them in this process, for the table", run: memory::case },
-    Survey { name: "hostile-case", about: "one of them in this process, for the table", run: hostile::case },
+    Survey {
+        name: "memory-case",
+        about: "jobs of memory in this process, for that table",
+        run: memory::case,
+    },
+    Survey {
+        name: "hostile-case",
+        about: "a case of hostile in this process, for that table",
+        run: hostile::case,
+    },
     Survey {
         name: "soft",
         about: "landmarks clicked beside their places, held there and soft, on pairs with a known truth; --pairs NAME,... --seeds N",
@@ -210,7 +218,7 @@ const SURVEYS: &[Survey] = &[
     },
 ];
 
-/// Tables of meshes that the project makes itself.
+/// The tables that need no data folder, since they are of meshes that the project makes itself.
 const NEED_NO_DATA: [&str; 5] = ["cones", "demos", "soak", "torture", "torture-case"];
 
 fn main() {

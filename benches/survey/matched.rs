@@ -1,7 +1,8 @@
-//! Pairs matched without a landmark: how far the known landmarks are from where the map takes them, and what the verdict says.
+//! Landmark pairs found by the program, judged by known landmarks: how far the map takes these from their partners, and whether the verdict
+//! (sure, doubtful, unknown) is justified.
 //!
-//! A match is right when the image of each known landmark is nearer to its partner than to any other landmark that is more than 0.15 of
-//! the root of the area away from it, with left and right of the whole body as given or exchanged.
+//! A match is right when the image of each known landmark is nearer to its partner than to any other landmark, leaving out those within
+//! 0.15 of the root of the area from the partner. Left and right of the whole body may be as given or exchanged.
 
 use crate::arguments::Arguments;
 use crate::common;
@@ -26,14 +27,14 @@ use typed_index_collections::TiVec;
 /// Left and right partners among the landmarks of SHREC07.
 const PARTNERS: [[usize; 2]; 8] = [[2, 3], [4, 10], [5, 11], [6, 8], [7, 9], [15, 16], [17, 18], [19, 20]];
 
-/// Landmarks of SHREC07 that no map can put right on all of its animals: at the sides of the neck, they were set at 18 to 71 % of the way from
-/// eye to shoulder.
+/// The landmarks of SHREC07 at the sides of the neck. No map can put them right on all animals, since they were set at 18 to 71 % of the way
+/// from eye to shoulder.
 const NECK: [usize; 2] = [2, 3];
 
-/// Landmarks nearer to each other than this share of the root of the area are not told apart.
+/// The distance between two landmarks, in units of the root of the area, up to which one may be taken for the other.
 const APART: f64 = 0.15;
 
-/// A pair with the places of its known landmarks.
+/// Two meshes with the places of their known landmarks in space.
 struct Known {
     name: String,
     meshes: [SurfaceMesh; 2],
@@ -44,23 +45,23 @@ struct Known {
 /// How well a map fits the known landmarks.
 #[derive(Clone, Debug)]
 struct Fit {
-    /// Mean distance in units of the root of the area.
+    /// The mean straight distance of a landmark's image from its partner, in units of the root of the target's area.
     error: f64,
-    /// Landmarks whose image is nearer to another one's partner, each with the nearest such one.
+    /// The landmarks whose image is nearer to another landmark than to their partner, each with the nearest such landmark.
     wrong: Vec<[usize; 2]>,
 }
 
-/// What was reached of a pair.
+/// The line of a pair, and how it counts in the sums.
 struct Reached {
     line: String,
     right: bool,
-    /// Whether it is right but for the neck.
+    /// Whether the match is right but for the landmarks at the neck of SHREC07.
     nearly: bool,
     sure: bool,
     error: f64,
 }
 
-/// Both directions of each pair, or seeded variations of its target.
+/// Matches each pair in both directions, or, with `--seeds N`, onto N variations of its target.
 pub fn table(arguments: &Arguments) {
     let mut cases: VecDeque<(String, Change)> = VecDeque::new();
     for name in arguments.names() {
@@ -108,19 +109,19 @@ fn percent(share: Option<&f64>) -> f64 {
     100.0 * share.copied().unwrap_or(f64::NAN)
 }
 
-/// What becomes of a pair before it is matched.
+/// The change that is made to a pair before it is matched.
 #[derive(Clone, Copy)]
 enum Change {
     None,
-    /// Source and target exchanged.
+    /// Source and target are exchanged.
     Exchanged,
-    /// The target turned and scaled.
+    /// The target is turned and scaled at random; the number is the seed.
     Turned(u64),
-    /// Its mirror image.
+    /// The target is replaced by its mirror image.
     Mirrored,
-    /// In other triangles, as many.
+    /// The target is remeshed to as many triangles.
     Remeshed,
-    /// Each vertex moved by up to a tenth of the mean edge.
+    /// Each coordinate of the target's vertices is moved by up to a tenth of the mean edge; the number is the seed.
     Noise(u64),
 }
 
@@ -231,19 +232,19 @@ fn one(arguments: &Arguments, known: Known) -> Reached {
     }
 }
 
-/// The fit with fewer wrong landmarks, the first of equal ones.
+/// The fit with fewer wrong landmarks: with left and right as given (preferred where both are equal), or exchanged.
 fn better([straight, exchanged]: &[Fit; 2]) -> &Fit {
     if exchanged.wrong.len() < straight.wrong.len() { exchanged } else { straight }
 }
 
-/// The landmarks that are wrong, with those whose place they take.
+/// The wrong landmarks, each with the landmark whose place its image takes.
 fn faults(fits: &[Fit; 2]) -> String {
     let faults: Vec<String> =
         better(fits).wrong.iter().map(|[own, other]| format!("{own}>{other}")).collect();
     if faults.is_empty() { String::new() } else { format!(" [{}]", faults.join(" ")) }
 }
 
-/// All candidates but the best, each with the known landmarks nearest to its pairs.
+/// A line for each candidate, with the known landmarks that are nearest to its pairs.
 fn alternatives(known: &Known, found: &LandmarkMatch) -> String {
     let mut text = String::new();
     for candidate in &found.candidates {
@@ -280,7 +281,7 @@ fn described(candidate: &Candidate, [straight, exchanged]: &[Fit; 2]) -> String 
     )
 }
 
-/// The fit of a candidate's coarse map, and with left and right of the target exchanged where partners are known.
+/// The fit of a candidate's coarse map: with left and right of the target as given, and exchanged where partners are known.
 fn of_candidate(known: &Known, candidate: &Candidate) -> [Fit; 2] {
     let CoarsePicture { source, target, target_from_source } = &candidate.picture;
     let index = SurfaceIndex::new(source);
@@ -293,7 +294,7 @@ fn of_candidate(known: &Known, candidate: &Candidate) -> [Fit; 2] {
     measured(known, target, &images)
 }
 
-/// The map of the full meshes with the pairs of a candidate: what it reached, and its fit.
+/// Maps the full meshes with the pairs of a candidate, and returns the figures of the map as text and its fits.
 fn full(known: &Known, candidate: &Candidate, arguments: &Arguments) -> Result<(String, [Fit; 2]), String> {
     let pairs: Vec<[u32; 2]> = candidate.pairs.iter().map(|p| [p.source.0, p.target.0]).collect();
     let [source, target] = &known.meshes;
@@ -327,7 +328,7 @@ fn full(known: &Known, candidate: &Candidate, arguments: &Arguments) -> Result<(
     Ok((text, fits))
 }
 
-/// The fit of images on a mesh that is the target or a level of it, and with left and right of the target exchanged.
+/// The fit of the landmarks' images on a mesh that is the target or a level of it: with left and right of the target as given, and exchanged.
 fn measured(known: &Known, target: &SurfaceMesh, images: &[DVec3]) -> [Fit; 2] {
     let n = images.len();
     let onto = SurfaceIndex::new(target);
@@ -337,7 +338,7 @@ fn measured(known: &Known, target: &SurfaceMesh, images: &[DVec3]) -> [Fit; 2] {
     };
     let images: Vec<SurfacePoint> = images.iter().map(|&p| onto.nearest(p).point).collect();
     let goals: Vec<SurfacePoint> = known.places[1].iter().map(|&p| onto.nearest(p).point).collect();
-    // By landmark: distances from the nearest vertex.
+    // The distances along the surface from the vertex that is nearest to a landmark.
     let field = |goal: &SurfacePoint| {
         let weight = |k: &usize| goal.barycentric[*k];
         let nearest = (0..3).max_by(|a, b| weight(a).total_cmp(&weight(b))).unwrap_or(0);

@@ -1,4 +1,4 @@
-//! How much memory a map takes by the faces of its meshes, from the first byte read to the last file written.
+//! The memory that a map takes for each face of its meshes, from the first byte read to the last file written.
 
 use crate::arguments::Arguments;
 use crate::job_files::files;
@@ -7,8 +7,8 @@ use conemap::job::{LEAST_MEMORY, MEMORY_PER_FACE};
 use conemap::monitor::Silent;
 use std::process::Command;
 
-/// A line for each ball of 5,000 to 82,000 faces, and for pairs and meshes by name; each in a process of its own, whose largest memory
-/// is its own.
+/// Prints a line for each ball of 5,000 to 82,000 faces, or for the pairs and meshes that are named. Each is mapped in a process of its
+/// own, so that the largest memory of the process is that of this map.
 pub fn table(arguments: &Arguments) {
     let names = ["ball-4", "ball-5", "ball-6"].map(str::to_owned).to_vec();
     let names = if arguments.pairs.is_empty() { names } else { arguments.pairs.clone() };
@@ -23,7 +23,7 @@ pub fn table(arguments: &Arguments) {
     }
 }
 
-/// One of them, in this process.
+/// Maps the named meshes in this process and prints their lines.
 pub fn case(arguments: &Arguments) {
     for name in &arguments.pairs {
         let files = files(arguments, name);
@@ -47,7 +47,7 @@ pub fn case(arguments: &Arguments) {
     }
 }
 
-/// The most memory that this process has held; `None` where the system does not tell.
+/// The most memory that this process has held, in MiB; `None` where the system does not tell.
 fn peak_mib() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

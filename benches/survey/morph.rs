@@ -1,4 +1,5 @@
-//! Shapes half-way between each demo's meshes: lengths of edges on straight lines and on the bent way, and how many keys follow it.
+//! The way from the source's shape to the target's: how much edges change their lengths half-way, on straight lines and on the bent way,
+//! and how closely one, two or three keys follow the bent way.
 
 use crate::arguments::Arguments;
 use crate::case::Case;
@@ -12,12 +13,12 @@ use cpu_time::ThreadTime;
 use glam::DVec3;
 use typed_index_collections::TiSlice;
 
-/// Keys that are tried: one, two and three, evenly.
+/// The times of the keys that are tried: one, two and three keys, evenly spaced.
 const TRIED: [&[f64]; 3] = [&[0.5], &[1.0 / 3.0, 2.0 / 3.0], &[0.25, 0.5, 0.75]];
-/// Times at which the way by keys is held against the exact one.
+/// The times at which the way by keys is compared with the exact one.
 const BETWEEN: [f64; 6] = [0.125, 0.375, 0.45, 0.55, 0.625, 0.875];
 
-/// Each demo's way from source to target (`--pairs NAME,...`: of those that begin so).
+/// Prints a line for each demo's way from source to target (`--pairs NAME,...`: only the demos whose names begin so).
 pub fn table(arguments: &Arguments) {
     println!(
         "edges of half-way shapes against the mean of both ends' lengths, in %: mean, 99 % quantile, largest"
@@ -54,7 +55,7 @@ fn line(arguments: &Arguments, case: &Case) -> Result<String, String> {
     let mut bends = |time: f64| morph.bends(time, &mut Silent).map_err(|e| e.to_string());
     let tried = TRIED.iter().map(|keys| keys.iter().map(|key| bends(*key)).collect::<Result<Vec<_>, _>>());
     let tried = tried.collect::<Result<Vec<_>, _>>()?;
-    // Six solves, of which three would do.
+    // The keys that are tried take six solves, and three keys take half as many.
     let seconds = 0.5 * begun.elapsed().as_secs_f64();
     let exact = BETWEEN.iter().map(|time| bends(*time)).collect::<Result<Vec<_>, _>>()?;
     let half = |bend: &dyn Fn(VertexId) -> DVec3| -> Shape {
@@ -70,7 +71,7 @@ fn line(arguments: &Arguments, case: &Case) -> Result<String, String> {
     Ok(format!("{:7} {straight} {bent} {:>20} {seconds:6.2}", mesh.face_count(), off.join(" ")))
 }
 
-/// The largest distance between what keys make of the bends and the exact ones.
+/// The largest distance between the bends interpolated from the keys and the exact bends.
 fn off_by_keys(keys: &[f64], bends: &[Shape], exact: &[Shape]) -> f64 {
     let mut most = 0.0_f64;
     for (&time, exact) in BETWEEN.iter().zip(exact) {
@@ -87,7 +88,7 @@ fn off_by_keys(keys: &[f64], bends: &[Shape], exact: &[Shape]) -> f64 {
     most
 }
 
-/// By how much edges differ from the mean of their lengths at both ends: mean, 99 % quantile and largest, in per cent.
+/// The relative difference between an edge's length and the mean of its lengths at both ends: mean, 99 % quantile and largest, in per cent.
 fn edge_errors(mesh: &SurfaceMesh, end: &Shape, shape: &Shape) -> String {
     let off = |h| {
         let length = |points: &TiSlice<VertexId, DVec3>| points[mesh.tail(h)].distance(points[mesh.head(h)]);

@@ -1,4 +1,4 @@
-//! The class that is chosen where landmarks come in another order, or are clicked beside their vertices.
+//! The class of maps that the search chooses when the landmarks come in another order, or are clicked beside their vertices.
 
 use crate::arguments::Arguments;
 use crate::case::{Case, mean_and_quantiles};
@@ -11,8 +11,9 @@ use conemap::mesh::VertexId;
 use conemap::monitor::Silent;
 use cpu_time::ThreadTime;
 
-/// For each pair, as it is, with `--seeds` other orders of its landmarks and as many clicks: the mean log density of the coarse map
-/// that the search chooses, after it is relaxed, and on the next finer level; the layouts that were judged, and the seconds of the search.
+/// Searches for the class of each pair as it is, with `--seeds` other orders of its landmarks and with as many clicked sets. A line has the
+/// mean log density of the coarse map that the search chooses, the same after the map is relaxed and on the next finer level, the number of
+/// layouts that were judged, and the processor seconds of the search.
 pub fn table(arguments: &Arguments) {
     println!(
         "{:20} {:12} {:>8} {:>8} {:>8} {:>4} {:>7} {:>7} {:>6}",
@@ -92,12 +93,12 @@ fn one(arguments: &Arguments, case: &Case, variant: &str) {
     }
 }
 
-/// The distances of the coarse map to the known one at the vertices of the source, in percent of the root of the target's area: mean and
-/// 95 %.
+/// The distances between the images of the source's vertices under the coarse map and under the known one, in percent of the root of the
+/// target's area: mean and 95 % quantile.
 fn truth(case: &Case, map: &CoarseMap<'_>) -> String {
     let (Some(truth), Some(images)) = (&case.truth, map.images()) else { return String::new() };
     let [source, target] = &images.levels;
-    // Levels are scaled to area 1.
+    // The levels are scaled to area 1.
     let scale = 1.0 / case.meshes[1].area().sqrt();
     let distance = |v: VertexId| {
         let place = *truth.get(source.vertices[v].index())?;

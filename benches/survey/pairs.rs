@@ -1,16 +1,16 @@
-//! The pairs of the data folder as they are.
+//! Maps of the pairs of the data folder as they are, and of the demos.
 
 use crate::arguments::Arguments;
 use crate::case::{Case, Make, map_all};
 use crate::table::{header, sum_up};
 use conemap::mesh::VertexId;
 
-/// Each pair as its file gives it.
+/// Maps each pair as its file gives it.
 pub fn as_they_are(arguments: &Arguments) {
     each(arguments, |case| case);
 }
 
-/// Each pair with source and target exchanged; a known truth is that of the inverse.
+/// Maps each pair with source and target exchanged; where the truth is known, the inverse of the true map takes its place.
 pub fn exchanged(arguments: &Arguments) {
     each(arguments, |mut case| {
         let place = |v: usize| case.meshes[0].positions()[VertexId::from(v)];
@@ -22,7 +22,7 @@ pub fn exchanged(arguments: &Arguments) {
     });
 }
 
-/// Each demo with its landmarks (`--pairs NAME,...`: of those that begin so).
+/// Maps each demo with its landmarks (`--pairs NAME,...`: only the demos whose names begin so).
 pub fn demos(arguments: &Arguments) {
     header();
     let ids = arguments.demos().into_iter();

@@ -7,10 +7,13 @@ use conemap::monitor::Silent;
 use conemap::remesh::{Options, remesh};
 use cpu_time::ThreadTime;
 
+/// The folders of the data folder whose meshes are remeshed.
 const FOLDERS: [&str; 4] = ["sumner", "tosca", "shrec07", "single"];
+/// The numbers of faces that are asked for, as multiples of the given mesh's number.
 const SHARES: [f64; 3] = [0.5, 1.0, 2.0];
 
-/// The table; `--pairs` names meshes, `FOLDER/NAME`, or their beginnings. Distances are in mean edges of the new mesh.
+/// Prints the table; `--pairs FOLDER/NAME,...` chooses meshes by their names or the beginnings of their names. The distances between the new
+/// mesh and the given one are in units of the new mesh's mean edge length.
 pub fn data_meshes(arguments: &Arguments) {
     println!(
         "{:22} {:>7} {:>7} {:>7} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7}",

@@ -1,4 +1,4 @@
-//! The same surfaces cut into other triangles.
+//! Maps of surfaces that are cut into other triangles.
 
 use crate::arguments::Arguments;
 use crate::case::{Case, Make, map_all};
@@ -8,8 +8,8 @@ use conemap::mesh::generators::midpoint_subdivision;
 use conemap::monitor::Silent;
 use conemap::remesh::{Noise, Options, carried, decimated, perturbed, remesh};
 
-/// Each pair with its target remeshed in several ways, its landmarks at the nearest points, in faces; against the pair as
-/// it is.
+/// Maps each pair with its target remeshed in several ways, its landmarks carried to the nearest points, which lie inside faces; compares
+/// with the map of the pair as it is.
 pub fn targets(arguments: &Arguments) {
     header();
     let mut cases: Vec<Make<'_>> = Vec::new();
@@ -33,8 +33,8 @@ pub fn targets(arguments: &Arguments) {
     compare(&map_all(cases, arguments), "as it is");
 }
 
-/// Pairs with a known truth, the target remeshed to its own number of faces, with 33, 12 and 6 landmarks; against the same
-/// connectivity.
+/// Maps pairs with a known truth, with the target as it is (the source's connectivity) and remeshed to its own number of faces, and with
+/// 33, 12 and 6 landmarks.
 pub fn truth(arguments: &Arguments) {
     header();
     let mut cases: Vec<Make<'_>> = Vec::new();
@@ -59,9 +59,10 @@ pub fn truth(arguments: &Arguments) {
     crate::table::sum_up("truth", &outcomes.iter().collect::<Vec<_>>());
 }
 
-/// A surface in other triangles; `None` for those that it has.
+/// Cuts a surface into other triangles; `None` where it stays as it is.
 type Remade = fn(&SurfaceMesh) -> Option<SurfaceMesh>;
 
+/// The ways in which a target is remeshed, by name.
 const WAYS: [(&str, Remade); 7] = [
     ("as it is", |_| None),
     ("half", |mesh| Some(isotropic(mesh, 0.5))),

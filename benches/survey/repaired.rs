@@ -1,5 +1,5 @@
-//! Meshes as they come, after the repairs that are offered: onto a partner where there is one, and otherwise onto an independently
-//! remeshed, bent copy of the repaired surface, whose true map is known. What cannot be repaired is told with its reason.
+//! Maps of meshes with faults, after all repairs that the page offers: onto a partner where there is one, and otherwise onto an independently
+//! remeshed, bent copy of the repaired surface, whose true map is known. A mesh that cannot be repaired is listed with the reason.
 
 use crate::arguments::Arguments;
 use crate::case::Limit;
@@ -22,16 +22,17 @@ use conemap::remesh::{Options, carried, remesh};
 use cpu_time::ThreadTime;
 use glam::{DMat2, DVec3};
 
-/// What a file is mapped onto.
+/// The mesh that a file is mapped onto or from.
 enum Partner {
-    /// It takes the place of a mesh of a pair, its vertices having the numbers of that.
+    /// The other mesh of a pair: the file takes the place of one of them, and its vertices have the same numbers.
     ByNumber { pair: &'static str, side: usize },
-    /// It takes the place of a mesh of a pair; landmarks go to the vertices nearest to theirs.
+    /// The other mesh of a pair: the file takes the place of one of them, and each landmark goes to the file's vertex nearest to its place.
     ByPlace { pair: &'static str, side: usize },
-    /// Its own bent copy.
+    /// A bent copy of the file's own repaired surface.
     Copy,
 }
 
+/// The files of the folders `bad` and `open` that are mapped.
 const FILES: [(&str, Partner); 13] = [
     ("open/dog0-open", Partner::ByNumber { pair: "cat-dog", side: 1 }),
     ("bad/horse-slit", Partner::ByNumber { pair: "horse-horse05", side: 0 }),
@@ -48,11 +49,11 @@ const FILES: [(&str, Partner); 13] = [
     ("open/skull-genus2", Partner::Copy),
 ];
 
-/// Everything that the page offers.
+/// All repairs that the page offers.
 const REPAIRS: RepairOptions =
     RepairOptions { join_within: 0.0, parts: Parts::LargestAlone, handles: Handles::Cut };
 
-/// Landmarks on a copy, where the arguments say nothing.
+/// The number of landmarks on a copy, where the command line says nothing else.
 const LANDMARKS: usize = 12;
 
 /// A map's files.
@@ -66,18 +67,20 @@ struct Files {
 struct Truth {
     /// The image of each vertex of the source's file.
     images: Vec<DVec3>,
-    /// E of skin, and the share of the target's area that is its image; of copies.
+    /// What the true map does to skin; known for copies.
     skin: Option<Skin>,
 }
 
 /// What the true map does to skin.
 #[derive(Clone, Copy)]
 pub struct Skin {
+    /// The energy of the true map over skin; 4 for an isometry.
     pub energy: f64,
+    /// The share of the target's area that is the image of skin.
     covered: f64,
 }
 
-/// Each file of `bad` and `open`.
+/// Repairs and maps each file.
 pub fn files(arguments: &Arguments) {
     println!(
         "{:24} {:>9} {:>8} {:>8} {:>13} {:>13} {:>7} {:>7}  repairs",
@@ -106,7 +109,7 @@ pub fn files(arguments: &Arguments) {
     });
 }
 
-/// The figures of a map, and what was repaired for it.
+/// Repairs and maps a file: the figures of the map, and the sentences that tell the repairs.
 fn line(arguments: &Arguments, name: &str, partner: &Partner) -> Result<[String; 2], String> {
     let bytes = std::fs::read(arguments.data.join(format!("{name}.off"))).expect("a file");
     let files = match partner {
@@ -136,7 +139,8 @@ fn read(files: &Files, monitor: &mut dyn Monitor) -> Result<Job, String> {
     Job::read(given, options, monitor).map_err(|e| e.to_string())
 }
 
-/// The files of a pair, one of its meshes replaced. Of two poses the true images are those of the closed mesh.
+/// The files of a pair, with one of its meshes replaced. Where the replaced source and the target are two poses of one body, the true
+/// images of the source's vertices are known.
 fn of_pair(
     arguments: &Arguments,
     pair: &str,
@@ -168,7 +172,7 @@ fn copy(bytes: Vec<u8>, landmarks: usize) -> Result<Files, String> {
     let bent = checked.mesh.with_positions(checked.mesh.positions().iter().map(|p| bend(*p)).collect());
     let faces = Options::to_faces(bent.face_count().max(2000));
     let remeshed = remesh(&bent, &faces, &mut Silent).map_err(|e| e.to_string())?.mesh;
-    // Landmarks are vertices of the file.
+    // Only vertices of the file can be landmarks, not those that a repair has added.
     let numbers = checked.file_from_vertex();
     let in_file = |v: &VertexId| numbers[v.index()] < checked.vertex_from_file.len();
     let chosen: Vec<VertexId> = common::farthest_points(&checked.mesh, 3 * landmarks)
@@ -192,7 +196,7 @@ fn copy(bytes: Vec<u8>, landmarks: usize) -> Result<Files, String> {
     Ok(Files { meshes, landmarks: landmark_file::write(&file), truth })
 }
 
-/// What a change of a mesh' places does to its faces that are skin, both sides of these scaled to area 1.
+/// What moving a mesh's vertices does to its faces that are skin; the skin is scaled to area 1 before and after.
 pub fn energy_of_places([from, to]: [&SurfaceMesh; 2], is_skin: impl Fn(FaceId) -> bool) -> Skin {
     let faces = || from.faces().filter(|&f| is_skin(f));
     let [areas, images] = [from, to].map(|mesh| faces().map(|f| mesh.face_area(f)).sum::<f64>());
@@ -209,7 +213,7 @@ pub fn energy_of_places([from, to]: [&SurfaceMesh; 2], is_skin: impl Fn(FaceId) 
     Skin { energy: faces().map(energy).sum(), covered: images / to.area() }
 }
 
-/// A bend along the longest side of the box around a mesh: by half a radian in all.
+/// A bend along the longest side of the box around a mesh, by half a radian from end to end.
 fn bend_of(mesh: &SurfaceMesh) -> impl Fn(DVec3) -> DVec3 + use<> {
     let least = mesh.positions().iter().copied().reduce(DVec3::min).unwrap_or_default();
     let most = mesh.positions().iter().copied().reduce(DVec3::max).unwrap_or_default();
@@ -256,8 +260,8 @@ fn figures(job: &Job, result: &MapResult, truth: Option<&Truth>) -> String {
     )
 }
 
-/// Mean and 95 % quantile of the distance of images of the file's vertices to the true ones, along straight lines, in units of the root of
-/// the target's area; the true one is put on the target first.
+/// The mean and the 95 % quantile of the straight distance between the images of the file's vertices and their true images, which are first
+/// put on the nearest point of the target; in units of the root of the target's area.
 fn errors(job: &Job, result: &MapResult, truth: &[DVec3]) -> Option<[f64; 2]> {
     let map = job.map_file(result, &Choices::default())?;
     let taken = job.taken(&map);

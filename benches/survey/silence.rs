@@ -1,5 +1,5 @@
-//! How long a run asks its monitor nothing, by stage, from the first byte read: on balls of 5,000 to 328,000 faces, on pairs by name,
-//! and on single meshes by path, which are mapped onto themselves bent.
+//! The silences of a run: how long it asks its monitor nothing, stage by stage, from the first byte read. They are measured on balls of
+//! 5,000 to 328,000 faces, on pairs by name, and on single meshes by path, which are mapped onto bent copies of themselves.
 
 use crate::arguments::Arguments;
 use crate::job_files::files;
@@ -8,7 +8,7 @@ use crate::watch::Watch;
 use conemap::monitor::Stage;
 use std::time::Instant;
 
-/// The longest silence of each stage, in processor time.
+/// Prints the longest silence of each stage, in processor time.
 pub fn table(arguments: &Arguments) {
     let names = ["ball-4", "ball-5", "ball-6", "ball-7"].map(str::to_owned).to_vec();
     let names = if arguments.pairs.is_empty() { names } else { arguments.pairs.clone() };

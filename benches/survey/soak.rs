@@ -1,15 +1,15 @@
-//! The memory of one process over many maps.
+//! The memory that one process holds while it makes many maps.
 
 use crate::arguments::Arguments;
 use crate::case::Case;
 use conemap::monitor::Silent;
 
-/// Maps where nothing else is asked for (`--seeds`).
+/// The number of maps where the command line says nothing else (`--seeds`).
 const RUNS: u64 = 200;
-/// After as many the memory should stay.
+/// The number of maps after which the memory should no longer grow.
 const WARM: u64 = 10;
 
-/// Maps the small demos in turn, and tells what the process holds after each tenth of the runs.
+/// Maps the small demos in turn, and prints the memory that the process holds after each tenth of the runs.
 pub fn table(arguments: &Arguments) {
     let runs = if arguments.seeds > 1 { arguments.seeds } else { RUNS };
     let cases = ["horse-cat", "poses", "sphere-tetrahedron"].map(Case::of_demo);
@@ -40,7 +40,7 @@ pub fn table(arguments: &Arguments) {
     }
 }
 
-/// What this process holds in memory; `None` where the system does not tell.
+/// The memory that this process holds, in MiB; `None` where the system does not tell.
 fn resident_mib() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmRSS:"))?;

@@ -1,4 +1,4 @@
-//! Landmarks that were clicked beside their places, told to be soft.
+//! Landmarks that were clicked beside their places and are declared soft.
 
 use crate::arguments::Arguments;
 use crate::case::{Case, Make, map_all};
@@ -10,12 +10,13 @@ use conemap::monitor::Silent;
 use conemap::soft_landmarks::{SettlingInput, SettlingOptions, settle};
 use glam::DVec3;
 
-/// How far clicks miss, and how far soft landmarks may go, in units of the root of the target's area.
+/// The distance by which each click misses, in units of the root of the target's area.
 const MISS: f64 = 0.015;
+/// The radius within which soft landmarks may move, in the same unit.
 const RADIUS: f64 = 0.02;
 
-/// Pairs with a known truth whose landmarks on the target are all as far from their places as `MISS`, in random directions: held there, and
-/// soft; against the right places.
+/// Maps pairs with a known truth after all landmarks on the target were moved by `MISS` in random directions: once held there, and once
+/// soft. The right landmarks are declared soft, too. Compares with the map of the right landmarks.
 pub fn table(arguments: &Arguments) {
     header();
     let mut cases: Vec<Make<'_>> = Vec::new();
@@ -38,7 +39,7 @@ pub fn table(arguments: &Arguments) {
     compare(&map_all(cases, arguments), "right");
 }
 
-/// The landmarks clicked beside their places.
+/// A pair whose landmarks on the target are clicked beside their places.
 fn missed(arguments: &Arguments, name: &str, seed: u64) -> Case {
     let mut case = Case::of_pair(arguments, name);
     let mut random = Random::new(seed);
@@ -57,7 +58,7 @@ fn beside(mesh: &SurfaceMesh, point: &SurfacePoint, random: &mut Random) -> Surf
     closest_point(mesh, point.position(mesh) + way * (MISS * mesh.area().sqrt()), normal)
 }
 
-/// The same with all landmarks soft, after they have settled.
+/// Declares all landmarks of a case soft, lets them settle, and prints how far they are from their true places before and after.
 fn settled(mut case: Case) -> Case {
     let meshes = [&case.meshes[0], &case.meshes[1]];
     let points: Vec<[SurfacePoint; 2]> =

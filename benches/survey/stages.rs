@@ -1,4 +1,4 @@
-//! How long each stage takes: the shares by which progress bars move.
+//! The share of a run's time that each stage takes, compared with the share by which progress bars move.
 
 use crate::arguments::Arguments;
 use crate::case::Case;
@@ -7,7 +7,7 @@ use conemap::pipeline::PipelineOptions;
 use cpu_time::ThreadTime;
 use std::collections::BTreeMap;
 
-/// Takes the processor time of each stage.
+/// A monitor that measures the processor time of each stage.
 #[derive(Default)]
 struct StageTimes {
     stage: Option<(Stage, ThreadTime)>,
@@ -33,7 +33,7 @@ impl Monitor for StageTimes {
     }
 }
 
-/// The mean share of each stage over pairs, beside the one that is told (`PipelineOptions::stages`).
+/// Prints the mean share of each stage over the pairs, and the share that the program tells (`PipelineOptions::stages`).
 pub fn shares(arguments: &Arguments) {
     let mut sums: BTreeMap<Stage, f64> = BTreeMap::new();
     let names = arguments.names();
@@ -60,7 +60,7 @@ pub fn shares(arguments: &Arguments) {
     }
 }
 
-/// The shares that are told of the stages after the files are read.
+/// The shares that the program tells for the stages after the files are read.
 fn told(options: &PipelineOptions, landmarks: usize) -> Vec<(Stage, f64)> {
     let plan = options.stages(landmarks);
     let total: f64 = plan.iter().map(|planned| planned.time).sum();

@@ -1,4 +1,4 @@
-//! The family of flows: each discrete conformal structure on each demo, to the cones of the target's base domain.
+//! Flows by each discrete conformal structure: each demo's meshes flow to flat metrics with the cones of the target's base domain.
 
 use crate::arguments::Arguments;
 use crate::case::Case;
@@ -10,7 +10,7 @@ use conemap::monitor::Silent;
 use cpu_time::ProcessTime;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Each demo's flows by each structure (`--pairs NAME,...`: of those that begin so).
+/// Prints each demo's flows by each structure (`--pairs NAME,...`: only the demos whose names begin so).
 pub fn table(arguments: &Arguments) {
     println!(
         "{:20} {:18} {:6} {:>5} {:>5} {:>15} {:>11} {:>7}  stopped at",
@@ -43,7 +43,7 @@ fn tell(case: &Case) -> Result<(), String> {
     Ok(())
 }
 
-/// What one flow came to.
+/// Makes one flow and returns its figures as a line; a flow that does not converge has no stretch.
 fn flowed(
     mesh: &SurfaceMesh,
     landmarks: &[VertexId],

@@ -1,8 +1,8 @@
-//! Lines and sums.
+//! The lines of the tables of maps, and the sums below them.
 
 use crate::case::{Outcome, Reached};
 
-/// The names of the columns.
+/// Prints the names of the columns.
 pub fn header() {
     println!(
         "{:20} {:14} {:>8} {:>8} {:>7} {:>7} {:>9} {:>8} {:>17} {:>3} {:>3} {:>7} {:>7} {:>7}",
@@ -23,7 +23,7 @@ pub fn header() {
     );
 }
 
-/// One map.
+/// The line of one map.
 pub fn line(outcome: &Outcome) -> String {
     let Outcome { name, variant, reached, seconds } = outcome;
     match reached {
@@ -49,7 +49,7 @@ pub fn line(outcome: &Outcome) -> String {
     }
 }
 
-/// Certified maps, middle and worst figures, and the time of all.
+/// Prints how many maps are certified, the median and the worst figures, and the processor time of all.
 pub fn sum_up(title: &str, outcomes: &[&Outcome]) {
     let reached: Vec<&Reached> = outcomes.iter().filter_map(|o| o.reached.as_ref().ok()).collect();
     let certified = reached.iter().filter(|r| r.certified).count();
@@ -80,7 +80,7 @@ pub fn sum_up(title: &str, outcomes: &[&Outcome]) {
     );
 }
 
-/// How each variant compares with another one of the same pairs: ratios of energies and of times.
+/// Sums up each variant and compares it with the reference variant on the same pairs: ratios of energies and of processor times.
 pub fn compare(outcomes: &[Outcome], reference: &str) {
     let mut variants: Vec<&str> = outcomes.iter().map(|o| o.variant.as_str()).collect();
     variants.sort_unstable();

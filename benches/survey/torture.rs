@@ -1,7 +1,8 @@
-//! Generated hostile geometry: every case ends in a certified map that a stranger proves, or in a typed error, within bounds.
+//! Generated hostile geometry: every case must end in a certified map that `conemap_verify` proves, too, or in a typed error, within bounds of
+//! time and memory.
 //!
-//! Each case runs in a process of its own, which ends itself where it takes more than its bounds: processor time and memory by
-//! faces. A panic, a bound and a map that `conemap_verify` rejects are findings, and the command fails.
+//! Each case runs in a process of its own, which ends itself where it takes more processor time or memory than its number of faces allows. A
+//! panic, a broken bound and a map that `conemap_verify` rejects are findings, and with a finding the command fails.
 
 use crate::arguments::Arguments;
 use crate::hostile_geometry::{Kind, Size, case};
@@ -13,15 +14,15 @@ use std::collections::BTreeMap;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Processor seconds that a case may take, and those that each face adds.
+/// The seconds of processor time that every case may take, and the seconds that each face of both meshes adds.
 const SECONDS: [f64; 2] = [120.0, 1e-3];
-/// MiB that a case may take, and those that each face adds.
+/// The memory in MiB that every case may take, and the MiB that each face of both meshes adds.
 const MIB: [f64; 2] = [400.0, 0.01];
 
-/// How a process says that it broke a bound.
+/// The exit code of a process that broke a bound.
 const BROKE_BOUND: i32 = 9;
 
-/// Cases of all kinds in turn, until the time is over; then their outcomes by kind.
+/// Runs cases of all kinds in turn until the time is over, then prints their outcomes by kind.
 pub fn table(arguments: &Arguments) {
     let kinds: Vec<Kind> = Kind::ALL.into_iter().filter(|kind| is_asked_for(*kind, arguments)).collect();
     let begun = Instant::now();
@@ -72,7 +73,7 @@ fn is_asked_for(kind: Kind, arguments: &Arguments) -> bool {
     arguments.pairs.is_empty() || arguments.pairs.iter().any(|name| name == kind.name())
 }
 
-/// Cases by name, in this process; each prints a line of JSON.
+/// Runs the named cases in this process; each prints a line of JSON.
 pub fn cases(arguments: &Arguments) {
     for name in &arguments.pairs {
         let (kind, seed) = name.rsplit_once('-').expect("KIND-SEED");
@@ -96,7 +97,7 @@ pub fn cases(arguments: &Arguments) {
     }
 }
 
-/// Ends the process where it takes more than a case of so many faces may.
+/// Ends the process as soon as it has taken more time or memory than a case of so many faces may.
 fn keep_bounds(faces: usize) {
     let [seconds, mib] = [SECONDS, MIB].map(|[least, each]| least + each * faces as f64);
     loop {
@@ -135,14 +136,14 @@ fn told_of(outcome: &Outcome) -> Value {
     }
 }
 
-/// The most memory that this process has held; `None` where the system does not tell.
+/// The most memory that this process has held, in MiB; `None` where the system does not tell.
 fn peak_mib() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
     Some(line.split_whitespace().nth(1)?.parse::<f64>().ok()? / 1024.0)
 }
 
-/// What a case prints in a process of its own; a panic is a finding.
+/// Runs a case in a process of its own and returns the JSON that it prints; a panic is a finding.
 fn in_a_process(name: &str) -> Value {
     let program = std::env::current_exe().expect("this program");
     let output = Command::new(program)
@@ -162,14 +163,17 @@ fn in_a_process(name: &str) -> Value {
     }
 }
 
-/// The outcomes of a kind.
+/// The outcomes of the cases of a kind.
 #[derive(Default)]
 struct Sum {
     count: usize,
     by_outcome: BTreeMap<String, usize>,
     errors: BTreeMap<String, usize>,
+    /// The largest processor time of a case, in seconds.
     seconds: f64,
+    /// The longest silence of a monitor, in seconds, and the stage it fell in.
     silence: (f64, String),
+    /// The largest memory of a case, in MiB.
     mib: f64,
 }
 

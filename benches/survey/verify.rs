@@ -1,4 +1,4 @@
-//! Map files of all pairs, judged by both certificates: the program's own and `conemap_verify`.
+//! The map files of all pairs, judged by both certificates: the program's own and `conemap_verify`.
 
 use crate::arguments::Arguments;
 use crate::case::Limit;
@@ -9,16 +9,17 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// What both say of a map.
+/// The verdicts of both certificates on a map.
 struct Verdicts {
     certified: bool,
-    /// Whether the reader of map files takes it.
+    /// Whether the reader of map files accepts the map's file.
     is_read: bool,
     proof: Proof,
+    /// Seconds of wall time that the proof took.
     seconds: f64,
 }
 
-/// Makes the map of each pair and its file, and has it proved.
+/// Makes the map of each pair, writes its map file, and has that proved.
 pub fn both_certificates(arguments: &Arguments) {
     println!(
         "{:20} {:>8} {:>7} {:>8} {:>8} {:>9} {:>8} {:>9} {:>9} {:>7}",

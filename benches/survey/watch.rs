@@ -1,4 +1,5 @@
-//! A monitor that measures how long nobody asks it, in processor time of its thread, so that other programs do not count.
+//! A monitor that measures its silences: how long the run asks it nothing. It takes the processor time of its thread, so that other
+//! programs on the machine do not count.
 
 use crate::arguments::Arguments;
 use conemap::monitor::{Cancelled, Monitor, Stage, Step};
@@ -7,25 +8,25 @@ use std::backtrace::Backtrace;
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-/// Silences from here on are told with the calls that ended them, where that is asked for (`--depth 2`).
+/// The shortest silence that is printed with the calls that ended it, where that is asked for (`--depth 2`).
 const LONG: Duration = Duration::from_millis(40);
 
-/// The silences of a run.
+/// A monitor that keeps the longest silence of each stage.
 pub struct Watch {
     last: ThreadTime,
     stage: Option<Stage>,
-    /// By stage the longest silence and the number of questions; without a stage what came before the first.
+    /// The longest silence of each stage and its number of questions; the key `None` stands for the time before the first stage.
     pub by_stage: BTreeMap<Option<Stage>, (Duration, usize)>,
     traces: bool,
 }
 
 impl Watch {
-    /// From now on.
+    /// Starts the clock.
     pub fn new(arguments: &Arguments) -> Self {
         Self { last: ThreadTime::now(), stage: None, by_stage: BTreeMap::new(), traces: arguments.depth > 1 }
     }
 
-    /// The longest silence, with the sentence of its stage; the last one ends now.
+    /// The longest silence so far, which may be the one that this call ends, and the sentence of its stage.
     pub fn longest(&mut self) -> (&'static str, Duration) {
         self.told();
         let longest = self.by_stage.iter().max_by_key(|(_, (silence, _))| *silence);
@@ -46,7 +47,7 @@ impl Watch {
     }
 }
 
-/// The places of the core that lead here, the innermost first: the build keeps lines, and not the names of what was put into its callers.
+/// The five innermost places of the core that lead here, the innermost first, by file and line: the build keeps no names of inlined functions.
 fn calls() -> String {
     let trace = Backtrace::force_capture().to_string();
     let places = trace.lines().filter_map(|line| line.trim().strip_prefix("at ./src/"));

@@ -1,4 +1,4 @@
-//! Bases laid onto scans, as files: quads and texture coordinates on one side, holes on the other.
+//! Bases laid onto scans, from file to file: the bases have quads and texture coordinates, the scans have holes.
 
 use crate::arguments::Arguments;
 use crate::case::Limit;
@@ -14,10 +14,10 @@ use conemap::pipeline::Choices;
 use cpu_time::ThreadTime;
 use typed_index_collections::TiVec;
 
-/// Where a scan is punched: around a landmark of the pair, with a share of its area.
+/// The holes that are punched into a scan.
 struct Punch {
     name: &'static str,
-    /// Landmarks, with the share of the area that goes around each.
+    /// The landmarks of the pair around which the scan is punched, each with the share of the scan's area that is removed there.
     around: &'static [(usize, f64)],
 }
 
@@ -33,7 +33,7 @@ const PUNCHES: [Punch; 9] = [
     Punch { name: "four places", around: &[(2, 0.025), (9, 0.025), (14, 0.025), (21, 0.025)] },
 ];
 
-/// Pairs of the data folder, base first.
+/// The pair files that are used, each with its base and its scan.
 const PAIRS: [(&str, [&str; 2]); 6] = [
     ("cat-lion", ["cat", "lion"]),
     ("cat-dog", ["cat", "dog"]),
@@ -43,7 +43,7 @@ const PAIRS: [(&str, [&str; 2]); 6] = [
     ("horse-camel", ["camel", "horse"]),
 ];
 
-/// Each pair, either way round, clean and with each punch.
+/// Wraps each base onto each scan, whole and with each set of holes.
 pub fn bases(arguments: &Arguments) {
     println!(
         "{:14} {:12} {:>8} {:>8} {:>8} {:>23} {:>23} {:>4} {:>15} {:>6}",
@@ -83,7 +83,7 @@ pub fn bases(arguments: &Arguments) {
     });
 }
 
-/// Writes the files, reads them as a user's, maps and wraps.
+/// Writes the files, reads them as a user's files, maps the base onto the scan and wraps it.
 fn wrapped(
     arguments: &Arguments,
     (file, ends): (&str, [&str; 2]),
@@ -124,7 +124,7 @@ fn wrapped(
     Ok(wrapped)
 }
 
-/// The faces that are left, as a file.
+/// The file of a scan without the removed faces.
 fn scan(mesh: &SurfaceMesh, is_gone: &TiVec<FaceId, bool>) -> Vec<u8> {
     let left = mesh.triangles().iter_enumerated().filter(|(f, _)| !is_gone[*f]);
     obj::polygons(mesh.positions().as_ref(), left.map(|(_, corners)| corners.map(|v| v.0)))

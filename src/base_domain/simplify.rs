@@ -99,7 +99,7 @@ struct Shape<'a> {
     quadrics: TiVec<VertexId, Quadric>,
 }
 
-/// By vertex the quadric of its triangles.
+/// The quadric of each vertex: the sum over its triangles.
 fn quadrics_of(mesh: &SurfaceMesh) -> TiVec<VertexId, Quadric> {
     let mut quadrics = ti_vec![Quadric::ZERO; mesh.vertex_count()];
     for f in mesh.faces() {

@@ -58,7 +58,7 @@ impl Certificate {
     fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         let mut say = |is_so: bool, fault: String| faults.extend(is_so.then_some(fault));
-        // What is not a number is no small error.
+        // An error that is not a number counts as too large.
         let is_beyond = |error: f64, bound: f64| error.is_nan() || error > bound;
         say(
             self.flipped_triangles > 0,

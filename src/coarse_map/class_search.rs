@@ -128,7 +128,7 @@ struct Finalists<'a, 'o> {
     options: &'o MultilevelOptions,
     maps: Vec<Finalist<'a>>,
     judged: usize,
-    /// By landmark, the number of layouts that have no map because of it.
+    /// The number of layouts that have no map because of each landmark.
     blame: Vec<f64>,
 }
 

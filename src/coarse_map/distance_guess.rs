@@ -55,7 +55,7 @@ pub(super) fn guess(
     Ok(onto.iter_enumerated().map(trusted).collect())
 }
 
-/// By vertex, its distances to all landmarks.
+/// The distances of each vertex to all landmarks.
 type Fields = TiVec<VertexId, Vec<f64>>;
 
 fn fields(

@@ -21,9 +21,9 @@ pub struct LandmarkedMesh {
 /// The weights of faces in an energy of the map.
 #[derive(Clone)]
 struct Weights {
-    /// By face of the input mesh.
+    /// The weight of each face of the input mesh.
     of_input: TiVec<FaceId, FaceWeight>,
-    /// By face of the refined mesh.
+    /// The weight of each face of the refined mesh.
     of_refined: TiVec<FaceId, FaceWeight>,
 }
 

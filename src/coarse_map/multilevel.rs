@@ -49,11 +49,11 @@ pub struct CoarseMap<'a> {
     skin_areas: [f64; 2],
     /// The energy that is lowered on finer levels.
     energy: MapEnergy,
-    /// By mesh, source first: the constrained vertices of the full mesh, each with its place on the other mesh.
+    /// The constrained vertices of each full mesh, the source first, each vertex with its place on the other mesh.
     constraints: [Vec<(VertexId, PointConstraint)>; 2],
     full: [&'a SurfaceMesh; 2],
     skins: [Option<&'a Skin<'a>>; 2],
-    /// By mesh, source first: the full mesh's vertex of each landmark.
+    /// The vertex of each landmark on each full mesh, the source first.
     landmarks: [&'a TiSlice<LandmarkId, VertexId>; 2],
 }
 
@@ -320,7 +320,7 @@ impl CoarseMap<'_> {
         Ok(grown)
     }
 
-    /// By finer level the progress, 0 to 1, once it is done; a level takes time in proportion to its vertices.
+    /// The progress, from 0 to 1, after each finer level is done. A level is taken to need time in proportion to its vertices.
     fn level_shares(&self, options: &MultilevelOptions) -> Vec<f64> {
         let mut live = self.levels.each_ref().map(|level| level.mesh().live_vertices());
         let full = self.levels.each_ref().map(ParametrisedLevel::full_vertices);
@@ -384,7 +384,7 @@ impl CoarseMap<'_> {
     /// Calls `show` for each mesh, 0 the source: its number, its level with the images of its vertices, and its constraints.
     ///
     /// # Errors
-    /// Those of `show`.
+    /// Returns the error of `show`.
     fn look(
         &mut self,
         mut show: impl FnMut(
@@ -464,7 +464,7 @@ impl PresentLevel {
 /// A level of one mesh with the images of its vertices on the other.
 pub(super) struct PlacedLevel<'a> {
     pub level: Level,
-    /// By vertex of the level, its image on the other mesh's level.
+    /// The image of each vertex of the level on the other mesh's level.
     pub images: TiVec<VertexId, DVec3>,
     /// The full mesh of the level.
     pub full: &'a SurfaceMesh,
@@ -479,7 +479,7 @@ pub struct LevelImages {
     pub levels: [Level; 2],
     /// The weights of the faces of each; `None` where all are skin.
     weights: [Option<TiVec<FaceId, FaceWeight>>; 2],
-    /// By vertex of the source level, its image on the target level.
+    /// The image of each vertex of the source level on the target level.
     pub target_from_source: TiVec<VertexId, SurfacePoint>,
 }
 

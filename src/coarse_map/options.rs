@@ -98,9 +98,9 @@ impl Default for MultilevelOptions {
                 relative_decrease: 2e-5,
                 ..MapRelaxationOptions::default()
             },
-            // Of 0.1, 0.01 and 0.001 the best on poses with punched holes (prototype; see docs/experiments.md).
+            // The best of 0.1, 0.01 and 0.001 on poses with punched holes, in a prototype (see docs/experiments.md).
             cap_weight: 0.01,
-            // Of 1, 2, 4 and 10 the least that brings rim to rim on horse-camel (see docs/experiments.md).
+            // The least of 1, 2, 4 and 10 that brings the rims of horse-camel together (see docs/experiments.md).
             border_toll: 4.0,
             // Both numbers were tried on two pairs cut at the neck (see docs/experiments.md).
             rim_draws: RimDrawOptions { rounds: 3, strength: 4000.0 },

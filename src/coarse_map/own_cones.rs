@@ -272,7 +272,7 @@ impl<'a> Adding<'_, 'a> {
                 Ok(Some(OwnCones { full: with_own, map: finished(chosen.map, multilevel, part)? }))
             }
             Err(CoarseMapError::Cancelled(stop)) => Err(stop),
-            // No map with these points: others may do.
+            // There is no map with these points, but there may be one with others.
             Err(_) => Ok(None),
         }
     }
@@ -288,7 +288,7 @@ const PROMISING: f64 = 1.2;
 /// folded bodies (see docs/experiments.md).
 const USABLE: f64 = 1.5;
 
-/// By vertex of the source level, its image on the target level guessed from distances.
+/// The image of each vertex of the source level on the target level, guessed from distances.
 fn guesses(
     present: &LevelImages,
     full: &[LandmarkedMesh; 2],

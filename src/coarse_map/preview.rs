@@ -11,7 +11,7 @@ use crate::monitor::{MapPreview, PreviewOf};
 use glam::DVec3;
 
 impl MapPreview for CoarseMap<'_> {
-    /// By vertex of the full mesh with its landmarks, its image on the other mesh, which is scaled to area 1.
+    /// The image of each vertex of the full mesh with its landmarks on the other mesh, which is scaled to area 1.
     fn images(&self, of: PreviewOf) -> Option<Vec<DVec3>> {
         let PlacedLevel { level, images, full, onto } = self.placed(of)?;
         let index = SurfaceIndex::new(&level.mesh);

@@ -26,9 +26,9 @@ pub struct RimDrawOptions {
 pub(super) struct BorderLine {
     /// An index of its edges.
     index: SegmentIndex,
-    /// By edge, the unit vector in the plane of the skin beside it, square to it.
+    /// For each edge the unit vector in the plane of the skin beside it that is perpendicular to the edge.
     across: Vec<DVec3>,
-    /// By vertex, in order, the length that it stands for.
+    /// The length of rim that each vertex stands for.
     lengths: BTreeMap<VertexId, f64>,
 }
 

@@ -79,7 +79,7 @@ mod tests {
             let rim: Vec<_> =
                 kept.iter().map(|&v| ball.positions()[v]).filter(|p| p.z * height > 0.0).collect();
             assert_eq!(rim.len(), 8);
-            // No side without one.
+            // Every side of the rim must have one of the kept vertices.
             for k in 0..12 {
                 let side = crate::math::golden::direction(k).extend(0.0);
                 let reach = rim.iter().map(|p| p.dot(side)).fold(f64::NEG_INFINITY, f64::max);

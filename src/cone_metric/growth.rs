@@ -33,7 +33,7 @@ pub struct PlaneLayout {
     pub points: Vec<DVec2>,
     /// The vertex at each of these points.
     pub vertices: Vec<VertexId>,
-    /// By halfedge the number of the point at which it starts in its face.
+    /// The number of the point at which each halfedge starts in its face.
     pub corners: TiVec<HalfedgeId, u32>,
     /// The faces in the order in which they were placed.
     pub order: Vec<FaceId>,

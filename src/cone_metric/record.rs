@@ -20,7 +20,7 @@ pub struct FlowRecord {
     pub degenerate_faces: Vec<FaceId>,
     /// Logarithms of the radii before the first step, in the mesh's unit of length; 0 where the structure has no circles.
     pub log_radii: TiVec<VertexId, f64>,
-    /// By vertex the curvature, in radians, before the first step and at the last moment.
+    /// The curvature at each vertex, in radians, before the first step and at the last moment.
     pub curvature: [TiVec<VertexId, f64>; 2],
 }
 
@@ -64,8 +64,8 @@ impl FlowRecord {
         [by_area(self.moments.first(), first), by_area(self.moments.last(), last)]
     }
 
-    /// By vertex the radii of the circles before the first step, in units of the root of the mesh's area; `areas` are the vertices' shares of
-    /// it.
+    /// The radius of each vertex's circle before the first step, in units of the root of the mesh's area; `areas` are the vertices' shares of
+    /// that area.
     pub fn radii(&self, areas: &TiSlice<VertexId, f64>) -> Vec<f64> {
         let unit = areas.iter().sum::<f64>().sqrt();
         self.log_radii.iter().map(|&u| exp(u) / unit).collect()

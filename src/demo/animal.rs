@@ -1,10 +1,10 @@
-//! Four-legged shapes from one skeleton with different proportions. The nose points to +x, the left side to +z, up is +y.
+//! Four-legged bodies made from one skeleton with different proportions. The nose points to +x, the left side to +z, up is +y.
 
 use super::implicit::RoundCone;
 use super::shape::{Shape, Skeleton};
 use glam::{DVec2, DVec3};
 
-/// Proportions; the body is about 2 long.
+/// The proportions of an animal. All lengths are in the demo's own unit, in which the body is about 2 long.
 struct Build {
     /// Height of the body's axis above the ground.
     height: f64,
@@ -16,22 +16,24 @@ struct Build {
     stance: f64,
     /// Radii of a leg at its top, knee and foot.
     leg: [f64; 3],
-    /// From the chest to the skull.
+    /// The neck, from the chest to the skull.
     neck: Taper,
-    /// From the skull to the nose.
+    /// The head, from the skull to the nose.
     head: Taper,
     /// Length and radius of the ears.
     ear: [f64; 2],
     tail: Tail,
     /// Shift of the hind knees backwards.
     hock: f64,
+    /// The distance over which the parts are blended.
     blend: f64,
+    /// The size of the grid's cells in which the animal is meshed.
     cell: f64,
 }
 
 /// A part that tapers.
 struct Taper {
-    /// Its end relative to its begin.
+    /// The place of its end relative to its beginning.
     reach: DVec2,
     /// Radii at both ends.
     radii: [f64; 2],

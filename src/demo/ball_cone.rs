@@ -9,12 +9,13 @@ use crate::mesh::generators::icosphere;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
-/// Base radius and height of the cone before it is rounded.
+/// The base radius of the cone before it is rounded.
 const RADIUS: f64 = 0.8;
+/// The height of the cone before it is rounded.
 const HEIGHT: f64 = 1.7;
 /// Radius of its apex and its rim.
 const ROUND: f64 = 0.1;
-/// A place inside the cone, from where its landmarks are seen.
+/// A place inside the cone: a landmark lies where a ray from here leaves the surface.
 const INSIDE: DVec3 = DVec3::new(0.0, 0.35, 0.0);
 
 /// The landmarks between the apex and the middle of the base: each ring's share of the way down the slant, and its names.
@@ -24,7 +25,7 @@ const RINGS: [(f64, [&str; 5]); 3] = [
     (1.00, ["rim 1", "rim 2", "rim 3", "rim 4", "rim 5"]),
 ];
 
-/// A ball of triangles that halve each other.
+/// A ball whose triangles come from repeated subdivision.
 pub(super) fn ball() -> Shape {
     let mut points = vec![("apex", DVec3::Y)];
     for (k, (share, names)) in RINGS.into_iter().enumerate() {
@@ -49,8 +50,9 @@ pub(super) fn cone() -> Shape {
     skinned(&MarkedBody { body, marks: places.into_iter().map(mark).collect() }, &CELLS)
 }
 
-/// Length of the edges wanted on the cone, and the cells in which it is meshed.
+/// The length of the edges that is wanted on the cone.
 const EDGE: f64 = 0.0266;
+/// The cells in which the cone is meshed.
 const CELLS: Cells = Cells { size: 0.032, offset: DVec3::splat(0.4), coarseness: 1.0 };
 
 /// Five points around the y axis; every other ring is turned by half a step.

@@ -1,4 +1,4 @@
-//! A bend of space: a body that it bends has a known true map, point by point, whatever the triangles.
+//! A bend of space. The map from a body to the bent body is known at every point, whatever triangles both are cut into.
 
 use super::shape::Shape;
 use crate::math::scalar::{cos, sin};
@@ -7,7 +7,7 @@ use glam::DVec3;
 /// Bends space around an upright axis, so that the x axis becomes an arc of a circle. It keeps heights, and lengths along the x axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bend {
-    /// Distance of that axis, along z; what is nearer to it becomes shorter.
+    /// The distance of that axis from the origin, along z. Lengths nearer to the axis shrink.
     pub radius: f64,
 }
 

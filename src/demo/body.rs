@@ -1,15 +1,15 @@
-//! Bodies of soft parts: a function that is negative inside, made by joining, blending and cutting parts in their order.
+//! Bodies as implicit surfaces: a function that is negative inside, made by joining, blending and cutting soft parts in their order.
 //!
-//! A part counts in a box around it only, so that a place knows the few parts that matter there; beyond the box it is too
-//! far to be blended.
+//! A part counts only in a box around it, beyond which it is too far away to be blended. So the function is evaluated at a place from the few
+//! parts that matter there.
 
 use super::rounded_cone::RoundedCone;
 use crate::math::scalar::{max, min};
 use glam::{DVec2, DVec3};
 
-/// The distance that a part counts farther than its blend reaches, in units of the blend.
+/// How much farther than its blend reaches a part counts, in units of the blend.
 const SPARE: f64 = 0.1;
-/// The size of the boxes that know their parts, in units of the longest extent of the body.
+/// The size of the boxes that list the parts which matter in them, in units of the longest extent of the body.
 const BOX: f64 = 1.0 / 48.0;
 /// The function's value far outside.
 const FAR: f64 = 1e3;
@@ -22,14 +22,15 @@ pub(super) struct Section {
     sizes: [DVec2; 2],
     length: f64,
     inverse_length: f64,
-    /// How far its round ends reach.
+    /// How far its round ends reach beyond the ends of its axis.
     reach: f64,
     /// Unit vectors along it, along the width, and along the height.
     axes: [DVec3; 3],
 }
 
 impl Section {
-    /// Sizes are half the width, along `across`, and half the height, at both ends; `across` is a unit vector across the axis.
+    /// A section between two ends. `sizes` has half the width (along `across`) and half the height at each end; `across` is a unit vector
+    /// perpendicular to the axis.
     pub fn new(ends: [DVec3; 2], sizes: [DVec2; 2], across: DVec3) -> Self {
         let along = ends[1] - ends[0];
         let length = along.length();
@@ -98,7 +99,7 @@ pub(super) enum Solid {
     Section(Section),
     Ellipsoid(Ellipsoid),
     Cone(RoundedCone),
-    /// The half-space behind a plane, away from its normal; only to be taken away.
+    /// The half-space behind a plane, away from its normal. It has no bounds, so it can only be taken away.
     Beyond {
         point: DVec3,
         normal: DVec3,
@@ -140,7 +141,7 @@ pub(super) struct Part {
     /// The solids that are taken away from this part alone, each rounded over a distance.
     without: Vec<(Solid, f64)>,
     operation: Operation,
-    /// The distance over which the part goes over into the others.
+    /// The distance over which the part is blended with those before it.
     blend: f64,
     /// The length of the edges wanted on the part.
     edge: f64,
@@ -163,12 +164,12 @@ impl Part {
         self
     }
 
-    /// Beyond the box of a solid, widened by this, the solid does not count.
+    /// The distance by which the box of a solid is widened; beyond the widened box the solid does not count.
     fn margin(&self) -> f64 {
         (1.0 + SPARE) * self.blend + 0.02
     }
 
-    /// What the least of its solids' values becomes by what is taken away from it.
+    /// The part's value at a place, from the least value of its solids and the solids that are taken away from it.
     fn trimmed(&self, value: f64, p: DVec3) -> f64 {
         self.without
             .iter()
@@ -185,14 +186,14 @@ struct Boxed {
     high: DVec3,
 }
 
-/// A place's value, and the length of the edges wanted there.
+/// The body's value at a place, and the length of the edges wanted there.
 #[derive(Clone, Copy, Debug)]
 struct Felt {
     value: f64,
     edge: f64,
 }
 
-/// Parts, with boxes that know the solids which matter there.
+/// A body: its parts, and boxes that list the solids which matter in them.
 pub(super) struct Body {
     parts: Vec<Part>,
     /// The solids in the order of their parts.
@@ -291,7 +292,7 @@ impl Body {
         self.after(felt, part, least, p)
     }
 
-    /// What is felt when a part, of whose solids the least value is given, has been added to what was felt.
+    /// The value and edge length after one more part, whose solids have the given least value there.
     fn after(&self, felt: Felt, part: u32, least: f64, p: DVec3) -> Felt {
         self.parts.get(part as usize).map_or(felt, |part| felt.after(part, part.trimmed(least, p)))
     }

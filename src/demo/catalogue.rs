@@ -3,15 +3,15 @@
 /// A demo that can be built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DemoInfo {
-    /// Name in links.
+    /// The name in links and on the command line.
     pub id: &'static str,
-    /// Name for people.
+    /// The name that people read.
     pub title: &'static str,
-    /// What it shows.
+    /// A sentence that says what the demo shows.
     pub sentence: &'static str,
 }
 
-/// The first is what a stranger sees first; the last is mapped quickest.
+/// All demos. A new visitor of the page sees the first one; the last one is mapped quickest.
 const DEMOS: [DemoInfo; 12] = [
     DemoInfo {
         id: "horse-camel",

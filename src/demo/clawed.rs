@@ -296,9 +296,9 @@ const LION: Build = Build {
     edges: [0.035, 0.022],
 };
 
-/// Tufts in a ring of a mane.
+/// The number of tufts in a ring of a mane.
 const TUFTS: usize = 15;
-/// Rings of a mane: how far behind the face, the reach of their tufts, the share of a tuft by which they are turned.
+/// The rings of a mane: how far behind the face each lies, how far its tufts reach, and the share of a tuft's angle by which it is turned.
 const RINGS: [[f64; 3]; 3] = [[0.07, 0.27, 0.0], [-0.06, 0.325, 0.5], [-0.21, 0.34, 0.25]];
 
 /// A tuft of a mane: a lock that leaves the neck at an angle from the crown and hangs back.

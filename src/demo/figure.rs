@@ -4,7 +4,7 @@ use super::implicit::RoundCone;
 use super::shape::{Shape, Skeleton};
 use glam::{DVec2, DVec3};
 
-/// Directions of the bones of one side; lengths are the same in all poses.
+/// The directions of the bones of one side. The lengths of the bones are the same in all poses.
 #[derive(Clone, Copy)]
 struct Limbs {
     upper_arm: DVec3,
@@ -13,6 +13,7 @@ struct Limbs {
     shin: DVec3,
 }
 
+// The lengths of the bones.
 const UPPER_ARM: f64 = 0.50;
 const FOREARM: f64 = 0.52;
 const THIGH: f64 = 0.62;

@@ -6,7 +6,7 @@ use super::tube::{Node, tube};
 use crate::math::scalar::{cos, sin};
 use glam::DVec3;
 
-/// Where a hand is: its lengths are in units of the way from the wrist to the tip of the middle finger.
+/// The place, the directions and the size of a hand. `scale` is about the distance from the wrist to the tip of the middle finger.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wrist {
     pub place: DVec3,
@@ -20,7 +20,7 @@ pub(super) struct Wrist {
 }
 
 impl Wrist {
-    /// The thumb is on the side that is given, nearly across the other two.
+    /// A wrist with these directions, which are made orthonormal; `thumb` points to the thumb's side, nearly perpendicular to the other two.
     pub fn new(place: DVec3, along: DVec3, thumb: DVec3, palm: DVec3, scale: f64) -> Self {
         let along = along.normalize();
         let thumb = (thumb - along * thumb.dot(along)).normalize();
@@ -45,20 +45,20 @@ impl Wrist {
     }
 }
 
-/// How fingers are held, in radians.
+/// How the fingers are held. Angles are in radians.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grip {
     /// The angle by which each finger from the index on is spread, towards the thumb.
     pub spread: [f64; 4],
     /// The angle of each joint of each finger, towards the palm.
     pub curl: [[f64; 3]; 4],
-    /// Joints and tip of the thumb: towards the thumb's side, along the hand, out of the palm.
+    /// The places of the thumb's joints and tip, by coordinates towards the thumb's side, along the hand, and out of the palm.
     pub thumb: [[f64; 3]; 4],
     /// The factor by which the fingers' radii are multiplied.
     pub fullness: f64,
 }
 
-/// All fingers spread.
+/// An open hand with all fingers spread.
 pub(super) const OPEN: Grip = Grip {
     spread: [0.20, 0.05, -0.11, -0.30],
     curl: [[0.06, 0.10, 0.08], [0.03, 0.10, 0.08], [0.05, 0.12, 0.10], [0.08, 0.15, 0.10]],
@@ -66,7 +66,7 @@ pub(super) const OPEN: Grip = Grip {
     fullness: 1.0,
 };
 
-/// As if around a ball.
+/// A hand that grasps a ball.
 pub(super) const GRASP: Grip = Grip {
     spread: [0.16, 0.04, -0.09, -0.24],
     curl: [[0.45, 0.60, 0.40], [0.60, 0.70, 0.45], [0.68, 0.75, 0.45], [0.70, 0.75, 0.45]],
@@ -82,11 +82,12 @@ pub(super) const TOGETHER: Grip = Grip {
     fullness: 1.2,
 };
 
-/// Towards the thumb and along the hand, where fingers begin.
+/// Where the fingers begin, from the index on: coordinates towards the thumb and along the hand.
 const KNUCKLES: [[f64; 2]; 4] = [[0.170, 0.50], [0.058, 0.525], [-0.057, 0.51], [-0.165, 0.46]];
+/// The lengths of the three bones of each finger.
 const PHALANGES: [[f64; 3]; 4] =
     [[0.235, 0.145, 0.085], [0.265, 0.165, 0.09], [0.245, 0.15, 0.09], [0.185, 0.11, 0.08]];
-/// Radii of the fingers at their knuckles, between and at the tips.
+/// The radii of each finger at its knuckle, at its two other joints, and at its tip.
 const RADII: [[f64; 4]; 4] = [
     [0.060, 0.052, 0.047, 0.038],
     [0.062, 0.053, 0.048, 0.039],
@@ -94,7 +95,7 @@ const RADII: [[f64; 4]; 4] = [
     [0.052, 0.044, 0.040, 0.033],
 ];
 
-/// Joints of a finger, its tip last, and the direction of its back at the tip.
+/// The places of a finger's joints, its tip last, and the direction in which its back faces at the tip.
 fn finger(wrist: &Wrist, grip: &Grip, k: usize) -> ([DVec3; 4], DVec3) {
     let [x, y] = KNUCKLES[k];
     let straight = wrist.along * cos(grip.spread[k]) + wrist.thumb * sin(grip.spread[k]);
@@ -110,7 +111,7 @@ fn finger(wrist: &Wrist, grip: &Grip, k: usize) -> ([DVec3; 4], DVec3) {
     (joints, back)
 }
 
-/// The parts of a hand, with edges so long.
+/// The parts of a hand, meshed with edges of the given length.
 pub(super) fn parts(wrist: &Wrist, grip: &Grip, edge: f64) -> Vec<Part> {
     let scale = wrist.scale;
     let palm = tube(&[
@@ -233,7 +234,7 @@ pub(super) fn hand(grip: &Grip) -> MarkedBody {
     MarkedBody { body: Body::new(all), marks }
 }
 
-/// Marks of the tips of thumb and middle finger, for the hand of a figure.
+/// The marks at the tips of the thumb and the middle finger, for the hand of a figure.
 pub(super) fn tips(wrist: &Wrist, grip: &Grip, names: [&'static str; 2]) -> [Mark; 2] {
     let thumb = grip.thumb.map(|[x, y, z]| wrist.at(x, y, z));
     let (joints, _) = finger(wrist, grip, 1);

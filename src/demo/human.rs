@@ -21,6 +21,7 @@ struct Limbs {
     foot: DVec3,
 }
 
+// The lengths of the bones, in the unit in which the figure is 1.8 high.
 const UPPER_ARM: f64 = 0.29;
 const FOREARM: f64 = 0.25;
 const HAND: f64 = 0.185;

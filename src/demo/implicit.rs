@@ -1,4 +1,4 @@
-//! Smooth unions of round cones.
+//! Implicit surfaces made of round cones that are blended into each other.
 
 use crate::math::scalar::max;
 use crate::math::segment::nearest_share;
@@ -18,14 +18,15 @@ impl RoundCone {
         Self { ends: [a, b], radii, ball: (a.midpoint(b), 0.5 * a.distance(b) + max(radii[0], radii[1])) }
     }
 
-    /// Whether the value is larger than this, told from its ball.
+    /// Whether the ball around the cone proves that the cone's value at `p` is larger than `value`.
     fn is_beyond(&self, p: DVec3, value: f64) -> bool {
         let (centre, radius) = self.ball;
         let far = radius + value;
         far < 0.0 || p.distance_squared(centre) > far * far
     }
 
-    /// Distance to the segment minus the radius at the nearest point: near the true distance for slender cones.
+    /// The distance from the cone's axis minus the cone's radius at the nearest point of the axis; for slender cones nearly the distance
+    /// from the cone.
     fn value(&self, p: DVec3) -> f64 {
         let along = self.ends[1] - self.ends[0];
         let t = nearest_share(p, self.ends);
@@ -41,7 +42,7 @@ pub(super) struct SmoothUnion {
 }
 
 impl SmoothUnion {
-    /// Negative inside.
+    /// The value of the union at a place: negative inside, and about the distance from the surface.
     pub fn value(&self, p: DVec3) -> f64 {
         self.cones.iter().fold(f64::INFINITY, |d, cone| {
             // What is farther by the blend leaves the minimum as it is, to the last bit.

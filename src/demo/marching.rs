@@ -10,20 +10,20 @@ const TETRAHEDRA: [[usize; 4]; 6] =
     [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]];
 /// A grid over a box, with the triangles that were found in it.
 pub(super) struct Grid {
-    /// By corner, x running fastest; negative inside, and nowhere so near to 0 that vertices would coincide.
+    /// The value at each corner, x running fastest: negative inside, and nowhere so near to 0 that vertices would coincide.
     pub values: Vec<f64>,
-    /// Corners along each axis.
+    /// The number of corners along each axis.
     pub size: [usize; 3],
     low: DVec3,
     cell: f64,
-    /// Surface vertex on each grid edge that is crossed.
+    /// The vertex of the surface on each edge of the grid that the surface crosses.
     crossings: FxHashMap<[u32; 2], u32>,
     pub positions: Vec<DVec3>,
     pub faces: Vec<[u32; 3]>,
 }
 
 impl Grid {
-    /// A grid that covers a box, all outside.
+    /// A grid that covers a box; all its corners are outside of the surface at first.
     pub fn new([low, high]: [DVec3; 2], cell: f64) -> Self {
         let size = ((high - low) / cell).ceil().to_array().map(|n| n as usize + 2);
         Self {

@@ -1,7 +1,7 @@
-//! Demos: procedural closed shapes of genus 0, different connectivity on both sides, landmarks known.
+//! Demos: pairs of procedural closed shapes of genus 0, with different connectivity and with landmarks.
 //!
-//! Animals, a figure and hands are soft parts around a skeleton (`body`, `tube`), whose skin is meshed (`skin`). Of three older
-//! demos, pairs of tubes and of balls (`implicit`, `polygonise`), others hold the numbers: they keep their bits.
+//! Animals, a figure and hands are soft parts around a skeleton (`body`, `tube`), whose skin is meshed (`skin`). Three older demos, pairs of
+//! tubes and of balls (`implicit`, `polygonise`), stay the same to the last bit, since the numbers of their vertices are in use elsewhere.
 
 mod animal;
 mod ball_cone;

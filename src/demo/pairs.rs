@@ -19,12 +19,13 @@ pub struct Demo {
     pub landmarks: Vec<[u32; 2]>,
     /// One name per pair.
     pub labels: Vec<String>,
-    /// The true image of each vertex of the source, on the target but for the size of its triangles; `None` where no map is the
-    /// true one.
+    /// The true image of each vertex of the source; it lies on the smooth shape that the target's triangles approximate. `None` where no
+    /// map is the true one.
     pub truth: Option<Vec<DVec3>>,
 }
 
-/// Sizes of the cells in which the two sides are meshed: of animals, about 2 long, of a figure 1.8 high, of a hand 1 long.
+// The sizes of the cells in which source and target are meshed: of animals, which are about 2 long, of a figure 1.8 high, and of a hand 1
+// long.
 const ANIMAL: [f64; 2] = [0.0225, 0.0235];
 const FIGURE: [f64; 2] = [0.0105, 0.0110];
 const HAND: [f64; 2] = [0.0145, 0.0152];
@@ -51,10 +52,11 @@ pub fn build(id: &str) -> Option<Demo> {
     Some(Demo { truth, ..demo })
 }
 
-/// How a horse bends that walks on a circle.
+/// The bend of a horse that walks on a circle.
 const TURN: Bend = Bend { radius: 1.6 };
 
-/// Where a demo's true map takes a place of the source, on the target but for the size of its triangles; `None` where no map is the true one.
+/// The true map of a demo, which takes a place of the source to a place on the smooth shape that the target's triangles approximate; `None`
+/// where no map is the true one.
 pub fn true_map(id: &str) -> Option<fn(DVec3) -> DVec3> {
     (id == "horse-turning").then_some(|p| TURN.place(p))
 }
@@ -75,7 +77,7 @@ fn cells(sizes: [f64; 2]) -> [Cells; 2] {
     [0, 1].map(|k| Cells { size: sizes[k], offset: DVec3::splat(0.4 * k as f64), coarseness: 0.9 })
 }
 
-/// Pairs the points of equal place in both lists.
+/// Makes a demo of two shapes whose lists have corresponding points at the same positions.
 fn pair(source: Shape, target: Shape) -> Demo {
     let [s, t] = [&source, &target].map(|shape| nearest_vertices(&shape.mesh, &shape.points));
     let landmarks = s.into_iter().zip(t).map(|(a, b)| [a.0, b.0]).collect();

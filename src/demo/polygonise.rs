@@ -24,7 +24,7 @@ pub(super) fn polygonise(value: impl Fn(DVec3) -> f64, bounds: [DVec3; 2], cell:
     mesh
 }
 
-/// The values of a function in a box.
+/// A grid over a box with the values of a function.
 fn sampled(value: &impl Fn(DVec3) -> f64, bounds: [DVec3; 2], cell: f64) -> Grid {
     let mut grid = Grid::new(bounds, cell);
     let [nx, ny, nz] = grid.size;

@@ -1,7 +1,7 @@
-//! Four-legged bodies from their skeletons in profile. The nose points to +x, up is +y, the left side is +z.
+//! Four-legged bodies made from their skeletons in profile. The nose points to +x, up is +y, the left side is +z.
 //!
 //! A species gives sections of its torso, neck, head, legs and tail at rest; a pose turns the joints in the plane of the
-//! profile. Sections on a bone go with the bone.
+//! profile. Sections on a bone move with the bone.
 
 use super::body::{Body, Ellipsoid, Part, Solid};
 use super::eye::eye;
@@ -11,7 +11,7 @@ use crate::math::rigid2::Rigid2;
 use crate::math::scalar::{cos, sin};
 use glam::{DVec2, DVec3};
 
-/// A section at rest: x, y, z of its middle, half its height in the profile, half its width.
+/// A section at rest: x, y, z of its middle, half its height in the profile, and half its width.
 pub(super) type Profile = [f64; 5];
 
 /// A leg at rest, from the torso to the foot, of the left side.
@@ -22,12 +22,12 @@ pub(super) struct Leg {
     pub foot: Foot,
 }
 
-/// What a leg ends in.
+/// The foot at the end of a leg.
 #[derive(Clone, Copy)]
 pub(super) enum Foot {
-    /// Sections of a hoof; flat below.
+    /// A hoof by its sections; it is flat below.
     Hoof(&'static [Profile]),
-    /// Middle and half sizes of a paw with four toes; flat below.
+    /// A paw with four toes by its middle and half its sizes; it is flat below.
     Paw(DVec3, DVec3),
 }
 
@@ -43,13 +43,13 @@ pub(super) struct Build {
     pub hind: Leg,
     /// The tail's sections from the torso to the tip.
     pub tail: &'static [Profile],
-    /// The distance over which torso, neck and legs go over into each other.
+    /// The distance over which torso, neck and legs are blended.
     pub blend: f64,
     /// The lengths of edges on the torso and on the head.
     pub edges: [f64; 2],
 }
 
-/// Turns of the joints, in radians; what is below or in front of a joint turns upwards where positive.
+/// The turns of the joints, in radians. A positive angle turns what is below or in front of a joint upwards.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Pose {
     /// The turn of the whole body around the hips.
@@ -64,7 +64,7 @@ pub(super) struct Pose {
     pub tail: f64,
 }
 
-/// Where a bone has come to.
+/// The rigid motion that takes a bone from rest to its pose.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placement(Rigid2);
 
@@ -107,7 +107,7 @@ impl Placement {
 pub(super) struct Ear {
     pub base: DVec3,
     pub tip: DVec3,
-    /// Where the hollow side looks.
+    /// The direction in which the hollow side faces.
     pub facing: DVec3,
     /// Half the width and half the thickness.
     pub size: [f64; 2],
@@ -132,7 +132,7 @@ impl Outline {
     }
 }
 
-/// A body in the making.
+/// A body while its parts and marks are added.
 pub(super) struct Sculpture {
     pub parts: Vec<Part>,
     pub marks: Vec<Mark>,
@@ -144,6 +144,7 @@ pub(super) struct Sculpture {
     edges: [f64; 2],
 }
 
+/// The signs of z on the left and on the right side.
 const SIDES: [f64; 2] = [1.0, -1.0];
 
 impl Sculpture {
@@ -294,12 +295,12 @@ impl Sculpture {
         }
     }
 
-    /// Marks the surface as seen from a place inside, both as at rest.
+    /// Marks the point where a ray from a place inside leaves the surface. Place and direction are given as at rest.
     pub fn mark(&mut self, name: &'static str, placement: Placement, inside: DVec3, direction: DVec3) {
         self.marks.push(Mark::new(name, placement.point(inside), placement.direction(direction)));
     }
 
-    /// Adds something on the left and, mirrored, on the right side of the head.
+    /// Adds a part on the left side of the head and its mirror image on the right.
     pub fn on_both_sides(&mut self, make: impl Fn(&Placement, f64) -> Part) {
         let head = self.head;
         self.parts.extend(SIDES.map(|side| make(&head, side)));
@@ -334,7 +335,7 @@ impl Sculpture {
         }
     }
 
-    /// Adds eyes of a radius: sockets, and balls in them, where the skin is beside a place of the head.
+    /// Adds eyes of a radius, sockets with balls in them, on the skin beside a place of the head.
     pub fn eyes(&mut self, centre: DVec3, radius: f64) {
         let (head, body) = (self.head, Body::new(self.parts.clone()));
         for (side, name) in SIDES.into_iter().zip(["left eye", "right eye"]) {
@@ -354,7 +355,7 @@ impl Sculpture {
         self.on_both_sides(|head, side| Part::cut(vec![of(head, side)], 0.015, edge));
     }
 
-    /// Adds a thin mane along the back of the neck, so high above it.
+    /// Adds a thin mane along the back of the neck, of the given height above it.
     pub fn crest(&mut self, height: f64) {
         let nodes: Vec<Node> = self
             .neck

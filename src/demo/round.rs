@@ -6,6 +6,7 @@ use crate::math::scalar::{exp, ln};
 use crate::mesh::generators::{self, icosphere};
 use glam::DVec3;
 
+/// The names of the landmarks, in the order of [`directions`].
 const NAMES: [&str; 14] = [
     "corner 1", "corner 2", "corner 3", "corner 4", "edge 1-2", "edge 1-3", "edge 1-4", "edge 2-3",
     "edge 2-4", "edge 3-4", "face 1", "face 2", "face 3", "face 4",

@@ -1,4 +1,4 @@
-//! A cone whose apex and rim are rounded, as a distance.
+//! The distance from a cone whose apex and rim are rounded.
 
 use crate::math::scalar::{max, min};
 use crate::math::segment::nearest_share_in_plane;
@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 /// A cone that stands on the plane y = 0 around the y axis, with rounded apex and rim.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RoundedCone {
-    /// Base radius and height of the sharp cone that is this far, `round`, inside.
+    /// The base radius and the height of the sharp cone that lies inside at the distance `round` from the surface.
     inner: DVec2,
     round: f64,
 }

@@ -23,7 +23,7 @@ pub(super) struct Skeleton {
 }
 
 impl Skeleton {
-    /// The shape with its cones blended over a distance, by cells of a size.
+    /// The shape whose cones are blended over a distance, meshed in cells of the given size.
     pub fn fleshed(self, blend: f64, cell: f64) -> Shape {
         let union = SmoothUnion { cones: self.cones, blend };
         let mesh = polygonise(|p| union.value(p), union.bounds(), cell);
@@ -45,7 +45,7 @@ impl Mark {
         Self { name, inside, direction: direction.normalize() }
     }
 
-    /// Where the ray leaves the body first.
+    /// The point where the ray leaves the body first.
     pub fn place(&self, body: &Body) -> DVec3 {
         let mut length = 0.0;
         for _ in 0..200 {
@@ -59,7 +59,7 @@ impl Mark {
     }
 }
 
-/// A body with what becomes its landmarks.
+/// A body with the marks that become its landmarks.
 pub(super) struct MarkedBody {
     pub body: Body,
     pub marks: Vec<Mark>,

@@ -1,7 +1,7 @@
 //! The skin of a body as a closed mesh with well-shaped triangles, smaller where the body asks for it.
 //!
 //! Marching tetrahedra (six to a cube) in the cells near the surface always give a closed manifold. Then short edges are
-//! collapsed, edges flipped to Delaunay's, and vertices moved to the middle of their neighbours and back onto the surface.
+//! collapsed, edges that are not Delaunay are flipped, and vertices are moved to the middle of their neighbours and back onto the surface.
 
 use super::body::Body;
 use super::marching::Grid;
@@ -46,7 +46,7 @@ pub(super) fn skin(body: &Body, cells: &Cells) -> SurfaceMesh {
     mesh.with_positions(onto)
 }
 
-/// The vertices and faces of the largest connected part: cells cut off specks where a tip is thin.
+/// The vertices and faces of the largest connected part. Where a tip is thinner than the cells, small parts may be cut off.
 fn largest_part(
     positions: &[DVec3],
     faces: &[[u32; 3]],
@@ -86,7 +86,7 @@ fn sampled(body: &Body, cells: &Cells) -> Grid {
     grid
 }
 
-/// Sets the values of a block, all alike where the surface is far.
+/// Sets the values of a block of the grid; where the surface is far away all corners get the same value.
 fn fill(grid: &mut Grid, body: &Body, cell: f64, start: [usize; 3]) {
     let half = 0.5 * (BLOCK - 1) as f64 * cell;
     let middle = body.value(grid.at(start) + DVec3::splat(half));
@@ -105,7 +105,7 @@ fn fill(grid: &mut Grid, body: &Body, cell: f64, start: [usize; 3]) {
     }
 }
 
-/// The length of the edges wanted at each vertex, changing slowly.
+/// The length of the edges that is wanted at each vertex, changing slowly from vertex to vertex.
 fn wanted_lengths(mesh: &SurfaceMesh, body: &Body, coarseness: f64) -> TiVec<VertexId, f64> {
     let mut lengths: TiVec<VertexId, f64> =
         mesh.positions().iter().map(|&p| coarseness * body.edge(p)).collect();
@@ -119,7 +119,7 @@ fn wanted_lengths(mesh: &SurfaceMesh, body: &Body, coarseness: f64) -> TiVec<Ver
     lengths
 }
 
-/// Collapses the short edges where the mesh keeps its shape, and flips edges to Delaunay's.
+/// Collapses the short edges where the mesh keeps its shape, and flips edges that are not Delaunay.
 fn with_even_edges(
     mesh: &SurfaceMesh,
     mut lengths: TiVec<VertexId, f64>,
@@ -161,7 +161,7 @@ fn with_even_edges(
     (of_level(&coarse, &positions), kept)
 }
 
-/// Splits the edges that are long for what is wanted, the longest first.
+/// Splits the edges that are too long for the wanted length, the longest first.
 fn split_long_edges(
     mesh: &mut CollapsibleMesh,
     positions: &mut TiVec<VertexId, DVec3>,
@@ -226,7 +226,7 @@ pub(super) fn of_level(level: &CollapsibleMesh, positions: &TiSlice<VertexId, DV
     SurfaceMesh::from_triangles(places, faces).expect("collapses and flips keep a closed manifold")
 }
 
-/// Moves every vertex towards the mean of its neighbours and back near the surface, so many times, and at last onto it.
+/// Moves every vertex towards the mean of its neighbours and back near the surface, `times` times, and at last onto the surface.
 fn smoothed(mesh: &SurfaceMesh, body: &Body, times: usize) -> SurfaceMesh {
     let mut positions: TiVec<VertexId, DVec3> = mesh.positions().iter().copied().collect();
     for _ in 0..times {

@@ -4,7 +4,7 @@ use super::body::{Section, Solid};
 use crate::math::scalar::max;
 use glam::{DVec2, DVec3};
 
-/// The length of the straight pieces from node to node, about, in units of the tube's radius there.
+/// The approximate length of the straight pieces from node to node, in units of the tube's radius there.
 const PIECE: f64 = 0.10;
 
 /// A section of a tube.
@@ -15,7 +15,7 @@ pub(super) struct Node {
     pub height: f64,
     /// Half the width along `across`.
     pub width: f64,
-    /// Direction of the width; what of it is along the tube does not count.
+    /// The direction of the width; its component along the tube is ignored.
     pub across: DVec3,
 }
 
@@ -26,7 +26,7 @@ impl Node {
     }
 }
 
-/// The tube through nodes (Catmull-Rom), in straight pieces.
+/// The tube through nodes (a Catmull-Rom spline), cut into straight pieces.
 pub(super) fn tube(nodes: &[Node]) -> Vec<Solid> {
     let mut sampled = Vec::new();
     for k in 0..nodes.len() - 1 {

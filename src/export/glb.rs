@@ -74,7 +74,9 @@ impl NodePlace {
     /// The target's positions: where it lies, or, where that is too far from the source or of a size too different for f32, moved
     /// to the source in its own units.
     fn target(&self, positions: &[DVec3], [source, target]: [FileFrame; 2]) -> Vec<DVec3> {
+        // The farthest that the target may lie from the origin, in units of its own size: f32 then has half of its 24 bits for the shape.
         const FARTHEST: f64 = 4096.0;
+        // The largest ratio of both meshes' scales. Chosen by hand.
         const RATIO: f64 = (1 << 12) as f64;
         if source == target {
             return self.local(positions);

@@ -80,8 +80,9 @@ impl Skin {
     }
 }
 
-/// Two by two squares, 64 pixels each.
+/// The picture of a checkerboard: two by two squares, each 64 pixels wide.
 fn checkerboard() -> Result<Vec<u8>, png::EncodingError> {
+    // The width and height in pixels.
     const SIZE: u32 = 128;
     let shade =
         |x: u32, y: u32| if (x < SIZE / 2) == (y < SIZE / 2) { [240, 240, 235] } else { [52, 98, 140] };

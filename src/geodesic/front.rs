@@ -24,8 +24,8 @@ const ROUNDING: f64 = 1e-9;
 /// The distances of a mesh while they are computed, with the queue of the vertices whose distances may still fall.
 pub(super) struct Front<'a> {
     mesh: &'a SurfaceMesh,
-    /// By vertex: its distance where that is at most `here` (it is settled), else the least offer so far or the distance to the
-    /// seeds of an earlier front.
+    /// For each vertex its distance, where that is at most `here` (then the vertex is settled), or else the least offer so far or the
+    /// distance to the seeds of an earlier front.
     distance: &'a mut TiVec<VertexId, f64>,
     queue: MinQueue<Reverse<VertexId>>,
     /// The distance of the vertex that was settled last. It never falls.

@@ -5,6 +5,7 @@ use crate::scene::defects::MarkedLineVertex;
 use crate::scene::{LineVertex, MarkerInstance, PinInstance, SurfaceVertex};
 use std::mem::size_of;
 
+/// The format of the depth buffer.
 pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth24Plus;
 
 /// Uniforms of a view, in the layout of `View` in `shaders.wgsl`.

@@ -7,7 +7,9 @@ use base64::{DecodeError, Engine};
 /// Either alphabet, with or without padding at the end: files have all of them.
 const LENIENT: GeneralPurposeConfig =
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent);
+/// The usual alphabet of base64.
 const USUAL: GeneralPurpose = GeneralPurpose::new(&STANDARD, LENIENT);
+/// The alphabet of base64 for addresses.
 const OF_ADDRESSES: GeneralPurpose = GeneralPurpose::new(&URL_SAFE, LENIENT);
 
 /// The data of an address that holds them; `None` for other addresses.

@@ -9,8 +9,9 @@ pub(super) struct Container<'a> {
     pub(super) binary: Option<&'a [u8]>,
 }
 
-/// Bytes of a GLB's header, and of the header of each of its parts.
+/// The bytes of a GLB's header.
 const HEADER: usize = 12;
+/// The bytes of the header of each part of a GLB.
 const PART_HEADER: usize = 8;
 
 /// Splits a GLB; a text file is JSON alone.

@@ -273,6 +273,7 @@ fn packed_by(way: &str) -> String {
 
 /// Refuses extensions that change the shape, by name; those of materials, pictures, lights and characters do not.
 fn check_extension(name: &str) -> Result<(), String> {
+    // The names, or their beginnings, of extensions that do not change the shape.
     const WITHOUT_SHAPE: [&str; 12] = [
         "KHR_materials_",
         "KHR_texture_",

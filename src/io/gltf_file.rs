@@ -267,8 +267,8 @@ impl<'a> Reader<'a> {
         Ok(self.elements(accessor)?.iter().map(|bytes| point(bytes)).collect())
     }
 
-    /// So many elements of an accessor, by the numbers that its type has, at most four, with zeros behind them; whole numbers that stand for
-    /// shares are from 0 to 1. `None` where the accessor cannot be used, or has another number of elements.
+    /// The elements of an accessor, which must be `count`, each as four numbers: those that the accessor's type has, then zeros. Whole numbers
+    /// that stand for shares become numbers from 0 to 1. `None` where the accessor cannot be used, or has another number of elements.
     pub(super) fn numbers(&self, number: usize, count: usize) -> Option<(Dimensions, Vec<[f32; 4]>)> {
         let accessor = self.accessor(number).ok().filter(|accessor| accessor.count() == count)?;
         let kind = accessor.data_type();

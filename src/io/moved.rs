@@ -1,6 +1,6 @@
 //! Text of a mesh file with its vertices at other places: all else stays byte for byte.
 //!
-//! Of an OBJ file only the three coordinates of its `v` lines change, of an OFF file those of its vertices (a fourth one, by which
+//! In an OBJ file only the three coordinates of its `v` lines change, in an OFF file those of its vertices (a fourth one, by which
 //! they are divided, becomes 1). What follows them on the line, as colours do, stays, and so do order, comments, spaces, line ends
 //! and the encoding. Where coordinates stand is told by the readers of both formats, and what is written is read again: a file
 //! that would be read otherwise is refused.

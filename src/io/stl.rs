@@ -6,7 +6,9 @@ use crate::mesh::soup::PolygonSoup;
 use crate::monitor::Pulse;
 use glam::DVec3;
 
+/// The bytes before the triangles of a binary file: 80 of any content and the count of triangles.
 const HEADER: usize = 84;
+/// The bytes of a triangle in a binary file: a normal and three corners as f32, and two more bytes.
 const TRIANGLE: usize = 50;
 
 /// Binary files have exactly the size that their count says; some begin with "solid" like text files.

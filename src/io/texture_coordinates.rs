@@ -64,7 +64,7 @@ pub fn read(bytes: &[u8]) -> Result<Vec<Vec<DVec2>>, TextureCoordinateError> {
 pub(super) struct PolygonPlaces {
     /// The line of the polygon, from 1.
     line: usize,
-    /// By corner; `None` for one that has none.
+    /// The texture coordinates of each corner; `None` for a corner without.
     pub(super) corners: Vec<Option<DVec2>>,
 }
 

@@ -17,16 +17,16 @@ use typed_index_collections::{TiVec, ti_vec};
 pub struct BasePicture {
     /// Its triangles: three cones each. The first cones are the landmarks, the others the program's own.
     pub triangles: Vec<[u32; 3]>,
-    /// By triangle and corner k the side from corner k to k + 1: the number of its patch line.
+    /// The number of the patch line of each triangle's side from corner k to k + 1.
     pub sides: Vec<[u32; 3]>,
-    /// In the shape of the source and of the target.
+    /// The base domain in the shape of the source and of the target.
     pub shapes: [BaseShape; 2],
 }
 
 /// The base domain with its cones on one mesh. Places are those of the checked mesh, not mirrored.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BaseShape {
-    /// Where its cones are.
+    /// The places of its cones.
     pub cones: Vec<DVec3>,
     /// Angle defect of the plane triangles at each cone, in radians.
     pub curvatures: Vec<f64>,
@@ -37,7 +37,7 @@ pub struct BaseShape {
     pub patches: TrianglesByChart,
     /// The borders of the patches, piece by piece, from both sides; faces likewise, ends are numbers of points.
     pub borders: Vec<BorderPart>,
-    /// By base triangle the face in the middle of its patch, of the checked mesh; none where patches are not known.
+    /// The face of the checked mesh in the middle of each base triangle's patch; empty where patches are not known.
     pub middles: Vec<FaceId>,
 }
 
@@ -73,8 +73,8 @@ impl TakenMap<'_> {
 }
 
 impl BasePicture {
-    /// Of a flat layout; `given` brings a place of the mapped mesh of a side to the mesh as it was given, `checked` a face to that of the
-    /// checked mesh which holds it. `None` where a cone is nowhere.
+    /// The base domain of a flat layout. `given` brings a place of a side's mapped mesh to the mesh as it was given, and `checked` brings a
+    /// face to the face of the checked mesh that holds it. `None` where a cone lies nowhere.
     fn of_layout(
         layout: &FlatLayout,
         meshes: [&SurfaceMesh; 2],
@@ -98,7 +98,7 @@ impl BasePicture {
         Some(Self::with_shapes(base, [shape(0)?, shape(1)?]))
     }
 
-    /// With its cones at these places, without patches.
+    /// A base domain with its cones at these places, without patches.
     fn bare(base: &SurfaceMesh, cones: [Vec<DVec3>; 2]) -> Self {
         Self::with_shapes(base, cones.map(|cones| BaseShape::bare(base, cones)))
     }
@@ -118,7 +118,7 @@ impl BasePicture {
 }
 
 impl BaseShape {
-    /// Without patches; one place for each vertex of the base domain.
+    /// A shape without patches; there is one place for each vertex of the base domain.
     fn bare(base: &SurfaceMesh, cones: Vec<DVec3>) -> Self {
         let shaped = BaseDomain { mesh: base.with_positions(cones.iter().copied().collect()) };
         Self {

@@ -11,7 +11,7 @@ use typed_index_collections::TiVec;
 /// A mesh on its way to its landmarks, drawn on both meshes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CarriedSimplification {
-    /// From the whole mesh down to its landmarks.
+    /// The stages, from the whole mesh down to its landmarks.
     pub stages: Vec<SimplificationStage>,
     /// Where its vertices are on the source and on the target.
     pub positions: [Vec<DVec3>; 2],

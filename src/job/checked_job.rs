@@ -26,7 +26,7 @@ pub struct JobReport<'a> {
     /// The numbers of the run.
     #[serde(flatten)]
     pub report: &'a Report,
-    /// Of landmarks that the program found.
+    /// The report of the search for landmarks, where the program found some.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub matching: Option<&'a MatchReport>,
     /// Where soft landmarks settled.
@@ -40,9 +40,9 @@ pub struct Job {
     pub(super) meshes: [FileMesh; 2],
     pub(super) repairs: [RepairReport; 2],
     pub(super) placed: PlacedLandmarks,
-    /// By mesh, source first: which faces of the mesh with its landmarks are caps; `None` where there are none.
+    /// Which faces of each mesh with its landmarks are caps, the source first; `None` where there are none.
     pub(super) caps: [Option<TiVec<FaceId, bool>>; 2],
-    /// As given, on the files' meshes; those beside a corner or an edge as they are held.
+    /// The landmarks as they were given, on the files' meshes; those near a corner or an edge at the place where they are held.
     pub(super) landmarks: LandmarkFile,
     pub(super) remarks: Vec<Remark>,
     pub(super) truth: Truth,
@@ -89,7 +89,7 @@ impl Job {
         self.placed.landmarks.len()
     }
 
-    /// What there is to know about the landmarks as they were read.
+    /// Remarks on the landmarks as they were read.
     pub fn landmark_remarks(&self) -> &[Remark] {
         &self.remarks
     }
@@ -180,12 +180,12 @@ impl Job {
         [&self.placed.source.mesh, &self.placed.target.mesh]
     }
 
-    /// By landmark its vertex on the mapped source and on the mapped target.
+    /// The vertex of each landmark on the mapped source and on the mapped target.
     pub fn landmark_vertices(&self) -> [&[VertexId]; 2] {
         [&self.placed.landmarks.source.raw, &self.placed.landmarks.target.raw]
     }
 
-    /// By face of the mapped source and of the mapped target the face of the checked mesh that contains it.
+    /// The face of the checked mesh that contains each face of the mapped source and of the mapped target.
     pub fn checked_faces(&self) -> [&[FaceId]; 2] {
         [&self.placed.source.face_origin.raw, &self.placed.target.face_origin.raw]
     }

@@ -58,7 +58,7 @@ pub struct DrawnPoints<'a> {
     pub places: [&'a [DVec3]; 2],
     /// Triangles of points.
     pub triangles: &'a [[u32; 3]],
-    /// By triangle its face of the source.
+    /// The face of the source that each triangle lies in.
     pub faces: &'a [FaceId],
 }
 

@@ -47,7 +47,7 @@ pub enum OutputKind {
     LayoutSvg,
     /// The source cut along the flat layout, with its texture coordinates.
     LayoutSourceObj,
-    /// The target likewise.
+    /// The target cut along the flat layout, with its texture coordinates.
     LayoutTargetObj,
 }
 

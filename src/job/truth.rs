@@ -1,4 +1,4 @@
-//! What a job knows of the true map.
+//! The true map, as far as a job knows it.
 
 use crate::io::vertex_table::{self, TableError};
 use crate::map_file::FileMesh;

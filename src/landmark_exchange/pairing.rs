@@ -14,7 +14,7 @@ pub(super) struct Partners {
 /// At most so many labels are named in an error.
 const NAMED: usize = 5;
 
-/// By label where both lists have the same labels, each once; by order where they are equally long.
+/// Pairs two lists: by label where both have the same labels, each once, or else by order where they are equally long.
 pub(super) fn partners(source: &[PlacedMark], target: &[PlacedMark]) -> Result<Partners, ExchangeError> {
     let by_label = [source, target].map(numbers_by_label);
     if let [Some(in_source), Some(in_target)] = &by_label

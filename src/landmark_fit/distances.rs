@@ -29,11 +29,11 @@ const PLACE_DISTANCE: f64 = 0.3;
 /// An assignment of targets to pairs, with the logarithms of all distances.
 pub(super) struct Fit<'a> {
     distances: &'a LandmarkDistances,
-    /// By pair, the pair whose target it has.
+    /// For each pair the number of the pair whose target it has.
     pub(super) target_of: Vec<usize>,
-    /// By pair, its target as given.
+    /// The target of each pair as given.
     targets: &'a [VertexId],
-    /// By pair, whether it was found misplaced and is left out of the comparison.
+    /// Whether each pair was found misplaced and is left out of the comparison.
     pub(super) left_out: Vec<bool>,
     /// Softened logarithms of the source's distances between landmarks.
     source: Vec<Vec<f64>>,

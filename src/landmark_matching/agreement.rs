@@ -47,7 +47,8 @@ pub(super) fn ranks(
     marks.iter().map(|&mark| reached[mark]).collect()
 }
 
-/// By vertex the halfedge towards the root: over the neighbour through which the way is shortest, among nearer ones.
+/// The halfedge of each vertex towards the root: it leads to the neighbour through which the way is shortest, among the neighbours that are
+/// nearer to the root.
 fn parents(
     mesh: &SurfaceMesh,
     root: VertexId,

@@ -21,7 +21,7 @@ pub struct CoarsePicture {
 }
 
 impl CoarsePicture {
-    /// By vertex of the coarse source, the place of its image on the coarse target.
+    /// The place of each vertex of the coarse source on the coarse target.
     pub fn images(&self) -> Vec<DVec3> {
         self.target_from_source.iter().map(|image| image.position(&self.target)).collect()
     }

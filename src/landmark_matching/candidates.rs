@@ -64,7 +64,7 @@ pub(super) fn chosen(
     chosen.into_iter().flat_map(with_room).collect()
 }
 
-/// By pair of reflections of both bodies, the assignments that keep left and right, the cheapest first; none where a body has no
+/// The assignments that keep left and right, for each pair of reflections of both bodies, the cheapest first; none where a body has no
 /// reflection.
 fn symmetric(tables: &Tables<'_>) -> Vec<Vec<Assignment>> {
     let [sources, targets] = &tables.reflections;

@@ -86,7 +86,8 @@ mod tests {
         Shape::new(body, &MatchOptions::default(), &mut Silent).unwrap()
     }
 
-    /// By mark which end of the body it is, of the limbs first; 8 for none. The mesh has the vertices of [`body`].
+    /// The end of the body that each mark is: the limbs come first in the numbers, and 8 stands for none. The mesh has the vertices of
+    /// [`body`].
     fn ends(shape: &Shape) -> Vec<usize> {
         let ends: Vec<DVec3> = LIMBS.iter().chain(&HEAD).map(|end| end.normalize()).collect();
         let ball = icosphere(4);

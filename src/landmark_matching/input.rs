@@ -16,12 +16,12 @@ pub struct MatchInput<'a> {
     pub may_mark: MayMark<'a>,
 }
 
-/// By vertex of each mesh, whether it may be a landmark; `None` where all may.
+/// Which vertices of each mesh may be landmarks; `None` where all may.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MayMark<'a> {
-    /// By vertex of the source.
+    /// Whether each vertex of the source may be a landmark.
     pub source: Option<&'a TiSlice<VertexId, bool>>,
-    /// By vertex of the target.
+    /// Whether each vertex of the target may be a landmark.
     pub target: Option<&'a TiSlice<VertexId, bool>>,
 }
 

@@ -57,8 +57,8 @@ impl Default for MatchOptions {
             level_vertices: 1500,
             // A mean distance costs a search over the level for each sample. Chosen by hand.
             samples: 128,
-            // By a prototype on SHREC07 and poses: ears and noses are above the first, noise of the distances below; animals have five
-            // or six tips above the second. The counts below were chosen by hand: they bound the time.
+            // Both come from a prototype on SHREC07 and poses: ears and noses are above the first and noise of the distances is below it;
+            // animals have five or six tips above the second. The counts below were chosen by hand: they bound the time.
             least_persistence: 0.012,
             main_persistence: 0.1,
             most_tips: 14,

@@ -19,7 +19,7 @@ pub(super) fn peaks(mesh: &SurfaceMesh, height: &TiSlice<VertexId, f64>, least: 
     order.sort_by(|a, b| height[*b].total_cmp(&height[*a]).then(a.cmp(b)));
     let mut sets = DisjointSets::new(mesh.vertex_count());
     let mut is_in = vec![false; mesh.vertex_count()];
-    // By root of a set: its highest vertex.
+    // The highest vertex of each set, by the set's root.
     let mut top: Vec<VertexId> = mesh.vertices().collect();
     let is_higher = |a: VertexId, b: VertexId| height[a].total_cmp(&height[b]).then(b.cmp(&a)).is_gt();
     let mut found = Vec::new();

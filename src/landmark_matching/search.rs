@@ -53,15 +53,15 @@ impl Assignment {
 /// Both bodies with tables from which the costs of assignments are computed.
 pub(super) struct Tables<'a> {
     pub(super) shapes: [&'a Shape; 2],
-    /// By side the numbers of the main tips.
+    /// The numbers of the main tips of each body.
     pub(super) main: [Vec<usize>; 2],
-    /// By side the reflections, the best first.
+    /// The reflections of each body, the best first.
     pub(super) reflections: [Vec<Reflection>; 2],
-    /// By side the roles of the tips.
+    /// The roles of the tips of each body.
     pub(super) roles: [Roles; 2],
-    /// By side and two marks, the logarithm of their distance.
+    /// The logarithm of the distance between each two marks of each body.
     log_distance: [Vec<Vec<f64>>; 2],
-    /// By mark of the source and of the target, the difference of their descriptors.
+    /// The difference of descriptors between each mark of the source and each mark of the target.
     difference: Vec<Vec<f64>>,
 }
 

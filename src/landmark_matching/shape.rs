@@ -28,7 +28,7 @@ const PLACES: usize = 3;
 pub(super) struct Body<'a> {
     pub(super) mesh: &'a SurfaceMesh,
     pub(super) given: &'a [VertexId],
-    /// By vertex, whether it may be a landmark; `None` where all may.
+    /// Whether each vertex may be a landmark; `None` where all may.
     pub(super) may_mark: Option<&'a TiSlice<VertexId, bool>>,
 }
 
@@ -44,7 +44,7 @@ pub(super) struct Shape {
     /// The given landmarks in their order, then the tips, the most persistent first.
     pub(super) marks: Vec<Mark>,
     pub(super) given: usize,
-    /// By vertex of the level, whether it may be a landmark; `None` where all may.
+    /// Whether each vertex of the level may be a landmark; `None` where all may.
     may_mark: Option<TiVec<VertexId, bool>>,
 }
 
@@ -53,11 +53,11 @@ pub(super) struct Mark {
     pub(super) vertex: VertexId,
     /// The persistence of a tip; 0 for a given landmark.
     pub(super) persistence: f64,
-    /// By vertex, its distance to the mark.
+    /// The distance of each vertex to the mark.
     pub(super) field: TiVec<VertexId, f64>,
     /// The descriptor: logarithms of the radii that enclose the shares of the area.
     radii: [f64; SHARES.len()],
-    /// By mark, its place in the order in which shortest paths lead from this mark to all.
+    /// The rank of each mark in the cyclic order in which shortest paths leave this mark for all others.
     pub(super) ranks: Vec<Rank>,
 }
 
@@ -154,7 +154,7 @@ impl Shape {
         level.with_positions(level.positions().iter().map(|&p| p / self.scale).collect())
     }
 
-    /// By mark, the number of the tip with nearly the same descriptor, as left and right foot have; partners name each other.
+    /// For each mark the number of the tip with nearly the same descriptor, as left and right foot have; partners name each other.
     pub(super) fn partners(&self) -> Vec<Option<usize>> {
         let tips = || self.given..self.marks.len();
         let nearest = |a: usize| {

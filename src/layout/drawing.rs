@@ -265,7 +265,7 @@ impl Drawing {
         planner.searches[side].shortest(mesh, &query, &mut planner.allowance)
     }
 
-    /// By landmark and place in its rotation, the number of the face of the drawing that follows counter-clockwise.
+    /// The number of the face of the drawing that follows counter-clockwise after each place in the rotation of each landmark.
     ///
     /// Faces of a connected drawing are discs: two places can be joined when their face is the same.
     pub fn faces_by_slot(&self) -> TiVec<LandmarkId, Vec<usize>> {

@@ -21,9 +21,9 @@ pub fn same_class(first: &BaseLayout, second: &BaseLayout) -> bool {
 #[derive(Clone, Debug)]
 pub(super) struct Class {
     layout: BaseLayout,
-    /// By side, the smaller base halfedge of the path that each refined halfedge lies on.
+    /// The smaller base halfedge of the path that each refined halfedge lies on, on each mesh.
     on_path: [TiVec<HalfedgeId, Option<HalfedgeId>>; 2],
-    /// By side, one refined face of each input face.
+    /// One refined face of each input face, on each mesh.
     some_face: [Vec<Option<FaceId>>; 2],
 }
 

@@ -11,7 +11,7 @@ use typed_index_collections::{TiSlice, TiVec};
 /// Lengths of shortest paths over vertices and edge midpoints that pass no other landmark, both areas scaled to 1.
 #[derive(Clone, Debug)]
 pub struct LandmarkDistances {
-    /// By side and landmark, at every vertex.
+    /// The distances from each landmark to every vertex, on each mesh.
     fields: [TiVec<LandmarkId, TiVec<VertexId, f64>>; 2],
     landmarks: [TiVec<LandmarkId, VertexId>; 2],
 }

@@ -17,7 +17,7 @@ use typed_index_collections::{TiSlice, TiVec};
 /// A whole turn of one group of landmarks against the others.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Twist {
-    /// By landmark, whether it is in the group.
+    /// Whether each landmark is in the group.
     pub inside: TiVec<LandmarkId, bool>,
     /// The sense of the turn.
     pub turn: Turn,

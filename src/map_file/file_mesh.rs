@@ -16,9 +16,9 @@ impl Hash {
         Self(Sha256::digest(bytes).into())
     }
 
-    /// Of a checked mesh: numbers of vertices and faces of the mesh and of vertices of the file (u64), coordinates as in the file (f64), faces
-    /// (u32), the vertex of each of the file's vertices (u32, 2^32 - 1 for none) and which faces were turned (u8); all
-    /// little-endian.
+    /// The hash of a checked mesh, over these numbers, all little-endian: numbers of vertices and faces of the mesh and of vertices of the
+    /// file (u64), coordinates as in the file (f64), faces (u32), the vertex of each of the file's vertices (u32, 2^32 - 1 for none) and
+    /// which faces were turned (u8).
     pub fn of_checked(checked: &CheckedMesh) -> Self {
         let mesh = &checked.mesh;
         let mut hash = Sha256::new();

@@ -6,9 +6,11 @@ use super::file_mesh::FileMesh;
 use crate::mesh::{FaceId, HalfedgeId, Place, SurfacePoint};
 use glam::DMat2;
 
-/// The kinds of places, as they are written.
+/// The number that stands for the kind of a place in a file: here a vertex.
 const VERTEX: u8 = 0;
+/// The kind of a point of an edge.
 const EDGE: u8 = 1;
+/// The kind of a point inside a face.
 const FACE: u8 = 2;
 
 /// The largest difference of a sum of weights from 1.

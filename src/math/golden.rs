@@ -1,12 +1,13 @@
-//! Directions that scatter evenly.
+//! Directions that are scattered evenly.
 
 use super::scalar::{cos, sin};
 use glam::DVec2;
 
-/// The unit vector at `step` times the golden angle: those of consecutive steps scatter evenly over the circle.
+/// The unit vector at `step` times the golden angle. The vectors of consecutive steps are scattered evenly over the circle.
 pub fn direction(step: usize) -> DVec2 {
+    // The golden angle, pi (3 - sqrt 5), in radians.
     const GOLDEN: f64 = 2.399_963_229_728_653;
-    // Large angles lose digits.
+    // Large angles lose digits, so steps repeat.
     let angle = GOLDEN * (step % 1_000_003) as f64;
     DVec2::new(cos(angle), sin(angle))
 }

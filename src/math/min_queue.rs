@@ -9,14 +9,14 @@ pub struct MinQueue<K, V = ()> {
     heap: BinaryHeap<Queued<K, V>>,
 }
 
-/// What waits in a [`MinQueue`].
+/// An entry of a [`MinQueue`].
 #[derive(Clone, Copy, Debug)]
 pub struct Queued<K, V = ()> {
-    /// By which the queue is ordered.
+    /// The cost; the queue returns the entry of least cost first.
     pub cost: f64,
-    /// By which equal costs are ordered.
+    /// The key that orders entries of equal cost.
     pub key: K,
-    /// What else waits.
+    /// The value that comes with the entry.
     pub value: V,
 }
 
@@ -97,7 +97,7 @@ pub fn shortest_paths<L, I: IntoIterator<Item = (u32, f64, L)>>(
     mut reached: impl FnMut(u32, L),
 ) -> Vec<f64> {
     let mut distance = vec![f64::INFINITY; nodes];
-    // Of equally far nodes the last one first.
+    // Of nodes at equal distances the one with the largest number comes first.
     let mut queue = MinQueue::default();
     distance[start as usize] = 0.0;
     queue.push(0.0, std::cmp::Reverse(start), ());

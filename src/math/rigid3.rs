@@ -91,8 +91,8 @@ pub fn laid_on(points: &[DVec3], partners: &[DVec3]) -> Rigid3 {
     Rigid3::with_point(best_rotation(&spread, starts.map(DMat3::from_diagonal)), from, onto)
 }
 
-/// Of the rotations that [`nearest_rotation`] finds from some starts the one that agrees best with the matrix; the identity where there is
-/// no start.
+/// The rotation that agrees best with the matrix among those that [`nearest_rotation`] finds from some starts; the identity where there is no
+/// start.
 pub fn best_rotation(m: &DMat3, starts: impl IntoIterator<Item = DMat3>) -> DMat3 {
     let found = starts.into_iter().map(|start| nearest_rotation(m, start));
     found.max_by(|a, b| agreement(a, m).total_cmp(&agreement(b, m))).unwrap_or(DMat3::IDENTITY)

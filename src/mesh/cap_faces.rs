@@ -13,7 +13,7 @@ pub struct CapFaces<'a> {
 }
 
 impl CapFaces<'_> {
-    /// The same marks with source and target exchanged.
+    /// These marks with source and target exchanged.
     #[must_use]
     pub fn exchanged(self) -> Self {
         Self { source: self.target, target: self.source }

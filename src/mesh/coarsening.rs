@@ -39,7 +39,7 @@ pub fn coarsen(
         queue: MinQueue::default(),
         strictness: Strictness::Shape,
     };
-    // What one round refuses may be possible when others have gone: three rounds with shapes, then three without.
+    // A collapse that one round refuses may be possible after others: three rounds keep the shapes of triangles, then three do not.
     // Chosen by hand.
     for round in 0..6 {
         if coarsening.mesh.live_vertices() <= goal {

@@ -2,17 +2,17 @@
 
 use glam::DVec3;
 
-/// Of which mesh a preview tells the images.
+/// The mesh whose vertices a preview has the images of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PreviewOf {
-    /// Of the source's vertices, on the target.
+    /// The source: its vertices have images on the target.
     Source,
-    /// Of the target's vertices, on the source.
+    /// The target: its vertices have images on the source.
     Target,
 }
 
 impl PreviewOf {
-    /// Of the other one.
+    /// The other mesh.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
@@ -24,7 +24,7 @@ impl PreviewOf {
 
 /// A map that is still being made. Nothing is computed before it is asked for.
 pub trait MapPreview {
-    /// By vertex of a mesh its place on the other one, in that one's coordinates: nearly, and nearly on it. `None` where the map
-    /// cannot be told now.
+    /// The approximate image of each vertex of a mesh, in the other mesh's coordinates and near its surface. `None` where the map is not
+    /// known at this moment.
     fn images(&self, of: PreviewOf) -> Option<Vec<DVec3>>;
 }

@@ -12,7 +12,7 @@ pub struct Rising<'a> {
 }
 
 impl<'a> Rising<'a> {
-    /// Of this monitor.
+    /// Wraps a monitor.
     pub fn new(monitor: &'a mut dyn Monitor) -> Self {
         Self { monitor, stage: None, done: 0.0 }
     }

@@ -96,7 +96,7 @@ impl BordersReport {
 
 /// The weights of the faces of both meshes, with the report of their borders.
 pub(super) struct CountedCaps {
-    /// By mesh, source first, the weights of its faces; `None` where all faces count like skin.
+    /// The weights of each mesh's faces, the source first; `None` where all faces count like skin.
     pub(super) weights: [Option<TiVec<FaceId, FaceWeight>>; 2],
     /// `None` where not both meshes have caps that count less than skin, unless rims were said to correspond.
     pub(super) report: Option<BordersReport>,
@@ -154,7 +154,7 @@ struct MeasuredRim {
     rim: Rim,
     /// Its length, in units of the root of the mesh's area.
     length: f64,
-    /// By landmark, the softened logarithm of its distance to the rim.
+    /// The softened logarithm of each landmark's distance to the rim.
     log_distances: Vec<f64>,
 }
 

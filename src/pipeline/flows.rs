@@ -17,7 +17,7 @@ use typed_index_collections::{TiVec, ti_vec};
 pub(super) struct Flows {
     /// Curvature of each landmark's cone, in radians.
     pub cones: Vec<f64>,
-    /// By mesh, source first, the report of its flow; `None` where the flow could not begin.
+    /// The report of each mesh's flow, the source first; `None` where the flow could not begin.
     pub reports: [Option<FlowReport>; 2],
     /// The target's texture coordinates; `None` where its flow did not converge.
     target_atlas: Option<FlatAtlas>,

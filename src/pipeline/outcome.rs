@@ -222,7 +222,7 @@ fn warnings(map: &Parametrisation, measured: &Distortion) -> Vec<Warning> {
     [borders, early, rival, long, distorted].into_iter().flatten().collect()
 }
 
-/// By face of a refined mesh, whether it is a cap.
+/// Whether each face of a refined mesh is part of a cap.
 fn refined_caps(is_cap: &TiSlice<FaceId, bool>, refined: &RefinedMesh) -> TiVec<FaceId, bool> {
     refined.face_origin.iter().map(|&f| is_cap[f]).collect()
 }

@@ -17,7 +17,7 @@ pub struct OrientedSurface<'a> {
     mesh: &'a SurfaceMesh,
     /// Unit normals.
     pub normals: TiVec<VertexId, DVec3>,
-    /// By vertex the shape operator, 1 per unit of length: the normal changes by minus this matrix times a step in the tangent plane.
+    /// The shape operator at each vertex, in 1 per unit of length: the normal changes by minus this matrix times a step in the tangent plane.
     shape_operators: TiVec<VertexId, DMat3>,
 }
 

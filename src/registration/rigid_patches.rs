@@ -87,13 +87,13 @@ pub struct WeightedLevel<'a> {
 pub struct MappedLevel<'a> {
     /// The level.
     pub mesh: &'a SurfaceMesh,
-    /// By vertex, its vertex of the full mesh.
+    /// The full mesh's vertex of each vertex.
     pub vertices: &'a TiSlice<VertexId, VertexId>,
-    /// By vertex, its image on the other mesh.
+    /// The image of each vertex on the other mesh.
     pub images: TiVec<VertexId, DVec3>,
-    /// By vertex a vertex of the other full mesh near its image.
+    /// For each vertex a vertex of the other full mesh near its image.
     pub near: TiVec<VertexId, VertexId>,
-    /// By vertex whether it and its image are on skin: caps have no relief.
+    /// Whether each vertex and its image are on skin: caps have no relief.
     pub is_on_skin: TiVec<VertexId, bool>,
 }
 
@@ -181,7 +181,7 @@ struct Patches<'a> {
     own: &'a OrientedSurface<'a>,
     level: &'a MappedLevel<'a>,
     weights: &'a TiSlice<VertexId, f64>,
-    /// By vertex the vertex of the other full mesh that is nearest to its image.
+    /// For each vertex the vertex of the other full mesh that is nearest to its image.
     near: TiVec<VertexId, VertexId>,
     /// The centre of the last patch that reached a vertex, with its radius.
     reached: TiVec<VertexId, Option<(VertexId, u64)>>,

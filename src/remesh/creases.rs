@@ -194,7 +194,7 @@ impl<'a> Graph<'a> {
         away(a).dot(away(b)) > -cos(BEND)
     }
 
-    /// By sharp edge the number of its chain.
+    /// The number of the chain of each sharp edge.
     fn chains(&self, is_corner: &TiVec<VertexId, bool>) -> Vec<u32> {
         let mut chains = vec![u32::MAX; self.sharp.len()];
         let mut count = 0;

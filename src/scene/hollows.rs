@@ -7,18 +7,21 @@ use crate::mesh::{SurfaceMesh, VertexId};
 use glam::DVec3;
 use typed_index_collections::{TiVec, ti_vec};
 
-/// Rounds of spreading for a mesh of [`FEW`] vertices; finer meshes get more, by the root, up to [`MOST_ROUNDS`]. Chosen by hand.
+/// The number of rounds of spreading for a mesh of [`FEW`] vertices; finer meshes get more, in proportion to the root of their vertices.
+/// Chosen by hand.
 const ROUNDS: f64 = 6.0;
+/// The number of vertices for which [`ROUNDS`] was chosen.
 const FEW: f64 = 5000.0;
+/// The largest number of rounds of spreading. Chosen by hand.
 const MOST_ROUNDS: f64 = 24.0;
 
-/// What the spread slopes are multiplied by: an armpit comes near 1. Chosen by hand.
+/// The factor by which the spread slopes are multiplied: an armpit comes near 1. Chosen by hand.
 const STRENGTH: f64 = 3.0;
 
 /// The largest number of rounds in which points between vertices get values; what has none after them keeps none.
 const MOST_ROUNDS_BETWEEN: usize = 40;
 
-/// By vertex from -1 on sharp ridges to 1 in deep hollows, 0 where the surface is flat.
+/// How much each vertex lies in a hollow: from -1 on sharp ridges to 1 in deep hollows, 0 where the surface is flat.
 pub fn hollows(mesh: &SurfaceMesh, normals: &TiVec<VertexId, DVec3>) -> TiVec<VertexId, f64> {
     let count = mesh.vertex_count();
     let mut degrees: TiVec<VertexId, f64> = ti_vec![0.0; count];

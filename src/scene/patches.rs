@@ -15,7 +15,7 @@ const LIT: u32 = 0xc2_189b;
 pub struct Patches {
     points: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
-    /// By patch where its triangles start, and one past the end.
+    /// Where the triangles of each patch start, and one past the end.
     starts: Vec<usize>,
     /// Patch lines: the edges of the base domain.
     lines: Vec<Vec<DVec3>>,

@@ -1,4 +1,4 @@
-//! What the light on a surface is computed from: normals and hollows at its vertices.
+//! The quantities from which the light on a surface is computed: normals and hollows at its vertices.
 
 use super::hollows::hollows;
 use crate::mesh::SurfaceMesh;
@@ -10,7 +10,7 @@ use crate::mesh::packing::{PackedError, Packer, Unpacker};
 pub struct Shading {
     /// Unit normals by vertex.
     pub normals: Vec<[f32; 3]>,
-    /// By vertex how much it lies in a hollow (positive) or on a ridge (negative), from -1 to 1.
+    /// How much each vertex lies in a hollow (positive) or on a ridge (negative), from -1 to 1.
     pub hollows: Vec<f32>,
 }
 

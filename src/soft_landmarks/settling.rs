@@ -25,10 +25,10 @@ use typed_index_collections::TiVec;
 pub struct SettlingInput<'a> {
     /// Source and target.
     pub meshes: [&'a SurfaceMesh; 2],
-    /// By landmark, its points on both meshes.
+    /// The points of each landmark on both meshes.
     pub points: &'a [[SurfacePoint; 2]],
-    /// By landmark, the largest distance of its point on the target from the given one, in units of the root of the target's area; 0 for
-    /// one that is held.
+    /// The largest distance that each landmark's point on the target may move, in units of the root of the target's area; 0 for a landmark
+    /// that is held.
     pub radii: &'a [f64],
     /// Whether a landmark may lie in a face of the target.
     pub may_hold: &'a dyn Fn(FaceId) -> bool,
@@ -65,9 +65,9 @@ impl Default for SettlingOptions {
 /// The places of the landmarks after the last round.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settled {
-    /// By landmark, its point on the target.
+    /// The point of each landmark on the target.
     pub places: Vec<SurfacePoint>,
-    /// By landmark, the distance of that from the given point, in units of the root of the target's area.
+    /// The distance of each of these points from the given one, in units of the root of the target's area.
     pub moved: Vec<f64>,
     /// Coarse maps that were made.
     pub rounds: usize,
@@ -140,7 +140,7 @@ impl PredictedPlace {
 /// A coarse map with its landmarks.
 struct Seen {
     images: LevelImages,
-    /// By mesh and landmark, its vertex of the coarse level.
+    /// The vertex of each landmark on the coarse level of each mesh.
     landmarks: [TiVec<LandmarkId, VertexId>; 2],
 }
 

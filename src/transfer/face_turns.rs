@@ -61,7 +61,7 @@ fn unlikeness(a: &DMat3, b: &DMat3) -> f64 {
     1.0 - cosine
 }
 
-/// Of the turns that give a rotation the one nearest to another turn.
+/// The turn that is nearest to another turn, among those that give a rotation.
 fn nearest_turn(rotation: &DMat3, other: DVec3) -> DVec3 {
     let turn = turn_of(rotation);
     let angle = turn.length();

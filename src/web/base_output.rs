@@ -12,7 +12,7 @@ impl MapOutput {
         self.shown().base.as_ref().map(|base| base.triangles.concat()).unwrap_or_default()
     }
 
-    /// By base triangle and corner k the number of the patch line from corner k to k + 1.
+    /// The number of the patch line from corner k to k + 1 of each base triangle.
     #[wasm_bindgen(js_name = baseSides)]
     pub fn base_sides(&self) -> Vec<u32> {
         self.shown().base.as_ref().map(|base| base.sides.concat()).unwrap_or_default()
@@ -36,7 +36,7 @@ impl MapOutput {
         self.base_shape(side).map(|shape| flat3(&shape.points)).unwrap_or_default()
     }
 
-    /// Those parts as triangles, patch after patch in the order of the base triangles.
+    /// The parts of the mesh's faces in the patches, as triangles, patch after patch in the order of the base triangles.
     #[wasm_bindgen(js_name = patchTriangles)]
     pub fn patch_triangles(&self, side: usize) -> Vec<u32> {
         self.base_shape(side).map(|shape| shape.patches.triangles.concat()).unwrap_or_default()
@@ -49,7 +49,7 @@ impl MapOutput {
         starts.into_iter().flatten().map(|&start| start as u32).collect()
     }
 
-    /// By part triangle the face of the checked mesh that holds it.
+    /// The face of the checked mesh that holds each of these triangles.
     #[wasm_bindgen(js_name = patchFaces)]
     pub fn patch_faces(&self, side: usize) -> Vec<u32> {
         let shape = self.base_shape(side);
@@ -68,7 +68,7 @@ impl MapOutput {
             .collect()
     }
 
-    /// By base triangle the face of the checked mesh in the middle of its patch.
+    /// The face of the checked mesh in the middle of each base triangle's patch.
     #[wasm_bindgen(js_name = patchMiddles)]
     pub fn patch_middles(&self, side: usize) -> Vec<u32> {
         let shape = self.base_shape(side);

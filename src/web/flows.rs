@@ -97,8 +97,8 @@ impl RecordedFlows {
         json!({ "converged": converged, "moments": told.collect::<Vec<_>>(), "stops": stops }).to_string()
     }
 
-    /// By vertex of the checked mesh the radii of the circles before the first step, in units of the root of the mesh's area; they grow with the
-    /// conformal factor. None where the structure has no circles.
+    /// The radius of the circle at each vertex of the checked mesh before the first step, in units of the root of the mesh's area; it grows
+    /// with the conformal factor. Empty where the structure has no circles.
     pub fn radii(&self, side: usize) -> Vec<f32> {
         let side = side.min(1);
         self.radii[side].iter().take(self.vertices[side]).map(|&r| r as f32).collect()

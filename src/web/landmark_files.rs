@@ -23,7 +23,7 @@ pub struct LandmarkFormatInfo {
     title: String,
     /// The usual ending of its files' names, without the first dot.
     ending: &'static str,
-    /// Of which meshes a written file holds landmarks.
+    /// The meshes whose landmarks a written file holds.
     holds: Holds,
 }
 

@@ -29,7 +29,7 @@ impl MorphWay {
         self.way.range
     }
 
-    /// By point 12 numbers: three times x, y and z of a bend and one coordinate of the turn.
+    /// Twelve numbers for each point: three times x, y and z of a bend and one coordinate of the turn.
     pub fn bends(&self) -> Vec<i16> {
         self.way.points.as_flattened().as_flattened().to_vec()
     }

@@ -52,7 +52,7 @@ impl FlatPlanes {
         flat3(&self.job.positions()[side.min(1)])
     }
 
-    /// By triangle the face of the checked mesh that contains it.
+    /// The face of the checked mesh that contains each triangle.
     #[wasm_bindgen(js_name = checkedFaces)]
     pub fn checked_faces(&self, side: usize) -> Vec<u32> {
         self.job.checked_faces()[side.min(1)].iter().map(|f| f.0).collect()
@@ -64,7 +64,7 @@ impl FlatPlanes {
         self.job.landmark_vertices()[side.min(1)].iter().map(|v| v.0).collect()
     }
 
-    /// By vertex the radius of its circle, in units of the plane.
+    /// The radius of each vertex's circle, in units of the plane.
     pub fn radii(&self, side: usize) -> Vec<f32> {
         self.surfaces[side.min(1)].radii().iter().map(|&r| r as f32).collect()
     }
@@ -95,7 +95,7 @@ impl GrownPlane {
         self.layout.vertices.iter().map(|v| v.0).collect()
     }
 
-    /// By triangle and corner the number of its place.
+    /// The number of the place of each corner of each triangle.
     pub fn corners(&self) -> Vec<u32> {
         self.layout.corners.raw.clone()
     }
@@ -110,7 +110,7 @@ impl GrownPlane {
         self.layout.rings.iter().map(|&ring| ring as u32).collect()
     }
 
-    /// By triangle and corner k whether the layout is cut along the edge from corner k to k + 1.
+    /// Whether the layout is cut along the edge from corner k to k + 1 of each triangle.
     pub fn cut(&self) -> Vec<u8> {
         self.layout.cut.iter().map(|&is_cut| u8::from(is_cut)).collect()
     }

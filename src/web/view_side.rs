@@ -76,13 +76,13 @@ pub(super) struct Side {
     pub preview: Option<Preview>,
     /// The patches of the result, where they are asked for.
     pub patches: Option<Patches>,
-    /// What of them is lit up.
+    /// The patches and patch lines that are lit up.
     pub lit: Lit,
     /// The mesh in colours of a flow, while one is shown.
     pub factors: Option<Factors>,
     /// The mesh on its way to its landmarks, while that is shown.
     pub stage: Option<CoarseStage>,
-    /// In pair order; `None` where not picked yet.
+    /// The landmarks in the order of the pairs; `None` where a point is not picked yet.
     pub landmarks: Vec<Option<Landmark>>,
     /// Points that the page marks itself.
     pub suggestions: Vec<Option<Vec3>>,

@@ -1,4 +1,4 @@
-//! What is wrapped.
+//! The input of a wrap: the base, the scan and the map between them.
 
 use crate::mesh::cap_faces::CapFaces;
 use crate::mesh::{FaceId, SurfaceMesh};

@@ -1,4 +1,4 @@
-//! Meshes cut by planes, as at a neck.
+//! Meshes that are cut by planes, as at a neck.
 #![allow(dead_code, reason = "every test binary uses another part")]
 
 use conemap::math::scalar::{cos, sin};
@@ -20,8 +20,8 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// Through the first vertex and the middle of the others, as square as can be to the way from there to the end; through the only
-    /// vertex, square to that way.
+    /// The plane through the first vertex and the middle of the others that is as perpendicular as possible to the direction from there to the
+    /// end; with only one vertex, the plane through it that is perpendicular to that direction.
     pub fn across(mesh: &SurfaceMesh, through: &[u32], end: u32) -> Self {
         let place = |v: u32| mesh.positions()[VertexId(v)];
         let first = place(through[0]);
@@ -39,7 +39,7 @@ impl Plane {
     pub fn nearest(points: &[DVec3], end: DVec3) -> Self {
         let point = points.iter().sum::<DVec3>() / points.len() as f64;
         let mut normal = DVec3::ZERO;
-        // The least spread among directions all around.
+        // The normal is the direction of least spread among directions all around.
         let mut least = f64::INFINITY;
         for k in 0..20_000 {
             let z = 1.0 - (k as f64 + 0.5) / 10_000.0;
@@ -53,17 +53,17 @@ impl Plane {
         Self { point, normal: if (end - point).dot(normal) < 0.0 { -normal } else { normal } }
     }
 
-    /// The same, moved along its normal.
+    /// The plane moved along its normal.
     pub fn moved(self, distance: f64) -> Self {
         Self { point: self.point + self.normal * distance, ..self }
     }
 }
 
-/// Which parts of a mesh are cut off: of each cut the connected part beyond its plane that holds its end.
+/// The parts of a mesh that are cut off: for each cut the connected part beyond its plane that holds its end.
 pub struct Cuts {
-    /// By vertex the cut that it is beyond.
+    /// The cut that each vertex is beyond.
     beyond: TiVec<VertexId, Option<usize>>,
-    /// By edge that is cut: the share of the way from its smaller vertex to the cut.
+    /// For each edge that is cut the share of the way from its smaller vertex to the cut.
     shares: BTreeMap<[VertexId; 2], f64>,
 }
 
@@ -71,7 +71,7 @@ pub struct Cuts {
 pub struct CutMesh {
     /// The vertices of the mesh, unused ones too, and after them those of the rims.
     pub soup: PolygonSoup,
-    /// By edge of the rims its vertices.
+    /// The vertices of each edge of the rims.
     pub rim: Vec<[u32; 2]>,
 }
 
@@ -81,7 +81,7 @@ pub struct Open {
     pub checked: CheckedMesh,
 }
 
-/// What is kept of a mesh that is cut.
+/// The part of a mesh that is kept when it is cut: the body, or the ends that the planes cut off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kept {
     Body,
@@ -89,7 +89,7 @@ pub enum Kept {
 }
 
 impl Cuts {
-    /// Of planes, each with a vertex beyond it.
+    /// The cuts by planes, each with a vertex beyond it.
     pub fn new(mesh: &SurfaceMesh, planes: &[(Plane, VertexId)]) -> Self {
         let mut beyond: TiVec<VertexId, Option<usize>> = mesh.vertices().map(|_| None).collect();
         for (number, (plane, end)) in planes.iter().enumerate() {
@@ -116,13 +116,13 @@ impl Cuts {
             };
             let (plane, _) = planes[cut];
             let [a, b] = ends.map(|v| (mesh.positions()[v] - plane.point).dot(plane.normal));
-            // No needles.
+            // An edge is not cut too near its ends, so that no needles arise.
             shares.insert(ends, (a / (a - b)).clamp(0.05, 0.95));
         }
         Self { beyond, shares }
     }
 
-    /// Where the rims' vertices go by a map of the vertices, as if it were linear along the edges that are cut.
+    /// The images of the rims' vertices under a map of the vertices, as if the map were linear along the edges that are cut.
     pub fn rim_under(&self, image: impl Fn(VertexId) -> DVec3) -> Vec<DVec3> {
         self.shares.iter().map(|([a, b], &share)| image(*a).lerp(image(*b), share)).collect()
     }
@@ -227,8 +227,8 @@ impl Open {
     }
 }
 
-/// Mean along the rims, and largest, distance of their images to the other mesh's rims, in units of the root of its area; the worse of both
-/// directions.
+/// The distance of the rims' images from the other mesh's rims, in units of the root of that mesh's area: the mean along the rims and the
+/// largest, each of the direction in which it is larger.
 pub fn rim_distances(sides: &[Open; 2], result: &MapResult) -> [f64; 2] {
     let map = result.correspondence.as_ref().expect("a map of two meshes has pieces");
     let meshes: [&SurfaceMesh; 2] = [&sides[0].checked.mesh, &sides[1].checked.mesh];

@@ -17,9 +17,9 @@ use std::f64::consts::{PI, TAU};
 pub enum Kind {
     /// Points put into faces beside a side, down to angles of 1e-6 degrees.
     Slivers,
-    /// Stretched up to 1:1000, or one vertex pulled out as far.
+    /// A ball stretched up to 1:1000, or one vertex pulled out as far.
     Needles,
-    /// As flat as 1e-9 of the width.
+    /// Bodies as flat as 1e-9 of their width.
     Pancakes,
     /// Vertices moved by up to five edge lengths.
     Noise,
@@ -27,7 +27,7 @@ pub enum Kind {
     Hubs,
     /// Edges turned, points put in and put in again, down to what rounding takes for one point, coordinates of 1e-60 and 1e60.
     Rough,
-    /// Up to 328,000 faces against 20.
+    /// One mesh of up to 328,000 faces with another one of down to 20.
     Unequal,
     /// A vertex and its neighbours are landmarks.
     Adjacent,
@@ -147,7 +147,7 @@ impl Body {
         Self { mesh: self.mesh.with_positions(positions), directions: self.directions }
     }
 
-    /// Bent a little, each seed otherwise.
+    /// The mesh bent a little, differently for each seed.
     fn bent(self, random: &mut Random) -> Self {
         let [a, b, c] = [0; 3].map(|_| 0.3 * random.unit());
         self.moved(|p| DVec3::new((1.0 + a) * p.x, p.y + b * p.x * p.x / (1.0 + p.x.abs()), p.z * (1.0 + c)))
@@ -302,7 +302,7 @@ fn hub(size: Size, random: &mut Random) -> Body {
     Body::ball(mesh).bent(random)
 }
 
-/// So many vertices of the source far from each other, each with the vertex of the target where `image` takes its direction.
+/// Picks `count` vertices of the source far from each other, each with the vertex of the target to which `image` takes its direction.
 fn spread(bodies: &[Body; 2], count: usize, image: impl Fn(DVec3) -> DVec3) -> Vec<[LandmarkPoint; 2]> {
     let [source, target] = bodies;
     let most = source.directions.len().min(target.directions.len());

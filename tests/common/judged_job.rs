@@ -1,4 +1,4 @@
-//! A whole job, from files to files, and what a stranger says of its map.
+//! A whole job, from files to files, and the verdict of `conemap_verify` on its map.
 #![allow(dead_code, reason = "every test binary uses another part")]
 
 use crate::hostile_geometry::HostileCase;
@@ -38,9 +38,9 @@ pub enum Outcome {
     Certified { without_file: &'static str },
     /// An error with its variants' names and its sentence.
     Refused { name: String, sentence: String },
-    /// Stopped by its monitor.
+    /// The job was stopped by its monitor.
     Stopped,
-    /// What must never be.
+    /// Something that must never happen, in a sentence.
     Wrong(String),
 }
 

@@ -1,4 +1,4 @@
-//! Holes in meshes.
+//! Holes that are punched into meshes.
 #![allow(dead_code, reason = "every test binary uses another part")]
 
 use conemap::geodesic::distances;

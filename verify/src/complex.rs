@@ -1,4 +1,4 @@
-//! The pieces and how they hang together: a sphere, or a refusal.
+//! The pieces of a map and the check that they are glued to a sphere.
 
 use crate::container::{Container, expect_count, of_section};
 use crate::refusal::Refusal;

@@ -116,7 +116,7 @@ impl<'a> Container<'a> {
         let end = entry.offset.checked_add(entry.bytes).filter(|end| *end <= self.data.len() as u64);
         let Some(end) = end else { return Err(wrong("it does not lie within the file".to_owned())) };
         let stored = &self.data[entry.offset as usize..end as usize];
-        // Bounded when the file was opened.
+        // The size was bounded when the file was opened.
         let size = entry.unpacked_bytes();
         let bytes = match entry.packing.as_deref() {
             None | Some("none") => stored.to_vec(),

@@ -24,7 +24,7 @@ impl Weight {
     /// 1 - t, exactly, for t in [0, 1].
     pub fn rest(t: f64) -> Self {
         let high = 1.0 - t;
-        // Knuth's two-sum: what the difference lost.
+        // Knuth's two-sum: the part that the rounding of the difference lost.
         let of_t = 1.0 - high;
         let of_one = high + of_t;
         Self { high, low: (1.0 - of_one) + (of_t - t) }

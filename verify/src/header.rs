@@ -1,4 +1,4 @@
-//! What is read of a map file's header.
+//! The part of a map file's header that the proof reads.
 
 use serde::Deserialize;
 

@@ -1,4 +1,4 @@
-//! Whether the map takes landmarks to their partners.
+//! The check that the map takes landmarks to their partners.
 
 use crate::header::LandmarkPoint;
 use crate::places::Place;
@@ -13,7 +13,7 @@ const MOST_COMPARED: usize = 1 << 26;
 /// The largest number of landmark pairs, as in landmark files.
 const MOST_PAIRS: usize = 10_000;
 
-/// What is known of the landmark pairs.
+/// How well the landmark pairs meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Landmarks {
     /// The number of pairs.

@@ -31,7 +31,7 @@
 //! map is not proved ([`Proof::is_exact`]). Then the rest of the argument gives: outside of these triangles' images, whose area is
 //! told, each point has exactly one image.
 //!
-//! # What is not
+//! # What is not proved
 //!
 //! The texture, the flat layout, the report and the numbers in the header are not read. Which class of maps it is, which way
 //! round a limb, is not a matter of right or wrong: a map of another class is proved likewise.

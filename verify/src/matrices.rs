@@ -1,4 +1,4 @@
-//! The matrices of pieces: invertible, and near the map that takes corners to corners.
+//! The check that the matrices of the pieces are invertible and agree with the map that takes corners to corners.
 
 use crate::container::{Container, expect_count, of_section};
 use crate::exact::{Weight, Weights};

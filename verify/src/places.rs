@@ -1,4 +1,4 @@
-//! Where the overlay's vertices lie on one mesh.
+//! The places of the overlay's vertices on one mesh.
 
 use crate::container::{Container, expect_count};
 use crate::exact::{LARGEST, Weight, Weights};

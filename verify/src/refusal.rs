@@ -1,4 +1,4 @@
-//! Why a map is not accepted.
+//! The reasons for which a map is not accepted.
 
 use crate::mesh::MeshProblem;
 use std::fmt;

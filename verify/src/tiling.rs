@@ -1,4 +1,4 @@
-//! The pieces as triangles: each turned the right way on both meshes, every face covered once.
+//! The check that the pieces' triangles are turned the right way on both meshes and cover every face once.
 
 use crate::complex::Pieces;
 use crate::exact::{Tally, Weight, Weights, determinant};
@@ -108,8 +108,8 @@ pub fn cut(
     Ok(cut)
 }
 
-/// The first corner around which all triangles are positive on both meshes; where there is none, one with the fewest that are not,
-/// and those.
+/// The first corner around which all triangles are positive on both meshes; where there is none, a corner with the fewest triangles that
+/// are not positive, and those triangles.
 fn best_apex(weights: &[Vec<Weights>; 2], turns: [i8; 2], tally: &mut Tally) -> (usize, Vec<[usize; 3]>) {
     let corners = weights[0].len();
     let mut best: Option<(usize, Vec<[usize; 3]>)> = None;

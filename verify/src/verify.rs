@@ -12,7 +12,7 @@ use crate::refusal::{Refusal, Side};
 use crate::tiling::{Doubtful, Map, check_cover, cut};
 use std::ops::ControlFlow;
 
-/// What was found of a map that is not refused.
+/// The findings about a map that is not refused.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Proof {
     /// The numbers of faces of the source and of the target.
@@ -67,7 +67,7 @@ impl Proof {
 
 /// Proves that a map file holds a one-to-one map between two meshes; what that means is said in the crate's documentation.
 ///
-/// `ask` is told the share that is done, some hundred times, and stops the check by `Break`.
+/// `ask` is called some hundred times with the share that is done, and stops the check by returning `Break`.
 ///
 /// # Errors
 /// The first [`Refusal`].

@@ -23,7 +23,7 @@ fn real_maps_are_proved() {
         );
         assert_eq!(proof.faces, [320, 224]);
         assert!(proof.sentence().starts_with("Proved: the map is one-to-one"));
-        // Taken apart and put together it is the same map.
+        // A map that is taken apart and put together again is the same map.
         assert_eq!(Example::new(bytes).judged(), Ok(proof));
     }
 }
@@ -53,7 +53,7 @@ fn a_vertex_moved_over_its_neighbours_is_refused() {
     assert!(matches!(refusal, Refusal::Turned { side: Side::Target, .. }), "{refusal}");
 }
 
-/// The identity of an octahedron, but for one face, which has two vertices p and q inside; on the target q lies elsewhere.
+/// The identity of an octahedron, except in one face, which has two vertices p and q inside; on the target q lies elsewhere.
 fn octahedron(q_on_target: [f64; 3]) -> Example {
     let mut e = example();
     let positions = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -99,7 +99,7 @@ fn a_vertex_moved_by_one_ulp_across_an_edge_is_not_proved() {
             proof.sentence()
         );
     }
-    // Farther over it is no matter of rounding any more.
+    // Where q lies farther beyond the line, rounding no longer explains it.
     let refusal = octahedron([0.2, 0.39, 0.41]).judged().expect_err("turned over");
     assert!(matches!(refusal, Refusal::Turned { piece: 1, side: Side::Target, .. }), "{refusal}");
 }
@@ -116,7 +116,7 @@ fn a_map_that_is_there_twice_is_refused() {
     assert!(matches!(refusal, Refusal::Parts { .. }), "{refusal}");
 }
 
-/// Copies the places of overlay vertices behind the last one, those that are wanted; the number of vertices before.
+/// Copies the places of the wanted overlay vertices behind the last vertex, and returns the number of vertices before.
 fn double_vertices(e: &mut Example, is_wanted: impl Fn(usize) -> bool) -> u32 {
     let vertices = e.bytes_of("vertices.source.kinds").len();
     for side in ["source", "target"] {
@@ -190,7 +190,7 @@ fn a_swapped_pair_of_pieces_is_refused() {
         e.set_pieces(&swapped);
     });
     assert!(matches!(refusal, Refusal::Elsewhere { piece: 0, side: Side::Source, .. }), "{refusal}");
-    // Their places in the target alone.
+    // Only their faces on the target are exchanged.
     let refusal = e.refused(|e| e.integers("pieces.target_faces").swap(0, other));
     assert!(matches!(refusal, Refusal::Elsewhere { piece: 0, side: Side::Target, .. }), "{refusal}");
 }

@@ -35,7 +35,8 @@ fn files_that_are_cut_off_are_refused() {
     }
 }
 
-/// Bits, bytes and words are changed in files as they are written, and in such that have nothing packed, where more gets through.
+/// Bits, bytes and words are changed in files as they are written, and in files without packed sections, where more changes get past the
+/// reader.
 #[test]
 fn damage_never_panics() {
     let meshes = meshes();

@@ -1,13 +1,13 @@
-//! Known weaknesses of the page's packages, where the registry answers.
+//! Compares the page's packages with the known weaknesses that npm's registry lists, where that answers.
 
 use crate::run::root;
 use serde_json::Value;
 use std::process::{Command, Stdio};
 
-/// Fails where a package that the page is made of has a known weakness of a high or critical degree; others are told. Where the registry does
-/// not answer, that is told, and nothing is judged.
+/// Fails where a package that the page is made of has a known weakness of a high or critical degree; other weaknesses are printed. Where the
+/// registry does not answer, the function prints that, and judges nothing.
 pub fn check() -> Result<(), String> {
-    // Short waits: a machine without a network should not stand still.
+    // The waits are short, so that a machine without a network is not held up.
     let arguments = ["audit", "--json", "--omit=dev", "--fetch-timeout=20000", "--fetch-retries=0"];
     let output = Command::new("npm").args(arguments).current_dir(root()).stdin(Stdio::null()).output();
     let printed = output.map(|output| output.stdout).unwrap_or_default();
@@ -24,14 +24,18 @@ pub fn check() -> Result<(), String> {
     }
 }
 
+/// What the registry's answer says of the packages.
 #[derive(Debug, PartialEq)]
 enum Verdict {
+    /// There is no weakness of a high or critical degree; the sentence counts the others.
     Judged(String),
+    /// The registry did not answer, for this reason.
     Unanswered(String),
+    /// The sentence names packages with weaknesses of a high or critical degree.
     Weak(String),
 }
 
-/// What `npm audit --json` printed, judged.
+/// Judges what `npm audit --json` printed.
 fn verdict(printed: Option<&Value>) -> Verdict {
     let Some(counts) = printed.and_then(|answer| answer["metadata"]["vulnerabilities"].as_object()) else {
         let why = printed.and_then(|answer| answer["message"].as_str());

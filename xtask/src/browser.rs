@@ -1,4 +1,5 @@
-//! A Chromium for the browser tests: the one that is there, else the system's package, else Playwright's own.
+//! Finds a Chromium for the browser tests: the one that is installed, or else the system's package, or else Playwright's own, which are
+//! installed.
 
 use crate::run::{output_of, run, run_with, works};
 use crate::suite::Extent;
@@ -6,8 +7,8 @@ use crate::suite::Extent;
 /// Names under which a Chromium may be on the PATH.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
 
-/// Runs the browser tests on the built page; those tagged `@long` only where all are asked for, and those tagged `@alone`, which measure
-/// times, one after the other when the rest is done.
+/// Runs the browser tests on the built page. Tests tagged `@long` run only where all are asked for. Tests tagged `@alone`, which measure
+/// times, run one after the other when the rest is done.
 pub fn test(extent: Extent) -> Result<(), String> {
     let variables: Vec<(&str, String)> =
         chromium()?.into_iter().map(|program| ("CHROMIUM", program)).collect();
@@ -31,7 +32,7 @@ pub fn chromium() -> Result<Option<String>, String> {
     eprintln!("No Chromium was found (CHROMIUM may name one): it is installed now.");
     let is_root = output_of("id", &["-u"]).is_some_and(|id| id == "0");
     if is_root && works("apt-get", &["--version"]) {
-        // Brings the libraries that Chromium needs; failing here is no reason to stop, Playwright may have one.
+        // The package brings the libraries that Chromium needs. Where it cannot be installed, Playwright's Chromium may still run.
         if let Err(sentence) = install_package() {
             eprintln!("{sentence}");
         }
@@ -44,14 +45,14 @@ pub fn chromium() -> Result<Option<String>, String> {
     })
 }
 
-/// A Chromium that starts.
+/// A Chromium that is installed and starts: the one that `CHROMIUM` names, or one on the PATH.
 fn installed() -> Option<String> {
     let named = std::env::var("CHROMIUM").ok();
     let paths = named.into_iter().chain(NAMES.iter().filter_map(|name| {
         let path = output_of("sh", &["-c", &format!("command -v {name}")])?;
         (!path.is_empty()).then_some(path)
     }));
-    // On some systems the name is there, but only tells how to install it.
+    // On some systems a program of that name is there, but only prints how to install Chromium.
     paths.into_iter().find(|path| works(path, &["--version"]))
 }
 

@@ -1,14 +1,14 @@
-//! One visit of the built page in browsers of other makers: Firefox, and WebKit as GNOME has it.
+//! Visits the built page in browsers of other makers: Firefox, and WebKit as GNOME has it.
 
 use crate::page;
 use crate::run::{output_of, run, run_with, works};
 use crate::wasm::Optimised;
 
-/// A Debian package, and a program that it brings.
+/// The Debian packages that a visit needs, each with a program that it brings.
 const PACKAGES: [(&str, &str); 3] =
     [("firefox-esr", "firefox-esr"), ("webkit2gtk-driver", "WebKitWebDriver"), ("xvfb", "xvfb-run")];
 
-/// Builds the page and visits it; as root on Debian missing browsers are installed first.
+/// Builds the page and visits it in all three browsers. On Debian, missing browsers are installed first where the user is root.
 pub fn build_and_visit() -> Result<(), String> {
     page::build(Optimised::Fully)?;
     install()?;
@@ -29,7 +29,7 @@ pub fn visit_others() -> Result<(), String> {
     }
 }
 
-/// Visits the page in the browsers whose names match; on a screen of its own where that can be had, drawn by the processor.
+/// Visits the page in the browsers whose names match. The browsers draw by software, on a virtual screen where `xvfb-run` is installed.
 fn visit(names: &str) -> Result<(), String> {
     let command = ["npm", "run", "--silent", "browsers", "--", "-t", names];
     let software = [("LIBGL_ALWAYS_SOFTWARE", "1")];

@@ -1,9 +1,9 @@
-//! The time of whole maps: wasm in a browser against native.
+//! `cargo xtask compare`: compares the time of whole maps as wasm in a browser with that of the native program.
 
 use crate::run::{cargo, run, run_with};
 use crate::{browser, page, wasm};
 
-/// Builds both and runs `benches/wasm.mjs` on the pair files of the command line, or on the demos.
+/// Builds the program and the wasm modules, and runs `benches/wasm.mjs` on the pair files of the command line, or on the demos.
 pub fn compare(rest: &[String]) -> Result<(), String> {
     page::ensure_packages()?;
     wasm::build(wasm::Optimised::Fully, wasm::Names::Removed)?;

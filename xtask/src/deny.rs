@@ -1,11 +1,11 @@
-//! What may be built in, as `deny.toml` says: by `cargo deny` where it is installed, else by the project's own check.
+//! Checks the crates that are built in against `deny.toml`: by `cargo deny` where it is installed, or else by the project's own check.
 
 use crate::licences;
 use crate::run::{cargo, run, works};
 
-/// Fails where a crate has a licence or a source that `deny.toml` does not allow, is named without its version, or has a known weakness. Several
-/// versions of one crate are told. Where `cargo deny` is not installed only licences, sources and versions are judged; where its database of
-/// weaknesses can't be fetched, that is said, and they are not.
+/// Fails where a crate has a licence or a source that `deny.toml` does not allow, is named without its version, or has a known weakness.
+/// Crates in several versions are listed. Where `cargo deny` is not installed, only licences and sources are judged, and crates in several
+/// versions listed. Where its database of weaknesses can't be fetched, the function prints that, and does not judge them.
 pub fn check() -> Result<(), String> {
     if !works(&cargo(), &["deny", "--version"]) {
         return licences::check();

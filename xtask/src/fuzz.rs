@@ -1,8 +1,8 @@
-//! Readers on changed files.
+//! `cargo xtask fuzz`: tries the readers on changed files.
 
 use crate::run::{cargo, run_with};
 
-/// Runs every reader on many changed files, or the one of a name: `--runs` of each, all from one `--seed`.
+/// Has every reader (with `--reader NAME` only one) read `--runs` changed files, which all come from one `--seed`.
 pub fn fuzz(rest: &[String]) -> Result<(), String> {
     const TEST: [&str; 8] = [
         "test",

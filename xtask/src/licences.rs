@@ -1,4 +1,4 @@
-//! Licences and sources of all crates, as `deny.toml` allows them, for machines without `cargo deny`.
+//! Checks the licences and sources of all crates against `deny.toml` on machines without `cargo deny`.
 
 use crate::run::{cargo, output_of, root};
 use serde_json::Value;
@@ -29,7 +29,7 @@ pub fn check() -> Result<(), String> {
     Ok(())
 }
 
-/// Crates that are there in more than one version, each with its versions.
+/// The crates of which more than one version is used, each with its versions.
 fn several_versions(packages: &[Value]) -> Vec<String> {
     let mut versions: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for package in packages {
@@ -40,7 +40,7 @@ fn several_versions(packages: &[Value]) -> Vec<String> {
     versions.into_iter().map(|(name, versions)| format!("{name} {}", versions.join(" and "))).collect()
 }
 
-/// The licences of the list `allow` of the section `[licenses]`.
+/// The licences in the list `allow` of the section `[licenses]` of `deny.toml`.
 fn allowed(policy: &str) -> Result<Vec<Licensee>, String> {
     let section = policy.split("\n[").find_map(|section| section.strip_prefix("licenses]"));
     let list = section.and_then(|section| section.split_once("allow = [")?.1.split_once(']'));
@@ -49,7 +49,7 @@ fn allowed(policy: &str) -> Result<Vec<Licensee>, String> {
     names.map(|name| Licensee::parse(name).map_err(|e| format!("deny.toml: {name}: {e}"))).collect()
 }
 
-/// What is wrong with a crate, with its name; the project's own are as they are.
+/// A sentence about a crate that is not allowed, with its name; `None` for allowed crates and for the project's own.
 fn fault(package: &Value, allowed: &[Licensee]) -> Option<String> {
     let source = package["source"].as_str()?;
     let text = |field: &str| package[field].as_str().unwrap_or_default();

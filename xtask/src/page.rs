@@ -1,9 +1,9 @@
-//! The page: node packages, bundling and serving by Vite.
+//! Builds and serves the page: installs its node packages, and runs Vite.
 
 use crate::run::{output_of, root, run, run_server};
 use crate::wasm;
 
-/// Builds the app and serves it; the rest of the command line goes to the server (`--port 8080`, `--host`).
+/// Builds the page and serves it; the rest of the command line goes to the server (`--port 8080`, `--host`).
 pub fn serve(rest: &[String]) -> Result<(), String> {
     build(wasm::Optimised::Fully)?;
     let mut arguments = vec!["vite", "preview"];
@@ -11,7 +11,7 @@ pub fn serve(rest: &[String]) -> Result<(), String> {
     run_server("npx", &arguments)
 }
 
-/// Builds the app into `dist/`.
+/// Builds the page into `dist/`.
 pub fn build(optimised: wasm::Optimised) -> Result<(), String> {
     ensure_packages()?;
     wasm::build(optimised, wasm::Names::Removed)?;
@@ -30,7 +30,7 @@ pub fn ensure_packages() -> Result<(), String> {
         ));
     }
     let changed = |path: &str| root().join(path).metadata().and_then(|data| data.modified()).ok();
-    // npm writes this copy of the lock file when it has installed everything.
+    // npm writes `node_modules/.package-lock.json` when it has installed everything.
     let (wanted, installed) = (changed("package-lock.json"), changed("node_modules/.package-lock.json"));
     if installed.is_some() && installed >= wanted { Ok(()) } else { run("npm", &["ci"]) }
 }

@@ -1,4 +1,4 @@
-//! Running other programs in the project's folder.
+//! Runs other programs in the project's folder.
 
 use std::path::PathBuf;
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -9,21 +9,21 @@ pub fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// No program may take longer, on a slow machine from an empty build folder; only a server may.
+/// The time after which a program is ended, unless it is a server: enough for a slow machine with an empty build folder.
 const LIMIT: Duration = Duration::from_mins(40);
 
-/// Runs a program with arguments in the project's folder, shows what it says, and fails where it fails. It gets no
-/// input, and is ended with all that it started where it hangs.
+/// Runs a program in the project's folder and shows its output; fails where the program fails. The program gets no input. Where it takes
+/// longer than `LIMIT`, it is ended with all processes that it has started.
 pub fn run(program: &str, arguments: &[&str]) -> Result<(), String> {
     run_with(program, arguments, &[])
 }
 
-/// The same with environment variables added.
+/// Runs a program as [`run`] does, with environment variables added.
 pub fn run_with(program: &str, arguments: &[&str], variables: &[(&str, &str)]) -> Result<(), String> {
     run_within(LIMIT, program, arguments, variables)
 }
 
-/// The same with a limit of its own.
+/// Runs a program as [`run`] does, with a time limit of its own.
 pub fn run_for(limit: Duration, program: &str, arguments: &[&str]) -> Result<(), String> {
     run_within(limit, program, arguments, &[])
 }
@@ -76,12 +76,12 @@ fn end(child: &mut Child) {
     for id in descendants(child.id()) {
         works("kill", &["-9", &id.to_string()]);
     }
-    // Fails where it has ended by itself in the meantime.
+    // `kill` fails where the program has ended by itself in the meantime.
     let _ = child.kill();
     let _ = child.wait();
 }
 
-/// The processes that a process has started, and theirs; none where `ps` cannot tell.
+/// The processes that a process has started, and those that they have started; empty where `ps` cannot tell.
 fn descendants(ancestor: u32) -> Vec<u32> {
     let table = output_of("ps", &["-A", "-o", "pid=", "-o", "ppid="]).unwrap_or_default();
     let entry = |line: &str| {
@@ -98,7 +98,7 @@ fn descendants(ancestor: u32) -> Vec<u32> {
     found.split_off(1)
 }
 
-/// Whether a program runs with these arguments and ends well; what it says is dropped.
+/// Whether a program can be started with these arguments and succeeds; its output is dropped.
 pub fn works(program: &str, arguments: &[&str]) -> bool {
     let mut command = Command::new(program);
     command
@@ -110,7 +110,7 @@ pub fn works(program: &str, arguments: &[&str]) -> bool {
     command.status().is_ok_and(|status| status.success())
 }
 
-/// What a program prints, trimmed; `None` where it fails.
+/// What a program prints, without white space around it; `None` where the program fails.
 pub fn output_of(program: &str, arguments: &[&str]) -> Option<String> {
     let output = Command::new(program).args(arguments).current_dir(root()).output().ok()?;
     output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())

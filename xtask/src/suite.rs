@@ -1,4 +1,4 @@
-//! The tests of the project.
+//! `cargo xtask test`: the tests of the project.
 
 use crate::run::{cargo, run, run_with};
 use crate::wasm::Optimised;
@@ -8,20 +8,21 @@ use std::time::Instant;
 type Task<'a> = Box<dyn FnOnce() -> Outcome + 'a>;
 type Outcome = Result<(), String>;
 
-/// The project's packages but this helper.
+/// The project's packages without this helper.
 const PACKAGES: [&str; 4] = ["--package", "conemap", "--package", "conemap-verify"];
 
 /// Which tests are run.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
-    /// All but the long ones, which are shown as ignored: some fifteen minutes on two processors from nothing.
+    /// All tests but the long ones, which are shown as ignored. They take some fifteen minutes on two processors from an empty build folder.
     Usual,
+    /// All tests.
     All,
 }
 
-/// Runs the tests, the quick ones first; none is left out after one that failed, and the failed ones are named at the end.
+/// Runs the tests, the quick ones first. A failure does not keep the others from running; the failed ones are named at the end.
 ///
-/// The page is built, and its types and lints are checked, beside the lints and the core's tests, which leave one processor idle at times.
+/// While the lints and the core's tests run, which leave one processor idle at times, the page is built and its types and lints are checked.
 pub fn test(extent: Extent) -> Outcome {
     wasm::ensure_target()?;
     page::ensure_packages()?;
@@ -36,7 +37,7 @@ pub fn test(extent: Extent) -> Outcome {
             ("lints", Box::new(move || lints(extent))),
             ("documentation", Box::new(documentation)),
             ("core", Box::new(move || core(extent))),
-            // After the core's: they compare the page's maps with those that its tests have left.
+            // The page's tests come after the core's, since they compare the page's maps with those that the core's tests have left.
             ("page", Box::new(move || built().and_then(|told| told.and(script("unit"))))),
             ("browser", Box::new(move || browser::test(extent))),
             ("other browsers", Box::new(browsers::visit_others)),
@@ -71,7 +72,7 @@ fn helper() -> Outcome {
     run(&cargo(), &["test", "--package", "xtask", "--profile", "tool"])
 }
 
-/// Those of the wasm boundary compile the libraries once more: only where all are asked for.
+/// Lints the packages. The wasm boundary is linted only where all tests are asked for, since that compiles the libraries once more.
 fn lints(extent: Extent) -> Outcome {
     deny::check()?;
     audit::check()?;
@@ -101,12 +102,12 @@ fn core(extent: Extent) -> Outcome {
     if extent == Extent::Usual {
         return Ok(());
     }
-    // The library alone builds without the command line.
+    // The library must build without the command line.
     run(&cargo(), &["check", "--lib", "--no-default-features"])?;
     run(&cargo(), &["test", "--test", "made_meshes", "--test", "real_meshes", "--", "--ignored"])
 }
 
-/// Runs a script of the page's.
+/// Runs a script of `package.json`.
 fn script(name: &str) -> Outcome {
     run("npm", &["run", "--silent", name])
 }

@@ -1,12 +1,12 @@
-//! Generated hostile geometry.
+//! `cargo xtask torture`: maps generated hostile geometry.
 
 use crate::run::{cargo, run_for};
 use std::time::Duration;
 
 const USAGE: &str = "cargo xtask torture [--hours N | --minutes N] [--seed S] [--kinds NAME,NAME], or --case KIND-SEED for one of them";
 
-/// Maps generated hostile cases for some minutes and prints the table of outcomes (`benches/survey/torture.rs`); fails on a panic, a
-/// broken bound and a map that `conemap_verify` rejects. In the profile of the tests, whose assertions find more.
+/// Maps generated hostile cases for some minutes and prints the table of outcomes (`benches/survey/torture.rs`). Fails on a panic, a broken
+/// bound and a map that `conemap_verify` rejects. The program is built in the profile of the tests, whose assertions find more faults.
 pub fn torture(rest: &[String]) -> Result<(), String> {
     let mut arguments = vec!["test", "--bench", "survey", "--"];
     if let [option, name] = rest
@@ -31,7 +31,7 @@ pub fn torture(rest: &[String]) -> Result<(), String> {
     }
     let told = minutes.to_string();
     arguments.extend(["--minutes", &told]);
-    // The build and the last case come on top.
+    // Forty minutes more are left for the build and the last case.
     run_for(Duration::from_mins(u64::from(minutes) + 40), &cargo(), &arguments)
 }
 

@@ -1,41 +1,41 @@
-//! The wasm modules: built by cargo, made ready for the browser by wasm-bindgen at the version of Cargo.lock, which is a
-//! library of this helper.
+//! Builds the wasm modules with cargo and makes them ready for the browser with wasm-bindgen, which is a library of this helper, in the
+//! version that Cargo.lock names.
 
 use crate::run::{cargo, output_of, root, run};
 use wasm_bindgen_cli_support::Bindgen;
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
-/// What becomes of the functions' names, which only profilers and traces need.
+/// Whether a module keeps the names of its functions, which only profilers and traces need.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Names {
     Kept,
     Removed,
 }
 
-/// How much is done for a module's size and speed; its results are the same to the last bit.
+/// How far the compiler optimises the modules. Their results are the same to the last bit either way.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Optimised {
-    /// As a whole, as it is published.
+    /// Each module is compiled by itself and as a whole, as it is published.
     Fully,
-    /// In parts, which take both processors, and both modules from one library.
+    /// Both modules are compiled together, with one library, and not optimised as a whole (the profile `web-test`).
     ForTests,
 }
 
-/// A module: a package in `wasm/`, with the profile that it is compiled by.
+/// A module: a package in `wasm/`, and the cargo profile that it is compiled by.
 struct Module {
     name: &'static str,
     profile: &'static str,
 }
 
-/// What the page needs at once, small; and what the workers of maps need, fast.
+/// The modules: the page's, which is needed at once and compiled to be small, and the core of the workers, which is compiled to be fast.
 const MODULES: [Module; 2] =
     [Module { name: "page", profile: "web-page" }, Module { name: "core", profile: "web" }];
 
-/// One profile for both modules, which are compiled together: each then has the other's exports, too.
+/// The cargo profile by which both modules are compiled together for the tests. Each then has the other's exports, too.
 const TEST_PROFILE: &str = "web-test";
 
-/// Builds, of each module, `www/wasm/NAME.js`, its types and `NAME_bg.wasm`.
+/// Builds the files of each module in `www/wasm/`: `NAME.js`, its types, and `NAME_bg.wasm`.
 pub fn build(optimised: Optimised, names: Names) -> Result<(), String> {
     ensure_target()?;
     if optimised == Optimised::ForTests {
@@ -48,7 +48,7 @@ pub fn build(optimised: Optimised, names: Names) -> Result<(), String> {
     })
 }
 
-/// Compiles modules at once: then they share one library, which has the features of all of them.
+/// Compiles modules in one call of cargo. They then share one library, which has the features of all modules.
 fn compile(names: &[&str], profile: &str) -> Result<(), String> {
     let packages: Vec<String> = names.iter().map(|name| format!("--package=conemap-{name}")).collect();
     let packages: Vec<&str> = packages.iter().map(String::as_str).collect();
@@ -77,7 +77,7 @@ pub fn ensure_target() -> Result<(), String> {
     })
 }
 
-/// Where cargo builds.
+/// The folder into which cargo builds.
 fn target_folder() -> std::path::PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), Into::into)
 }

@@ -11,6 +11,7 @@ use conemap::mesh::check::CheckedMesh;
 use serde_json::json;
 use std::path::Path;
 
+/// Both sides in the order of the command line.
 const SIDES: [MeshSide; 2] = [MeshSide::Source, MeshSide::Target];
 
 /// Reads landmark files onto their meshes, prints how far their points were off, and writes them in other formats.

@@ -1,4 +1,4 @@
-//! Tables with a header line (`.csv`), apart by commas, semicolons or tabs. With the columns `x`, `y`, `z` they hold the
+//! Tables with a header line (`.csv`), whose columns are separated by commas, semicolons or tabs. With the columns `x`, `y`, `z` they hold the
 //! landmarks of one mesh; with `sx`, `sy`, `sz`, `tx`, `ty`, `tz` those of source and target. The names are in `name` or `label`.
 //! `l`, `p`, `s` and `r`, `a`, `s` are the coordinates in tables of 3D Slicer.
 
@@ -10,7 +10,7 @@ use crate::io::problem::{Place, Problem};
 pub(super) struct Columns {
     separator: char,
     label: Option<usize>,
-    /// Of one mesh, or of source and target.
+    /// The columns of the coordinates: of one mesh, or of source and target.
     sides: Vec<[usize; 3]>,
     space: Option<Space>,
 }

@@ -5,7 +5,7 @@ use super::content::{Mark, MarkList, Space, Spot, SurfaceMarks};
 use super::text::{check_count, coordinates, field, fields, lines, position};
 use crate::io::problem::{Place, Problem};
 
-/// What the columns are where no comment says it.
+/// The columns of a file without a comment that names them.
 const COLUMNS: &str = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID";
 
 /// The columns that matter.

@@ -29,7 +29,7 @@ pub enum LandmarkFormat {
     Csv,
 }
 
-/// Of which meshes a written file holds landmarks.
+/// The meshes whose landmarks a written file holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "snake_case")]
@@ -103,7 +103,7 @@ impl LandmarkFormat {
         }
     }
 
-    /// Of which meshes a written file holds landmarks.
+    /// The meshes whose landmarks a written file holds.
     pub const fn holds(self) -> Holds {
         match self {
             Self::Conemap => Holds::Both,

@@ -39,9 +39,9 @@ const SAME_PLACE: f64 = 1e-12;
 
 /// The draft without faces that name a vertex twice or have no area.
 ///
-/// Of a needle the ends of the short edge become one vertex. A face with a corner on its longest edge goes with that edge: the
-/// neighbour there is cut in two at the corner, so that nothing opens. Where that cannot be the face is dropped, or, of a cap, drawn out to a
-/// fin.
+/// A needle goes by making the ends of its short edge one vertex. A face with a corner on its longest edge goes with that edge: the
+/// neighbour there is cut in two at the corner, so that nothing opens. Where that is impossible the face is dropped, or, if it is a cap, drawn
+/// out to a fin.
 pub(super) fn without_degenerate(mut draft: Draft, additions: Additions) -> (Draft, Degenerate) {
     let (mut dropped, mut recut) = (Vec::new(), Vec::new());
     for _ in 0..ROUNDS {

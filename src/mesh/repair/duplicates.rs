@@ -6,8 +6,9 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The draft without double faces, and the numbers of the faces that went.
 ///
-/// Of copies the first stays. A face and its copy that looks the other way both go where that leaves fewer open and crowded edges:
-/// a flap that is folded on itself, or the wall between two bodies. A sheet that is all double stays once.
+/// The draft without copies of faces. Of faces that are copies of each other the first stays. A face and its copy that looks the other way
+/// both go where that leaves fewer open and crowded edges: a flap that is folded on itself, or the wall between two bodies. A sheet that is
+/// all double stays once.
 pub(super) fn without_duplicates(draft: Draft) -> (Draft, Elements<usize>) {
     let mut copies: FxHashMap<[u32; 3], Vec<usize>> = FxHashMap::default();
     for (f, face) in draft.faces.iter().enumerate() {
@@ -76,7 +77,7 @@ fn walls(faces: &[DraftFace], groups: &[Vec<usize>]) -> FxHashSet<usize> {
     }
 }
 
-/// Those faces of walls that hang together with the rest of the surface.
+/// The faces of walls that hang together with the rest of the surface.
 fn attached(
     edges: &[super::draft::Edge],
     wall: FxHashSet<usize>,

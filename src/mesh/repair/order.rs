@@ -305,7 +305,7 @@ fn vertex_from_file(soup: &PolygonSoup, draft: &Draft, judged: &CheckedMesh) -> 
     let mut vertices = vec![None; soup.positions.len()];
     for face in draft.faces.iter().filter(|face| face.origin != FaceOrigin::Cap) {
         for (&v, &from) in face.corners.iter().zip(&face.file_corners) {
-            // Of the copies of a vertex, that which kept its number.
+            // Among the copies of a vertex the one that kept its number counts.
             if let Some(known) = vertices.get_mut(from as usize)
                 && (known.is_none() || v == from)
             {

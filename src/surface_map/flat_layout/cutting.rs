@@ -83,9 +83,9 @@ pub struct Chord {
 pub struct Cuts {
     /// All crossings.
     pub crossings: Vec<Crossing>,
-    /// By smaller halfedge, the crossings of an edge in order along it.
+    /// The crossings of each edge in order along it, by its smaller halfedge.
     on_edge: TiVec<HalfedgeId, Vec<u32>>,
-    /// By face, the chords that cross it.
+    /// The chords that cross each face.
     pub chords: TiVec<FaceId, Vec<Chord>>,
 }
 
@@ -191,7 +191,7 @@ fn split(part: &[Corner], [from, to]: [usize; 2], [left, right]: [HalfedgeId; 2]
     [left, right]
 }
 
-/// By part of an edge, the numbers of the parts of faces on both sides of it.
+/// The numbers of the parts of faces on both sides of each part of an edge.
 pub type Neighbours = FxHashMap<PartOfEdge, Vec<u32>>;
 
 /// A part of an edge between neighbouring crossings or ends.

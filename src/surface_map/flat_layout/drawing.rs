@@ -106,7 +106,7 @@ impl FlatDrawing {
         parts
     }
 
-    /// By chart the face in its middle; face 0 for one without parts.
+    /// The face in the middle of each chart; face 0 for a chart without parts.
     pub fn middle_faces(&self, charts: usize) -> Vec<FaceId> {
         let mut middles = vec![(f64::INFINITY, FaceId(0)); charts];
         for polygon in &self.polygons {
@@ -162,9 +162,9 @@ impl FlatDrawing {
 pub struct TrianglesByChart {
     /// The triangles' corners: numbers of the drawing's vertices.
     pub triangles: Vec<[u32; 3]>,
-    /// By triangle the face of the mesh that it is a part of.
+    /// The face of the mesh that each triangle is a part of.
     pub faces: Vec<FaceId>,
-    /// By chart the number of its first triangle, and one past the end.
+    /// The number of the first triangle of each chart, and one past the end.
     pub starts: Vec<usize>,
 }
 
@@ -227,7 +227,7 @@ pub(super) fn draw(
     Ok(Some(pen.drawing))
 }
 
-/// By part of an edge, the numbers of the parts of faces beside it.
+/// The numbers of the parts of faces beside each part of an edge.
 fn neighbours_of(
     parts: &[Part],
     mesh: &SurfaceMesh,

@@ -32,7 +32,7 @@ pub struct CommonMesh {
 }
 
 impl CommonMesh {
-    /// By vertex the distance between its images under this map and under another one, such as the true one, in units of the root of the
+    /// The distance between the images of each vertex under this map and under another one, such as the true one, in units of the root of the
     /// target's area.
     pub fn distances_to(&self, image: impl Fn(DVec3) -> DVec3) -> Vec<f64> {
         let double_area = |corners: &[u32; 3]| {

@@ -41,11 +41,11 @@ struct OnTarget {
 /// The darts of the planar map, each with the next one around its cell.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Arrangement {
-    /// By target halfedge: the range of its edge in `order`.
+    /// The range in `order` of the edge of each target halfedge.
     ranges: TiVec<HalfedgeId, [u32; 2]>,
     /// Crossings along each target edge, in the direction of its smaller halfedge.
     order: Vec<OnTarget>,
-    /// By crossing, the darts that arrive on the target edge: along `exit`, and along its twin.
+    /// The darts that arrive at each crossing on the target edge: along `exit`, and along its twin.
     arriving: Vec<[u32; 2]>,
     /// Number of the first dart of each source halfedge. Both halfedges of an edge follow each other.
     source_darts: TiVec<HalfedgeId, u32>,
@@ -53,7 +53,7 @@ pub(super) struct Arrangement {
     target_darts: TiVec<HalfedgeId, u32>,
     /// At the present landmark, by target halfedge: the last source halfedge in the wedge that it begins.
     last_in_wedge: TiVec<HalfedgeId, Option<HalfedgeId>>,
-    /// By dart, the next one around the cell on the left. Source darts come first.
+    /// The next dart after each dart around the cell on its left. Source darts come first.
     pub next: Vec<u32>,
     /// Overlay vertex of each target vertex; source vertices keep their numbers, so that landmarks have them.
     target_numbers: TiVec<VertexId, u32>,

@@ -33,9 +33,9 @@ pub(super) struct Cells {
     /// Cells whose border has no source dart: whole target triangles inside a source triangle.
     whole: Vec<u32>,
     stack: Vec<u32>,
-    /// By source vertex, its place on the target.
+    /// The place of each source vertex on the target.
     source_inside: TiVec<VertexId, Option<Inside>>,
-    /// By target vertex, its place on the source.
+    /// The place of each target vertex on the source.
     target_inside: TiVec<VertexId, Option<Inside>>,
     areas: [TiVec<FaceId, f64>; 2],
     covered: [TiVec<FaceId, f64>; 2],

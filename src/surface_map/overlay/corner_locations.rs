@@ -37,7 +37,7 @@ pub(super) struct CornerLocation {
 pub(super) struct CornerLocations {
     /// Corner positions, in the plane of each face, shifted where coincidences had to be ended.
     pub corners: TiVec<HalfedgeId, DVec2>,
-    /// By source halfedge, the location of its start.
+    /// The location of the start of each source halfedge.
     pub locations: TiVec<HalfedgeId, CornerLocation>,
     /// For source halfedges that start at a landmark, the target halfedge that begins the wedge into which they point.
     pub wedges: TiVec<HalfedgeId, Option<HalfedgeId>>,

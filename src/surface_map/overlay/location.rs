@@ -31,7 +31,7 @@ pub struct Location {
 /// The locations of all source vertices in the target's triangles.
 #[derive(Clone, Debug, Default)]
 pub struct Locations {
-    /// By source vertex.
+    /// The location of each source vertex.
     pub by_vertex: TiVec<VertexId, Location>,
     /// Every source corner at a landmark: the target face is that into which the corner's halfedge points.
     pub at_landmarks: Vec<Location>,
@@ -92,7 +92,7 @@ pub fn locate(
 /// Locates vertices; keeps its working memory from one call to the next.
 #[derive(Clone, Debug, Default)]
 pub struct Locator {
-    /// By source vertex the target's vertex of its landmark; `None` for vertices that are no landmarks.
+    /// For each source vertex that is a landmark the target's vertex of the same landmark; `None` for other vertices.
     apexes: TiVec<VertexId, Option<VertexId>>,
     /// Vertices in the order in which they are found; at landmarks with the range of their corners.
     queue: Vec<(VertexId, [u32; 2])>,

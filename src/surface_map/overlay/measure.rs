@@ -57,7 +57,7 @@ pub struct Measure {
     located: CornerLocations,
     traces: Traces,
     arrangement: Arrangement,
-    /// By dart the number of its piece.
+    /// The number of the piece that each dart bounds.
     cells: Vec<u32>,
     pieces: Vec<MeasuredPiece>,
     /// Pieces that no source edge bounds.
@@ -333,7 +333,7 @@ impl Measure {
             let (s, t) = (piece.source_face, piece.target_face);
             let sizes = [(&self.located.corners, s), (&target.embedding.corners, t)];
             let [on_source, on_target] = sizes.map(|(corners, f)| face_area(corners, f));
-            // As in `cells`: rounding of shares, and of coordinates of order 1 along an edge.
+            // The bound is that in `cells`: rounding of shares, and of coordinates of order 1 along an edge.
             let slack = 1e-9 * on_source.min(on_target) + 1e-14 * on_source.max(on_target).sqrt();
             if area.is_nan() || area < -slack {
                 let (source_face, target_face) = (s.index(), t.index());

@@ -45,7 +45,7 @@ pub(super) struct Traces {
     pub crossings: Vec<Crossing>,
     /// Motions other than those of the located corners.
     pub motions: Vec<Rigid2>,
-    /// By the smaller source halfedge of an edge: its range of `crossings`; the other halfedge has the same.
+    /// The range of `crossings` of each source edge, by its smaller halfedge; the other halfedge has the same range.
     pub ranges: TiVec<HalfedgeId, [u32; 2]>,
 }
 

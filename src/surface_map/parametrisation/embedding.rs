@@ -20,7 +20,7 @@ pub struct Embedding {
     /// For each halfedge the rigid motion from the plane of its face to that of its twin's face. Fixed for the life of the
     /// embedding; around an ordinary vertex they come back to the identity.
     pub transitions: Arc<TiVec<HalfedgeId, Rigid2>>,
-    /// By landmark, its place on the cone surface.
+    /// The place of each landmark on the cone surface.
     pub anchors: Arc<TiVec<LandmarkId, Anchor>>,
 }
 
@@ -63,7 +63,7 @@ pub struct Parametrised<'a> {
 }
 
 impl Parametrised<'_> {
-    /// By vertex whether it is a landmark.
+    /// Whether each vertex is a landmark.
     pub fn landmark_flags(&self) -> TiVec<VertexId, bool> {
         let mut is_landmark = ti_vec![false; self.mesh.vertex_count()];
         self.landmark_vertices.iter().for_each(|&v| is_landmark[v] = true);

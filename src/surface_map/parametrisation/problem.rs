@@ -80,7 +80,7 @@ pub(in crate::surface_map) struct Derivatives<'a> {
     pub slope: &'a [DVec2],
     /// Weight of the flat energy, whose Hessian is added.
     pub barrier: f64,
-    /// By triangle the Hessian of the remaining energy with respect to the Jacobian.
+    /// The Hessian of the remaining energy with respect to each triangle's Jacobian.
     pub by_triangle: &'a [FaceHessian],
     /// Hessians of single vertices' energies, by unknown.
     pub by_unknown: &'a [(u32, DMat2)],

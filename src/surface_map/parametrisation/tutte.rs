@@ -102,11 +102,11 @@ const KNOWN: u32 = u32::MAX;
 struct Patches<'a> {
     patched: &'a PatchedMesh,
     surface: &'a ConeSurface,
-    /// By patch, its faces.
+    /// The faces of each patch.
     faces: TiVec<FaceId, Vec<FaceId>>,
-    /// By vertex its number among those inside its patch, or [`KNOWN`].
+    /// The number of each vertex among the vertices inside its patch, or [`KNOWN`].
     number: TiVec<VertexId, u32>,
-    /// By vertex of a path around the present patch, its place in the patch's chart.
+    /// The place of each vertex of the paths around the present patch in the patch's chart.
     places: TiVec<VertexId, DVec2>,
     corners: TiVec<HalfedgeId, DVec2>,
     workspace: CgWorkspace<f64>,

@@ -34,7 +34,7 @@ pub struct Unknowns<'a> {
     mesh: &'a SurfaceMesh,
     /// The free vertices, in order.
     free: Vec<VertexId>,
-    /// By halfedge, its start in terms of the unknowns.
+    /// The start of each halfedge in terms of the unknowns.
     sights: TiVec<HalfedgeId, Corner>,
 }
 

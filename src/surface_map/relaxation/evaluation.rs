@@ -31,9 +31,9 @@ pub struct Evaluation {
     pub overlay: Measure,
     /// Jacobians of the moving faces, from their rest planes.
     pub jacobians: Vec<DMat2>,
-    /// By piece the Jacobian from the plane of the moving face to the rest plane of the fixed face.
+    /// The Jacobian of each piece from the plane of the moving face to the rest plane of the fixed face.
     pub onto_rest: Vec<DMat2>,
-    /// By piece its weight in the energy.
+    /// The weight of each piece in the energy.
     pub weights: Vec<PieceWeight>,
     /// The energy of the map, without the barrier and the constraints.
     pub energy: f64,

@@ -45,7 +45,7 @@ impl Default for MapRelaxationOptions {
     }
 }
 
-/// By mesh, source first: constrained vertices, each with its place on the other mesh.
+/// The constrained vertices of each mesh, the source first, each vertex with its place on the other mesh.
 pub type Constraints<'a> = [&'a [(VertexId, PointConstraint)]; 2];
 
 /// A relaxed map.
@@ -181,7 +181,7 @@ struct Relaxation<'a> {
     embeddings: [Embedding; 2],
     /// The parametrisations that are tried.
     trials: [Embedding; 2],
-    /// By mesh and face the Jacobian from its plane to its rest plane.
+    /// The Jacobian of each face of each mesh from its plane to its rest plane.
     inverses: [TiVec<FaceId, DMat2>; 2],
     damping: [f64; 2],
     /// The mesh that moves: 0 for the source, 1 for the target.

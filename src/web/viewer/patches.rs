@@ -1,4 +1,4 @@
-//! The patches of a map: what of them is lit up on both meshes.
+//! The patches of a map, and those that are lit up on both meshes.
 
 use super::super::view_side::Lit;
 use super::canvas::Viewer;

@@ -1,8 +1,8 @@
 //! A loop filled with triangles that have no vertices but its own.
 //!
-//! Of all triangulations the one whose sharpest bend, also against the faces around the hole, is least, and of these the one of
-//! least area (Liepa 2003), by dynamic programming: cubic in the length of the loop. A longer loop is shortened first, by cutting the
-//! ear with the shortest chord again and again, which needs memory in proportion to the loop only.
+//! The cap is the triangulation whose sharpest bend, also against the faces around the hole, is least, and among these the one of least
+//! area (Liepa 2003), found by dynamic programming in a time that is cubic in the length of the loop. A longer loop is shortened first, by
+//! cutting the ear with the shortest chord again and again, which needs memory in proportion to the loop only.
 
 use crate::math::min_queue::MinQueue;
 use crate::math::triangle;

@@ -9,7 +9,7 @@ pub(super) const NO_EDGE: u32 = u32::MAX;
 
 /// The classes of loops on a closed surface.
 pub(super) struct Crossings {
-    /// By edge, a bit for each of the closed ways over faces that the edges left over make: whether the edge is crossed by it. A loop
+    /// For each edge the closed ways over faces that cross it, one bit for each way; each of the edges left over makes one way. A loop
     /// separates the surface exactly if the bits of its edges, added without carry, are 0.
     pub of_edge: Vec<u128>,
     /// The loops that the edges left over close in the tree, shortest first: two for each handle. No loop that does not separate

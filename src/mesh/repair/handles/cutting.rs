@@ -102,7 +102,7 @@ fn cut(mut draft: Draft, graph: &Graph, along: &Generator) -> (Draft, Cut) {
     let vertices = along.vertices.iter().map(|&v| draft.number(v)).collect();
     let places = along.vertices.iter().map(|&v| draft.positions[v as usize]).collect();
     copy_vertices(&mut draft, fans(&across));
-    // Of the sides against the loop the ends, so that both rims follow it.
+    // For the sides that run against the loop the ends are taken, so that both rims follow the loop.
     let start = |side: usize| draft.faces[side / 3].corners[side % 3];
     let end = |side: usize| draft.faces[side / 3].corners[(side + 1) % 3];
     let rims = CutRims {
@@ -117,7 +117,7 @@ fn cut(mut draft: Draft, graph: &Graph, along: &Generator) -> (Draft, Cut) {
     (draft, cut)
 }
 
-/// Of each edge of a loop the side that runs along it, and the side against it.
+/// For each edge of a loop the side that runs along the loop, and the side that runs against it.
 fn sides(draft: &Draft, graph: &Graph, along: &Generator) -> Vec<[usize; 2]> {
     let side = |(&edge, &v): (&u32, &u32)| {
         let [a, b] = graph.sides[edge as usize].map(|side| side as usize);

@@ -9,7 +9,7 @@ use super::graph::Graph;
 use crate::math::min_queue::MinQueue;
 use crate::monitor::{Cancelled, Monitor, Step};
 
-/// So many searches go on between two reports.
+/// The number of searches between two reports to the monitor. Chosen by hand.
 const SEARCHES: usize = 64;
 
 /// Loops that are longer than the best one by less than this share of it are still looked at: they tell how much shorter others can be.
@@ -32,7 +32,7 @@ pub(super) fn shortest_loop(
 ) -> Result<Option<Generator>, Cancelled> {
     let mut is_root = vec![false; graph.vertices()];
     let on_generators = crossings.generators.iter().flat_map(|generator| &generator.vertices);
-    // The shortest first: what they find makes the other searches small.
+    // The vertices of the shortest loops come first: the loops that are found from them make the other searches small.
     let roots: Vec<u32> =
         on_generators.copied().filter(|&v| !std::mem::replace(&mut is_root[v as usize], true)).collect();
     let Some(shortest) = crossings.generators.first() else { return Ok(None) };
@@ -43,7 +43,7 @@ pub(super) fn shortest_loop(
         if k % SEARCHES == 0 {
             monitor.step(Step { fraction: k as f64 / roots.len() as f64, residual: None })?;
         }
-        // Settled by the search from another root.
+        // The search from another root has settled this one.
         if !is_root[root as usize] {
             continue;
         }
